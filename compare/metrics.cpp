@@ -1,0 +1,60 @@
+#include "compare/metrics.h"
+
+#include <string>
+#include <vector>
+
+#include "scenes/error.h"
+#include "scenes/settings.h"
+
+namespace noonmark {
+namespace {
+
+constexpr Metric table[] = {
+    {"error", "fraction", "Mean |R5 - R1| over the counted receivers: what the GPU showed against the hard truth.", true},
+    {"error_soft", "fraction", "Mean |R5 - R0|: against the light with its size.", true},
+    {"wrong", "fraction", "Share of counted receivers whose R5 differs from R1 at all.", true},
+    {"light_size", "fraction", "Mean |R1 - R0|: what a hard shadow misses of the light's size.", true},
+    {"filter", "fraction", "Mean |R2 - R1|: the blur that the filter means to make.", true},
+    {"aliasing", "fraction", "Taps that asked elsewhere than they should and were answered truly, dark and light.", true},
+    {"aliasing_dark", "fraction", "Aliasing that darkens.", true},
+    {"aliasing_light", "fraction", "Aliasing that lights.", true},
+    {"acne", "fraction", "Taps falsely dark without a shadow edge between the pixel and the texel.", true},
+    {"peter_panning", "fraction", "Taps falsely lit because the bias reaches past the occluder.", true},
+    {"coverage", "fraction", "Wrong taps outside the map, beyond far, or whose blocker near clips.", true},
+    {"coverage_dark", "fraction", "Coverage that darkens.", true},
+    {"coverage_light", "fraction", "Coverage that lights.", true},
+    {"precision", "fraction", "Mean |R5 - R4|: depth format, rasteriser and arithmetic.", true},
+    {"peter_panning_gap_m", "m", "Widest lit gap on the receiver between an occluder and its shadow.", true},
+    {"edge_displacement_texels", "texels", "Largest distance in the light's plane from an aliased tap to the true edge.", true},
+    {"edge_displacement_mean_texels", "texels", "Mean distance in the light's plane from an aliased tap to the true edge.", true},
+    {"edge_displacement_pixels", "pixels", "Largest distance in the picture from an aliased pixel to where its verdict is true.", true},
+    {"receivers", "count", "Pixels that see a surface.", false},
+    {"facing", "count", "Receivers that face the light.", false},
+    {"counted", "count", "Facing receivers that are not ambiguous: the base of every fraction.", false},
+    {"attached", "count", "Receivers that face away from the light: dark by shading, left out.", false},
+    {"ambiguous", "fraction", "Share of facing receivers whose truth changes within float error; left out of all errors.", false},
+    {"outside", "fraction", "Share of counted receivers that fall outside the map or beyond its far plane.", true},
+    {"residual", "fraction", "Largest |(R5 - R0) - sum of signed steps| over all facing receivers; a defect above 1e-6.", false},
+    {"tap_residual", "fraction", "Largest |(R4 - R2) - sum of tap classes| over all facing receivers; a defect above 1e-6.", false},
+    {"map_ms", "ms", "Time of the shadow map pass.", true},
+    {"lookup_ms", "ms", "Time of the lookup pass over the picture.", true},
+    {"shadow_ms", "ms", "Shadow map pass and lookup together: the price of the technique.", true},
+};
+
+}  // namespace
+
+std::span<const Metric> metrics_table() { return table; }
+
+const Metric& find_metric(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const Metric& metric : table) {
+    if (metric.name == name) return metric;
+    names.push_back(metric.name);
+  }
+  const std::string near = nearest_name(name, names);
+  throw Error(ErrorKind::usage, "there is no metric '" + std::string(name) + "'" +
+                                    (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                                    " (noonmark settings lists the metrics)");
+}
+
+}  // namespace noonmark

@@ -1,0 +1,99 @@
+// The OpenGL side of the measurement: shadow maps and lookups as an engine would make them.
+//
+//   gl::Renderer renderer(gl::DebugMode::fatal);
+//   renderer.load_scene(scene);
+//   ReceiverImage receivers = resolve_receivers(scene, camera, renderer.render_primitives(camera, 1280, 720));
+//   renderer.load_receivers(receivers, frame.direction_to_light());
+//   gl::ShadowMap map = renderer.render_map(frame, settings.map);
+//   Image<float> r5 = renderer.lookup(map, frame, settings).visibility;
+//
+// Conventions: scenes/scene.h. One Renderer owns one EGL context, current on the thread that made it; all calls come
+// from that thread. Throws Error(device) for drivers and shaders (with the shader's file and line).
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "scenes/evidence.h"
+#include "scenes/image.h"
+#include "scenes/light_frame.h"
+#include "scenes/receivers.h"
+#include "scenes/scene.h"
+#include "scenes/settings.h"
+
+namespace noonmark::gl {
+
+enum class DebugMode {
+  off,
+  log,    // driver messages of medium and high severity go to the log
+  fatal,  // an error message from the driver throws Error(defect) at the next call; for tests
+};
+
+struct DeviceInfo {
+  std::string vendor, renderer, version, egl_platform;
+  bool software = false;       // llvmpipe and its kin
+  bool timer_queries = false;  // whether times come from GPU timer queries, or from glFinish and a steady clock
+  int max_map_resolution = 0;
+};
+
+// A shadow map on the device. Move-only.
+class ShadowMap {
+ public:
+  ShadowMap(ShadowMap&&) noexcept;
+  ShadowMap& operator=(ShadowMap&&) noexcept;
+  ~ShadowMap();
+  int resolution() const;
+
+ private:
+  friend class Renderer;
+  struct Impl;
+  explicit ShadowMap(std::unique_ptr<Impl>);
+  std::unique_ptr<Impl> impl_;
+};
+
+// The bias as the shader gets it: floats, in window depth.
+struct ShaderBias {
+  BiasForm form = BiasForm::none;
+  float constant = 0, slope = 0, floor = 0;
+};
+ShaderBias shader_bias(const LightFrame& frame, const BiasSettings& bias);
+
+class Renderer {
+ public:
+  explicit Renderer(DebugMode debug);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  const DeviceInfo& info() const;
+
+  // Uploads the scene's triangles; replaces any scene before it.
+  void load_scene(const Scene& scene);
+
+  // For each pixel the index of the visible triangle (no culling), or no_primitive.
+  Image<uint32_t> render_primitives(const Camera& camera, int width, int height);
+
+  // Uploads P and N. direction_to_light: unit; the shader's N.L uses it rounded to float.
+  void load_receivers(const ReceiverImage& receivers, glm::dvec3 direction_to_light);
+
+  // Renders the scene's depth from the light. time_ms, when given, gets the pass's own time (device or glFinish clock).
+  ShadowMap render_map(const LightFrame& frame, const MapSettings& settings, double* time_ms = nullptr);
+
+  // A map made elsewhere (R4's exact one): 32-bit float depth whatever settings.format says, wrap as settings has it.
+  ShadowMap upload_map(const Image<float>& depth, const MapSettings& settings);
+
+  // The depths as the lookup's sampler returns them, bit for bit; row 0 at the lowest v.
+  Image<float> read_map(const ShadowMap& map);
+
+  // The technique: for every receiver its visibility in [0,1]. Background pixels: 0.
+  Image<float> lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings, double* time_ms = nullptr);
+
+  // What lookup computes before it compares. Independent of map contents and of bias.
+  LookupProbe probe(const LightFrame& frame, const Settings& settings);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace noonmark::gl

@@ -1,0 +1,35 @@
+// Where scenes come from: the built-in ones by name, files by path.
+//
+//   Scene scene = make_scene(settings.scene);
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scenes/scene.h"
+#include "scenes/settings.h"
+
+namespace noonmark {
+
+struct BuiltinScene {
+  std::string_view name;
+  std::string_view provokes;  // what the scene is made to show
+  Scene (*make)(const SceneSettings&);
+};
+
+std::span<const BuiltinScene> builtin_scenes();
+
+// A built-in name, or a path that ends in .gltf or .glb. Throws Error(usage) for an unknown name (suggesting the
+// nearest), Error(scene) for a file that cannot be used.
+Scene make_scene(const SceneSettings& settings);
+
+// scenes/gltf.cpp. Nothing outside the file's own folder is read; images are never loaded. A camera and a light are
+// fitted where the file has none. Throws Error(scene).
+Scene load_gltf(const std::string& path);
+
+// scenes/fit.cpp: a perspective camera that sees the whole scene, and a light from above and aside. For scenes without.
+Camera fit_camera(const Scene& scene);
+Light fit_light(const Scene& scene);
+
+}  // namespace noonmark

@@ -1,0 +1,76 @@
+// The vocabulary of a scene, and the one home of the project's conventions.
+//
+//   Scene scene = make_scene(settings.scene);        // a built-in name or a .gltf/.glb path (scenes/library.h)
+//   for (glm::uvec3 t : scene.triangles) use(scene.positions[t.x], ...);
+//
+// Conventions
+// - Right-handed world, metres, Y up (glTF). Matrices are named to_from: `clip_from_world`.
+// - Visibility: 1 = lit, 0 = shadowed; fractions for filtered lookups and for lights with a size.
+// - Depth in the map is OpenGL's window depth in [0,1]. A bias is given in a unit that is always named: `depth` (that
+//   [0,1]), `m` (metres along the light's axis) or `texel` (of the map at the receiver).
+// - Row 0 of a picture is its top row; a pixel's sample is at its centre. Shadow maps keep OpenGL's order: row 0 has
+//   the lowest v.
+// - Receiver: the visible surface point at a pixel's centre (scenes/receivers.h).
+// - theta: the angle between the receiver's geometric normal N and the direction to the light L. Facing receivers have
+//   N.L > 0; the others are dark by shading, whatever the map says, and are left out of the errors.
+// - w: the world size of one texel at the receiver; orthographic: extent / resolution.
+// - Geometry is float because OpenGL and Embree take float, and because the float positions ARE the scene: every truth
+//   is the truth of these positions. What is derived from them (light frame, depths, plane equations) is double.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace noonmark {
+
+// A run of triangles that were one mesh primitive of one node. Nothing in the ladder looks at it; people do.
+struct Part {
+  std::string name;
+  uint32_t first_triangle = 0;
+  uint32_t triangle_count = 0;
+};
+
+enum class Projection { perspective, orthographic };
+
+struct Camera {
+  Projection projection = Projection::perspective;
+  glm::dvec3 eye_m{0, 0, 5};
+  glm::dvec3 target_m{0, 0, 0};
+  glm::dvec3 up{0, 1, 0};      // need not be perpendicular to the view direction, only not parallel to it
+  double fov_y_deg = 45;       // perspective: the whole vertical angle
+  double height_m = 10;        // orthographic: the world height that the picture shows
+  double near_m = 0.1;
+  double far_m = 100;
+};
+
+enum class LightKind { directional };
+
+// A directional light. position_m and target_m fix its direction and where its map's depth and centre are measured
+// from, as the usual lookAt(position, target, up) does.
+struct Light {
+  LightKind kind = LightKind::directional;
+  glm::dvec3 position_m{0, 10, 0};
+  glm::dvec3 target_m{0, 0, 0};
+  double angular_diameter_deg = 0;  // of a sun with a size (0.53 for the real one); 0: a point at infinity
+};
+
+// What part of the world a directional light's map covers. near and far are along the light's axis from position_m.
+struct MapVolume {
+  double extent_m = 20;  // whole width and height of the square map, centred on the axis
+  double near_m = 1;
+  double far_m = 10;
+};
+
+struct Scene {
+  std::string name;
+  std::vector<glm::vec3> positions;   // world, metres, all finite
+  std::vector<glm::uvec3> triangles;  // indices into positions; counter-clockwise seen from outside
+  std::vector<Part> parts;
+  Camera camera;
+  Light light;
+  std::optional<MapVolume> map;  // the scene's own choice; without one the map is fitted tightly to the scene
+};
+
+}  // namespace noonmark

@@ -1,0 +1,119 @@
+// Every setting of a measurement: a struct member with a default, and one row in the table of settings.cpp (name, unit,
+// range, help). The command line, the experiment file, the sweep, the result store and the report all read that row.
+// Adding a setting is one member here and one row there.
+//
+//   Settings s;
+//   find_setting("map.resolution").set(s, "2048");       // throws Error(usage) naming the range
+//   for (const Setting& row : settings_table()) print(row.name, row.get(s));
+#pragma once
+#include <functional>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace noonmark {
+
+enum class DepthFormat { d16, d24, d32f };
+enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
+enum class CulledFaces { none, back, front };
+enum class BiasForm { none, constant, slope };
+enum class BiasUnit { depth, m, texel };
+enum class FilterKind { none, box };
+
+struct SceneSettings {
+  std::string name = "cube-room";  // a built-in scene, or the path of a .gltf or .glb file
+  double theta_deg = 45;           // plane: the angle between its normal and the light
+  double phi_deg = 0;              // plane: azimuth of the slope in the light's plane, against the texel axes
+  double thickness_m = 0.1;        // wall, plate
+  double height_m = 0.5;           // plate: of its lit face above the floor
+};
+
+struct ViewSettings {
+  int width_px = 1280;
+  int height_px = 720;
+  std::optional<glm::dvec3> eye_m;     // empty: the scene's
+  std::optional<glm::dvec3> target_m;  // empty: the scene's
+  std::optional<double> fov_deg;       // whole vertical angle; empty: the scene's
+};
+
+struct LightSettings {
+  std::optional<glm::dvec3> position_m;        // empty: the scene's
+  std::optional<glm::dvec3> target_m;          // empty: the scene's
+  std::optional<double> angular_diameter_deg;  // empty: the scene's
+};
+
+struct MapSettings {
+  int resolution = 1024;  // texels on a side
+  DepthFormat format = DepthFormat::d24;
+  std::optional<double> extent_m;  // whole width; empty: the scene's, or fitted tightly where it has none
+  double extent_scale = 1;         // multiplies the extent, however it came about
+  std::optional<double> near_m;    // along the light's axis from its position; empty: the scene's, or fitted
+  std::optional<double> far_m;
+  Wrap wrap = Wrap::clamp_to_border;  // the border's depth is 1: lit
+  bool lit_beyond_far = true;
+  CulledFaces cull = CulledFaces::none;
+};
+
+struct BiasSettings {
+  BiasForm form = BiasForm::constant;
+  BiasUnit unit = BiasUnit::depth;  // of the three numbers below
+  double constant = 0.005;
+  double slope = 0.05;   // slope form: max(slope * (1 - N.L), floor)
+  double floor = 0.005;
+};
+
+struct FilterSettings {
+  FilterKind kind = FilterKind::none;
+  int size = 3;  // box: taps on a side, odd
+};
+
+struct TruthSettings {
+  double standard_error = 0.01;  // of R0 at each receiver, for a light with a size
+};
+
+struct Settings {
+  SceneSettings scene;
+  ViewSettings view;
+  LightSettings light;
+  MapSettings map;
+  BiasSettings bias;
+  FilterSettings filter;
+  TruthSettings truth;
+};
+
+// Taps on a side of the lookup's square kernel: 1 without a filter.
+int kernel_size(const FilterSettings& filter);
+
+enum class ValueType { integer, real, flag, choice, text, point };
+
+// One row. Values travel as text in one canonical form each ("auto" for an empty optional, "x,y,z" for a point, the
+// shortest decimal that reads back as the same double), so that the same value always has the same key in the store.
+struct Setting {
+  std::string_view name;  // "map.resolution"
+  std::string_view unit;  // "texels", "m", "deg", "" ...
+  ValueType type;
+  double min = 0, max = 0;                // integer, real: inclusive
+  bool may_be_auto = false;               // "auto" is a value
+  std::vector<std::string_view> choices;  // choice
+  std::string_view help;                  // one sentence
+  std::function<std::string(const Settings&)> get;
+  std::function<void(Settings&, std::string_view)> set;  // throws Error(usage): what, range
+
+  std::string range_text() const;  // "1 ... 16384", "16 | 24 | 32f", "x,y,z" ...
+};
+
+std::span<const Setting> settings_table();
+
+// Throws Error(usage) that suggests the nearest name.
+const Setting& find_setting(std::string_view name);
+
+// What no single row can see: near < far, kernel odd and the like. Throws Error(usage).
+void validate(const Settings& settings);
+
+// The name in `names` nearest to `wrong` by edit distance, or empty when nothing is near enough to be meant.
+std::string nearest_name(std::string_view wrong, std::span<const std::string_view> names);
+
+}  // namespace noonmark
