@@ -22,6 +22,7 @@ use_writable_cache() {
   if [[ -z $cache ]] || ! mkdir -p "$cache" 2>/dev/null || [[ ! -w $cache ]]; then
     export XDG_CACHE_HOME=$root/build/.cache
     export CCACHE_DIR=${CCACHE_DIR:-$XDG_CACHE_HOME/ccache}
+    export HOME=${HOME:-$XDG_CACHE_HOME}  # ccache refuses to start for a user of whom neither HOME nor passwd knows a home
     mkdir -p "$XDG_CACHE_HOME"
   fi
 }
