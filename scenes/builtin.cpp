@@ -1,1 +1,162 @@
+// The built-in scenes: each one small, and made to provoke something.
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "scenes/camera_frame.h"
 #include "scenes/library.h"
+#include "scenes/shapes.h"
+
+namespace noonmark {
+namespace {
+
+constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+void add_floor(Scene& scene, double half_m, double y_m) {
+  add_quad(scene, "floor", {-half_m, y_m, -half_m}, {0, 0, 2 * half_m}, {2 * half_m, 0, 0});
+}
+
+// The standard tutorial scene: an oblique light over a wide floor and three cubes. At bias 0 the floor is striped with
+// acne; the map covers only the middle of the floor, so wrap and far plane show as well.
+Scene cube_room(const SceneSettings&) {
+  Scene scene;
+  add_floor(scene, 25, -0.5);
+  const auto place = [](glm::dvec3 at, double turn_deg) {
+    const glm::dmat4 moved = glm::translate(glm::dmat4(1), at);
+    return turn_deg == 0 ? moved : glm::rotate(moved, radians(turn_deg), glm::normalize(glm::dvec3(1, 0, 1)));
+  };
+  add_box(scene, "floating cube", glm::dvec3(0.5), place({0, 1.5, 0}, 0));
+  add_box(scene, "standing cube", glm::dvec3(0.5), place({2, 0, 1}, 0));
+  add_box(scene, "turned cube", glm::dvec3(0.25), place({-1, 0, 2}, 60));
+  scene.camera = {.eye_m = {-1.5, 3.2, 7.5}, .target_m = {0.8, 0.1, 0.6}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 100};
+  scene.light = {.position_m = {-2, 4, -1}, .target_m = {0, 0, 0}};
+  scene.map = MapVolume{.extent_m = 20, .near_m = 1, .far_m = 7.5};
+  return scene;
+}
+
+// A lone tilted plane under a light straight above: acne and nothing else, of exactly the size that law 1 gives. theta:
+// between the plane's normal and the light; phi: azimuth of the slope in the map, against its u axis.
+Scene plane(const SceneSettings& settings) {
+  Scene scene;
+  scene.light = {.position_m = {0, 10, 0}, .target_m = {0, 0, 0}};
+  glm::dvec3 u, v;
+  upright_axes({0, -1, 0}, {0, 1, 0}, u, v);
+  const double theta = radians(settings.theta_deg), phi = radians(settings.phi_deg);
+  const glm::dvec3 slope_way = std::cos(phi) * u + std::sin(phi) * v;
+  const glm::dvec3 normal = glm::normalize(std::cos(theta) * glm::dvec3(0, 1, 0) + std::sin(theta) * slope_way);
+  const glm::dvec3 across = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), slope_way));
+  const glm::dvec3 down = glm::cross(across, normal);
+  const double half_m = 3;
+  add_quad(scene, "plane", -half_m * (across + down), 2 * half_m * down, 2 * half_m * across);
+  scene.camera = {.eye_m = 7.0 * normal, .target_m = {0, 0, 0}, .up = glm::normalize(0.9 * across + 0.44 * down),
+                  .fov_y_deg = 35, .near_m = 1, .far_m = 20};
+  scene.map = MapVolume{.extent_m = 10, .near_m = 5, .far_m = 15};
+  return scene;
+}
+
+// Two walls on a floor, one seen from its shadowed side and one from its lit side. A bias lights a gap at the foot of
+// the first (law 2: max(0, b sin(theta) - t / cos(psi)) along the light's trace) and none at the foot of the second.
+Scene wall(const SceneSettings& settings) {
+  Scene scene;
+  const double t = settings.thickness_m;
+  add_floor(scene, 5, 0);
+  add_box(scene, "wall seen from its shadow", {0, 0, 0}, {t, 1.5, 3});
+  add_box(scene, "wall seen from its light", {1, 0, -2}, {4, 1.5, -2 + t});
+  scene.camera = {.eye_m = {7, 5, -5}, .target_m = {1.4, 0.2, 0.2}, .fov_y_deg = 38, .near_m = 0.1, .far_m = 50};
+  scene.light = {.position_m = {-4, 4, -2}, .target_m = {0, 0, 0}};
+  scene.map = MapVolume{.extent_m = 14, .near_m = -2, .far_m = 14};
+  return scene;
+}
+
+// A thin plate above a floor. Its shadow is lost once its lit face stands less than b cos(theta) above the floor,
+// however thick it is: the map stores the lit face.
+Scene plate(const SceneSettings& settings) {
+  Scene scene;
+  add_floor(scene, 3, 0);
+  const double top = settings.height_m;
+  add_box(scene, "plate", {-0.8, top - settings.thickness_m, -0.6}, {0.8, top, 0.6});
+  scene.camera = {.eye_m = {3.2, 2.6, 4.2}, .target_m = {0.2, 0.1, 0.1}, .fov_y_deg = 35, .near_m = 0.1, .far_m = 30};
+  scene.light = {.position_m = {-3, 4, -1.5}, .target_m = {0, 0, 0}};
+  scene.map = MapVolume{.extent_m = 9, .near_m = 0.5, .far_m = 10};
+  return scene;
+}
+
+// Pillars 30 m apart: the frustum-size case. An extent of 20 m sees one pillar well and loses the others; 200 m holds
+// them all and has ten times coarser texels.
+Scene pillars(const SceneSettings&) {
+  Scene scene;
+  add_floor(scene, 80, 0);
+  for (int i = -2; i <= 2; ++i)
+    for (int j = -2; j <= 2; ++j)
+      add_box(scene, "pillar", {30.0 * i - 0.5, 0, 30.0 * j - 0.5}, {30.0 * i + 0.5, 4, 30.0 * j + 0.5});
+  scene.camera = {.eye_m = {11, 5, 17}, .target_m = {0, 1, 0}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 300};
+  scene.light = {.position_m = {-30, 60, -20}, .target_m = {0, 0, 0}};
+  scene.map = MapVolume{.extent_m = 200, .near_m = -40, .far_m = 180};
+  return scene;
+}
+
+// A lone sphere, a closed convex solid: every slope from facing to grazing, and no occluder. Acne only; the band that
+// no bounded bias cures lies at the terminator (law 1).
+Scene sphere(const SceneSettings&) {
+  Scene scene;
+  add_surface(scene, "sphere", 192, 96, true, [](double s, double t) {
+    const double phi = 2 * std::numbers::pi * s, polar = std::numbers::pi * t;
+    const double r = t == 0 || t == 1 ? 0 : std::sin(polar);  // sin(pi) is not 0 in floating point, and poles must weld
+    return glm::dvec3(r * std::sin(phi), -std::cos(polar), r * std::cos(phi));
+  });
+  scene.camera = {.eye_m = {-1.5, 2.2, 3.6}, .target_m = {0, 0, 0}, .fov_y_deg = 30, .near_m = 0.1, .far_m = 20};
+  scene.light = {.position_m = {-2, 4, -1}, .target_m = {0, 0, 0}};
+  scene.map = MapVolume{.extent_m = 2.6, .near_m = 2, .far_m = 8};
+  return scene;
+}
+
+// A bowl under a light straight above: concave, yet no point of it shades another. A rule that calls every hit on
+// another triangle an occluder finds aliasing here; there is only acne.
+Scene bowl(const SceneSettings&) {
+  Scene scene;
+  add_surface(scene, "bowl", 96, 32, true, [](double s, double t) {
+    const double phi = 2 * std::numbers::pi * s, polar = radians(80) * (1 - t);
+    const double r = t == 1 ? 0 : std::sin(polar);
+    return glm::dvec3(r * std::sin(phi), 1 - std::cos(polar), r * std::cos(phi));
+  });
+  scene.camera = {.eye_m = {0.6, 4.2, 1.8}, .target_m = {0, 0.3, 0}, .fov_y_deg = 30, .near_m = 0.1, .far_m = 20};
+  scene.light = {.position_m = {0, 5, 0}, .target_m = {0, 0, 0}};
+  scene.map = MapVolume{.extent_m = 2.6, .near_m = 3, .far_m = 6};
+  return scene;
+}
+
+// A fence of wires thinner than a texel of the usual maps: the map loses or thickens each wire by chance, and more
+// resolution does not help until a texel is thinner than a wire (law 5's saturation).
+Scene fence(const SceneSettings&) {
+  Scene scene;
+  add_floor(scene, 4, 0);
+  const double wire = 0.004, half = 1.5;
+  for (int i = 0; i <= 60; ++i) {
+    const double z = -half + 2 * half * i / 60;
+    add_box(scene, "wire", {-wire / 2, 0.05, z - wire / 2}, {wire / 2, 1, z + wire / 2});
+  }
+  for (double y : {0.05, 1.0}) add_box(scene, "rail", {-0.02, y - 0.02, -half - 0.05}, {0.02, y + 0.02, half + 0.05});
+  for (double z : {-half - 0.05, half + 0.05}) add_box(scene, "post", {-0.03, 0, z - 0.03}, {0.03, 1.1, z + 0.03});
+  scene.camera = {.eye_m = {3.4, 2.2, 2.6}, .target_m = {0.4, 0.2, 0}, .fov_y_deg = 38, .near_m = 0.1, .far_m = 30};
+  scene.light = {.position_m = {-3, 4, -1.2}, .target_m = {0, 0, 0}};
+  scene.map = MapVolume{.extent_m = 11, .near_m = 0, .far_m = 10};
+  return scene;
+}
+
+constexpr BuiltinScene scenes[] = {
+    {"cube-room", "the standard tutorial scene: acne stripes, Peter Panning, a map smaller than the floor", cube_room},
+    {"plane", "acne alone, on a plane of any slope (scene.theta_deg, scene.phi_deg)", plane},
+    {"wall", "Peter Panning at the foot of a wall (scene.thickness_m), none at a lit foot", wall},
+    {"plate", "a plate whose shadow a bias can lose (scene.height_m, scene.thickness_m)", plate},
+    {"pillars", "objects 30 m apart: extent against resolution", pillars},
+    {"sphere", "every slope up to grazing, no occluder", sphere},
+    {"bowl", "a concave receiver that does not shade itself", bowl},
+    {"fence", "wires thinner than a texel", fence},
+};
+
+}  // namespace
+
+std::span<const BuiltinScene> builtin_scenes() { return scenes; }
+
+}  // namespace noonmark

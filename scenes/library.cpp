@@ -1,1 +1,28 @@
 #include "scenes/library.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "scenes/error.h"
+
+namespace noonmark {
+
+Scene make_scene(const SceneSettings& settings) {
+  std::vector<std::string_view> names;
+  for (const BuiltinScene& builtin : builtin_scenes()) {
+    if (builtin.name == settings.name) {
+      Scene scene = builtin.make(settings);
+      scene.name = settings.name;
+      return scene;
+    }
+    names.push_back(builtin.name);
+  }
+  if (settings.name.ends_with(".gltf") || settings.name.ends_with(".glb")) return load_gltf(settings.name);
+  const std::string near = nearest_name(settings.name, names);
+  throw Error(ErrorKind::usage,
+              fmt::format("there is no built-in scene '{}'{}; give one that `noonmark scenes` lists, or the path of a .gltf or "
+                          ".glb file", settings.name, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+}
+
+}  // namespace noonmark

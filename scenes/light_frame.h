@@ -35,6 +35,9 @@ struct LightFrame {
   double depth_per_bias_unit(BiasUnit unit) const;
 };
 
+// The scene's light with what settings.light changes of it.
+Light effective_light(const Scene& scene, const Settings& settings);
+
 // Throws Error(usage) when near >= far, the extent is not positive, or the light's position is its target.
 LightFrame make_light_frame(const Scene& scene, const Settings& settings);
 

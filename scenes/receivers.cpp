@@ -1,1 +1,67 @@
-#include "scenes/library.h"
+#include "scenes/receivers.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+#include "scenes/camera_frame.h"
+
+namespace noonmark {
+namespace {
+
+// The point of the triangle nearest to p (p in its plane). Ericson, Real-Time Collision Detection, 5.1.5.
+glm::dvec3 nearest_in_triangle(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+  const glm::dvec3 ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return a;
+  const glm::dvec3 bp = p - b;
+  const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return b;
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + ab * (d1 / (d1 - d3));
+  const glm::dvec3 cp = p - c;
+  const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + ac * (d2 / (d2 - d6));
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+  return p;  // inside: not a + v ab + w ac, which would move it by rounding
+}
+
+}  // namespace
+
+ReceiverImage resolve_receivers(const Scene& scene, const Camera& camera, const Image<uint32_t>& primitives) {
+  const int width = primitives.width, height = primitives.height;
+  const CameraFrame frame = make_camera_frame(camera, width, height);
+  ReceiverImage receivers{Image<glm::vec3>(width, height, glm::vec3(0)), Image<glm::vec3>(width, height, glm::vec3(0)),
+                          primitives};
+  tbb::parallel_for(tbb::blocked_range<int>(0, height), [&](const tbb::blocked_range<int>& rows) {
+    for (int y = rows.begin(); y != rows.end(); ++y) {
+      for (int x = 0; x < width; ++x) {
+        const uint32_t primitive = primitives.at(x, y);
+        if (primitive == no_primitive) continue;
+        const glm::uvec3 t = scene.triangles[primitive];
+        const glm::dvec3 a = scene.positions[t.x], b = scene.positions[t.y], c = scene.positions[t.z];
+        const glm::dvec3 cross = glm::cross(b - a, c - a);
+        const double area = glm::length(cross);
+        const Ray ray = frame.pixel_ray(x, y, width, height);
+        const double slope = glm::dot(cross, ray.direction);
+        if (!(area > 0)) {  // no normal, so nothing to light: a sliver that the rasteriser still drew
+          receivers.primitive.at(x, y) = no_primitive;
+          continue;
+        }
+        // Seen exactly edge-on, the plane gives no point; the triangle's point nearest to the ray's origin side will do.
+        const double along = slope != 0 ? glm::dot(cross, a - ray.origin) / slope : glm::dot(a - ray.origin, ray.direction) /
+                                                                                       glm::dot(ray.direction, ray.direction);
+        const glm::dvec3 point = nearest_in_triangle(ray.origin + along * ray.direction, a, b, c);
+        receivers.position.at(x, y) = glm::vec3(point);
+        receivers.normal.at(x, y) = glm::vec3(cross * ((slope > 0 ? -1 : 1) / area));
+      }
+    }
+  });
+  return receivers;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,31 @@
+// A camera's axes and matrix in double; the one place that says how a picture's pixels map to rays.
+#pragma once
+#include <glm/glm.hpp>
+
+#include "scenes/scene.h"
+
+namespace noonmark {
+
+struct Ray {
+  glm::dvec3 origin;
+  glm::dvec3 direction;  // not normalised
+};
+
+struct CameraFrame {
+  glm::dvec3 eye_m, right, up, forward;  // axes: unit, right-handed with forward = cross(up, right)
+  double half_width = 1, half_height = 1;  // perspective: tangents; orthographic: metres
+  Camera camera;
+
+  // Through the centre of pixel (x, y) of a picture of the size given to make_camera_frame; row 0 on top.
+  Ray pixel_ray(int x, int y, int width, int height) const;
+  glm::dmat4 clip_from_world() const;
+};
+
+// Throws Error(usage) when eye and target coincide, up is parallel to the view, or near >= far.
+CameraFrame make_camera_frame(const Camera& camera, int width, int height);
+
+// An orthonormal pair (right, up) across `forward` (unit), upright as lookAt makes it; where forward is parallel to the
+// hint, -Z takes the hint's place.
+void upright_axes(glm::dvec3 forward, glm::dvec3 up_hint, glm::dvec3& right, glm::dvec3& up);
+
+}  // namespace noonmark
