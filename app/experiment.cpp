@@ -135,8 +135,8 @@ std::string fingerprint(const Experiment& experiment, std::span<const std::pair<
   // The order of the sweep is part of it: it gives the points their ids.
   for (const Swept& swept : experiment.swept) text += fmt::format("sweep {} = [{}]\n", swept.name, fmt::join(swept.values, " | "));
   const CurveOptions& curve = experiment.curve;
-  text += fmt::format("curve_enabled = {}\n", curve_enabled);
-  if (curve_enabled) {
+  text += fmt::format("curve.enabled = {}\n", experiment.curve_enabled);
+  if (experiment.curve_enabled) {
     text += fmt::format("curve.acne_bound = {}\ncurve.peter_panning_bound = {}\n", curve.acne_bound, curve.peter_panning_bound);
     text += curve.bias_depth.empty() ? "curve.bias_depth = auto\n"
                                      : fmt::format("curve.bias_depth = [{}]\n", fmt::join(curve.bias_depth, ", "));

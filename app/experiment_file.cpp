@@ -333,7 +333,7 @@ class Reader {
     CurveOptions& curve = experiment_.curve;
     for (const Item& item : items(table)) {
       const std::string name = "curve." + item.key;
-      if (item.key == "enabled") curve_enabled = boolean(*item.node, name);
+      if (item.key == "enabled") experiment_.curve_enabled = boolean(*item.node, name);
       else if (item.key == "acne_bound") curve.acne_bound = fraction(*item.node, name);
       else if (item.key == "peter_panning_bound") curve.peter_panning_bound = fraction(*item.node, name);
       else if (item.key == "bias_depth") read_biases(*item.node, name);
@@ -372,7 +372,7 @@ class Reader {
         bound.metric = string(*item.node, "metric");
         const QuantityInfo info = at(item.node->source(), [&] { return find_quantity(bound.metric); });
         if (info.of_curve && !experiment_.curve_enabled)
-          fail(*item.node, fmt::format("'{}' is read off the bias curve, and curve_enabled is false", bound.metric));
+          fail(*item.node, fmt::format("'{}' is read off the bias curve, and curve.enabled is false", bound.metric));
       } else if (item.key == "max") bound.max = number(*item.node, "max");
       else if (item.key == "min") bound.min = number(*item.node, "min");
       else if (item.key == "join") bound.join = one_of(*item.node, "join", {"worst", "mean", "median"});
