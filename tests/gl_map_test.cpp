@@ -10,17 +10,19 @@ namespace {
 struct Format {
   DepthFormat format;
   const char* name;
-  double quantum;  // of window depth
+  double quantum;  // window depth to which the format rounds
 };
-// A 32-bit float's places in [0.5, 1) are 2^-24 apart; near 0 they are finer, but the plane's arithmetic is not.
+// A 32-bit float is not rounded again when it is stored.
 constexpr Format formats[] = {{DepthFormat::d16, "d16", 1.0 / 65535},
                               {DepthFormat::d24, "d24", 1.0 / 16777215},
-                              {DepthFormat::d32f, "d32f", 1.0 / 16777216}};
+                              {DepthFormat::d32f, "d32f", 0}};
 
-// Rounding to the format costs half a quantum. The rest is the rasteriser: vertices rounded to float in clip space, the
-// plane's equation and its evaluation in float, each up to an ulp of a depth near 1 (2^-24), and none of it visible in
-// 16 bits. Measured on llvmpipe: see the test's own output on failure; two quanta hold with room.
-constexpr double plane_quanta = 2;
+// The rasteriser's own error: the matrix, the vertices, the plane's equation and its evaluation are floats, each off by
+// half a place of a depth near 1 (2^-24). llvmpipe 22.3 was seen at up to 1.74 places; 2 is what the tool's precision
+// rung counts with.
+constexpr double rasteriser_error = 2 * 0x1p-24;
+// What comes back is a float: half a place of one in [0.5, 1).
+constexpr double read_back_error = 0x1p-25;
 
 // A lone plane tilted by theta towards azimuth phi, filling a map of 2 m x 2 m, depths within [0.1, 0.9].
 TEST_F(GlTest, DepthOfATiltedPlane) {
@@ -54,9 +56,11 @@ TEST_F(GlTest, DepthOfATiltedPlane) {
             const double z = glm::dot(normal, a - start) / glm::dot(normal, frame.forward);
             worst = std::max(worst, std::abs(map.at(i, j) - frame.window_depth(z)));
           }
-        printf("%s %g %g: %g\n", f.name, theta_deg, phi_deg, worst / f.quantum);
-        EXPECT_LE(worst, plane_quanta * f.quantum)
-            << f.name << " theta " << theta_deg << " phi " << phi_deg << ": " << worst / f.quantum << " quanta";
+        EXPECT_LE(worst, rasteriser_error + f.quantum / 2 + read_back_error)
+            << f.name << " theta " << theta_deg << " phi " << phi_deg << ": " << worst * 0x1p24 << " x 2^-24";
+        if (theta_deg > 0) {
+          EXPECT_GT(worst, f.quantum / 4) << f.name << ": a slope's depths fall between the quanta";
+        }
       }
     }
 }
