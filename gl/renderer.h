@@ -51,13 +51,6 @@ class ShadowMap {
   std::unique_ptr<Impl> impl_;
 };
 
-// The bias as the shader gets it: floats, in window depth.
-struct ShaderBias {
-  BiasForm form = BiasForm::none;
-  float constant = 0, slope = 0, floor = 0;
-};
-ShaderBias shader_bias(const LightFrame& frame, const BiasSettings& bias);
-
 class Renderer {
  public:
   explicit Renderer(DebugMode debug);

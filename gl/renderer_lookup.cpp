@@ -6,6 +6,7 @@
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
 #include "scenes/error.h"
+#include "scenes/depth_bias.h"
 
 namespace noonmark::gl {
 namespace {
@@ -13,17 +14,6 @@ namespace {
 bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 }  // namespace
-
-ShaderBias shader_bias(const LightFrame& frame, const BiasSettings& bias) {
-  const double unit = frame.depth_per_bias_unit(bias.unit);
-  switch (bias.form) {
-    case BiasForm::none: return {};
-    case BiasForm::constant: return {bias.form, static_cast<float>(bias.constant * unit), 0, 0};
-    case BiasForm::slope:
-      return {bias.form, 0, static_cast<float>(bias.slope * unit), static_cast<float>(bias.floor * unit)};
-  }
-  throw std::logic_error("a bias form that shader_bias does not know");
-}
 
 void Renderer::load_receivers(const ReceiverImage& receivers, glm::dvec3 direction_to_light) {
   Impl& r = *impl_;
@@ -64,7 +54,7 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
   if (frame.resolution != side)
     throw Error(ErrorKind::defect, fmt::format("lookup: the light's frame is for {} texels, the map has {}", frame.resolution,
                                                side));
-  const ShaderBias bias = shader_bias(frame, settings.bias);
+  const DepthBias bias = depth_bias(frame, settings.bias);
   const int kernel = kernel_size(settings.filter);
   const ShaderSlots slots = {{"bias", bias_file(bias.form)}, {"filter", filter_file(settings.filter.kind)}};
   Program& program = r.programs.get("shaders/screen.vert", "shaders/lookup.frag", slots);

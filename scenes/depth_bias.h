@@ -26,7 +26,13 @@ struct DepthBias {
 inline DepthBias depth_bias(const LightFrame& frame, const BiasSettings& bias) {
   const double unit = frame.depth_per_bias_unit(bias.unit);
   const auto rounded = [&](double value) { return static_cast<float>(value * unit); };
-  return {bias.form, rounded(bias.constant), rounded(bias.slope), rounded(bias.floor)};
+  DepthBias result{.form = bias.form};  // what the form does not use stays 0
+  if (bias.form == BiasForm::constant) result.constant = rounded(bias.constant);
+  if (bias.form == BiasForm::slope) {
+    result.slope = rounded(bias.slope);
+    result.floor = rounded(bias.floor);
+  }
+  return result;
 }
 
 }  // namespace noonmark

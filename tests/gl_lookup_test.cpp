@@ -4,6 +4,7 @@
 
 #include "gl_fixture.h"
 #include "scenes/receivers.h"
+#include "scenes/depth_bias.h"
 
 namespace noonmark::gl {
 namespace {
@@ -25,7 +26,7 @@ float wrapped(const Image<float>& map, Wrap wrap, int x, int y) {
 }
 
 Image<float> lookup_on_host(const LookupProbe& probe, const ReceiverImage& receivers, const Image<float>& map,
-                            const ShaderBias& bias, const Settings& s, Met& met) {
+                            const DepthBias& bias, const Settings& s, Met& met) {
   const int radius = (kernel_size(s.filter) - 1) / 2, taps = kernel_size(s.filter) * kernel_size(s.filter);
   Image<float> visibility(receivers.width(), receivers.height());
   for (size_t i = 0; i < visibility.size(); ++i) {
@@ -132,7 +133,7 @@ TEST_F(GlLookupTest, EqualsTheHostBitForBit) {
       renderer.load_receivers(receivers, frame.direction_to_light());
       const ShadowMap map = renderer.render_map(frame, settings.map);
       const LookupProbe probe = renderer.probe(frame, settings);
-      const Image<float> host = lookup_on_host(probe, receivers, renderer.read_map(map), shader_bias(frame, settings.bias),
+      const Image<float> host = lookup_on_host(probe, receivers, renderer.read_map(map), depth_bias(frame, settings.bias),
                                                settings, met);
       expect_same(renderer.lookup(map, frame, settings), host, describe(settings));
     }
@@ -274,7 +275,7 @@ TEST_F(GlLookupTest, ReceiversThatAreNotFiniteAreDark) {
   for (size_t i = 1; i < 6; ++i) EXPECT_EQ(probe.reference[i], 0.0f) << i;
 }
 
-TEST(ShaderBiasTest, IsInWindowDepth) {
+TEST(DepthBiasTest, IsInWindowDepth) {
   LightFrame frame;
   frame.near_m = 2;
   frame.far_m = 12;
@@ -282,20 +283,20 @@ TEST(ShaderBiasTest, IsInWindowDepth) {
   frame.resolution = 100;
   BiasSettings bias;
   bias.constant = 0.5;
-  EXPECT_EQ(shader_bias(frame, bias).constant, 0.5f);
+  EXPECT_EQ(depth_bias(frame, bias).constant, 0.5f);
   bias.unit = BiasUnit::m;
-  EXPECT_EQ(shader_bias(frame, bias).constant, 0.05f);
+  EXPECT_EQ(depth_bias(frame, bias).constant, 0.05f);
   bias.unit = BiasUnit::texel;
-  EXPECT_EQ(shader_bias(frame, bias).constant, 0.01f);
+  EXPECT_EQ(depth_bias(frame, bias).constant, 0.01f);
   bias.form = BiasForm::slope;
   bias.slope = 3;
   bias.floor = 1;
-  const ShaderBias slope = shader_bias(frame, bias);
+  const DepthBias slope = depth_bias(frame, bias);
   EXPECT_FLOAT_EQ(slope.slope, 0.06f);
   EXPECT_FLOAT_EQ(slope.floor, 0.02f);
   EXPECT_EQ(slope.constant, 0.0f);
   bias.form = BiasForm::none;
-  EXPECT_EQ(shader_bias(frame, bias).constant, 0.0f);
+  EXPECT_EQ(depth_bias(frame, bias).constant, 0.0f);
 }
 
 TEST_F(GlLookupTest, TimesArePositiveAndDifferentSizesFollowEachOther) {
