@@ -39,11 +39,7 @@ void add_row(std::string& text, const std::vector<std::string>& cells) {
 }
 void add_heading(std::string& text, const std::vector<std::string>& names) {
   add_row(text, names);
-  text += "|" + std::string() + [&] {
-    std::string rule;
-    for (size_t i = 0; i < names.size(); ++i) rule += " --- |";
-    return rule;
-  }() + "\n";
+  add_row(text, std::vector<std::string>(names.size(), "---"));
 }
 
 // Four digits are enough for a page; the store has them all.
