@@ -181,7 +181,8 @@ TEST(Bounds, ABrokenBoundSaysWhereAndHowToSeeIt) {
 // The definition, straight: held exactly when every value is finite and none is beyond the limit.
 RC_GTEST_PROP(BoundsProperty, WorstHoldsExactlyWhenEveryPointDoes, (const std::vector<double>& values, double max)) {
   RC_PRE(!values.empty());
-  const bool expected = std::all_of(values.begin(), values.end(), [&](double v) { return std::isfinite(v) && v <= max; });
+  const bool expected =
+      std::all_of(values.begin(), values.end(), [&](double v) { return std::isfinite(v) && v <= max; });
   RC_ASSERT(ask(values, at_most(max)).held == expected);
   std::vector<double> negated;
   for (double v : values) negated.push_back(-v);
@@ -226,8 +227,8 @@ TEST(Junit, EscapesWhatXmlCannotHold) {
   results.info.title = "a<b>&\"c\"\x01 \xff \xc3\xa4 \xed\xa0\x80 \xf4\x90\x80\x80 \xef\xbf\xbf\n\xe2\x82";
   const std::string xml = to_junit(results);
   const std::string bad = "\xef\xbf\xbd";
-  EXPECT_NE(xml.find("a&lt;b&gt;&amp;&quot;c&quot;" + bad + " " + bad + " \xc3\xa4 " + bad + bad + bad + " " + bad + bad + bad + bad +
-                     " " + bad + bad + bad + "&#10;" + bad + bad + "\""),
+  EXPECT_NE(xml.find("a&lt;b&gt;&amp;&quot;c&quot;" + bad + " " + bad + " \xc3\xa4 " + bad + bad + bad + " " + bad +
+                     bad + bad + bad + " " + bad + bad + bad + "&#10;" + bad + bad + "\""),
             std::string::npos)
       << xml;
 }
@@ -243,7 +244,8 @@ TEST(Summary, GivesTheVerdictFirst) {
   EXPECT_EQ(verdict(judged({0.1}, {})), "**Measured 1 point.** The experiment sets no bounds.");
   Results results = judged({0.1}, {at_most(0)});
   results.planned_points = 2;
-  EXPECT_EQ(verdict(results), "**Incomplete: 1 of 2 points are finished.** Run it again to go on. 1 of 1 bounds are broken so far.");
+  EXPECT_EQ(verdict(results),
+            "**Incomplete: 1 of 2 points are finished.** Run it again to go on. 1 of 1 bounds are broken so far.");
 }
 
 TEST(Summary, OrdersByErrorAndKeepsTheTableWhole) {

@@ -73,6 +73,7 @@ Results sample() {
   results.points = {sample_point(0), sample_point(1, false), sample_point(2)};
   results.points[1].settings["scene.name"] = "a, \"b\"\r\nc.gltf";
   results.points[1].settings["light.position_m"] = "1,2,3";
+  results.points[1].settings["map.wrap"] = "x\ny";
   results.points[2].metrics["acne"] = nan_value;
   results.points[2].metrics["error"] = inf_value;
   results.points[2].curve->window_min_depth = results.points[2].curve->window_max_depth = std::nullopt;
@@ -88,7 +89,8 @@ TEST(Csv, HoldsEverySettingMetricAndQuantity) {
     ASSERT_EQ(rows[i + 1].size(), rows[0].size());
     EXPECT_EQ(rows[i + 1][column(rows[0], "point")], std::to_string(i));
     for (const auto& [name, text] : point.settings) EXPECT_EQ(rows[i + 1][column(rows[0], name)], text);
-    for (const auto& [name, value] : point.metrics) EXPECT_TRUE(same(number(rows[i + 1][column(rows[0], name)]), value)) << name;
+    for (const auto& [name, value] : point.metrics)
+      EXPECT_TRUE(same(number(rows[i + 1][column(rows[0], name)]), value)) << name;
     for (const CurveQuantity& row : curve_quantities()) {
       const std::string& text = rows[i + 1][column(rows[0], std::string(row.name))];
       const std::optional<double> value = quantity(point, row.name);

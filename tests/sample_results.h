@@ -69,7 +69,8 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
     curve.breakpoints = 87420;
     point.curve = curve;
   }
-  point.pictures = {{"truth", "images/p0003-truth.png", "The truth."}, {"map", "images/p0003-map.png", "It's \"the\" map."}};
+  point.pictures = {{"truth", "images/p0003-truth.png", "The truth."},
+                    {"map", "images/p0003-map.png", "It's \"the\" map."}};
   point.worst = {12, 34, 2.0 / 3, "acne"};
   return point;
 }
@@ -112,8 +113,9 @@ inline bool same(const std::optional<double>& a, const std::optional<double>& b)
 inline bool same(const BiasCurve& a, const BiasCurve& b) {
   return a.parameter == b.parameter && a.made == b.made && same(a.bias_depth, b.bias_depth) && same(a.error, b.error) &&
          same(a.wrong, b.wrong) && same(a.acne, b.acne) && same(a.peter_panning, b.peter_panning) &&
-         same(a.aliasing_dark, b.aliasing_dark) && same(a.aliasing_light, b.aliasing_light) && same(a.coverage, b.coverage) &&
-         same(a.m_per_depth, b.m_per_depth) && same(a.texels_per_depth, b.texels_per_depth) && same(a.acne_bound, b.acne_bound) &&
+         same(a.aliasing_dark, b.aliasing_dark) && same(a.aliasing_light, b.aliasing_light) &&
+         same(a.coverage, b.coverage) && same(a.m_per_depth, b.m_per_depth) &&
+         same(a.texels_per_depth, b.texels_per_depth) && same(a.acne_bound, b.acne_bound) &&
          same(a.peter_panning_bound, b.peter_panning_bound) && same(a.window_min_depth, b.window_min_depth) &&
          same(a.window_max_depth, b.window_max_depth) && same(a.best_bias_depth, b.best_bias_depth) &&
          same(a.best_error, b.best_error) && same(a.flat_min_depth, b.flat_min_depth) &&
@@ -127,7 +129,8 @@ inline bool same(const PointRecord& a, const PointRecord& b) {
          a.curve.has_value() == b.curve.has_value() && (!a.curve || same(*a.curve, *b.curve)) &&
          std::equal(a.pictures.begin(), a.pictures.end(), b.pictures.begin(), b.pictures.end(),
                     [](const PictureRecord& x, const PictureRecord& y) { return same(x, y); }) &&
-         a.worst.x == b.worst.x && a.worst.y == b.worst.y && same(a.worst.error, b.worst.error) && a.worst.cause == b.worst.cause;
+         a.worst.x == b.worst.x && a.worst.y == b.worst.y && same(a.worst.error, b.worst.error) &&
+         a.worst.cause == b.worst.cause;
 }
 
 }  // namespace noonmark

@@ -76,10 +76,12 @@ TEST_F(Store, ReturnsWhatItWasGiven) {
   EXPECT_EQ(bound.points, 2);
   EXPECT_EQ(bound.reproduce, "noonmark render x.toml --set 'a=b'");
   const RunInfo a = results.info, b = sample_info();
-  EXPECT_EQ(std::tie(a.experiment, a.title, a.command, a.commit, a.version, a.started, a.host_cpu, a.gl_vendor, a.gl_renderer,
-                     a.gl_version, a.gl_timer, a.embree_version, a.embree_isa, a.libraries, a.swept, a.plot, a.scene_name, a.triangles),
-            std::tie(b.experiment, b.title, b.command, b.commit, b.version, b.started, b.host_cpu, b.gl_vendor, b.gl_renderer,
-                     b.gl_version, b.gl_timer, b.embree_version, b.embree_isa, b.libraries, b.swept, b.plot, b.scene_name, b.triangles));
+  EXPECT_EQ(std::tie(a.experiment, a.title, a.command, a.commit, a.version, a.started, a.host_cpu, a.gl_vendor,
+                     a.gl_renderer, a.gl_version, a.gl_timer, a.embree_version, a.embree_isa, a.libraries, a.swept,
+                     a.plot, a.scene_name, a.triangles),
+            std::tie(b.experiment, b.title, b.command, b.commit, b.version, b.started, b.host_cpu, b.gl_vendor,
+                     b.gl_renderer, b.gl_version, b.gl_timer, b.embree_version, b.embree_isa, b.libraries, b.swept,
+                     b.plot, b.scene_name, b.triangles));
 }
 
 TEST_F(Store, KeepsWhatIsNotFiniteApartFromWhatIsAbsent) {
@@ -125,8 +127,11 @@ TEST_F(Store, ViewHasEveryNumberAsATypedColumn) {
   store.add(point);
   store.add(sample_point(4, false));
   sqlite::Database db(path, sqlite::Database::Mode::existing);
-  EXPECT_EQ(db.ask("SELECT point FROM points WHERE map_resolution = 2048 AND filter_kind = 'none' AND map_lit_beyond_far"), "3");
-  EXPECT_EQ(db.ask("SELECT typeof(map_resolution) || typeof(bias_constant) || typeof(map_extent_m) FROM points"), "integerrealtext");
+  EXPECT_EQ(
+      db.ask("SELECT point FROM points WHERE map_resolution = 2048 AND filter_kind = 'none' AND map_lit_beyond_far"),
+      "3");
+  EXPECT_EQ(db.ask("SELECT typeof(map_resolution) || typeof(bias_constant) || typeof(map_extent_m) FROM points"),
+            "integerrealtext");
   for (const Metric& row : metrics_table()) {
     sqlite::Statement rows(db, "SELECT " + std::string(row.name) + " FROM points WHERE point = 3");
     ASSERT_TRUE(rows.step());
@@ -158,7 +163,9 @@ TEST_F(Store, ResumesItsOwnExperimentOnly) {
 
 TEST_F(Store, NamesTheDifferenceWhenOneFingerprintBeginsTheOther) {
   fresh();
-  EXPECT_NE(refusal(fingerprint + "map.cull = back\n", ErrorKind::usage).find("now 'map.cull = back', there 'nothing more'"), std::string::npos);
+  EXPECT_NE(
+      refusal(fingerprint + "map.cull = back\n", ErrorKind::usage).find("now 'map.cull = back', there 'nothing more'"),
+      std::string::npos);
 }
 
 TEST_F(Store, RefusesAPointTwice) {
