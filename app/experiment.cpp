@@ -58,7 +58,8 @@ class Digest {
 void apply_override(Experiment& experiment, std::string_view assignment) {
   const size_t equals = assignment.find('=');
   if (equals == std::string_view::npos || equals == 0)
-    throw Error(ErrorKind::usage, fmt::format("--set {}: write it as name=value, such as map.resolution=2048", assignment));
+    throw Error(ErrorKind::usage,
+                fmt::format("--set {}: write it as name=value, such as map.resolution=2048", assignment));
   const std::string_view given = assignment.substr(0, equals);
   const std::string name(given == "scene" ? "scene.name" : given);
   try {
@@ -77,8 +78,8 @@ int64_t point_count(const Experiment& experiment) {
     count *= static_cast<int64_t>(swept.values.size());
     // Each list fits in memory, so the product stays far from overflow when it is checked at every step.
     if (count > max_points)
-      throw Error(ErrorKind::usage, fmt::format("{}: the sweep has more than {} points; sweep fewer values", experiment.path,
-                                                max_points));
+      throw Error(ErrorKind::usage, fmt::format("{}: the sweep has more than {} points; sweep fewer values",
+                                                experiment.path, max_points));
   }
   return count;
 }
@@ -99,8 +100,9 @@ std::vector<Settings> points(const Experiment& experiment) {
     try {
       validate(settings);
     } catch (const Error& error) {
-      throw Error(ErrorKind::usage, fmt::format("{}: point {}{}{}{}: {}", experiment.path, id, choice.empty() ? "" : " (",
-                                                fmt::join(choice, ", "), choice.empty() ? "" : ")", error.what()));
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}: point {}{}{}{}: {}", experiment.path, id, choice.empty() ? "" : " (",
+                              fmt::join(choice, ", "), choice.empty() ? "" : ")", error.what()));
     }
     all.push_back(std::move(settings));
   }
@@ -133,11 +135,13 @@ std::string fingerprint(const Experiment& experiment, std::span<const std::pair<
     if (swept == experiment.swept.end()) text += fmt::format("{} = {}\n", row.name, row.get(experiment.base));
   }
   // The order of the sweep is part of it: it gives the points their ids.
-  for (const Swept& swept : experiment.swept) text += fmt::format("sweep {} = [{}]\n", swept.name, fmt::join(swept.values, " | "));
+  for (const Swept& swept : experiment.swept)
+    text += fmt::format("sweep {} = [{}]\n", swept.name, fmt::join(swept.values, " | "));
   const CurveOptions& curve = experiment.curve;
   text += fmt::format("curve.enabled = {}\n", experiment.curve_enabled);
   if (experiment.curve_enabled) {
-    text += fmt::format("curve.acne_bound = {}\ncurve.peter_panning_bound = {}\n", curve.acne_bound, curve.peter_panning_bound);
+    text += fmt::format("curve.acne_bound = {}\ncurve.peter_panning_bound = {}\n", curve.acne_bound,
+                        curve.peter_panning_bound);
     text += curve.bias_depth.empty() ? "curve.bias_depth = auto\n"
                                      : fmt::format("curve.bias_depth = [{}]\n", fmt::join(curve.bias_depth, ", "));
   }

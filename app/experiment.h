@@ -55,15 +55,15 @@ struct Experiment {
   std::vector<Bound> bounds;
   bool curve_enabled = true;
   CurveOptions curve;
-  std::string pictures = "first";        // which points get pictures: first | all | none | worst
-  std::vector<std::string> overridden;   // settings given by apply_override, in order
+  std::string pictures = "first";       // which points get pictures: first | all | none | worst
+  std::vector<std::string> overridden;  // settings given by apply_override, in order
 };
 
 // A sweep of more points than this is a mistake in the file, not a plan.
 constexpr int64_t max_points = 100000;
 
-// Throws Error(usage) with file:line:column, and the nearest name for an unknown one. A relative path of a scene file is
-// taken from the experiment file's folder.
+// Throws Error(usage) with file:line:column, and the nearest name for an unknown one. A relative path of a scene file
+// is taken from the experiment file's folder.
 Experiment load_experiment(const std::string& path);
 // The same from text; path is used for messages and for relative scene paths.
 Experiment parse_experiment(std::string_view toml, const std::string& path);

@@ -1,7 +1,6 @@
 // Reads the experiment file. Everything here runs inside one Reader, so that each message can name file:line:column.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <set>
 
 #include "app/experiment.h"
+#include "app/toml_reader.h"
 #include "compare/quantities.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -16,33 +16,30 @@
 namespace noonmark {
 namespace {
 
-// One key of a table and what it holds, in the order of the file (toml++ sorts keys by name).
-struct Item {
-  std::string key;
-  toml::source_region where;
-  const toml::node* node;
-};
-
-// An error whose message starts with its place already.
-struct PlacedError : Error {
-  using Error::Error;
-};
-
-class Reader {
+class Reader : private TomlReader {
  public:
-  explicit Reader(const std::string& path) { experiment_.path = path; }
+  explicit Reader(const std::string& path) : TomlReader(path) { experiment_.path = path; }
 
   Experiment read(const toml::table& root) {
     for (const Item& item : items(root)) {
-      if (item.key == "title") experiment_.title = string(*item.node, "title");
-      else if (item.key == "pictures") experiment_.pictures = one_of(*item.node, "pictures", {"first", "all", "none", "worst"});
-      else if (item.key == "scene" && item.node->is_string()) fix("scene.name", *item.node);
-      else if (item.key == "sweep") sweep_ = &table(*item.node, "[sweep]");
-      else if (item.key == "plot") read_plot(table(*item.node, "[plot]"));
-      else if (item.key == "curve") read_curve(table(*item.node, "[curve]"));
-      else if (item.key == "bound") bounds_ = item.node;
-      else if (is_group(item.key)) read_settings(table(*item.node, "[" + item.key + "]"), item.key, &Reader::fix);
-      else unknown(item, "key", root_keys(), "");
+      if (item.key == "title")
+        experiment_.title = string(*item.node, "title");
+      else if (item.key == "pictures")
+        experiment_.pictures = one_of(*item.node, "pictures", {"first", "all", "none", "worst"});
+      else if (item.key == "scene" && item.node->is_string())
+        fix("scene.name", *item.node);
+      else if (item.key == "sweep")
+        sweep_ = &table(*item.node, "[sweep]");
+      else if (item.key == "plot")
+        read_plot(table(*item.node, "[plot]"));
+      else if (item.key == "curve")
+        read_curve(table(*item.node, "[curve]"));
+      else if (item.key == "bound")
+        bounds_ = item.node;
+      else if (is_group(item.key))
+        read_settings(table(*item.node, "[" + item.key + "]"), item.key, &Reader::fix);
+      else
+        unknown(item, "key", root_keys(), "");
     }
     // These two look at what is fixed, wherever in the file that stands.
     if (sweep_) read_sweep(*sweep_);
@@ -52,111 +49,6 @@ class Reader {
   }
 
  private:
-  // ---- messages
-
-  [[noreturn]] void fail(const toml::source_region& where, const std::string& what) const {
-    throw PlacedError(ErrorKind::usage,
-                      fmt::format("{}:{}:{}: {}", experiment_.path, where.begin.line, where.begin.column, what));
-  }
-  [[noreturn]] void fail(const toml::node& node, const std::string& what) const { fail(node.source(), what); }
-
-  // Runs f; an error that it throws gets the place in front, unless it has one.
-  template <class F>
-  auto at(const toml::source_region& where, F f) const {
-    try {
-      return f();
-    } catch (const PlacedError&) {
-      throw;
-    } catch (const Error& error) {
-      fail(where, error.what());
-    }
-  }
-
-  [[noreturn]] void unknown(const Item& item, std::string_view kind, std::vector<std::string_view> known,
-                            const std::string& place) const {
-    const std::string near = nearest_name(item.key, known);
-    fail(item.where, fmt::format("there is no {} '{}{}'; {}", kind, place, item.key,
-                                 near.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
-                                              : fmt::format("did you mean '{}{}'?", place, near)));
-  }
-
-  // ---- values
-
-  static std::vector<Item> items(const toml::table& table) {
-    std::vector<Item> list;
-    for (auto&& [key, node] : table) list.push_back({std::string(key.str()), key.source(), &node});
-    std::sort(list.begin(), list.end(), [](const Item& a, const Item& b) {
-      return std::pair(a.where.begin.line, a.where.begin.column) < std::pair(b.where.begin.line, b.where.begin.column);
-    });
-    return list;
-  }
-
-  const toml::table& table(const toml::node& node, const std::string& name) const {
-    if (!node.is_table()) fail(node, fmt::format("{} must be a table", name));
-    return *node.as_table();
-  }
-  std::string string(const toml::node& node, const std::string& name) const {
-    if (!node.is_string()) fail(node, fmt::format("{} must be a string", name));
-    return node.as_string()->get();
-  }
-  std::string one_of(const toml::node& node, const std::string& name, std::vector<std::string_view> choices) const {
-    const std::string text = string(node, name);
-    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return text;
-    const std::string near = nearest_name(text, choices);
-    fail(node, fmt::format("{} = '{}' is not one of {}{}", name, text, fmt::join(choices, " | "),
-                           near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
-  }
-  double number(const toml::node& node, const std::string& name) const {
-    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value)) fail(node, fmt::format("{} must be a finite number", name));
-    return *value;
-  }
-  bool boolean(const toml::node& node, const std::string& name) const {
-    if (!node.is_boolean()) fail(node, fmt::format("{} must be true or false", name));
-    return node.as_boolean()->get();
-  }
-  std::vector<const toml::node*> list(const toml::node& node, const std::string& name) const {
-    if (!node.is_array()) fail(node, fmt::format("{} must be a list", name));
-    if (node.as_array()->empty()) fail(node, fmt::format("{} is an empty list; give it at least one value", name));
-    std::vector<const toml::node*> nodes;
-    for (const toml::node& element : *node.as_array()) nodes.push_back(&element);
-    return nodes;
-  }
-
-  // {min, max, steps, scale} -> the values.
-  std::vector<double> range(const toml::table& table, const std::string& name) const {
-    std::optional<double> min, max;
-    std::optional<int64_t> steps;
-    bool logarithmic = false;
-    for (const Item& item : items(table)) {
-      const std::string item_name = name + "." + item.key;
-      if (item.key == "min") min = number(*item.node, item_name);
-      else if (item.key == "max") max = number(*item.node, item_name);
-      else if (item.key == "scale") logarithmic = one_of(*item.node, item_name, {"linear", "log"}) == "log";
-      else if (item.key == "steps") {
-        if (!item.node->is_integer()) fail(*item.node, fmt::format("{} must be an integer", item_name));
-        steps = item.node->as_integer()->get();
-        if (*steps < 2 || *steps > max_points)
-          fail(*item.node, fmt::format("{} = {} must be 2 ... {}: the number of values, both ends among them", item_name, *steps,
-                                       max_points));
-      } else {
-        unknown(item, "key", {"min", "max", "steps", "scale"}, name + ".");
-      }
-    }
-    if (!min || !max || !steps) fail(table, fmt::format("the range {} needs min, max and steps", name));
-    if (*min >= *max) fail(table, fmt::format("{}: min = {} is not below max = {}", name, *min, *max));
-    if (logarithmic && *min <= 0) fail(table, fmt::format("{}: a logarithmic range needs min above 0, not {}", name, *min));
-
-    std::vector<double> values;
-    const auto last = static_cast<double>(*steps - 1);
-    for (int64_t i = 0; i + 1 < *steps; ++i) {
-      const auto at_step = static_cast<double>(i);
-      values.push_back(logarithmic ? *min * std::pow(*max / *min, at_step / last) : *min + at_step * ((*max - *min) / last));
-    }
-    values.push_back(*max);
-    return values;
-  }
-
   // The text that the setting's row takes for one TOML value.
   std::string raw_text(const Setting& row, const toml::node& node) const {
     if (node.is_integer()) return fmt::format("{}", node.as_integer()->get());
@@ -164,14 +56,17 @@ class Reader {
     if (node.is_boolean()) return node.as_boolean()->get() ? "true" : "false";
     if (node.is_array() && row.type == ValueType::point) {
       std::vector<std::string> parts;
-      for (const toml::node& part : *node.as_array()) parts.push_back(fmt::format("{}", number(part, std::string(row.name))));
+      for (const toml::node& part : *node.as_array())
+        parts.push_back(fmt::format("{}", number(part, std::string(row.name))));
       return fmt::format("{}", fmt::join(parts, ","));
     }
     if (node.is_string()) {
       const std::string text = node.as_string()->get();
-      const bool quoted_number = row.type == ValueType::integer || row.type == ValueType::real || row.type == ValueType::flag;
+      const bool quoted_number =
+          row.type == ValueType::integer || row.type == ValueType::real || row.type == ValueType::flag;
       if (quoted_number && !(row.may_be_auto && text == "auto"))
-        fail(node, fmt::format("{} = \"{}\" is a string; it takes {}, written without quotes", row.name, text, row.range_text()));
+        fail(node, fmt::format("{} = \"{}\" is a string; it takes {}, written without quotes", row.name, text,
+                               row.range_text()));
       return row.name == "scene.name" ? scene_path(text) : text;
     }
     fail(node, fmt::format("{} cannot be this kind of value; it takes {}", row.name, row.range_text()));
@@ -191,7 +86,8 @@ class Reader {
   std::string scene_path(const std::string& name) const {
     const std::filesystem::path path(name);
     std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if ((ending != ".gltf" && ending != ".glb") || path.is_absolute()) return name;
     return (std::filesystem::path(experiment_.path).parent_path() / path).lexically_normal().string();
   }
@@ -224,8 +120,9 @@ class Reader {
     for (const Item& item : items(table)) {
       const std::string name = group.empty() ? item.key : group + "." + item.key;
       if (group.empty() && is_group(item.key)) {
-        if (!item.node->is_table()) fail(*item.node, fmt::format("'{0}' is a group of settings; name one, such as {0}.{1}", item.key,
-                                                                 settings_of(item.key).front().substr(item.key.size() + 1)));
+        if (!item.node->is_table())
+          fail(*item.node, fmt::format("'{0}' is a group of settings; name one, such as {0}.{1}", item.key,
+                                       settings_of(item.key).front().substr(item.key.size() + 1)));
         read_settings(*item.node->as_table(), item.key, use);
         continue;
       }
@@ -261,8 +158,7 @@ class Reader {
     Swept swept{name, {}};
     std::set<std::string> seen;
     const auto add = [&](const toml::node& node, const std::string& text) {
-      if (!seen.insert(text).second)
-        fail(node, fmt::format("{} = {} is swept twice; drop one of the two", name, text));
+      if (!seen.insert(text).second) fail(node, fmt::format("{} = {} is swept twice; drop one of the two", name, text));
       swept.values.push_back(text);
     };
     for (const Swept& other : experiment_.swept)
@@ -274,7 +170,8 @@ class Reader {
         fail(value, fmt::format("{} has no ranges; list its values", name));
       for (double v : range(*range_table, name)) add(value, at(value.source(), [&] { return range_text(row, v); }));
     } else {
-      if (!value.is_array()) fail(value, fmt::format("[sweep] {} must be a list or a range; fixed values go into their own table", name));
+      if (!value.is_array())
+        fail(value, fmt::format("[sweep] {} must be a list or a range; fixed values go into their own table", name));
       for (const toml::node* node : list(value, name)) add(*node, canonical(row, *node));
     }
     places_[name] = value.source();
@@ -289,7 +186,8 @@ class Reader {
     constexpr double rounding = 1e-9;
     const double nearest = std::round(value);
     if (std::abs(value - nearest) > rounding * std::abs(nearest))
-      throw Error(ErrorKind::usage, fmt::format("{} takes integers, and the range gives {}; list the values instead", row.name, value));
+      throw Error(ErrorKind::usage,
+                  fmt::format("{} takes integers, and the range gives {}; list the values instead", row.name, value));
     return canonical_text(row, fmt::format("{:.0f}", nearest));
   }
 
@@ -333,11 +231,16 @@ class Reader {
     CurveOptions& curve = experiment_.curve;
     for (const Item& item : items(table)) {
       const std::string name = "curve." + item.key;
-      if (item.key == "enabled") experiment_.curve_enabled = boolean(*item.node, name);
-      else if (item.key == "acne_bound") curve.acne_bound = fraction(*item.node, name);
-      else if (item.key == "peter_panning_bound") curve.peter_panning_bound = fraction(*item.node, name);
-      else if (item.key == "bias_depth") read_biases(*item.node, name);
-      else unknown(item, "key", {"enabled", "acne_bound", "peter_panning_bound", "bias_depth"}, "curve.");
+      if (item.key == "enabled")
+        experiment_.curve_enabled = boolean(*item.node, name);
+      else if (item.key == "acne_bound")
+        curve.acne_bound = fraction(*item.node, name);
+      else if (item.key == "peter_panning_bound")
+        curve.peter_panning_bound = fraction(*item.node, name);
+      else if (item.key == "bias_depth")
+        read_biases(*item.node, name);
+      else
+        unknown(item, "key", {"enabled", "acne_bound", "peter_panning_bound", "bias_depth"}, "curve.");
     }
   }
   double fraction(const toml::node& node, const std::string& name) const {
@@ -373,11 +276,16 @@ class Reader {
         const QuantityInfo info = at(item.node->source(), [&] { return find_quantity(bound.metric); });
         if (info.of_curve && !experiment_.curve_enabled)
           fail(*item.node, fmt::format("'{}' is read off the bias curve, and curve.enabled is false", bound.metric));
-      } else if (item.key == "max") bound.max = number(*item.node, "max");
-      else if (item.key == "min") bound.min = number(*item.node, "min");
-      else if (item.key == "join") bound.join = one_of(*item.node, "join", {"worst", "mean", "median"});
-      else if (item.key == "where") read_where(this->table(*item.node, "where"), bound);
-      else unknown(item, "key", {"metric", "max", "min", "join", "where"}, "bound.");
+      } else if (item.key == "max")
+        bound.max = number(*item.node, "max");
+      else if (item.key == "min")
+        bound.min = number(*item.node, "min");
+      else if (item.key == "join")
+        bound.join = one_of(*item.node, "join", {"worst", "mean", "median"});
+      else if (item.key == "where")
+        read_where(this->table(*item.node, "where"), bound);
+      else
+        unknown(item, "key", {"metric", "max", "min", "join", "where"}, "bound.");
     }
     if (bound.metric.empty()) fail(table, "a [[bound]] needs a metric");
     at(table.source(), [&] { check_bound(bound); });
@@ -426,8 +334,8 @@ Experiment parse_experiment(std::string_view toml, const std::string& path) {
     const toml::table root = toml::parse(toml, path);
     return Reader(path).read(root);
   } catch (const toml::parse_error& error) {
-    throw Error(ErrorKind::usage, fmt::format("{}:{}:{}: {}", path, error.source().begin.line, error.source().begin.column,
-                                              error.description()));
+    throw Error(ErrorKind::usage, fmt::format("{}:{}:{}: {}", path, error.source().begin.line,
+                                              error.source().begin.column, error.description()));
   }
 }
 

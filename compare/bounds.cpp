@@ -58,9 +58,9 @@ void judge(const Bound& bound, const std::vector<Value>& values, BoundResult& re
     result.point = worst.point->id;
   } else {
     if (bound.join == "mean")
-      result.found = std::accumulate(values.begin(), values.end(), 0.0,
-                                     [](double sum, const Value& v) { return sum + v.value; }) /
-                     static_cast<double>(values.size());
+      result.found =
+          std::accumulate(values.begin(), values.end(), 0.0, [](double sum, const Value& v) { return sum + v.value; }) /
+          static_cast<double>(values.size());
     else
       result.found = median(values);
     const bool from_below = !bound.max || (below_min(result.found) && !above_max(result.found));
@@ -125,7 +125,8 @@ void check_bound(const Bound& bound) {
     Settings scratch;
     for (const std::string& text : texts) {
       row.set(scratch, text);
-      if (row.get(scratch) != text) refuse(bound, fmt::format("where {} = '{}' must be written '{}'", name, text, row.get(scratch)));
+      if (row.get(scratch) != text)
+        refuse(bound, fmt::format("where {} = '{}' must be written '{}'", name, text, row.get(scratch)));
     }
   }
 }
@@ -135,7 +136,8 @@ std::vector<BoundResult> evaluate_bounds(std::span<const PointRecord> points, st
   std::vector<BoundResult> results;
   for (const Bound& bound : bounds) {
     results.push_back(evaluate(points, bound));
-    if (const PointRecord* worst = find_point(points, results.back().point)) results.back().reproduce = reproduce(*worst);
+    if (const PointRecord* worst = find_point(points, results.back().point))
+      results.back().reproduce = reproduce(*worst);
   }
   return results;
 }
@@ -160,16 +162,17 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
   std::string text = fmt::format("{}: {}", bound.held ? "held" : "broken", bound_text(bound));
   if (bound.points == 0)
     return text + "\n  no finished point matches it; change its where, or the values that are swept\n";
-  text += fmt::format("; found {} ({} of {} point{})\n", bound.found, bound.join, bound.points, bound.points == 1 ? "" : "s");
+  text += fmt::format("; found {} ({} of {} point{})\n", bound.found, bound.join, bound.points,
+                      bound.points == 1 ? "" : "s");
   if (bound.held) return text;
 
-  if (!std::isfinite(bound.found))
-    text += "  a value that could not be measured breaks every bound\n";
+  if (!std::isfinite(bound.found)) text += "  a value that could not be measured breaks every bound\n";
   if (point) {
     text += fmt::format("  {}\n", point_text(*point, swept));
     if (point->worst.x >= 0)
-      text += fmt::format("  worst pixel: x = {}, y = {} (row 0 on top), error {}{}{}\n", point->worst.x, point->worst.y,
-                          point->worst.error, point->worst.cause.empty() ? "" : ", ", point->worst.cause);
+      text +=
+          fmt::format("  worst pixel: x = {}, y = {} (row 0 on top), error {}{}{}\n", point->worst.x, point->worst.y,
+                      point->worst.error, point->worst.cause.empty() ? "" : ", ", point->worst.cause);
   }
   if (!bound.reproduce.empty()) text += fmt::format("  reproduce: {}\n", bound.reproduce);
   return text;

@@ -64,7 +64,9 @@ std::vector<Column> columns(const Results& results) {
                       return found == p.settings.end() ? std::string() : found->second;
                     }});
   for (const std::string& name : names(metrics, present_metrics))
-    (clocked.contains(name) ? at_the_end : list).push_back({name, [name](const PointRecord& p) { return look_up(p.metrics, name); }});
+    (clocked.contains(name) ? at_the_end : list).push_back({name, [name](const PointRecord& p) {
+                                                              return look_up(p.metrics, name);
+                                                            }});
   for (const CurveQuantity& row : curve_quantities())
     list.push_back({std::string(row.name), [&row](const PointRecord& p) {
                       const std::optional<double> value = p.curve ? row.value(*p.curve) : std::nullopt;
@@ -76,7 +78,8 @@ std::vector<Column> columns(const Results& results) {
   list.push_back({"worst_cause", [](const PointRecord& p) { return p.worst.cause; }});
   // A time that is a metric too has its column already.
   for (const std::string& name : present_times)
-    if (!clocked.contains(name)) at_the_end.push_back({name, [name](const PointRecord& p) { return look_up(p.times, name); }});
+    if (!clocked.contains(name))
+      at_the_end.push_back({name, [name](const PointRecord& p) { return look_up(p.times, name); }});
   list.insert(list.end(), at_the_end.begin(), at_the_end.end());
   return list;
 }

@@ -16,14 +16,19 @@ constexpr int busy_timeout_ms = 30000;
 std::string_view advice(int code) {
   switch (code & 0xff) {
     case SQLITE_NOTADB:
-    case SQLITE_CORRUPT: return "choose another --out, or pass --overwrite to replace it";
+    case SQLITE_CORRUPT:
+      return "choose another --out, or pass --overwrite to replace it";
     case SQLITE_BUSY:
-    case SQLITE_LOCKED: return "another program holds it; wait for it to end, or choose another --out";
-    case SQLITE_FULL: return "make room on the disk and run again; finished points are kept";
+    case SQLITE_LOCKED:
+      return "another program holds it; wait for it to end, or choose another --out";
+    case SQLITE_FULL:
+      return "make room on the disk and run again; finished points are kept";
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
-    case SQLITE_PERM: return "check that its folder exists and may be written to";
-    default: return "check the disk, or choose another --out";
+    case SQLITE_PERM:
+      return "check that its folder exists and may be written to";
+    default:
+      return "check the disk, or choose another --out";
   }
 }
 
@@ -70,7 +75,8 @@ void Transaction::commit() {
 }
 
 Statement::Statement(Database& db, const std::string& sql) : db_(db) {
-  check(sqlite3_prepare_v2(db.handle(), sql.c_str(), static_cast<int>(sql.size()), &handle_, nullptr), "cannot be read");
+  check(sqlite3_prepare_v2(db.handle(), sql.c_str(), static_cast<int>(sql.size()), &handle_, nullptr),
+        "cannot be read");
 }
 
 Statement::~Statement() { sqlite3_finalize(handle_); }
@@ -79,10 +85,15 @@ void Statement::check(int code, std::string_view doing) const {
   if (code != SQLITE_OK) db_.fail(code, doing);
 }
 
-void Statement::bind(int index, int64_t value) { check(sqlite3_bind_int64(handle_, index, value), "cannot be written"); }
-void Statement::bind(int index, double value) { check(sqlite3_bind_double(handle_, index, value), "cannot be written"); }
+void Statement::bind(int index, int64_t value) {
+  check(sqlite3_bind_int64(handle_, index, value), "cannot be written");
+}
+void Statement::bind(int index, double value) {
+  check(sqlite3_bind_double(handle_, index, value), "cannot be written");
+}
 void Statement::bind(int index, std::string_view value) {
-  check(sqlite3_bind_text64(handle_, index, value.data(), value.size(), SQLITE_TRANSIENT, SQLITE_UTF8), "cannot be written");
+  check(sqlite3_bind_text64(handle_, index, value.data(), value.size(), SQLITE_TRANSIENT, SQLITE_UTF8),
+        "cannot be written");
 }
 void Statement::bind(int index, const std::optional<double>& value) {
   if (value)

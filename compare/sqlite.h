@@ -4,8 +4,8 @@
 //   insert.run(id, name, value);
 //   for (sqlite::Statement rows(db, "SELECT name, value FROM metrics"); rows.step();) use(rows.text(0), rows.real(1));
 //
-// A NaN that is written becomes NULL (SQLite has no NaN) and NULL reads back as NaN; infinities and every other double
-// come back bit for bit.
+// A NaN that is written becomes NULL (SQLite has no NaN) and NULL reads back as NaN; a column of REAL forgets
+// the sign of a zero; infinities and every other double come back bit for bit.
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -52,7 +52,8 @@ void remove_store(const std::string& path) {
   for (const char* ending : {"", "-journal", "-wal", "-shm"}) {
     const std::string file = path + ending;
     if (::unlink(file.c_str()) != 0 && errno != ENOENT)
-      throw Error(ErrorKind::scene, fmt::format("{}: cannot be removed: {}; choose another --out", file, std::strerror(errno)));
+      throw Error(ErrorKind::scene,
+                  fmt::format("{}: cannot be removed: {}; choose another --out", file, std::strerror(errno)));
   }
 }
 
@@ -72,10 +73,13 @@ std::string first_difference(const std::string& here, const std::string& there) 
 // Throws unless the file is a whole store of this version.
 void check_store(Database& db, const std::string& path) {
   if (db.ask("PRAGMA application_id") != std::to_string(store_application_id))
-    throw Error(ErrorKind::scene, fmt::format("{}: is a database, but not one of Noonmark's results; {}", path, elsewhere));
-  if (const std::optional<std::string> version = db.ask("PRAGMA user_version"); version != std::to_string(store_version))
-    throw Error(ErrorKind::usage, fmt::format("{}: was written by another version of Noonmark (store version {}, not {}); {}",
-                                              path, version.value_or("?"), store_version, elsewhere));
+    throw Error(ErrorKind::scene,
+                fmt::format("{}: is a database, but not one of Noonmark's results; {}", path, elsewhere));
+  if (const std::optional<std::string> version = db.ask("PRAGMA user_version");
+      version != std::to_string(store_version))
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: was written by another version of Noonmark (store version {}, not {}); {}", path,
+                            version.value_or("?"), store_version, elsewhere));
   const std::optional<std::string> damage = db.ask("PRAGMA quick_check(1)");
   if (damage != "ok")
     throw Error(ErrorKind::scene, fmt::format("{}: is damaged: {}; {}", path, damage.value_or("?"), elsewhere));
@@ -107,7 +111,8 @@ void add_numbers(Database& db, const char* table, int64_t point, const std::map<
 void add_curve(Database& db, int64_t point, const BiasCurve& curve) {
   const size_t count = curve.bias_depth.size();
   for (auto values : series)
-    if ((curve.*values).size() != count) throw std::logic_error("a bias curve's series differ in length from its biases");
+    if ((curve.*values).size() != count)
+      throw std::logic_error("a bias curve's series differ in length from its biases");
   if (curve.window_min_depth.has_value() != curve.window_max_depth.has_value())
     throw std::logic_error("a usable bias window has two ends or none");
 
@@ -143,9 +148,10 @@ void load_info(Database& db, Results& results) {
 }
 
 void load_curves(Database& db, std::map<int64_t, PointRecord>& points) {
-  for (Statement rows(db, "SELECT point, parameter, made, m_per_depth, texels_per_depth, acne_bound, peter_panning_bound, "
-                          "has_window, window_min_depth, window_max_depth, best_bias_depth, best_error, flat_min_depth, "
-                          "flat_max_depth, breakpoints FROM curves");
+  for (Statement rows(db,
+                      "SELECT point, parameter, made, m_per_depth, texels_per_depth, acne_bound, peter_panning_bound, "
+                      "has_window, window_min_depth, window_max_depth, best_bias_depth, best_error, flat_min_depth, "
+                      "flat_max_depth, breakpoints FROM curves");
        rows.step();) {
     BiasCurve& curve = points.at(rows.integer(0)).curve.emplace();
     curve.parameter = rows.text(1);
@@ -164,8 +170,9 @@ void load_curves(Database& db, std::map<int64_t, PointRecord>& points) {
     curve.flat_max_depth = rows.real(13);
     curve.breakpoints = static_cast<uint64_t>(rows.integer(14));
   }
-  for (Statement rows(db, "SELECT point, bias_depth, error, wrong, acne, peter_panning, aliasing_dark, aliasing_light, "
-                          "coverage FROM curve_points ORDER BY point, i");
+  for (Statement rows(db,
+                      "SELECT point, bias_depth, error, wrong, acne, peter_panning, aliasing_dark, aliasing_light, "
+                      "coverage FROM curve_points ORDER BY point, i");
        rows.step();) {
     BiasCurve& curve = points.at(rows.integer(0)).curve.value();
     curve.bias_depth.push_back(rows.real(1));
@@ -195,8 +202,9 @@ std::map<int64_t, PointRecord> load_points(Database& db) {
 
 std::vector<BoundResult> load_bounds(Database& db) {
   std::vector<BoundResult> bounds;
-  for (Statement rows(db, "SELECT metric, max, min, where_json, join_by, held, found, point, points, reproduce FROM bounds "
-                          "ORDER BY i");
+  for (Statement rows(db,
+                      "SELECT metric, max, min, where_json, join_by, held, found, point, points, reproduce FROM bounds "
+                      "ORDER BY i");
        rows.step();) {
     BoundResult bound;
     bound.metric = rows.text(0);
@@ -224,7 +232,8 @@ ResultStore::ResultStore(const std::string& path, const std::string& fingerprint
     Transaction transaction(*db_);  // of two programs that start on an empty file, one makes the tables
     if (db_->ask("SELECT count(*) FROM sqlite_master") == "0") {
       db_->execute(store_schema());
-      db_->execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", store_application_id, store_version));
+      db_->execute(
+          fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", store_application_id, store_version));
       Statement(*db_, "INSERT INTO info VALUES ('fingerprint', ?)").run(fingerprint);
       transaction.commit();
       return;
@@ -258,8 +267,8 @@ std::vector<int64_t> ResultStore::finished() const {
 void ResultStore::add(const PointRecord& point) {
   Transaction transaction(*db_);
   if (db_->ask(fmt::format("SELECT 1 FROM finished WHERE point = {}", point.id)))
-    throw Error(ErrorKind::usage, fmt::format("point {} is in the result store already; let no two runs share one --out",
-                                              point.id));
+    throw Error(ErrorKind::usage,
+                fmt::format("point {} is in the result store already; let no two runs share one --out", point.id));
   Statement(*db_, "INSERT INTO finished VALUES (?, ?, ?, ?, ?)")
       .run(point.id, point.worst.x, point.worst.y, point.worst.error, point.worst.cause);
   Statement settings(*db_, "INSERT INTO settings VALUES (?, ?, ?, ?)");
@@ -303,8 +312,8 @@ void ResultStore::set_bounds(const std::vector<BoundResult>& bounds) {
   Statement insert(*db_, "INSERT INTO bounds VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (size_t i = 0; i < bounds.size(); ++i) {
     const BoundResult& b = bounds[i];
-    insert.run(static_cast<int64_t>(i), b.metric, b.max, b.min, json_text(b.where), b.join, b.held ? 1 : 0, b.found, b.point,
-               b.points, b.reproduce);
+    insert.run(static_cast<int64_t>(i), b.metric, b.max, b.min, json_text(b.where), b.join, b.held ? 1 : 0, b.found,
+               b.point, b.points, b.reproduce);
   }
   transaction.commit();
 }
@@ -321,7 +330,8 @@ Results ResultStore::load() const {
     throw;
   } catch (const std::exception& error) {  // rows that do not fit together, text that is no JSON
     db_->execute("ROLLBACK");
-    throw Error(ErrorKind::scene, fmt::format("{}: holds what Noonmark did not write ({}); {}", db_->path(), error.what(), elsewhere));
+    throw Error(ErrorKind::scene,
+                fmt::format("{}: holds what Noonmark did not write ({}); {}", db_->path(), error.what(), elsewhere));
   }
   db_->execute("COMMIT");
   return results;

@@ -11,9 +11,10 @@
 //
 // - A point is one transaction, flushed to the disk before add() returns: a kill at any time loses at most the point in
 //   flight. A rollback journal is used, not a write-ahead log, so that a finished store is one file.
-// - SQLite has no NaN. A metric that could not be measured (NaN) is a row whose value is NULL; one that was not recorded
+// - SQLite has no NaN. A metric that could not be measured (NaN) is a row whose value is NULL; one that was not
+// recorded
 //   has no row. In `points` both are NULL, and `not_measured` counts the former. Infinities are stored as such.
-// - Doubles come back bit for bit (but for the payload of a NaN).
+// - Doubles come back exactly, but for the payload of a NaN and the sign of a zero.
 #pragma once
 #include <cstdint>
 #include <memory>

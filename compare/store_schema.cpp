@@ -46,11 +46,12 @@ class View {
   void column(std::string_view name, std::string_view expression, std::string_view kind, std::string_view unit,
               std::string_view help) {
     columns_ += fmt::format("{}  {} AS \"{}\"", columns_.empty() ? "" : ",\n", expression, name);
-    legend_ += fmt::format("INSERT INTO columns VALUES ({}, {}, {}, {});\n", quoted(name), quoted(kind), quoted(unit), quoted(help));
+    legend_ += fmt::format("INSERT INTO columns VALUES ({}, {}, {}, {});\n", quoted(name), quoted(kind), quoted(unit),
+                           quoted(help));
   }
   std::string sql() const {
-    return fmt::format("CREATE VIEW points AS SELECT\n{}\nFROM finished f LEFT JOIN curves c ON c.point = f.point;\n{}", columns_,
-                       legend_);
+    return fmt::format("CREATE VIEW points AS SELECT\n{}\nFROM finished f LEFT JOIN curves c ON c.point = f.point;\n{}",
+                       columns_, legend_);
   }
 
  private:
@@ -81,9 +82,10 @@ std::string store_schema() {
     std::replace(name.begin(), name.end(), '.', '_');
     view.column(name, value_of("settings", row.name), "setting", row.unit, row.help);
   }
-  for (const Metric& row : metrics_table()) view.column(row.name, value_of("metrics", row.name), "metric", row.unit, row.help);
-  view.column("not_measured", "(SELECT count(*) FROM metrics WHERE point = f.point AND value IS NULL)", "metric", "count",
-              "Metrics that are not a number: they could not be measured.");
+  for (const Metric& row : metrics_table())
+    view.column(row.name, value_of("metrics", row.name), "metric", row.unit, row.help);
+  view.column("not_measured", "(SELECT count(*) FROM metrics WHERE point = f.point AND value IS NULL)", "metric",
+              "count", "Metrics that are not a number: they could not be measured.");
   for (const CurveQuantity& row : curve_quantities())
     view.column(row.name, curve_expression(row.name), "curve", row.unit, row.help);
   view.column("worst_x", "f.worst_x", "worst", "px", "The worst pixel's column.");

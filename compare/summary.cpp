@@ -39,11 +39,7 @@ void add_row(std::string& text, const std::vector<std::string>& cells) {
 }
 void add_heading(std::string& text, const std::vector<std::string>& names) {
   add_row(text, names);
-  text += "|" + std::string() + [&] {
-    std::string rule;
-    for (size_t i = 0; i < names.size(); ++i) rule += " --- |";
-    return rule;
-  }() + "\n";
+  add_row(text, std::vector<std::string>(names.size(), "---"));
 }
 
 // Four digits are enough for a page; the store has them all.
@@ -51,19 +47,22 @@ std::string short_number(std::optional<double> value) { return value ? fmt::form
 
 std::string verdict(const Results& results) {
   const auto finished = static_cast<int64_t>(results.points.size());
-  const auto broken = std::count_if(results.bounds.begin(), results.bounds.end(), [](const BoundResult& b) { return !b.held; });
+  const auto broken =
+      std::count_if(results.bounds.begin(), results.bounds.end(), [](const BoundResult& b) { return !b.held; });
   const size_t count = results.bounds.size();
   std::string text;
   if (finished < results.planned_points)
-    text = fmt::format("**Incomplete: {} of {} points are finished.** Run it again to go on.", finished, results.planned_points);
+    text = fmt::format("**Incomplete: {} of {} points are finished.** Run it again to go on.", finished,
+                       results.planned_points);
   else if (broken > 0)
     text = fmt::format("**Broken: {} of {} bound{}.**", broken, count, count == 1 ? "" : "s");
   else if (count > 0)
-    text = fmt::format("**Held: {} {} over {} point{}.**", count == 1 ? "the" : "all", count == 1 ? "bound" : fmt::format("{} bounds", count),
-                       finished, finished == 1 ? "" : "s");
+    text = fmt::format("**Held: {} {} over {} point{}.**", count == 1 ? "the" : "all",
+                       count == 1 ? "bound" : fmt::format("{} bounds", count), finished, finished == 1 ? "" : "s");
   else
     text = fmt::format("**Measured {} point{}.** The experiment sets no bounds.", finished, finished == 1 ? "" : "s");
-  if (finished < results.planned_points && broken > 0) text += fmt::format(" {} of {} bounds are broken so far.", broken, count);
+  if (finished < results.planned_points && broken > 0)
+    text += fmt::format(" {} of {} bounds are broken so far.", broken, count);
   return text + "\n";
 }
 
@@ -96,6 +95,17 @@ std::string bounds_table(const Results& results) {
   return text;
 }
 
+// What the points' curves vary, or "bias" where they vary different parameters.
+std::string curve_parameter(const Results& results) {
+  std::string parameter;
+  for (const PointRecord& point : results.points) {
+    if (!point.curve) continue;
+    if (!parameter.empty() && parameter != point.curve->parameter) return "bias";
+    parameter = point.curve->parameter;
+  }
+  return parameter.empty() ? "bias" : parameter;
+}
+
 std::string best_table(const Results& results) {
   std::vector<const PointRecord*> order;
   for (const PointRecord& point : results.points) order.push_back(&point);
@@ -109,12 +119,15 @@ std::string best_table(const Results& results) {
   });
   order.resize(std::min(order.size(), best_count));
 
-  std::string text = order.size() == 1 ? "\n## The point\n\n" : "\n## Best settings: the least error at the bias that was set\n\n";
+  std::string text =
+      order.size() == 1 ? "\n## The point\n\n" : "\n## Best settings: the least error at the bias that was set\n\n";
   std::vector<std::string> heading;
   for (const std::string& name : results.info.swept) heading.push_back(cell(name));
-  for (const char* name : {"error", "acne", "Peter Panning", "aliasing", "ms", "usable bias (depth)", "best bias (depth)", "(m)",
-                           "(texels)", "error there"})
-    heading.emplace_back(name);
+  for (const char* name : {"error", "acne", "Peter Panning", "aliasing", "ms"}) heading.emplace_back(name);
+  const std::string parameter = cell(curve_parameter(results));
+  heading.push_back(fmt::format("usable {} (depth)", parameter));
+  heading.push_back(fmt::format("best {} (depth)", parameter));
+  for (const char* name : {"(m)", "(texels)", "error there"}) heading.emplace_back(name);
   add_heading(text, heading);
   for (const PointRecord* point : order) {
     std::vector<std::string> cells;
@@ -122,20 +135,24 @@ std::string best_table(const Results& results) {
       const auto setting = point->settings.find(name);
       cells.push_back(cell(setting == point->settings.end() ? "–" : setting->second));
     }
-    for (const char* name : {"error", "acne", "peter_panning", "aliasing", "shadow_ms"}) cells.push_back(short_number(quantity(*point, name)));
+    for (const char* name : {"error", "acne", "peter_panning", "aliasing", "shadow_ms"})
+      cells.push_back(short_number(quantity(*point, name)));
     const std::optional<double> min = quantity(*point, "window_min_depth"), max = quantity(*point, "window_max_depth");
-    cells.push_back(min && max ? fmt::format("{} … {}", short_number(min), short_number(max)) : point->curve ? "none" : "–");
+    cells.push_back(min && max     ? fmt::format("{} … {}", short_number(min), short_number(max))
+                    : point->curve ? "none"
+                                   : "–");
     for (const char* name : {"best_bias_depth", "best_bias_m", "best_bias_texels", "best_error"})
       cells.push_back(short_number(quantity(*point, name)));
     add_row(text, cells);
   }
 
-  const auto with_curve = std::count_if(results.points.begin(), results.points.end(), [](const PointRecord& p) { return p.curve.has_value(); });
-  const auto without_window = std::count_if(results.points.begin(), results.points.end(), [](const PointRecord& p) {
-    return p.curve && !p.curve->window_min_depth;
-  });
+  const auto with_curve = std::count_if(results.points.begin(), results.points.end(),
+                                        [](const PointRecord& p) { return p.curve.has_value(); });
+  const auto without_window = std::count_if(results.points.begin(), results.points.end(),
+                                            [](const PointRecord& p) { return p.curve && !p.curve->window_min_depth; });
   if (without_window > 0)
-    text += fmt::format("\nAt {} of {} points no bias keeps both acne and Peter Panning within the curve's bounds.\n", without_window, with_curve);
+    text += fmt::format("\nAt {} of {} points no bias keeps both acne and Peter Panning within the curve's bounds.\n",
+                        without_window, with_curve);
   return text;
 }
 

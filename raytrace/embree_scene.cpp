@@ -165,7 +165,8 @@ double EmbreeScene::occluder_distance(const ShadowRay& start) const {
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::numeric_limits<double>::infinity();
     const uint32_t primitive = kept_.empty() ? ray.hit.primID : kept_[ray.hit.primID];
     if (is_occluder(start, primitive, ray.ray.tfar)) return ray.ray.tfar;
-    tnear = std::nextafter(ray.ray.tfar, std::numeric_limits<float>::infinity());
+    // On by the rounding of the scene's size: at t = 0 the next float above is no step at all.
+    tnear = std::max(std::nextafter(ray.ray.tfar, std::numeric_limits<float>::infinity()), ray.ray.tfar + near_distance_ * 0x1p-12f);
   }
 }
 

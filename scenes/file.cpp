@@ -27,7 +27,8 @@ class Temporary {
       path_ = fmt::format("{}.{}-{}.tmp", beside, ::getpid(), attempt);
       descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (descriptor_ >= 0) return;
-      if (errno != EEXIST) fail(beside, "cannot be written", errno, "check that its folder exists and may be written to");
+      if (errno != EEXIST)
+        fail(beside, "cannot be written", errno, "check that its folder exists and may be written to");
     }
   }
   ~Temporary() {
@@ -79,7 +80,8 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
   }
   if (::fsync(temporary.descriptor()) != 0) fail(path, "cannot be written", errno, next);
   if (const int error = temporary.close()) fail(path, "cannot be written", error, next);
-  if (const int error = temporary.rename_to(path)) fail(path, "cannot be replaced", error, "choose another place for it");
+  if (const int error = temporary.rename_to(path))
+    fail(path, "cannot be replaced", error, "choose another place for it");
   flush_folder_of(path);
 }
 
