@@ -94,13 +94,30 @@ void probe(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(b.renderer.probe(frame, b.settings).reference.pixels.data());
 }
 
-BENCHMARK(primitives)->Arg(22)->Arg(224)->Arg(708)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(load_receivers)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(render_map)->ArgsProduct({{1024, 4096}, {22, 224, 708}})->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(read_map)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(upload_map)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(lookup)->Arg(1)->Arg(3)->Arg(7)->Arg(31)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(probe)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(primitives)
+    ->Arg(22)
+    ->Arg(224)
+    ->Arg(708)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(load_receivers)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(render_map)
+    ->ArgsProduct({{1024, 4096}, {22, 224, 708}})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(read_map)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(upload_map)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(lookup)
+    ->Arg(1)
+    ->Arg(3)
+    ->Arg(7)
+    ->Arg(31)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(probe)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 }  // namespace
 }  // namespace noonmark::gl
