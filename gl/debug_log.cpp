@@ -16,13 +16,20 @@ void GLAPIENTRY callback(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, 
 
 const char* name_of(GLenum error) {
   switch (error) {
-    case GL_INVALID_ENUM: return "GL_INVALID_ENUM";
-    case GL_INVALID_VALUE: return "GL_INVALID_VALUE";
-    case GL_INVALID_OPERATION: return "GL_INVALID_OPERATION";
-    case GL_INVALID_FRAMEBUFFER_OPERATION: return "GL_INVALID_FRAMEBUFFER_OPERATION";
-    case GL_OUT_OF_MEMORY: return "GL_OUT_OF_MEMORY";
-    case GL_CONTEXT_LOST: return "GL_CONTEXT_LOST";
-    default: return "an unknown error";
+    case GL_INVALID_ENUM:
+      return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE:
+      return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION:
+      return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+      return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY:
+      return "GL_OUT_OF_MEMORY";
+    case GL_CONTEXT_LOST:
+      return "GL_CONTEXT_LOST";
+    default:
+      return "an unknown error";
   }
 }
 
@@ -51,12 +58,12 @@ void DebugLog::check(const char* where) {
   const GLenum error = glGetError();
   const std::string message = first_error_;
   forget();
-  if (!message.empty()) throw Error(ErrorKind::defect, fmt::format("OpenGL reports an error in {}: {}", where, message));
+  if (!message.empty())
+    throw Error(ErrorKind::defect, fmt::format("OpenGL reports an error in {}: {}", where, message));
   if (error != GL_NO_ERROR)
-    throw Error(ErrorKind::device,
-                fmt::format("OpenGL reports {} in {}; {}", name_of(error), where,
-                            error == GL_OUT_OF_MEMORY ? "lower map.resolution or the picture's size"
-                                                      : "noonmark doctor shows the driver"));
+    throw Error(ErrorKind::device, fmt::format("OpenGL reports {} in {}; {}", name_of(error), where,
+                                               error == GL_OUT_OF_MEMORY ? "lower map.resolution or the picture's size"
+                                                                         : "noonmark doctor shows the driver"));
 }
 
 void DebugLog::forget() {

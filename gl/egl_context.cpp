@@ -38,8 +38,8 @@ bool software_wanted() {
 std::vector<Candidate> candidates() {
   const char* client_extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::vector<Candidate> found;
-  if (has_word(client_extensions, "EGL_EXT_device_enumeration") && has_word(client_extensions, "EGL_EXT_platform_device") &&
-      !software_wanted()) {
+  if (has_word(client_extensions, "EGL_EXT_device_enumeration") &&
+      has_word(client_extensions, "EGL_EXT_platform_device") && !software_wanted()) {
     EGLDeviceEXT devices[32];
     EGLint count = 0;
     if (eglQueryDevicesEXT(32, devices, &count))
@@ -67,15 +67,18 @@ EGLContext make_context(const Candidate& candidate, bool debug, EGLDisplay& disp
       reason = fmt::format("it lacks {}", needed);
       return EGL_NO_CONTEXT;
     }
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION_KHR, 4,
-                               EGL_CONTEXT_MINOR_VERSION_KHR, 5,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
-                               EGL_CONTEXT_FLAGS_KHR, debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0,
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
+                               4,
+                               EGL_CONTEXT_MINOR_VERSION_KHR,
+                               5,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
+                               EGL_CONTEXT_FLAGS_KHR,
+                               debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0,
                                EGL_NONE};
   eglBindAPI(EGL_OPENGL_API);
   EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-  if (context == EGL_NO_CONTEXT)
-    reason = fmt::format("it has no OpenGL 4.5 core (EGL error 0x{:x})", eglGetError());
+  if (context == EGL_NO_CONTEXT) reason = fmt::format("it has no OpenGL 4.5 core (EGL error 0x{:x})", eglGetError());
   return context;
 }
 
@@ -105,9 +108,10 @@ EglContext::EglContext(DebugMode debug) {
     }
     refusals += fmt::format(" {}: {}.", candidate.name, reason);
   }
-  throw Error(ErrorKind::device, fmt::format("no OpenGL 4.5 without a display.{} {}",
-                                             refusals.empty() ? " EGL offers no device and no surfaceless platform." : refusals,
-                                             what_to_install));
+  throw Error(
+      ErrorKind::device,
+      fmt::format("no OpenGL 4.5 without a display.{} {}",
+                  refusals.empty() ? " EGL offers no device and no surfaceless platform." : refusals, what_to_install));
 }
 
 EglContext::~EglContext() {
@@ -120,9 +124,11 @@ void EglContext::make_current() const {
   if (eglGetCurrentContext() == context_) return;
   eglBindAPI(EGL_OPENGL_API);
   if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
-    throw Error(ErrorKind::defect,
-                fmt::format("the OpenGL context cannot be made current here (EGL error 0x{:x}); a Renderer belongs to the "
-                            "thread that made it", eglGetError()));
+    throw Error(
+        ErrorKind::defect,
+        fmt::format("the OpenGL context cannot be made current here (EGL error 0x{:x}); a Renderer belongs to the "
+                    "thread that made it",
+                    eglGetError()));
 }
 
 }  // namespace noonmark::gl

@@ -21,8 +21,8 @@ Shader compile(GLenum stage, const ShaderText& source) {
   glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<size_t>(length) + 1, '\0');
   glGetShaderInfoLog(shader.id(), length + 1, nullptr, log.data());
-  throw Error(ErrorKind::device, fmt::format("the OpenGL driver cannot compile a shader: {}",
-                                             name_lines(log.c_str(), source.files)));
+  throw Error(ErrorKind::device,
+              fmt::format("the OpenGL driver cannot compile a shader: {}", name_lines(log.c_str(), source.files)));
 }
 
 }  // namespace
@@ -43,7 +43,8 @@ Program::Program(const std::string& vertex, const std::string& fragment, const S
   glGetProgramiv(id(), GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<size_t>(length) + 1, '\0');
   glGetProgramInfoLog(id(), length + 1, nullptr, log.data());
-  throw Error(ErrorKind::device, fmt::format("the OpenGL driver cannot link {} with {}: {}", vertex, fragment, log.c_str()));
+  throw Error(ErrorKind::device,
+              fmt::format("the OpenGL driver cannot link {} with {}: {}", vertex, fragment, log.c_str()));
 }
 
 int Program::location(const char* uniform) const {

@@ -1,8 +1,7 @@
 // OpenGL programs made of the embedded GLSL files (gl/shaders), each built once per context.
 //
-//   Program& lookup = programs.get("shaders/screen.vert", "shaders/lookup.frag", {{"bias", "shaders/bias/slope.glsl"}});
-//   lookup.set("resolution", 1024);
-//   glUseProgram(lookup.id());
+//   Program& lookup = programs.get("shaders/screen.vert", "shaders/lookup.frag", {{"bias",
+//   "shaders/bias/slope.glsl"}}); lookup.set("resolution", 1024); glUseProgram(lookup.id());
 #pragma once
 #include <glm/glm.hpp>
 #include <map>

@@ -43,9 +43,8 @@ DeviceInfo describe(const EglContext& context) {
   info.timer_queries = !info.software && bits > 0;
   std::array<GLint, 2> viewport{};
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
-  info.max_map_resolution =
-      std::min({gl_integer(GL_MAX_TEXTURE_SIZE), gl_integer(GL_MAX_FRAMEBUFFER_WIDTH), gl_integer(GL_MAX_FRAMEBUFFER_HEIGHT),
-                viewport[0], viewport[1]});
+  info.max_map_resolution = std::min({gl_integer(GL_MAX_TEXTURE_SIZE), gl_integer(GL_MAX_FRAMEBUFFER_WIDTH),
+                                      gl_integer(GL_MAX_FRAMEBUFFER_HEIGHT), viewport[0], viewport[1]});
   return info;
 }
 
@@ -69,8 +68,10 @@ Renderer::Impl::~Impl() { context->make_current(); }
 void Renderer::Impl::check_memory(const char* what, int width, int height) {
   if (glGetError() != GL_OUT_OF_MEMORY) return;
   context->forget_errors();
-  throw Error(ErrorKind::device, fmt::format("the OpenGL device has no memory for {} of {} x {}; lower map.resolution or "
-                                             "the picture's size", what, width, height));
+  throw Error(ErrorKind::device,
+              fmt::format("the OpenGL device has no memory for {} of {} x {}; lower map.resolution or "
+                          "the picture's size",
+                          what, width, height));
 }
 
 void Renderer::Impl::require(Target& target, GLenum format, int width, int height) {
@@ -96,9 +97,10 @@ void Renderer::Impl::draw_into(std::initializer_list<GLuint> colours, GLuint dep
     glNamedFramebufferDrawBuffer(framebuffer.id(), GL_NONE);
   const GLenum status = glCheckNamedFramebufferStatus(framebuffer.id(), GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
-    throw Error(ErrorKind::device, fmt::format("the OpenGL driver cannot draw into a framebuffer of {} colour and {} depth "
-                                               "images (status 0x{:x}); noonmark doctor shows the driver",
-                                               count, depth ? 1 : 0, status));
+    throw Error(ErrorKind::device,
+                fmt::format("the OpenGL driver cannot draw into a framebuffer of {} colour and {} depth "
+                            "images (status 0x{:x}); noonmark doctor shows the driver",
+                            count, depth ? 1 : 0, status));
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
   glViewport(0, 0, width, height);
 }
@@ -143,8 +145,9 @@ void Renderer::load_scene(const Scene& scene) {
   Impl& r = *impl_;
   r.context->make_current();
   if (scene.triangles.size() > static_cast<size_t>(std::numeric_limits<GLsizei>::max()) / 3)
-    throw Error(ErrorKind::scene, fmt::format("the scene '{}' has {} triangles; OpenGL draws at most {} at once", scene.name,
-                                              scene.triangles.size(), std::numeric_limits<GLsizei>::max() / 3));
+    throw Error(ErrorKind::scene,
+                fmt::format("the scene '{}' has {} triangles; OpenGL draws at most {} at once", scene.name,
+                            scene.triangles.size(), std::numeric_limits<GLsizei>::max() / 3));
   r.index_count = 0;
   r.positions = {};
   r.triangles = {};

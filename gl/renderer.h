@@ -80,7 +80,8 @@ class Renderer {
   Image<float> read_map(const ShadowMap& map);
 
   // The technique: for every receiver its visibility in [0,1]. Background pixels: 0.
-  Image<float> lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings, double* time_ms = nullptr);
+  Image<float> lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings,
+                      double* time_ms = nullptr);
 
   // What lookup computes before it compares. Independent of map contents and of bias.
   LookupProbe probe(const LightFrame& frame, const Settings& settings);

@@ -21,8 +21,8 @@ void Renderer::load_receivers(const ReceiverImage& receivers, glm::dvec3 directi
   const int width = receivers.width(), height = receivers.height();
   const size_t count = receivers.primitive.size();
   if (receivers.position.size() != count || receivers.normal.size() != count || count == 0)
-    throw Error(ErrorKind::defect, fmt::format("load_receivers: images of {}, {} and {} pixels", receivers.position.size(),
-                                               receivers.normal.size(), count));
+    throw Error(ErrorKind::defect, fmt::format("load_receivers: images of {}, {} and {} pixels",
+                                               receivers.position.size(), receivers.normal.size(), count));
   r.require(r.position_image, GL_RGBA32F, width, height);
   r.require(r.normal_image, GL_RGBA32F, width, height);
   std::vector<glm::vec4> texels(count);
@@ -47,13 +47,14 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
   glBindTextureUnit(1, normal_image.texture.id());
 }
 
-Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings, double* time_ms) {
+Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings,
+                              double* time_ms) {
   Impl& r = *impl_;
   r.context->make_current();
   const int side = map.resolution();
   if (frame.resolution != side)
-    throw Error(ErrorKind::defect, fmt::format("lookup: the light's frame is for {} texels, the map has {}", frame.resolution,
-                                               side));
+    throw Error(ErrorKind::defect,
+                fmt::format("lookup: the light's frame is for {} texels, the map has {}", frame.resolution, side));
   const DepthBias bias = depth_bias(frame, settings.bias);
   const int kernel = kernel_size(settings.filter);
   const ShaderSlots slots = {{"bias", bias_file(bias.form)}, {"filter", filter_file(settings.filter.kind)}};

@@ -11,18 +11,24 @@ namespace {
 
 GLenum gl_format(DepthFormat format) {
   switch (format) {
-    case DepthFormat::d16: return GL_DEPTH_COMPONENT16;
-    case DepthFormat::d24: return GL_DEPTH_COMPONENT24;
-    case DepthFormat::d32f: return GL_DEPTH_COMPONENT32F;
+    case DepthFormat::d16:
+      return GL_DEPTH_COMPONENT16;
+    case DepthFormat::d24:
+      return GL_DEPTH_COMPONENT24;
+    case DepthFormat::d32f:
+      return GL_DEPTH_COMPONENT32F;
   }
   throw std::logic_error("a depth format without an OpenGL format");
 }
 
 GLint gl_wrap(Wrap wrap) {
   switch (wrap) {
-    case Wrap::repeat: return GL_REPEAT;
-    case Wrap::clamp_to_edge: return GL_CLAMP_TO_EDGE;
-    case Wrap::clamp_to_border: return GL_CLAMP_TO_BORDER;
+    case Wrap::repeat:
+      return GL_REPEAT;
+    case Wrap::clamp_to_edge:
+      return GL_CLAMP_TO_EDGE;
+    case Wrap::clamp_to_border:
+      return GL_CLAMP_TO_BORDER;
   }
   throw std::logic_error("a wrap mode without an OpenGL mode");
 }
@@ -41,9 +47,10 @@ void set_culling(CulledFaces cull) {
 
 void Renderer::Impl::check_resolution(int resolution) const {
   if (resolution < 1 || resolution > info.max_map_resolution)
-    throw Error(ErrorKind::usage, fmt::format("a shadow map of {0} x {0} texels cannot be made; map.resolution goes from 1 to "
-                                              "{1} on this OpenGL device ({2})", resolution, info.max_map_resolution,
-                                              info.renderer));
+    throw Error(ErrorKind::usage,
+                fmt::format("a shadow map of {0} x {0} texels cannot be made; map.resolution goes from 1 to "
+                            "{1} on this OpenGL device ({2})",
+                            resolution, info.max_map_resolution, info.renderer));
 }
 
 Texture Renderer::Impl::make_map_texture(GLenum format, int resolution, Wrap wrap) {
@@ -90,15 +97,17 @@ ShadowMap Renderer::upload_map(const Image<float>& depth, const MapSettings& set
   Impl& r = *impl_;
   r.context->make_current();
   if (depth.width != depth.height || depth.width != settings.resolution)
-    throw Error(ErrorKind::defect, fmt::format("upload_map: the image is {} x {}, the settings ask for {} texels", depth.width,
-                                               depth.height, settings.resolution));
+    throw Error(ErrorKind::defect, fmt::format("upload_map: the image is {} x {}, the settings ask for {} texels",
+                                               depth.width, depth.height, settings.resolution));
   // OpenGL may clamp what lies outside, so it would not come back as it went.
-  const auto outside = std::find_if(depth.pixels.begin(), depth.pixels.end(), [](float d) { return !(d >= 0 && d <= 1); });
+  const auto outside =
+      std::find_if(depth.pixels.begin(), depth.pixels.end(), [](float d) { return !(d >= 0 && d <= 1); });
   if (outside != depth.pixels.end())
     throw Error(ErrorKind::defect, fmt::format("upload_map: depth {} at texel index {} is outside [0,1]", *outside,
                                                outside - depth.pixels.begin()));
   Texture texture = r.make_map_texture(GL_DEPTH_COMPONENT32F, depth.width, settings.wrap);
-  glTextureSubImage2D(texture.id(), 0, 0, 0, depth.width, depth.height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.pixels.data());
+  glTextureSubImage2D(texture.id(), 0, 0, 0, depth.width, depth.height, GL_DEPTH_COMPONENT, GL_FLOAT,
+                      depth.pixels.data());
   r.context->check("upload_map");
   return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), depth.width));
 }

@@ -14,8 +14,10 @@ Image<uint32_t> Renderer::render_primitives(const Camera& camera, int width, int
   r.context->make_current();
   const int limit = r.info.max_map_resolution;
   if (width < 1 || height < 1 || width > limit || height > limit)
-    throw Error(ErrorKind::usage, fmt::format("a picture of {} x {} pixels cannot be drawn; this OpenGL device goes up to {}; "
-                                              "set view.width_px and view.height_px", width, height, limit));
+    throw Error(ErrorKind::usage,
+                fmt::format("a picture of {} x {} pixels cannot be drawn; this OpenGL device goes up to {}; "
+                            "set view.width_px and view.height_px",
+                            width, height, limit));
   Program& program = r.programs.get("shaders/scene.vert", "shaders/primitive.frag");
   program.set("clip_from_world", glm::mat4(make_camera_frame(camera, width, height).clip_from_world()));
   r.require(r.primitive_colour, GL_R32UI, width, height);
@@ -38,7 +40,8 @@ Image<uint32_t> Renderer::render_primitives(const Camera& camera, int width, int
   // OpenGL's row 0 is the bottom one, a picture's the top one.
   for (int y = 0; y < height / 2; ++y) {
     const auto row = image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(0, y));
-    std::swap_ranges(row, row + width, image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(0, height - 1 - y)));
+    std::swap_ranges(row, row + width,
+                     image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(0, height - 1 - y)));
   }
   return image;
 }

@@ -20,7 +20,8 @@ class Expansion {
     const std::string_view text = files_(name);
     if (text.empty())
       throw Error(ErrorKind::device, fmt::format("{}: there is no shader file '{}' in the program; add it to "
-                                                 "gl/CMakeLists.txt", included_from, name));
+                                                 "gl/CMakeLists.txt",
+                                                 included_from, name));
     const size_t number = result.files.size();
     result.files.push_back(name);
 
@@ -48,7 +49,8 @@ class Expansion {
     std::smatch match;
     if (std::regex_match(line, match, quoted)) return match[1];
     if (!std::regex_match(line, match, angled))
-      throw Error(ErrorKind::device, fmt::format("{}: cannot read '{}'; write #include \"file\" or #include <slot>", where, line));
+      throw Error(ErrorKind::device,
+                  fmt::format("{}: cannot read '{}'; write #include \"file\" or #include <slot>", where, line));
     const auto slot = slots_.find(match[1]);
     if (slot == slots_.end())
       throw Error(ErrorKind::device, fmt::format("{}: no file is chosen for the slot <{}>", where, match[1].str()));
@@ -78,8 +80,7 @@ std::string name_lines(const std::string& log, const std::vector<std::string>& f
     for (const std::regex& form : forms) {
       if (!std::regex_search(line, match, form)) continue;
       const unsigned long number = std::stoul(match[1]);
-      if (number < files.size())
-        line = fmt::format("{}:{}: {}", files[number], match[2].str(), match.suffix().str());
+      if (number < files.size()) line = fmt::format("{}:{}: {}", files[number], match[2].str(), match.suffix().str());
       break;
     }
     if (!line.empty()) out += (out.empty() ? "" : "\n") + line;

@@ -2,9 +2,11 @@
 #include <epoxy/gl.h>
 
 #include <cstdlib>
+#include <thread>
 
-#include "gl_fixture.h"
 #include "gl/egl_context.h"
+#include "gl_fixture.h"
+#include "scenes/receivers.h"
 
 namespace noonmark::gl {
 namespace {
@@ -50,6 +52,49 @@ TEST(GlLife, AMapMayOutliveItsRenderer) {
   EXPECT_EQ(other.read_map(kept).at(0, 0), 0.25f);
 }
 
+TEST(GlLife, AnotherThreadIsRefused) {
+  Renderer renderer(DebugMode::fatal);
+  int kind = 0;
+  std::thread([&] { kind = kind_thrown([&] { renderer.load_scene(Scene{}); }); }).join();
+  EXPECT_EQ(kind, static_cast<int>(ErrorKind::defect));
+}
+
+// The live objects of the current context. Drivers number them from 1 and densely.
+int live_objects() {
+  int live = 0;
+  for (GLuint id = 1; id < 4096; ++id)
+    live += glIsTexture(id) + glIsBuffer(id) + glIsFramebuffer(id) + glIsVertexArray(id) + glIsProgram(id) +
+            glIsShader(id) + glIsQuery(id);
+  return live;
+}
+
+TEST(GlLife, CallsLeaveNothingBehind) {
+  Renderer renderer(DebugMode::fatal);
+  Scene scene;
+  scene.light = light_from_above();
+  scene.camera = camera_from_above(4);
+  add_floor(scene, 0, 4);
+  Settings settings;
+  settings.map.resolution = 16;
+  settings.filter.kind = FilterKind::box;
+  const LightFrame frame = make_light_frame(scene, settings);
+  const auto everything = [&](int width) {
+    renderer.load_scene(scene);
+    const auto primitives = renderer.render_primitives(scene.camera, width, 8);
+    renderer.load_receivers(resolve_receivers(scene, scene.camera, primitives), frame.direction_to_light());
+    double ms = 0;
+    const ShadowMap map = renderer.render_map(frame, settings.map, &ms);
+    const ShadowMap copy = renderer.upload_map(renderer.read_map(map), settings.map);
+    renderer.lookup(copy, frame, settings, &ms);
+    renderer.probe(frame, settings);
+  };
+  everything(8);
+  const int before = live_objects();
+  EXPECT_GT(before, 10) << "textures, buffers, programs";
+  for (int k = 0; k < 50; ++k) everything(8 + k % 3);
+  EXPECT_EQ(live_objects(), before);
+}
+
 // The debug callback only stores; the next check throws what it was told.
 TEST(GlErrors, AreFatalInTests) {
   EglContext context(DebugMode::fatal);
@@ -80,7 +125,8 @@ void make_renderer_and_report() {
 TEST(GlErrorsDeathTest, NoDriverSaysWhatToInstall) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json", 1);
-  EXPECT_EXIT(make_renderer_and_report(), testing::ExitedWithCode(static_cast<int>(ErrorKind::device)), "apt install .*libegl-mesa0");
+  EXPECT_EXIT(make_renderer_and_report(), testing::ExitedWithCode(static_cast<int>(ErrorKind::device)),
+              "apt install .*libegl-mesa0");
   unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
 }
 

@@ -13,9 +13,8 @@ struct Format {
   double quantum;  // window depth to which the format rounds
 };
 // A 32-bit float is not rounded again when it is stored.
-constexpr Format formats[] = {{DepthFormat::d16, "d16", 1.0 / 65535},
-                              {DepthFormat::d24, "d24", 1.0 / 16777215},
-                              {DepthFormat::d32f, "d32f", 0}};
+constexpr Format formats[] = {
+    {DepthFormat::d16, "d16", 1.0 / 65535}, {DepthFormat::d24, "d24", 1.0 / 16777215}, {DepthFormat::d32f, "d32f", 0}};
 
 // The rasteriser's own error: the matrix, the vertices, the plane's equation and its evaluation are floats, each off by
 // half a place of a depth near 1 (2^-24). llvmpipe 22.3 was seen at up to 1.74 places; 2 is what the tool's precision
@@ -211,7 +210,8 @@ TEST_F(GlTest, DepthsThatOpenGlWouldClampAreRefused) {
   for (const float bad : {-0.1f, 1.0001f, NAN, INFINITY}) {
     Image<float> depth(2, 2, 0.5f);
     depth[3] = bad;
-    EXPECT_EQ(kind_thrown([&] { renderer.upload_map(depth, settings.map); }), static_cast<int>(ErrorKind::defect)) << bad;
+    EXPECT_EQ(kind_thrown([&] { renderer.upload_map(depth, settings.map); }), static_cast<int>(ErrorKind::defect))
+        << bad;
   }
 }
 
@@ -222,7 +222,8 @@ TEST_F(GlTest, TooLargeAMapIsAUsageErrorThatNamesTheLimit) {
   LightFrame frame;
   frame.resolution = limit + 1;
   std::string message;
-  EXPECT_EQ(kind_thrown([&] { renderer.render_map(frame, settings.map); }, &message), static_cast<int>(ErrorKind::usage));
+  EXPECT_EQ(kind_thrown([&] { renderer.render_map(frame, settings.map); }, &message),
+            static_cast<int>(ErrorKind::usage));
   EXPECT_NE(message.find(std::to_string(limit)), std::string::npos) << message;
   EXPECT_NE(message.find("map.resolution"), std::string::npos) << message;
 }

@@ -24,7 +24,8 @@ TEST_F(GlTest, PrimitivesAtKnownPixelsTopRowFirst) {
   const Image<uint32_t> image = renderer.render_primitives(camera_from_above(4), 60, 40);
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 60; ++x) {
-      const bool left = x >= 15 && x < 25, right = x >= 35 && x < 45, top = y >= 5 && y < 15, bottom = y >= 25 && y < 35;
+      const bool left = x >= 15 && x < 25, right = x >= 35 && x < 45, top = y >= 5 && y < 15,
+                 bottom = y >= 25 && y < 35;
       uint32_t quad = no_primitive;
       if (top && left) quad = 0;
       if (top && right) quad = 1;
@@ -37,9 +38,9 @@ TEST_F(GlTest, PrimitivesAtKnownPixelsTopRowFirst) {
 
 TEST_F(GlTest, BothSidesAreSeenAndTheNearestWins) {
   Scene scene;
-  add_floor(scene, 0, 2);                                                     // triangles 0 and 1, towards the camera
-  add_quad(scene, "lid", {-2, 1, -2}, {2, 0, 0}, {0, 0, 4});                  // 2 and 3: x < 0, away from the camera
-  add_quad(scene, "below", {-2, -1, 2}, {4, 0, 0}, {0, 0, -4});               // 4 and 5: hidden
+  add_floor(scene, 0, 2);                                        // triangles 0 and 1, towards the camera
+  add_quad(scene, "lid", {-2, 1, -2}, {2, 0, 0}, {0, 0, 4});     // 2 and 3: x < 0, away from the camera
+  add_quad(scene, "below", {-2, -1, 2}, {4, 0, 0}, {0, 0, -4});  // 4 and 5: hidden
   renderer.load_scene(scene);
   const Image<uint32_t> image = renderer.render_primitives(camera_from_above(3), 30, 30);
   for (int y = 0; y < 30; ++y)

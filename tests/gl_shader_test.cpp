@@ -19,7 +19,9 @@ ShaderFiles files_of(const std::map<std::string, std::string, std::less<>>& file
 
 const std::map<std::string, std::string, std::less<>> planted = {
     {"ok.vert", "#version 450 core\nvoid main() { gl_Position = vec4(0); }\n"},
-    {"main.frag", "#version 450 core\n#include \"part.glsl\"\n#include <slot>\nout float c;\nvoid main() {\n  c = part() + slot();\n}\n"},
+    {"main.frag",
+     "#version 450 core\n#include \"part.glsl\"\n#include <slot>\nout float c;\nvoid main() {\n  c = part() + "
+     "slot();\n}\n"},
     {"part.glsl", "float part() { return 1.0; }\n"},
     {"good.glsl", "#include \"part.glsl\"\nfloat slot() { return part(); }\n"},
     {"bad.glsl", "// a comment\nfloat slot() {\n  return no_such_name;\n}\n"},
@@ -42,7 +44,8 @@ TEST(ShaderText, IncludesEachFileOnceWithItsNumber) {
 TEST(ShaderText, WhatIsMissingIsNamedWithItsPlace) {
   const auto message = [](const char* file, const ShaderSlots& slots) {
     std::string text;
-    EXPECT_EQ(kind_thrown([&] { expand_includes(file, slots, files_of(planted)); }, &text), static_cast<int>(ErrorKind::device));
+    EXPECT_EQ(kind_thrown([&] { expand_includes(file, slots, files_of(planted)); }, &text),
+              static_cast<int>(ErrorKind::device));
     return text;
   };
   EXPECT_NE(message("lost.frag", {}).find("lost.frag:3: there is no shader file 'missing.glsl'"), std::string::npos);
@@ -63,7 +66,8 @@ TEST(ShaderErrors, NameFileAndLine) {
   EglContext context(DebugMode::fatal);
   const auto message = [](const char* fragment, const ShaderSlots& slots) {
     std::string text;
-    EXPECT_EQ(kind_thrown([&] { Program("ok.vert", fragment, slots, files_of(planted)); }, &text), static_cast<int>(ErrorKind::device));
+    EXPECT_EQ(kind_thrown([&] { Program("ok.vert", fragment, slots, files_of(planted)); }, &text),
+              static_cast<int>(ErrorKind::device));
     return text;
   };
   EXPECT_NE(message("main.frag", {{"slot", "bad.glsl"}}).find("bad.glsl:3: "), std::string::npos)
@@ -80,7 +84,8 @@ TEST(LookupParts, EveryBiasAndFilterBuilds) {
   // One enumerator for each choice in the table of settings.
   for (size_t b = 0; b < find_setting("bias.form").choices.size(); ++b)
     for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f) {
-      const ShaderSlots slots = {{"bias", bias_file(static_cast<BiasForm>(b))}, {"filter", filter_file(static_cast<FilterKind>(f))}};
+      const ShaderSlots slots = {{"bias", bias_file(static_cast<BiasForm>(b))},
+                                 {"filter", filter_file(static_cast<FilterKind>(f))}};
       const Program& first = programs.get("shaders/screen.vert", "shaders/lookup.frag", slots);
       EXPECT_EQ(&first, &programs.get("shaders/screen.vert", "shaders/lookup.frag", slots)) << "built once";
     }
