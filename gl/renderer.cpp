@@ -1,1 +1,171 @@
 #include "gl/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <limits>
+
+#include "gl/renderer_impl.h"
+#include "scenes/error.h"
+
+namespace noonmark::gl {
+namespace {
+
+std::string gl_string(GLenum name) {
+  const auto* text = reinterpret_cast<const char*>(glGetString(name));
+  return text ? text : "unknown";
+}
+
+GLint gl_integer(GLenum name) {
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return value;
+}
+
+bool names_software(std::string renderer) {
+  std::transform(renderer.begin(), renderer.end(), renderer.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const char* name : {"llvmpipe", "softpipe", "swrast", "swr ", "swiftshader", "software"})
+    if (renderer.find(name) != renderer.npos) return true;
+  return false;
+}
+
+DeviceInfo describe(const EglContext& context) {
+  DeviceInfo info;
+  info.vendor = gl_string(GL_VENDOR);
+  info.renderer = gl_string(GL_RENDERER);
+  info.version = gl_string(GL_VERSION);
+  info.egl_platform = context.platform();
+  info.software = names_software(info.renderer);
+  GLint bits = 0;
+  glGetQueryiv(GL_TIME_ELAPSED, GL_QUERY_COUNTER_BITS, &bits);
+  info.timer_queries = !info.software && bits > 0;
+  std::array<GLint, 2> viewport{};
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  info.max_map_resolution =
+      std::min({gl_integer(GL_MAX_TEXTURE_SIZE), gl_integer(GL_MAX_FRAMEBUFFER_WIDTH), gl_integer(GL_MAX_FRAMEBUFFER_HEIGHT),
+                viewport[0], viewport[1]});
+  return info;
+}
+
+}  // namespace
+
+Renderer::Impl::Impl(DebugMode debug) : context(std::make_shared<EglContext>(debug)) {
+  info = describe(*context);
+  timer.emplace(info.timer_queries);
+  scene_vertices = make_vertex_array();
+  no_vertices = make_vertex_array();
+  framebuffer = make_framebuffer();
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glDisable(GL_DITHER);
+  context->check("Renderer");
+}
+
+// Ends the program where the context is current on another thread: deleting would hit another context's objects.
+Renderer::Impl::~Impl() { context->make_current(); }
+
+void Renderer::Impl::check_memory(const char* what, int width, int height) {
+  if (glGetError() != GL_OUT_OF_MEMORY) return;
+  context->forget_errors();
+  throw Error(ErrorKind::device, fmt::format("the OpenGL device has no memory for {} of {} x {}; lower map.resolution or "
+                                             "the picture's size", what, width, height));
+}
+
+void Renderer::Impl::require(Target& target, GLenum format, int width, int height) {
+  if (target.texture && target.format == format && target.width == width && target.height == height) return;
+  target = Target{};  // first, so that both are never held at once
+  Texture texture = make_texture(format, width, height);
+  check_memory("an image", width, height);
+  target = Target{std::move(texture), format, width, height};
+}
+
+void Renderer::Impl::draw_into(std::initializer_list<GLuint> colours, GLuint depth, int width, int height) {
+  std::array<GLenum, 4> buffers{};
+  GLsizei count = 0;
+  for (GLuint colour : colours) {
+    buffers[static_cast<size_t>(count)] = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(count);
+    glNamedFramebufferTexture(framebuffer.id(), buffers[static_cast<size_t>(count)], colour, 0);
+    ++count;
+  }
+  glNamedFramebufferTexture(framebuffer.id(), GL_DEPTH_ATTACHMENT, depth, 0);
+  if (count)
+    glNamedFramebufferDrawBuffers(framebuffer.id(), count, buffers.data());
+  else
+    glNamedFramebufferDrawBuffer(framebuffer.id(), GL_NONE);
+  const GLenum status = glCheckNamedFramebufferStatus(framebuffer.id(), GL_DRAW_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    throw Error(ErrorKind::device, fmt::format("the OpenGL driver cannot draw into a framebuffer of {} colour and {} depth "
+                                               "images (status 0x{:x}); noonmark doctor shows the driver",
+                                               count, depth ? 1 : 0, status));
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  glViewport(0, 0, width, height);
+}
+
+void Renderer::Impl::detach(size_t colours) {
+  for (size_t i = 0; i < colours; ++i)
+    glNamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i), 0, 0);
+  glNamedFramebufferTexture(framebuffer.id(), GL_DEPTH_ATTACHMENT, 0, 0);
+}
+
+void Renderer::Impl::draw_scene(const Program& program) {
+  if (index_count == 0) return;
+  glUseProgram(program.id());
+  glBindVertexArray(scene_vertices.id());
+  glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
+}
+
+void Renderer::Impl::draw_screen(const Program& program) {
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glUseProgram(program.id());
+  glBindVertexArray(no_vertices.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::Impl::run(const std::string& key, double* time_ms, const std::function<void()>& pass) {
+  if (!time_ms) {
+    pass();
+  } else {
+    if (!warm.contains(key)) pass();
+    *time_ms = timer->measure(pass);
+  }
+  warm.insert(key);
+}
+
+Renderer::Renderer(DebugMode debug) : impl_(std::make_unique<Impl>(debug)) {}
+Renderer::~Renderer() = default;
+
+const DeviceInfo& Renderer::info() const { return impl_->info; }
+
+void Renderer::load_scene(const Scene& scene) {
+  Impl& r = *impl_;
+  r.context->make_current();
+  if (scene.triangles.size() > static_cast<size_t>(std::numeric_limits<GLsizei>::max()) / 3)
+    throw Error(ErrorKind::scene, fmt::format("the scene '{}' has {} triangles; OpenGL draws at most {} at once", scene.name,
+                                              scene.triangles.size(), std::numeric_limits<GLsizei>::max() / 3));
+  r.index_count = 0;
+  r.positions = {};
+  r.triangles = {};
+  r.positions = make_buffer(scene.positions.data(), scene.positions.size() * sizeof(glm::vec3));
+  r.triangles = make_buffer(scene.triangles.data(), scene.triangles.size() * sizeof(glm::uvec3));
+  const GLuint vao = r.scene_vertices.id();
+  glVertexArrayVertexBuffer(vao, 0, r.positions.id(), 0, sizeof(glm::vec3));
+  glVertexArrayElementBuffer(vao, r.triangles.id());
+  glEnableVertexArrayAttrib(vao, 0);
+  glVertexArrayAttribFormat(vao, 0, 3, GL_FLOAT, GL_FALSE, 0);
+  glVertexArrayAttribBinding(vao, 0, 0);
+  r.context->check("load_scene");
+  r.index_count = static_cast<GLsizei>(3 * scene.triangles.size());
+}
+
+ShadowMap::Impl::~Impl() { context->make_current(); }
+
+ShadowMap::ShadowMap(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ShadowMap::ShadowMap(ShadowMap&&) noexcept = default;
+ShadowMap& ShadowMap::operator=(ShadowMap&&) noexcept = default;
+ShadowMap::~ShadowMap() = default;
+int ShadowMap::resolution() const { return impl_->resolution; }
+
+}  // namespace noonmark::gl

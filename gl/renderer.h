@@ -5,7 +5,7 @@
 //   ReceiverImage receivers = resolve_receivers(scene, camera, renderer.render_primitives(camera, 1280, 720));
 //   renderer.load_receivers(receivers, frame.direction_to_light());
 //   gl::ShadowMap map = renderer.render_map(frame, settings.map);
-//   Image<float> r5 = renderer.lookup(map, frame, settings).visibility;
+//   Image<float> r5 = renderer.lookup(map, frame, settings);
 //
 // Conventions: scenes/scene.h. One Renderer owns one EGL context, current on the thread that made it; all calls come
 // from that thread. Throws Error(device) for drivers and shaders (with the shader's file and line).
@@ -51,13 +51,6 @@ class ShadowMap {
   std::unique_ptr<Impl> impl_;
 };
 
-// The bias as the shader gets it: floats, in window depth.
-struct ShaderBias {
-  BiasForm form = BiasForm::none;
-  float constant = 0, slope = 0, floor = 0;
-};
-ShaderBias shader_bias(const LightFrame& frame, const BiasSettings& bias);
-
 class Renderer {
  public:
   explicit Renderer(DebugMode debug);
@@ -80,6 +73,7 @@ class Renderer {
   ShadowMap render_map(const LightFrame& frame, const MapSettings& settings, double* time_ms = nullptr);
 
   // A map made elsewhere (R4's exact one): 32-bit float depth whatever settings.format says, wrap as settings has it.
+  // Throws Error(defect) for depths outside [0,1] and for NaN: OpenGL may clamp them.
   ShadowMap upload_map(const Image<float>& depth, const MapSettings& settings);
 
   // The depths as the lookup's sampler returns them, bit for bit; row 0 at the lowest v.

@@ -1,0 +1,95 @@
+// An experiment: what to measure and what to expect of it, as one TOML file says it.
+//
+//   Experiment experiment = load_experiment("experiments/cube-room.toml");
+//   apply_override(experiment, "map.resolution=2048");            // --set
+//   for (const Settings& settings : points(experiment)) measure(settings);
+//
+// The file (every key may be left out; an unknown one is an error):
+//   title = "..."
+//   scene = "cube-room"              # or a table [scene] with name = and the scene's other settings
+//   pictures = "first"               # which points get pictures: first | all | none | worst
+//   [view] [light] [map] [bias] [filter] [truth]      # fixed settings: `noonmark settings` lists them
+//   [sweep]                          # every combination is one point; the first one named changes slowest
+//   map.resolution = [512, 1024]
+//   bias.constant = {min = 0, max = 0.01, steps = 5}                   # min + i * step; the last is max itself
+//   map.extent_m = {min = 10, max = 80, steps = 4, scale = "log"}      # min * (max / min)^(i / (steps - 1))
+//   [plot]
+//   metrics = ["error", "acne"]
+//   [curve]                          # error against bias
+//   enabled = true
+//   acne_bound = 0.001               # of the usable window
+//   peter_panning_bound = 0.001
+//   bias_depth = [0, 0.001, 0.002]   # or a range; left out: the measurement chooses the biases
+//   [[bound]]
+//   metric = "acne"                  # a metric, or a quantity of the curve such as window_width_depth
+//   max = 0.01                       # and/or min
+//   join = "worst"                   # worst | mean | median of the points asked
+//   where = {"map.resolution" = 1024, "filter.kind" = ["none", "box"]}
+#pragma once
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "compare/bias_curves.h"
+#include "compare/bounds.h"
+#include "scenes/scene.h"
+#include "scenes/settings.h"
+
+namespace noonmark {
+
+struct Swept {
+  std::string name;
+  std::vector<std::string> values;  // canonical texts, in the file's order, all different
+};
+
+struct Experiment {
+  std::string path;  // as given
+  std::string title;
+  Settings base;             // the fixed settings
+  std::vector<Swept> swept;  // outermost first
+  std::vector<std::string> plot;
+  std::vector<Bound> bounds;
+  bool curve_enabled = true;
+  CurveOptions curve;
+  std::string pictures = "first";        // which points get pictures: first | all | none | worst
+  std::vector<std::string> overridden;   // settings given by apply_override, in order
+};
+
+// A sweep of more points than this is a mistake in the file, not a plan.
+constexpr int64_t max_points = 100000;
+
+// Throws Error(usage) with file:line:column, and the nearest name for an unknown one. A relative path of a scene file is
+// taken from the experiment file's folder.
+Experiment load_experiment(const std::string& path);
+// The same from text; path is used for messages and for relative scene paths.
+Experiment parse_experiment(std::string_view toml, const std::string& path);
+
+// "name=value" as `--set` has it: one value, in the form that the setting's row takes ("2048", "auto", "1,2,3"). It
+// replaces the file's value; a swept setting is swept no more. Relative paths stay relative to where the program runs.
+// Bounds stay: one whose `where` no point meets any more is broken, not dropped. Throws Error(usage).
+void apply_override(Experiment& experiment, std::string_view assignment);
+
+// 1 without a sweep.
+int64_t point_count(const Experiment& experiment);
+
+// The points in order: the last swept setting changes fastest. Every one is validated; throws Error(usage) naming it.
+std::vector<Settings> points(const Experiment& experiment);
+
+// Every setting by its row's name, in canonical text: PointRecord::settings.
+std::map<std::string, std::string> settings_map(const Settings& settings);
+
+// The command that renders one point of the experiment: its overridden and swept settings as --set, quoted for a shell.
+std::string reproduce_command(const Experiment& experiment, const std::map<std::string, std::string>& settings);
+
+// Everything that determines the results, as text of one "name = value" per line, for ResultStore. What the experiment
+// cannot know comes in `more`: version, OpenGL renderer, Embree ISA, scene_digest of each scene.
+std::string fingerprint(const Experiment& experiment, std::span<const std::pair<std::string, std::string>> more);
+
+// 16 hexadecimal digits of everything in the scene that a measurement sees: geometry, camera, light, map.
+std::string scene_digest(const Scene& scene);
+
+}  // namespace noonmark

@@ -1,0 +1,444 @@
+// Reads the experiment file. Everything here runs inside one Reader, so that each message can name file:line:column.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "app/experiment.h"
+#include "compare/quantities.h"
+#include "scenes/error.h"
+#include "scenes/file.h"
+
+namespace noonmark {
+namespace {
+
+// One key of a table and what it holds, in the order of the file (toml++ sorts keys by name).
+struct Item {
+  std::string key;
+  toml::source_region where;
+  const toml::node* node;
+};
+
+// An error whose message starts with its place already.
+struct PlacedError : Error {
+  using Error::Error;
+};
+
+class Reader {
+ public:
+  explicit Reader(const std::string& path) { experiment_.path = path; }
+
+  Experiment read(const toml::table& root) {
+    for (const Item& item : items(root)) {
+      if (item.key == "title") experiment_.title = string(*item.node, "title");
+      else if (item.key == "pictures") experiment_.pictures = one_of(*item.node, "pictures", {"first", "all", "none", "worst"});
+      else if (item.key == "scene" && item.node->is_string()) fix("scene.name", *item.node);
+      else if (item.key == "sweep") sweep_ = &table(*item.node, "[sweep]");
+      else if (item.key == "plot") read_plot(table(*item.node, "[plot]"));
+      else if (item.key == "curve") read_curve(table(*item.node, "[curve]"));
+      else if (item.key == "bound") bounds_ = item.node;
+      else if (is_group(item.key)) read_settings(table(*item.node, "[" + item.key + "]"), item.key, &Reader::fix);
+      else unknown(item, "key", root_keys(), "");
+    }
+    // These two look at what is fixed, wherever in the file that stands.
+    if (sweep_) read_sweep(*sweep_);
+    if (bounds_) read_bounds(*bounds_);
+    check_points(root);
+    return std::move(experiment_);
+  }
+
+ private:
+  // ---- messages
+
+  [[noreturn]] void fail(const toml::source_region& where, const std::string& what) const {
+    throw PlacedError(ErrorKind::usage,
+                      fmt::format("{}:{}:{}: {}", experiment_.path, where.begin.line, where.begin.column, what));
+  }
+  [[noreturn]] void fail(const toml::node& node, const std::string& what) const { fail(node.source(), what); }
+
+  // Runs f; an error that it throws gets the place in front, unless it has one.
+  template <class F>
+  auto at(const toml::source_region& where, F f) const {
+    try {
+      return f();
+    } catch (const PlacedError&) {
+      throw;
+    } catch (const Error& error) {
+      fail(where, error.what());
+    }
+  }
+
+  [[noreturn]] void unknown(const Item& item, std::string_view kind, std::vector<std::string_view> known,
+                            const std::string& place) const {
+    const std::string near = nearest_name(item.key, known);
+    fail(item.where, fmt::format("there is no {} '{}{}'; {}", kind, place, item.key,
+                                 near.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
+                                              : fmt::format("did you mean '{}{}'?", place, near)));
+  }
+
+  // ---- values
+
+  static std::vector<Item> items(const toml::table& table) {
+    std::vector<Item> list;
+    for (auto&& [key, node] : table) list.push_back({std::string(key.str()), key.source(), &node});
+    std::sort(list.begin(), list.end(), [](const Item& a, const Item& b) {
+      return std::pair(a.where.begin.line, a.where.begin.column) < std::pair(b.where.begin.line, b.where.begin.column);
+    });
+    return list;
+  }
+
+  const toml::table& table(const toml::node& node, const std::string& name) const {
+    if (!node.is_table()) fail(node, fmt::format("{} must be a table", name));
+    return *node.as_table();
+  }
+  std::string string(const toml::node& node, const std::string& name) const {
+    if (!node.is_string()) fail(node, fmt::format("{} must be a string", name));
+    return node.as_string()->get();
+  }
+  std::string one_of(const toml::node& node, const std::string& name, std::vector<std::string_view> choices) const {
+    const std::string text = string(node, name);
+    if (std::find(choices.begin(), choices.end(), text) != choices.end()) return text;
+    const std::string near = nearest_name(text, choices);
+    fail(node, fmt::format("{} = '{}' is not one of {}{}", name, text, fmt::join(choices, " | "),
+                           near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  }
+  double number(const toml::node& node, const std::string& name) const {
+    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value || !std::isfinite(*value)) fail(node, fmt::format("{} must be a finite number", name));
+    return *value;
+  }
+  bool boolean(const toml::node& node, const std::string& name) const {
+    if (!node.is_boolean()) fail(node, fmt::format("{} must be true or false", name));
+    return node.as_boolean()->get();
+  }
+  std::vector<const toml::node*> list(const toml::node& node, const std::string& name) const {
+    if (!node.is_array()) fail(node, fmt::format("{} must be a list", name));
+    if (node.as_array()->empty()) fail(node, fmt::format("{} is an empty list; give it at least one value", name));
+    std::vector<const toml::node*> nodes;
+    for (const toml::node& element : *node.as_array()) nodes.push_back(&element);
+    return nodes;
+  }
+
+  // {min, max, steps, scale} -> the values.
+  std::vector<double> range(const toml::table& table, const std::string& name) const {
+    std::optional<double> min, max;
+    std::optional<int64_t> steps;
+    bool logarithmic = false;
+    for (const Item& item : items(table)) {
+      const std::string item_name = name + "." + item.key;
+      if (item.key == "min") min = number(*item.node, item_name);
+      else if (item.key == "max") max = number(*item.node, item_name);
+      else if (item.key == "scale") logarithmic = one_of(*item.node, item_name, {"linear", "log"}) == "log";
+      else if (item.key == "steps") {
+        if (!item.node->is_integer()) fail(*item.node, fmt::format("{} must be an integer", item_name));
+        steps = item.node->as_integer()->get();
+        if (*steps < 2 || *steps > max_points)
+          fail(*item.node, fmt::format("{} = {} must be 2 ... {}: the number of values, both ends among them", item_name, *steps,
+                                       max_points));
+      } else {
+        unknown(item, "key", {"min", "max", "steps", "scale"}, name + ".");
+      }
+    }
+    if (!min || !max || !steps) fail(table, fmt::format("the range {} needs min, max and steps", name));
+    if (*min >= *max) fail(table, fmt::format("{}: min = {} is not below max = {}", name, *min, *max));
+    if (logarithmic && *min <= 0) fail(table, fmt::format("{}: a logarithmic range needs min above 0, not {}", name, *min));
+
+    std::vector<double> values;
+    const auto last = static_cast<double>(*steps - 1);
+    for (int64_t i = 0; i + 1 < *steps; ++i) {
+      const auto at_step = static_cast<double>(i);
+      values.push_back(logarithmic ? *min * std::pow(*max / *min, at_step / last) : *min + at_step * ((*max - *min) / last));
+    }
+    values.push_back(*max);
+    return values;
+  }
+
+  // The text that the setting's row takes for one TOML value.
+  std::string raw_text(const Setting& row, const toml::node& node) const {
+    if (node.is_integer()) return fmt::format("{}", node.as_integer()->get());
+    if (node.is_floating_point()) return fmt::format("{}", node.as_floating_point()->get());
+    if (node.is_boolean()) return node.as_boolean()->get() ? "true" : "false";
+    if (node.is_array() && row.type == ValueType::point) {
+      std::vector<std::string> parts;
+      for (const toml::node& part : *node.as_array()) parts.push_back(fmt::format("{}", number(part, std::string(row.name))));
+      return fmt::format("{}", fmt::join(parts, ","));
+    }
+    if (node.is_string()) {
+      const std::string text = node.as_string()->get();
+      const bool quoted_number = row.type == ValueType::integer || row.type == ValueType::real || row.type == ValueType::flag;
+      if (quoted_number && !(row.may_be_auto && text == "auto"))
+        fail(node, fmt::format("{} = \"{}\" is a string; it takes {}, written without quotes", row.name, text, row.range_text()));
+      return row.name == "scene.name" ? scene_path(text) : text;
+    }
+    fail(node, fmt::format("{} cannot be this kind of value; it takes {}", row.name, row.range_text()));
+  }
+
+  std::string canonical(const Setting& row, const toml::node& node) const {
+    return at(node.source(), [&] { return canonical_text(row, raw_text(row, node)); });
+  }
+
+  static std::string canonical_text(const Setting& row, const std::string& text) {
+    Settings scratch;
+    row.set(scratch, text);
+    return row.get(scratch);
+  }
+
+  // A relative path of a scene file starts at the experiment's folder. Built-in names have no such ending.
+  std::string scene_path(const std::string& name) const {
+    const std::filesystem::path path(name);
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if ((ending != ".gltf" && ending != ".glb") || path.is_absolute()) return name;
+    return (std::filesystem::path(experiment_.path).parent_path() / path).lexically_normal().string();
+  }
+
+  // ---- settings by table
+
+  static std::vector<std::string_view> groups() {
+    std::vector<std::string_view> names;
+    for (const Setting& row : settings_table()) {
+      const std::string_view group = row.name.substr(0, row.name.find('.'));
+      if (std::find(names.begin(), names.end(), group) == names.end()) names.push_back(group);
+    }
+    return names;
+  }
+  static bool is_group(const std::string& key) {
+    const std::vector<std::string_view> names = groups();
+    return std::find(names.begin(), names.end(), key) != names.end();
+  }
+  static std::vector<std::string_view> root_keys() {
+    std::vector<std::string_view> names = groups();
+    for (std::string_view key : {"title", "pictures", "sweep", "plot", "curve", "bound"}) names.push_back(key);
+    return names;
+  }
+
+  using Use = void (Reader::*)(const std::string& setting, const toml::node& value);
+
+  // Hands every setting in a table to `use`: `resolution` in group `map`, or, with no group, `map.resolution` as nested
+  // tables, dotted keys or one quoted key.
+  void read_settings(const toml::table& table, const std::string& group, Use use) {
+    for (const Item& item : items(table)) {
+      const std::string name = group.empty() ? item.key : group + "." + item.key;
+      if (group.empty() && is_group(item.key)) {
+        if (!item.node->is_table()) fail(*item.node, fmt::format("'{0}' is a group of settings; name one, such as {0}.{1}", item.key,
+                                                                 settings_of(item.key).front().substr(item.key.size() + 1)));
+        read_settings(*item.node->as_table(), item.key, use);
+        continue;
+      }
+      at(item.where, [&] { find_setting(name); });
+      (this->*use)(name, *item.node);
+    }
+  }
+  static std::vector<std::string_view> settings_of(const std::string& group) {
+    std::vector<std::string_view> names;
+    for (const Setting& row : settings_table())
+      if (row.name.starts_with(group + ".")) names.push_back(row.name);
+    return names;
+  }
+
+  void fix(const std::string& name, const toml::node& value) {
+    const Setting& row = find_setting(name);
+    row.set(experiment_.base, canonical(row, value));
+    places_[name] = value.source();
+  }
+
+  // ---- [sweep]
+
+  void read_sweep(const toml::table& table) {
+    read_settings(table, "", &Reader::sweep);
+    std::stable_sort(sweep_order_.begin(), sweep_order_.end());
+    std::vector<Swept> ordered;
+    for (const auto& [line, column, index] : sweep_order_) ordered.push_back(std::move(experiment_.swept[index]));
+    experiment_.swept = std::move(ordered);
+  }
+
+  void sweep(const std::string& name, const toml::node& value) {
+    const Setting& row = find_setting(name);
+    Swept swept{name, {}};
+    std::set<std::string> seen;
+    const auto add = [&](const toml::node& node, const std::string& text) {
+      if (!seen.insert(text).second)
+        fail(node, fmt::format("{} = {} is swept twice; drop one of the two", name, text));
+      swept.values.push_back(text);
+    };
+    for (const Swept& other : experiment_.swept)
+      if (other.name == name) fail(value, fmt::format("{} is swept twice; keep one of the two lists", name));
+    if (places_.contains(name)) fail(value, fmt::format("{} is both fixed and swept; drop one of the two", name));
+
+    if (const toml::table* range_table = value.as_table()) {
+      if (row.type != ValueType::integer && row.type != ValueType::real)
+        fail(value, fmt::format("{} has no ranges; list its values", name));
+      for (double v : range(*range_table, name)) add(value, at(value.source(), [&] { return range_text(row, v); }));
+    } else {
+      if (!value.is_array()) fail(value, fmt::format("[sweep] {} must be a list or a range; fixed values go into their own table", name));
+      for (const toml::node* node : list(value, name)) add(*node, canonical(row, *node));
+    }
+    places_[name] = value.source();
+    const toml::source_position place = value.source().begin;
+    sweep_order_.emplace_back(place.line, place.column, experiment_.swept.size());
+    experiment_.swept.push_back(std::move(swept));
+  }
+
+  static std::string range_text(const Setting& row, double value) {
+    if (row.type == ValueType::real) return canonical_text(row, fmt::format("{}", value));
+    // pow() of a doubling range misses the integers by a few units in the last place, never by a billionth.
+    constexpr double rounding = 1e-9;
+    const double nearest = std::round(value);
+    if (std::abs(value - nearest) > rounding * std::abs(nearest))
+      throw Error(ErrorKind::usage, fmt::format("{} takes integers, and the range gives {}; list the values instead", row.name, value));
+    return canonical_text(row, fmt::format("{:.0f}", nearest));
+  }
+
+  // What no single value can see. validate() names the setting first; that setting's place is the error's.
+  void check_points(const toml::table& root) const {
+    const std::string file = experiment_.path + ": ";
+    try {
+      points(experiment_);
+    } catch (const Error& error) {
+      const std::string what = std::string(error.what()).substr(file.size());
+      const toml::source_region* where = sweep_ ? &sweep_->source() : &root.source();
+      size_t first = std::string::npos;
+      const size_t message = what.starts_with("point ") ? what.find(": ") : 0;
+      for (const auto& [name, place] : places_) {
+        const size_t found = what.find(name, message);
+        if (found < first) {
+          first = found;
+          where = &place;
+        }
+      }
+      fail(*where, what);
+    }
+  }
+
+  // ---- [plot] [curve]
+
+  void read_plot(const toml::table& table) {
+    for (const Item& item : items(table)) {
+      if (item.key != "metrics") unknown(item, "key", {"metrics"}, "plot.");
+      for (const toml::node* node : list(*item.node, "plot.metrics")) {
+        const std::string name = string(*node, "plot.metrics");
+        at(node->source(), [&] { find_quantity(name); });
+        if (std::find(experiment_.plot.begin(), experiment_.plot.end(), name) != experiment_.plot.end())
+          fail(*node, fmt::format("plot.metrics names '{}' twice", name));
+        experiment_.plot.push_back(name);
+      }
+    }
+  }
+
+  void read_curve(const toml::table& table) {
+    CurveOptions& curve = experiment_.curve;
+    for (const Item& item : items(table)) {
+      const std::string name = "curve." + item.key;
+      if (item.key == "enabled") experiment_.curve_enabled = boolean(*item.node, name);
+      else if (item.key == "acne_bound") curve.acne_bound = fraction(*item.node, name);
+      else if (item.key == "peter_panning_bound") curve.peter_panning_bound = fraction(*item.node, name);
+      else if (item.key == "bias_depth") read_biases(*item.node, name);
+      else unknown(item, "key", {"enabled", "acne_bound", "peter_panning_bound", "bias_depth"}, "curve.");
+    }
+  }
+  double fraction(const toml::node& node, const std::string& name) const {
+    const double value = number(node, name);
+    if (value < 0 || value > 1) fail(node, fmt::format("{} = {} must be a fraction, 0 ... 1", name, value));
+    return value;
+  }
+  void read_biases(const toml::node& node, const std::string& name) {
+    std::vector<double>& biases = experiment_.curve.bias_depth;
+    biases.clear();
+    if (const toml::table* range_table = node.as_table()) {
+      biases = range(*range_table, name);
+    } else {
+      for (const toml::node* element : list(node, name)) biases.push_back(number(*element, name));
+    }
+    if (!std::is_sorted(biases.begin(), biases.end(), std::less_equal<>()) || biases.front() < 0)
+      fail(node, fmt::format("{} must be 0 or more and ascend, each value once", name));
+    if (biases.front() != 0) biases.insert(biases.begin(), 0.0);  // a curve starts without a bias
+  }
+
+  // ---- [[bound]]
+
+  void read_bounds(const toml::node& node) {
+    if (!node.is_array() || !node.is_array_of_tables()) fail(node, "bounds are written as [[bound]], one for each");
+    for (const toml::node& element : *node.as_array()) read_bound(*element.as_table());
+  }
+
+  void read_bound(const toml::table& table) {
+    Bound bound;
+    for (const Item& item : items(table)) {
+      if (item.key == "metric") {
+        bound.metric = string(*item.node, "metric");
+        const QuantityInfo info = at(item.node->source(), [&] { return find_quantity(bound.metric); });
+        if (info.of_curve && !experiment_.curve_enabled)
+          fail(*item.node, fmt::format("'{}' is read off the bias curve, and curve.enabled is false", bound.metric));
+      } else if (item.key == "max") bound.max = number(*item.node, "max");
+      else if (item.key == "min") bound.min = number(*item.node, "min");
+      else if (item.key == "join") bound.join = one_of(*item.node, "join", {"worst", "mean", "median"});
+      else if (item.key == "where") read_where(this->table(*item.node, "where"), bound);
+      else unknown(item, "key", {"metric", "max", "min", "join", "where"}, "bound.");
+    }
+    if (bound.metric.empty()) fail(table, "a [[bound]] needs a metric");
+    at(table.source(), [&] { check_bound(bound); });
+    experiment_.bounds.push_back(std::move(bound));
+  }
+
+  void read_where(const toml::table& table, Bound& bound) {
+    where_ = &bound.where;
+    read_settings(table, "", &Reader::condition);
+    where_ = nullptr;
+  }
+
+  void condition(const std::string& name, const toml::node& value) {
+    const Setting& row = find_setting(name);
+    if (where_->contains(name)) fail(value, fmt::format("where names {} twice", name));
+    // A list is a list of values, but for points, where a list of numbers is one value.
+    const bool many = value.is_array() && !(row.type == ValueType::point && !value.as_array()->empty() &&
+                                            value.as_array()->front().is_number());
+    const std::vector<const toml::node*> nodes = many ? list(value, name) : std::vector<const toml::node*>{&value};
+    for (const toml::node* node : nodes) {
+      const std::string text = canonical(row, *node);
+      const std::vector<std::string> known = values_of(row);
+      if (std::find(known.begin(), known.end(), text) == known.end())
+        fail(*node, fmt::format("no point has {} = {}; it is {}", name, text, fmt::join(known, " | ")));
+      (*where_)[name].push_back(text);
+    }
+  }
+  std::vector<std::string> values_of(const Setting& row) const {
+    for (const Swept& swept : experiment_.swept)
+      if (swept.name == row.name) return swept.values;
+    return {row.get(experiment_.base)};
+  }
+
+  Experiment experiment_;
+  std::map<std::string, toml::source_region> places_;  // of every setting that the file gives
+  const toml::table* sweep_ = nullptr;
+  const toml::node* bounds_ = nullptr;
+  std::vector<std::tuple<uint32_t, uint32_t, size_t>> sweep_order_;  // line, column, index into experiment_.swept
+  std::map<std::string, std::vector<std::string>>* where_ = nullptr;
+};
+
+}  // namespace
+
+Experiment parse_experiment(std::string_view toml, const std::string& path) {
+  try {
+    const toml::table root = toml::parse(toml, path);
+    return Reader(path).read(root);
+  } catch (const toml::parse_error& error) {
+    throw Error(ErrorKind::usage, fmt::format("{}:{}:{}: {}", path, error.source().begin.line, error.source().begin.column,
+                                              error.description()));
+  }
+}
+
+Experiment load_experiment(const std::string& path) {
+  std::string text;
+  try {
+    text = read_file(path);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::usage, error.what());
+  }
+  return parse_experiment(text, path);
+}
+
+}  // namespace noonmark

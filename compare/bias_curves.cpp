@@ -1,0 +1,184 @@
+#include "compare/bias_curves.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/combinable.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/thresholds.h"
+
+namespace noonmark {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+struct Lists {
+  std::vector<float> error_dark, error_light, wrong_dark, wrong_light;
+  std::array<std::vector<float>, cause_count> by_cause;
+  uint64_t receivers = 0;
+};
+
+void append(std::vector<float>& to, const std::vector<float>& from) { to.insert(to.end(), from.begin(), from.end()); }
+
+}  // namespace
+
+BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, CurveParameter parameter) {
+  const int taps = e.taps.taps_per_receiver, kernel = kernel_of(e.taps);
+  taps_per_receiver_ = taps;
+  tbb::combinable<Lists> parts;
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, e.truth.facing.size(), 8192), [&](const tbb::blocked_range<size_t>& range) {
+    Lists& lists = parts.local();
+    for (size_t i = range.begin(); i != range.end(); ++i) {
+      if (!e.truth.facing[i] || e.truth.ambiguous[i]) continue;
+      ++lists.receivers;
+      const float factor = 1.0f - e.probe.n_dot_l[i];  // the shader's own
+      const auto threshold = [&](const Tap& tap) {
+        if (tap.always_lit) return 0.0f;
+        const float bias = lit_threshold(e.probe.reference[i], tap.depth);
+        if (parameter == CurveParameter::constant) return bias;
+        return e.bias.floor >= bias ? 0.0f : slope_threshold(bias, factor);
+      };
+      float least = infinity, most = 0;
+      for (int t = 0; t < taps; ++t) {
+        const Tap exact = tap_of(e.probe, e.taps, e.map, e.exact_map, i, kernel, t);
+        const float at_r4 = threshold(exact);
+        // Wrong on one side of its threshold only: when dark if it should be lit, when lit if it should be dark.
+        if (!exact.exact_lit || at_r4 > 0)
+          lists.by_cause[static_cast<size_t>(tap_cause(exact, !exact.exact_lit))].push_back(at_r4);
+        const float at_r5 = threshold(tap_of(e.probe, e.taps, e.map, stored_map, i, kernel, t));
+        least = std::min(least, at_r5);
+        most = std::max(most, at_r5);
+        if (!e.truth.lit[i])
+          lists.error_light.push_back(at_r5);
+        else if (at_r5 > 0)
+          lists.error_dark.push_back(at_r5);
+      }
+      if (!e.truth.lit[i])
+        lists.wrong_light.push_back(least);
+      else if (most > 0)
+        lists.wrong_dark.push_back(most);
+    }
+  });
+  parts.combine_each([&](const Lists& part) {
+    receivers_ += part.receivers;
+    append(error_dark_, part.error_dark);
+    append(error_light_, part.error_light);
+    append(wrong_dark_, part.wrong_dark);
+    append(wrong_light_, part.wrong_light);
+    for (int c = 0; c < cause_count; ++c) append(by_cause_[c], part.by_cause[c]);
+  });
+  for (Thresholds* list : {&error_dark_, &error_light_, &wrong_dark_, &wrong_light_}) tbb::parallel_sort(*list);
+  for (Thresholds& list : by_cause_) tbb::parallel_sort(list);
+}
+
+uint64_t BiasCounts::dark(const Thresholds& t, float x) {
+  return static_cast<uint64_t>(t.end() - std::upper_bound(t.begin(), t.end(), x));
+}
+
+uint64_t BiasCounts::lit(const Thresholds& t, float x) {
+  return static_cast<uint64_t>(std::upper_bound(t.begin(), t.end(), x) - t.begin());
+}
+
+uint64_t BiasCounts::caused(Cause cause, float x) const {
+  const Thresholds& list = by_cause_[static_cast<size_t>(cause)];
+  const bool darkens = cause == Cause::acne || cause == Cause::aliasing_dark || cause == Cause::coverage_dark;
+  return darkens ? dark(list, x) : lit(list, x);
+}
+
+float BiasCounts::acne_free_from(uint64_t allowed) const {
+  const Thresholds& t = by_cause_[static_cast<size_t>(Cause::acne)];
+  return t.size() <= allowed ? 0.0f : t[t.size() - 1 - allowed];
+}
+
+float BiasCounts::peter_panning_free_to(uint64_t allowed) const {
+  const Thresholds& t = by_cause_[static_cast<size_t>(Cause::peter_panning)];
+  return t.size() <= allowed ? infinity : std::nextafter(t[allowed], -infinity);
+}
+
+BiasCounts::Best BiasCounts::best() const {
+  // The error is constant from each breakpoint to the next; 0 starts the first stretch.
+  struct Stretch {
+    float from;
+    uint64_t wrong;
+  };
+  std::vector<Stretch> stretches;
+  size_t d = 0, l = 0;
+  float x = 0;
+  for (;;) {
+    while (d < error_dark_.size() && error_dark_[d] <= x) ++d;
+    while (l < error_light_.size() && error_light_[l] <= x) ++l;
+    stretches.push_back({x, error_dark_.size() - d + l});
+    const float next = std::min(d < error_dark_.size() ? error_dark_[d] : infinity,
+                                l < error_light_.size() ? error_light_[l] : infinity);
+    if (next == infinity) break;
+    x = next;
+  }
+  const auto least = std::min_element(stretches.begin(), stretches.end(),
+                                      [](const Stretch& a, const Stretch& b) { return a.wrong < b.wrong; });
+  const auto end_of = [&](auto stretch) {
+    return stretch + 1 == stretches.end() ? infinity : std::nextafter((stretch + 1)->from, -infinity);
+  };
+  const double limit = 1.1 * static_cast<double>(least->wrong);
+  auto first = least, last = least;
+  while (first != stretches.begin() && static_cast<double>((first - 1)->wrong) <= limit) --first;
+  while (last + 1 != stretches.end() && static_cast<double>((last + 1)->wrong) <= limit) ++last;
+  return {least->from, end_of(least), least->wrong, first->from, end_of(last), stretches.size() - 1};
+}
+
+std::vector<double> default_bias_grid() {
+  std::vector<double> grid = {0};
+  for (int step = 0; step <= 140; ++step) grid.push_back(std::pow(10.0, -7 + step / 20.0));
+  return grid;
+}
+
+BiasCurve summarise(const BiasCounts& counts, CurveParameter parameter, const LightFrame& frame, const CurveOptions& options) {
+  BiasCurve curve;
+  curve.parameter = parameter == CurveParameter::constant ? "bias.constant" : "bias.slope";
+  curve.made = "one pass";
+  curve.bias_depth = options.bias_depth.empty() ? default_bias_grid() : options.bias_depth;
+  const auto per = [](uint64_t count, uint64_t base) {
+    return base == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(count) / static_cast<double>(base);
+  };
+  for (double bias : curve.bias_depth) {
+    const float x = static_cast<float>(bias);
+    const auto share = [&](Cause cause) { return per(counts.caused(cause, x), counts.taps()); };
+    curve.error.push_back(per(counts.wrong_taps(x), counts.taps()));
+    curve.wrong.push_back(per(counts.wrong_receivers(x), counts.receivers()));
+    curve.acne.push_back(share(Cause::acne));
+    curve.peter_panning.push_back(share(Cause::peter_panning));
+    curve.aliasing_dark.push_back(share(Cause::aliasing_dark));
+    curve.aliasing_light.push_back(share(Cause::aliasing_light));
+    curve.coverage.push_back(share(Cause::coverage_dark) + share(Cause::coverage_light));
+  }
+  curve.m_per_depth = frame.far_m - frame.near_m;
+  curve.texels_per_depth = curve.m_per_depth / frame.texel_m();
+
+  // A bias of 1 spans the whole map; where no Peter Panning limits it, nothing above that means anything.
+  const auto capped = [](float x) { return std::min(static_cast<double>(x), 1.0); };
+  curve.acne_bound = options.acne_bound;
+  curve.peter_panning_bound = options.peter_panning_bound;
+  const auto allowed = [&](double bound) { return static_cast<uint64_t>(std::floor(bound * static_cast<double>(counts.taps()))); };
+  const float from = counts.acne_free_from(allowed(options.acne_bound));
+  const float to = counts.peter_panning_free_to(allowed(options.peter_panning_bound));
+  if (counts.receivers() > 0 && from <= to && from <= 1) {
+    curve.window_min_depth = from;
+    curve.window_max_depth = capped(to);
+  }
+  if (counts.receivers() > 0) {
+    const BiasCounts::Best best = counts.best();
+    curve.best_bias_depth = (best.from + capped(best.to)) / 2;
+    curve.best_error = per(best.wrong_taps, counts.taps());
+    curve.flat_min_depth = best.flat_from;
+    curve.flat_max_depth = capped(best.flat_to);
+    curve.breakpoints = best.breakpoints;
+  } else {
+    curve.best_error = std::numeric_limits<double>::quiet_NaN();
+  }
+  return curve;
+}
+
+}  // namespace noonmark

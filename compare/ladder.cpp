@@ -1,0 +1,111 @@
+#include "compare/ladder.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace noonmark {
+namespace {
+
+// Like std::max, but a NaN stays: a residual that cannot be computed must not pass for none.
+double larger(double a, double b) { return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b); }
+
+struct Residuals {
+  double steps = 0, taps = 0;
+};
+
+// The class of a wrong pixel: unfiltered, the rung from which it stays wrong. With a filter several causes share a
+// pixel, and the largest share names it.
+Cause pixel_cause(const Ladder& ladder, size_t i, bool filtered) {
+  if (ladder.rung[5][i] == ladder.rung[1][i]) return Cause::none;
+  if (!filtered && ladder.rung[4][i] == ladder.rung[1][i]) return Cause::precision;
+  Cause largest = Cause::none;
+  float size = 0;
+  for (int c = static_cast<int>(Cause::filter); c < cause_count; ++c) {
+    if (!filtered && c == static_cast<int>(Cause::precision)) continue;
+    if (std::abs(ladder.step[c][i]) > size) {
+      size = std::abs(ladder.step[c][i]);
+      largest = static_cast<Cause>(c);
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+std::string_view cause_name(Cause cause) {
+  static constexpr std::string_view names[cause_count] = {"none", "light_size", "filter", "aliasing_dark", "aliasing_light",
+                                                          "acne", "peter_panning", "coverage_dark", "coverage_light",
+                                                          "precision"};
+  return names[static_cast<size_t>(cause)];
+}
+
+int kernel_of(const TapTruth& taps) {
+  const int kernel = static_cast<int>(std::lround(std::sqrt(taps.taps_per_receiver)));
+  if (kernel * kernel != taps.taps_per_receiver) throw std::logic_error("taps are not a square kernel");
+  return kernel;
+}
+
+Ladder climb(const LookupEvidence& e) {
+  const int width = e.truth.facing.width, height = e.truth.facing.height;
+  const int taps = e.taps.taps_per_receiver, kernel = kernel_of(e.taps);
+  Ladder ladder;
+  for (Image<float>& image : ladder.rung) image = Image<float>(width, height, 0);
+  for (Image<float>& image : ladder.step) image = Image<float>(width, height, 0);
+  ladder.cause = Image<uint8_t>(width, height, 0);
+  ladder.flags = Image<uint8_t>(width, height, 0);
+
+  const auto receiver = [&](size_t i, Residuals& worst) {
+    ladder.flags[i] = static_cast<uint8_t>((e.truth.facing[i] ? flag_facing : 0) | (e.truth.ambiguous[i] ? flag_ambiguous : 0));
+    if (!e.truth.facing[i]) return;
+    const bool outside = !inside_map(e.probe.texel[i], e.exact_map.width) || e.probe.reference[i] > 1.0f;
+    if (outside) ladder.flags[i] |= flag_outside;
+
+    const float bias = e.bias.at(e.probe.n_dot_l[i]);
+    int exact_lit = 0, texel_lit = 0;
+    std::array<int, cause_count> booked{};
+    for (int t = 0; t < taps; ++t) {
+      const Tap tap = tap_of(e.probe, e.taps, e.map, e.exact_map, i, kernel, t);
+      const bool lit = tap.always_lit || !(e.probe.reference[i] - bias > tap.depth);
+      exact_lit += tap.exact_lit;
+      texel_lit += tap.texel_lit;
+      ++booked[static_cast<size_t>(tap_cause(tap, lit))];
+    }
+    // Double, rounded once to float: the shader's own count / N^2 is that quotient in float.
+    const auto share = [&](int count) { return static_cast<float>(static_cast<double>(count) / taps); };
+    const float r[6] = {e.truth.soft[i], static_cast<float>(e.truth.lit[i]), share(exact_lit), share(texel_lit), e.r4[i], e.r5[i]};
+    for (int n = 0; n < 6; ++n) ladder.rung[n][i] = r[n];
+
+    const auto set = [&](Cause cause, float value) { ladder.step[static_cast<size_t>(cause)][i] = value; };
+    set(Cause::light_size, r[1] - r[0]);
+    set(Cause::filter, r[2] - r[1]);
+    set(Cause::precision, r[5] - r[4]);
+    for (Cause dark : {Cause::acne, Cause::aliasing_dark, Cause::coverage_dark})
+      set(dark, -share(booked[static_cast<size_t>(dark)]));
+    for (Cause light : {Cause::peter_panning, Cause::aliasing_light, Cause::coverage_light})
+      set(light, share(booked[static_cast<size_t>(light)]));
+
+    double all = 0, classes = 0;
+    for (int c = 0; c < cause_count; ++c) all += ladder.step[c][i];
+    for (int c = static_cast<int>(Cause::aliasing_dark); c <= static_cast<int>(Cause::coverage_light); ++c) classes += ladder.step[c][i];
+    worst.steps = larger(worst.steps, std::abs((static_cast<double>(r[5]) - r[0]) - all));
+    worst.taps = larger(worst.taps, std::abs((static_cast<double>(r[4]) - r[2]) - classes));
+    ladder.cause[i] = static_cast<uint8_t>(pixel_cause(ladder, i, taps > 1));
+  };
+
+  const Residuals worst = tbb::parallel_reduce(
+      tbb::blocked_range<size_t>(0, e.truth.facing.size(), 8192), Residuals{},
+      [&](const tbb::blocked_range<size_t>& range, Residuals so_far) {
+        for (size_t i = range.begin(); i != range.end(); ++i) receiver(i, so_far);
+        return so_far;
+      },
+      [](Residuals a, Residuals b) { return Residuals{larger(a.steps, b.steps), larger(a.taps, b.taps)}; });
+  ladder.residual = worst.steps;
+  ladder.tap_residual = worst.taps;
+  return ladder;
+}
+
+}  // namespace noonmark

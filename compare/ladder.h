@@ -1,0 +1,105 @@
+// The ladder: why each pixel is wrong. Its arithmetic is the one home of every cause's definition.
+//
+//   Ladder ladder = climb({truth, probe, taps, exact_map, settings.map, bias, r4, r5});
+//   PointMetrics m = measure(ladder, ...);               // compare/measure.h
+//
+// Rungs: R0 the light with its size; R1 one exact shadow ray; R2 the filter's taps at their exact places; R3 the taps
+// where the map really sampled; R4 the technique on an exact map; R5 what the GPU gave. R0, R1, R2, R3 come from rays,
+// R4 and R5 from OpenGL, so that their steps adding up is a finding.
+//
+// Causes are booked tap by tap, on taps that are wrong: F = V(P, P + o), V = V(P, c), L = the tap's verdict at R4. A tap
+// counts only where L != F. It is coverage where its centre lies outside the map, its receiver beyond far, or its true
+// blocker before near; else aliasing where V = L (the grid asked elsewhere and was answered truly); else acne (L dark)
+// or Peter Panning (L lit). So steps never cancel on pixels that are right, and the classes sum to R4 - R2.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "scenes/depth_bias.h"
+#include "scenes/evidence.h"
+#include "scenes/image.h"
+#include "scenes/map_address.h"
+#include "scenes/settings.h"
+
+namespace noonmark {
+
+enum class Cause : uint8_t {
+  none,
+  light_size,      // R1 - R0
+  filter,          // R2 - R1
+  aliasing_dark,
+  aliasing_light,
+  acne,
+  peter_panning,
+  coverage_dark,
+  coverage_light,
+  precision,       // R5 - R4
+};
+inline constexpr int cause_count = 10;
+std::string_view cause_name(Cause cause);
+
+// What a lookup is judged on. All images have the picture's size, but for the exact map.
+struct LookupEvidence {
+  const ReceiverTruth& truth;
+  const LookupProbe& probe;
+  const TapTruth& taps;          // equal weights: 1 / taps_per_receiver
+  const Image<float>& exact_map;
+  const MapSettings& map;
+  DepthBias bias;
+  const Image<float>& r4;
+  const Image<float>& r5;
+};
+
+enum LadderFlags : uint8_t { flag_facing = 1, flag_outside = 2, flag_ambiguous = 4 };
+
+struct Ladder {
+  std::array<Image<float>, 6> rung;          // R0 ... R5; 0 where not facing
+  std::array<Image<float>, cause_count> step;  // signed change of visibility by cause, in the order of Cause
+  Image<uint8_t> cause;                      // the Cause of each wrong pixel (R5 != R1); none where right
+  Image<uint8_t> flags;
+  // Largest |(R5 - R0) - sum of steps| and |(R4 - R2) - sum of tap classes| over the facing receivers; NaN when any
+  // value is. Above 1e-6 the instrument is broken.
+  double residual = 0, tap_residual = 0;
+};
+
+Ladder climb(const LookupEvidence& evidence);
+
+// A tap of a lookup, ready to be judged at any bias. Shared by the ladder and by the bias curves.
+struct Tap {
+  bool exact_lit = false;  // F
+  bool texel_lit = false;  // V
+  bool covered = true;     // inside the map, before far, blocker not clipped
+  bool always_lit = false; // beyond far, and the lookup says lit without comparing
+  float depth = 1;         // of the map that it reads
+};
+
+// Tap number `tap` of pixel i, reading `map_depth` (the exact map, or the GPU's as its sampler returns it).
+inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSettings& map, const Image<float>& map_depth,
+                  size_t i, int kernel, int tap) {
+  const uint8_t bits = taps.taps[i * static_cast<size_t>(taps.taps_per_receiver) + static_cast<size_t>(tap)];
+  const int r = kernel / 2;
+  const glm::ivec2 texel = probe.texel[i] + glm::ivec2(tap % kernel - r, tap / kernel - r);
+  const glm::ivec2 read = wrapped(texel, map_depth.width, map.wrap);
+  const bool beyond_far = probe.reference[i] > 1.0f;
+  Tap result;
+  result.exact_lit = bits & tap_exact_lit;
+  result.texel_lit = bits & tap_texel_lit;
+  result.covered = inside_map(texel, map_depth.width) && !beyond_far && !(bits & tap_near_clipped);
+  result.always_lit = beyond_far && map.lit_beyond_far;
+  result.depth = read.x < 0 ? border_depth : map_depth.at(read.x, read.y);
+  return result;
+}
+
+// The cause of a tap whose verdict at R4 is `lit`.
+inline Cause tap_cause(const Tap& tap, bool lit) {
+  if (lit == tap.exact_lit) return Cause::none;
+  if (!tap.covered) return lit ? Cause::coverage_light : Cause::coverage_dark;
+  if (lit == tap.texel_lit) return lit ? Cause::aliasing_light : Cause::aliasing_dark;
+  return lit ? Cause::peter_panning : Cause::acne;
+}
+
+// Taps on a side of the square kernel.
+int kernel_of(const TapTruth& taps);
+
+}  // namespace noonmark

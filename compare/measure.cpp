@@ -1,0 +1,130 @@
+#include "compare/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/distance.h"
+#include "scenes/receivers.h"
+
+namespace noonmark {
+namespace {
+
+bool counted(const Ladder& ladder, size_t i) {
+  return (ladder.flags[i] & flag_facing) && !(ladder.flags[i] & flag_ambiguous);
+}
+
+// std::max that keeps a NaN.
+void raise(double& value, double candidate) {
+  if (!(candidate <= value)) value = candidate;
+}
+
+// Largest distance in the picture from an aliased pixel to the nearest pixel whose truth is what the map said here. Such
+// a pixel may be hidden from the camera; then the picture does not say, and the pixel is left out.
+double edge_displacement_pixels(const Ladder& ladder) {
+  const int width = ladder.flags.width, height = ladder.flags.height;
+  double largest = 0;
+  for (int lit = 0; lit < 2; ++lit) {
+    const Image<float>& step = ladder.step[static_cast<size_t>(lit ? Cause::aliasing_light : Cause::aliasing_dark)];
+    Image<uint8_t> mask(width, height);
+    bool any = false;
+    for (size_t i = 0; i < mask.size(); ++i) {
+      mask[i] = (ladder.flags[i] & flag_facing) && (ladder.rung[1][i] != 0) == (lit == 1);
+      any = any || step[i] != 0;
+    }
+    if (!any) continue;
+    const Image<float> distance = distance_to(mask);
+    for (size_t i = 0; i < mask.size(); ++i)
+      if (counted(ladder, i) && step[i] != 0 && std::isfinite(distance[i])) raise(largest, distance[i]);
+  }
+  return largest;
+}
+
+}  // namespace
+
+Image<uint8_t> peter_panning_mask(const Ladder& ladder) {
+  const Image<float>& step = ladder.step[static_cast<size_t>(Cause::peter_panning)];
+  Image<uint8_t> mask(step.width, step.height);
+  for (size_t i = 0; i < mask.size(); ++i) mask[i] = counted(ladder, i) && step[i] != 0;
+  return mask;
+}
+
+std::map<std::string, double> measure(const MeasureInput& in) {
+  const Ladder& ladder = in.ladder;
+  uint64_t receivers = 0, facing = 0, base = 0, outside = 0, wrong = 0, aliased = 0;
+  double error = 0, error_soft = 0, gap = 0, edge_max = 0, edge_sum = 0;
+  std::array<double, cause_count> size{};
+  const Image<float>& panning = ladder.step[static_cast<size_t>(Cause::peter_panning)];
+  for (size_t i = 0; i < ladder.flags.size(); ++i) {
+    receivers += in.primitive[i] != no_primitive;
+    if (!(ladder.flags[i] & flag_facing)) continue;
+    ++facing;
+    if (ladder.flags[i] & flag_ambiguous) continue;
+    ++base;
+    outside += (ladder.flags[i] & flag_outside) != 0;
+    const double hard = static_cast<double>(ladder.rung[5][i]) - ladder.rung[1][i];
+    error += std::abs(hard);
+    error_soft += std::abs(static_cast<double>(ladder.rung[5][i]) - ladder.rung[0][i]);
+    wrong += hard != 0;
+    for (int c = 0; c < cause_count; ++c) size[c] += std::abs(static_cast<double>(ladder.step[c][i]));
+    if (panning[i] != 0) {
+      // The gap along the receiver: the light's way from P to the occluder, seen along the surface.
+      const double cosine = std::clamp(static_cast<double>(in.n_dot_l[i]), 0.0, 1.0);
+      raise(gap, in.occluder_distance_m[i] * std::sqrt(1 - cosine * cosine));
+    }
+    if (ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i] != 0 || ladder.step[static_cast<size_t>(Cause::aliasing_light)][i] != 0) {
+      ++aliased;
+      raise(edge_max, in.edge_distance_m[i] / in.texel_m);
+      edge_sum += in.edge_distance_m[i] / in.texel_m;
+    }
+  }
+
+  const auto share = [&](double sum) { return base == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(base); };
+  const auto caused = [&](Cause cause) { return share(size[static_cast<size_t>(cause)]); };
+  return {
+      {"error", share(error)},
+      {"error_soft", share(error_soft)},
+      {"wrong", share(static_cast<double>(wrong))},
+      {"light_size", caused(Cause::light_size)},
+      {"filter", caused(Cause::filter)},
+      {"aliasing", caused(Cause::aliasing_dark) + caused(Cause::aliasing_light)},
+      {"aliasing_dark", caused(Cause::aliasing_dark)},
+      {"aliasing_light", caused(Cause::aliasing_light)},
+      {"acne", caused(Cause::acne)},
+      {"peter_panning", caused(Cause::peter_panning)},
+      {"coverage", caused(Cause::coverage_dark) + caused(Cause::coverage_light)},
+      {"coverage_dark", caused(Cause::coverage_dark)},
+      {"coverage_light", caused(Cause::coverage_light)},
+      {"precision", caused(Cause::precision)},
+      {"peter_panning_gap_m", gap},
+      {"edge_displacement_texels", edge_max},
+      {"edge_displacement_mean_texels", aliased == 0 ? 0 : edge_sum / static_cast<double>(aliased)},
+      {"edge_displacement_pixels", edge_displacement_pixels(ladder)},
+      {"receivers", static_cast<double>(receivers)},
+      {"facing", static_cast<double>(facing)},
+      {"counted", static_cast<double>(base)},
+      {"attached", static_cast<double>(receivers - facing)},
+      {"ambiguous", facing == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(facing - base) / static_cast<double>(facing)},
+      {"outside", share(static_cast<double>(outside))},
+      {"residual", ladder.residual},
+      {"tap_residual", ladder.tap_residual},
+  };
+}
+
+PointRecord::Worst worst_pixel(const Ladder& ladder) {
+  PointRecord::Worst worst;
+  for (int y = 0; y < ladder.flags.height; ++y) {
+    for (int x = 0; x < ladder.flags.width; ++x) {
+      const size_t i = ladder.flags.index(x, y);
+      if (!counted(ladder, i)) continue;
+      const double error = std::abs(static_cast<double>(ladder.rung[5][i]) - ladder.rung[1][i]);
+      if (worst.x < 0 || !(error <= worst.error)) {
+        worst = {x, y, error, std::string(cause_name(static_cast<Cause>(ladder.cause[i])))};
+        if (std::isnan(error)) return worst;
+      }
+    }
+  }
+  return worst;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,30 @@
+// The metrics of one point: pure functions of the ladder's images. Names and meanings: compare/metrics.h.
+#pragma once
+#include <map>
+#include <string>
+
+#include "compare/ladder.h"
+#include "compare/records.h"
+
+namespace noonmark {
+
+struct MeasureInput {
+  const Ladder& ladder;
+  const Image<uint32_t>& primitive;       // ReceiverImage::primitive
+  const Image<float>& edge_distance_m;    // raytrace::LookupTruth
+  const Image<float>& occluder_distance_m;  // of the pixels in peter_panning_mask; others are not read
+  const Image<float>& n_dot_l;
+  double texel_m = 1;
+};
+
+// Every metric of the table but the times. A value that is not finite in the images makes the metrics that it enters
+// not finite; nothing is skipped.
+std::map<std::string, double> measure(const MeasureInput& input);
+
+// The pixels with any Peter Panning: those whose occluder's distance measure() needs.
+Image<uint8_t> peter_panning_mask(const Ladder& ladder);
+
+// The counted receiver with the largest |R5 - R1|; x = -1 where there is none.
+PointRecord::Worst worst_pixel(const Ladder& ladder);
+
+}  // namespace noonmark

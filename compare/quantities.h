@@ -1,0 +1,33 @@
+// Every number of a point that a bound, a column or a table can name: the metrics (metrics.h), and what is read off the
+// bias curve.
+//
+//   std::optional<double> width = quantity(point, "window_width_depth");
+#pragma once
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "compare/records.h"
+
+namespace noonmark {
+
+struct CurveQuantity {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view help;  // one sentence
+  // Empty where the curve has no such number: the ends of a window that is empty.
+  std::optional<double> (*value)(const BiasCurve&);
+};
+std::span<const CurveQuantity> curve_quantities();
+
+struct QuantityInfo {
+  std::string_view name, unit, help;
+  bool of_curve = false;  // known only where the point has a curve
+};
+// Throws Error(usage) that suggests the nearest name.
+QuantityInfo find_quantity(std::string_view name);
+
+// Empty when the point does not have it (its curve is off, its window empty, its metric was not recorded).
+std::optional<double> quantity(const PointRecord& point, std::string_view name);
+
+}  // namespace noonmark

@@ -1,0 +1,96 @@
+// The little of SQLite that the store needs: an owned connection, owned statements, errors as exceptions.
+//
+//   sqlite::Statement insert(db, "INSERT INTO metrics VALUES (?, ?, ?)");
+//   insert.run(id, name, value);
+//   for (sqlite::Statement rows(db, "SELECT name, value FROM metrics"); rows.step();) use(rows.text(0), rows.real(1));
+//
+// A NaN that is written becomes NULL (SQLite has no NaN) and NULL reads back as NaN; infinities and every other double
+// come back bit for bit.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace noonmark::sqlite {
+
+class Database {
+ public:
+  enum class Mode { create, existing };
+  // Throws Error(scene) when the file cannot be opened.
+  Database(const std::string& path, Mode mode);
+  ~Database();
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  // One or more statements without results.
+  void execute(const std::string& sql);
+  // The first column of the first row, or empty without a row.
+  std::optional<std::string> ask(const std::string& sql);
+
+  // Throws Error(scene) that says what SQLite says of `code` and what to do.
+  [[noreturn]] void fail(int code, std::string_view doing) const;
+
+  const std::string& path() const { return path_; }
+  sqlite3* handle() const { return handle_; }
+
+ private:
+  std::string path_;
+  sqlite3* handle_ = nullptr;
+};
+
+// Everything between begin and commit happens, or nothing. Rolled back when destroyed before commit.
+class Transaction {
+ public:
+  explicit Transaction(Database& db) : db_(db) { db_.execute("BEGIN IMMEDIATE"); }
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit();
+
+ private:
+  Database& db_;
+  bool open_ = true;
+};
+
+class Statement {
+ public:
+  Statement(Database& db, const std::string& sql);
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  // Binds the values in order, executes, and is ready to run again.
+  template <class... Values>
+  void run(const Values&... values) {
+    int index = 0;
+    (bind(++index, values), ...);
+    finish();
+  }
+
+  void bind(int index, int64_t value);
+  void bind(int index, int value) { bind(index, static_cast<int64_t>(value)); }
+  void bind(int index, double value);
+  void bind(int index, std::string_view value);
+  void bind(int index, const std::string& value) { bind(index, std::string_view(value)); }
+  void bind(int index, const char* value) { bind(index, std::string_view(value)); }
+  void bind(int index, const std::optional<double>& value);  // empty: NULL
+
+  // Moves to the next row; false after the last.
+  bool step();
+  bool null(int column) const;
+  int64_t integer(int column) const;
+  double real(int column) const;  // NULL: NaN
+  std::string text(int column) const;
+
+ private:
+  void finish();
+  void check(int code, std::string_view doing) const;
+  Database& db_;
+  sqlite3_stmt* handle_ = nullptr;
+};
+
+}  // namespace noonmark::sqlite

@@ -1,0 +1,67 @@
+// results.sqlite: the one store of a sweep, written point by point, so that a killed sweep resumes.
+//
+//   ResultStore store("out/results.sqlite", fingerprint, Existing::resume);
+//   store.set_info(info, planned);
+//   for (each point whose id is not in store.finished()) store.add(measure(point));
+//   Results results = store.load();
+//
+// For people: `SELECT map_resolution, filter_kind, acne FROM points` (a view: every setting, metric and quantity of the
+// curve as a column of its own type), and the tables behind it: info, settings, metrics, times, curves, curve_points,
+// pictures, bounds; `columns` says what each column of `points` means, and its unit.
+//
+// - A point is one transaction, flushed to the disk before add() returns: a kill at any time loses at most the point in
+//   flight. A rollback journal is used, not a write-ahead log, so that a finished store is one file.
+// - SQLite has no NaN. A metric that could not be measured (NaN) is a row whose value is NULL; one that was not recorded
+//   has no row. In `points` both are NULL, and `not_measured` counts the former. Infinities are stored as such.
+// - Doubles come back bit for bit (but for the payload of a NaN).
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compare/records.h"
+
+namespace noonmark {
+
+namespace sqlite {
+class Database;
+}
+
+enum class Existing {
+  resume,     // continue a store that has the same fingerprint; refuse any other
+  overwrite,  // start anew, whatever the file held
+};
+
+class ResultStore {
+ public:
+  // fingerprint: everything that determines results, as lines of "name = value". The folder must exist. Throws
+  // Error(usage) for the store of another experiment or version, naming the first line that differs; Error(scene) for a
+  // file that is damaged, no store, or cannot be written.
+  ResultStore(const std::string& path, const std::string& fingerprint, Existing existing);
+  // An existing store, whatever its fingerprint: for rebuilding a report. Throws Error(scene) when there is none.
+  static ResultStore open(const std::string& path);
+
+  ~ResultStore();
+  ResultStore(ResultStore&&) noexcept;
+  ResultStore& operator=(ResultStore&&) noexcept;
+
+  // Ids of the points that are in the store, ascending.
+  std::vector<int64_t> finished() const;
+  // Throws Error(usage) when the id is there already.
+  void add(const PointRecord& point);
+  // The pictures of a point that is in the store, replacing those it had: some are chosen once the sweep is over.
+  void set_pictures(int64_t point, const std::vector<PictureRecord>& pictures);
+  // Replaces what was there.
+  void set_info(const RunInfo& info, int64_t planned_points);
+  void set_bounds(const std::vector<BoundResult>& bounds);
+
+  Results load() const;
+  std::string fingerprint() const;
+
+ private:
+  explicit ResultStore(std::unique_ptr<sqlite::Database> db);
+  std::unique_ptr<sqlite::Database> db_;
+};
+
+}  // namespace noonmark

@@ -1,0 +1,154 @@
+#include "compare/summary.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/bounds.h"
+#include "compare/metrics.h"
+#include "compare/quantities.h"
+
+namespace noonmark {
+namespace {
+
+constexpr size_t best_count = 5;  // rows of the table of best settings
+
+// For a cell of a Markdown table: nothing in it may end the cell, or be taken for markup.
+std::string cell(std::string_view text) {
+  std::string escaped;
+  for (char c : text) {
+    if (c == '\n' || c == '\r') {
+      escaped += ' ';
+      continue;
+    }
+    if (c == '<') {
+      escaped += "&lt;";
+      continue;
+    }
+    if (std::string_view("|`*_\\[]#").find(c) != std::string_view::npos) escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+void add_row(std::string& text, const std::vector<std::string>& cells) {
+  text += fmt::format("| {} |\n", fmt::join(cells, " | "));
+}
+void add_heading(std::string& text, const std::vector<std::string>& names) {
+  add_row(text, names);
+  text += "|" + std::string() + [&] {
+    std::string rule;
+    for (size_t i = 0; i < names.size(); ++i) rule += " --- |";
+    return rule;
+  }() + "\n";
+}
+
+// Four digits are enough for a page; the store has them all.
+std::string short_number(std::optional<double> value) { return value ? fmt::format("{:.4g}", *value) : "–"; }
+
+std::string verdict(const Results& results) {
+  const auto finished = static_cast<int64_t>(results.points.size());
+  const auto broken = std::count_if(results.bounds.begin(), results.bounds.end(), [](const BoundResult& b) { return !b.held; });
+  const size_t count = results.bounds.size();
+  std::string text;
+  if (finished < results.planned_points)
+    text = fmt::format("**Incomplete: {} of {} points are finished.** Run it again to go on.", finished, results.planned_points);
+  else if (broken > 0)
+    text = fmt::format("**Broken: {} of {} bound{}.**", broken, count, count == 1 ? "" : "s");
+  else if (count > 0)
+    text = fmt::format("**Held: {} {} over {} point{}.**", count == 1 ? "the" : "all", count == 1 ? "bound" : fmt::format("{} bounds", count),
+                       finished, finished == 1 ? "" : "s");
+  else
+    text = fmt::format("**Measured {} point{}.** The experiment sets no bounds.", finished, finished == 1 ? "" : "s");
+  if (finished < results.planned_points && broken > 0) text += fmt::format(" {} of {} bounds are broken so far.", broken, count);
+  return text + "\n";
+}
+
+std::string bounds_table(const Results& results) {
+  std::string text = "\n## Bounds\n\n";
+  add_heading(text, {"", "bound", "found", "points", "worst at"});
+  for (const BoundResult& bound : results.bounds) {
+    std::vector<std::string> at;
+    if (const PointRecord* point = find_point(results.points, bound.point))
+      for (const std::string& name : results.info.swept) {
+        const auto setting = point->settings.find(name);
+        if (setting != point->settings.end()) at.push_back(fmt::format("{} = {}", name, setting->second));
+      }
+    add_row(text, {bound.held ? "held" : "**broken**", cell(bound_text(bound)),
+                   bound.points == 0 ? "–" : short_number(bound.found), fmt::format("{}", bound.points),
+                   cell(fmt::format("{}", fmt::join(at, ", ")))});
+  }
+  for (const BoundResult& bound : results.bounds) {
+    if (bound.held) continue;
+    const std::string why = describe(bound, find_point(results.points, bound.point), results.info.swept);
+    // Indented, not fenced: no run of backticks in a name can end it.
+    text += "\n";
+    size_t begin = 0;
+    while (begin < why.size()) {
+      const size_t end = std::min(why.find('\n', begin), why.size());
+      text += "    " + why.substr(begin, end - begin) + "\n";
+      begin = end + 1;
+    }
+  }
+  return text;
+}
+
+std::string best_table(const Results& results) {
+  std::vector<const PointRecord*> order;
+  for (const PointRecord& point : results.points) order.push_back(&point);
+  // Least error first, then least time; what could not be measured last.
+  const auto key = [](const PointRecord* point, std::string_view name) {
+    const double value = quantity(*point, name).value_or(std::numeric_limits<double>::infinity());
+    return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](const PointRecord* a, const PointRecord* b) {
+    return std::pair(key(a, "error"), key(a, "shadow_ms")) < std::pair(key(b, "error"), key(b, "shadow_ms"));
+  });
+  order.resize(std::min(order.size(), best_count));
+
+  std::string text = order.size() == 1 ? "\n## The point\n\n" : "\n## Best settings: the least error at the bias that was set\n\n";
+  std::vector<std::string> heading;
+  for (const std::string& name : results.info.swept) heading.push_back(cell(name));
+  for (const char* name : {"error", "acne", "Peter Panning", "aliasing", "ms", "usable bias (depth)", "best bias (depth)", "(m)",
+                           "(texels)", "error there"})
+    heading.emplace_back(name);
+  add_heading(text, heading);
+  for (const PointRecord* point : order) {
+    std::vector<std::string> cells;
+    for (const std::string& name : results.info.swept) {
+      const auto setting = point->settings.find(name);
+      cells.push_back(cell(setting == point->settings.end() ? "–" : setting->second));
+    }
+    for (const char* name : {"error", "acne", "peter_panning", "aliasing", "shadow_ms"}) cells.push_back(short_number(quantity(*point, name)));
+    const std::optional<double> min = quantity(*point, "window_min_depth"), max = quantity(*point, "window_max_depth");
+    cells.push_back(min && max ? fmt::format("{} … {}", short_number(min), short_number(max)) : point->curve ? "none" : "–");
+    for (const char* name : {"best_bias_depth", "best_bias_m", "best_bias_texels", "best_error"})
+      cells.push_back(short_number(quantity(*point, name)));
+    add_row(text, cells);
+  }
+
+  const auto with_curve = std::count_if(results.points.begin(), results.points.end(), [](const PointRecord& p) { return p.curve.has_value(); });
+  const auto without_window = std::count_if(results.points.begin(), results.points.end(), [](const PointRecord& p) {
+    return p.curve && !p.curve->window_min_depth;
+  });
+  if (without_window > 0)
+    text += fmt::format("\nAt {} of {} points no bias keeps both acne and Peter Panning within the curve's bounds.\n", without_window, with_curve);
+  return text;
+}
+
+}  // namespace
+
+std::string to_summary(const Results& results) {
+  const RunInfo& info = results.info;
+  std::string text = fmt::format("# {}\n\n{}", cell(info.title.empty() ? "Noonmark" : info.title), verdict(results));
+  if (!results.bounds.empty()) text += bounds_table(results);
+  if (!results.points.empty()) text += best_table(results);
+  text += fmt::format("\nMade by noonmark {} ({}) on {}; Embree {} ({}).\n", cell(info.version), cell(info.commit),
+                      cell(info.gl_renderer), cell(info.embree_version), cell(info.embree_isa));
+  return text;
+}
+
+}  // namespace noonmark

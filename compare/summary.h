@@ -1,0 +1,13 @@
+// summary.md: the verdict for a person, small enough for a CI job's page.
+#pragma once
+#include <string>
+
+#include "compare/records.h"
+
+namespace noonmark {
+
+// The verdict first, then the bounds, broken ones with what reproduces them, then the points with the least error and
+// the bias that each needs.
+std::string to_summary(const Results& results);
+
+}  // namespace noonmark

@@ -1,0 +1,95 @@
+// Move-only owners of OpenGL objects. The context that made an object must be current when it dies.
+#pragma once
+#include <epoxy/gl.h>
+
+#include <utility>
+
+namespace noonmark::gl {
+
+template <class Kind>
+class Owned {
+ public:
+  Owned() = default;  // owns nothing
+  explicit Owned(GLuint id) : id_(id) {}
+  Owned(Owned&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+  Owned& operator=(Owned&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  ~Owned() {
+    if (id_) Kind::destroy(id_);
+  }
+  GLuint id() const { return id_; }
+  explicit operator bool() const { return id_ != 0; }
+
+ private:
+  GLuint id_ = 0;
+};
+
+struct TextureKind {
+  static void destroy(GLuint id) { glDeleteTextures(1, &id); }
+};
+struct BufferKind {
+  static void destroy(GLuint id) { glDeleteBuffers(1, &id); }
+};
+struct FramebufferKind {
+  static void destroy(GLuint id) { glDeleteFramebuffers(1, &id); }
+};
+struct VertexArrayKind {
+  static void destroy(GLuint id) { glDeleteVertexArrays(1, &id); }
+};
+struct QueryKind {
+  static void destroy(GLuint id) { glDeleteQueries(1, &id); }
+};
+struct ShaderKind {
+  static void destroy(GLuint id) { glDeleteShader(id); }
+};
+struct ProgramKind {
+  static void destroy(GLuint id) { glDeleteProgram(id); }
+};
+
+using Texture = Owned<TextureKind>;
+using Buffer = Owned<BufferKind>;
+using Framebuffer = Owned<FramebufferKind>;
+using VertexArray = Owned<VertexArrayKind>;
+using Query = Owned<QueryKind>;
+using Shader = Owned<ShaderKind>;
+using ProgramObject = Owned<ProgramKind>;
+
+// A 2D texture with one level and nearest filtering, its contents undefined. Check for GL_OUT_OF_MEMORY afterwards.
+inline Texture make_texture(GLenum format, int width, int height) {
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &id);
+  glTextureStorage2D(id, 1, format, width, height);
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return Texture(id);
+}
+
+// size 0 is allowed here, though not in OpenGL.
+inline Buffer make_buffer(const void* data, size_t bytes) {
+  GLuint id = 0;
+  glCreateBuffers(1, &id);
+  glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes ? bytes : 4), bytes ? data : nullptr, 0);
+  return Buffer(id);
+}
+
+inline Framebuffer make_framebuffer() {
+  GLuint id = 0;
+  glCreateFramebuffers(1, &id);
+  return Framebuffer(id);
+}
+
+inline VertexArray make_vertex_array() {
+  GLuint id = 0;
+  glCreateVertexArrays(1, &id);
+  return VertexArray(id);
+}
+
+inline Query make_query(GLenum target) {
+  GLuint id = 0;
+  glCreateQueries(target, 1, &id);
+  return Query(id);
+}
+
+}  // namespace noonmark::gl

@@ -1,0 +1,13 @@
+// The bias forms and filters of the lookup shader. To add one: its GLSL file, and its row in lookup_parts.cpp.
+#pragma once
+#include "scenes/settings.h"
+
+namespace noonmark::gl {
+
+// Defines float bias_depth(float n_dot_l).
+const char* bias_file(BiasForm form);
+
+// Defines float lit_taps(Receiver receiver, float bias).
+const char* filter_file(FilterKind kind);
+
+}  // namespace noonmark::gl

@@ -1,0 +1,78 @@
+#include "gl/program.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "gl_shaders.h"
+#include "scenes/error.h"
+
+namespace noonmark::gl {
+namespace {
+
+Shader compile(GLenum stage, const ShaderText& source) {
+  Shader shader(glCreateShader(stage));
+  const char* text = source.text.c_str();
+  glShaderSource(shader.id(), 1, &text, nullptr);
+  glCompileShader(shader.id());
+  GLint ok = 0, length = 0;
+  glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &ok);
+  if (ok) return shader;
+  glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<size_t>(length) + 1, '\0');
+  glGetShaderInfoLog(shader.id(), length + 1, nullptr, log.data());
+  throw Error(ErrorKind::device, fmt::format("the OpenGL driver cannot compile a shader: {}",
+                                             name_lines(log.c_str(), source.files)));
+}
+
+}  // namespace
+
+Program::Program(const std::string& vertex, const std::string& fragment, const ShaderSlots& slots,
+                 const ShaderFiles& files) {
+  const Shader vertex_shader = compile(GL_VERTEX_SHADER, expand_includes(vertex, slots, files));
+  const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, expand_includes(fragment, slots, files));
+  object_ = ProgramObject(glCreateProgram());
+  glAttachShader(id(), vertex_shader.id());
+  glAttachShader(id(), fragment_shader.id());
+  glLinkProgram(id());
+  glDetachShader(id(), vertex_shader.id());
+  glDetachShader(id(), fragment_shader.id());
+  GLint ok = 0, length = 0;
+  glGetProgramiv(id(), GL_LINK_STATUS, &ok);
+  if (ok) return;
+  glGetProgramiv(id(), GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<size_t>(length) + 1, '\0');
+  glGetProgramInfoLog(id(), length + 1, nullptr, log.data());
+  throw Error(ErrorKind::device, fmt::format("the OpenGL driver cannot link {} with {}: {}", vertex, fragment, log.c_str()));
+}
+
+int Program::location(const char* uniform) const {
+  const int found = glGetUniformLocation(id(), uniform);
+  if (found < 0) throw std::logic_error(fmt::format("the shader has no uniform '{}' in use", uniform));
+  return found;
+}
+
+void Program::set(const char* uniform, int value) { glProgramUniform1i(id(), location(uniform), value); }
+void Program::set(const char* uniform, const glm::mat4& value) {
+  glProgramUniformMatrix4fv(id(), location(uniform), 1, GL_FALSE, &value[0][0]);
+}
+// OpenGL ignores location -1.
+void Program::set_if_used(const char* uniform, float value) {
+  glProgramUniform1f(id(), glGetUniformLocation(id(), uniform), value);
+}
+void Program::set_if_used(const char* uniform, int value) {
+  glProgramUniform1i(id(), glGetUniformLocation(id(), uniform), value);
+}
+void Program::set_if_used(const char* uniform, glm::vec3 value) {
+  glProgramUniform3fv(id(), glGetUniformLocation(id(), uniform), 1, &value.x);
+}
+
+Program& ProgramCache::get(const std::string& vertex, const std::string& fragment, const ShaderSlots& slots) {
+  std::string key = vertex + '\n' + fragment;
+  for (const auto& [slot, file] : slots) key += '\n' + slot + '=' + file;
+  const auto found = programs_.find(key);
+  if (found != programs_.end()) return found->second;
+  return programs_.emplace(key, Program(vertex, fragment, slots, shaders::embedded)).first->second;
+}
+
+}  // namespace noonmark::gl

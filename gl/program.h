@@ -1,0 +1,44 @@
+// OpenGL programs made of the embedded GLSL files (gl/shaders), each built once per context.
+//
+//   Program& lookup = programs.get("shaders/screen.vert", "shaders/lookup.frag", {{"bias", "shaders/bias/slope.glsl"}});
+//   lookup.set("resolution", 1024);
+//   glUseProgram(lookup.id());
+#pragma once
+#include <glm/glm.hpp>
+#include <map>
+#include <string>
+
+#include "gl/gl_objects.h"
+#include "gl/shader_text.h"
+
+namespace noonmark::gl {
+
+class Program {
+ public:
+  // Throws Error(device) with the shader's file and line.
+  Program(const std::string& vertex, const std::string& fragment, const ShaderSlots& slots, const ShaderFiles& files);
+
+  GLuint id() const { return object_.id(); }
+
+  // Throws std::logic_error when the program has no such uniform in use.
+  void set(const char* uniform, int value);
+  void set(const char* uniform, const glm::mat4& value);
+  // For what only some slots' files use.
+  void set_if_used(const char* uniform, float value);
+  void set_if_used(const char* uniform, int value);
+  void set_if_used(const char* uniform, glm::vec3 value);
+
+ private:
+  int location(const char* uniform) const;
+  ProgramObject object_;
+};
+
+class ProgramCache {
+ public:
+  Program& get(const std::string& vertex, const std::string& fragment, const ShaderSlots& slots = {});
+
+ private:
+  std::map<std::string, Program> programs_;
+};
+
+}  // namespace noonmark::gl

@@ -1,0 +1,84 @@
+// What a Renderer holds, for its own source files: renderer.cpp (life, scene), renderer_receivers.cpp,
+// renderer_map.cpp and renderer_lookup.cpp.
+#pragma once
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "gl/egl_context.h"
+#include "gl/gl_objects.h"
+#include "gl/pass_timer.h"
+#include "gl/program.h"
+#include "gl/renderer.h"
+
+namespace noonmark::gl {
+
+struct ShadowMap::Impl {
+  // Keeps the context, whose texture this is; a map may outlive its Renderer.
+  std::shared_ptr<EglContext> context;
+  Texture depth;
+  int resolution = 0;
+
+  Impl(std::shared_ptr<EglContext> owner, Texture texture, int side)
+      : context(std::move(owner)), depth(std::move(texture)), resolution(side) {}
+  ~Impl();
+};
+
+// A texture that is kept from call to call while its size stays the same.
+struct Target {
+  Texture texture;
+  GLenum format = 0;
+  int width = 0, height = 0;
+};
+
+struct Renderer::Impl {
+  std::shared_ptr<EglContext> context;  // first, so that it dies last
+  DeviceInfo info;
+  std::optional<PassTimer> timer;
+  ProgramCache programs;
+  std::set<std::string> warm;  // passes that have run once, so that no driver's compiler is in their times
+
+  VertexArray scene_vertices, no_vertices;
+  Buffer positions, triangles;
+  GLsizei index_count = 0;
+
+  Framebuffer framebuffer;
+  Target primitive_colour, primitive_depth;
+  Target position_image, normal_image;
+  Target lit_taps, reference, texel, n_dot_l, map_strip;
+  glm::vec3 direction_to_light{0, 1, 0};
+
+  explicit Impl(DebugMode debug);
+  ~Impl();
+
+  // Makes `target` of this format and size, if it is not already. Throws Error(device) when memory is short.
+  void require(Target& target, GLenum format, int width, int height);
+  void check_memory(const char* what, int width, int height);
+
+  // Binds the framebuffer with these textures alone (colour i at location i) and sets the viewport.
+  void draw_into(std::initializer_list<GLuint> colours, GLuint depth, int width, int height);
+  // Ends draw_into: nothing stays attached, so that a deleted texture is not kept alive.
+  void detach(size_t colours);
+
+  void draw_scene(const Program& program);
+  void draw_screen(const Program& program);
+
+  // Runs the pass; when time_ms is given, its time goes there, after one untimed run if `key` is not warm.
+  void run(const std::string& key, double* time_ms, const std::function<void()>& pass);
+
+  void check_resolution(int resolution) const;
+  Texture make_map_texture(GLenum format, int resolution, Wrap wrap);
+  void set_receiver_uniforms(Program& program, const LightFrame& frame, int resolution);
+};
+
+// The whole of level 0, row 0 first.
+template <class T>
+Image<T> read_back(const Target& target, GLenum format, GLenum type) {
+  Image<T> image(target.width, target.height);
+  glGetTextureImage(target.texture.id(), 0, format, type, static_cast<GLsizei>(image.size() * sizeof(T)),
+                    image.pixels.data());
+  return image;
+}
+
+}  // namespace noonmark::gl

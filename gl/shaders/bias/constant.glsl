@@ -1,0 +1,3 @@
+uniform float bias_constant;  // window depth
+
+float bias_depth(float n_dot_l) { return bias_constant; }

@@ -1,0 +1,1 @@
+float bias_depth(float n_dot_l) { return 0.0; }

@@ -1,0 +1,29 @@
+// Which triangles share an edge: two edges are one when their end positions are exactly equal, whatever the indices,
+// the mesh or the dihedral angle. Built once for a scene.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scenes/scene.h"
+
+namespace noonmark {
+
+class Adjacency {
+ public:
+  explicit Adjacency(const Scene& scene);
+
+  // The other triangles at edge `edge` (0: corners 0-1, 1: 1-2, 2: 2-0) of `triangle`.
+  std::span<const uint32_t> across(uint32_t triangle, int edge) const;
+
+  // The corners of a triangle as welded vertices: equal numbers mean exactly equal positions.
+  const std::array<uint32_t, 3>& welded(uint32_t triangle) const { return welded_[triangle]; }
+
+ private:
+  std::vector<std::array<uint32_t, 3>> welded_;
+  std::vector<uint32_t> begin_;       // [3 * triangle + edge] into neighbours_
+  std::vector<uint32_t> neighbours_;
+};
+
+}  // namespace noonmark

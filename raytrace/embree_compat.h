@@ -1,0 +1,49 @@
+// The few lines in which Embree 3 and 4 differ. Nothing else in the project names a version.
+#pragma once
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace noonmark::embree {
+
+// What a filter function finds behind its context: derive from it, pass it to the calls below.
+#if RTC_VERSION_MAJOR >= 4
+struct Context : RTCRayQueryContext {
+  Context() { rtcInitRayQueryContext(this); }
+};
+
+inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  rtcIntersect1(scene, &ray, &arguments);
+}
+inline void intersect16(const int* valid, RTCScene scene, Context& context, RTCRayHit16& rays) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  rtcIntersect16(valid, scene, &rays, &arguments);
+}
+inline void occluded16(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded16(valid, scene, &rays, &arguments);
+}
+#else
+struct Context : RTCIntersectContext {
+  Context() { rtcInitIntersectContext(this); }
+};
+
+inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray) { rtcIntersect1(scene, &context, &ray); }
+inline void intersect16(const int* valid, RTCScene scene, Context& context, RTCRayHit16& rays) {
+  rtcIntersect16(valid, scene, &context, &rays);
+}
+inline void occluded16(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
+  rtcOccluded16(valid, scene, &context, &rays);
+}
+#endif
+
+}  // namespace noonmark::embree

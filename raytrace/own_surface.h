@@ -1,0 +1,55 @@
+// V(P, x) = "P's surface, carried along itself to the light-plane position x, is lit": the one function behind the
+// ladder's rungs R1 to R3, and the rule that tells an occluder from P's own surface.
+//
+// Let H be the first hit on the light ray through x, and S the depth at x of P's own sheet: walk from P straight to x
+// over triangles joined by exactly equal vertex positions, across any dihedral angle. Where the walk ends early at E (a
+// fold as the light sees it, or a boundary), S is the nearer to the light of P's tangent plane at x and the depth of E.
+// V = lit iff z_H >= S, or P is lit and the first-hit depth has no jump along the way from P to x. So aliasing needs a
+// shadow edge between the pixel and the texel; without one it is acne.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "raytrace/adjacency.h"
+#include "raytrace/embree_scene.h"
+#include "raytrace/light_view.h"
+
+namespace noonmark {
+
+struct SurfacePoint {
+  glm::dvec2 at{0};        // P in the light's plane, metres
+  uint32_t primitive = 0;  // the triangle it lies on
+  bool lit = false;        // R1
+};
+
+class OwnSurface {
+ public:
+  OwnSurface(const EmbreeScene& embree, const Adjacency& adjacency, const LightView& view)
+      : embree_(embree), adjacency_(adjacency), view_(view) {}
+
+  // hit: the triangle of the first hit on the light ray through x, or no_primitive. rays: counts those cast here.
+  bool lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const;
+
+  // The same, casting the ray through x itself.
+  bool lit_at(const SurfacePoint& p, glm::dvec2 x, uint64_t& rays) const;
+
+  // Where V changes between two places with different verdicts, to 2^-8 of the way: the distance from `from` to there,
+  // metres in the light's plane.
+  double edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from, uint64_t& rays) const;
+
+  struct Sheet {
+    double depth_m = 0;                // S
+    uint32_t triangle = no_primitive;  // where the walk arrived, or no_primitive when it ended early
+  };
+  Sheet walk(const SurfacePoint& p, glm::dvec2 x) const;
+
+ private:
+  bool continuous(glm::dvec2 from, uint32_t from_triangle, glm::dvec2 to, uint32_t to_triangle, uint64_t& rays) const;
+  bool planes_cross(uint32_t a, uint32_t b, glm::dvec2 from, glm::dvec2 to) const;
+
+  const EmbreeScene& embree_;
+  const Adjacency& adjacency_;
+  const LightView& view_;
+};
+
+}  // namespace noonmark

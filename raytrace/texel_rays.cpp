@@ -1,0 +1,86 @@
+#include "raytrace/texel_rays.h"
+
+#include <tbb/combinable.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "raytrace/packets.h"
+
+namespace noonmark {
+namespace {
+
+// Sorts by row, then column, so that neighbours in the list are neighbours in the map.
+uint64_t texel_key(glm::ivec2 texel) {
+  const auto shifted = [](int i) { return static_cast<uint64_t>(static_cast<uint32_t>(i) ^ 0x80000000u); };
+  return shifted(texel.y) << 32 | shifted(texel.x);
+}
+
+glm::ivec2 texel_of(uint64_t key) {
+  const auto back = [](uint64_t i) { return static_cast<int>(static_cast<uint32_t>(i) ^ 0x80000000u); };
+  return {back(key & 0xffffffffu), back(key >> 32)};
+}
+
+void trace(const EmbreeScene& embree, const LightView& view, size_t count, const auto& texel_at, const auto& store) {
+  for_each_packet(count, [&](size_t first, int n) {
+    glm::vec3 origins[packet_size];
+    uint32_t hits[packet_size];
+    for (int i = 0; i < n; ++i) origins[i] = view.ray_origin(view.frame().texel_centre(texel_at(first + i)));
+    embree.first_hits(n, origins, view.frame().ray_direction, hits);
+    for (int i = 0; i < n; ++i) store(first + i, hits[i]);
+  });
+}
+
+}  // namespace
+
+TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Image<uint8_t>& facing,
+                     const LookupProbe& probe, Wrap wrap, int kernel) {
+  const int resolution = view.frame().resolution, r = kernel / 2;
+  Image<uint8_t> wanted(resolution, resolution, 0);
+  tbb::combinable<std::vector<uint64_t>> outside_keys;
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, facing.size(), 4096), [&](const tbb::blocked_range<size_t>& range) {
+    std::vector<uint64_t>& outside = outside_keys.local();
+    for (size_t i = range.begin(); i != range.end(); ++i) {
+      if (!facing[i]) continue;
+      const glm::ivec2 base = probe.texel[i];
+      for (int dy = -r; dy <= r; ++dy) {
+        for (int dx = -r; dx <= r; ++dx) {
+          const glm::ivec2 texel = base + glm::ivec2(dx, dy);
+          const glm::ivec2 read = wrapped(texel, resolution, wrap);
+          if (read.x >= 0) std::atomic_ref(wanted.at(read.x, read.y)).store(1, std::memory_order_relaxed);
+          if (!inside_map(texel, resolution)) outside.push_back(texel_key(texel));
+        }
+      }
+      // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills the memory.
+      if (outside.size() > 1u << 22) {
+        std::sort(outside.begin(), outside.end());
+        outside.erase(std::unique(outside.begin(), outside.end()), outside.end());
+      }
+    }
+  });
+
+  for (int y = 0; y < resolution; ++y)
+    for (int x = 0; x < resolution; ++x)
+      if (wanted.at(x, y)) inside_texels_.push_back({x, y});
+  inside_ = Image<uint32_t>(resolution, resolution, no_primitive);
+  trace(embree, view, inside_texels_.size(), [&](size_t i) { return inside_texels_[i]; },
+        [&](size_t i, uint32_t hit) { inside_.at(inside_texels_[i].x, inside_texels_[i].y) = hit; });
+
+  std::vector<uint64_t> keys;
+  outside_keys.combine_each([&](const std::vector<uint64_t>& part) { keys.insert(keys.end(), part.begin(), part.end()); });
+  tbb::parallel_sort(keys);
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  outside_.resize(keys.size());
+  trace(embree, view, keys.size(), [&](size_t i) { return texel_of(keys[i]); },
+        [&](size_t i, uint32_t hit) { outside_[i] = {keys[i], hit}; });
+}
+
+uint32_t TexelRays::outside_hit(glm::ivec2 texel) const {
+  const uint64_t key = texel_key(texel);
+  const auto found = std::lower_bound(outside_.begin(), outside_.end(), key,
+                                      [](const auto& entry, uint64_t wanted) { return entry.first < wanted; });
+  return found != outside_.end() && found->first == key ? found->second : no_primitive;
+}
+
+}  // namespace noonmark

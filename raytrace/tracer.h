@@ -1,0 +1,68 @@
+// The truth, by rays: what is lit, how sure that is, and what a perfect shadow map would hold.
+//
+//   raytrace::Tracer tracer(scene);
+//   ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {.angular_diameter_deg = 0.53});
+//   raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, renderer.probe(frame, s), frame, s.map, kernel);
+//
+// Conventions: scenes/scene.h. All calls use every core; results do not depend on how many there are. The scene must
+// outlive the tracer. Throws Error(device) when Embree fails.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "scenes/evidence.h"
+#include "scenes/light_frame.h"
+#include "scenes/receivers.h"
+#include "scenes/scene.h"
+#include "scenes/settings.h"
+
+namespace noonmark::raytrace {
+
+struct TracerInfo {
+  std::string version;
+  std::string isa;  // pinned: verdicts at silhouettes differ between instruction sets
+};
+
+struct SoftTruth {
+  double angular_diameter_deg = 0;  // 0: the light has no size and R0 = R1
+  double standard_error = 0.01;     // of R0 at each receiver
+};
+
+// The truth of one lookup: every tap of every facing receiver, and the exact map that those taps read.
+struct LookupTruth {
+  TapTruth taps;
+  Image<float> exact_map;         // window depth at the centres of the texels looked up; 1 elsewhere. Row 0: lowest v
+  Image<float> edge_distance_m;   // per receiver: the largest distance, in the light's plane, from a tap's exact place
+                                  // to the shadow edge before the texel centre it snaps to; 0 where F = V at every tap
+  StageTime texel_stage;          // light-side rays through texel centres
+  StageTime tap_stage;            // V at every tap
+};
+
+class Tracer {
+ public:
+  explicit Tracer(const Scene& scene);
+  ~Tracer();
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+
+  TracerInfo info() const;
+
+  // R1 by one exact shadow ray each, whether it is ambiguous (its verdict changes when the start moves by the float
+  // error in the light's plane), and R0. Only the frame's axes matter, not its map.
+  ReceiverTruth receiver_truth(const ReceiverImage& receivers, const LightFrame& frame, const SoftTruth& soft,
+                               StageTime* hard_stage = nullptr, StageTime* soft_stage = nullptr) const;
+
+  // kernel: taps on a side, odd. map: resolution is the frame's; wrap and cull are read.
+  LookupTruth lookup_truth(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
+                           const LightFrame& frame, const MapSettings& map, int kernel) const;
+
+  // For the pixels where mask is not 0: distance in metres from P to its nearest occluder towards the light; infinity
+  // without one. Other pixels: 0.
+  Image<float> occluder_distance(const ReceiverImage& receivers, const LightFrame& frame, const Image<uint8_t>& mask) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace noonmark::raytrace

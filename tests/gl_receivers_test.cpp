@@ -1,0 +1,121 @@
+// The receiver pass against what can be told by hand.
+#include <cmath>
+
+#include "gl_fixture.h"
+#include "scenes/camera_frame.h"
+
+namespace noonmark::gl {
+namespace {
+
+// Four unit quads with gaps, one for each quarter of the picture, seen from above.
+Scene four_quads() {
+  Scene scene;
+  const auto add = [&](double x, double z) { add_quad(scene, "quad", {x - 0.5, 0, z + 0.5}, {1, 0, 0}, {0, 0, -1}); };
+  add(-1, -1);  // top left: up is -Z
+  add(1, -1);   // top right
+  add(-1, 1);   // bottom left
+  add(1, 1);    // bottom right
+  return scene;
+}
+
+TEST_F(GlTest, PrimitivesAtKnownPixelsTopRowFirst) {
+  renderer.load_scene(four_quads());
+  // 4 m for 40 rows: 10 pixels a metre; 60 columns: 6 m. Quads cover columns 15-24 and 35-44, rows 5-14 and 25-34.
+  const Image<uint32_t> image = renderer.render_primitives(camera_from_above(4), 60, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 60; ++x) {
+      const bool left = x >= 15 && x < 25, right = x >= 35 && x < 45, top = y >= 5 && y < 15, bottom = y >= 25 && y < 35;
+      uint32_t quad = no_primitive;
+      if (top && left) quad = 0;
+      if (top && right) quad = 1;
+      if (bottom && left) quad = 2;
+      if (bottom && right) quad = 3;
+      const uint32_t seen = image.at(x, y) == no_primitive ? no_primitive : image.at(x, y) / 2;
+      ASSERT_EQ(seen, quad) << "at pixel " << x << ", " << y;
+    }
+}
+
+TEST_F(GlTest, BothSidesAreSeenAndTheNearestWins) {
+  Scene scene;
+  add_floor(scene, 0, 2);                                                     // triangles 0 and 1, towards the camera
+  add_quad(scene, "lid", {-2, 1, -2}, {2, 0, 0}, {0, 0, 4});                  // 2 and 3: x < 0, away from the camera
+  add_quad(scene, "below", {-2, -1, 2}, {4, 0, 0}, {0, 0, -4});               // 4 and 5: hidden
+  renderer.load_scene(scene);
+  const Image<uint32_t> image = renderer.render_primitives(camera_from_above(3), 30, 30);
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 30; ++x) ASSERT_EQ(image.at(x, y) / 2, x < 15 ? 1u : 0u) << x << ", " << y;
+}
+
+// Every pixel whose ray passes a triangle's edge by more than this must be right; closer ones may be snapped away.
+// The rasteriser snaps vertices to 1/256 of a pixel (OpenGL asks for 1/16), so an edge may move by that in x and y.
+constexpr double snapping_px = 2.0 / 256;
+
+TEST_F(GlTest, PerspectivePrimitivesMeetTheirPixelsRay) {
+  Scene scene;
+  add_box(scene, "box", {-1, 0, -1}, {1, 1.5, 1});
+  add_floor(scene, -0.5, 6);
+  renderer.load_scene(scene);
+  Camera camera;
+  camera.eye_m = {4, 3, 6};
+  camera.fov_y_deg = 50;
+  const int width = 160, height = 90;
+  const Image<uint32_t> image = renderer.render_primitives(camera, width, height);
+  const CameraFrame frame = make_camera_frame(camera, width, height);
+  const glm::dmat4 clip = frame.clip_from_world();
+  int compared = 0, seen = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const glm::dvec2 centre(x + 0.5, y + 0.5);
+      uint32_t best = no_primitive;
+      double best_depth = INFINITY;
+      bool near_edge = false;
+      for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        glm::dvec2 p[3];
+        double w[3];
+        for (int k = 0; k < 3; ++k) {
+          const glm::dvec4 c = clip * glm::dvec4(glm::dvec3(scene.positions[scene.triangles[t][k]]), 1);
+          ASSERT_GT(c.w, 0) << "the test's scene lies before the camera";
+          p[k] = {(c.x / c.w * 0.5 + 0.5) * width, (0.5 - c.y / c.w * 0.5) * height};
+          w[k] = c.w;
+        }
+        const auto cross = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
+        const double area = cross(p[1] - p[0], p[2] - p[0]);
+        double inside[3], one_over_w = 0;
+        bool in = true;
+        for (int k = 0; k < 3; ++k) {
+          const glm::dvec2 a = p[(k + 1) % 3], b = p[(k + 2) % 3];
+          inside[k] = cross(b - a, centre - a) / area;
+          const double distance = inside[k] * std::abs(area) / glm::length(b - a);
+          near_edge |= std::abs(distance) < 2 * snapping_px;
+          in &= inside[k] > 0;
+          one_over_w += inside[k] / w[k];
+        }
+        if (in && 1 / one_over_w < best_depth) {
+          best_depth = 1 / one_over_w;
+          best = t;
+        }
+      }
+      if (near_edge) continue;
+      ++compared;
+      seen += best != no_primitive;
+      ASSERT_EQ(image.at(x, y), best) << "at pixel " << x << ", " << y;
+    }
+  EXPECT_GT(compared, width * height * 9 / 10);
+  EXPECT_GT(seen, width * height / 4);
+  EXPECT_LT(seen, compared) << "some background too";
+}
+
+TEST_F(GlTest, AnEmptySceneIsBackground) {
+  renderer.load_scene(Scene{});
+  for (uint32_t p : renderer.render_primitives(camera_from_above(1), 8, 8).pixels) ASSERT_EQ(p, no_primitive);
+}
+
+TEST_F(GlTest, AnImpossiblePictureIsAUsageError) {
+  std::string message;
+  EXPECT_EQ(kind_thrown([&] { renderer.render_primitives(camera_from_above(1), 1 << 20, 4); }, &message),
+            static_cast<int>(ErrorKind::usage));
+  EXPECT_NE(message.find(std::to_string(renderer.info().max_map_resolution)), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace noonmark::gl
