@@ -49,7 +49,7 @@ Image<uint8_t> peter_panning_mask(const Ladder& ladder) {
   return mask;
 }
 
-std::map<std::string, double> measure(const MeasureInput& in) {
+std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   const Ladder& ladder = in.ladder;
   uint64_t receivers = 0, facing = 0, base = 0, outside = 0, wrong = 0, aliased = 0;
   double error = 0, error_soft = 0, gap = 0, edge_max = 0, edge_sum = 0;

@@ -19,9 +19,9 @@ struct MeasureInput {
 
 // Every metric of the table but the times. A value that is not finite in the images makes the metrics that it enters
 // not finite; nothing is skipped.
-std::map<std::string, double> measure(const MeasureInput& input);
+std::map<std::string, double> measure_ladder(const MeasureInput& input);
 
-// The pixels with any Peter Panning: those whose occluder's distance measure() needs.
+// The pixels with any Peter Panning: those whose occluder's distance measure_ladder() needs.
 Image<uint8_t> peter_panning_mask(const Ladder& ladder);
 
 // The counted receiver with the largest |R5 - R1|; x = -1 where there is none.

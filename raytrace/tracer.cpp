@@ -54,7 +54,10 @@ struct Tracer::Impl {
 Tracer::Tracer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
 Tracer::~Tracer() = default;
 
-TracerInfo Tracer::info() const { return {impl_->device.version(), impl_->device.isa()}; }
+TracerInfo tracer_info() {
+  const EmbreeDevice device;
+  return {device.version(), device.isa()};
+}
 
 ReceiverTruth Tracer::receiver_truth(const ReceiverImage& receivers, const LightFrame& frame, const SoftTruth& soft,
                                      StageTime* hard_stage, StageTime* soft_stage) const {

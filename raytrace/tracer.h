@@ -23,6 +23,9 @@ struct TracerInfo {
   std::string isa;  // pinned: verdicts at silhouettes differ between instruction sets
 };
 
+// Throws Error(device) when Embree cannot start.
+TracerInfo tracer_info();
+
 struct SoftTruth {
   double angular_diameter_deg = 0;  // 0: the light has no size and R0 = R1
   double standard_error = 0.01;     // of R0 at each receiver
@@ -44,8 +47,6 @@ class Tracer {
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
-
-  TracerInfo info() const;
 
   // R1 by one exact shadow ray each, whether it is ambiguous (its verdict changes when the start moves by the float
   // error in the light's plane), and R0. Only the frame's axes matter, not its map.

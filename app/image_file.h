@@ -1,0 +1,23 @@
+// Pictures and images on disk, by OpenImageIO: PNG for people, 32-bit float EXR for programs. Written beside and
+// renamed. Throws Error(scene) when a file cannot be written.
+#pragma once
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "scenes/image.h"
+
+namespace noonmark {
+
+using Color = glm::u8vec3;  // sRGB
+
+void write_png(const std::string& path, const Image<Color>& picture);
+
+// One named channel of an EXR; values are stored as 32-bit float, row 0 on top.
+struct Channel {
+  std::string name;
+  Image<float> values;
+};
+void write_exr(const std::string& path, const std::vector<Channel>& channels);
+
+}  // namespace noonmark

@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "app/build_facts.h"
+#include "app/pictures.h"
+#include "compare/metrics.h"
+#include "scenes/camera_frame.h"
+#include "scenes/map_address.h"
+
+namespace noonmark {
+namespace {
+
+template <class T, class Get>
+Image<float> channel_of(const Image<T>& source, const Get& get) {
+  Image<float> values(source.width, source.height);
+  for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(get(source[i]));
+  return values;
+}
+
+// The depth that the lookup's middle tap reads; NaN where there is no receiver.
+Image<float> depth_read(const Measurement& m, const Image<float>& map) {
+  Image<float> values(m.receivers.width(), m.receivers.height(), std::numeric_limits<float>::quiet_NaN());
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (m.receivers.primitive[i] == no_primitive) continue;
+    const glm::ivec2 read = wrapped(m.probe.texel[i], map.width, m.settings.map.wrap);
+    values[i] = read.x < 0 ? border_depth : map.at(read.x, read.y);
+  }
+  return values;
+}
+
+nlohmann::json number(double value) {  // JSON has no NaN and no infinity
+  if (std::isfinite(value)) return value;
+  return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+}
+
+nlohmann::json vector_json(glm::dvec3 v) { return {v.x, v.y, v.z}; }
+
+nlohmann::json matrix_rows(const glm::dmat4& matrix) {
+  nlohmann::json rows;
+  for (int row = 0; row < 4; ++row)
+    rows.push_back({matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row]});
+  return rows;
+}
+
+// A setting in the type that its row says; text, points and auto as text.
+nlohmann::json setting_json(const Setting& row, const std::string& text) {
+  if (text == "auto") return text;
+  switch (row.type) {
+    case ValueType::integer: return std::stoll(text);
+    case ValueType::real: return std::stod(text);
+    case ValueType::flag: return text == "true";
+    default: return text;
+  }
+}
+
+nlohmann::json curve_json(const BiasCurve& c) {
+  const auto optional = [](const std::optional<double>& v) { return v ? nlohmann::json(*v) : nlohmann::json(); };
+  return {{"parameter", c.parameter}, {"made", c.made}, {"bias_depth", c.bias_depth}, {"error", c.error}, {"wrong", c.wrong},
+          {"acne", c.acne}, {"peter_panning", c.peter_panning}, {"aliasing_dark", c.aliasing_dark},
+          {"aliasing_light", c.aliasing_light}, {"coverage", c.coverage}, {"m_per_depth", c.m_per_depth},
+          {"texels_per_depth", c.texels_per_depth}, {"acne_bound", c.acne_bound}, {"peter_panning_bound", c.peter_panning_bound},
+          {"window_min_depth", optional(c.window_min_depth)}, {"window_max_depth", optional(c.window_max_depth)},
+          {"best_bias_depth", number(c.best_bias_depth)}, {"best_error", number(c.best_error)},
+          {"flat_min_depth", number(c.flat_min_depth)}, {"flat_max_depth", number(c.flat_max_depth)}, {"breakpoints", c.breakpoints}};
+}
+
+}  // namespace
+
+void write_images(const Measurement& m, const std::string& prefix) {
+  std::vector<Channel> channels;
+  const auto add = [&](std::string name, Image<float> values) { channels.push_back({std::move(name), std::move(values)}); };
+  for (int axis = 0; axis < 3; ++axis) {
+    add(fmt::format("P.{}", "XYZ"[axis]), channel_of(m.receivers.position, [&](const glm::vec3& p) { return p[axis]; }));
+    add(fmt::format("N.{}", "XYZ"[axis]), channel_of(m.receivers.normal, [&](const glm::vec3& n) { return n[axis]; }));
+  }
+  // Up to 2^24 a float holds an index exactly; -1 where there is no surface.
+  add("primitive", channel_of(m.receivers.primitive, [](uint32_t p) { return p == no_primitive ? -1.0 : p; }));
+  for (size_t rung = 0; rung < m.ladder.rung.size(); ++rung) add(fmt::format("R{}", rung), m.ladder.rung[rung]);
+  add("depth.reference", m.probe.reference);
+  add("depth.stored", depth_read(m, m.stored_map));
+  add("depth.exact", depth_read(m, m.exact_map));
+  add("cause", channel_of(m.ladder.cause, [](uint8_t c) { return c; }));
+  add("flags", channel_of(m.ladder.flags, [](uint8_t f) { return f; }));
+  for (int c = 1; c < cause_count; ++c)
+    add(fmt::format("step.{}", cause_name(static_cast<Cause>(c))), m.ladder.step[static_cast<size_t>(c)]);
+  write_exr(prefix + "ladder.exr", channels);
+
+  const auto top_first = [](const Image<float>& map) {
+    Image<float> flipped(map.width, map.height);
+    for (int y = 0; y < map.height; ++y)
+      std::copy_n(&map.at(0, y), map.width, &flipped.at(0, map.height - 1 - y));
+    return flipped;
+  };
+  write_exr(prefix + "map.exr", {{"depth.stored", top_first(m.stored_map)}, {"depth.exact", top_first(m.exact_map)}});
+}
+
+std::string point_json(const Measurement& m, const std::string& command) {
+  nlohmann::ordered_json json;
+  json["noonmark"] = {{"version", build_facts().version}, {"commit", build_facts().commit}};
+  json["command"] = command;
+  json["scene"] = {{"name", m.scene.name}, {"triangles", m.scene.triangles.size()}, {"vertices", m.scene.positions.size()}};
+  for (const Setting& row : settings_table()) json["settings"][std::string(row.name)] = setting_json(row, row.get(m.settings));
+  for (const Metric& metric : metrics_table()) {
+    const auto found = m.record.metrics.find(std::string(metric.name));
+    if (found != m.record.metrics.end()) json["metrics"][std::string(metric.name)] = number(found->second);
+  }
+  for (const auto& [name, value] : m.record.times) json["times"][name] = number(value);
+  json["worst"] = {{"x", m.record.worst.x}, {"y", m.record.worst.y}, {"error", number(m.record.worst.error)}, {"cause", m.record.worst.cause}};
+
+  const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
+  json["camera"] = {{"projection", m.camera.projection == Projection::perspective ? "perspective" : "orthographic"},
+                    {"eye_m", vector_json(camera.eye_m)}, {"right", vector_json(camera.right)}, {"up", vector_json(camera.up)},
+                    {"forward", vector_json(camera.forward)}, {"half_width", camera.half_width}, {"half_height", camera.half_height},
+                    {"near_m", m.camera.near_m}, {"far_m", m.camera.far_m}, {"clip_from_world_rows", matrix_rows(camera.clip_from_world())}};
+  const LightFrame& f = m.frame;
+  json["light"] = {{"kind", "directional"}, {"origin_m", vector_json(f.origin_m)}, {"right", vector_json(f.right)}, {"up", vector_json(f.up)},
+                   {"forward", vector_json(f.forward)}, {"ray_direction", vector_json(f.ray_direction)}, {"extent_m", f.extent_m},
+                   {"near_m", f.near_m}, {"far_m", f.far_m}, {"resolution", f.resolution}, {"texel_m", f.texel_m()},
+                   {"angular_diameter_deg", effective_light(m.scene, m.settings).angular_diameter_deg},
+                   {"clip_from_world_rows", matrix_rows(f.clip_from_world())}};
+  for (int c = 0; c < cause_count; ++c) json["causes"].push_back(cause_name(static_cast<Cause>(c)));
+  json["flags"] = {{"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}};
+  if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace noonmark

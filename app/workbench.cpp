@@ -1,0 +1,210 @@
+#include "app/workbench.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "compare/measure.h"
+#include "scenes/camera_frame.h"
+#include "scenes/error.h"
+#include "scenes/library.h"
+
+namespace noonmark {
+namespace {
+
+// One value and the settings that it was computed from. Points of a sweep come in an order in which neighbours share
+// most settings, so remembering the last one is enough.
+template <class T>
+class Remembered {
+ public:
+  template <class Make>
+  T& get(const std::string& key, const Make& make) {
+    if (!value_ || key != key_) {
+      value_.reset();  // before making the next: these are large
+      value_.emplace(make());
+      key_ = key;
+    }
+    return *value_;
+  }
+
+ private:
+  std::string key_;
+  std::optional<T> value_;
+};
+
+// Every setting whose name begins with one of the prefixes, but for those excepted.
+std::string key_of(const Settings& settings, std::initializer_list<std::string_view> prefixes,
+                   std::initializer_list<std::string_view> except = {}) {
+  std::string key;
+  for (const Setting& row : settings_table()) {
+    const auto begins = [&](std::string_view prefix) { return row.name.starts_with(prefix); };
+    if (std::any_of(prefixes.begin(), prefixes.end(), begins) &&
+        std::find(except.begin(), except.end(), row.name) == except.end())
+      key += fmt::format("{}={}\n", row.name, row.get(settings));
+  }
+  return key;
+}
+
+// What a pass costs: the median of three, so that one interruption does not show.
+template <class Pass>
+double median_time(const Pass& pass) {
+  std::array<double, 3> times;
+  for (double& time : times) pass(&time);
+  std::sort(times.begin(), times.end());
+  return times[1];
+}
+
+struct LoadedScene {
+  std::unique_ptr<Scene> scene;  // the tracer refers to it
+  std::unique_ptr<raytrace::Tracer> tracer;
+};
+
+struct View {
+  Camera camera;
+  ReceiverImage receivers;
+};
+
+struct Truth {
+  ReceiverTruth receivers;
+  StageTime hard, soft;
+};
+
+struct RenderedMap {
+  gl::ShadowMap map;
+  Image<float> depth;  // as the lookup's sampler returns it
+  double time_ms;
+};
+
+struct Lookup {
+  LookupProbe probe;
+  raytrace::LookupTruth truth;
+  gl::ShadowMap exact_map;
+};
+
+Camera chosen_camera(const Scene& scene, const ViewSettings& view) {
+  Camera camera = scene.camera;
+  if (view.eye_m) camera.eye_m = *view.eye_m;
+  if (view.target_m) camera.target_m = *view.target_m;
+  if (view.fov_deg) camera.fov_y_deg = *view.fov_deg;
+  return camera;
+}
+
+}  // namespace
+
+struct Workbench::Impl {
+  explicit Impl(gl::DebugMode debug) : renderer(debug) {}
+
+  LoadedScene& load(const Settings& settings) {
+    return scene.get(key_of(settings, {"scene."}), [&] {
+      auto loaded = std::make_unique<Scene>(make_scene(settings.scene));
+      auto tracer = std::make_unique<raytrace::Tracer>(*loaded);
+      renderer.load_scene(*loaded);
+      return LoadedScene{std::move(loaded), std::move(tracer)};
+    });
+  }
+
+  gl::Renderer renderer;
+  Remembered<LoadedScene> scene;
+  Remembered<View> view;
+  Remembered<Truth> truth;
+  Remembered<RenderedMap> map;
+  Remembered<Lookup> lookup;
+  Remembered<std::optional<BiasCurve>> curve;
+  std::string receivers_on_device;
+};
+
+Workbench::Workbench(gl::DebugMode debug) : impl_(std::make_unique<Impl>(debug)) {}
+Workbench::~Workbench() = default;
+
+const gl::DeviceInfo& Workbench::device() const { return impl_->renderer.info(); }
+
+const Scene& Workbench::scene(const SceneSettings& settings) {
+  Settings only_scene;
+  only_scene.scene = settings;
+  return *impl_->load(only_scene).scene;
+}
+
+Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options) {
+  validate(settings);
+  Impl& b = *impl_;
+  const LoadedScene& loaded = b.load(settings);
+  const Scene& scene = *loaded.scene;
+  const LightFrame frame = make_light_frame(scene, settings);
+  const Light light = effective_light(scene, settings);
+
+  const View& view = b.view.get(key_of(settings, {"scene.", "view."}), [&] {
+    const Camera camera = chosen_camera(scene, settings.view);
+    return View{camera, resolve_receivers(scene, camera, b.renderer.render_primitives(camera, settings.view.width_px,
+                                                                                      settings.view.height_px))};
+  });
+  const Truth& truth = b.truth.get(key_of(settings, {"scene.", "view.", "light.", "truth."}), [&] {
+    Truth made;
+    made.receivers = loaded.tracer->receiver_truth(
+        view.receivers, frame, {light.angular_diameter_deg, settings.truth.standard_error}, &made.hard, &made.soft);
+    return made;
+  });
+  const std::string on_device = key_of(settings, {"scene.", "view.", "light."});
+  if (b.receivers_on_device != on_device) {
+    b.renderer.load_receivers(view.receivers, frame.direction_to_light());
+    b.receivers_on_device = on_device;
+  }
+
+  const RenderedMap& map = b.map.get(key_of(settings, {"scene.", "light.", "map."}, {"map.lit_beyond_far"}), [&] {
+    std::optional<gl::ShadowMap> rendered;
+    const double time = median_time([&](double* ms) { rendered.emplace(b.renderer.render_map(frame, settings.map, ms)); });
+    Image<float> depth = b.renderer.read_map(*rendered);
+    return RenderedMap{std::move(*rendered), std::move(depth), time};
+  });
+  const int kernel = kernel_size(settings.filter);
+  const std::string lookup_key =
+      key_of(settings, {"scene.", "view.", "light.", "map."}, {"map.lit_beyond_far", "map.format"}) + std::to_string(kernel);
+  Lookup& lookup = b.lookup.get(lookup_key, [&] {
+    LookupProbe probe = b.renderer.probe(frame, settings);
+    raytrace::LookupTruth taps =
+        loaded.tracer->lookup_truth(view.receivers, truth.receivers, probe, frame, settings.map, kernel);
+    gl::ShadowMap exact = b.renderer.upload_map(taps.exact_map, settings.map);
+    return Lookup{std::move(probe), std::move(taps), std::move(exact)};
+  });
+
+  Image<float> r5;
+  const double lookup_ms = median_time([&](double* ms) { r5 = b.renderer.lookup(map.map, frame, settings, ms); });
+  const Image<float> r4 = b.renderer.lookup(lookup.exact_map, frame, settings);
+
+  const DepthBias bias = depth_bias(frame, settings.bias);
+  const LookupEvidence evidence{truth.receivers, lookup.probe, lookup.truth.taps, lookup.truth.exact_map, settings.map, bias, r4, r5};
+  Measurement m{{}, settings, climb(evidence), frame, view.camera, scene, view.receivers, lookup.probe, map.depth, lookup.truth.exact_map};
+
+  const Image<float> occluders = loaded.tracer->occluder_distance(view.receivers, frame, peter_panning_mask(m.ladder));
+  m.record.metrics = measure_ladder({m.ladder, view.receivers.primitive, lookup.truth.edge_distance_m, occluders,
+                                     lookup.probe.n_dot_l, frame.texel_m()});
+  m.record.metrics["map_ms"] = map.time_ms;
+  m.record.metrics["lookup_ms"] = lookup_ms;
+  m.record.metrics["shadow_ms"] = map.time_ms + lookup_ms;
+  m.record.worst = worst_pixel(m.ladder);
+  for (const Setting& row : settings_table()) m.record.settings[std::string(row.name)] = row.get(settings);
+  m.record.times = {{"hard_truth_ms", truth.hard.milliseconds},
+                    {"hard_truth_rays", static_cast<double>(truth.hard.rays)},
+                    {"soft_truth_ms", truth.soft.milliseconds},
+                    {"soft_truth_rays", static_cast<double>(truth.soft.rays)},
+                    {"texel_ms", lookup.truth.texel_stage.milliseconds},
+                    {"texel_rays", static_cast<double>(lookup.truth.texel_stage.rays)},
+                    {"tap_ms", lookup.truth.tap_stage.milliseconds},
+                    {"tap_rays", static_cast<double>(lookup.truth.tap_stage.rays)}};
+
+  if (curve_options) {
+    const bool slope = settings.bias.form == BiasForm::slope;
+    const CurveParameter parameter = slope ? CurveParameter::slope : CurveParameter::constant;
+    // The floor stays in the key: the slope's curve is made over it.
+    const std::string key = lookup_key + key_of(settings, {"map.", "bias.form"}) + (slope ? key_of(settings, {"bias.unit", "bias.floor"}) : "") +
+                            key_of(settings, {"truth."});
+    m.record.curve = b.curve.get(key, [&] {
+      return std::optional(summarise(BiasCounts(evidence, map.depth, parameter), parameter, frame, *curve_options));
+    });
+  }
+  return m;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,50 @@
+// Measures points: drives gl, raytrace and compare, and computes once what consecutive points share.
+//
+//   Workbench bench(gl::DebugMode::log);
+//   Measurement m = bench.measure(settings, curve_options);
+//   save(m.record); write_pictures(m, ...);
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "compare/bias_curves.h"
+#include "compare/ladder.h"
+#include "compare/records.h"
+#include "gl/renderer.h"
+#include "raytrace/tracer.h"
+
+namespace noonmark {
+
+// One measured point with the images behind its numbers. The references stay good until the bench's next measurement.
+struct Measurement {
+  PointRecord record;  // without id and pictures
+  Settings settings;
+  Ladder ladder;
+  LightFrame frame;
+  Camera camera;
+  const Scene& scene;
+  const ReceiverImage& receivers;
+  const LookupProbe& probe;
+  const Image<float>& stored_map;  // as the lookup's sampler returns it; row 0 at the lowest v
+  const Image<float>& exact_map;
+};
+
+class Workbench {
+ public:
+  explicit Workbench(gl::DebugMode debug);
+  ~Workbench();
+
+  // curve: none when empty or when the settings' filter or bias form cannot be read off one pass. Throws Error.
+  Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve);
+
+  const gl::DeviceInfo& device() const;
+  // Of the scene that the settings name; loads it when it is not the one at hand.
+  const Scene& scene(const SceneSettings& settings);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace noonmark

@@ -1,0 +1,49 @@
+// The colour of each cause, once: the report's charts and legends and the PNG of the classes read it.
+// Warm colours are falsely dark, cool ones falsely lit, greys and pinks neither. The hues are Okabe and Ito's
+// ("Color Universal Design", 2008) and two of Paul Tol's, chosen to differ under the common colour-vision deficiencies
+// and on both a white and a near-black page.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace noonmark {
+
+struct CauseColor {
+  std::string_view name;  // of the metric that measures the cause
+  uint8_t r, g, b;        // sRGB
+  std::string_view label;
+};
+
+inline constexpr std::array<CauseColor, 11> cause_colors{{
+    {"acne", 213, 94, 0, "Acne (too dark)"},
+    {"peter_panning", 0, 114, 178, "Peter Panning (too light)"},
+    {"aliasing_dark", 230, 159, 0, "Aliasing, too dark"},
+    {"aliasing_light", 86, 180, 233, "Aliasing, too light"},
+    {"coverage_dark", 170, 51, 119, "Coverage, too dark"},
+    {"coverage_light", 0, 158, 115, "Coverage, too light"},
+    {"filter", 150, 155, 162, "Filter (blur by design)"},
+    {"precision", 204, 121, 167, "Precision"},
+    {"light_size", 202, 186, 60, "Light size"},
+    {"aliasing", 158, 170, 117, "Aliasing"},  // where dark and light are not told apart
+    {"coverage", 0, 158, 115, "Coverage"},    // likewise
+}};
+
+// What a pixel of a class picture is when no cause applies.
+inline constexpr std::array<CauseColor, 5> pixel_state_colors{{
+    {"lit", 240, 240, 238, "Right, lit"},
+    {"shadowed", 128, 130, 134, "Right, shadowed"},
+    {"attached", 74, 76, 82, "Faces away from the light"},
+    {"ambiguous", 240, 228, 66, "Ambiguous truth, left out"},
+    {"background", 30, 32, 38, "No surface"},
+}};
+
+constexpr const CauseColor* find_color(std::string_view name) {
+  for (const CauseColor& color : cause_colors)
+    if (color.name == name) return &color;
+  for (const CauseColor& color : pixel_state_colors)
+    if (color.name == name) return &color;
+  return nullptr;
+}
+
+}  // namespace noonmark

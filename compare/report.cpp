@@ -1,0 +1,104 @@
+#include "compare/report.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "compare/cause_colors.h"
+#include "compare/report_sections.h"
+#include "compare/report_text.h"
+#include "report_files.h"
+
+namespace noonmark {
+namespace {
+
+// Vega (Debian: libjs-vega; BSD-3-Clause): the one well-kept charting library that Debian packages with its parts apart,
+// so that only those in use travel, and whose expressions run without eval, so that the page may forbid it.
+// Debian ships it as CommonJS modules; report/vega.js links them in any order.
+constexpr std::array vega_modules{"vega-util",        "vega-time",          "vega-format",    "vega-loader",         "vega-dataflow",
+                                  "vega-canvas",      "vega-scale",         "vega-scenegraph", "vega-statistics",    "vega-expression",
+                                  "vega-selection",   "vega-functions",     "vega-event-selector", "vega-parser",    "vega-runtime",
+                                  "vega-view",        "vega-transforms",    "vega-view-transforms", "vega-encode",   "vega-interpreter"};
+
+std::string_view file(const std::string& name) {
+  const std::string_view text = report_files::embedded(name);
+  if (text.empty()) throw std::logic_error("the report's file " + name + " is not in the program");
+  return text;
+}
+
+std::string vega_script() {
+  std::string out(file("report/vega.js"));
+  for (const char* module : vega_modules) {
+    std::string_view text = file(fmt::format("{}.min.js", module));
+    // The map's address would make developer tools ask for it.
+    if (const size_t map = text.rfind("//# sourceMappingURL="); map != std::string_view::npos) text = text.substr(0, map);
+    out += fmt::format("noonmarkVega.define(\"{}\",function(exports,module,require){{{}\n}});\n", module, text);
+  }
+  return out;
+}
+
+std::string colour_rules() {
+  std::string variables, classes;
+  const auto add = [&](const CauseColor& color) {
+    variables += fmt::format("--c-{}:#{:02x}{:02x}{:02x};", color.name, color.r, color.g, color.b);
+    classes += fmt::format(".c-{0}{{background:var(--c-{0})}}\n", color.name);
+  };
+  for (const CauseColor& color : cause_colors) add(color);
+  for (const CauseColor& color : pixel_state_colors) add(color);
+  return ":root{" + variables + "}\n" + classes;
+}
+
+// Replaces each {{name}} of the template once; what is put in is never searched again.
+template <class Lookup>
+std::string fill(std::string_view page, Lookup&& lookup) {
+  std::string out;
+  while (true) {
+    const size_t open = page.find("{{");
+    out += page.substr(0, open);
+    if (open == std::string_view::npos) return out;
+    const size_t close = page.find("}}", open);
+    if (close == std::string_view::npos) throw std::logic_error("the report's template has an open {{");
+    out += lookup(page.substr(open + 2, close - open - 2));
+    page.remove_prefix(close + 2);
+  }
+}
+
+std::string subtitle(const Results& results) {
+  const RunInfo& info = results.info;
+  std::string out = fmt::format("Scene {} · {} point{}", report::html(info.scene_name), results.points.size(), results.points.size() == 1 ? "" : "s");
+  std::string swept;
+  for (const std::string& name : info.swept)
+    swept += fmt::format("{}{} {}", swept.empty() ? "" : " × ", values_of(results, name).size(), report::html(report::setting_label(name)));
+  if (!swept.empty()) out += " · " + swept;
+  if (!info.started.empty()) out += " · " + report::html(info.started);
+  return out;
+}
+
+}  // namespace
+
+std::string render_report(const Results& results, const std::function<std::string(const std::string& path)>& read_file) {
+  const std::string& given = !results.info.title.empty() ? results.info.title : results.info.scene_name;
+  const std::string title = report::html(given.empty() ? "Shadow-map errors" : given);
+  return fill(file("report/page.html"), [&](std::string_view name) -> std::string {
+    if (name == "title") return title;
+    if (name == "subtitle") return subtitle(results);
+    if (name == "style") return colour_rules() + std::string(file("report/style.css"));
+    if (name == "sections")
+      return report::answer_section(results) + report::bias_section(results) + report::sweep_section(results) +
+             report::budget_section(results) + report::cost_section(results) + report::pictures_section(results, read_file) +
+             report::points_section(results) + report::meaning_section(results) + report::making_section(results);
+    if (name == "data") return report::script_json(report::chart_data(results));
+    if (name == "vega") return vega_script();
+    if (name == "script") {
+      std::string script;
+      for (const char* part : {"charts", "chart_bias", "chart_sweep", "page"}) script += file(fmt::format("report/{}.js", part));
+      return script;
+    }
+    if (name == "version") return report::html(results.info.version);
+    throw std::logic_error("the report's template asks for " + std::string(name));
+  });
+}
+
+}  // namespace noonmark

@@ -1,0 +1,32 @@
+// A parsed glTF whose every reference is in range and whose every accessor lies within its view and every view within
+// the length of its buffer. What the buffers hold is checked where it is read (gltf_accessor.h).
+#pragma once
+#include <tiny_gltf.h>
+
+#include <string>
+#include <vector>
+
+#include "scenes/gltf_guard.h"
+
+namespace noonmark::gltf {
+
+struct Document {
+  std::string file;
+  tinygltf::Model model;  // without buffers, images, animations, skins
+  std::vector<BufferInfo> buffers;
+  std::vector<uint8_t> bin;
+  bool has_bin = false;
+  bool quantized = false;
+};
+
+// Throws Error(scene).
+Document read_document(const std::string& file);
+
+// Throws Error(scene) naming the first thing of the model that does not hold together; read_document has called it.
+void check_structure(const Document& document);
+
+// Bytes from the start of one element of the accessor to its end, and its distance to the next one.
+size_t element_bytes(const tinygltf::Accessor& accessor);
+size_t element_stride(const Document& document, const tinygltf::Accessor& accessor);
+
+}  // namespace noonmark::gltf

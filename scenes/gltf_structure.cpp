@@ -1,0 +1,235 @@
+// check_structure: every reference in range, every accessor inside its view, every view inside its buffer. All sizes are
+// at most 2^53 (gltf_guard.cpp), so sums of two cannot overflow; products are tested by division.
+#include <fmt/format.h>
+
+#include "scenes/gltf_document.h"
+#include "scenes/gltf_error.h"
+
+namespace noonmark::gltf {
+namespace {
+
+constexpr std::string_view remedy = "export the file again, or correct it";
+
+class Checker {
+ public:
+  explicit Checker(const Document& document) : d_(document), m_(document.model) {}
+
+  void all() const {
+    each(m_.bufferViews, "bufferViews", &Checker::view);
+    each(m_.accessors, "accessors", &Checker::accessor);
+    each(m_.materials, "materials", &Checker::material);
+    each(m_.meshes, "meshes", &Checker::mesh);
+    each(m_.cameras, "cameras", &Checker::camera);
+    each(m_.lights, "extensions.KHR_lights_punctual.lights", &Checker::light);
+    each(m_.nodes, "nodes", &Checker::node);
+    each(m_.scenes, "scenes", &Checker::scene);
+    optional(m_.defaultScene, m_.scenes.size(), "scene", "scenes");
+  }
+
+ private:
+  template <class T>
+  void each(const std::vector<T>& items, std::string_view name, void (Checker::*check)(const T&, const std::string&) const) const {
+    for (size_t i = 0; i < items.size(); ++i) (this->*check)(items[i], fmt::format("{}[{}]", name, i));
+  }
+
+  [[noreturn]] void fail(const std::string& place, const std::string& what) const { refuse(d_.file, place, what, remedy); }
+
+  void reference(int index, size_t size, const std::string& place, std::string_view list) const {
+    if (index < 0 || static_cast<size_t>(index) >= size) {
+      fail(place, fmt::format("{} refers beyond the {} {}", index, size, list));
+    }
+  }
+  void optional(int index, size_t size, const std::string& place, std::string_view list) const {
+    if (index != -1) reference(index, size, place, list);
+  }
+
+  void view(const tinygltf::BufferView& v, const std::string& place) const {
+    reference(v.buffer, d_.buffers.size(), place + ".buffer", "buffers");
+    const uint64_t length = d_.buffers[static_cast<size_t>(v.buffer)].byte_length;
+    if (v.byteOffset + v.byteLength > length) {
+      fail(place, fmt::format("ends at byte {} of buffers[{}], which has {}", v.byteOffset + v.byteLength, v.buffer, length));
+    }
+    if (v.byteStride != 0 && (v.byteStride < 4 || v.byteStride % 4 != 0)) {
+      fail(place + ".byteStride", fmt::format("{} is not a multiple of 4 from 4 to 252", v.byteStride));
+    }
+  }
+
+  // `count` elements of `bytes` each, `stride` apart, from `offset` of the view on.
+  void fits(int view_index, size_t offset, size_t count, size_t stride, size_t bytes, size_t alignment,
+            const std::string& place) const {
+    reference(view_index, m_.bufferViews.size(), place + ".bufferView", "bufferViews");
+    const tinygltf::BufferView& v = m_.bufferViews[static_cast<size_t>(view_index)];
+    if ((offset % alignment != 0) || ((v.byteOffset + offset) % alignment != 0)) {
+      fail(place + ".byteOffset", fmt::format("is not aligned to its components of {} bytes", alignment));
+    }
+    const size_t room = offset <= v.byteLength ? v.byteLength - offset : 0;
+    const size_t most = room < bytes ? 0 : (room - bytes) / stride + 1;
+    if (count > most) {
+      fail(place + ".count", fmt::format("{} elements, but bufferViews[{}] has room for {}", count, view_index, most));
+    }
+  }
+
+  void accessor(const tinygltf::Accessor& a, const std::string& place) const {
+    switch (a.componentType) {
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: break;
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        if (a.normalized) fail(place + ".normalized", "is only for integers of 8 and 16 bits");
+        break;
+      default: fail(place + ".componentType", fmt::format("{} is none of glTF's", a.componentType));
+    }
+    if (a.count == 0) fail(place + ".count", "is 0");
+    const size_t component = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
+    const size_t bytes = element_bytes(a);
+    if (a.bufferView != -1) {
+      reference(a.bufferView, m_.bufferViews.size(), place + ".bufferView", "bufferViews");
+      const size_t stride = m_.bufferViews[static_cast<size_t>(a.bufferView)].byteStride;
+      if (stride != 0 && stride < bytes) {
+        fail(place, fmt::format("its elements have {} bytes, but the byteStride of bufferViews[{}] is {}", bytes,
+                                a.bufferView, stride));
+      }
+      fits(a.bufferView, a.byteOffset, a.count, element_stride(d_, a), bytes, component, place);
+    }
+    if (a.sparse.isSparse) sparse(a, bytes, component, place + ".sparse");
+  }
+
+  void sparse(const tinygltf::Accessor& a, size_t bytes, size_t component, const std::string& place) const {
+    if (a.sparse.count < 1 || static_cast<size_t>(a.sparse.count) > a.count) {
+      fail(place + ".count", fmt::format("{} is not from 1 to the accessor's count, {}", a.sparse.count, a.count));
+    }
+    const int type = a.sparse.indices.componentType;
+    if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+        type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+      fail(place + ".indices.componentType", fmt::format("{} is not an unsigned integer type", type));
+    }
+    const size_t index_bytes = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(type)));
+    const size_t count = static_cast<size_t>(a.sparse.count);
+    fits(a.sparse.indices.bufferView, static_cast<size_t>(a.sparse.indices.byteOffset), count, index_bytes, index_bytes,
+         index_bytes, place + ".indices");
+    fits(a.sparse.values.bufferView, static_cast<size_t>(a.sparse.values.byteOffset), count, bytes, bytes, component,
+         place + ".values");
+    for (int view_index : {a.sparse.indices.bufferView, a.sparse.values.bufferView}) {
+      if (m_.bufferViews[static_cast<size_t>(view_index)].byteStride != 0) {
+        fail(place, fmt::format("bufferViews[{}] has a byteStride, which sparse data may not have", view_index));
+      }
+    }
+  }
+
+  void material(const tinygltf::Material& m, const std::string& place) const {
+    if (m.alphaMode != "OPAQUE" && m.alphaMode != "MASK" && m.alphaMode != "BLEND") {
+      fail(place + ".alphaMode", fmt::format("'{}' is none of OPAQUE, MASK, BLEND", printable(m.alphaMode)));
+    }
+  }
+
+  void mesh(const tinygltf::Mesh& m, const std::string& place) const {
+    for (size_t i = 0; i < m.primitives.size(); ++i) {
+      const tinygltf::Primitive& p = m.primitives[i];
+      const std::string here = fmt::format("{}.primitives[{}]", place, i);
+      optional(p.material, m_.materials.size(), here + ".material", "materials");
+      if (const auto found = p.attributes.find("POSITION"); found != p.attributes.end()) {
+        reference(found->second, m_.accessors.size(), here + ".attributes.POSITION", "accessors");
+        positions(m_.accessors[static_cast<size_t>(found->second)], fmt::format("accessors[{}]", found->second));
+      }
+      if (p.indices != -1) {
+        reference(p.indices, m_.accessors.size(), here + ".indices", "accessors");
+        indices(m_.accessors[static_cast<size_t>(p.indices)], fmt::format("accessors[{}]", p.indices));
+      }
+    }
+  }
+
+  void positions(const tinygltf::Accessor& a, const std::string& place) const {
+    if (a.type != TINYGLTF_TYPE_VEC3) fail(place + ".type", "positions are VEC3");
+    if (a.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return;
+    if (a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) fail(place + ".componentType", "positions are FLOAT");
+    if (!d_.quantized) {
+      refuse(d_.file, place + ".componentType", "integer positions without KHR_mesh_quantization",
+             "list that extension in extensionsUsed and extensionsRequired, or export floats");
+    }
+    if (element_stride(d_, a) % 4 != 0) {
+      fail(place, "vertices that are no multiple of 4 bytes apart: their view needs a byteStride");
+    }
+  }
+
+  void indices(const tinygltf::Accessor& a, const std::string& place) const {
+    const bool type_is_right = a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                               a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+                               a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    if (a.type != TINYGLTF_TYPE_SCALAR || !type_is_right || a.normalized) {
+      fail(place, "indices are unsigned integer SCALARs, not normalized");
+    }
+    if (a.bufferView != -1 && m_.bufferViews[static_cast<size_t>(a.bufferView)].byteStride != 0) {
+      fail(place, fmt::format("indices, but bufferViews[{}] has a byteStride", a.bufferView));
+    }
+  }
+
+  void camera(const tinygltf::Camera& c, const std::string& place) const {
+    if (c.type == "perspective") {
+      const tinygltf::PerspectiveCamera& p = c.perspective;
+      const std::string here = place + ".perspective";
+      // Narrower or wider, the tangent of half the angle is no longer a number to divide by or to multiply with.
+      constexpr double least_yfov = 1e-4, largest_yfov = 3.1415;
+      if (!(p.yfov >= least_yfov && p.yfov <= largest_yfov)) {
+        fail(here + ".yfov", fmt::format("{} is not an angle of view, from {} to {} radians", p.yfov, least_yfov, largest_yfov));
+      }
+      if (!(p.znear > 0)) fail(here + ".znear", fmt::format("{} is not positive", p.znear));
+      // 0: absent, an infinite projection.
+      if (p.zfar != 0 && !(p.zfar > p.znear)) fail(here + ".zfar", fmt::format("{} is not beyond znear {}", p.zfar, p.znear));
+    } else {
+      const tinygltf::OrthographicCamera& o = c.orthographic;
+      const std::string here = place + ".orthographic";
+      if (!(o.xmag > 0)) fail(here + ".xmag", fmt::format("{} is not positive", o.xmag));
+      if (!(o.ymag > 0)) fail(here + ".ymag", fmt::format("{} is not positive", o.ymag));
+      if (!(o.znear >= 0)) fail(here + ".znear", fmt::format("{} is negative", o.znear));
+      if (!(o.zfar > o.znear)) fail(here + ".zfar", fmt::format("{} is not beyond znear {}", o.zfar, o.znear));
+    }
+  }
+
+  void light(const tinygltf::Light& l, const std::string& place) const {
+    if (l.type != "directional" && l.type != "point" && l.type != "spot") {
+      fail(place + ".type", fmt::format("'{}' is none of directional, point, spot", printable(l.type)));
+    }
+  }
+
+  void node(const tinygltf::Node& n, const std::string& place) const {
+    optional(n.mesh, m_.meshes.size(), place + ".mesh", "meshes");
+    optional(n.camera, m_.cameras.size(), place + ".camera", "cameras");
+    for (size_t i = 0; i < n.children.size(); ++i) {
+      reference(n.children[i], m_.nodes.size(), fmt::format("{}.children[{}]", place, i), "nodes");
+    }
+    if (const auto found = n.extensions.find("KHR_lights_punctual"); found != n.extensions.end()) {
+      reference(found->second.Get("light").GetNumberAsInt(), m_.lights.size(),
+                place + ".extensions.KHR_lights_punctual.light", "lights");
+    }
+  }
+
+  void scene(const tinygltf::Scene& s, const std::string& place) const {
+    for (size_t i = 0; i < s.nodes.size(); ++i) {
+      reference(s.nodes[i], m_.nodes.size(), fmt::format("{}.nodes[{}]", place, i), "nodes");
+    }
+  }
+
+  const Document& d_;
+  const tinygltf::Model& m_;
+};
+
+}  // namespace
+
+size_t element_bytes(const tinygltf::Accessor& a) {
+  const size_t component = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
+  const size_t rows = a.type == TINYGLTF_TYPE_MAT2 ? 2 : a.type == TINYGLTF_TYPE_MAT3 ? 3 : a.type == TINYGLTF_TYPE_MAT4 ? 4 : 0;
+  // Columns of matrices start at multiples of 4 bytes (glTF 2.0, section 3.6.2.4).
+  if (rows != 0) return rows * ((rows * component + 3) / 4 * 4);
+  return component * static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(a.type)));
+}
+
+size_t element_stride(const Document& document, const tinygltf::Accessor& a) {
+  const size_t given = a.bufferView == -1 ? 0 : document.model.bufferViews[static_cast<size_t>(a.bufferView)].byteStride;
+  return given != 0 ? given : element_bytes(a);
+}
+
+void check_structure(const Document& document) { Checker(document).all(); }
+
+}  // namespace noonmark::gltf
