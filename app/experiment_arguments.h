@@ -1,0 +1,22 @@
+// What run, check and render have in common: the experiment with its overrides, and where the results go.
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "app/experiment.h"
+#include "app/verbs.h"
+
+namespace noonmark {
+
+inline Experiment experiment_from(const std::string& path, const ExperimentArguments& arguments) {
+  Experiment experiment = path.empty() ? Experiment{} : load_experiment(path);
+  for (const std::string& assignment : arguments.sets) apply_override(experiment, assignment);
+  return experiment;
+}
+
+inline std::string out_folder(const std::string& path, const ExperimentArguments& arguments) {
+  if (!arguments.out.empty()) return arguments.out;
+  return "out/" + (path.empty() ? std::string("render") : std::filesystem::path(path).stem().string());
+}
+
+}  // namespace noonmark

@@ -1,0 +1,32 @@
+#include "app/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace noonmark {
+
+Progress::Progress(int64_t total, int64_t already) : total_(total), already_(already), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (line_open_) std::fputc('\n', stderr);
+}
+
+void Progress::finished(int64_t done, const std::string& what) {
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const int64_t here = done - already_;
+  const double left = here > 0 ? elapsed / static_cast<double>(here) * static_cast<double>(total_ - done) : 0;
+  if (!terminal_) {
+    fmt::print(stderr, "[{}/{}] {} ({:.1f} s so far, about {:.0f} s left)\n", done, total_, what, elapsed, left);
+    return;
+  }
+  constexpr int width = 30;
+  const int filled = total_ > 0 ? static_cast<int>(width * done / total_) : width;
+  // Clears the rest of the line, and stays within 79 columns.
+  fmt::print(stderr, "\r[{:=<{}}{: <{}}] {}/{}  {:.0f} s left  {:.24}\x1b[K", "", filled, "", width - filled, done, total_, left, what);
+  std::fflush(stderr);
+  line_open_ = true;
+}
+
+}  // namespace noonmark

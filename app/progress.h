@@ -1,0 +1,25 @@
+// How far a sweep is: one line that rewrites itself on a terminal, plain lines elsewhere. On standard error, so that
+// standard output stays for results.
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace noonmark {
+
+class Progress {
+ public:
+  // already: points finished by an earlier run.
+  Progress(int64_t total, int64_t already);
+  ~Progress();
+
+  void finished(int64_t done, const std::string& what);
+
+ private:
+  int64_t total_, already_;
+  bool terminal_;
+  bool line_open_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace noonmark

@@ -1,0 +1,230 @@
+#include "app/sweep.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "app/build_facts.h"
+#include "app/pictures.h"
+#include "app/progress.h"
+#include "app/workbench.h"
+#include "compare/bounds.h"
+#include "compare/csv.h"
+#include "compare/report.h"
+#include "compare/store.h"
+#include "raytrace/tracer.h"
+#include "scenes/error.h"
+#include "scenes/file.h"
+
+namespace noonmark {
+namespace {
+
+// Steps are sums of floats in [0,1]; a dozen roundings of 2^-24 stay below this.
+constexpr double largest_residual = 1e-6;
+
+// A signal handler can reach nothing but a global.
+volatile std::sig_atomic_t stop_asked = 0;
+
+class StopOnSignal {
+ public:
+  StopOnSignal() {
+    stop_asked = 0;
+    for (int i = 0; i < 2; ++i) {
+      struct sigaction action {};
+      action.sa_handler = [](int) { stop_asked = 1; };
+      sigaction(signals_[i], &action, &before_[i]);
+    }
+  }
+  ~StopOnSignal() {
+    for (int i = 0; i < 2; ++i) sigaction(signals_[i], &before_[i], nullptr);
+  }
+  StopOnSignal(const StopOnSignal&) = delete;
+  StopOnSignal& operator=(const StopOnSignal&) = delete;
+
+ private:
+  static constexpr int signals_[2] = {SIGINT, SIGTERM};
+  struct sigaction before_[2] {};
+};
+
+std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+std::string host_cpu() {
+  std::ifstream cpuinfo("/proc/cpuinfo");
+  for (std::string line; std::getline(cpuinfo, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+RunInfo run_info(const Experiment& experiment, const SweepOptions& options, const gl::DeviceInfo& device,
+                 const raytrace::TracerInfo& tracer, const Scene& scene) {
+  RunInfo info;
+  info.experiment = experiment.path;
+  info.title = experiment.title;
+  info.command = options.command;
+  info.commit = build_facts().commit;
+  info.version = build_facts().version;
+  info.started = utc_now();
+  info.host_cpu = host_cpu();
+  info.gl_vendor = device.vendor;
+  info.gl_renderer = device.renderer;
+  info.gl_version = device.version;
+  info.gl_timer = device.timer_queries ? "timer query" : "glFinish + steady clock";
+  info.embree_version = tracer.version;
+  info.embree_isa = tracer.isa;
+  for (const LibraryVersion& library : build_facts().libraries) info.libraries[std::string(library.name)] = library.version;
+  for (const Swept& swept : experiment.swept) info.swept.push_back(swept.name);
+  info.plot = experiment.plot;
+  info.scene_name = scene.name;
+  info.triangles = scene.triangles.size();
+  return info;
+}
+
+std::string swept_text(const Experiment& experiment, const PointRecord& point) {
+  std::string text;
+  for (const Swept& swept : experiment.swept) text += fmt::format("{}{}={}", text.empty() ? "" : " ", swept.name, point.settings.at(swept.name));
+  return text.empty() ? "the only point" : text;
+}
+
+// Digests of every scene that the points name, so that an edited file is not taken for the one that was measured.
+std::vector<std::pair<std::string, std::string>> provenance(Workbench& bench, const std::vector<Settings>& points,
+                                                            const raytrace::TracerInfo& tracer) {
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"noonmark", fmt::format("{} {}", build_facts().version, build_facts().commit)},
+      {"opengl", fmt::format("{} {}", bench.device().renderer, bench.device().version)},
+      {"embree", fmt::format("{} {}", tracer.version, tracer.isa)},
+  };
+  std::map<std::string, std::string> digests;
+  for (const Settings& point : points) {
+    std::string key;
+    for (const Setting& row : settings_table())
+      if (row.name.starts_with("scene.")) key += row.get(point) + ";";
+    if (!digests.contains(key)) digests[key] = scene_digest(bench.scene(point.scene));
+  }
+  for (const auto& [scene, digest] : digests) facts.emplace_back("scene " + scene, digest);
+  return facts;
+}
+
+std::vector<PictureRecord> keep_pictures(const Measurement& m, int64_t id, const std::string& out) {
+  const std::string folder = out + "/images";
+  std::filesystem::create_directories(folder);
+  const std::string stem = fmt::format("p{:04}", id);
+  write_images(m, folder + "/" + stem + "-");
+  return write_pictures(m, folder, "images", stem);
+}
+
+// The worst point by its error; one that is not finite is worse than any.
+int64_t worst_point(const std::vector<PointRecord>& points) {
+  const auto badness = [](const PointRecord& p) {
+    const double error = p.metrics.at("error");
+    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+  };
+  return std::max_element(points.begin(), points.end(), [&](const PointRecord& a, const PointRecord& b) {
+           return badness(a) < badness(b);
+         })->id;
+}
+
+void require_sound_ladders(const Results& results) {
+  for (const PointRecord& point : results.points)
+    for (const char* name : {"residual", "tap_residual"})
+      if (!(point.metrics.at(name) <= largest_residual))
+        throw Error(ErrorKind::defect,
+                    fmt::format("point {}: the ladder's steps do not add up ({} = {}, at most {} is rounding); the results are "
+                                "stored, but do not trust them, and report this with the output of noonmark doctor",
+                                point.id, name, point.metrics.at(name), largest_residual));
+}
+
+}  // namespace
+
+SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options) {
+  const std::vector<Settings> planned = points(experiment);
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  if (error) throw Error(ErrorKind::usage, fmt::format("cannot make the folder {}: {}; give another --out", options.out, error.message()));
+
+  Workbench bench(gl::DebugMode::log);
+  const raytrace::TracerInfo tracer = raytrace::tracer_info();
+  const auto facts = provenance(bench, planned, tracer);
+  ResultStore store(options.out + "/results.sqlite", fingerprint(experiment, facts), options.overwrite ? Existing::overwrite : Existing::resume);
+  const auto total = static_cast<int64_t>(planned.size());
+  store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene)), total);
+
+  const std::vector<int64_t> before = store.finished();
+  if (!before.empty()) fmt::print(stderr, "{} of {} points are in {} already\n", before.size(), total, options.out);
+  const std::optional<CurveOptions> curve = experiment.curve_enabled ? std::optional(experiment.curve) : std::nullopt;
+  SweepOutcome outcome;
+  {
+    const StopOnSignal guard;
+    Progress progress(total, static_cast<int64_t>(before.size()));
+    auto done = static_cast<int64_t>(before.size());
+    for (int64_t id = 0; id < total && !outcome.interrupted; ++id) {
+      if (std::binary_search(before.begin(), before.end(), id)) continue;
+      Measurement m = bench.measure(planned[static_cast<size_t>(id)], curve);
+      m.record.id = id;
+      if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0)) m.record.pictures = keep_pictures(m, id, options.out);
+      store.add(m.record);
+      progress.finished(++done, swept_text(experiment, m.record));
+      outcome.interrupted = stop_asked && done < total;
+    }
+  }
+
+  outcome.results = store.load();
+  if (!outcome.interrupted && experiment.pictures == "worst") {
+    const int64_t id = worst_point(outcome.results.points);
+    if (find_point(outcome.results.points, id)->pictures.empty()) {
+      store.set_pictures(id, keep_pictures(bench.measure(planned[static_cast<size_t>(id)], std::nullopt), id, options.out));
+      outcome.results = store.load();
+    }
+  }
+  outcome.results.bounds = evaluate_bounds(outcome.results.points, experiment.bounds, [&](const PointRecord& point) {
+    return reproduce_command(experiment, point.settings);
+  });
+  store.set_bounds(outcome.results.bounds);
+  write_report(outcome.results, options.out);
+  require_sound_ladders(outcome.results);
+  return outcome;
+}
+
+void write_report(const Results& results, const std::string& out) {
+  write_file_atomically(out + "/results.csv", to_csv(results));
+  write_file_atomically(out + "/report.html", render_report(results, [&](const std::string& path) { return read_file(out + "/" + path); }));
+}
+
+void print_plan(const Experiment& experiment) {
+  const std::vector<Settings> planned = points(experiment);
+  double weight = 0;  // of every point, in lookups of the first point's kind
+  const auto lookups = [](const Settings& s) {
+    const double taps = static_cast<double>(kernel_size(s.filter)) * kernel_size(s.filter);
+    return static_cast<double>(s.view.width_px) * s.view.height_px * taps;
+  };
+  for (size_t i = 0; i < planned.size(); ++i) {
+    std::string text;
+    for (const Swept& swept : experiment.swept) text += fmt::format("  {} = {}", swept.name, find_setting(swept.name).get(planned[i]));
+    fmt::print("{:5}{}\n", i, text);
+    weight += lookups(planned[i]);
+  }
+  Settings small = planned[0];
+  small.view.width_px = std::max(1, small.view.width_px / 4);
+  small.view.height_px = std::max(1, small.view.height_px / 4);
+  Workbench bench(gl::DebugMode::log);
+  const auto seconds = [&] {
+    const auto start = std::chrono::steady_clock::now();
+    bench.measure(small, experiment.curve);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const double first = seconds();  // loads the scene and compiles the shaders as well
+  small.bias.constant += 1e-3;     // a new lookup of the same map and truth would be remembered; move the map a little
+  small.map.extent_scale *= 1.001;
+  const double again = seconds();
+  fmt::print("{} point{}, {:.3g} million taps; about {:.0f} s here (judged from point 0 at a quarter of its width and height)\n", planned.size(),
+             planned.size() == 1 ? "" : "s", weight / 1e6, first + again * weight / lookups(small));
+}
+
+}  // namespace noonmark

@@ -1,0 +1,34 @@
+// Runs an experiment: every point measured once, stored as it goes, and the files for people and programs written.
+//
+//   SweepOutcome outcome = run_sweep(experiment, {.out = "out/cube-room", .command = "noonmark run ..."});
+#pragma once
+#include <string>
+
+#include "app/experiment.h"
+#include "compare/records.h"
+
+namespace noonmark {
+
+struct SweepOptions {
+  std::string out;         // the results' directory; made when it is not there
+  bool overwrite = false;  // start anew, whatever the directory's store holds
+  std::string command;     // for the record
+};
+
+struct SweepOutcome {
+  Results results;
+  bool interrupted = false;  // by SIGINT or SIGTERM; the finished points are stored
+};
+
+// Resumes where an earlier run of the same experiment stopped. Writes results.sqlite point by point; then results.csv,
+// report.html and, when pictures are asked for, images/. Throws Error: usage, scene, device; defect when a ladder does
+// not add up (after everything is stored).
+SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options);
+
+// report.html and results.csv from what is in the results' directory.
+void write_report(const Results& results, const std::string& out);
+
+// What a run would do: every point, and the time it would take, judged from the first point at a quarter of its size.
+void print_plan(const Experiment& experiment);
+
+}  // namespace noonmark

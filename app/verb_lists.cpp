@@ -1,0 +1,72 @@
+// The verbs that only tell: report, scenes, settings, doctor.
+#include <fmt/format.h>
+
+#include "app/build_facts.h"
+#include "app/sweep.h"
+#include "app/verbs.h"
+#include "compare/metrics.h"
+#include "compare/quantities.h"
+#include "compare/store.h"
+#include "gl/renderer.h"
+#include "raytrace/tracer.h"
+#include "scenes/error.h"
+#include "scenes/library.h"
+
+namespace noonmark {
+
+int verb_report(const std::string& folder) {
+  const Results results = ResultStore::open(folder + "/results.sqlite").load();
+  write_report(results, folder);
+  fmt::print("{} of {} points; the report is {}/report.html\n", results.points.size(), results.planned_points, folder);
+  return results.points.size() < static_cast<size_t>(results.planned_points) ? static_cast<int>(ErrorKind::incomplete) : 0;
+}
+
+int verb_scenes() {
+  for (const BuiltinScene& builtin : builtin_scenes()) {
+    const Scene scene = builtin.make({});
+    fmt::print("{:<10} {:>6} triangles  {}\n", builtin.name, scene.triangles.size(), builtin.provokes);
+  }
+  fmt::print("\nOr the path of a .gltf or .glb file: scene = \"models/tree.glb\"\n");
+  return 0;
+}
+
+int verb_settings() {
+  const Settings defaults;
+  fmt::print("Settings: --set name=value, or in an experiment file ([map] resolution = 2048).\n\n");
+  for (const Setting& row : settings_table())
+    fmt::print("{:<28} {:<16} {}\n{:<45} {}{}{}\n", row.name, row.get(defaults), row.help, "", row.range_text(), row.unit.empty() ? "" : " ", row.unit);
+  fmt::print("\nMetrics: for [[bound]] and [plot].\n\n");
+  for (const Metric& metric : metrics_table()) fmt::print("{:<32} {:<10} {}\n", metric.name, metric.unit, metric.help);
+  fmt::print("\nRead off the bias curve: for [[bound]].\n\n");
+  for (const CurveQuantity& quantity : curve_quantities()) fmt::print("{:<32} {:<10} {}\n", quantity.name, quantity.unit, quantity.help);
+  return 0;
+}
+
+int verb_doctor() {
+  const BuildFacts& facts = build_facts();
+  fmt::print("noonmark  {} (commit {}, {}, {})\n", facts.version, facts.commit, facts.compiler, facts.build_type);
+  int exit_code = 0;
+  try {
+    const gl::Renderer renderer(gl::DebugMode::off);
+    const gl::DeviceInfo& device = renderer.info();
+    fmt::print("OpenGL    {} ({}), {}\n", device.renderer, device.vendor, device.version);
+    fmt::print("          through EGL {}, {}; maps up to {} texels\n", device.egl_platform, device.software ? "software" : "hardware", device.max_map_resolution);
+    fmt::print("          times by {}\n", device.timer_queries ? "timer queries" : "glFinish and a steady clock");
+  } catch (const Error& error) {
+    fmt::print("OpenGL    NOT USABLE: {}\n", error.what());
+    exit_code = static_cast<int>(ErrorKind::device);
+  }
+  try {
+    const raytrace::TracerInfo tracer = raytrace::tracer_info();
+    fmt::print("Embree    {}, ISA {} (pinned)\n", tracer.version, tracer.isa);
+  } catch (const Error& error) {
+    fmt::print("Embree    NOT USABLE: {}\n", error.what());
+    exit_code = static_cast<int>(ErrorKind::device);
+  }
+  fmt::print("Libraries");
+  for (const LibraryVersion& library : facts.libraries) fmt::print(" {} {};", library.name, library.version);
+  fmt::print("\n{}\n", exit_code == 0 ? "Everything that a measurement needs is here." : "Nothing can be measured here until this is mended.");
+  return exit_code;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,25 @@
+// The verbs of the command line: each in its own file, each returning the exit code. Errors are thrown.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace noonmark {
+
+struct ExperimentArguments {
+  std::vector<std::string> sets;  // --set name=value, in order
+  std::string out;                // --out; empty: out/<name of the experiment>
+  bool overwrite = false;
+  std::string command;            // the whole command line, for the record
+};
+
+int verb_run(const std::string& experiment, const ExperimentArguments& arguments, bool dry_run);
+// paths: experiment files, or folders whose *.toml are all checked. 0 when every bound held.
+int verb_check(const std::vector<std::string>& paths, const ExperimentArguments& arguments);
+// experiment: may be empty (the default settings). point: of the experiment's sweep; -1: it must have one only.
+int verb_render(const std::string& experiment, long point, const ExperimentArguments& arguments);
+int verb_report(const std::string& folder);
+int verb_scenes();
+int verb_settings();
+int verb_doctor();
+
+}  // namespace noonmark
