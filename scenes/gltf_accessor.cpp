@@ -46,7 +46,7 @@ AccessorReader::AccessorReader(const Document& document, Buffers& buffers, int a
   sparse_index_type_ = a.sparse.indices.componentType;
   sparse_indices_ = view_bytes(document, buffers, a.sparse.indices.bufferView, static_cast<size_t>(a.sparse.indices.byteOffset));
   sparse_values_ = view_bytes(document, buffers, a.sparse.values.bufferView, static_cast<size_t>(a.sparse.values.byteOffset));
-  sparse_stride_ = element_bytes(a);
+  sparse_stride_ = packed_stride(a);
   check_sparse(document, accessor);
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "scenes/gltf_error.h"
+#include "scenes/gltf_precheck.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -238,23 +239,6 @@ void check_extensions(const std::string& file, const json& document) {
   }
 }
 
-// What tinygltf would settle silently: it drops the other transforms beside a matrix, and takes a zfar of 0 for none.
-void check_ambiguities(const std::string& file, const json& document) {
-  constexpr std::string_view remedy = "export the file again, or correct it";
-  for (size_t i = 0; document.contains("nodes") && i < document["nodes"].size(); ++i) {
-    const json& one = document["nodes"][i];
-    if (one.contains("matrix") && (one.contains("translation") || one.contains("rotation") || one.contains("scale"))) {
-      refuse(file, fmt::format("nodes[{}]", i), "has both a matrix and a translation, rotation or scale", remedy);
-    }
-  }
-  for (size_t i = 0; document.contains("cameras") && i < document["cameras"].size(); ++i) {
-    const json& one = document["cameras"][i];
-    if (one.contains("perspective") && one["perspective"].value("zfar", 1.0) == 0) {
-      refuse(file, fmt::format("cameras[{}].perspective.zfar", i), "is 0", remedy);
-    }
-  }
-}
-
 bool names_extension(const json& document, const char* list, std::string_view name) {
   if (!document.contains(list)) return false;
   return std::any_of(document[list].begin(), document[list].end(), [&](const json& one) { return one == name; });
@@ -277,7 +261,7 @@ GuardedDocument guard(const std::string& file, const std::string& text) {
   if (whole.contains("asset")) check_version(file, Reducer(file).object(whole, std::span(root).first(1), ""));
   out.json = Reducer(file).object(whole, root, "");
   check_extensions(file, out.json);
-  check_ambiguities(file, out.json);
+  check_before_tinygltf(file, out.json);
   out.quantized = names_extension(out.json, "extensionsUsed", quantization) ||
                   names_extension(out.json, "extensionsRequired", quantization);
   if (out.json.contains("buffers")) {

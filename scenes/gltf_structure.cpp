@@ -1,4 +1,4 @@
-// check_structure: every reference in range, every accessor inside its view, every view inside its buffer. All sizes are
+// check_structure, after scenes/gltf_precheck.h: every reference in range, every accessor inside its view, every view inside its buffer. All sizes are
 // at most 2^53 (gltf_guard.cpp), so sums of two cannot overflow; products are tested by division.
 #include <fmt/format.h>
 
@@ -49,9 +49,6 @@ class Checker {
     if (v.byteOffset + v.byteLength > length) {
       fail(place, fmt::format("ends at byte {} of buffers[{}], which has {}", v.byteOffset + v.byteLength, v.buffer, length));
     }
-    if (v.byteStride != 0 && (v.byteStride < 4 || v.byteStride % 4 != 0)) {
-      fail(place + ".byteStride", fmt::format("{} is not a multiple of 4 from 4 to 252", v.byteStride));
-    }
   }
 
   // `count` elements of `bytes` each, `stride` apart, from `offset` of the view on.
@@ -93,10 +90,10 @@ class Checker {
       }
       fits(a.bufferView, a.byteOffset, a.count, element_stride(d_, a), bytes, component, place);
     }
-    if (a.sparse.isSparse) sparse(a, bytes, component, place + ".sparse");
+    if (a.sparse.isSparse) sparse(a, component, place + ".sparse");
   }
 
-  void sparse(const tinygltf::Accessor& a, size_t bytes, size_t component, const std::string& place) const {
+  void sparse(const tinygltf::Accessor& a, size_t component, const std::string& place) const {
     if (a.sparse.count < 1 || static_cast<size_t>(a.sparse.count) > a.count) {
       fail(place + ".count", fmt::format("{} is not from 1 to the accessor's count, {}", a.sparse.count, a.count));
     }
@@ -109,8 +106,8 @@ class Checker {
     const size_t count = static_cast<size_t>(a.sparse.count);
     fits(a.sparse.indices.bufferView, static_cast<size_t>(a.sparse.indices.byteOffset), count, index_bytes, index_bytes,
          index_bytes, place + ".indices");
-    fits(a.sparse.values.bufferView, static_cast<size_t>(a.sparse.values.byteOffset), count, bytes, bytes, component,
-         place + ".values");
+    fits(a.sparse.values.bufferView, static_cast<size_t>(a.sparse.values.byteOffset), count, packed_stride(a),
+         element_bytes(a), component, place + ".values");
     for (int view_index : {a.sparse.indices.bufferView, a.sparse.values.bufferView}) {
       if (m_.bufferViews[static_cast<size_t>(view_index)].byteStride != 0) {
         fail(place, fmt::format("bufferViews[{}] has a byteStride, which sparse data may not have", view_index));
@@ -134,7 +131,6 @@ class Checker {
         positions(m_.accessors[static_cast<size_t>(found->second)], fmt::format("accessors[{}]", found->second));
       }
       if (p.indices != -1) {
-        reference(p.indices, m_.accessors.size(), here + ".indices", "accessors");
         indices(m_.accessors[static_cast<size_t>(p.indices)], fmt::format("accessors[{}]", p.indices));
       }
     }
@@ -217,17 +213,35 @@ class Checker {
 
 }  // namespace
 
+namespace {
+
+size_t component_bytes(const tinygltf::Accessor& a) {
+  return static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
+}
+
+// Rows of a matrix type, 0 of the others; and bytes from one of its columns to the next, a multiple of 4 (glTF 2.0,
+// section 3.6.2.4).
+size_t matrix_rows(const tinygltf::Accessor& a) {
+  return a.type == TINYGLTF_TYPE_MAT2 ? 2 : a.type == TINYGLTF_TYPE_MAT3 ? 3 : a.type == TINYGLTF_TYPE_MAT4 ? 4 : 0;
+}
+size_t column_stride(const tinygltf::Accessor& a) { return (matrix_rows(a) * component_bytes(a) + 3) / 4 * 4; }
+
+}  // namespace
+
+// The last column needs no padding behind it.
 size_t element_bytes(const tinygltf::Accessor& a) {
-  const size_t component = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
-  const size_t rows = a.type == TINYGLTF_TYPE_MAT2 ? 2 : a.type == TINYGLTF_TYPE_MAT3 ? 3 : a.type == TINYGLTF_TYPE_MAT4 ? 4 : 0;
-  // Columns of matrices start at multiples of 4 bytes (glTF 2.0, section 3.6.2.4).
-  if (rows != 0) return rows * ((rows * component + 3) / 4 * 4);
-  return component * static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(a.type)));
+  const size_t rows = matrix_rows(a);
+  if (rows != 0) return (rows - 1) * column_stride(a) + rows * component_bytes(a);
+  return component_bytes(a) * static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(a.type)));
 }
 
 size_t element_stride(const Document& document, const tinygltf::Accessor& a) {
   const size_t given = a.bufferView == -1 ? 0 : document.model.bufferViews[static_cast<size_t>(a.bufferView)].byteStride;
-  return given != 0 ? given : element_bytes(a);
+  return given != 0 ? given : packed_stride(a);
+}
+
+size_t packed_stride(const tinygltf::Accessor& a) {
+  return matrix_rows(a) != 0 ? matrix_rows(a) * column_stride(a) : element_bytes(a);
 }
 
 void check_structure(const Document& document) { Checker(document).all(); }

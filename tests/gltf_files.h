@@ -31,6 +31,7 @@ class TemporaryFolder {
   std::string write(const std::string& name, const std::string& bytes) const {
     const std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());
+    std::filesystem::remove(file);  // some file systems wait for the disk when a file is overwritten
     std::ofstream(file, std::ios::binary) << bytes;
     return file.string();
   }
