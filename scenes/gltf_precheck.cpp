@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "scenes/gltf_error.h"
@@ -24,7 +24,8 @@ const json& list(const json& document, const char* name) {
 
 void check_node(const std::string& file, const json& node, const std::string& place) {
   // tinygltf drops what stands beside a matrix.
-  if (node.contains("matrix") && (node.contains("translation") || node.contains("rotation") || node.contains("scale"))) {
+  if (node.contains("matrix") &&
+      (node.contains("translation") || node.contains("rotation") || node.contains("scale"))) {
     refuse(file, place, "has both a matrix and a translation, rotation or scale", remedy);
   }
 }
@@ -39,7 +40,8 @@ void check_camera(const std::string& file, const json& camera, const std::string
     refuse(file, place, "has both perspective and orthographic", remedy);
   }
   // tinygltf takes 0 for an absent zfar.
-  if (type == "perspective" && camera[type].value("zfar", 1.0) == 0) refuse(file, place + ".perspective.zfar", "is 0", remedy);
+  if (type == "perspective" && camera[type].value("zfar", 1.0) == 0)
+    refuse(file, place + ".perspective.zfar", "is 0", remedy);
 }
 
 void check_light(const std::string& file, const json& light, const std::string& place) {

@@ -1,5 +1,6 @@
-// check_structure, after scenes/gltf_precheck.h: every reference in range, every accessor inside its view, every view inside its buffer. All sizes are
-// at most 2^53 (gltf_guard.cpp), so sums of two cannot overflow; products are tested by division.
+// check_structure, after scenes/gltf_precheck.h: every reference in range, every accessor inside its view, every view
+// inside its buffer. All sizes are at most 2^53 (gltf_guard.cpp), so sums of two cannot overflow; products are tested
+// by division.
 #include <fmt/format.h>
 
 #include "scenes/gltf_document.h"
@@ -28,11 +29,14 @@ class Checker {
 
  private:
   template <class T>
-  void each(const std::vector<T>& items, std::string_view name, void (Checker::*check)(const T&, const std::string&) const) const {
+  void each(const std::vector<T>& items, std::string_view name,
+            void (Checker::*check)(const T&, const std::string&) const) const {
     for (size_t i = 0; i < items.size(); ++i) (this->*check)(items[i], fmt::format("{}[{}]", name, i));
   }
 
-  [[noreturn]] void fail(const std::string& place, const std::string& what) const { refuse(d_.file, place, what, remedy); }
+  [[noreturn]] void fail(const std::string& place, const std::string& what) const {
+    refuse(d_.file, place, what, remedy);
+  }
 
   void reference(int index, size_t size, const std::string& place, std::string_view list) const {
     if (index < 0 || static_cast<size_t>(index) >= size) {
@@ -47,7 +51,8 @@ class Checker {
     reference(v.buffer, d_.buffers.size(), place + ".buffer", "buffers");
     const uint64_t length = d_.buffers[static_cast<size_t>(v.buffer)].byte_length;
     if (v.byteOffset + v.byteLength > length) {
-      fail(place, fmt::format("ends at byte {} of buffers[{}], which has {}", v.byteOffset + v.byteLength, v.buffer, length));
+      fail(place,
+           fmt::format("ends at byte {} of buffers[{}], which has {}", v.byteOffset + v.byteLength, v.buffer, length));
     }
   }
 
@@ -71,15 +76,18 @@ class Checker {
       case TINYGLTF_COMPONENT_TYPE_BYTE:
       case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
       case TINYGLTF_COMPONENT_TYPE_SHORT:
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: break;
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        break;
       case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
       case TINYGLTF_COMPONENT_TYPE_FLOAT:
         if (a.normalized) fail(place + ".normalized", "is only for integers of 8 and 16 bits");
         break;
-      default: fail(place + ".componentType", fmt::format("{} is none of glTF's", a.componentType));
+      default:
+        fail(place + ".componentType", fmt::format("{} is none of glTF's", a.componentType));
     }
     if (a.count == 0) fail(place + ".count", "is 0");
-    const size_t component = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
+    const size_t component =
+        static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
     const size_t bytes = element_bytes(a);
     if (a.bufferView != -1) {
       reference(a.bufferView, m_.bufferViews.size(), place + ".bufferView", "bufferViews");
@@ -168,11 +176,13 @@ class Checker {
       // Narrower or wider, the tangent of half the angle is no longer a number to divide by or to multiply with.
       constexpr double least_yfov = 1e-4, largest_yfov = 3.1415;
       if (!(p.yfov >= least_yfov && p.yfov <= largest_yfov)) {
-        fail(here + ".yfov", fmt::format("{} is not an angle of view, from {} to {} radians", p.yfov, least_yfov, largest_yfov));
+        fail(here + ".yfov",
+             fmt::format("{} is not an angle of view, from {} to {} radians", p.yfov, least_yfov, largest_yfov));
       }
       if (!(p.znear > 0)) fail(here + ".znear", fmt::format("{} is not positive", p.znear));
       // 0: absent, an infinite projection.
-      if (p.zfar != 0 && !(p.zfar > p.znear)) fail(here + ".zfar", fmt::format("{} is not beyond znear {}", p.zfar, p.znear));
+      if (p.zfar != 0 && !(p.zfar > p.znear))
+        fail(here + ".zfar", fmt::format("{} is not beyond znear {}", p.zfar, p.znear));
     } else {
       const tinygltf::OrthographicCamera& o = c.orthographic;
       const std::string here = place + ".orthographic";
@@ -236,7 +246,8 @@ size_t element_bytes(const tinygltf::Accessor& a) {
 }
 
 size_t element_stride(const Document& document, const tinygltf::Accessor& a) {
-  const size_t given = a.bufferView == -1 ? 0 : document.model.bufferViews[static_cast<size_t>(a.bufferView)].byteStride;
+  const size_t given =
+      a.bufferView == -1 ? 0 : document.model.bufferViews[static_cast<size_t>(a.bufferView)].byteStride;
   return given != 0 ? given : packed_stride(a);
 }
 

@@ -41,7 +41,8 @@ const std::map<std::string, std::string> tolerated = {
     {"DUPLICATE_ELEMENTS", "an extension named twice is named"},
     {"UNUSED_EXTENSION_REQUIRED", "lists of extensions may say too much"},
     {"BUFFER_VIEW_TARGET_OVERRIDE", "targets are a hint to a GPU"},
-    {"MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE", "without a stride the elements are packed; there is no other reading"},
+    {"MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE",
+     "without a stride the elements are packed; there is no other reading"},
     {"MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT", "of the attributes only positions are read"},
     {"MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH", "of the attributes only positions are read"},
     {"MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", "of the attributes only positions are read"},
@@ -70,7 +71,8 @@ struct Row {
   std::string message;  // empty: loaded
   // Refused for being a fragment: most of the corpus shows one property and has no scene, or none with triangles.
   bool nothing_drawn() const {
-    return message.find("holds no triangles") != std::string::npos || message.find("scenes: there is none") != std::string::npos;
+    return message.find("holds no triangles") != std::string::npos ||
+           message.find("scenes: there is none") != std::string::npos;
   }
 };
 
@@ -108,11 +110,13 @@ TEST_F(GltfCorpus, EveryErrorThatTouchesWhatIsReadIsRefusedForAReasonOfItsOwn) {
       ++agreed;
       continue;
     }
-    const bool known = tolerated_files.contains(name) ||
-                       std::all_of(row.codes.begin(), row.codes.end(), [](const std::string& c) { return tolerated.contains(c); });
+    const bool known =
+        tolerated_files.contains(name) ||
+        std::all_of(row.codes.begin(), row.codes.end(), [](const std::string& c) { return tolerated.contains(c); });
     std::string codes;
     for (const std::string& code : row.codes) codes += " " + code;
-    EXPECT_TRUE(known) << name << " is an error to the validator:" << codes << "\nbut not to the loader: " << row.message;
+    EXPECT_TRUE(known) << name << " is an error to the validator:" << codes
+                       << "\nbut not to the loader: " << row.message;
     for (const std::string& code : row.codes) ++lenient[code];
   }
   std::printf("%-52s %s\n", "the validator's error, not ours", "files");
@@ -151,7 +155,8 @@ TEST_P(RealModels, LoadWithoutTheirTextures) {
   if (!fs::exists(path)) GTEST_SKIP() << "no model at " << path;
   const json document = parse_file(path);
   uint64_t listed = 0;
-  for (const json& node : document["scenes"][document.value("scene", 0)]["nodes"]) listed += triangles_of(document, node.get<int>());
+  for (const json& node : document["scenes"][document.value("scene", 0)]["nodes"])
+    listed += triangles_of(document, node.get<int>());
   const Scene scene = load_gltf(path.string());
   EXPECT_EQ(defect_of(scene), "");
   std::printf("%s: %zu of %lu triangles, %zu vertices, %zu parts\n", GetParam(), scene.triangles.size(),
@@ -159,7 +164,8 @@ TEST_P(RealModels, LoadWithoutTheirTextures) {
   EXPECT_EQ(scene.triangles.size(), listed);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RealModels, ::testing::Values("FlightHelmet", "Lantern"), [](const auto& one) { return std::string(one.param); });
+INSTANTIATE_TEST_SUITE_P(All, RealModels, ::testing::Values("FlightHelmet", "Lantern"),
+                         [](const auto& one) { return std::string(one.param); });
 
 }  // namespace
 }  // namespace noonmark::test

@@ -1,5 +1,5 @@
-// load_gltf on broken and hostile files: each gets one Error(scene) that names the place. The place is asserted, so that
-// no test passes because the file is refused for another reason.
+// load_gltf on broken and hostile files: each gets one Error(scene) that names the place. The place is asserted, so
+// that no test passes because the file is refused for another reason.
 #include <sys/stat.h>
 
 #include <chrono>
@@ -43,6 +43,8 @@ void add_camera(json& d, const json& camera) {
   d["nodes"][0]["camera"] = 0;
 }
 
+// One case a line, as far as it goes.
+// clang-format off
 const Case cases[] = {
     // Accessors, views, buffers.
     {"CountOfFourBillion", "accessors[0].count: 4294967296 elements", [](json& d) { d["accessors"][0]["count"] = 4294967296; }},
@@ -158,6 +160,7 @@ const Case cases[] = {
     {"NodesAreNoArray", "nodes: should be an array", [](json& d) { d["nodes"] = "none"; }},
     {"NodeIsNull", "nodes[0]: should be an object, not null", [](json& d) { d["nodes"][0] = nullptr; }},
 };
+// clang-format on
 
 class GltfHostile : public ::testing::TestWithParam<Case> {};
 TEST_P(GltfHostile, IsRefusedWithItsPlace) {
@@ -261,9 +264,10 @@ TEST(GltfFiles, DeepNesting) {
 
 TEST(GltfFiles, MalformedText) {
   TemporaryFolder folder;
-  for (const std::string& text : {std::string(), std::string("{"), std::string("[]"), std::string("null"), std::string("12"),
-                                  std::string("{\"asset\":{\"version\":\"2.0\"}} x"), std::string("\0\0\0\0", 4),
-                                  std::string("{\"asset\":{\"version\":1e999}}"), std::string("{\"asset\":{\"version\":\"\xff\"}}")}) {
+  for (const std::string& text :
+       {std::string(), std::string("{"), std::string("[]"), std::string("null"), std::string("12"),
+        std::string("{\"asset\":{\"version\":\"2.0\"}} x"), std::string("\0\0\0\0", 4),
+        std::string("{\"asset\":{\"version\":1e999}}"), std::string("{\"asset\":{\"version\":\"\xff\"}}")}) {
     expect_refusal(folder.write("scene.gltf", text), "JSON");
   }
   expect_refusal(folder.write("scene.gltf", "\xef\xbb\xbf" + square().dump()), "byte order mark");
