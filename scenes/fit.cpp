@@ -20,7 +20,9 @@ const glm::dvec3 light_travels = glm::normalize(glm::dvec3(0.6, -1.2, -0.5));
 constexpr double light_distance_radii = 2;
 
 // A scene of one point still gets a camera that stands apart from it.
-double usable_radius(const Sphere& sphere) { return std::max(sphere.radius_m, 1e-6 * (1 + glm::length(sphere.centre_m))); }
+double usable_radius(const Sphere& sphere) {
+  return std::max(sphere.radius_m, 1e-6 * (1 + glm::length(sphere.centre_m)));
+}
 
 }  // namespace
 

@@ -19,9 +19,12 @@ T read(const uint8_t* at) {
 
 uint32_t read_unsigned(const uint8_t* at, int type) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return *at;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return read<uint16_t>(at);
-    default: return read<uint32_t>(at);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return *at;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return read<uint16_t>(at);
+    default:
+      return read<uint32_t>(at);
   }
 }
 
@@ -44,9 +47,11 @@ AccessorReader::AccessorReader(const Document& document, Buffers& buffers, int a
   if (!a.sparse.isSparse) return;
   sparse_count_ = static_cast<size_t>(a.sparse.count);
   sparse_index_type_ = a.sparse.indices.componentType;
-  sparse_indices_ = view_bytes(document, buffers, a.sparse.indices.bufferView, static_cast<size_t>(a.sparse.indices.byteOffset));
-  sparse_values_ = view_bytes(document, buffers, a.sparse.values.bufferView, static_cast<size_t>(a.sparse.values.byteOffset));
-  sparse_stride_ = element_bytes(a);
+  sparse_indices_ =
+      view_bytes(document, buffers, a.sparse.indices.bufferView, static_cast<size_t>(a.sparse.indices.byteOffset));
+  sparse_values_ =
+      view_bytes(document, buffers, a.sparse.values.bufferView, static_cast<size_t>(a.sparse.values.byteOffset));
+  sparse_stride_ = packed_stride(a);
   check_sparse(document, accessor);
 }
 
@@ -61,7 +66,8 @@ void AccessorReader::check_sparse(const Document& document, int accessor) const 
 }
 
 uint32_t AccessorReader::sparse_index(size_t i) const {
-  const size_t bytes = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(sparse_index_type_)));
+  const size_t bytes =
+      static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(sparse_index_type_)));
   return read_unsigned(sparse_indices_.data() + i * bytes, sparse_index_type_);
 }
 
@@ -82,7 +88,8 @@ double AccessorReader::component(const uint8_t* at) const {
       const double c = read<int8_t>(at);
       return normalized_ ? std::max(c / 127.0, -1.0) : c;
     }
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return normalized_ ? *at / 255.0 : *at;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return normalized_ ? *at / 255.0 : *at;
     case TINYGLTF_COMPONENT_TYPE_SHORT: {
       const double c = read<int16_t>(at);
       return normalized_ ? std::max(c / 32767.0, -1.0) : c;
@@ -91,7 +98,8 @@ double AccessorReader::component(const uint8_t* at) const {
       const double c = read<uint16_t>(at);
       return normalized_ ? c / 65535.0 : c;
     }
-    default: return static_cast<double>(read<float>(at));
+    default:
+      return static_cast<double>(read<float>(at));
   }
 }
 

@@ -37,9 +37,8 @@ std::string percent_decoded(std::string_view uri) {
 bool has_scheme(std::string_view uri) {
   const size_t colon = uri.find_first_of(":/");
   if (colon == std::string_view::npos || uri[colon] != ':' || colon == 0) return false;
-  return std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.';
-  });
+  return std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.'; });
 }
 
 // Where the uri leads, links resolved; refused unless that is below the scene file's folder.
@@ -47,17 +46,20 @@ fs::path confined(const std::string& file, const std::string& uri, const std::st
   const std::string shown = "'" + printable(uri) + "'";
   constexpr std::string_view remedy = "put the file beside the scene and name it without a path";
   const std::string name = percent_decoded(uri);
-  if (name.empty() || name.find('\0') != std::string::npos) refuse(file, place, shown + " is not a file's name", remedy);
+  if (name.empty() || name.find('\0') != std::string::npos)
+    refuse(file, place, shown + " is not a file's name", remedy);
   if (has_scheme(name)) refuse(file, place, shown + " is not a file of this folder", remedy);
   const fs::path relative = fs::path(name).lexically_normal();
-  if (relative.is_absolute() || *relative.begin() == "..") refuse(file, place, shown + " leads out of the scene's folder", remedy);
+  if (relative.is_absolute() || *relative.begin() == "..")
+    refuse(file, place, shown + " leads out of the scene's folder", remedy);
 
   std::error_code error;
   const fs::path parent = fs::path(file).parent_path();
   const fs::path folder = fs::canonical(parent.empty() ? fs::path(".") : parent, error);
   if (error) refuse(file, place, "the scene's folder cannot be read: " + error.message(), "check its permissions");
   const fs::path target = fs::canonical(folder / relative, error);
-  if (error) refuse(file, place, fmt::format("{} cannot be found: {}", shown, error.message()), "put it beside the scene");
+  if (error)
+    refuse(file, place, fmt::format("{} cannot be found: {}", shown, error.message()), "put it beside the scene");
   const auto [in_folder, in_target] = std::mismatch(folder.begin(), folder.end(), target.begin(), target.end());
   if (in_folder != folder.end()) refuse(file, place, shown + " is a link out of the scene's folder", remedy);
   return target;
@@ -101,7 +103,8 @@ std::span<const uint8_t> Buffers::bytes(size_t buffer) {
     total_bytes_ += length;
     if (total_bytes_ > max_file_bytes) {
       refuse(document_.file, place + ".byteLength",
-             fmt::format("{} bytes of buffers are more than the {} allowed", total_bytes_, max_file_bytes), "split the scene");
+             fmt::format("{} bytes of buffers are more than the {} allowed", total_bytes_, max_file_bytes),
+             "split the scene");
     }
     loaded_[buffer] = load(buffer, place);
   }
@@ -115,7 +118,8 @@ std::vector<uint8_t> Buffers::load(size_t buffer, const std::string& place) cons
   std::vector<uint8_t> data;
   if (info.byte_length == 0) refuse(file, place + ".byteLength", "is 0", remedy);
   if (!info.uri) {
-    if (buffer != 0 || !document_.has_bin) refuse(file, place, "has no uri, and there is no binary chunk for it", remedy);
+    if (buffer != 0 || !document_.has_bin)
+      refuse(file, place, "has no uri, and there is no binary chunk for it", remedy);
     data = document_.bin;
   } else if (info.uri->starts_with("data:")) {
     const std::string_view uri = *info.uri;
@@ -135,7 +139,8 @@ std::vector<uint8_t> Buffers::load(size_t buffer, const std::string& place) cons
     return read_bytes(confined(file, *info.uri, place + ".uri"), info.byte_length, file, place + ".uri");
   }
   if (data.size() < info.byte_length) {
-    refuse(file, place + ".byteLength", fmt::format("{} bytes, but only {} are there", info.byte_length, data.size()), remedy);
+    refuse(file, place + ".byteLength", fmt::format("{} bytes, but only {} are there", info.byte_length, data.size()),
+           remedy);
   }
   data.resize(info.byte_length);
   return data;

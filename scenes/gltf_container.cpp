@@ -42,7 +42,8 @@ Container split_glb(const std::string& file, const std::vector<uint8_t>& bytes) 
     if (size > length - at) {
       refuse(file, place, fmt::format("says {} bytes where {} are left", size, length - at), remedy);
     }
-    if ((type == chunk_json) != (index == 0)) refuse(file, place, "the first chunk, and no other, must be JSON", remedy);
+    if ((type == chunk_json) != (index == 0))
+      refuse(file, place, "the first chunk, and no other, must be JSON", remedy);
     const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(at);
     const auto end = begin + static_cast<std::ptrdiff_t>(size);
     if (type == chunk_json) out.json.assign(begin, end);
@@ -120,7 +121,8 @@ Container read_container(const std::string& file) {
     out.json.assign(bytes.begin(), bytes.end());
   }
   if (out.json.size() > max_json_bytes) {
-    refuse(file, "GLB chunk 0", fmt::format("{} bytes of JSON are more than the {} allowed", out.json.size(), max_json_bytes),
+    refuse(file, "GLB chunk 0",
+           fmt::format("{} bytes of JSON are more than the {} allowed", out.json.size(), max_json_bytes),
            "move embedded data into the binary chunk");
   }
   check_nesting(file, out.json);

@@ -25,8 +25,10 @@ Document read_document(const std::string& file);
 // Throws Error(scene) naming the first thing of the model that does not hold together; read_document has called it.
 void check_structure(const Document& document);
 
-// Bytes from the start of one element of the accessor to its end, and its distance to the next one.
+// Bytes from the start of one element of the accessor to its end; from there to the next one, as its view has it; and
+// the same where nothing lies between them.
 size_t element_bytes(const tinygltf::Accessor& accessor);
 size_t element_stride(const Document& document, const tinygltf::Accessor& accessor);
+size_t packed_stride(const tinygltf::Accessor& accessor);
 
 }  // namespace noonmark::gltf

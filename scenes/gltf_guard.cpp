@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "scenes/gltf_error.h"
+#include "scenes/gltf_precheck.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -17,22 +18,21 @@ using nlohmann::json;
 
 enum class Kind { integer, integers, number, numbers, flag, text, texts, object, objects };
 
-constexpr uint64_t max_index = 0x7fffffff;            // tinygltf keeps these in an int
-constexpr uint64_t max_size = uint64_t{1} << 53;      // integers that JSON carries exactly
+constexpr uint64_t max_index = 0x7fffffff;        // tinygltf keeps these in an int
+constexpr uint64_t max_size = uint64_t{1} << 53;  // integers that JSON carries exactly
 constexpr bool required = true;
 
 struct Field {
   std::string_view name;
   Kind kind;
   bool is_required = false;
-  uint64_t limit = max_index;      // integer(s): the largest; numbers: how many
+  uint64_t limit = max_index;       // integer(s): the largest; numbers: how many
   std::span<const Field> fields{};  // object(s): what is read of it
 };
 
 // The properties that are read, from the leaves up (glTF 2.0, section 5).
-constexpr Field sparse_indices[] = {{"bufferView", Kind::integer, required},
-                                    {"byteOffset", Kind::integer},
-                                    {"componentType", Kind::integer, required}};
+constexpr Field sparse_indices[] = {
+    {"bufferView", Kind::integer, required}, {"byteOffset", Kind::integer}, {"componentType", Kind::integer, required}};
 constexpr Field sparse_values[] = {{"bufferView", Kind::integer, required}, {"byteOffset", Kind::integer}};
 constexpr Field sparse[] = {{"count", Kind::integer, required},
                             {"indices", Kind::object, required, 0, sparse_indices},
@@ -152,20 +152,27 @@ class Reducer {
 
   [[noreturn]] void wrong(const std::string& place, std::string_view expected, const json& found) const {
     const bool scalar = found.is_primitive() && !found.is_string();
-    refuse(file_, place, fmt::format("should be {}, not {}", expected, scalar ? found.dump() : found.type_name()), remedy);
+    refuse(file_, place, fmt::format("should be {}, not {}", expected, scalar ? found.dump() : found.type_name()),
+           remedy);
   }
 
   json value(const json& from, const Field& field, const std::string& place) const {
     switch (field.kind) {
-      case Kind::integer: return integer(from, field.limit, place);
-      case Kind::number: return number(from, place);
-      case Kind::flag: return from.is_boolean() ? from : (wrong(place, "true or false", from), from);
-      case Kind::text: return from.is_string() ? from : (wrong(place, "a string", from), from);
-      case Kind::object: return object(from, field.fields, place);
+      case Kind::integer:
+        return integer(from, field.limit, place);
+      case Kind::number:
+        return number(from, place);
+      case Kind::flag:
+        return from.is_boolean() ? from : (wrong(place, "true or false", from), from);
+      case Kind::text:
+        return from.is_string() ? from : (wrong(place, "a string", from), from);
+      case Kind::object:
+        return object(from, field.fields, place);
       case Kind::integers:
       case Kind::numbers:
       case Kind::texts:
-      case Kind::objects: break;
+      case Kind::objects:
+        break;
     }
     if (!from.is_array()) wrong(place, "an array", from);
     if (field.kind == Kind::numbers && from.size() != field.limit) {
@@ -221,7 +228,8 @@ void check_version(const std::string& file, const json& document) {
   if (!found.contains("minVersion")) return;
   const std::string least = found["minVersion"].get<std::string>();
   if (least != "2.0") {
-    refuse(file, "asset.minVersion", fmt::format("needs a reader of version '{}', this one reads 2.0", printable(least)),
+    refuse(file, "asset.minVersion",
+           fmt::format("needs a reader of version '{}', this one reads 2.0", printable(least)),
            "export it as glTF 2.0");
   }
 }
@@ -238,23 +246,6 @@ void check_extensions(const std::string& file, const json& document) {
   }
 }
 
-// What tinygltf would settle silently: it drops the other transforms beside a matrix, and takes a zfar of 0 for none.
-void check_ambiguities(const std::string& file, const json& document) {
-  constexpr std::string_view remedy = "export the file again, or correct it";
-  for (size_t i = 0; document.contains("nodes") && i < document["nodes"].size(); ++i) {
-    const json& one = document["nodes"][i];
-    if (one.contains("matrix") && (one.contains("translation") || one.contains("rotation") || one.contains("scale"))) {
-      refuse(file, fmt::format("nodes[{}]", i), "has both a matrix and a translation, rotation or scale", remedy);
-    }
-  }
-  for (size_t i = 0; document.contains("cameras") && i < document["cameras"].size(); ++i) {
-    const json& one = document["cameras"][i];
-    if (one.contains("perspective") && one["perspective"].value("zfar", 1.0) == 0) {
-      refuse(file, fmt::format("cameras[{}].perspective.zfar", i), "is 0", remedy);
-    }
-  }
-}
-
 bool names_extension(const json& document, const char* list, std::string_view name) {
   if (!document.contains(list)) return false;
   return std::any_of(document[list].begin(), document[list].end(), [&](const json& one) { return one == name; });
@@ -265,7 +256,8 @@ bool names_extension(const json& document, const char* list, std::string_view na
 GuardedDocument guard(const std::string& file, const std::string& text) {
   json whole;
   // The parser of JSON skips a byte order mark; glTF forbids it (section 2.7).
-  if (text.starts_with("\xef\xbb\xbf")) refuse(file, "byte 0 of the JSON", "a byte order mark", "save it as plain UTF-8");
+  if (text.starts_with("\xef\xbb\xbf"))
+    refuse(file, "byte 0 of the JSON", "a byte order mark", "save it as plain UTF-8");
   try {
     whole = json::parse(text);
   } catch (const json::exception& e) {
@@ -277,7 +269,7 @@ GuardedDocument guard(const std::string& file, const std::string& text) {
   if (whole.contains("asset")) check_version(file, Reducer(file).object(whole, std::span(root).first(1), ""));
   out.json = Reducer(file).object(whole, root, "");
   check_extensions(file, out.json);
-  check_ambiguities(file, out.json);
+  check_before_tinygltf(file, out.json);
   out.quantized = names_extension(out.json, "extensionsUsed", quantization) ||
                   names_extension(out.json, "extensionsRequired", quantization);
   if (out.json.contains("buffers")) {

@@ -106,7 +106,8 @@ class Appender {
       for (int k = 0; k < 3; ++k) {
         triangle[k] = vertices[triangle[k]];
         const uint32_t known = map.place_of(triangle[k]);
-        corner[k] = known != unused ? scene_.positions[known] : world_position(placed, drawable, positions, triangle[k]);
+        corner[k] =
+            known != unused ? scene_.positions[known] : world_position(placed, drawable, positions, triangle[k]);
       }
       if (degenerate(corner[0], corner[1], corner[2])) continue;
       for (int k = 0; k < 3; ++k) {
@@ -133,7 +134,8 @@ class Appender {
     if (a.sparse.isSparse) sparse_elements_ += static_cast<uint64_t>(a.sparse.count);
     if (sparse_elements_ > 3 * max_triangles) {
       refuse(d_.file, fmt::format("accessors[{}].sparse.count", accessor),
-             fmt::format("the scene has more than {} sparse elements", 3 * max_triangles), "export without sparse accessors");
+             fmt::format("the scene has more than {} sparse elements", 3 * max_triangles),
+             "export without sparse accessors");
     }
     return readers_.try_emplace(accessor, d_, buffers_, accessor).first->second;
   }
@@ -151,7 +153,8 @@ class Appender {
       if (list[i] < count && list[i] != indices.restart_index()) continue;
       refuse(d_.file, fmt::format("accessors[{}]", drawable.indices),
              fmt::format("element {} is {}, {} (meshes[{}].primitives[{}])", i, list[i],
-                         list[i] < count ? "which means restart and not a vertex" : fmt::format("beyond the {} vertices", count),
+                         list[i] < count ? "which means restart and not a vertex"
+                                         : fmt::format("beyond the {} vertices", count),
                          mesh, drawable.primitive),
              "export the file again");
     }
@@ -166,7 +169,8 @@ class Appender {
       if (std::abs(world[axis]) <= max_coordinate_m) continue;  // false for NaN
       const std::string place = fmt::format("accessors[{}]", drawable.positions);
       const bool finite = std::isfinite(local.x) && std::isfinite(local.y) && std::isfinite(local.z);
-      if (!finite) refuse(d_.file, place, fmt::format("vertex {} is not finite", vertex), "repair the mesh and export again");
+      if (!finite)
+        refuse(d_.file, place, fmt::format("vertex {} is not finite", vertex), "repair the mesh and export again");
       refuse(d_.file, place,
              fmt::format("vertex {} is {} m from the origin as nodes[{}] places it; at most {} m is allowed", vertex,
                          std::abs(world[axis]), placed.node, max_coordinate_m),
@@ -178,7 +182,9 @@ class Appender {
   std::string part_name(const PlacedNode& placed, size_t mesh, const Drawable& drawable) const {
     const std::string& node_name = d_.model.nodes[placed.node].name;
     const std::string& mesh_name = d_.model.meshes[mesh].name;
-    const std::string name = !node_name.empty() ? node_name : !mesh_name.empty() ? mesh_name : fmt::format("node {}", placed.node);
+    const std::string name = !node_name.empty()   ? node_name
+                             : !mesh_name.empty() ? mesh_name
+                                                  : fmt::format("node {}", placed.node);
     return d_.model.meshes[mesh].primitives.size() == 1 ? name : fmt::format("{}/{}", name, drawable.primitive);
   }
 
@@ -205,7 +211,8 @@ void append_geometry(const Document& document, Buffers& buffers, const std::vect
       triangles += drawable.triangles;
       if (triangles > max_triangles || drawable.corners > 3 * max_triangles) {
         refuse(document.file, fmt::format("nodes[{}].mesh", placed.node),
-               fmt::format("the scene has more than the {} triangles allowed", max_triangles), "simplify it or split it");
+               fmt::format("the scene has more than the {} triangles allowed", max_triangles),
+               "simplify it or split it");
       }
     }
   }

@@ -49,7 +49,8 @@ void refuse_cycles(const Document& document, const std::vector<int>& parents) {
     for (int child : nodes[node].children) open.push_back(static_cast<size_t>(child));
   }
   for (size_t i = 0; i < nodes.size(); ++i) {
-    if (!met[i]) refuse(document.file, place_of(i), "is its own ancestor, or below a node that is", "break the cycle of children");
+    if (!met[i])
+      refuse(document.file, place_of(i), "is its own ancestor, or below a node that is", "break the cycle of children");
   }
 }
 
@@ -98,7 +99,8 @@ glm::dmat4 local_transform(const Document& document, size_t index) {
 }
 
 bool hidden(const tinygltf::Node& node) {
-  return node.matrix.empty() && node.scale.size() == 3 && node.scale[0] == 0 && node.scale[1] == 0 && node.scale[2] == 0;
+  return node.matrix.empty() && node.scale.size() == 3 && node.scale[0] == 0 && node.scale[1] == 0 &&
+         node.scale[2] == 0;
 }
 
 void check_transform(const Document& document, size_t node, const glm::dmat4& world) {

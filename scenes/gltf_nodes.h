@@ -7,7 +7,8 @@
 
 namespace noonmark::gltf {
 
-// No coordinate of a vertex or a node may be larger: the largest extent that the table of settings allows a map (map.extent_m).
+// No coordinate of a vertex or a node may be larger: the largest extent that the table of settings allows a map
+// (map.extent_m).
 inline constexpr double max_coordinate_m = 1e9;
 
 struct PlacedNode {

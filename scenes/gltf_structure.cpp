@@ -1,5 +1,6 @@
-// check_structure: every reference in range, every accessor inside its view, every view inside its buffer. All sizes are
-// at most 2^53 (gltf_guard.cpp), so sums of two cannot overflow; products are tested by division.
+// check_structure, after scenes/gltf_precheck.h: every reference in range, every accessor inside its view, every view
+// inside its buffer. All sizes are at most 2^53 (gltf_guard.cpp), so sums of two cannot overflow; products are tested
+// by division.
 #include <fmt/format.h>
 
 #include "scenes/gltf_document.h"
@@ -28,11 +29,14 @@ class Checker {
 
  private:
   template <class T>
-  void each(const std::vector<T>& items, std::string_view name, void (Checker::*check)(const T&, const std::string&) const) const {
+  void each(const std::vector<T>& items, std::string_view name,
+            void (Checker::*check)(const T&, const std::string&) const) const {
     for (size_t i = 0; i < items.size(); ++i) (this->*check)(items[i], fmt::format("{}[{}]", name, i));
   }
 
-  [[noreturn]] void fail(const std::string& place, const std::string& what) const { refuse(d_.file, place, what, remedy); }
+  [[noreturn]] void fail(const std::string& place, const std::string& what) const {
+    refuse(d_.file, place, what, remedy);
+  }
 
   void reference(int index, size_t size, const std::string& place, std::string_view list) const {
     if (index < 0 || static_cast<size_t>(index) >= size) {
@@ -47,10 +51,8 @@ class Checker {
     reference(v.buffer, d_.buffers.size(), place + ".buffer", "buffers");
     const uint64_t length = d_.buffers[static_cast<size_t>(v.buffer)].byte_length;
     if (v.byteOffset + v.byteLength > length) {
-      fail(place, fmt::format("ends at byte {} of buffers[{}], which has {}", v.byteOffset + v.byteLength, v.buffer, length));
-    }
-    if (v.byteStride != 0 && (v.byteStride < 4 || v.byteStride % 4 != 0)) {
-      fail(place + ".byteStride", fmt::format("{} is not a multiple of 4 from 4 to 252", v.byteStride));
+      fail(place,
+           fmt::format("ends at byte {} of buffers[{}], which has {}", v.byteOffset + v.byteLength, v.buffer, length));
     }
   }
 
@@ -74,15 +76,18 @@ class Checker {
       case TINYGLTF_COMPONENT_TYPE_BYTE:
       case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
       case TINYGLTF_COMPONENT_TYPE_SHORT:
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: break;
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        break;
       case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
       case TINYGLTF_COMPONENT_TYPE_FLOAT:
         if (a.normalized) fail(place + ".normalized", "is only for integers of 8 and 16 bits");
         break;
-      default: fail(place + ".componentType", fmt::format("{} is none of glTF's", a.componentType));
+      default:
+        fail(place + ".componentType", fmt::format("{} is none of glTF's", a.componentType));
     }
     if (a.count == 0) fail(place + ".count", "is 0");
-    const size_t component = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
+    const size_t component =
+        static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
     const size_t bytes = element_bytes(a);
     if (a.bufferView != -1) {
       reference(a.bufferView, m_.bufferViews.size(), place + ".bufferView", "bufferViews");
@@ -93,10 +98,10 @@ class Checker {
       }
       fits(a.bufferView, a.byteOffset, a.count, element_stride(d_, a), bytes, component, place);
     }
-    if (a.sparse.isSparse) sparse(a, bytes, component, place + ".sparse");
+    if (a.sparse.isSparse) sparse(a, component, place + ".sparse");
   }
 
-  void sparse(const tinygltf::Accessor& a, size_t bytes, size_t component, const std::string& place) const {
+  void sparse(const tinygltf::Accessor& a, size_t component, const std::string& place) const {
     if (a.sparse.count < 1 || static_cast<size_t>(a.sparse.count) > a.count) {
       fail(place + ".count", fmt::format("{} is not from 1 to the accessor's count, {}", a.sparse.count, a.count));
     }
@@ -109,8 +114,8 @@ class Checker {
     const size_t count = static_cast<size_t>(a.sparse.count);
     fits(a.sparse.indices.bufferView, static_cast<size_t>(a.sparse.indices.byteOffset), count, index_bytes, index_bytes,
          index_bytes, place + ".indices");
-    fits(a.sparse.values.bufferView, static_cast<size_t>(a.sparse.values.byteOffset), count, bytes, bytes, component,
-         place + ".values");
+    fits(a.sparse.values.bufferView, static_cast<size_t>(a.sparse.values.byteOffset), count, packed_stride(a),
+         element_bytes(a), component, place + ".values");
     for (int view_index : {a.sparse.indices.bufferView, a.sparse.values.bufferView}) {
       if (m_.bufferViews[static_cast<size_t>(view_index)].byteStride != 0) {
         fail(place, fmt::format("bufferViews[{}] has a byteStride, which sparse data may not have", view_index));
@@ -134,7 +139,6 @@ class Checker {
         positions(m_.accessors[static_cast<size_t>(found->second)], fmt::format("accessors[{}]", found->second));
       }
       if (p.indices != -1) {
-        reference(p.indices, m_.accessors.size(), here + ".indices", "accessors");
         indices(m_.accessors[static_cast<size_t>(p.indices)], fmt::format("accessors[{}]", p.indices));
       }
     }
@@ -172,11 +176,13 @@ class Checker {
       // Narrower or wider, the tangent of half the angle is no longer a number to divide by or to multiply with.
       constexpr double least_yfov = 1e-4, largest_yfov = 3.1415;
       if (!(p.yfov >= least_yfov && p.yfov <= largest_yfov)) {
-        fail(here + ".yfov", fmt::format("{} is not an angle of view, from {} to {} radians", p.yfov, least_yfov, largest_yfov));
+        fail(here + ".yfov",
+             fmt::format("{} is not an angle of view, from {} to {} radians", p.yfov, least_yfov, largest_yfov));
       }
       if (!(p.znear > 0)) fail(here + ".znear", fmt::format("{} is not positive", p.znear));
       // 0: absent, an infinite projection.
-      if (p.zfar != 0 && !(p.zfar > p.znear)) fail(here + ".zfar", fmt::format("{} is not beyond znear {}", p.zfar, p.znear));
+      if (p.zfar != 0 && !(p.zfar > p.znear))
+        fail(here + ".zfar", fmt::format("{} is not beyond znear {}", p.zfar, p.znear));
     } else {
       const tinygltf::OrthographicCamera& o = c.orthographic;
       const std::string here = place + ".orthographic";
@@ -217,17 +223,36 @@ class Checker {
 
 }  // namespace
 
+namespace {
+
+size_t component_bytes(const tinygltf::Accessor& a) {
+  return static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
+}
+
+// Rows of a matrix type, 0 of the others; and bytes from one of its columns to the next, a multiple of 4 (glTF 2.0,
+// section 3.6.2.4).
+size_t matrix_rows(const tinygltf::Accessor& a) {
+  return a.type == TINYGLTF_TYPE_MAT2 ? 2 : a.type == TINYGLTF_TYPE_MAT3 ? 3 : a.type == TINYGLTF_TYPE_MAT4 ? 4 : 0;
+}
+size_t column_stride(const tinygltf::Accessor& a) { return (matrix_rows(a) * component_bytes(a) + 3) / 4 * 4; }
+
+}  // namespace
+
+// The last column needs no padding behind it.
 size_t element_bytes(const tinygltf::Accessor& a) {
-  const size_t component = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
-  const size_t rows = a.type == TINYGLTF_TYPE_MAT2 ? 2 : a.type == TINYGLTF_TYPE_MAT3 ? 3 : a.type == TINYGLTF_TYPE_MAT4 ? 4 : 0;
-  // Columns of matrices start at multiples of 4 bytes (glTF 2.0, section 3.6.2.4).
-  if (rows != 0) return rows * ((rows * component + 3) / 4 * 4);
-  return component * static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(a.type)));
+  const size_t rows = matrix_rows(a);
+  if (rows != 0) return (rows - 1) * column_stride(a) + rows * component_bytes(a);
+  return component_bytes(a) * static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(a.type)));
 }
 
 size_t element_stride(const Document& document, const tinygltf::Accessor& a) {
-  const size_t given = a.bufferView == -1 ? 0 : document.model.bufferViews[static_cast<size_t>(a.bufferView)].byteStride;
-  return given != 0 ? given : element_bytes(a);
+  const size_t given =
+      a.bufferView == -1 ? 0 : document.model.bufferViews[static_cast<size_t>(a.bufferView)].byteStride;
+  return given != 0 ? given : packed_stride(a);
+}
+
+size_t packed_stride(const tinygltf::Accessor& a) {
+  return matrix_rows(a) != 0 ? matrix_rows(a) * column_stride(a) : element_bytes(a);
 }
 
 void check_structure(const Document& document) { Checker(document).all(); }

@@ -1,8 +1,11 @@
 #include "scenes/gltf_view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scenes/fit.h"
+#include "scenes/gltf_error.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -31,6 +34,12 @@ std::optional<Camera> find_camera(const Document& document, const std::vector<Pl
   // Any point ahead will do for a target; the one nearest the scene's middle is the one that people expect.
   const Sphere sphere = bounding_sphere(scene);
   const glm::dvec3 forward = forward_of(*found);
+  // A transform that shears can lay the camera's up along its view; then the picture has no upright.
+  constexpr double least_sine = 1e-3;
+  if (!(glm::length(glm::cross(forward, up_of(*found))) > least_sine)) {
+    refuse(document.file, fmt::format("nodes[{}].camera", found->node), "its up and its view are almost parallel",
+           "give the camera's node a rotation and a translation only");
+  }
   const double ahead = glm::dot(sphere.centre_m - camera.eye_m, forward);
   camera.target_m = camera.eye_m + forward * std::max(ahead, 1.0);
   camera.up = up_of(*found);

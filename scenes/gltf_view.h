@@ -9,7 +9,8 @@
 namespace noonmark::gltf {
 
 // The first camera of the placed nodes; none: nothing. An infinite perspective gets a far plane behind the whole scene.
-// Aspect ratio and xmag are not used: the picture's shape is the user's.
+// Aspect ratio and xmag are not used: the picture's shape is the user's. Throws Error(scene) where a shear lays the
+// camera's up along its view.
 std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes, const Scene& scene);
 
 // The first directional light of the placed nodes. Where there is none, a directional light that stands in for the

@@ -33,8 +33,10 @@ inline std::string defect_of(const Scene& scene) {
   const Camera& c = scene.camera;
   if (!finite(c.eye_m) || !finite(c.target_m) || !finite(c.up)) return "the camera is not finite";
   if (!(c.near_m >= 0 && c.far_m > c.near_m && std::isfinite(c.far_m))) return "the camera's near and far";
-  if (!(c.fov_y_deg > 0 && c.fov_y_deg < 180) || !(c.height_m > 0) || !std::isfinite(c.height_m)) return "the camera's angle";
-  if (!(glm::length(glm::cross(glm::normalize(c.target_m - c.eye_m), glm::normalize(c.up))) > 1e-6)) return "the camera's up";
+  if (!(c.fov_y_deg > 0 && c.fov_y_deg < 180) || !(c.height_m > 0) || !std::isfinite(c.height_m))
+    return "the camera's angle";
+  if (!(glm::length(glm::cross(glm::normalize(c.target_m - c.eye_m), glm::normalize(c.up))) > 1e-6))
+    return "the camera's up";
   if (!finite(scene.light.position_m) || !finite(scene.light.target_m)) return "the light is not finite";
   if (!(glm::distance(scene.light.position_m, scene.light.target_m) > 0)) return "the light has no direction";
   return "";

@@ -31,6 +31,7 @@ class TemporaryFolder {
   std::string write(const std::string& name, const std::string& bytes) const {
     const std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());
+    std::filesystem::remove(file);  // some file systems wait for the disk when a file is overwritten
     std::ofstream(file, std::ios::binary) << bytes;
     return file.string();
   }
@@ -55,7 +56,9 @@ inline std::string base64(const std::string& bytes) {
   return out;
 }
 
-inline std::string data_uri(const std::string& bytes) { return "data:application/octet-stream;base64," + base64(bytes); }
+inline std::string data_uri(const std::string& bytes) {
+  return "data:application/octet-stream;base64," + base64(bytes);
+}
 
 inline std::string glb(const std::string& text, const std::string& bin) {
   const auto padded = [](std::string s, char with) {
@@ -75,22 +78,27 @@ inline std::string square_bytes() { return raw(square_positions) + raw(square_in
 
 // accessors[0]: positions (bufferViews[0]); accessors[1]: indices (bufferViews[1]).
 inline json square() {
-  return {{"asset", {{"version", "2.0"}}},
-          {"scene", 0},
-          {"scenes", {{{"nodes", {0}}}}},
-          {"nodes", {{{"mesh", 0}, {"name", "square"}}}},
-          {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
-          {"accessors",
-           {{{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}, {"min", {0, 0, 0}}, {"max", {1, 1, 0}}},
-            {{"bufferView", 1}, {"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}}}},
-          {"bufferViews",
-           {{{"buffer", 0}, {"byteLength", 48}}, {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 12}}}},
-          {"buffers", {{{"byteLength", 60}, {"uri", data_uri(square_bytes())}}}}};
+  return {
+      {"asset", {{"version", "2.0"}}},
+      {"scene", 0},
+      {"scenes", {{{"nodes", {0}}}}},
+      {"nodes", {{{"mesh", 0}, {"name", "square"}}}},
+      {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
+      {"accessors",
+       {{{"bufferView", 0},
+         {"componentType", 5126},
+         {"count", 4},
+         {"type", "VEC3"},
+         {"min", {0, 0, 0}},
+         {"max", {1, 1, 0}}},
+        {{"bufferView", 1}, {"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}}}},
+      {"bufferViews", {{{"buffer", 0}, {"byteLength", 48}}, {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 12}}}},
+      {"buffers", {{{"byteLength", 60}, {"uri", data_uri(square_bytes())}}}}};
 }
 
 // Appends a view and an accessor over `bytes`, in a buffer of their own; returns the accessor's index.
-inline int add_accessor(json& document, const std::string& bytes, int component_type, const std::string& type, size_t count,
-                        size_t stride = 0) {
+inline int add_accessor(json& document, const std::string& bytes, int component_type, const std::string& type,
+                        size_t count, size_t stride = 0) {
   const size_t buffer = document["buffers"].size();
   document["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
   json view = {{"buffer", buffer}, {"byteLength", bytes.size()}};

@@ -1,5 +1,5 @@
-// Thousands of files with random damage: each gives a whole, finite scene or one Error(scene), and nothing else. Seeded,
-// so that a failure comes again; the mutant that fails is left in the temporary folder's place of the message.
+// Thousands of files with random damage: each gives a whole, finite scene or one Error(scene), and nothing else.
+// Seeded, so that a failure comes again.
 #include <random>
 
 #include "tests/gltf_expect.h"
@@ -12,14 +12,19 @@ namespace {
 json rich() {
   json d = square();
   d["extensionsUsed"] = {"KHR_lights_punctual", "KHR_mesh_quantization"};
-  d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}}, {{"type", "spot"}, {"spot", json::object()}}};
-  d["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}, {"zfar", 100}}}},
-                  {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 2}, {"znear", 0.1}, {"zfar", 9}}}}};
-  d["materials"] = {{{"alphaMode", "MASK"}, {"alphaCutoff", 0.5}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}}}}};
+  d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}},
+                                                      {{"type", "spot"}, {"spot", json::object()}}};
+  d["cameras"] = {
+      {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}, {"zfar", 100}}}},
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 2}, {"znear", 0.1}, {"zfar", 9}}}}};
+  d["materials"] = {
+      {{"alphaMode", "MASK"}, {"alphaCutoff", 0.5}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}}}}};
   d["meshes"][0]["primitives"][0]["material"] = 0;
-  const int quantized = add_accessor(d, raw(std::vector<int16_t>{0, 0, 0, 0, 900, 0, 0, 0, 0, 900, 0, 0, 900, 900, 5, 0}), 5122, "VEC3", 4, 8);
+  const int quantized = add_accessor(
+      d, raw(std::vector<int16_t>{0, 0, 0, 0, 900, 0, 0, 0, 0, 900, 0, 0, 900, 900, 5, 0}), 5122, "VEC3", 4, 8);
   d["accessors"].back()["normalized"] = true;
-  d["meshes"].push_back({{"name", "strip"}, {"primitives", {{{"attributes", {{"POSITION", quantized}}}, {"mode", 5}}}}});
+  d["meshes"].push_back(
+      {{"name", "strip"}, {"primitives", {{{"attributes", {{"POSITION", quantized}}}, {"mode", 5}}}}});
   const int moved = add_accessor(d, raw(std::vector<uint16_t>{1, 2}), 5123, "SCALAR", 2);
   const int values = add_accessor(d, raw(std::vector<float>{5, 0, 0, 5, 1, 0}), 5126, "VEC3", 2);
   d["accessors"][0]["sparse"] = {
@@ -28,7 +33,9 @@ json rich() {
       {"values", {{"bufferView", d["accessors"][values]["bufferView"]}}}};
   d["nodes"][0]["children"] = {1, 2};
   d["nodes"].push_back({{"mesh", 1}, {"rotation", {0, 0, 0, 1}}, {"scale", {2, -2, 2}}, {"translation", {1, 2, 3}}});
-  d["nodes"].push_back({{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}}});
+  d["nodes"].push_back({{"camera", 0},
+                        {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}},
+                        {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}}});
   return d;
 }
 
@@ -56,12 +63,24 @@ std::string mutated(std::string bytes, std::mt19937& random) {
   for (size_t edits = 1 + below(4); edits > 0 && !bytes.empty(); --edits) {
     const size_t at = below(bytes.size());
     switch (below(6)) {
-      case 0: bytes[at] = static_cast<char>(random()); break;
-      case 1: bytes[at] = static_cast<char>(bytes[at] ^ 1 << below(8)); break;
-      case 2: bytes.erase(at, 1 + below(8)); break;
-      case 3: bytes.insert(at, bytes.substr(below(bytes.size()), 1 + below(16))); break;
-      case 4: bytes[at] = "0123456789-.eE\"[]{},:"[below(21)]; break;
-      default: bytes.replace(at, 4, below(2) == 0 ? std::string(4, '\xff') : std::string(4, '\0')); break;
+      case 0:
+        bytes[at] = static_cast<char>(random());
+        break;
+      case 1:
+        bytes[at] = static_cast<char>(bytes[at] ^ 1 << below(8));
+        break;
+      case 2:
+        bytes.erase(at, 1 + below(8));
+        break;
+      case 3:
+        bytes.insert(at, bytes.substr(below(bytes.size()), 1 + below(16)));
+        break;
+      case 4:
+        bytes[at] = "0123456789-.eE\"[]{},:"[below(21)];
+        break;
+      default:
+        bytes.replace(at, 4, below(2) == 0 ? std::string(4, '\xff') : std::string(4, '\0'));
+        break;
     }
   }
   return bytes;
@@ -76,21 +95,48 @@ void collect(json& value, std::vector<json*>& all) {
 
 // Replaces one value by one that is of another type, out of range, or from elsewhere in the document.
 json damaged(json d, std::mt19937& random) {
-  static const json odd = {0, 1, 2, 3, -1, 255, 65535, 2147483647, 2147483648u, 4294967295u, 4294967296u, 0xffffffffffffffffu,
-                           1e-300, 1e300, -0.0, 3.5, nullptr, true, "", "../x", json::array(), json::object(), {0}, {0, 0}, "MASK"};
+  static const json odd = {0,
+                           1,
+                           2,
+                           3,
+                           -1,
+                           255,
+                           65535,
+                           2147483647,
+                           2147483648u,
+                           4294967295u,
+                           4294967296u,
+                           0xffffffffffffffffu,
+                           1e-300,
+                           1e300,
+                           -0.0,
+                           3.5,
+                           nullptr,
+                           true,
+                           "",
+                           "../x",
+                           json::array(),
+                           json::object(),
+                           {0},
+                           {0, 0},
+                           "MASK"};
   for (size_t edits = 1 + random() % 3; edits > 0; --edits) {
     std::vector<json*> all;
     collect(d, all);
     json& victim = *all[1 + random() % (all.size() - 1)];
     switch (random() % 4) {
-      case 0: victim = json(*all[random() % all.size()]); break;
+      case 0:
+        victim = json(*all[random() % all.size()]);
+        break;
       case 1:
         if (victim.is_object() && !victim.empty()) {
           victim.erase(std::next(victim.begin(), static_cast<std::ptrdiff_t>(random() % victim.size())));
           break;
         }
         [[fallthrough]];
-      default: victim = odd[random() % odd.size()]; break;
+      default:
+        victim = odd[random() % odd.size()];
+        break;
     }
   }
   return d;
@@ -113,7 +159,6 @@ TEST_F(GltfMutation, TheSourceIsSound) {
 
 TEST_F(GltfMutation, BytesOfABinaryFile) {
   json d = rich();
-  std::string bin;
   d["buffers"][0] = {{"byteLength", 60}};
   const std::string whole = glb(d.dump(), square_bytes());
   Tally tally;

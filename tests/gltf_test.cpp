@@ -134,15 +134,16 @@ TEST_F(Gltf, QuantizedPositions) {
   json d = square();
   d["extensionsUsed"] = d["extensionsRequired"] = {"KHR_mesh_quantization"};
   auto& position = d["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
-  position = add_accessor(d, raw(std::vector<int16_t>{0, 0, 0, 0, 32767, 0, 0, 0, -32768, 7, 0, 0, 0, 16384, 0, 0}), 5122,
-                          "VEC3", 4, 8);
+  position = add_accessor(d, raw(std::vector<int16_t>{0, 0, 0, 0, 32767, 0, 0, 0, -32768, 7, 0, 0, 0, 16384, 0, 0}),
+                          5122, "VEC3", 4, 8);
   EXPECT_EQ(load(d).positions[1], glm::vec3(32767, 0, 0));
   d["accessors"].back()["normalized"] = true;
   const Scene s = load(d);
   EXPECT_EQ(s.positions[1], glm::vec3(1, 0, 0));
   EXPECT_EQ(s.positions[2], glm::vec3(-1, static_cast<float>(7.0 / 32767), 0));  // -32768 is clamped
   EXPECT_EQ(s.positions[3], glm::vec3(0, static_cast<float>(16384.0 / 32767), 0));
-  position = add_accessor(d, raw(std::vector<uint8_t>{0, 0, 0, 9, 255, 0, 0, 9, 255, 51, 0, 9, 0, 51, 0, 9}), 5121, "VEC3", 4, 4);
+  position = add_accessor(d, raw(std::vector<uint8_t>{0, 0, 0, 9, 255, 0, 0, 9, 255, 51, 0, 9, 0, 51, 0, 9}), 5121,
+                          "VEC3", 4, 4);
   d["accessors"].back()["normalized"] = true;
   EXPECT_EQ(load(d).positions[2], glm::vec3(1, 0.2f, 0));
 }
@@ -152,7 +153,8 @@ TEST_F(Gltf, TransformsComposeFromTheRoot) {
   d["scenes"][0]["nodes"] = {1};
   // Child: twice as large. Parent: a quarter turn about +Z (x -> y), then 10 along x.
   d["nodes"][0]["scale"] = {2, 2, 2};
-  d["nodes"].push_back({{"children", {0}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}, {"translation", {10, 0, 0}}});
+  d["nodes"].push_back(
+      {{"children", {0}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}, {"translation", {10, 0, 0}}});
   const Scene s = load(d);
   EXPECT_LT(glm::distance(s.positions[1], glm::vec3(10, 2, 0)), 1e-6f);
   EXPECT_LT(glm::distance(s.positions[3], glm::vec3(8, 0, 0)), 1e-6f);

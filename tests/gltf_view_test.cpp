@@ -125,7 +125,8 @@ TEST(Fit, TheBoundingSphereHoldsEveryPosition) {
 }
 
 TEST(Fit, TheCameraSeesTheWholeSphere) {
-  for (const auto& [middle, size] : {std::pair{glm::vec3(0), 1.0f}, {glm::vec3(100, -5, 3), 1e-3f}, {glm::vec3(-7e4, 1, 0), 1e4f}}) {
+  for (const auto& [middle, size] :
+       {std::pair{glm::vec3(0), 1.0f}, {glm::vec3(100, -5, 3), 1e-3f}, {glm::vec3(-7e4, 1, 0), 1e4f}}) {
     const Scene s = cloud(middle, size);
     const Sphere sphere = bounding_sphere(s);
     const Camera c = fit_camera(s);
@@ -138,7 +139,8 @@ TEST(Fit, TheCameraSeesTheWholeSphere) {
     EXPECT_LT(c.near_m, distance - sphere.radius_m);
     EXPECT_GT(c.far_m, distance + sphere.radius_m);
     // Every position inside the clip volume of a square picture.
-    const glm::dmat4 clip = glm::perspective(glm::radians(c.fov_y_deg), 1.0, c.near_m, c.far_m) * glm::lookAt(c.eye_m, c.target_m, c.up);
+    const glm::dmat4 clip =
+        glm::perspective(glm::radians(c.fov_y_deg), 1.0, c.near_m, c.far_m) * glm::lookAt(c.eye_m, c.target_m, c.up);
     for (const glm::vec3& p : s.positions) {
       const glm::dvec4 q = clip * glm::dvec4(glm::dvec3(p), 1);
       EXPECT_TRUE(std::abs(q.x) < q.w && std::abs(q.y) < q.w && std::abs(q.z) < q.w);
