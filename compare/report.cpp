@@ -70,7 +70,8 @@ std::string subtitle(const Results& results) {
   std::string out = fmt::format("Scene {} · {} point{}", report::html(info.scene_name), results.points.size(), results.points.size() == 1 ? "" : "s");
   std::string swept;
   for (const std::string& name : info.swept)
-    swept += fmt::format("{}{} {}", swept.empty() ? "" : " × ", values_of(results, name).size(), report::html(report::setting_label(name)));
+    if (const size_t count = values_of(results, name).size())
+      swept += fmt::format("{}{} {}{}", swept.empty() ? "" : " × ", count, report::html(report::setting_label(name)), count == 1 ? "" : "s");
   if (!swept.empty()) out += " · " + swept;
   if (!info.started.empty()) out += " · " + report::html(info.started);
   return out;

@@ -42,58 +42,64 @@ std::string verdict(const Results& results) {
   return "<p class=\"verdict\">" + out + "</p>\n";
 }
 
-// "at 9 of 32 points: wherever resolution at most 512 texels; ..."
-std::string where_text(const Results& results, const std::vector<bool>& chosen) {
-  const size_t count = static_cast<size_t>(std::count(chosen.begin(), chosen.end(), true));
-  if (count == chosen.size()) return results.points.size() == 1 ? "here" : fmt::format("at every one of the {}", points_text(count));
-  std::string out = fmt::format("at {} of {}", count, points_text(chosen.size()));
-  const std::vector<Rule> rules = describe_points(results, chosen);
-  constexpr size_t most_rules = 4;  // more than that reads worse than the table
-  std::string named;
-  for (size_t i = 0; i < std::min(rules.size(), most_rules); ++i)
-    named += fmt::format("{}<b>{}</b>{}", i ? "; " : "", html(rule_phrase(rules[i])),
-                         rules.size() > 1 ? fmt::format(" ({})", rules[i].points) : "");
-  if (named.empty()) return out;
-  out += ": with " + named;
-  if (rules.size() > most_rules) out += "; and others, marked in the table of windows";
-  return out;
+std::vector<bool> flags_of(const Results& results, bool (*holds)(const PointRecord&)) {
+  std::vector<bool> flags;
+  for (const PointRecord& point : results.points) flags.push_back(holds(point));
+  return flags;
 }
 
+bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), true) != flags.end(); }
+
+// "at 9 of 32 points", and which those are as a list to stand after the sentence.
+struct Where {
+  std::string count, list;
+};
+Where where_text(const Results& results, const std::vector<bool>& chosen) {
+  const size_t count = static_cast<size_t>(std::count(chosen.begin(), chosen.end(), true));
+  if (count == chosen.size()) return {results.points.size() == 1 ? "here" : fmt::format("at every one of the {}", points_text(count)), ""};
+  const std::vector<Rule> rules = describe_points(results, chosen);
+  constexpr size_t most_rules = 4;  // more than that reads worse than the table
+  std::string list;
+  for (size_t i = 0; i < std::min(rules.size(), most_rules); ++i)
+    list += fmt::format("<li>{}{}</li>", html(rule_phrase(rules[i])), rules.size() > 1 ? fmt::format(" <small>{}</small>", points_text(rules[i].points)) : "");
+  if (rules.size() > most_rules) list += "<li>and others: see the table of windows</li>";
+  return {fmt::format("at {} of {}", count, points_text(chosen.size())), list.empty() ? "" : "<ul class=\"rules\">" + list + "</ul>"};
+}
+
+bool window_fails(const PointRecord& point) {
+  return point.curve && (!point.curve->window_min_depth || !point.curve->window_max_depth);
+}
+bool has_usable_bias(const PointRecord& point) { return point.curve && !window_fails(point) && bias_as_set(point); }
+bool set_too_small(const PointRecord& point) { return has_usable_bias(point) && *bias_as_set(point) < *point.curve->window_min_depth; }
+bool set_too_large(const PointRecord& point) { return has_usable_bias(point) && *bias_as_set(point) > *point.curve->window_max_depth; }
+
 std::string window_items(const Results& results) {
-  const size_t count = results.points.size();
-  std::vector<bool> curved(count), fails(count), low(count), high(count);
-  for (size_t i = 0; i < count; ++i) {
-    const PointRecord& point = results.points[i];
-    if (!point.curve) continue;
-    curved[i] = true;
-    fails[i] = !point.curve->window_min_depth || !point.curve->window_max_depth;
-    if (const std::optional<double> set = bias_as_set(point); set && !fails[i]) {
-      low[i] = *set < *point.curve->window_min_depth;
-      high[i] = *set > *point.curve->window_max_depth;
-    }
-  }
-  const auto any = [](const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), true) != flags.end(); };
-  if (!any(curved)) return item("note", "No bias curve was measured, so no usable window can be given.");
-  const BiasCurve& first = *std::find_if(results.points.begin(), results.points.end(), [](const auto& p) { return p.curve; })->curve;
+  const auto curved = std::find_if(results.points.begin(), results.points.end(), [](const auto& p) { return p.curve.has_value(); });
+  if (curved == results.points.end()) return item("note", "No bias curve was measured, so no usable window can be given.");
+  const BiasCurve& first = *curved->curve;
   const std::string bounds = fmt::format("acne at most {} and Peter Panning at most {}", quantity(first.acne_bound, "fraction"),
                                          quantity(first.peter_panning_bound, "fraction"));
   std::string out;
-  if (any(fails))
-    out += item("bad", fmt::format("No bias is good enough {}. There the method itself fails: no value of {} keeps {}.",
-                                   where_text(results, fails), html(first.parameter), bounds));
-  else
+  if (const auto fails = flags_of(results, window_fails); any(fails)) {
+    const Where where = where_text(results, fails);
+    out += item("bad", fmt::format("<b>The method fails {}</b>: no value of {} keeps {}{}{}", where.count, html(first.parameter), bounds,
+                                   where.list.empty() ? "." : ", with", where.list));
+  } else {
     out += item("good", fmt::format("A usable bias exists at every point: some value of {} keeps {}.", html(first.parameter), bounds));
-  if (any(low))
-    out += item("bad", fmt::format("The bias as set is <b>too small</b>, and leaves acne that a larger one would not, {}.",
-                                   where_text(results, low)));
-  if (any(high))
-    out += item("bad", fmt::format("The bias as set is <b>too large</b>, and detaches shadows more than it must, {}.",
-                                   where_text(results, high)));
-  if (!any(low) && !any(high)) {
-    std::vector<bool> usable = curved;
-    for (size_t i = 0; i < count; ++i) usable[i] = curved[i] && !fails[i] && bias_as_set(results.points[i]);
-    if (any(usable)) out += item("good", "The bias as set lies within the usable window wherever there is one.");
   }
+  const auto low = flags_of(results, set_too_small), high = flags_of(results, set_too_large);
+  if (any(low)) {
+    const Where where = where_text(results, low);
+    out += item("bad", fmt::format("<b>The bias as set is too small {}</b>: it leaves acne that a larger one would not{}{}", where.count,
+                                   where.list.empty() ? "." : ", with", where.list));
+  }
+  if (any(high)) {
+    const Where where = where_text(results, high);
+    out += item("bad", fmt::format("<b>The bias as set is too large {}</b>: it detaches shadows more than it must{}{}", where.count,
+                                   where.list.empty() ? "." : ", with", where.list));
+  }
+  if (!any(low) && !any(high) && any(flags_of(results, has_usable_bias)))
+    out += item("good", "The bias as set lies within the usable window wherever there is one.");
   return out;
 }
 
@@ -101,8 +107,8 @@ std::string cause_sentence(std::span<const PointRecord* const> points) {
   std::string out;
   const std::vector<CauseShare> shares = cause_shares(points);
   for (size_t i = 0; i < std::min<size_t>(shares.size(), 3); ++i)
-    out += fmt::format("{}{} {} ({:.0f}{}%)", i ? ", " : "", swatch(shares[i].name), html(metric_label(shares[i].name)),
-                       100 * shares[i].share, "\u202f");
+    out += fmt::format("{}<span class=\"cause\">{}{} ({:.0f}{}%)</span>", i ? ", " : "", swatch(shares[i].name),
+                       html(metric_label(shares[i].name)), 100 * shares[i].share, "\u202f");
   return out;
 }
 
@@ -153,7 +159,8 @@ std::string recommendation_box(const Results& results) {
     rows += fmt::format("<div class=\"key\"><dt>{}</dt><dd>{}</dd></div>\n", html(curve.parameter), bias_phrase(found.bias->depth, curve));
     rows += fmt::format("<div><dt>usable from</dt><dd>{}</dd></div>\n<div><dt>to</dt><dd>{}</dd></div>\n", bias_phrase(low, curve),
                         bias_phrase(high, curve));
-    if (low > 0) more = fmt::format(" The window is a factor {} wide.", number(high / low));
+    if (low == high) more = " Its window is a single value: expect it to break.";
+    if (low > 0 && high > low) more = fmt::format(" Its window is a factor {} wide.", number(high / low));
   }
   const PointRecord* only[] = {&point};
   const std::string causes = cause_sentence(only);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -59,6 +60,9 @@ struct CauseShare {
 // The causes that make up R5 - R1, largest first; those that are 0 everywhere are left out.
 std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points);
 
+// Stands in a Condition for the map's texel in metres, extent / resolution, which no setting holds by itself.
+inline constexpr std::string_view texel_size = "texel size";
+
 struct Condition {
   enum class Is { equal, at_most, at_least } is = Is::equal;
   std::string setting, value;
@@ -67,9 +71,12 @@ struct Rule {
   std::vector<Condition> all;  // every one of these
   size_t points = 0;           // how many chosen points the rule speaks for
 };
-// Says in few words which points were chosen: rules of at most three conditions on swept settings, each true of chosen points
+// Says in few words which points were chosen: rules of at most three conditions on swept settings or the texel's size, each true of chosen points
 // only, together true of every chosen point (greedy: the rule with the most points not yet spoken for, shortest first).
 std::vector<Rule> describe_points(const Results& results, const std::vector<bool>& chosen);
+
+// What a Condition compares: the setting's text, or the texel's size from the point's curve ("" without one).
+std::string rule_value(const PointRecord& point, const std::string& setting);
 
 // Distinct values of a setting over the points: by number when all are numbers, else in order of appearance.
 std::vector<std::string> values_of(const Results& results, const std::string& setting);

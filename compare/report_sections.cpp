@@ -45,7 +45,7 @@ std::string swept_cells(const Results& results, const PointRecord& point) {
 }
 
 std::string bias_cell(double depth, const BiasCurve& curve) {
-  return fmt::format("<td>{}</td><td>{}</td><td>{}</td>", number(depth), number(depth * curve.m_per_depth),
+  return fmt::format("<td class=\"first\">{}</td><td>{}</td><td>{}</td>", number(depth), number(depth * curve.m_per_depth),
                      number(depth * curve.texels_per_depth));
 }
 
@@ -59,6 +59,13 @@ std::string swatch(const std::string& cause) { return fmt::format("<i class=\"sw
 std::string bias_section(const Results& results) {
   std::string rows;
   size_t count = 0;
+  const BiasCurve* first = nullptr;
+  bool alike = true;  // whether one sentence says for all curves what was varied and how they were made
+  for (const PointRecord& point : results.points) {
+    if (!point.curve) continue;
+    if (!first) first = &*point.curve;
+    alike = alike && point.curve->parameter == first->parameter && point.curve->made == first->made;
+  }
   for (const PointRecord& point : results.points) {
     if (!point.curve) continue;
     ++count;
@@ -66,26 +73,31 @@ std::string bias_section(const Results& results) {
     const bool usable = curve.window_min_depth && curve.window_max_depth;
     rows += fmt::format("<tr{}>{}", usable ? "" : " class=\"broken\"", swept_cells(results, point));
     rows += usable ? bias_cell(*curve.window_min_depth, curve) + bias_cell(*curve.window_max_depth, curve)
-                   : "<td colspan=\"6\" class=\"fails\">none: the method fails here</td>";
+                   : "<td colspan=\"6\" class=\"fails first\">none: the method fails here</td>";
     rows += bias_cell(curve.best_bias_depth, curve);
-    rows += fmt::format("<td>{}</td><td>{} … {}</td><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>\n", cell(curve.best_error, "fraction"),
-                        number(curve.flat_min_depth), number(curve.flat_max_depth), html(curve.parameter), html(curve.made));
+    rows += fmt::format("<td>{}</td><td class=\"first\">{} … {}</td>", cell(curve.best_error, "fraction"), number(curve.flat_min_depth),
+                        number(curve.flat_max_depth));
+    if (!alike) rows += fmt::format("<td class=\"text\">{}</td><td class=\"text\">{}</td>", html(curve.parameter), html(curve.made));
+    rows += "</tr>\n";
   }
   std::string out = "<section id=\"bias\"><h2>Error against bias</h2>\n";
   if (count == 0) return out + "<p>No bias curve was measured.</p></section>\n";
-  const BiasCurve& first = *std::find_if(results.points.begin(), results.points.end(), [](const auto& p) { return p.curve; })->curve;
   out += fmt::format("<p>Too little bias leaves acne; too much detaches shadows. The usable window is every bias that keeps acne within {} and "
-                     "Peter Panning within {} of the counted receivers.</p>\n",
-                     quantity(first.acne_bound, "fraction"), quantity(first.peter_panning_bound, "fraction"));
+                     "Peter Panning within {} of the counted receivers.{}</p>\n",
+                     quantity(first->acne_bound, "fraction"), quantity(first->peter_panning_bound, "fraction"),
+                     alike ? fmt::format(" Varied: <code>{}</code>; made: {}.", html(first->parameter), html(first->made)) : "");
   out += chart("bias", "Share of counted receivers by cause against the bias; the usable window is shaded.");
-  const std::string head = fmt::format(
-      "<thead><tr>{}<th colspan=\"3\">Window from</th><th colspan=\"3\">to</th><th colspan=\"3\">Best bias</th><th>Error there</th>"
-      "<th>Within 10{}% of best</th><th>Parameter</th><th>Made</th></tr>\n<tr class=\"units\"><th></th>", swept_head(results), "\u202f");
-  std::string units;
-  for (size_t i = 0; i < results.info.swept.size(); ++i) units += "<th></th>";
-  for (int i = 0; i < 3; ++i) units += "<th>depth</th><th>m</th><th>texels</th>";
-  units += "<th>%</th><th>depth</th><th></th><th></th></tr></thead>";
-  out += folded("Every window", count, "<div class=\"scroll\"><table class=\"numbers\">" + head + units + "<tbody>\n" + rows + "</tbody></table></div>\n");
+  std::string head = "<thead><tr>" + swept_head(results) +
+                     "<th class=\"first\" colspan=\"3\">Window from</th><th class=\"first\" colspan=\"3\">Window to</th>"
+                     "<th class=\"first\" colspan=\"4\">Best bias</th><th class=\"first\">Within 10\u202f%<br>of the best</th>";
+  if (!alike) head += "<th>Parameter</th><th>Made</th>";
+  head += "</tr>\n<tr class=\"units\"><th></th>";
+  for (size_t i = 0; i < results.info.swept.size(); ++i) head += "<th></th>";
+  for (int i = 0; i < 3; ++i) head += "<th class=\"first\">depth</th><th>m</th><th>texels</th>";
+  head += "<th>error %</th><th class=\"first\">depth</th>";
+  if (!alike) head += "<th></th><th></th>";
+  head += "</tr></thead>";
+  out += folded("Every window", count, "<div class=\"scroll\"><table class=\"numbers windows\">" + head + "<tbody>\n" + rows + "</tbody></table></div>\n");
   return out + "</section>\n";
 }
 
@@ -124,7 +136,7 @@ std::string sweep_section(const Results& results) {
     const std::string unit = setting_unit(name);
     out += fmt::format("<h3>{}</h3>\n", html(name));
     out += chart(fmt::format("sweep-{}", charts), fmt::format("Error against {}; one line for each other swept setting.", html(setting_label(name))));
-    out += fmt::format("<div class=\"scroll\"><table class=\"numbers small-table\"><thead><tr><th>{}{}</th><th>Mean error <small>%</small></th>"
+    out += fmt::format("<div class=\"scroll fit\"><table class=\"numbers small-table\"><thead><tr><th>{}{}</th><th>Mean error <small>%</small></th>"
                        "<th>Worst error <small>%</small></th><th>Mean error at best bias <small>%</small></th><th>Points</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
                        html(setting_label(name)), unit.empty() ? "" : fmt::format(" <small>{}</small>", html(unit)), rows);
   }
@@ -143,6 +155,7 @@ std::string budget_section(const Results& results) {
   for (const CauseColor& cause : cause_colors)
     if (is_part(cause.name)) legend += fmt::format("<span>{}{}</span>\n", swatch(std::string(cause.name)), html(cause.label));
   for (const PointRecord& point : results.points) {
+    std::vector<std::pair<std::string_view, double>> sizes;
     std::string parts, told;
     double sum = 0;
     for (const CauseColor& cause : cause_colors) {
@@ -152,8 +165,10 @@ std::string budget_section(const Results& results) {
       told += fmt::format("{}{} {}", told.empty() ? "" : ", ", metric_label(cause.name), quantity(value, "fraction"));
       if (!std::isfinite(value) || value <= 0) continue;
       sum += value;
-      parts += fmt::format("<i class=\"c-{}\" style=\"flex-grow:{:.6g}\"></i>", cause.name, value);
+      sizes.emplace_back(cause.name, value);
     }
+    // Percent of the bar: factors that sum to less than 1 would not fill it.
+    for (const auto& [name, value] : sizes) parts += fmt::format("<i class=\"c-{}\" style=\"flex-grow:{:.4f}\"></i>", name, 100 * value / sum);
     const std::string phrase = settings_phrase(point, results.info.swept);
     rows += fmt::format("<div class=\"row\" title=\"{}\"><span class=\"name\"><a href=\"#p{}\">{}</a></span>"
                         "<span class=\"track\"><span class=\"bar\" style=\"--size:{:.5f}\">{}</span></span><span class=\"value\">{}</span></div>\n",

@@ -44,8 +44,9 @@ void strip_suffix(std::string& text, std::string_view suffix) {
 std::string html(std::string_view text) {
   // nlohmann's writer replaces what is not UTF-8; reading back undoes only its escapes.
   const std::string dumped = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::string valid = nlohmann::json::parse(dumped).get<std::string>();
   std::string out;
-  for (char c : nlohmann::json::parse(dumped).get_ref<const std::string&>()) {
+  for (char c : valid) {
     switch (c) {
       case '&': out += "&amp;"; break;
       case '<': out += "&lt;"; break;
@@ -98,7 +99,14 @@ std::string number(double value) {
     }
     return text;
   }
-  return fmt::format("{:.3g}", value);
+  const std::string text = fmt::format("{:.2e}", value);
+  const size_t e = text.find('e');
+  std::string mantissa = text.substr(0, e), power;
+  while (mantissa.back() == '0') mantissa.pop_back();
+  if (mantissa.back() == '.') mantissa.pop_back();
+  constexpr std::string_view raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  for (char digit : fmt::format("{}", std::stoi(text.substr(e + 1)))) power += digit == '-' ? "⁻" : raised[digit - '0'];
+  return mantissa + "×10" + power;
 }
 
 std::string_view head_unit(std::string_view unit) {
@@ -147,6 +155,10 @@ std::string rule_phrase(const Rule& rule) {
     const char* is = condition.is == Condition::Is::at_most ? "at most " : condition.is == Condition::Is::at_least ? "at least " : "";
     std::string unit = setting_unit(condition.setting);
     if (unit == "bias.unit") unit.clear();
+    if (condition.setting == texel_size) {
+      out += fmt::format("{}texels of {}{}{}m", out.empty() ? "" : " and ", is, number(*number_of(condition.value)), thin_space);
+      continue;
+    }
     out += fmt::format("{}{} {}{}", out.empty() ? "" : " and ", setting_label(condition.setting), is,
                        value_phrase(condition.value, unit));
   }

@@ -14,7 +14,7 @@
     var curve = kit.byId[state.id].curve, k = factor(curve), bias = curve.bias.map(function (b) { return b * k; });
     var positive = bias.filter(function (b) { return b > 0; });
     if (!positive.length) return null;
-    var left = 64, right = 14, plotWidth = width - left - right, height = width < 520 ? 260 : 340, gap = 46;
+    var left = 64, right = 14, plotWidth = width - left - right, height = width < 520 ? 260 : 340, gap = 64;
     var low = positive[0], high = positive[positive.length - 1];
     var lines = ["error"].concat(series).filter(function (s) { return curve[s].some(function (v) { return v > 0; }); });
     var all = []; lines.forEach(function (s) { curve[s].forEach(function (v) { if (v > 0) all.push(v); }); });
@@ -24,7 +24,13 @@
     var bottom = Math.max(least / 1.5, top / 3e4), stacked = state.view === "stacked";
     var rows = [], stack = [];
     bias.forEach(function (b, i) {
-      lines.forEach(function (s) { var v = curve[s][i]; if (kit.finite(v)) rows.push({ b: b, s: s, v: stacked ? v : Math.max(v, bottom) }); });
+      lines.forEach(function (s) {
+        var v = curve[s][i];
+        if (!kit.finite(v)) return;
+        // Below the axis a line is left out, but for the stretch by which it enters or leaves.
+        if (!stacked && v < bottom && !(curve[s][i - 1] >= bottom) && !(curve[s][i + 1] >= bottom && b > 0)) return;
+        rows.push({ b: b, s: s, v: stacked ? v : Math.max(v, bottom) });
+      });
       var sum = 0;
       series.forEach(function (s) { var v = kit.finite(curve[s][i]) ? curve[s][i] : 0; if (b > 0) stack.push({ b: b, s: s, v0: sum, v1: sum + v }); sum += v; });
       if (stacked) top = Math.max(i ? top : 0, sum * 1.04, (kit.finite(curve.error[i]) ? curve.error[i] : 0) * 1.04, 1e-9);
@@ -39,23 +45,26 @@
       (bounds.length === 2 && bounds[0] === bounds[1] ? [[bounds[0], "bound"]] : [[curve.acne_bound, "acne bound"], [curve.peter_panning_bound, "Peter Panning bound"]]).forEach(function (b) {
         if (!(b[0] > 0)) return;
         marks.push({ type: "rule", encode: { enter: { x: { value: 0 }, x2: { value: plotWidth }, y: { scale: "y", value: b[0] }, stroke: { value: "var(--faint)" }, strokeDash: { value: [3, 3] } } } });
-        marks.push({ type: "text", encode: { enter: { x: { value: plotWidth - 4 }, y: { scale: "y", value: b[0] }, dy: { value: -5 }, align: { value: "right" }, text: { value: b[1] + " " + kit.shown(b[0], "fraction") }, fontSize: { value: 11 } } } });
+        marks.push({ type: "text", encode: { enter: { x: { value: gap }, y: { scale: "y", value: b[0] }, dy: { value: -5 }, align: { value: "left" }, text: { value: b[1] + " " + kit.shown(b[0], "fraction") }, fontSize: { value: 11 } } } });
       });
     }
     var strokeOf = { signal: "datum.s === 'error' ? 'var(--ink)' : 'var(--c-' + datum.s + ')'" };
     if (stacked) marks.push({ type: "group", from: { facet: { name: "f", data: "stack", groupby: "s" } }, marks: [{ type: "area", from: { data: "f" },
       encode: { enter: { x: { scale: "x", field: "b" }, y: { scale: "y", field: "v1" }, y2: { scale: "y", field: "v0" }, fill: { signal: "'var(--c-' + datum.s + ')'" }, interpolate: { value: "linear" } } } }] });
-    marks.push({ type: "group", from: { facet: { name: "g", data: "positive", groupby: "s" } }, marks: [{ type: "line", from: { data: "g" }, clip: true,
+    marks.push({ type: "group", from: { facet: { name: "g", data: "positive", groupby: "s" } }, marks: [{ type: "line", from: { data: "g" }, interactive: false,
       encode: { enter: { x: { scale: "x", field: "b" }, y: { scale: "y", field: "v" }, stroke: strokeOf, strokeJoin: { value: "round" },
         strokeWidth: { signal: "datum.s === 'error' ? 1.5 : 2.4" }, strokeDash: { signal: "datum.s === 'error' ? [5,3] : [1,0]" }, strokeOpacity: { value: 1 } } } }] });
-    marks.push({ type: "rule", encode: { enter: { x: { value: gap - 17 }, x2: { value: gap - 17 }, y: { value: 0 }, y2: { value: height }, stroke: { value: "var(--rule)" }, strokeDash: { value: [2, 3] } } } });
+    marks.push({ type: "rule", encode: { enter: { x: { value: gap - 30 }, x2: { value: gap - 30 }, y: { value: 0 }, y2: { value: height }, stroke: { value: "var(--rule)" }, strokeDash: { value: [2, 3] } } } });
     marks.push({ type: "symbol", from: { data: "zero" }, encode: { enter: { x: { value: 12 }, y: { scale: "y", field: "v" }, fill: strokeOf, size: { value: 58 } } } });
     marks.push({ type: "text", encode: { enter: { x: { value: 12 }, y: { value: height + 17 }, align: { value: "center" }, text: { value: "0" } } } });
     [[curve.best_bias, "best", "var(--good)", 0], [curve.set_bias, "as set", "var(--accent)", 1]].forEach(function (m) {
       if (!kit.finite(m[0])) return;
       var b = m[0] * k, beyond = b > high;
+      // The lesser of the two is named on its left, the greater on its right, unless an edge is near.
+      var place = Math.log(Math.min(Math.max(b, low), high) / low) / Math.log(high / low), other = m[3] ? curve.best_bias : curve.set_bias;
+      var side = place > 0.9 ? -1 : place < 0.1 ? 1 : kit.finite(other) && m[0] < other ? -1 : 1;
       marks.push({ type: "rule", encode: { enter: { x: at(b), x2: at(b), y: { value: 20 + 16 * m[3] }, y2: { value: height }, stroke: { value: m[2] }, strokeWidth: { value: 1.4 }, strokeDash: { value: m[3] ? [4, 3] : [1, 0] } } } });
-      marks.push({ type: "text", encode: { enter: { x: at(b), y: { value: 32 + 16 * m[3] }, dx: { value: b > Math.sqrt(low * high) ? -5 : 5 }, align: { value: b > Math.sqrt(low * high) ? "right" : "left" }, text: { value: m[1] + (beyond ? " (beyond)" : "") }, fill: { value: m[2] }, fontWeight: { value: 600 } } } });
+      marks.push({ type: "text", encode: { enter: { x: at(b), y: { value: 32 + 16 * m[3] }, dx: { value: side * 5 }, align: { value: side < 0 ? "right" : "left" }, text: { value: m[1] + (beyond ? " (beyond)" : "") }, fill: { value: m[2] }, fontWeight: { value: 600 } } } });
     });
     marks.push({ type: "rule", name: "cursor", interactive: false, encode: { update: { x: { signal: "hover" }, y: { value: 0 }, y2: { value: height }, stroke: { value: "var(--soft)" }, opacity: { signal: "hover < 0 ? 0 : 0.6" } } } });
     return {
@@ -74,7 +83,7 @@
         var svg = plot.querySelector("svg");
         svg.addEventListener("mousemove", function (event) {
           var px = event.clientX - svg.getBoundingClientRect().left - left, i = 0;
-          if (px > gap - 17) { var b = view.scale("x").invert(Math.min(Math.max(px, gap), plotWidth)); for (var j = 1; j < bias.length; ++j) if (bias[j] > 0 && (bias[i] <= 0 || Math.abs(Math.log(bias[j] / b)) < Math.abs(Math.log(bias[i] / b)))) i = j; }
+          if (px > gap - 30) { var b = view.scale("x").invert(Math.min(Math.max(px, gap), plotWidth)); for (var j = 1; j < bias.length; ++j) if (bias[j] > 0 && (bias[i] <= 0 || Math.abs(Math.log(bias[j] / b)) < Math.abs(Math.log(bias[i] / b)))) i = j; }
           view.signal("hover", bias[i] > 0 ? view.scale("x")(bias[i]) : 12).run();
           kit.showTip(event, ["error"].concat(series).map(function (s) { return [s === "error" ? "Error" : kit.causeLabel[s], kit.shown(curve[s][i], "fraction"), s === "error" ? "" : s]; }),
             kit.digits(curve.bias[i]) + " depth = " + kit.digits(curve.bias[i] * curve.m_per_depth) + " m = " + kit.digits(curve.bias[i] * curve.texels_per_depth) + " texels");

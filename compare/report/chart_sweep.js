@@ -7,12 +7,12 @@
   function slopeOf(name) { return name === "map.resolution" ? -1 : name === "map.extent_m" || name === "map.extent_scale" ? 1 : 0; }
 
   function sweepChart(swept, index) {
-    var others = data.swept.filter(function (s) { return s !== swept; }), apart = kit.tellApart(others);
+    var others = data.swept.filter(function (s) { return s !== swept; }), apart = kit.tellApart(others, false);
     var measure = "error";
     var self = kit.chart("sweep-" + index, function (width) {
       var unit = kit.measureUnit(measure), left = 64, right = 16, w = width - left - right, height = width < 520 ? 260 : 320, missing = 0;
       var rows = [];
-      data.points.forEach(function (p) {
+      data.points.filter(apart.kept).forEach(function (p) {
         var v = kit.value(p, measure), look = apart.of(p);
         if (!kit.finite(v)) { ++missing; return; }
         rows.push({ id: p.id, x: +p.settings[swept.name], v: v, colour: look.colour, dash: look.dash, shape: look.shape, line: look.line });
@@ -26,9 +26,10 @@
       if (slope && logX && unit === "fraction") {
         // Through the middle of the data (geometric), from end to end.
         var mean = Math.exp(rows.reduce(function (s, r) { return s + Math.log(r.y); }, 0) / rows.length), mid = Math.sqrt(x0 * x1);
+        var quarter = Math.sqrt(xs[0] * xs[1]);
         var ends = [x0, x1].map(function (x) { return { x: x, y: mean * Math.pow(x / mid, slope) }; });
         marks.push({ type: "line", clip: true, from: { data: "guide" }, encode: { enter: { x: { scale: "x", field: "x" }, y: { scale: "y", field: "y" }, stroke: { value: "var(--faint)" }, strokeDash: { value: [2, 4] }, strokeWidth: { value: 1.5 } } } });
-        marks.push({ type: "text", encode: { enter: { x: { scale: "x", value: x1 }, y: { scale: "y", value: Math.min(Math.max(ends[1].y, floor.low * 1.2), floor.high / 1.2) }, dy: { value: -7 }, dx: { value: -4 }, align: { value: "right" }, text: { value: "slope " + (slope < 0 ? "−1" : "+1") }, fill: { value: "var(--faint)" }, fontStyle: { value: "italic" } } } });
+        marks.push({ type: "text", encode: { enter: { x: { scale: "x", value: quarter }, y: { scale: "y", value: mean * Math.pow(quarter / mid, slope) }, dy: { value: -7 }, align: { value: "center" }, text: { value: "slope " + (slope < 0 ? "−1" : "+1") }, fill: { value: "var(--faint)" }, fontStyle: { value: "italic" } } } });
         var guide = ends;
       }
       marks.push({ type: "group", from: { facet: { name: "f", data: "rows", groupby: "line" } }, marks: [{ type: "line", from: { data: "f" }, interactive: false,
@@ -50,19 +51,20 @@
     });
     if (!self) return;
     self.controls.append(kit.picker("Show", kit.measures().map(function (m) { return [m, kit.measureLabel(m)]; }), measure, function (m) { measure = m; self.draw(); }));
-    apart.legend(self.legend, true);
+    apart.filters(self);
+    apart.legend(self.legend);
   }
   var index = 0;
   data.swept.forEach(function (s) { if (s.numeric && s.values.length > 1) sweepChart(s, ++index); });
 
   function costChart() {
-    var apart = kit.tellApart(data.swept), measure = "error";
+    var apart = kit.tellApart(data.swept, true), measure = "error";
     var self = kit.chart("cost", function (width) {
       var left = 64, right = 16, w = width - left - right, height = width < 520 ? 280 : 380;
       var rows = [];
-      data.points.forEach(function (p) {
+      data.points.filter(apart.kept).forEach(function (p) {
         var ms = p.metrics.shadow_ms, v = kit.value(p, measure), look = apart.of(p);
-        if (kit.finite(ms) && kit.finite(v)) rows.push({ id: p.id, x: ms, v: v, colour: look.colour, shape: look.shape, front: data.pareto[measure].indexOf(p.id) >= 0, best: p.id === data.recommended });
+        if (kit.finite(ms) && kit.finite(v)) rows.push({ id: p.id, x: ms, v: v, colour: look.colour, shape: look.shape, hollow: look.hollow, front: data.pareto[measure].indexOf(p.id) >= 0, best: p.id === data.recommended });
       });
       var floor = kit.logFloor(rows.map(function (r) { return r.v; }));
       self.plot.textContent = "";
@@ -80,8 +82,8 @@
           { orient: "bottom", scale: "x", values: logX ? kit.logTicks(low / 1.1, high * 1.1) : undefined, labelOverlap: true, title: "shadow map and lookup (ms)", encode: { labels: { update: { text: { signal: kit.axisLabel("") } } } } }],
         marks: [
           { type: "line", from: { data: "edge" }, clip: true, interactive: false, encode: { enter: { x: { scale: "x", field: "x" }, y: { scale: "y", field: "y" }, interpolate: { value: "step-after" }, stroke: { value: "var(--ink)" }, strokeWidth: { value: 1.4 }, strokeOpacity: { value: 0.55 } } } },
-          { type: "symbol", from: { data: "rows" }, encode: { enter: { x: { scale: "x", field: "x" }, y: { scale: "y", field: "y" }, shape: { field: "shape" }, fill: { field: "colour" },
-            fillOpacity: { signal: "datum.front || datum.best ? 1 : 0.55" }, stroke: { signal: "datum.front ? 'var(--ink)' : 'transparent'" }, strokeWidth: { value: 1.6 } }, update: { size: { signal: "datum.front ? 90 : 55" } }, hover: { size: { value: 150 } } } },
+          { type: "symbol", from: { data: "rows" }, encode: { enter: { x: { scale: "x", field: "x" }, y: { scale: "y", field: "y" }, shape: { field: "shape" }, fill: { signal: "datum.hollow ? 'var(--card)' : datum.colour" },
+            opacity: { signal: "datum.front || datum.best ? 1 : 0.6" }, stroke: { field: "colour" }, strokeWidth: { value: 1.9 } }, update: { size: { signal: "datum.front ? 105 : 55" } }, hover: { size: { value: 150 } } } },
           { type: "symbol", from: { data: "rows" }, interactive: false, encode: { enter: { x: { scale: "x", field: "x" }, y: { scale: "y", field: "y" }, size: { signal: "datum.best ? 330 : 0" }, fill: { value: "transparent" }, stroke: { value: "var(--good)" }, strokeWidth: { value: 2 } } } },
           { type: "text", from: { data: "rows" }, interactive: false, encode: { enter: { x: { scale: "x", field: "x" }, y: { scale: "y", field: "y" }, dy: { value: -16 }, align: { value: "center" }, text: { signal: "datum.best ? 'recommended' : ''" }, fill: { value: "var(--good)" }, fontWeight: { value: 600 } } } }
         ]
@@ -90,7 +92,8 @@
     if (!self) return;
     var both = kit.measures().filter(function (m) { return m === "error" || m === "best_error"; });
     self.controls.append(kit.segments(both.map(function (m) { return [m, m === "error" ? "Bias as rendered" : "Best bias"]; }), measure, function (m) { measure = m; self.draw(); }));
-    apart.legend(self.legend, false);
+    apart.filters(self);
+    apart.legend(self.legend);
   }
   costChart();
 })();

@@ -22,7 +22,8 @@
     if (!finite(v)) return "not finite";
     if (v === 0) return "0";
     var a = Math.abs(v);
-    return a < 1e-4 || a >= 1e9 ? v.toExponential(2).replace("e+", "e") : String(+v.toPrecision(a >= 1000 ? Math.ceil(Math.log10(a) + 1e-12) : 3));
+    if (a < 1e-4 || a >= 1e9) return String(+(v / Math.pow(10, Math.floor(Math.log10(a)))).toPrecision(3)) + "×10" + String(Math.floor(Math.log10(a))).replace(/./g, function (c) { return c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]; });
+    return String(+v.toPrecision(a >= 1000 ? Math.ceil(Math.log10(a) + 1e-12) : 3));
   }
   function shown(v, unit) { return !finite(v) ? "not finite" : unit === "fraction" ? digits(100 * v) + thin + "%" : digits(v) + (unit && unit !== "count" ? thin + unit : ""); }
   function value(point, measure) {
@@ -132,40 +133,50 @@
     return box;
   }
 
-  // ---- how a swept setting is told apart: the first by colour, the second by dash and shape
+  // ---- how a swept setting is told apart: the first by colour, the second by shape (of lines: and dash), the third of
+  // points by being hollow; any more can be chosen by a picker
   var categorical = ["peter_panning", "acne", "coverage_light", "precision", "aliasing_dark", "aliasing_light", "coverage_dark"];
-  var dashes = [[1, 0], [7, 4], [2, 3], [9, 3, 2, 3]], shapes = ["circle", "square", "triangle-up", "diamond", "cross", "triangle-down"];
-  function tellApart(names) {
-    var several = names.filter(function (s) { return s.values.length > 1; });
+  var dashes = [[1, 0], [7, 4], [2, 3], [9, 3, 2, 3], [12, 4], [1, 2]], shapes = ["circle", "square", "triangle-up", "diamond", "cross", "triangle-down"];
+  var shapePaths = { circle: "M8.5 5a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0z", square: "M9 1h8v8h-8z", "triangle-up": "M13 0l5 9h-10z", diamond: "M13-.5l3.7 5.5l-3.7 5.5l-3.7-5.5z",
+    cross: "M11.3 0h3.4v3.3h3.3v3.4h-3.3v3.3h-3.4v-3.3h-3.3v-3.4h3.3z", "triangle-down": "M13 10l5-9h-10z" };
+  function tellApart(names, points) {
+    // Numbers go to the colours' order, a choice to the shapes.
+    var several = names.filter(function (s) { return s.values.length > 1; }).sort(function (a, b) { return b.numeric - a.numeric; });
+    var first = several[0], second = several[1], third = points ? several[2] : undefined, rest = several.slice(points ? 3 : 2), chosen = {};
     function colour(s, v) {
       var i = s.values.indexOf(v), n = s.values.length;
-      return s.numeric ? "var(--q" + (n < 2 ? 0 : Math.round(i * 6 / (n - 1))) + ")" : "var(--c-" + categorical[i % categorical.length] + ")";
+      return s.numeric ? "var(--q" + Math.round(i * 6 / (n - 1)) + ")" : "var(--c-" + categorical[i % categorical.length] + ")";
     }
-    // Numbers go to the colours' order, a choice to the dashes.
-    several.sort(function (a, b) { return b.numeric - a.numeric; });
-    var first = several[0], second = several[1], rest = several.slice(2);
+    function index(s, p) { return s ? s.values.indexOf(p.settings[s.name]) : 0; }
+    function key(c, dash, shape, hollow) {
+      var e = make("span");
+      e.innerHTML = '<svg viewBox="0 0 26 10" aria-hidden="true">' + (points ? "" : '<line x1="0" x2="26" y1="5" y2="5" stroke="' + c + '" stroke-width="2" stroke-dasharray="' + dash.join(" ") + '"/>') +
+        (points || shape !== "circle" ? '<path d="' + shapePaths[shape] + '" fill="' + (hollow ? "none" : c) + '" stroke="' + c + '" stroke-width="1.4"' + (points ? "" : ' transform="translate(5.2 2) scale(.6)"') + "/>" : "") + "</svg>";
+      return e;
+    }
     return {
       of: function (p) {
-        var j = second ? second.values.indexOf(p.settings[second.name]) : 0;
-        return { colour: first ? colour(first, p.settings[first.name]) : "var(--ink)", dash: dashes[j % dashes.length], shape: shapes[j % shapes.length],
+        var j = index(second, p);
+        return { colour: first ? colour(first, p.settings[first.name]) : "var(--ink)", dash: dashes[j % dashes.length], shape: shapes[j % shapes.length], hollow: index(third, p) > 0,
           line: names.map(function (s) { return p.settings[s.name]; }).join("|") };
       },
-      legend: function (box, lines) {
+      kept: function (p) { return rest.every(function (s) { return !chosen[s.name] || p.settings[s.name] === chosen[s.name]; }); },
+      filters: function (self) {
+        rest.forEach(function (s) {
+          self.controls.append(picker(s.label, [["", "all"]].concat(s.values.map(function (v) { return [v, v]; })), "", function (v) { chosen[s.name] = v; self.draw(); }));
+        });
+      },
+      legend: function (box) {
         box.textContent = "";
-        function key(d, c, shape) {
-          var svg = '<svg viewBox="0 0 26 10" aria-hidden="true">' + (lines ? '<line x1="0" x2="26" y1="5" y2="5" stroke="' + c + '" stroke-width="2" stroke-dasharray="' + d.join(" ") + '"/>'
-            : shape === "circle" ? '<circle cx="13" cy="5" r="4.5" fill="' + c + '"/>' : shape === "square" ? '<rect x="9" y="1" width="8" height="8" fill="' + c + '"/>' : '<path d="M13 0l5 9h-10z" fill="' + c + '"/>') + "</svg>";
-          var e = make("span"); e.innerHTML = svg; return e;
-        }
-        [first, second].forEach(function (s, k) {
+        [first, second, third].forEach(function (s, k) {
           if (!s) return;
-          box.append(make("span", { class: "title" }, s.label + (s.unit ? " (" + s.unit + ")" : "")));
+          box.append(make("span", { class: "title" }, s.label + (s.unit && s.unit !== "bias.unit" ? " (" + s.unit + ")" : "")));
           s.values.forEach(function (v, i) {
-            var e = k === 0 ? key([1, 0], colour(s, v), "circle") : key(dashes[i % dashes.length], "var(--soft)", shapes[i % shapes.length]);
-            e.append(v); box.append(e);
+            var e = k === 0 ? key(colour(s, v), [1, 0], "circle") : key("var(--soft)", k === 1 ? dashes[i % dashes.length] : [1, 0], k === 1 ? shapes[i % shapes.length] : "circle", k === 2 && i > 0);
+            e.append(v);
+            box.append(e);
           });
         });
-        if (rest.length) box.append(make("span", { class: "title" }, "not told apart: " + rest.map(function (s) { return s.label; }).join(", ")));
       }
     };
   }

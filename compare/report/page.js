@@ -11,6 +11,7 @@
       i = (i + figures.length) % figures.length;
       set.shownIndex = i;
       figures.forEach(function (f, j) { f.classList.toggle("shown", i === j); flip.children[j].setAttribute("aria-pressed", String(i === j)); });
+      enlarge();
     }
     figures.forEach(function (f, j) { flip.append(make("button", { type: "button", on: { click: function () { show(j); } } }, (j < 9 ? j + 1 + " " : "") + f.dataset.name)); });
     set.querySelector(".stage").before(flip);
@@ -18,6 +19,10 @@
     show(0);
   });
   function choose(set) { current = set; sets.forEach(function (s) { s.hidden = s !== set; }); }
+  // A picture with fewer pixels than its place shows them as squares, since each pixel was judged by itself.
+  function enlarge() {
+    document.querySelectorAll(".stage img").forEach(function (i) { i.classList.toggle("enlarged", i.naturalWidth > 0 && i.naturalWidth < i.clientWidth); });
+  }
   if (sets.length) {
     choose(sets[0]);
     if (sets.length > 1) document.querySelector(".picture-picker").append(kit.picker("Point", sets.map(function (s) {
@@ -70,8 +75,9 @@
   });
 
   // ---- first drawing, and again when the width changes
-  function drawAll() { kit.drawn.forEach(function (c) { c.draw(); }); }
+  function drawAll() { kit.drawn.forEach(function (c) { c.draw(); }); enlarge(); }
   drawAll();
+  addEventListener("load", enlarge);
   var width = innerWidth, timer = 0;
   addEventListener("resize", function () {
     if (innerWidth === width) return;
