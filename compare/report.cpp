@@ -70,8 +70,7 @@ std::string subtitle(const Results& results) {
   std::string out = fmt::format("Scene {} · {} point{}", report::html(info.scene_name), results.points.size(), results.points.size() == 1 ? "" : "s");
   std::string swept;
   for (const std::string& name : info.swept)
-    if (const size_t count = values_of(results, name).size())
-      swept += fmt::format("{}{} {}{}", swept.empty() ? "" : " × ", count, report::html(report::setting_label(name)), count == 1 ? "" : "s");
+    swept += fmt::format("{}{} ({})", swept.empty() ? "" : " × ", report::html(report::setting_label(name)), values_of(results, name).size());
   if (!swept.empty()) out += " · " + swept;
   if (!info.started.empty()) out += " · " + report::html(info.started);
   return out;

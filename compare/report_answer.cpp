@@ -54,10 +54,10 @@ bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags
 struct Where {
   std::string count, list;
 };
-Where where_text(const Results& results, const std::vector<bool>& chosen) {
+Where where_text(const Results& results, const std::vector<bool>& chosen, const std::vector<bool>& either_way = {}) {
   const size_t count = static_cast<size_t>(std::count(chosen.begin(), chosen.end(), true));
   if (count == chosen.size()) return {results.points.size() == 1 ? "here" : fmt::format("at every one of the {}", points_text(count)), ""};
-  const std::vector<Rule> rules = describe_points(results, chosen);
+  const std::vector<Rule> rules = describe_points(results, chosen, either_way);
   constexpr size_t most_rules = 4;  // more than that reads worse than the table
   std::string list;
   for (size_t i = 0; i < std::min(rules.size(), most_rules); ++i)
@@ -80,7 +80,8 @@ std::string window_items(const Results& results) {
   const std::string bounds = fmt::format("acne at most {} and Peter Panning at most {}", quantity(first.acne_bound, "fraction"),
                                          quantity(first.peter_panning_bound, "fraction"));
   std::string out;
-  if (const auto fails = flags_of(results, window_fails); any(fails)) {
+  const auto fails = flags_of(results, window_fails);
+  if (any(fails)) {
     const Where where = where_text(results, fails);
     out += item("bad", fmt::format("<b>The method fails {}</b>: no value of {} keeps {}{}{}", where.count, html(first.parameter), bounds,
                                    where.list.empty() ? "." : ", with", where.list));
@@ -89,12 +90,12 @@ std::string window_items(const Results& results) {
   }
   const auto low = flags_of(results, set_too_small), high = flags_of(results, set_too_large);
   if (any(low)) {
-    const Where where = where_text(results, low);
+    const Where where = where_text(results, low, fails);
     out += item("bad", fmt::format("<b>The bias as set is too small {}</b>: it leaves acne that a larger one would not{}{}", where.count,
                                    where.list.empty() ? "." : ", with", where.list));
   }
   if (any(high)) {
-    const Where where = where_text(results, high);
+    const Where where = where_text(results, high, fails);
     out += item("bad", fmt::format("<b>The bias as set is too large {}</b>: it detaches shadows more than it must{}{}", where.count,
                                    where.list.empty() ? "." : ", with", where.list));
   }
@@ -150,11 +151,9 @@ std::string recommendation_box(const Results& results) {
   for (const std::string& name : results.info.swept)
     rows += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", html(name),
                         html(settings_phrase(point, {name}).substr(setting_label(name).size() + 1)));
-  double error = metric_of(point, "error");
   std::string more;
   if (found.bias) {
     const BiasCurve& curve = *point.curve;
-    error = found.bias->error;
     const double low = *curve.window_min_depth, high = *curve.window_max_depth;
     rows += fmt::format("<div class=\"key\"><dt>{}</dt><dd>{}</dd></div>\n", html(curve.parameter), bias_phrase(found.bias->depth, curve));
     rows += fmt::format("<div><dt>usable from</dt><dd>{}</dd></div>\n<div><dt>to</dt><dd>{}</dd></div>\n", bias_phrase(low, curve),
@@ -164,12 +163,21 @@ std::string recommendation_box(const Results& results) {
   }
   const PointRecord* only[] = {&point};
   const std::string causes = cause_sentence(only);
+  const Recommendation accurate = recommend_accurate(results);
+  std::string other;
+  if (accurate.point != found.point)
+    other = fmt::format("<p>The most accurate that is good enough: {}{}, for <b>{}</b> with <b>{}</b> error (<a href=\"#p{}\">point {}</a>).</p>\n",
+                        html(settings_phrase(*accurate.point, results.info.swept)),
+                        accurate.bias ? ", " + html(accurate.point->curve->parameter) + " " + bias_phrase(accurate.bias->depth, *accurate.point->curve) : "",
+                        quantity(accurate.cost_ms, "ms"), quantity(accurate.error, "fraction"), accurate.point->id, accurate.point->id);
   return fmt::format(
       "<div class=\"recommend held\"><h3>What to set</h3><p>The cheapest point that is good enough costs <b>{}</b> and shows <b>{}</b> error.{}</p>\n"
-      "<dl>{}</dl>\n{}<p class=\"small\">It is <a href=\"#p{}\">point {}</a>. Cheapest: lowest time of shadow map and lookup together among the points "
-      "with a usable bias window, where every bound holds at that bias.</p></div>\n",
-      quantity(metric_of(point, "shadow_ms"), "ms"), quantity(error, "fraction"), more, rows,
-      causes.empty() ? "" : fmt::format("<p>Largest causes there, with the bias as rendered: {}.</p>\n", causes), point.id, point.id);
+      "<dl>{}</dl>\n{}{}<p class=\"small\">The cheapest is <a href=\"#p{}\">point {}</a>: the lowest time of shadow map and lookup together among the "
+      "points where {}.</p></div>\n",
+      quantity(found.cost_ms, "ms"), quantity(found.error, "fraction"), more, rows,
+      causes.empty() ? "" : fmt::format("<p>Largest causes there, with the bias as rendered: {}.</p>\n", causes), other, point.id, point.id,
+      !found.bias ? "every bound holds" : results.bounds.empty() ? "the bias window is not empty"
+                                                                 : "the bias window is not empty and every bound holds at that bias");
 }
 
 std::string bounds_table(const Results& results) {

@@ -36,14 +36,18 @@ struct Recommendation {
     none_holds,    // there are criteria, and no point meets them
     no_criterion,  // neither a bound nor a curve: nothing says what is good enough
   } outcome = Outcome::no_criterion;
-  const PointRecord* point = nullptr;  // found: the cheapest point (lowest shadow_ms, then lowest id)
+  const PointRecord* point = nullptr;  // found
+  double cost_ms = 0, error = 0;       // found; the error at `bias`, or as rendered without one
   std::optional<BiasChoice> bias;      // found, and the point has a curve
 };
 
-// The cheapest point that holds: every bound that speaks of it is met, and where it has a curve its usable window is not
+// The cheapest point (lowest shadow_ms) that holds: every bound that speaks of it is met, and where it has a curve its usable window is not
 // empty. Bounds on what the curve knows are asked at the bias that would be set (the least error within the window),
 // the others at the point as it was rendered. A value that is not finite (cost and error included) never holds.
+// Among equals the lowest id.
 Recommendation recommend(const Results& results);
+// The same, but the point with the least error, then the lowest cost.
+Recommendation recommend_accurate(const Results& results);
 
 // Whether one point meets a bound's limits; metrics that the curve knows are read at `bias`, when given.
 bool meets(const PointRecord& point, const BoundResult& bound, std::optional<double> bias_depth = std::nullopt);
@@ -73,7 +77,8 @@ struct Rule {
 };
 // Says in few words which points were chosen: rules of at most three conditions on swept settings or the texel's size, each true of chosen points
 // only, together true of every chosen point (greedy: the rule with the most points not yet spoken for, shortest first).
-std::vector<Rule> describe_points(const Results& results, const std::vector<bool>& chosen);
+// either_way: points that a rule may also be true of, because what is said does not arise there; empty: none.
+std::vector<Rule> describe_points(const Results& results, const std::vector<bool>& chosen, const std::vector<bool>& either_way = {});
 
 // What a Condition compares: the setting's text, or the texel's size from the point's curve ("" without one).
 std::string rule_value(const PointRecord& point, const std::string& setting);

@@ -79,8 +79,10 @@ std::vector<std::string> values_of(const Results& results, const std::string& se
   return values;
 }
 
-std::vector<Rule> describe_points(const Results& results, const std::vector<bool>& chosen) {
-  Mask left = chosen;
+std::vector<Rule> describe_points(const Results& results, const std::vector<bool>& chosen, const std::vector<bool>& either_way) {
+  Mask left = chosen, allowed = chosen;
+  for (size_t i = 0; i < either_way.size(); ++i)
+    if (either_way[i]) allowed[i] = true;
   std::vector<std::string> axes = results.info.swept;
   // Resolution and extent act through the texel that they make together, so that one rule may say it for both.
   const std::vector<std::string> sizes = values_of(results, std::string(texel_size));
@@ -95,7 +97,7 @@ std::vector<Rule> describe_points(const Results& results, const std::vector<bool
     std::vector<Candidate> next;
     for (Candidate& candidate : open) {
       if (count(both(candidate.matches, chosen)) == 0) continue;
-      if (within(candidate.matches, chosen)) {
+      if (within(candidate.matches, allowed)) {
         rules.push_back(std::move(candidate));
         continue;
       }
@@ -124,7 +126,7 @@ std::vector<Rule> describe_points(const Results& results, const std::vector<bool
     }
     if (!best) break;  // told apart by more than three settings; the caller sees from the counts that some are left
     out.push_back(best->rule);
-    out.back().points = count(best->matches);
+    out.back().points = count(both(best->matches, chosen));
     for (size_t i = 0; i < left.size(); ++i)
       if (best->matches[i]) left[i] = false;
   }

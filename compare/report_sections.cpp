@@ -191,7 +191,7 @@ std::string cost_section(const Results& results) {
   std::string out = "<section id=\"cost\"><h2>Speed against accuracy</h2>\n";
   if (front.empty()) return out + "<p>No point has both a finite time and a finite error.</p></section>\n";
   out += "<p>Points on the Pareto front: no other point is both faster and more accurate.</p>\n";
-  out += chart("cost", "Error against the time of shadow map and lookup; the line is the Pareto front.");
+  if (results.points.size() > 1) out += chart("cost", "Error against the time of shadow map and lookup; the line is the Pareto front.");
   std::string rows;
   for (size_t i : front) {
     const PointRecord& point = results.points[i];

@@ -128,7 +128,7 @@ std::string quantity(double value, std::string_view unit) {
 
 std::string setting_label(const std::string& name) {
   std::string label = name.starts_with("map.") ? name.substr(4) : name;
-  for (std::string_view suffix : {".kind", ".form", ".name", "_m", "_deg", "_px"}) strip_suffix(label, suffix);
+  for (std::string_view suffix : {".kind", ".name", "_m", "_deg", "_px"}) strip_suffix(label, suffix);
   std::replace_if(label.begin(), label.end(), [](char c) { return c == '.' || c == '_'; }, ' ');
   return label;
 }

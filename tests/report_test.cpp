@@ -79,6 +79,16 @@ TEST(Recommend, TakesTheCheapestPointThatHasAWindow) {
   EXPECT_EQ(found.bias->error, 0.125);
 }
 
+TEST(Recommend, AccurateTakesTheLeastErrorAtTheChosenBias) {
+  Results results;
+  results.points = {point_with(0, 1, 0.75, 1.0), point_with(1, 3, 0.25, 0.75), point_with(2, 2, 0.25, 0.75), point_with(3, 1, {}, {})};
+  EXPECT_EQ(recommend(results).point->id, 0);
+  EXPECT_EQ(recommend(results).error, 0.25);
+  EXPECT_EQ(recommend_accurate(results).point->id, 2);  // as accurate as point 1, and cheaper
+  EXPECT_EQ(recommend_accurate(results).error, 0.125);
+  EXPECT_EQ(recommend_accurate(results).cost_ms, 2);
+}
+
 TEST(Recommend, MovesTheBestBiasIntoTheWindow) {
   Results results;
   results.points = {point_with(0, 1, 0.75, 1.0)};
@@ -209,6 +219,24 @@ TEST(DescribePoints, SaysTheTexelWhereResolutionAndExtentActTogether) {
   const std::vector<Rule> rules = describe_points(results, chosen);
   ASSERT_EQ(rules.size(), 1u);
   EXPECT_EQ(report::rule_phrase(rules[0]), "texels of at least 0.0312\u202fm");
+}
+
+TEST(DescribePoints, MayPassOverPointsWhereItDoesNotArise) {
+  const Results results = sample_results();
+  std::vector<bool> chosen, either_way;
+  for (const PointRecord& point : results.points) {
+    const double resolution = *number_of(setting_of(point, "map.resolution"));
+    chosen.push_back(resolution == 512);
+    either_way.push_back(resolution < 512 && point.id % 3 == 0);
+  }
+  EXPECT_EQ(report::rule_phrase(describe_points(results, chosen, either_way).at(0)), "resolution 512\u202ftexels");
+  for (const PointRecord& point : results.points)
+    if (*number_of(setting_of(point, "map.resolution")) == 256) either_way[static_cast<size_t>(point.id)] = true;
+  for (size_t i = 0; i < chosen.size(); ++i) chosen[i] = chosen[i] || (either_way[i] && i % 2 == 0);
+  const std::vector<Rule> rules = describe_points(results, chosen, either_way);
+  ASSERT_EQ(rules.size(), 1u);
+  EXPECT_EQ(report::rule_phrase(rules[0]), "resolution at most 512\u202ftexels");
+  EXPECT_EQ(rules[0].points, 12u);  // of the 16 points that it is true of, those that were chosen
 }
 
 TEST(DescribePoints, IsTrueOfChosenPointsOnlyAndOfAllOfThem) {
@@ -436,11 +464,47 @@ TEST(CauseColors, AreDistinctAndNamed) {
   EXPECT_EQ(find_color("nothing"), nullptr);
 }
 
-// For looking at it: NOONMARK_REPORT_OUT=/some/file.html build/dev/tests/test_report --gtest_filter=Report.Written
+// For looking at it in a browser: NOONMARK_REPORT_OUT=FOLDER .../test_report --gtest_filter=Report.Written
 TEST(Report, Written) {
-  const char* path = std::getenv("NOONMARK_REPORT_OUT");
-  if (!path) GTEST_SKIP() << "set NOONMARK_REPORT_OUT to a path to have the sample report written there";
-  std::ofstream(path, std::ios::binary) << render_report(sample_results(), sample_picture);
+  const char* folder = std::getenv("NOONMARK_REPORT_OUT");
+  if (!folder) GTEST_SKIP() << "set NOONMARK_REPORT_OUT to a folder to have the sample reports written there";
+  const auto write = [&](const std::string& name, const Results& results) {
+    std::ofstream file(std::string(folder) + "/" + name + ".html", std::ios::binary);
+    file << render_report(results, sample_picture);
+    EXPECT_TRUE(file.flush()) << folder;
+  };
+  const Results sample = sample_results();
+  write("sample", sample);
+  write("empty", Results{});
+  Results results = sample;
+  results.points.resize(1);
+  results.info.swept.clear();
+  write("one-point", results);
+
+  results = sample;
+  for (PointRecord& point : results.points) {
+    point.curve.reset();
+    point.metrics["acne"] = 0;
+    if (point.id % 5 == 0) point.metrics["error"] = nan;
+  }
+  results.bounds.push_back({"error", 0.01, {}, {}, "worst", false, nan, 5, 32, "noonmark render experiments/cube-room.toml --set map.resolution=256"});
+  write("broken", results);
+
+  results = sample;
+  results.info.swept.push_back("bias.form");
+  results.info.swept.push_back("map.cull");
+  for (const char* form : {"constant", "slope"})
+    for (const char* cull : {"none", "back", "front"})
+      for (const PointRecord& point : sample.points) {
+        if (*form == 'c' && *cull == 'n') continue;
+        results.points.push_back(point);
+        results.points.back().id = static_cast<int64_t>(results.points.size() - 1);
+        results.points.back().metrics["error"] *= *form == 's' ? 0.7 : 1.1;
+        results.points.back().settings["bias.form"] = form;
+        results.points.back().settings["map.cull"] = cull;
+        results.points.back().pictures.clear();
+      }
+  write("large", results);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@
     var bottom = Math.max(least / 1.5, top / 3e4), stacked = state.view === "stacked";
     var rows = [], stack = [];
     bias.forEach(function (b, i) {
-      lines.forEach(function (s) {
+      (stacked ? ["error"] : lines).forEach(function (s) {
         var v = curve[s][i];
         if (!kit.finite(v)) return;
         // Below the axis a line is left out, but for the stretch by which it enters or leaves.
@@ -32,7 +32,7 @@
         rows.push({ b: b, s: s, v: stacked ? v : Math.max(v, bottom) });
       });
       var sum = 0;
-      series.forEach(function (s) { var v = kit.finite(curve[s][i]) ? curve[s][i] : 0; if (b > 0) stack.push({ b: b, s: s, v0: sum, v1: sum + v }); sum += v; });
+      series.forEach(function (s) { var v = kit.finite(curve[s][i]) ? curve[s][i] : 0; stack.push({ b: b, s: s, v0: sum, v1: sum + v }); sum += v; });
       if (stacked) top = Math.max(i ? top : 0, sum * 1.04, (kit.finite(curve.error[i]) ? curve.error[i] : 0) * 1.04, 1e-9);
     });
     function at(b) { return b > 0 ? { scale: "x", value: Math.min(Math.max(b, low), high) } : { value: 12 }; }
@@ -49,14 +49,15 @@
       });
     }
     var strokeOf = { signal: "datum.s === 'error' ? 'var(--ink)' : 'var(--c-' + datum.s + ')'" };
-    if (stacked) marks.push({ type: "group", from: { facet: { name: "f", data: "stack", groupby: "s" } }, marks: [{ type: "area", from: { data: "f" },
+    if (stacked) marks.push({ type: "rect", from: { data: "stack0" }, encode: { enter: { x: { value: 5 }, x2: { value: 19 }, y: { scale: "y", field: "v1" }, y2: { scale: "y", field: "v0" }, fill: { signal: "'var(--c-' + datum.s + ')'" } } } });
+    if (stacked) marks.push({ type: "group", from: { facet: { name: "f", data: "stack1", groupby: "s" } }, marks: [{ type: "area", from: { data: "f" },
       encode: { enter: { x: { scale: "x", field: "b" }, y: { scale: "y", field: "v1" }, y2: { scale: "y", field: "v0" }, fill: { signal: "'var(--c-' + datum.s + ')'" }, interpolate: { value: "linear" } } } }] });
     marks.push({ type: "group", from: { facet: { name: "g", data: "positive", groupby: "s" } }, marks: [{ type: "line", from: { data: "g" }, interactive: false,
       encode: { enter: { x: { scale: "x", field: "b" }, y: { scale: "y", field: "v" }, stroke: strokeOf, strokeJoin: { value: "round" },
         strokeWidth: { signal: "datum.s === 'error' ? 1.5 : 2.4" }, strokeDash: { signal: "datum.s === 'error' ? [5,3] : [1,0]" }, strokeOpacity: { value: 1 } } } }] });
     marks.push({ type: "rule", encode: { enter: { x: { value: gap - 30 }, x2: { value: gap - 30 }, y: { value: 0 }, y2: { value: height }, stroke: { value: "var(--rule)" }, strokeDash: { value: [2, 3] } } } });
     marks.push({ type: "symbol", from: { data: "zero" }, encode: { enter: { x: { value: 12 }, y: { scale: "y", field: "v" }, fill: strokeOf, size: { value: 58 } } } });
-    marks.push({ type: "text", encode: { enter: { x: { value: 12 }, y: { value: height + 17 }, align: { value: "center" }, text: { value: "0" } } } });
+    marks.push({ type: "text", encode: { enter: { x: { value: 12 }, y: { value: height + 9 }, align: { value: "center" }, baseline: { value: "top" }, text: { value: "0" } } } });
     [[curve.best_bias, "best", "var(--good)", 0], [curve.set_bias, "as set", "var(--accent)", 1]].forEach(function (m) {
       if (!kit.finite(m[0])) return;
       var b = m[0] * k, beyond = b > high;
@@ -72,7 +73,7 @@
         width: plotWidth, height: height, padding: { left: left, right: right, top: 6, bottom: 46 }, autosize: "none",
         signals: [{ name: "hover", value: -1 }],
         data: [{ name: "rows", values: rows }, { name: "positive", source: "rows", transform: [{ type: "filter", expr: "datum.b > 0" }] },
-          { name: "zero", source: "rows", transform: [{ type: "filter", expr: "datum.b <= 0" }] }, { name: "stack", values: stack }],
+          { name: "zero", source: "rows", transform: [{ type: "filter", expr: "datum.b <= 0" }] }, { name: "stack0", values: stack.filter(function (r) { return r.b <= 0; }) }, { name: "stack1", values: stack.filter(function (r) { return r.b > 0; }) }],
         scales: [{ name: "x", type: "log", domain: [low, high], range: [gap, plotWidth], zero: false },
           stacked ? { name: "y", type: "linear", domain: [0, top], range: [height, 0] } : { name: "y", type: "log", domain: [bottom, top], range: [height, 0], zero: false }],
         axes: [{ orient: "left", scale: "y", grid: true, values: stacked ? undefined : kit.logTicks(bottom, top), tickCount: 6, domain: false, ticks: false, title: "share of counted receivers", encode: { labels: { update: { text: { signal: kit.axisLabel("fraction") } } } } },

@@ -14,18 +14,18 @@
       var rows = [];
       data.points.filter(apart.kept).forEach(function (p) {
         var v = kit.value(p, measure), look = apart.of(p);
-        if (!kit.finite(v)) { ++missing; return; }
-        rows.push({ id: p.id, x: +p.settings[swept.name], v: v, colour: look.colour, dash: look.dash, shape: look.shape, line: look.line });
+        if (!kit.finite(v)) ++missing;
+        rows.push({ id: p.id, ok: kit.finite(v), x: +p.settings[swept.name], v: v, colour: look.colour, dash: look.dash, shape: look.shape, line: look.line });
       });
-      var xs = swept.values.map(Number), logX = xs[0] > 0, floor = kit.logFloor(rows.map(function (r) { return r.v; }));
+      var xs = swept.values.map(Number), logX = xs[0] > 0, found = rows.filter(function (r) { return r.ok; }), floor = kit.logFloor(found.map(function (r) { return r.v; }));
       self.plot.textContent = "";
-      if (!rows.length || !floor) { self.plot.append(kit.make("p", { class: "small" }, rows.length ? "Zero at every point." : "Finite at no point.")); return null; }
-      rows.forEach(function (r) { r.zero = r.v <= 0; r.y = r.zero ? floor.zero : r.v; });
+      if (!floor) { self.plot.append(kit.make("p", { class: "small" }, found.length ? "Zero at every point." : "Finite at no point.")); return null; }
+      rows.forEach(function (r) { r.zero = r.ok && r.v <= 0; r.y = !r.ok ? floor.low : r.zero ? floor.zero : r.v; });
       rows.sort(function (a, b) { return a.x - b.x; });
       var marks = [], slope = slopeOf(swept.name), x0 = xs[0], x1 = xs[xs.length - 1];
       if (slope && logX && unit === "fraction") {
         // Through the middle of the data (geometric), from end to end.
-        var mean = Math.exp(rows.reduce(function (s, r) { return s + Math.log(r.y); }, 0) / rows.length), mid = Math.sqrt(x0 * x1);
+        var mean = Math.exp(found.reduce(function (s, r) { return s + Math.log(r.y); }, 0) / found.length), mid = Math.sqrt(x0 * x1);
         var quarter = Math.sqrt(xs[0] * xs[1]);
         var ends = [x0, x1].map(function (x) { return { x: x, y: mean * Math.pow(x / mid, slope) }; });
         marks.push({ type: "line", clip: true, from: { data: "guide" }, encode: { enter: { x: { scale: "x", field: "x" }, y: { scale: "y", field: "y" }, stroke: { value: "var(--faint)" }, strokeDash: { value: [2, 4] }, strokeWidth: { value: 1.5 } } } });
@@ -33,15 +33,15 @@
         var guide = ends;
       }
       marks.push({ type: "group", from: { facet: { name: "f", data: "rows", groupby: "line" } }, marks: [{ type: "line", from: { data: "f" }, interactive: false,
-        encode: { enter: { x: { scale: "x", field: "x" }, y: { scale: "y", field: "y" }, stroke: { field: "colour" }, strokeDash: { field: "dash" }, strokeWidth: { value: 1.9 }, strokeJoin: { value: "round" } } } }] });
-      marks.push({ type: "symbol", from: { data: "rows" }, encode: { enter: { x: { scale: "x", field: "x" }, y: { scale: "y", field: "y" }, size: { value: 52 }, shape: { field: "shape" },
+        encode: { enter: { x: { scale: "x", field: "x" }, y: { scale: "y", field: "y" }, stroke: { field: "colour" }, defined: { field: "ok" }, strokeDash: { field: "dash" }, strokeWidth: { value: 1.9 }, strokeJoin: { value: "round" } } } }] });
+      marks.push({ type: "symbol", from: { data: "found" }, encode: { enter: { x: { scale: "x", field: "x" }, y: { scale: "y", field: "y" }, size: { value: 52 }, shape: { field: "shape" },
         fill: { signal: "datum.zero ? 'var(--card)' : datum.colour" }, stroke: { field: "colour" }, strokeWidth: { value: 1.6 } }, hover: { size: { value: 110 } }, update: { size: { value: 52 } } } });
       if (floor.zero) marks.push({ type: "text", encode: { enter: { x: { value: -10 }, y: { scale: "y", value: floor.zero }, align: { value: "right" }, baseline: { value: "middle" }, text: { value: "0" } } } });
-      if (missing) marks.push({ type: "text", encode: { enter: { x: { value: w }, y: { value: 8 }, align: { value: "right" }, text: { value: missing + " not finite, not shown" }, fill: { value: "var(--bad)" } } } });
+      if (missing) marks.push({ type: "text", encode: { enter: { x: { value: w }, y: { value: -6 }, align: { value: "right" }, text: { value: missing + " not finite, left out" }, fill: { value: "var(--bad)" } } } });
       var pad = logX ? Math.pow(x1 / x0, 0.03) : 0, span = (x1 - x0) * 0.03;
       return { measure: measure, spec: {
-        width: w, height: height, padding: { left: left, right: right, top: 8, bottom: 46 }, autosize: "none",
-        data: [{ name: "rows", values: rows }, { name: "guide", values: guide || [] }],
+        width: w, height: height, padding: { left: left, right: right, top: 18, bottom: 46 }, autosize: "none",
+        data: [{ name: "rows", values: rows }, { name: "found", source: "rows", transform: [{ type: "filter", expr: "datum.ok" }] }, { name: "guide", values: guide || [] }],
         scales: [{ name: "x", type: logX ? "log" : "linear", zero: false, domain: logX ? [x0 / pad, x1 * pad] : [x0 - span, x1 + span], range: [0, w] },
           { name: "y", type: "log", zero: false, domain: [floor.low, floor.high], range: [height, 0] }],
         axes: [{ orient: "left", scale: "y", grid: true, domain: false, ticks: false, values: kit.logTicks(floor.zero ? floor.low * 1.6 : floor.low, floor.high), title: kit.measureLabel(measure), encode: { labels: { update: { text: { signal: kit.axisLabel(unit) } } } } },
