@@ -1,4 +1,5 @@
-// describe_points: which combinations of swept settings a set of points is, in as few conditions as a greedy cover finds.
+// describe_points: which combinations of swept settings a set of points is, in as few conditions as a greedy cover
+// finds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,20 +36,25 @@ size_t count(const Mask& mask) { return static_cast<size_t>(std::count(mask.begi
 std::vector<Candidate> conditions_on(const Results& results, const std::string& setting) {
   std::vector<Candidate> out;
   std::vector<std::string> values = values_of(results, setting);
-  const bool numeric = std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); });
+  const bool numeric =
+      std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); });
   const auto add = [&](Condition::Is is, const std::string& value, auto&& holds) {
     Candidate candidate{{{{is, setting, value}}, 0}, Mask(results.points.size())};
-    for (size_t i = 0; i < results.points.size(); ++i) candidate.matches[i] = holds(rule_value(results.points[i], setting));
+    for (size_t i = 0; i < results.points.size(); ++i)
+      candidate.matches[i] = holds(rule_value(results.points[i], setting));
     out.push_back(std::move(candidate));
   };
   if (values.size() < 2) return out;
-  for (const std::string& value : setting == texel_size ? std::vector<std::string>{} : values) add(Condition::Is::equal, value, [&](const std::string& v) { return v == value; });
+  for (const std::string& value : setting == texel_size ? std::vector<std::string>{} : values)
+    add(Condition::Is::equal, value, [&](const std::string& v) { return v == value; });
   for (size_t i = 0; numeric && i < values.size(); ++i) {
     const double limit = *number_of(values[i]);
     // At an end it would say "equal" or nothing; only a texel's size is never said to equal a number.
     const bool first = i == 0, last = i + 1 == values.size(), derived = setting == texel_size;
-    if (!last && (!first || derived)) add(Condition::Is::at_most, values[i], [&](const std::string& v) { return *number_of(v) <= limit; });
-    if (!first && (!last || derived)) add(Condition::Is::at_least, values[i], [&](const std::string& v) { return *number_of(v) >= limit; });
+    if (!last && (!first || derived))
+      add(Condition::Is::at_most, values[i], [&](const std::string& v) { return *number_of(v) <= limit; });
+    if (!first && (!last || derived))
+      add(Condition::Is::at_least, values[i], [&](const std::string& v) { return *number_of(v) >= limit; });
   }
   return out;
 }
@@ -75,11 +81,13 @@ std::vector<std::string> values_of(const Results& results, const std::string& se
     if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
   }
   if (std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); }))
-    std::stable_sort(values.begin(), values.end(), [](const auto& a, const auto& b) { return *number_of(a) < *number_of(b); });
+    std::stable_sort(values.begin(), values.end(),
+                     [](const auto& a, const auto& b) { return *number_of(a) < *number_of(b); });
   return values;
 }
 
-std::vector<Rule> describe_points(const Results& results, const std::vector<bool>& chosen, const std::vector<bool>& either_way) {
+std::vector<Rule> describe_points(const Results& results, const std::vector<bool>& chosen,
+                                  const std::vector<bool>& either_way) {
   Mask left = chosen, allowed = chosen;
   for (size_t i = 0; i < either_way.size(); ++i)
     if (either_way[i]) allowed[i] = true;

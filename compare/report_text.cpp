@@ -48,13 +48,26 @@ std::string html(std::string_view text) {
   std::string out;
   for (char c : valid) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\'': out += "&#39;"; break;
-      case '\0': out += "\uFFFD"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      case '\0':
+        out += "\uFFFD";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -129,7 +142,8 @@ std::string quantity(double value, std::string_view unit) {
 std::string setting_label(const std::string& name) {
   std::string label = name.starts_with("map.") ? name.substr(4) : name;
   for (std::string_view suffix : {".kind", ".name", "_m", "_deg", "_px"}) strip_suffix(label, suffix);
-  std::replace_if(label.begin(), label.end(), [](char c) { return c == '.' || c == '_'; }, ' ');
+  std::replace_if(
+      label.begin(), label.end(), [](char c) { return c == '.' || c == '_'; }, ' ');
   return label;
 }
 
@@ -144,7 +158,8 @@ std::string settings_phrase(const PointRecord& point, const std::vector<std::str
     // The unit of a bias is itself a setting.
     std::string unit = setting_unit(name);
     if (unit == "bias.unit") unit = setting_of(point, "bias.unit");
-    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", setting_label(name), value_phrase(setting_of(point, name), unit));
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", setting_label(name),
+                       value_phrase(setting_of(point, name), unit));
   }
   return out;
 }
@@ -152,11 +167,14 @@ std::string settings_phrase(const PointRecord& point, const std::vector<std::str
 std::string rule_phrase(const Rule& rule) {
   std::string out;
   for (const Condition& condition : rule.all) {
-    const char* is = condition.is == Condition::Is::at_most ? "at most " : condition.is == Condition::Is::at_least ? "at least " : "";
+    const char* is = condition.is == Condition::Is::at_most    ? "at most "
+                     : condition.is == Condition::Is::at_least ? "at least "
+                                                               : "";
     std::string unit = setting_unit(condition.setting);
     if (unit == "bias.unit") unit.clear();
     if (condition.setting == texel_size) {
-      out += fmt::format("{}texels of {}{}{}m", out.empty() ? "" : " and ", is, number(*number_of(condition.value)), thin_space);
+      out += fmt::format("{}texels of {}{}{}m", out.empty() ? "" : " and ", is, number(*number_of(condition.value)),
+                         thin_space);
       continue;
     }
     out += fmt::format("{}{} {}{}", out.empty() ? "" : " and ", setting_label(condition.setting), is,
@@ -166,8 +184,8 @@ std::string rule_phrase(const Rule& rule) {
 }
 
 std::string bias_phrase(double depth, const BiasCurve& curve) {
-  return fmt::format("{0}{1}depth = {2}{1}m = {3}{1}texels", number(depth), thin_space, number(depth * curve.m_per_depth),
-                     number(depth * curve.texels_per_depth));
+  return fmt::format("{0}{1}depth = {2}{1}m = {3}{1}texels", number(depth), thin_space,
+                     number(depth * curve.m_per_depth), number(depth * curve.texels_per_depth));
 }
 
 std::string metric_label(std::string_view name) {

@@ -63,20 +63,37 @@ PointRecord sample_point(int64_t id, int resolution, double extent_m, bool box) 
   point.settings["filter.kind"] = box ? "box" : "none";
   point.curve = sample_curve(resolution, extent_m, box);
   const BiasCurve& curve = *point.curve;
-  const size_t at = static_cast<size_t>(std::lower_bound(curve.bias_depth.begin(), curve.bias_depth.end(), 0.005) - curve.bias_depth.begin());
+  const size_t at = static_cast<size_t>(std::lower_bound(curve.bias_depth.begin(), curve.bias_depth.end(), 0.005) -
+                                        curve.bias_depth.begin());
   auto& m = point.metrics;
-  m = {{"error", curve.error[at]},           {"wrong", curve.wrong[at]},
-       {"error_soft", curve.error[at] * 1.1}, {"light_size", 0.003},
-       {"filter", box ? 0.0011 : 0.0},       {"aliasing", curve.aliasing_dark[at] + curve.aliasing_light[at]},
-       {"aliasing_dark", curve.aliasing_dark[at]}, {"aliasing_light", curve.aliasing_light[at]},
-       {"acne", curve.acne[at]},             {"peter_panning", curve.peter_panning[at]},
-       {"coverage", curve.coverage[at]},     {"coverage_dark", curve.coverage[at]},
-       {"coverage_light", 0.0},              {"precision", 4e-6 * extent_m},
-       {"peter_panning_gap_m", 0.005 * depth_m * 0.9}, {"edge_displacement_texels", box ? 1.9 : 0.7},
-       {"edge_displacement_mean_texels", 0.21}, {"edge_displacement_pixels", 900.0 * extent_m / resolution},
-       {"receivers", 742657}, {"facing", 612004}, {"counted", 611950}, {"attached", 130653},
-       {"ambiguous", 8.8e-5}, {"outside", extent_m < 10 ? 0.06 : 0}, {"residual", 2.4e-7}, {"tap_residual", 1.1e-7},
-       {"map_ms", 1.1 + 2.4e-6 * resolution * resolution}, {"lookup_ms", box ? 21.4 : 6.1}};
+  m = {{"error", curve.error[at]},
+       {"wrong", curve.wrong[at]},
+       {"error_soft", curve.error[at] * 1.1},
+       {"light_size", 0.003},
+       {"filter", box ? 0.0011 : 0.0},
+       {"aliasing", curve.aliasing_dark[at] + curve.aliasing_light[at]},
+       {"aliasing_dark", curve.aliasing_dark[at]},
+       {"aliasing_light", curve.aliasing_light[at]},
+       {"acne", curve.acne[at]},
+       {"peter_panning", curve.peter_panning[at]},
+       {"coverage", curve.coverage[at]},
+       {"coverage_dark", curve.coverage[at]},
+       {"coverage_light", 0.0},
+       {"precision", 4e-6 * extent_m},
+       {"peter_panning_gap_m", 0.005 * depth_m * 0.9},
+       {"edge_displacement_texels", box ? 1.9 : 0.7},
+       {"edge_displacement_mean_texels", 0.21},
+       {"edge_displacement_pixels", 900.0 * extent_m / resolution},
+       {"receivers", 742657},
+       {"facing", 612004},
+       {"counted", 611950},
+       {"attached", 130653},
+       {"ambiguous", 8.8e-5},
+       {"outside", extent_m < 10 ? 0.06 : 0},
+       {"residual", 2.4e-7},
+       {"tap_residual", 1.1e-7},
+       {"map_ms", 1.1 + 2.4e-6 * resolution * resolution},
+       {"lookup_ms", box ? 21.4 : 6.1}};
   m["shadow_ms"] = m["map_ms"] + m["lookup_ms"];
   point.times = {{"map_ms", m["map_ms"]}, {"lookup_ms", m["lookup_ms"]}, {"truth_ms", 310.5}, {"rays", 4.1e6}};
   point.worst = {512, 300, 1, "acne"};
@@ -98,9 +115,12 @@ std::string big_endian(uint32_t value) {
   return out;
 }
 
-std::string chunk(const std::string& body) { return big_endian(static_cast<uint32_t>(body.size() - 4)) + body + big_endian(crc(body)); }
+std::string chunk(const std::string& body) {
+  return big_endian(static_cast<uint32_t>(body.size() - 4)) + body + big_endian(crc(body));
+}
 
-std::string png(uint32_t width, uint32_t height, const std::function<std::array<uint8_t, 3>(uint32_t, uint32_t)>& color) {
+std::string png(uint32_t width, uint32_t height,
+                const std::function<std::array<uint8_t, 3>(uint32_t, uint32_t)>& color) {
   std::string raw;
   for (uint32_t y = 0; y < height; ++y) {
     raw += '\0';
@@ -113,11 +133,13 @@ std::string png(uint32_t width, uint32_t height, const std::function<std::array<
   for (size_t i = 0; i < raw.size(); i += 65535) {
     const size_t size = std::min<size_t>(65535, raw.size() - i);
     packed += i + size == raw.size() ? '\1' : '\0';
-    for (size_t word : {size, ~size & 0xffff}) packed += static_cast<char>(word & 255), packed += static_cast<char>(word >> 8);
+    for (size_t word : {size, ~size & 0xffff})
+      packed += static_cast<char>(word & 255), packed += static_cast<char>(word >> 8);
     packed += raw.substr(i, size);
   }
   packed += big_endian(b << 16 | a);
-  return "\x89PNG\r\n\x1a\n" + chunk("IHDR" + big_endian(width) + big_endian(height) + std::string("\x08\x02\0\0\0", 5)) +
+  return "\x89PNG\r\n\x1a\n" +
+         chunk("IHDR" + big_endian(width) + big_endian(height) + std::string("\x08\x02\0\0\0", 5)) +
          chunk("IDAT" + packed) + chunk("IEND");
 }
 
@@ -150,7 +172,8 @@ Results sample_results() {
         results.points.push_back(sample_point(static_cast<int64_t>(results.points.size()), resolution, extent_m, box));
   results.planned_points = static_cast<int64_t>(results.points.size());
   for (const char* name : {"truth", "map", "classes"})
-    results.points[18].pictures.push_back({name, fmt::format("images/p0018-{}.png", name), fmt::format("The {} of this point.", name)});
+    results.points[18].pictures.push_back(
+        {name, fmt::format("images/p0018-{}.png", name), fmt::format("The {} of this point.", name)});
   results.points[26].pictures.push_back({"truth", "images/p0026-truth.png", "The truth of this point."});
   results.bounds.push_back({"residual", 1e-6, {}, {}, "worst", true, 2.4e-7, 0, 32, ""});
   results.bounds.push_back({"peter_panning", 0.002, {}, {{"filter.kind", "none"}}, "worst", true, 0.00079, 4, 16, ""});

@@ -1,5 +1,5 @@
-// A made-up sweep for the tests of the report: 4 resolutions x 4 extents x 2 filters whose curves behave as the laws say
-// (acne falls with the bias, Peter Panning grows, aliasing goes with the texel), with no window at the coarse end.
+// A made-up sweep for the tests of the report: 4 resolutions x 4 extents x 2 filters whose curves behave as the laws
+// say (acne falls with the bias, Peter Panning grows, aliasing goes with the texel), with no window at the coarse end.
 #pragma once
 #include <string>
 

@@ -1,4 +1,4 @@
-// The report: what it concludes (closed cases, brute force), and what its bytes must be whatever the results are.
+// The report: what its bytes must be, whatever the results are.
 #include "compare/report.h"
 
 #include <fmt/format.h>
@@ -9,7 +9,6 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <set>
 
 #include "compare/cause_colors.h"
@@ -44,228 +43,6 @@ json embedded_data(const std::string& page) {
   return json::parse(page.substr(open, page.find("</script>", open) - open));
 }
 
-// A curve with acne below 1% from `low` on and Peter Panning below it up to `high`.
-PointRecord point_with(int64_t id, double cost, std::optional<double> low, std::optional<double> high) {
-  PointRecord point;
-  point.id = id;
-  point.settings = {{"bias.form", "constant"}, {"bias.unit", "depth"}, {"bias.constant", "0.25"}, {"map.resolution", fmt::format("{}", 256 << id)}};
-  point.metrics = {{"error", 0.5}, {"acne", 0.5}, {"shadow_ms", cost}};
-  BiasCurve curve;
-  curve.parameter = "bias.constant";
-  curve.made = "one pass";
-  curve.bias_depth = {0, 0.25, 0.5, 0.75, 1};
-  curve.error = {0.5, 0.25, 0.125, 0.25, 0.5};
-  curve.wrong = curve.acne = curve.peter_panning = curve.error;
-  curve.aliasing_dark = {0.25, 0.25, 0.25, 0.25, 0.25};
-  curve.aliasing_light = curve.aliasing_dark;
-  curve.coverage = {0, 0, 0, 0, 0};
-  curve.window_min_depth = low;
-  curve.window_max_depth = high;
-  curve.best_bias_depth = 0.5;
-  curve.best_error = 0.125;
-  point.curve = curve;
-  return point;
-}
-
-using Outcome = Recommendation::Outcome;
-
-TEST(Recommend, TakesTheCheapestPointThatHasAWindow) {
-  Results results;
-  results.points = {point_with(0, 1, {}, {}), point_with(1, 3, 0.25, 0.75), point_with(2, 2, 0.25, 0.75), point_with(3, 2, 0.25, 0.75)};
-  const Recommendation found = recommend(results);
-  ASSERT_EQ(found.outcome, Outcome::found);
-  EXPECT_EQ(found.point->id, 2);  // of equal cost, the first
-  EXPECT_EQ(found.bias->depth, 0.5);
-  EXPECT_EQ(found.bias->error, 0.125);
-}
-
-TEST(Recommend, AccurateTakesTheLeastErrorAtTheChosenBias) {
-  Results results;
-  results.points = {point_with(0, 1, 0.75, 1.0), point_with(1, 3, 0.25, 0.75), point_with(2, 2, 0.25, 0.75), point_with(3, 1, {}, {})};
-  EXPECT_EQ(recommend(results).point->id, 0);
-  EXPECT_EQ(recommend(results).error, 0.25);
-  EXPECT_EQ(recommend_accurate(results).point->id, 2);  // as accurate as point 1, and cheaper
-  EXPECT_EQ(recommend_accurate(results).error, 0.125);
-  EXPECT_EQ(recommend_accurate(results).cost_ms, 2);
-}
-
-TEST(Recommend, MovesTheBestBiasIntoTheWindow) {
-  Results results;
-  results.points = {point_with(0, 1, 0.75, 1.0)};
-  EXPECT_EQ(recommend(results).bias->depth, 0.75);
-  EXPECT_EQ(recommend(results).bias->error, 0.25);
-  results.points = {point_with(0, 1, 0.6, 0.7)};  // between two entries of the curve
-  EXPECT_EQ(recommend(results).bias->depth, 0.6);
-  EXPECT_NEAR(recommend(results).bias->error, 0.125 + 0.125 * 0.4, 1e-15);  // one rounding of the interpolation
-}
-
-TEST(Recommend, AsksBoundsOfTheCurveAtTheBiasThatWouldBeSet) {
-  Results results;
-  results.points = {point_with(0, 1, 0.25, 0.75)};
-  results.bounds = {{.metric = "error", .max = 0.2, .min = {}, .where = {}, .join = "worst", .reproduce = ""}};
-  EXPECT_EQ(recommend(results).outcome, Outcome::found);  // the point as rendered has 0.5, its curve 0.125
-  results.bounds[0].max = 0.1;
-  EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);
-  results.bounds[0] = {.metric = "aliasing", .max = 0.49, .min = {}, .where = {}, .join = "worst", .reproduce = ""};
-  EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);  // dark and light are 0.25 each
-  results.bounds[0].max = 0.5;
-  EXPECT_EQ(recommend(results).outcome, Outcome::found);
-}
-
-TEST(Recommend, ABoundSpeaksOnlyOfThePointsItNames) {
-  Results results;
-  results.points = {point_with(0, 1, 0.25, 0.75), point_with(1, 2, 0.25, 0.75)};
-  results.bounds = {{.metric = "error", .max = 0.0, .min = {}, .where = {{"map.resolution", "256"}}, .join = "worst", .reproduce = ""}};
-  EXPECT_EQ(recommend(results).point->id, 1);
-  results.bounds[0].where.clear();
-  EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);
-}
-
-TEST(Recommend, NothingToHoldIsNotAnAnswer) {
-  Results results;
-  EXPECT_EQ(recommend(results).outcome, Outcome::no_criterion);
-  results.points = {point_with(0, 1, {}, {})};
-  EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);
-  results.points[0].curve.reset();
-  EXPECT_EQ(recommend(results).outcome, Outcome::no_criterion);
-  results.bounds = {{.metric = "acne", .max = 0.5, .min = {}, .where = {}, .join = "worst", .reproduce = ""}};
-  EXPECT_EQ(recommend(results).outcome, Outcome::found);
-  EXPECT_FALSE(recommend(results).bias);
-}
-
-TEST(Recommend, WhatIsNotFiniteNeverHolds) {
-  for (double bad : {nan, infinity, -infinity}) {
-    Results results;
-    results.points = {point_with(0, 1, 0.25, 0.75), point_with(1, 2, 0.25, 0.75)};
-    results.points[0].metrics["shadow_ms"] = bad;
-    EXPECT_EQ(recommend(results).point->id, 1);
-    results.points[0].metrics["shadow_ms"] = 1;
-    results.points[0].metrics["error"] = bad;
-    EXPECT_EQ(recommend(results).point->id, 1);
-    results.points[0].metrics["error"] = 0.5;
-    results.points[0].metrics["precision"] = bad;
-    results.points[1].metrics["precision"] = 0;
-    results.bounds = {{.metric = "precision", .max = 1.0, .min = -1.0, .where = {}, .join = "worst", .reproduce = ""}};
-    EXPECT_EQ(recommend(results).point->id, 1);
-    results.points[1].metrics.erase("precision");
-    EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);
-  }
-}
-
-TEST(BiasAsSet, IsInWindowDepth) {
-  PointRecord point = point_with(0, 1, {}, {});
-  point.curve->m_per_depth = 5;
-  point.curve->texels_per_depth = 100;
-  EXPECT_EQ(bias_as_set(point), 0.25);
-  point.settings["bias.unit"] = "m";
-  EXPECT_EQ(bias_as_set(point), 0.05);
-  point.settings["bias.unit"] = "texel";
-  EXPECT_EQ(bias_as_set(point), 0.0025);
-  point.settings["bias.form"] = "none";
-  EXPECT_EQ(bias_as_set(point), 0.0);
-}
-
-TEST(Pareto, AgreesWithBruteForce) {
-  std::mt19937 random(7);
-  for (int trial = 0; trial < 300; ++trial) {
-    std::vector<std::pair<double, double>> points(random() % 40);
-    for (auto& [x, y] : points) {
-      x = static_cast<double>(random() % 12), y = static_cast<double>(random() % 12);  // few values: many ties
-      if (random() % 15 == 0) x = nan;
-      if (random() % 15 == 0) y = infinity;
-    }
-    std::set<size_t> expected;
-    for (size_t i = 0; i < points.size(); ++i) {
-      if (!std::isfinite(points[i].first) || !std::isfinite(points[i].second)) continue;
-      bool beaten = false;
-      for (const auto& other : points)
-        beaten |= std::isfinite(other.first) && std::isfinite(other.second) && other.first <= points[i].first &&
-                  other.second <= points[i].second && other != points[i];
-      if (!beaten) expected.insert(i);
-    }
-    const std::vector<size_t> front = pareto_front(points);
-    EXPECT_EQ(std::set<size_t>(front.begin(), front.end()), expected);
-    EXPECT_EQ(front.size(), expected.size());
-    for (size_t i = 1; i < front.size(); ++i) EXPECT_LE(points[front[i - 1]].first, points[front[i]].first);
-  }
-}
-
-bool speaks_for(const Rule& rule, const PointRecord& point) {
-  for (const Condition& c : rule.all) {
-    const std::string value = rule_value(point, c.setting);
-    if (c.is == Condition::Is::equal && value != c.value) return false;
-    if (c.is == Condition::Is::at_most && *number_of(value) > *number_of(c.value)) return false;
-    if (c.is == Condition::Is::at_least && *number_of(value) < *number_of(c.value)) return false;
-  }
-  return true;
-}
-
-TEST(DescribePoints, NamesAPlainPatternPlainly) {
-  const Results results = sample_results();
-  std::vector<bool> chosen;
-  for (const PointRecord& point : results.points)
-    chosen.push_back(*number_of(setting_of(point, "map.resolution")) <= 512 && setting_of(point, "filter.kind") == "box");
-  const std::vector<Rule> rules = describe_points(results, chosen);
-  ASSERT_EQ(rules.size(), 1u);
-  EXPECT_EQ(rules[0].points, 8u);
-  EXPECT_EQ(report::rule_phrase(rules[0]), "resolution at most 512\u202ftexels and filter box");
-}
-
-TEST(DescribePoints, SaysTheTexelWhereResolutionAndExtentActTogether) {
-  const Results results = sample_results();
-  std::vector<bool> chosen;
-  for (const PointRecord& point : results.points)
-    chosen.push_back(*number_of(setting_of(point, "map.extent_m")) / *number_of(setting_of(point, "map.resolution")) > 0.03);
-  const std::vector<Rule> rules = describe_points(results, chosen);
-  ASSERT_EQ(rules.size(), 1u);
-  EXPECT_EQ(report::rule_phrase(rules[0]), "texels of at least 0.0312\u202fm");
-}
-
-TEST(DescribePoints, MayPassOverPointsWhereItDoesNotArise) {
-  const Results results = sample_results();
-  std::vector<bool> chosen, either_way;
-  for (const PointRecord& point : results.points) {
-    const double resolution = *number_of(setting_of(point, "map.resolution"));
-    chosen.push_back(resolution == 512);
-    either_way.push_back(resolution < 512 && point.id % 3 == 0);
-  }
-  EXPECT_EQ(report::rule_phrase(describe_points(results, chosen, either_way).at(0)), "resolution 512\u202ftexels");
-  for (const PointRecord& point : results.points)
-    if (*number_of(setting_of(point, "map.resolution")) == 256) either_way[static_cast<size_t>(point.id)] = true;
-  for (size_t i = 0; i < chosen.size(); ++i) chosen[i] = chosen[i] || (either_way[i] && i % 2 == 0);
-  const std::vector<Rule> rules = describe_points(results, chosen, either_way);
-  ASSERT_EQ(rules.size(), 1u);
-  EXPECT_EQ(report::rule_phrase(rules[0]), "resolution at most 512\u202ftexels");
-  EXPECT_EQ(rules[0].points, 12u);  // of the 16 points that it is true of, those that were chosen
-}
-
-TEST(DescribePoints, IsTrueOfChosenPointsOnlyAndOfAllOfThem) {
-  const Results results = sample_results();  // three swept settings tell every point from every other
-  std::mt19937 random(11);
-  for (int trial = 0; trial < 40; ++trial) {
-    std::vector<bool> chosen(results.points.size());
-    for (size_t i = 0; i < chosen.size(); ++i) chosen[i] = random() % 3 == 0;
-    const std::vector<Rule> rules = describe_points(results, chosen);
-    for (size_t i = 0; i < chosen.size(); ++i) {
-      bool said = false;
-      for (const Rule& rule : rules) said |= speaks_for(rule, results.points[i]);
-      EXPECT_EQ(said, chosen[i]) << "point " << i;
-    }
-  }
-}
-
-TEST(CauseShares, AreOfTheSumOverFinitePoints) {
-  PointRecord a, b;
-  a.metrics = {{"acne", 0.3}, {"precision", 0.1}, {"light_size", 9}, {"aliasing", 9}};
-  b.metrics = {{"acne", nan}, {"precision", 0.1}, {"filter", 0}};
-  const PointRecord* both[] = {&a, &b};
-  const std::vector<CauseShare> shares = cause_shares(both);
-  ASSERT_EQ(shares.size(), 2u);
-  EXPECT_EQ(shares[0].name, "acne");
-  EXPECT_DOUBLE_EQ(shares[0].share, 0.75);
-  EXPECT_EQ(shares[1].name, "precision");
-}
-
 TEST(ReportText, NumbersReadAsPeopleWriteThem) {
   using report::number;
   EXPECT_EQ(number(0), "0");
@@ -287,8 +64,14 @@ TEST(ReportText, NumbersReadAsPeopleWriteThem) {
 }
 
 TEST(ReportText, Base64AsInRfc4648) {
-  const std::pair<const char*, const char*> cases[] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="},
-                                                       {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}, {"\xff\xfe\xfd", "//79"}};
+  const std::pair<const char*, const char*> cases[] = {{"", ""},
+                                                       {"f", "Zg=="},
+                                                       {"fo", "Zm8="},
+                                                       {"foo", "Zm9v"},
+                                                       {"foob", "Zm9vYg=="},
+                                                       {"fooba", "Zm9vYmE="},
+                                                       {"foobar", "Zm9vYmFy"},
+                                                       {"\xff\xfe\xfd", "//79"}};
   for (const auto& [bytes, text] : cases) EXPECT_EQ(report::base64(bytes), text);
 }
 
@@ -297,8 +80,9 @@ TEST(Report, EscapesWhateverTextTheResultsHold) {
   Results results = sample_results();
   const std::string plain = render_report(results, sample_picture);
   RunInfo& info = results.info;
-  for (std::string* text : {&info.title, &info.experiment, &info.command, &info.commit, &info.version, &info.started, &info.host_cpu,
-                            &info.gl_vendor, &info.gl_renderer, &info.gl_version, &info.gl_timer, &info.embree_version, &info.embree_isa, &info.scene_name})
+  for (std::string* text : {&info.title, &info.experiment, &info.command, &info.commit, &info.version, &info.started,
+                            &info.host_cpu, &info.gl_vendor, &info.gl_renderer, &info.gl_version, &info.gl_timer,
+                            &info.embree_version, &info.embree_isa, &info.scene_name})
     *text = evil;
   info.libraries[evil] = evil;
   info.swept.push_back(evil);
@@ -312,7 +96,8 @@ TEST(Report, EscapesWhateverTextTheResultsHold) {
     point.pictures.push_back({evil, "images/" + evil + ".png", evil});
     point.pictures.push_back({evil, "images/" + evil, evil});
   }
-  const std::string page = render_report(results, [&](const std::string&) -> std::string { throw std::runtime_error(evil); });
+  const std::string page =
+      render_report(results, [&](const std::string&) -> std::string { throw std::runtime_error(evil); });
   const auto count = [](const std::string& text, const std::string& what) {
     size_t n = 0;
     for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
@@ -340,7 +125,8 @@ TEST(Report, FetchesNothing) {
       const std::string value = body.substr(at + attribute.size(), 5);
       EXPECT_TRUE(value.starts_with("#") || value == "data:" || value.starts_with("data:")) << value;
     }
-  for (const char* call : {"sourceMappingURL", "@import", "<link rel=\"stylesheet", "<iframe"}) EXPECT_EQ(page.find(call), std::string::npos) << call;
+  for (const char* call : {"sourceMappingURL", "@import", "<link rel=\"stylesheet", "<iframe"})
+    EXPECT_EQ(page.find(call), std::string::npos) << call;
 }
 
 TEST(Report, NumbersAreThereWithoutJavaScript) {
@@ -355,14 +141,16 @@ TEST(Report, NumbersAreThereWithoutJavaScript) {
       EXPECT_NE(cells.find(">" + report::cell(value, find_metric(metric).unit) + "</td>"), std::string::npos) << metric;
     }
     if (point.curve->window_min_depth) {
-      EXPECT_NE(body.find(fmt::format("<td class=\"first\">{}</td><td>{}</td><td>{}</td>", report::number(*point.curve->window_min_depth),
+      EXPECT_NE(body.find(fmt::format("<td class=\"first\">{}</td><td>{}</td><td>{}</td>",
+                                      report::number(*point.curve->window_min_depth),
                                       report::number(*point.curve->window_min_depth * point.curve->m_per_depth),
-                                      report::number(*point.curve->window_min_depth * point.curve->texels_per_depth))), std::string::npos);
+                                      report::number(*point.curve->window_min_depth * point.curve->texels_per_depth))),
+                std::string::npos);
     }
   }
   for (const Metric& metric : metrics_table()) EXPECT_NE(body.find(report::html(metric.help)), std::string::npos);
-  for (const std::string text : {"noonmark run experiments/cube-room.toml", "896dc68", "llvmpipe", "software times", "glFinish", "AVX2",
-                                 "What to set", "cheapest point", "one pass", "All 2 bounds hold"})
+  for (const std::string text : {"noonmark run experiments/cube-room.toml", "896dc68", "llvmpipe", "software times",
+                                 "glFinish", "AVX2", "What to set", "cheapest point", "one pass", "All 2 bounds hold"})
     EXPECT_NE(body.find(text), std::string::npos) << text;
 }
 
@@ -384,7 +172,10 @@ TEST(Report, EmbeddedDataIsTheResults) {
     EXPECT_EQ(read["id"], point.id);
     ASSERT_EQ(read["metrics"].size(), point.metrics.size());
     for (const auto& [name, value] : point.metrics) {
-      const json expected = std::isfinite(value) ? json(value) : json(std::isnan(value) ? "NaN" : value > 0 ? "Infinity" : "-Infinity");
+      const json expected = std::isfinite(value) ? json(value)
+                                                 : json(std::isnan(value) ? "NaN"
+                                                        : value > 0       ? "Infinity"
+                                                                          : "-Infinity");
       EXPECT_EQ(read["metrics"][name], expected) << name;
     }
     for (const std::string& name : results.info.swept) EXPECT_EQ(read["settings"][name], point.settings.at(name));
@@ -407,7 +198,8 @@ TEST(Report, EmbeddedDataIsTheResults) {
 TEST(Report, NotFiniteIsSaid) {
   Results results = sample_results();
   results.points[3].metrics["acne"] = nan;
-  results.bounds.push_back({"acne", 0.5, {}, {}, "worst", false, nan, 3, 32, "noonmark render x --set map.resolution=256"});
+  results.bounds.push_back(
+      {"acne", 0.5, {}, {}, "worst", false, nan, 3, 32, "noonmark render x --set map.resolution=256"});
   const std::string body = without_scripts(render_report(results, sample_picture));
   const size_t row = body.find("<tr id=\"p3\"");
   EXPECT_NE(body.substr(row, body.find("</tr>", row) - row).find("not finite"), std::string::npos);
@@ -420,7 +212,8 @@ TEST(Report, PicturesAreInlinedAndMissingOnesSaid) {
   const std::string page = render_report(sample_results(), sample_picture);
   const std::string bytes = sample_picture("images/p0018-map.png");
   EXPECT_NE(page.find("src=\"data:image/png;base64," + report::base64(bytes) + "\""), std::string::npos);
-  EXPECT_NE(page.find("The picture images/p0026-truth.png is not here: there is no images/p0026-truth.png."), std::string::npos);
+  EXPECT_NE(page.find("The picture images/p0026-truth.png is not here: there is no images/p0026-truth.png."),
+            std::string::npos);
 }
 
 TEST(Report, SmallAndEmptySweepsStillMakeAPage) {
@@ -441,7 +234,8 @@ TEST(Report, ALargeSweepStaysSensibleInSize) {
   Results results = sample_results();
   const std::vector<PointRecord> points = results.points;
   while (results.points.size() < 640)
-    for (const PointRecord& point : points) results.points.push_back(point), results.points.back().id = static_cast<int64_t>(results.points.size() - 1);
+    for (const PointRecord& point : points)
+      results.points.push_back(point), results.points.back().id = static_cast<int64_t>(results.points.size() - 1);
   for (PointRecord& point : results.points) point.pictures.clear();
   size_t entries = 0;
   for (const PointRecord& point : results.points) entries += point.curve->bias_depth.size();
@@ -487,7 +281,16 @@ TEST(Report, Written) {
     point.metrics["acne"] = 0;
     if (point.id % 5 == 0) point.metrics["error"] = nan;
   }
-  results.bounds.push_back({"error", 0.01, {}, {}, "worst", false, nan, 5, 32, "noonmark render experiments/cube-room.toml --set map.resolution=256"});
+  results.bounds.push_back({"error",
+                            0.01,
+                            {},
+                            {},
+                            "worst",
+                            false,
+                            nan,
+                            5,
+                            32,
+                            "noonmark render experiments/cube-room.toml --set map.resolution=256"});
   write("broken", results);
 
   results = sample;
