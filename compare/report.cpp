@@ -69,8 +69,8 @@ std::string fill(std::string_view page, Lookup&& lookup) {
 
 std::string subtitle(const Results& results) {
   const RunInfo& info = results.info;
-  std::string out = fmt::format("Scene {} · {} point{}", report::html(info.scene_name), results.points.size(),
-                                results.points.size() == 1 ? "" : "s");
+  std::string out = info.scene_name.empty() ? "" : "Scene " + report::html(info.scene_name) + " · ";
+  out += fmt::format("{} point{}", results.points.size(), results.points.size() == 1 ? "" : "s");
   std::string swept;
   for (const std::string& name : info.swept)
     swept += fmt::format("{}{} ({})", swept.empty() ? "" : " × ", report::html(report::setting_label(name)),

@@ -162,6 +162,8 @@ std::string sweep_section(const Results& results) {
 }
 
 std::string budget_section(const Results& results) {
+  if (results.points.empty())
+    return "<section id=\"budget\"><h2>The error budget</h2>\n<p>No point was measured.</p></section>\n";
   double largest = 0;
   for (const PointRecord& point : results.points) {
     double sum = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <initializer_list>
 
 #include "compare/cause_colors.h"
 #include "compare/metrics.h"
@@ -51,6 +52,13 @@ bool varies(const Results& results, const std::string& name) {
 
 std::string pair(const std::string& name, const std::string& value) {
   return value.empty() ? "" : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", html(name), html(value));
+}
+
+std::string joined(std::initializer_list<std::string> parts) {
+  std::string out;
+  for (const std::string& part : parts)
+    if (!part.empty()) out += (out.empty() ? "" : ", ") + part;
+  return out;
 }
 
 }  // namespace
@@ -164,12 +172,13 @@ std::string making_section(const Results& results) {
   std::string out = "<section id=\"making\"><h2>How it was made</h2>\n<dl class=\"made\">\n";
   out += pair("Command", info.command) + pair("Experiment", info.experiment) + pair("Started", info.started);
   out += pair("Noonmark", info.version + (info.commit.empty() ? "" : ", commit " + info.commit));
-  out += pair("Scene",
-              info.scene_name + fmt::format(", {} triangles", cell(static_cast<double>(info.triangles), "count")));
+  out +=
+      pair("Scene",
+           joined({info.scene_name, fmt::format("{} triangles", cell(static_cast<double>(info.triangles), "count"))}));
   out += pair("Processor", info.host_cpu);
-  out += pair("OpenGL", fmt::format("{}, {}, {}", info.gl_renderer, info.gl_vendor, info.gl_version));
+  out += pair("OpenGL", joined({info.gl_renderer, info.gl_vendor, info.gl_version}));
   out += pair("Times from", info.gl_timer);
-  out += pair("Embree", info.embree_version + (info.embree_isa.empty() ? "" : ", " + info.embree_isa));
+  out += pair("Embree", joined({info.embree_version, info.embree_isa}));
   std::string libraries;
   for (const auto& [name, version] : info.libraries)
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);

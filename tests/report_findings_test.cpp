@@ -46,6 +46,8 @@ PointRecord point_with(int64_t id, double cost, std::optional<double> low, std::
 
 using Outcome = Recommendation::Outcome;
 
+int64_t id_of(const Recommendation& found) { return found.point ? found.point->id : -1; }
+
 TEST(Recommend, TakesTheCheapestPointThatHasAWindow) {
   Results results;
   results.points = {point_with(0, 1, {}, {}), point_with(1, 3, 0.25, 0.75), point_with(2, 2, 0.25, 0.75),
@@ -61,9 +63,9 @@ TEST(Recommend, AccurateTakesTheLeastErrorAtTheChosenBias) {
   Results results;
   results.points = {point_with(0, 1, 0.75, 1.0), point_with(1, 3, 0.25, 0.75), point_with(2, 2, 0.25, 0.75),
                     point_with(3, 1, {}, {})};
-  EXPECT_EQ(recommend(results).point->id, 0);
+  EXPECT_EQ(id_of(recommend(results)), 0);
   EXPECT_EQ(recommend(results).error, 0.25);
-  EXPECT_EQ(recommend_accurate(results).point->id, 2);  // as accurate as point 1, and cheaper
+  EXPECT_EQ(id_of(recommend_accurate(results)), 2);  // as accurate as point 1, and cheaper
   EXPECT_EQ(recommend_accurate(results).error, 0.125);
   EXPECT_EQ(recommend_accurate(results).cost_ms, 2);
 }
@@ -100,7 +102,7 @@ TEST(Recommend, ABoundSpeaksOnlyOfThePointsItNames) {
                      .where = {{"map.resolution", "256"}},
                      .join = "worst",
                      .reproduce = ""}};
-  EXPECT_EQ(recommend(results).point->id, 1);
+  EXPECT_EQ(id_of(recommend(results)), 1);
   results.bounds[0].where.clear();
   EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);
 }
@@ -122,17 +124,30 @@ TEST(Recommend, WhatIsNotFiniteNeverHolds) {
     Results results;
     results.points = {point_with(0, 1, 0.25, 0.75), point_with(1, 2, 0.25, 0.75)};
     results.points[0].metrics["shadow_ms"] = bad;
-    EXPECT_EQ(recommend(results).point->id, 1);
+    EXPECT_EQ(id_of(recommend(results)), 1);
     results.points[0].metrics["shadow_ms"] = 1;
     results.points[0].metrics["error"] = bad;
-    EXPECT_EQ(recommend(results).point->id, 1);
+    EXPECT_EQ(id_of(recommend(results)), 1);
     results.points[0].metrics["error"] = 0.5;
     results.points[0].metrics["precision"] = bad;
     results.points[1].metrics["precision"] = 0;
     results.bounds = {{.metric = "precision", .max = 1.0, .min = -1.0, .where = {}, .join = "worst", .reproduce = ""}};
-    EXPECT_EQ(recommend(results).point->id, 1);
+    EXPECT_EQ(id_of(recommend(results)), 1);
     results.points[1].metrics.erase("precision");
     EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);
+  }
+}
+
+TEST(Meets, ALimitOnOneSideDoesNotLetInfinityThrough) {
+  PointRecord point = point_with(0, 1, {}, {});
+  BoundResult bound{.metric = "error", .max = 1.0, .min = {}, .where = {}, .join = "worst", .reproduce = ""};
+  EXPECT_TRUE(meets(point, bound));
+  for (double bad : {nan, infinity, -infinity}) {
+    point.metrics["error"] = bad;
+    bound.max = 1.0, bound.min.reset();
+    EXPECT_FALSE(meets(point, bound));
+    bound.max.reset(), bound.min = 0.0;
+    EXPECT_FALSE(meets(point, bound));
   }
 }
 

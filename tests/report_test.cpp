@@ -58,6 +58,7 @@ TEST(ReportText, NumbersReadAsPeopleWriteThem) {
   EXPECT_EQ(number(nan), "not finite");
   EXPECT_EQ(report::quantity(0.0042, "fraction"), "0.42\u202f%");
   EXPECT_EQ(report::quantity(infinity, "fraction"), "not finite");
+  EXPECT_EQ(report::cell(nan, "count"), "not finite");
   EXPECT_EQ(report::setting_label("map.extent_m"), "extent");
   EXPECT_EQ(report::setting_label("filter.kind"), "filter");
   EXPECT_EQ(report::setting_label("bias.constant"), "bias constant");
