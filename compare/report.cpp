@@ -14,13 +14,14 @@
 namespace noonmark {
 namespace {
 
-// Vega (Debian: libjs-vega; BSD-3-Clause): the one well-kept charting library that Debian packages with its parts apart,
-// so that only those in use travel, and whose expressions run without eval, so that the page may forbid it.
+// Vega (Debian: libjs-vega; BSD-3-Clause): the one well-kept charting library that Debian packages with its parts
+// apart, so that only those in use travel, and whose expressions run without eval, so that the page may forbid it.
 // Debian ships it as CommonJS modules; report/vega.js links them in any order.
-constexpr std::array vega_modules{"vega-util",        "vega-time",          "vega-format",    "vega-loader",         "vega-dataflow",
-                                  "vega-canvas",      "vega-scale",         "vega-scenegraph", "vega-statistics",    "vega-expression",
-                                  "vega-selection",   "vega-functions",     "vega-event-selector", "vega-parser",    "vega-runtime",
-                                  "vega-view",        "vega-transforms",    "vega-view-transforms", "vega-encode",   "vega-interpreter"};
+constexpr std::array vega_modules{
+    "vega-util",      "vega-time",       "vega-format",          "vega-loader",     "vega-dataflow",
+    "vega-canvas",    "vega-scale",      "vega-scenegraph",      "vega-statistics", "vega-expression",
+    "vega-selection", "vega-functions",  "vega-event-selector",  "vega-parser",     "vega-runtime",
+    "vega-view",      "vega-transforms", "vega-view-transforms", "vega-encode",     "vega-interpreter"};
 
 std::string_view file(const std::string& name) {
   const std::string_view text = report_files::embedded(name);
@@ -33,7 +34,8 @@ std::string vega_script() {
   for (const char* module : vega_modules) {
     std::string_view text = file(fmt::format("{}.min.js", module));
     // The map's address would make developer tools ask for it.
-    if (const size_t map = text.rfind("//# sourceMappingURL="); map != std::string_view::npos) text = text.substr(0, map);
+    if (const size_t map = text.rfind("//# sourceMappingURL="); map != std::string_view::npos)
+      text = text.substr(0, map);
     out += fmt::format("noonmarkVega.define(\"{}\",function(exports,module,require){{{}\n}});\n", module, text);
   }
   return out;
@@ -67,10 +69,12 @@ std::string fill(std::string_view page, Lookup&& lookup) {
 
 std::string subtitle(const Results& results) {
   const RunInfo& info = results.info;
-  std::string out = fmt::format("Scene {} · {} point{}", report::html(info.scene_name), results.points.size(), results.points.size() == 1 ? "" : "s");
+  std::string out = info.scene_name.empty() ? "" : "Scene " + report::html(info.scene_name) + " · ";
+  out += fmt::format("{} point{}", results.points.size(), results.points.size() == 1 ? "" : "s");
   std::string swept;
   for (const std::string& name : info.swept)
-    swept += fmt::format("{}{} {}", swept.empty() ? "" : " × ", values_of(results, name).size(), report::html(report::setting_label(name)));
+    swept += fmt::format("{}{} ({})", swept.empty() ? "" : " × ", report::html(report::setting_label(name)),
+                         values_of(results, name).size());
   if (!swept.empty()) out += " · " + swept;
   if (!info.started.empty()) out += " · " + report::html(info.started);
   return out;
@@ -78,7 +82,8 @@ std::string subtitle(const Results& results) {
 
 }  // namespace
 
-std::string render_report(const Results& results, const std::function<std::string(const std::string& path)>& read_file) {
+std::string render_report(const Results& results,
+                          const std::function<std::string(const std::string& path)>& read_file) {
   const std::string& given = !results.info.title.empty() ? results.info.title : results.info.scene_name;
   const std::string title = report::html(given.empty() ? "Shadow-map errors" : given);
   return fill(file("report/page.html"), [&](std::string_view name) -> std::string {
@@ -87,13 +92,15 @@ std::string render_report(const Results& results, const std::function<std::strin
     if (name == "style") return colour_rules() + std::string(file("report/style.css"));
     if (name == "sections")
       return report::answer_section(results) + report::bias_section(results) + report::sweep_section(results) +
-             report::budget_section(results) + report::cost_section(results) + report::pictures_section(results, read_file) +
-             report::points_section(results) + report::meaning_section(results) + report::making_section(results);
+             report::budget_section(results) + report::cost_section(results) +
+             report::pictures_section(results, read_file) + report::points_section(results) +
+             report::meaning_section(results) + report::making_section(results);
     if (name == "data") return report::script_json(report::chart_data(results));
     if (name == "vega") return vega_script();
     if (name == "script") {
       std::string script;
-      for (const char* part : {"charts", "chart_bias", "chart_sweep", "page"}) script += file(fmt::format("report/{}.js", part));
+      for (const char* part : {"charts", "chart_bias", "chart_sweep", "page"})
+        script += file(fmt::format("report/{}.js", part));
       return script;
     }
     if (name == "version") return report::html(results.info.version);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 #include "compare/cause_colors.h"
 
@@ -100,28 +100,42 @@ bool meets(const PointRecord& point, const BoundResult& bound, std::optional<dou
   return std::isfinite(value) && (!bound.max || value <= *bound.max) && (!bound.min || value >= *bound.min);
 }
 
-Recommendation recommend(const Results& results) {
+namespace {
+
+// better(a, b): whether a is to be taken before b. Points come in order of id, so that equals keep the lowest.
+template <class Better>
+Recommendation recommend_by(const Results& results, Better&& better) {
+  using Outcome = Recommendation::Outcome;
   Recommendation best;
-  double best_cost = std::numeric_limits<double>::infinity();
   for (const PointRecord& point : results.points) {
     const bool asked = point.curve || std::any_of(results.bounds.begin(), results.bounds.end(),
                                                   [&](const BoundResult& bound) { return speaks_of(bound, point); });
     if (!asked) continue;
-    if (best.outcome == Recommendation::Outcome::no_criterion) best.outcome = Recommendation::Outcome::none_holds;
-    const double cost = metric_of(point, "shadow_ms");
-    if (!std::isfinite(cost) || !std::isfinite(metric_of(point, "error"))) continue;
-    if (best.point && (cost > best_cost || (cost == best_cost && point.id > best.point->id))) continue;
-    std::optional<BiasChoice> bias;
+    if (best.outcome == Outcome::no_criterion) best.outcome = Outcome::none_holds;
+    Recommendation candidate{Outcome::found, &point, metric_of(point, "shadow_ms"), metric_of(point, "error"), {}};
+    if (!std::isfinite(candidate.cost_ms) || !std::isfinite(candidate.error)) continue;
     if (point.curve) {
-      bias = choose_bias(point, results.bounds);
-      if (!bias) continue;
+      candidate.bias = choose_bias(point, results.bounds);
+      if (!candidate.bias) continue;
+      candidate.error = candidate.bias->error;
     } else if (!meets_all(point, results.bounds, std::nullopt)) {
       continue;
     }
-    best = {Recommendation::Outcome::found, &point, bias};
-    best_cost = cost;
+    if (!best.point || better(candidate, best)) best = candidate;
   }
   return best;
+}
+
+}  // namespace
+
+Recommendation recommend(const Results& results) {
+  return recommend_by(results, [](const auto& a, const auto& b) { return a.cost_ms < b.cost_ms; });
+}
+
+Recommendation recommend_accurate(const Results& results) {
+  return recommend_by(results, [](const auto& a, const auto& b) {
+    return std::make_pair(a.error, a.cost_ms) < std::make_pair(b.error, b.cost_ms);
+  });
 }
 
 std::vector<size_t> pareto_front(std::span<const std::pair<double, double>> points) {

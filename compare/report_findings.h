@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,8 +16,8 @@ double metric_of(const PointRecord& point, const std::string& name);
 // The setting's canonical text, or empty.
 std::string setting_of(const PointRecord& point, const std::string& name);
 
-// A series of the curve by its metric's name ("error", "acne", "aliasing" = dark + light ...) at a bias in window depth,
-// linear between the curve's entries and constant beyond its last. Empty when the curve has no such series.
+// A series of the curve by its metric's name ("error", "acne", "aliasing" = dark + light ...) at a bias in window
+// depth, linear between the curve's entries and constant beyond its last. Empty when the curve has no such series.
 std::optional<double> curve_value(const BiasCurve& curve, const std::string& metric, double bias_depth);
 
 // The value in window depth that the point itself was rendered with, of the parameter that its curve varies.
@@ -35,14 +36,18 @@ struct Recommendation {
     none_holds,    // there are criteria, and no point meets them
     no_criterion,  // neither a bound nor a curve: nothing says what is good enough
   } outcome = Outcome::no_criterion;
-  const PointRecord* point = nullptr;  // found: the cheapest point (lowest shadow_ms, then lowest id)
+  const PointRecord* point = nullptr;  // found
+  double cost_ms = 0, error = 0;       // found; the error at `bias`, or as rendered without one
   std::optional<BiasChoice> bias;      // found, and the point has a curve
 };
 
-// The cheapest point that holds: every bound that speaks of it is met, and where it has a curve its usable window is not
-// empty. Bounds on what the curve knows are asked at the bias that would be set (the least error within the window),
-// the others at the point as it was rendered. A value that is not finite (cost and error included) never holds.
+// The cheapest point (lowest shadow_ms) that holds: every bound that speaks of it is met, and where it has a curve its
+// usable window is not empty. Bounds on what the curve knows are asked at the bias that would be set (the least error
+// within the window), the others at the point as it was rendered. A value that is not finite (cost and error included)
+// never holds. Among equals the lowest id.
 Recommendation recommend(const Results& results);
+// The same, but the point with the least error, then the lowest cost.
+Recommendation recommend_accurate(const Results& results);
 
 // Whether one point meets a bound's limits; metrics that the curve knows are read at `bias`, when given.
 bool meets(const PointRecord& point, const BoundResult& bound, std::optional<double> bias_depth = std::nullopt);
@@ -52,12 +57,15 @@ bool meets(const PointRecord& point, const BoundResult& bound, std::optional<dou
 std::vector<size_t> pareto_front(std::span<const std::pair<double, double>> points);
 
 struct CauseShare {
-  std::string name;   // metric
-  double mean = 0;    // over the points where it is finite
-  double share = 0;   // of the sum over all causes
+  std::string name;  // metric
+  double mean = 0;   // over the points where it is finite
+  double share = 0;  // of the sum over all causes
 };
 // The causes that make up R5 - R1, largest first; those that are 0 everywhere are left out.
 std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points);
+
+// Stands in a Condition for the map's texel in metres, extent / resolution, which no setting holds by itself.
+inline constexpr std::string_view texel_size = "texel size";
 
 struct Condition {
   enum class Is { equal, at_most, at_least } is = Is::equal;
@@ -67,9 +75,15 @@ struct Rule {
   std::vector<Condition> all;  // every one of these
   size_t points = 0;           // how many chosen points the rule speaks for
 };
-// Says in few words which points were chosen: rules of at most three conditions on swept settings, each true of chosen points
-// only, together true of every chosen point (greedy: the rule with the most points not yet spoken for, shortest first).
-std::vector<Rule> describe_points(const Results& results, const std::vector<bool>& chosen);
+// Says in few words which points were chosen: rules of at most three conditions on swept settings or the texel's size,
+// each true of chosen points only, together true of every chosen point (greedy: the rule with the most points not yet
+// spoken for, shortest first). either_way: points that a rule may also be true of, because what is said does not arise
+// there; empty: none.
+std::vector<Rule> describe_points(const Results& results, const std::vector<bool>& chosen,
+                                  const std::vector<bool>& either_way = {});
+
+// What a Condition compares: the setting's text, or the texel's size from the point's curve ("" without one).
+std::string rule_value(const PointRecord& point, const std::string& setting);
 
 // Distinct values of a setting over the points: by number when all are numbers, else in order of appearance.
 std::vector<std::string> values_of(const Results& results, const std::string& setting);

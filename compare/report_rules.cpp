@@ -1,4 +1,5 @@
-// describe_points: which combinations of swept settings a set of points is, in as few conditions as a greedy cover finds.
+// describe_points: which combinations of swept settings a set of points is, in as few conditions as a greedy cover
+// finds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,19 +35,26 @@ size_t count(const Mask& mask) { return static_cast<size_t>(std::count(mask.begi
 // Every single condition on one setting that some but not all points satisfy.
 std::vector<Candidate> conditions_on(const Results& results, const std::string& setting) {
   std::vector<Candidate> out;
-  const std::vector<std::string> values = values_of(results, setting);
-  const bool numeric = std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); });
+  std::vector<std::string> values = values_of(results, setting);
+  const bool numeric =
+      std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); });
   const auto add = [&](Condition::Is is, const std::string& value, auto&& holds) {
     Candidate candidate{{{{is, setting, value}}, 0}, Mask(results.points.size())};
-    for (size_t i = 0; i < results.points.size(); ++i) candidate.matches[i] = holds(setting_of(results.points[i], setting));
+    for (size_t i = 0; i < results.points.size(); ++i)
+      candidate.matches[i] = holds(rule_value(results.points[i], setting));
     out.push_back(std::move(candidate));
   };
   if (values.size() < 2) return out;
-  for (const std::string& value : values) add(Condition::Is::equal, value, [&](const std::string& v) { return v == value; });
-  for (size_t i = 1; numeric && i + 1 < values.size(); ++i) {
+  for (const std::string& value : setting == texel_size ? std::vector<std::string>{} : values)
+    add(Condition::Is::equal, value, [&](const std::string& v) { return v == value; });
+  for (size_t i = 0; numeric && i < values.size(); ++i) {
     const double limit = *number_of(values[i]);
-    add(Condition::Is::at_most, values[i], [&](const std::string& v) { return *number_of(v) <= limit; });
-    add(Condition::Is::at_least, values[i], [&](const std::string& v) { return *number_of(v) >= limit; });
+    // At an end it would say "equal" or nothing; only a texel's size is never said to equal a number.
+    const bool first = i == 0, last = i + 1 == values.size(), derived = setting == texel_size;
+    if (!last && (!first || derived))
+      add(Condition::Is::at_most, values[i], [&](const std::string& v) { return *number_of(v) <= limit; });
+    if (!first && (!last || derived))
+      add(Condition::Is::at_least, values[i], [&](const std::string& v) { return *number_of(v) >= limit; });
   }
   return out;
 }
@@ -60,21 +68,35 @@ std::optional<double> number_of(const std::string& text) {
   return value;
 }
 
+std::string rule_value(const PointRecord& point, const std::string& setting) {
+  if (setting != texel_size) return setting_of(point, setting);
+  // Nine digits: extent / resolution reached by two ways of rounding is one size.
+  return point.curve ? fmt::format("{:.9g}", point.curve->m_per_depth / point.curve->texels_per_depth) : "";
+}
+
 std::vector<std::string> values_of(const Results& results, const std::string& setting) {
   std::vector<std::string> values;
   for (const PointRecord& point : results.points) {
-    const std::string value = setting_of(point, setting);
+    const std::string value = rule_value(point, setting);
     if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
   }
   if (std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); }))
-    std::stable_sort(values.begin(), values.end(), [](const auto& a, const auto& b) { return *number_of(a) < *number_of(b); });
+    std::stable_sort(values.begin(), values.end(),
+                     [](const auto& a, const auto& b) { return *number_of(a) < *number_of(b); });
   return values;
 }
 
-std::vector<Rule> describe_points(const Results& results, const std::vector<bool>& chosen) {
-  Mask left = chosen;
+std::vector<Rule> describe_points(const Results& results, const std::vector<bool>& chosen,
+                                  const std::vector<bool>& either_way) {
+  Mask left = chosen, allowed = chosen;
+  for (size_t i = 0; i < either_way.size(); ++i)
+    if (either_way[i]) allowed[i] = true;
+  std::vector<std::string> axes = results.info.swept;
+  // Resolution and extent act through the texel that they make together, so that one rule may say it for both.
+  const std::vector<std::string> sizes = values_of(results, std::string(texel_size));
+  if (!sizes.empty() && number_of(sizes.front())) axes.emplace_back(texel_size);
   std::vector<Candidate> singles;
-  for (const std::string& setting : results.info.swept)
+  for (const std::string& setting : axes)
     for (Candidate& candidate : conditions_on(results, setting)) singles.push_back(std::move(candidate));
 
   // Grown condition by condition; a rule that is already true of chosen points only needs no further one.
@@ -83,16 +105,16 @@ std::vector<Rule> describe_points(const Results& results, const std::vector<bool
     std::vector<Candidate> next;
     for (Candidate& candidate : open) {
       if (count(both(candidate.matches, chosen)) == 0) continue;
-      if (within(candidate.matches, chosen)) {
+      if (within(candidate.matches, allowed)) {
         rules.push_back(std::move(candidate));
         continue;
       }
       if (conditions == 3) continue;
       const std::string last = candidate.rule.all.back().setting;
-      const auto position = std::find(results.info.swept.begin(), results.info.swept.end(), last);
+      const auto position = std::find(axes.begin(), axes.end(), last);
       for (const Candidate& single : singles) {
-        // Settings in their swept order only, so that no pair is tried twice.
-        if (std::find(results.info.swept.begin(), position + 1, single.rule.all[0].setting) != position + 1) continue;
+        // In the order of the axes only, so that no pair is tried twice.
+        if (std::find(axes.begin(), position + 1, single.rule.all[0].setting) != position + 1) continue;
         Candidate grown = candidate;
         grown.rule.all.push_back(single.rule.all[0]);
         grown.matches = both(candidate.matches, single.matches);
@@ -112,7 +134,7 @@ std::vector<Rule> describe_points(const Results& results, const std::vector<bool
     }
     if (!best) break;  // told apart by more than three settings; the caller sees from the counts that some are left
     out.push_back(best->rule);
-    out.back().points = count(best->matches);
+    out.back().points = count(both(best->matches, chosen));
     for (size_t i = 0; i < left.size(); ++i)
       if (best->matches[i]) left[i] = false;
   }

@@ -8,11 +8,11 @@
 
 namespace noonmark::report {
 
-std::string answer_section(const Results& results);     // what breaks and what to set
-std::string bias_section(const Results& results);       // error against bias: the chart's place and the windows' table
-std::string sweep_section(const Results& results);      // error against resolution, extent and other swept numbers
-std::string budget_section(const Results& results);     // bars by cause
-std::string cost_section(const Results& results);       // speed against accuracy
+std::string answer_section(const Results& results);  // what breaks and what to set
+std::string bias_section(const Results& results);    // error against bias: the chart's place and the windows' table
+std::string sweep_section(const Results& results);   // error against resolution, extent and other swept numbers
+std::string budget_section(const Results& results);  // bars by cause
+std::string cost_section(const Results& results);    // speed against accuracy
 std::string pictures_section(const Results& results, const std::function<std::string(const std::string&)>& read_file);
 std::string points_section(const Results& results);
 std::string meaning_section(const Results& results);

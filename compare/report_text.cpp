@@ -44,16 +44,30 @@ void strip_suffix(std::string& text, std::string_view suffix) {
 std::string html(std::string_view text) {
   // nlohmann's writer replaces what is not UTF-8; reading back undoes only its escapes.
   const std::string dumped = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::string valid = nlohmann::json::parse(dumped).get<std::string>();
   std::string out;
-  for (char c : nlohmann::json::parse(dumped).get_ref<const std::string&>()) {
+  for (char c : valid) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\'': out += "&#39;"; break;
-      case '\0': out += "\uFFFD"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      case '\0':
+        out += "\uFFFD";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -98,7 +112,14 @@ std::string number(double value) {
     }
     return text;
   }
-  return fmt::format("{:.3g}", value);
+  const std::string text = fmt::format("{:.2e}", value);
+  const size_t e = text.find('e');
+  std::string mantissa = text.substr(0, e), power;
+  while (mantissa.back() == '0') mantissa.pop_back();
+  if (mantissa.back() == '.') mantissa.pop_back();
+  constexpr std::string_view raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  for (char digit : fmt::format("{}", std::stoi(text.substr(e + 1)))) power += digit == '-' ? "⁻" : raised[digit - '0'];
+  return mantissa + "×10" + power;
 }
 
 std::string_view head_unit(std::string_view unit) {
@@ -120,8 +141,9 @@ std::string quantity(double value, std::string_view unit) {
 
 std::string setting_label(const std::string& name) {
   std::string label = name.starts_with("map.") ? name.substr(4) : name;
-  for (std::string_view suffix : {".kind", ".form", ".name", "_m", "_deg", "_px"}) strip_suffix(label, suffix);
-  std::replace_if(label.begin(), label.end(), [](char c) { return c == '.' || c == '_'; }, ' ');
+  for (std::string_view suffix : {".kind", ".name", "_m", "_deg", "_px"}) strip_suffix(label, suffix);
+  std::replace_if(
+      label.begin(), label.end(), [](char c) { return c == '.' || c == '_'; }, ' ');
   return label;
 }
 
@@ -136,7 +158,8 @@ std::string settings_phrase(const PointRecord& point, const std::vector<std::str
     // The unit of a bias is itself a setting.
     std::string unit = setting_unit(name);
     if (unit == "bias.unit") unit = setting_of(point, "bias.unit");
-    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", setting_label(name), value_phrase(setting_of(point, name), unit));
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", setting_label(name),
+                       value_phrase(setting_of(point, name), unit));
   }
   return out;
 }
@@ -144,9 +167,16 @@ std::string settings_phrase(const PointRecord& point, const std::vector<std::str
 std::string rule_phrase(const Rule& rule) {
   std::string out;
   for (const Condition& condition : rule.all) {
-    const char* is = condition.is == Condition::Is::at_most ? "at most " : condition.is == Condition::Is::at_least ? "at least " : "";
+    const char* is = condition.is == Condition::Is::at_most    ? "at most "
+                     : condition.is == Condition::Is::at_least ? "at least "
+                                                               : "";
     std::string unit = setting_unit(condition.setting);
     if (unit == "bias.unit") unit.clear();
+    if (condition.setting == texel_size) {
+      out += fmt::format("{}texels of {}{}{}m", out.empty() ? "" : " and ", is, number(*number_of(condition.value)),
+                         thin_space);
+      continue;
+    }
     out += fmt::format("{}{} {}{}", out.empty() ? "" : " and ", setting_label(condition.setting), is,
                        value_phrase(condition.value, unit));
   }
@@ -154,8 +184,8 @@ std::string rule_phrase(const Rule& rule) {
 }
 
 std::string bias_phrase(double depth, const BiasCurve& curve) {
-  return fmt::format("{0}{1}depth = {2}{1}m = {3}{1}texels", number(depth), thin_space, number(depth * curve.m_per_depth),
-                     number(depth * curve.texels_per_depth));
+  return fmt::format("{0}{1}depth = {2}{1}m = {3}{1}texels", number(depth), thin_space,
+                     number(depth * curve.m_per_depth), number(depth * curve.texels_per_depth));
 }
 
 std::string metric_label(std::string_view name) {

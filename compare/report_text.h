@@ -15,7 +15,7 @@ std::string html(std::string_view text);
 std::string script_json(const nlohmann::json& value);
 std::string base64(std::string_view bytes);
 
-// Three significant digits: "0.0123", "12.3", "1 230", "1.2e-7"; "not finite".
+// Three significant digits: "0.0123", "12.3", "1234", "12 345", "1.2×10⁻⁷"; "not finite".
 std::string number(double value);
 // With its unit, as in a sentence: fractions in percent ("0.42 %"), counts whole.
 std::string quantity(double value, std::string_view unit);

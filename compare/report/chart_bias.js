@@ -1,125 +1,420 @@
-// Error against bias for one point: causes as lines or stacked, the usable window shaded, 0 apart from the logarithmic axis.
-(function () {
-  "use strict";
-  var page = window.noonmarkPage, kit = page.kit, data = page.data;
-  var curved = data.points.filter(function (p) { return p.curve; });
-  var state = { unit: "depth", view: "lines", id: null };
-  var series = ["acne", "peter_panning", "aliasing_dark", "aliasing_light", "coverage"];
-  if (!curved.length) return;
-  state.id = data.recommended !== null && kit.byId[data.recommended].curve ? data.recommended : curved[0].id;
+// Error against bias for one point: causes as lines or stacked, the usable window shaded, 0 apart from the logarithmic
+// axis.
+(function() {
+'use strict';
+var page = window.noonmarkPage, kit = page.kit, data = page.data;
+var curved = data.points.filter(function(p) {
+  return p.curve;
+});
+var state = {unit: 'depth', view: 'lines', id: null};
+var series = ['acne', 'peter_panning', 'aliasing_dark', 'aliasing_light', 'coverage'];
+if (!curved.length) return;
+state.id = data.recommended !== null && kit.byId[data.recommended].curve ? data.recommended : curved[0].id;
 
-  function factor(curve) { return state.unit === "m" ? curve.m_per_depth : state.unit === "texels" ? curve.texels_per_depth : 1; }
+function factor(curve) {
+  return state.unit === 'm' ? curve.m_per_depth : state.unit === 'texels' ? curve.texels_per_depth : 1;
+}
 
-  function build(width) {
-    var curve = kit.byId[state.id].curve, k = factor(curve), bias = curve.bias.map(function (b) { return b * k; });
-    var positive = bias.filter(function (b) { return b > 0; });
-    if (!positive.length) return null;
-    var left = 64, right = 14, plotWidth = width - left - right, height = width < 520 ? 260 : 340, gap = 46;
-    var low = positive[0], high = positive[positive.length - 1];
-    var lines = ["error"].concat(series).filter(function (s) { return curve[s].some(function (v) { return v > 0; }); });
-    var all = []; lines.forEach(function (s) { curve[s].forEach(function (v) { if (v > 0) all.push(v); }); });
-    var bounds = [curve.acne_bound, curve.peter_panning_bound].filter(function (v) { return v > 0; });
-    // Four decades below the largest are enough to see; less than that stands on the axis.
-    var top = Math.max.apply(null, all.concat(bounds, [1e-6])) * 1.3, least = Math.min.apply(null, all.concat(bounds, [top / 100]));
-    var bottom = Math.max(least / 1.5, top / 3e4), stacked = state.view === "stacked";
-    var rows = [], stack = [];
-    bias.forEach(function (b, i) {
-      lines.forEach(function (s) { var v = curve[s][i]; if (kit.finite(v)) rows.push({ b: b, s: s, v: stacked ? v : Math.max(v, bottom) }); });
-      var sum = 0;
-      series.forEach(function (s) { var v = kit.finite(curve[s][i]) ? curve[s][i] : 0; if (b > 0) stack.push({ b: b, s: s, v0: sum, v1: sum + v }); sum += v; });
-      if (stacked) top = Math.max(i ? top : 0, sum * 1.04, (kit.finite(curve.error[i]) ? curve.error[i] : 0) * 1.04, 1e-9);
+function build(width) {
+  var curve = kit.byId[state.id].curve, k = factor(curve), bias = curve.bias.map(function(b) {
+    return b * k;
+  });
+  var positive = bias.filter(function(b) {
+    return b > 0;
+  });
+  if (!positive.length) return null;
+  var left = 64, right = 14, plotWidth = width - left - right, height = width < 520 ? 260 : 340, gap = 64;
+  var low = positive[0], high = positive[positive.length - 1];
+  var lines = ['error'].concat(series).filter(function(s) {
+    return curve[s].some(function(v) {
+      return v > 0;
     });
-    function at(b) { return b > 0 ? { scale: "x", value: Math.min(Math.max(b, low), high) } : { value: 12 }; }
-    var marks = [];
-    if (curve.window) {
-      marks.push({ type: "rect", encode: { enter: { x: at(curve.window[0] * k), x2: at(curve.window[1] * k), y: { value: 0 }, y2: { value: height }, fill: { value: "var(--window)" } } } });
-      marks.push({ type: "text", encode: { enter: { x: at(Math.max(Math.sqrt(Math.max(curve.window[0] * k, low) * curve.window[1] * k), low)), y: { value: 14 }, align: { value: "center" }, text: { value: "usable" }, fill: { value: "var(--good)" }, fontWeight: { value: 600 } } } });
+  });
+  var all = [];
+  lines.forEach(function(s) {
+    curve[s].forEach(function(v) {
+      if (v > 0) all.push(v);
+    });
+  });
+  var bounds = [curve.acne_bound, curve.peter_panning_bound].filter(function(v) {
+    return v > 0;
+  });
+  // Four decades below the largest are enough to see; less than that stands on the axis.
+  var top = Math.max.apply(null, all.concat(bounds, [1e-6])) * 1.3,
+      least = Math.min.apply(null, all.concat(bounds, [top / 100]));
+  var bottom = Math.max(least / 1.5, top / 3e4), stacked = state.view === 'stacked';
+  var rows = [], stack = [];
+  bias.forEach(function(b, i) {
+    (stacked ? ['error'] : lines).forEach(function(s) {
+      var v = curve[s][i];
+      if (!kit.finite(v)) return;
+      // Below the axis a line is left out, but for the stretch by which it enters or leaves.
+      if (!stacked && v < bottom && !(curve[s][i - 1] >= bottom) && !(curve[s][i + 1] >= bottom && b > 0)) return;
+      rows.push({b: b, s: s, v: stacked ? v : Math.max(v, bottom)});
+    });
+    var sum = 0;
+    series.forEach(function(s) {
+      var v = kit.finite(curve[s][i]) ? curve[s][i] : 0;
+      stack.push({b: b, s: s, v0: sum, v1: sum + v});
+      sum += v;
+    });
+    if (stacked)
+      top = Math.max(i ? top : 0, sum * 1.04, (kit.finite(curve.error[i]) ? curve.error[i] : 0) * 1.04, 1e-9);
+  });
+  function at(b) {
+    return b > 0 ? {scale: 'x', value: Math.min(Math.max(b, low), high)} : {value: 12};
+  }
+  var marks = [];
+  if (curve.window) {
+    marks.push({
+      type: 'rect',
+      encode: {
+        enter: {
+          x: at(curve.window[0] * k),
+          x2: at(curve.window[1] * k),
+          y: {value: 0},
+          y2: {value: height},
+          fill: {value: 'var(--window)'}
+        }
+      }
+    });
+    marks.push({
+      type: 'text',
+      encode: {
+        enter: {
+          x: at(Math.max(Math.sqrt(Math.max(curve.window[0] * k, low) * curve.window[1] * k), low)),
+          y: {value: 14},
+          align: {value: 'center'},
+          text: {value: 'usable'},
+          fill: {value: 'var(--good)'},
+          fontWeight: {value: 600}
+        }
+      }
+    });
+  }
+  if (!stacked) {
+    (bounds.length === 2 && bounds[0] === bounds[1] ? [[bounds[0], 'bound']] : [
+      [curve.acne_bound, 'acne bound'], [curve.peter_panning_bound, 'Peter Panning bound']
+    ]).forEach(function(b) {
+      if (!(b[0] > 0)) return;
+      marks.push({
+        type: 'rule',
+        encode: {
+          enter: {
+            x: {value: 0},
+            x2: {value: plotWidth},
+            y: {scale: 'y', value: b[0]},
+            stroke: {value: 'var(--faint)'},
+            strokeDash: {value: [3, 3]}
+          }
+        }
+      });
+      marks.push({
+        type: 'text',
+        encode: {
+          enter: {
+            x: {value: gap},
+            y: {scale: 'y', value: b[0]},
+            dy: {value: -5},
+            align: {value: 'left'},
+            text: {value: b[1] + ' ' + kit.shown(b[0], 'fraction')},
+            fontSize: {value: 11}
+          }
+        }
+      });
+    });
+  }
+  var strokeOf = {signal: 'datum.s === \'error\' ? \'var(--ink)\' : \'var(--c-\' + datum.s + \')\''};
+  if (stacked)
+    marks.push({
+      type: 'rect',
+      from: {data: 'stack0'},
+      encode: {
+        enter: {
+          x: {value: 5},
+          x2: {value: 19},
+          y: {scale: 'y', field: 'v1'},
+          y2: {scale: 'y', field: 'v0'},
+          fill: {signal: '\'var(--c-\' + datum.s + \')\''}
+        }
+      }
+    });
+  if (stacked)
+    marks.push({
+      type: 'group',
+      from: {facet: {name: 'f', data: 'stack1', groupby: 's'}},
+      marks: [{
+        type: 'area',
+        from: {data: 'f'},
+        encode: {
+          enter: {
+            x: {scale: 'x', field: 'b'},
+            y: {scale: 'y', field: 'v1'},
+            y2: {scale: 'y', field: 'v0'},
+            fill: {signal: '\'var(--c-\' + datum.s + \')\''},
+            interpolate: {value: 'linear'}
+          }
+        }
+      }]
+    });
+  marks.push({
+    type: 'group',
+    from: {facet: {name: 'g', data: 'positive', groupby: 's'}},
+    marks: [{
+      type: 'line',
+      from: {data: 'g'},
+      interactive: false,
+      encode: {
+        enter: {
+          x: {scale: 'x', field: 'b'},
+          y: {scale: 'y', field: 'v'},
+          stroke: strokeOf,
+          strokeJoin: {value: 'round'},
+          strokeWidth: {signal: 'datum.s === \'error\' ? 1.5 : 2.4'},
+          strokeDash: {signal: 'datum.s === \'error\' ? [5,3] : [1,0]'},
+          strokeOpacity: {value: 1}
+        }
+      }
+    }]
+  });
+  marks.push({
+    type: 'rule',
+    encode: {
+      enter: {
+        x: {value: gap - 30},
+        x2: {value: gap - 30},
+        y: {value: 0},
+        y2: {value: height},
+        stroke: {value: 'var(--rule)'},
+        strokeDash: {value: [2, 3]}
+      }
     }
-    if (!stacked) {
-      (bounds.length === 2 && bounds[0] === bounds[1] ? [[bounds[0], "bound"]] : [[curve.acne_bound, "acne bound"], [curve.peter_panning_bound, "Peter Panning bound"]]).forEach(function (b) {
-        if (!(b[0] > 0)) return;
-        marks.push({ type: "rule", encode: { enter: { x: { value: 0 }, x2: { value: plotWidth }, y: { scale: "y", value: b[0] }, stroke: { value: "var(--faint)" }, strokeDash: { value: [3, 3] } } } });
-        marks.push({ type: "text", encode: { enter: { x: { value: plotWidth - 4 }, y: { scale: "y", value: b[0] }, dy: { value: -5 }, align: { value: "right" }, text: { value: b[1] + " " + kit.shown(b[0], "fraction") }, fontSize: { value: 11 } } } });
+  });
+  marks.push({
+    type: 'symbol',
+    from: {data: 'zero'},
+    encode: {enter: {x: {value: 12}, y: {scale: 'y', field: 'v'}, fill: strokeOf, size: {value: 58}}}
+  });
+  marks.push({
+    type: 'text',
+    encode: {
+      enter: {
+        x: {value: 12},
+        y: {value: height + 9},
+        align: {value: 'center'},
+        baseline: {value: 'top'},
+        text: {value: '0'}
+      }
+    }
+  });
+  [[curve.best_bias, 'best', 'var(--good)', 0], [curve.set_bias, 'as set', 'var(--accent)', 1]].forEach(function(m) {
+    if (!kit.finite(m[0])) return;
+    var b = m[0] * k, beyond = b > high;
+    // The lesser of the two is named on its left, the greater on its right, unless an edge is near.
+    var place = Math.log(Math.min(Math.max(b, low), high) / low) / Math.log(high / low),
+        other = m[3] ? curve.best_bias : curve.set_bias;
+    var side = place > 0.9 ? -1 : place < 0.1 ? 1 : kit.finite(other) && m[0] < other ? -1 : 1;
+    marks.push({
+      type: 'rule',
+      encode: {
+        enter: {
+          x: at(b),
+          x2: at(b),
+          y: {value: 20 + 16 * m[3]},
+          y2: {value: height},
+          stroke: {value: m[2]},
+          strokeWidth: {value: 1.4},
+          strokeDash: {value: m[3] ? [4, 3] : [1, 0]}
+        }
+      }
+    });
+    marks.push({
+      type: 'text',
+      encode: {
+        enter: {
+          x: at(b),
+          y: {value: 32 + 16 * m[3]},
+          dx: {value: side * 5},
+          align: {value: side < 0 ? 'right' : 'left'},
+          text: {value: m[1] + (beyond ? ' (beyond)' : '')},
+          fill: {value: m[2]},
+          fontWeight: {value: 600}
+        }
+      }
+    });
+  });
+  marks.push({
+    type: 'rule',
+    name: 'cursor',
+    interactive: false,
+    encode: {
+      update: {
+        x: {signal: 'hover'},
+        y: {value: 0},
+        y2: {value: height},
+        stroke: {value: 'var(--soft)'},
+        opacity: {signal: 'hover < 0 ? 0 : 0.6'}
+      }
+    }
+  });
+  return {
+    spec: {
+      width: plotWidth,
+      height: height,
+      padding: {left: left, right: right, top: 6, bottom: 46},
+      autosize: 'none',
+      signals: [{name: 'hover', value: -1}],
+      data: [
+        {name: 'rows', values: rows},
+        {name: 'positive', source: 'rows', transform: [{type: 'filter', expr: 'datum.b > 0'}]},
+        {name: 'zero', source: 'rows', transform: [{type: 'filter', expr: 'datum.b <= 0'}]}, {
+          name: 'stack0',
+          values: stack.filter(function(r) {
+            return r.b <= 0;
+          })
+        },
+        {
+          name: 'stack1',
+          values: stack.filter(function(r) {
+            return r.b > 0;
+          })
+        }
+      ],
+      scales: [
+        {name: 'x', type: 'log', domain: [low, high], range: [gap, plotWidth], zero: false},
+        stacked ? {name: 'y', type: 'linear', domain: [0, top], range: [height, 0]} :
+                  {name: 'y', type: 'log', domain: [bottom, top], range: [height, 0], zero: false}
+      ],
+      axes: [
+        {
+          orient: 'left',
+          scale: 'y',
+          grid: true,
+          values: stacked ? undefined : kit.logTicks(bottom, top),
+          tickCount: 6,
+          domain: false,
+          ticks: false,
+          title: 'share of counted receivers',
+          encode: {labels: {update: {text: {signal: kit.axisLabel('fraction')}}}}
+        },
+        {
+          orient: 'bottom',
+          scale: 'x',
+          grid: false,
+          values: kit.logTicks(low, high).filter(function(v) {
+            return width > 600 || /^1(0*|e.*)$/.test(String(v).replace(/^0?\.?0*/, ''));
+          }),
+          labelOverlap: true,
+          title: curve.parameter + ' (' + state.unit + ')',
+          encode: {labels: {update: {text: {signal: kit.axisLabel('')}}}}
+        }
+      ],
+      marks: marks
+    },
+    hover: function(view, plot) {
+      var svg = plot.querySelector('svg');
+      svg.addEventListener('mousemove', function(event) {
+        var px = event.clientX - svg.getBoundingClientRect().left - left, i = 0;
+        if (px > gap - 30) {
+          var b = view.scale('x').invert(Math.min(Math.max(px, gap), plotWidth));
+          for (var j = 1; j < bias.length; ++j)
+            if (bias[j] > 0 && (bias[i] <= 0 || Math.abs(Math.log(bias[j] / b)) < Math.abs(Math.log(bias[i] / b))))
+              i = j;
+        }
+        view.signal('hover', bias[i] > 0 ? view.scale('x')(bias[i]) : 12).run();
+        kit.showTip(
+            event, ['error'].concat(series).map(function(s) {
+              return [
+                s === 'error' ? 'Error' : kit.causeLabel[s], kit.shown(curve[s][i], 'fraction'), s === 'error' ? '' : s
+              ];
+            }),
+            kit.digits(curve.bias[i]) + ' depth = ' + kit.digits(curve.bias[i] * curve.m_per_depth) +
+                ' m = ' + kit.digits(curve.bias[i] * curve.texels_per_depth) + ' texels');
+      });
+      svg.addEventListener('mouseleave', function() {
+        kit.hideTip();
+        view.signal('hover', -1).run();
       });
     }
-    var strokeOf = { signal: "datum.s === 'error' ? 'var(--ink)' : 'var(--c-' + datum.s + ')'" };
-    if (stacked) marks.push({ type: "group", from: { facet: { name: "f", data: "stack", groupby: "s" } }, marks: [{ type: "area", from: { data: "f" },
-      encode: { enter: { x: { scale: "x", field: "b" }, y: { scale: "y", field: "v1" }, y2: { scale: "y", field: "v0" }, fill: { signal: "'var(--c-' + datum.s + ')'" }, interpolate: { value: "linear" } } } }] });
-    marks.push({ type: "group", from: { facet: { name: "g", data: "positive", groupby: "s" } }, marks: [{ type: "line", from: { data: "g" }, clip: true,
-      encode: { enter: { x: { scale: "x", field: "b" }, y: { scale: "y", field: "v" }, stroke: strokeOf, strokeJoin: { value: "round" },
-        strokeWidth: { signal: "datum.s === 'error' ? 1.5 : 2.4" }, strokeDash: { signal: "datum.s === 'error' ? [5,3] : [1,0]" }, strokeOpacity: { value: 1 } } } }] });
-    marks.push({ type: "rule", encode: { enter: { x: { value: gap - 17 }, x2: { value: gap - 17 }, y: { value: 0 }, y2: { value: height }, stroke: { value: "var(--rule)" }, strokeDash: { value: [2, 3] } } } });
-    marks.push({ type: "symbol", from: { data: "zero" }, encode: { enter: { x: { value: 12 }, y: { scale: "y", field: "v" }, fill: strokeOf, size: { value: 58 } } } });
-    marks.push({ type: "text", encode: { enter: { x: { value: 12 }, y: { value: height + 17 }, align: { value: "center" }, text: { value: "0" } } } });
-    [[curve.best_bias, "best", "var(--good)", 0], [curve.set_bias, "as set", "var(--accent)", 1]].forEach(function (m) {
-      if (!kit.finite(m[0])) return;
-      var b = m[0] * k, beyond = b > high;
-      marks.push({ type: "rule", encode: { enter: { x: at(b), x2: at(b), y: { value: 20 + 16 * m[3] }, y2: { value: height }, stroke: { value: m[2] }, strokeWidth: { value: 1.4 }, strokeDash: { value: m[3] ? [4, 3] : [1, 0] } } } });
-      marks.push({ type: "text", encode: { enter: { x: at(b), y: { value: 32 + 16 * m[3] }, dx: { value: b > Math.sqrt(low * high) ? -5 : 5 }, align: { value: b > Math.sqrt(low * high) ? "right" : "left" }, text: { value: m[1] + (beyond ? " (beyond)" : "") }, fill: { value: m[2] }, fontWeight: { value: 600 } } } });
-    });
-    marks.push({ type: "rule", name: "cursor", interactive: false, encode: { update: { x: { signal: "hover" }, y: { value: 0 }, y2: { value: height }, stroke: { value: "var(--soft)" }, opacity: { signal: "hover < 0 ? 0 : 0.6" } } } });
-    return {
-      spec: {
-        width: plotWidth, height: height, padding: { left: left, right: right, top: 6, bottom: 46 }, autosize: "none",
-        signals: [{ name: "hover", value: -1 }],
-        data: [{ name: "rows", values: rows }, { name: "positive", source: "rows", transform: [{ type: "filter", expr: "datum.b > 0" }] },
-          { name: "zero", source: "rows", transform: [{ type: "filter", expr: "datum.b <= 0" }] }, { name: "stack", values: stack }],
-        scales: [{ name: "x", type: "log", domain: [low, high], range: [gap, plotWidth], zero: false },
-          stacked ? { name: "y", type: "linear", domain: [0, top], range: [height, 0] } : { name: "y", type: "log", domain: [bottom, top], range: [height, 0], zero: false }],
-        axes: [{ orient: "left", scale: "y", grid: true, values: stacked ? undefined : kit.logTicks(bottom, top), tickCount: 6, domain: false, ticks: false, title: "share of counted receivers", encode: { labels: { update: { text: { signal: kit.axisLabel("fraction") } } } } },
-          { orient: "bottom", scale: "x", grid: false, values: kit.logTicks(low, high).filter(function (v) { return width > 600 || /^1(0*|e.*)$/.test(String(v).replace(/^0?\.?0*/, "")); }), labelOverlap: true, title: curve.parameter + " (" + state.unit + ")", encode: { labels: { update: { text: { signal: kit.axisLabel("") } } } } }],
-        marks: marks
-      },
-      hover: function (view, plot) {
-        var svg = plot.querySelector("svg");
-        svg.addEventListener("mousemove", function (event) {
-          var px = event.clientX - svg.getBoundingClientRect().left - left, i = 0;
-          if (px > gap - 17) { var b = view.scale("x").invert(Math.min(Math.max(px, gap), plotWidth)); for (var j = 1; j < bias.length; ++j) if (bias[j] > 0 && (bias[i] <= 0 || Math.abs(Math.log(bias[j] / b)) < Math.abs(Math.log(bias[i] / b)))) i = j; }
-          view.signal("hover", bias[i] > 0 ? view.scale("x")(bias[i]) : 12).run();
-          kit.showTip(event, ["error"].concat(series).map(function (s) { return [s === "error" ? "Error" : kit.causeLabel[s], kit.shown(curve[s][i], "fraction"), s === "error" ? "" : s]; }),
-            kit.digits(curve.bias[i]) + " depth = " + kit.digits(curve.bias[i] * curve.m_per_depth) + " m = " + kit.digits(curve.bias[i] * curve.texels_per_depth) + " texels");
-        });
-        svg.addEventListener("mouseleave", function () { kit.hideTip(); view.signal("hover", -1).run(); });
-      }
-    };
-  }
+  };
+}
 
-  var self = kit.chart("bias", build);
-  var facts = kit.make("p", { class: "facts" });
-  self.legend.before(facts);
-  function three(depth, curve) { return kit.digits(depth) + " depth = " + kit.digits(depth * curve.m_per_depth) + " m = " + kit.digits(depth * curve.texels_per_depth) + " texels"; }
-  function describe() {
-    var point = kit.byId[state.id], curve = point.curve;
-    facts.textContent = "";
-    if (curve.window) facts.append("Usable from ", kit.make("b", {}, three(curve.window[0], curve)), " to ", kit.make("b", {}, three(curve.window[1], curve)), ". ");
-    else facts.append(kit.make("b", { style: "color:var(--bad)" }, "No usable window: the method fails here. "));
-    facts.append("Best at " + three(curve.best_bias, curve) + ", with " + kit.shown(curve.best_error, "fraction") + " error. Made: " + curve.made + ".");
-  }
-  function legend() {
-    self.legend.textContent = "";
-    var dash = kit.make("span");
-    dash.innerHTML = '<svg viewBox="0 0 26 10" aria-hidden="true"><line x1="0" x2="26" y1="5" y2="5" stroke="var(--ink)" stroke-width="1.5" stroke-dasharray="5 3"/></svg>';
-    dash.append("Error, mean |R5 − R1|");
-    series.forEach(function (s) { self.legend.append(kit.make("span", {}, [kit.make("i", { class: "sw c-" + s }), kit.causeLabel[s]])); });
-    self.legend.append(dash);
-  }
-  function controls() {
-    self.controls.textContent = "";
-    data.swept.filter(function (s) { return s.values.length > 1; }).forEach(function (s) {
-      self.controls.append(kit.picker(s.label, s.values.map(function (v) { return [v, v + (s.unit && s.unit !== "bias.unit" ? kit.thin + s.unit : "")]; }), kit.byId[state.id].settings[s.name], function (v) {
-        var wanted = Object.assign({}, kit.byId[state.id].settings); wanted[s.name] = v;
-        // The point with these settings; in a sweep cut short, the one that shares most of them.
-        var best = null, most = -1;
-        curved.forEach(function (p) { var n = data.swept.reduce(function (sum, t) { return sum + (p.settings[t.name] === wanted[t.name] ? (t === s ? 100 : 1) : 0); }, 0); if (n > most) { most = n; best = p; } });
-        page.select(best.id);
-      }));
-    });
-    self.controls.append(kit.segments([["depth", "depth"], ["m", "m"], ["texels", "texels"]], state.unit, function (u) { state.unit = u; self.draw(); }));
-    self.controls.append(kit.segments([["lines", "Lines"], ["stacked", "Stacked"]], state.view, function (v) { state.view = v; self.draw(); }));
-  }
-  page.onSelect.push(function (id) {
-    if (!kit.byId[id].curve) return;
-    state.id = id; controls(); describe(); self.draw();
+var self = kit.chart('bias', build);
+var facts = kit.make('p', {class: 'facts'});
+self.legend.before(facts);
+function three(depth, curve) {
+  return kit.digits(depth) + ' depth = ' + kit.digits(depth * curve.m_per_depth) +
+      ' m = ' + kit.digits(depth * curve.texels_per_depth) + ' texels';
+}
+function describe() {
+  var point = kit.byId[state.id], curve = point.curve;
+  facts.textContent = '';
+  if (curve.window)
+    facts.append(
+        'Usable from ', kit.make('b', {}, three(curve.window[0], curve)), ' to ',
+        kit.make('b', {}, three(curve.window[1], curve)), '. ');
+  else
+    facts.append(kit.make('b', {style: 'color:var(--bad)'}, 'No usable window: the method fails here. '));
+  facts.append(
+      'Best at ' + three(curve.best_bias, curve) + ', with ' + kit.shown(curve.best_error, 'fraction') +
+      ' error. Made: ' + curve.made + '.');
+}
+function legend() {
+  self.legend.textContent = '';
+  var dash = kit.make('span');
+  dash.innerHTML =
+      '<svg viewBox="0 0 26 10" aria-hidden="true"><line x1="0" x2="26" y1="5" y2="5" stroke="var(--ink)" stroke-width="1.5" stroke-dasharray="5 3"/></svg>';
+  dash.append('Error, mean |R5 − R1|');
+  series.forEach(function(s) {
+    self.legend.append(kit.make('span', {}, [kit.make('i', {class: 'sw c-' + s}), kit.causeLabel[s]]));
   });
-  controls(); legend(); describe();
+  self.legend.append(dash);
+}
+function controls() {
+  self.controls.textContent = '';
+  data.swept
+      .filter(function(s) {
+        return s.values.length > 1;
+      })
+      .forEach(function(s) {
+        self.controls.append(kit.picker(
+            s.label, s.values.map(function(v) {
+              return [v, v + (s.unit && s.unit !== 'bias.unit' ? kit.thin + s.unit : '')];
+            }),
+            kit.byId[state.id].settings[s.name], function(v) {
+              var wanted = Object.assign({}, kit.byId[state.id].settings);
+              wanted[s.name] = v;
+              // The point with these settings; in a sweep cut short, the one that shares most of them.
+              var best = null, most = -1;
+              curved.forEach(function(p) {
+                var n = data.swept.reduce(function(sum, t) {
+                  return sum + (p.settings[t.name] === wanted[t.name] ? (t === s ? 100 : 1) : 0);
+                }, 0);
+                if (n > most) {
+                  most = n;
+                  best = p;
+                }
+              });
+              page.select(best.id);
+            }));
+      });
+  self.controls.append(kit.segments([['depth', 'depth'], ['m', 'm'], ['texels', 'texels']], state.unit, function(u) {
+    state.unit = u;
+    self.draw();
+  }));
+  self.controls.append(kit.segments([['lines', 'Lines'], ['stacked', 'Stacked']], state.view, function(v) {
+    state.view = v;
+    self.draw();
+  }));
+}
+page.onSelect.push(function(id) {
+  if (!kit.byId[id].curve) return;
+  state.id = id;
+  controls();
+  describe();
+  self.draw();
+});
+controls();
+legend();
+describe();
 })();

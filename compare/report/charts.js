@@ -1,184 +1,369 @@
 // The charts: each is a function from the page's data block to a Vega specification, and a few controls.
 // Colours are CSS variables, so that light, dark and print need no redrawing.
-(function () {
-  "use strict";
-  var data = JSON.parse(document.getElementById("noonmark-data").textContent);
-  var page = window.noonmarkPage = { data: data, selected: null, onSelect: [] };
-  var thin = "\u202f";
-  var byId = {}, metricOf = {}, causeLabel = {};
-  data.points.forEach(function (p) { byId[p.id] = p; });
-  data.metrics.forEach(function (m) { metricOf[m.name] = m; });
-  data.causes.forEach(function (c) { causeLabel[c.name] = c.label; });
+(function() {
+'use strict';
+var data = JSON.parse(document.getElementById('noonmark-data').textContent);
+var page = window.noonmarkPage = {data: data, selected: null, onSelect: []};
+var thin = '\u202f';
+var byId = {}, metricOf = {}, causeLabel = {};
+data.points.forEach(function(p) {
+  byId[p.id] = p;
+});
+data.metrics.forEach(function(m) {
+  metricOf[m.name] = m;
+});
+data.causes.forEach(function(c) {
+  causeLabel[c.name] = c.label;
+});
 
-  // ---- small helpers
-  function make(tag, attributes, inner) {
-    var e = document.createElement(tag);
-    Object.keys(attributes || {}).forEach(function (k) { if (k === "on") Object.keys(attributes.on).forEach(function (t) { e.addEventListener(t, attributes.on[t]); }); else e.setAttribute(k, attributes[k]); });
-    [].concat(inner === undefined ? [] : inner).forEach(function (c) { e.append(c); });
+// ---- small helpers
+function make(tag, attributes, inner) {
+  var e = document.createElement(tag);
+  Object.keys(attributes || {}).forEach(function(k) {
+    if (k === 'on')
+      Object.keys(attributes.on).forEach(function(t) {
+        e.addEventListener(t, attributes.on[t]);
+      });
+    else
+      e.setAttribute(k, attributes[k]);
+  });
+  [].concat(inner === undefined ? [] : inner).forEach(function(c) {
+    e.append(c);
+  });
+  return e;
+}
+function finite(v) {
+  return typeof v === 'number' && isFinite(v);
+}
+function digits(v) {
+  if (!finite(v)) return 'not finite';
+  if (v === 0) return '0';
+  var a = Math.abs(v);
+  if (a < 1e-4 || a >= 1e9)
+    return String(+(v / Math.pow(10, Math.floor(Math.log10(a)))).toPrecision(3)) + '×10' +
+        String(Math.floor(Math.log10(a))).replace(/./g, function(c) {
+          return c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c];
+        });
+  return String(+v.toPrecision(a >= 1000 ? Math.ceil(Math.log10(a) + 1e-12) : 3));
+}
+function shown(v, unit) {
+  return !finite(v)       ? 'not finite' :
+      unit === 'fraction' ? digits(100 * v) + thin + '%' :
+                            digits(v) + (unit && unit !== 'count' ? thin + unit : '');
+}
+function value(point, measure) {
+  if (measure === 'best_error') return point.curve ? point.curve.best_error : NaN;
+  return measure in point.metrics ? point.metrics[measure] : NaN;
+}
+function measureLabel(m) {
+  return m === 'best_error' ? 'Error at the best bias' : metricOf[m] ? metricOf[m].label : m;
+}
+function measureUnit(m) {
+  return m === 'best_error' ? 'fraction' : metricOf[m] ? metricOf[m].unit : '';
+}
+function unique(list) {
+  return list.filter(function(v, i) {
+    return list.indexOf(v) === i;
+  });
+}
+// What can be drawn against a sweep: the error, the error at the best bias, what the experiment asks for, then the
+// rest.
+function measures() {
+  var list = ['error'].concat(
+      data.points.some(function(p) {
+        return p.curve;
+      }) ?
+          ['best_error'] :
+          [],
+      data.plot,
+      data.metrics
+          .filter(function(m) {
+            return m.plotted;
+          })
+          .map(function(m) {
+            return m.name;
+          }));
+  return unique(list).filter(function(m) {
+    return data.points.some(function(p) {
+      return finite(value(p, m));
+    });
+  });
+}
+// Ticks of a logarithmic axis: powers of ten, and 2 and 5 between when there is room.
+function logTicks(low, high) {
+  var decades = Math.log10(high / low),
+      steps = decades < 1.2 ? [1, 1.5, 2, 3, 5, 7] :
+      decades < 4           ? [1, 2, 5] :
+                              [1],
+      out = [];
+  for (var e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); ++e)
+    steps.forEach(function(s) {
+      var v = +(s * Math.pow(10, e)).toPrecision(3);
+      if (v >= low * 0.999 && v <= high * 1.001) out.push(v);
+    });
+  return out;
+}
+function axisLabel(unit) {
+  return unit === 'fraction' ? 'format(datum.value * 100, \'~r\') + \'\u202f%\'' : 'format(datum.value, \'~r\')';
+}
+
+var config = {
+  background: 'transparent',
+  axis: {
+    domainColor: 'var(--faint)',
+    tickColor: 'var(--faint)',
+    gridColor: 'var(--grid)',
+    labelColor: 'var(--soft)',
+    titleColor: 'var(--soft)',
+    labelFont: 'var(--sans)',
+    titleFont: 'var(--sans)',
+    labelFontSize: 12,
+    titleFontSize: 12.5,
+    titleFontWeight: 500,
+    titlePadding: 9,
+    labelPadding: 5,
+    tickSize: 4
+  },
+  text: {font: 'var(--sans)', fontSize: 12, fill: 'var(--soft)'}
+};
+
+// ---- the tip
+var tip = document.getElementById('tip');
+function showTip(event, rows, title) {
+  tip.textContent = '';
+  if (title) tip.append(make('b', {}, title));
+  tip.append(make('table', {}, rows.map(function(r) {
+    var name = make('td', {}, r[2] ? [make('i', {class: 'sw c-' + r[2]}), r[0]] : r[0]);
+    return make('tr', {}, [name, make('td', {}, r[1])]);
+  })));
+  tip.hidden = false;
+  var w = tip.offsetWidth, h = tip.offsetHeight, x = event.clientX + 16, y = event.clientY + 14;
+  if (x + w > innerWidth - 8) x = event.clientX - w - 14;
+  tip.style.left = Math.max(8, x) + 'px';
+  tip.style.top = Math.min(y, innerHeight - h - 8) + 'px';
+}
+function hideTip() {
+  tip.hidden = true;
+}
+
+page.select = function(id) {
+  if (!byId[id]) return;
+  page.selected = id;
+  page.onSelect.forEach(function(f) {
+    f(id);
+  });
+};
+
+// ---- drawing and redrawing
+var drawn = [];
+function chart(id, build) {
+  var figure = document.getElementById('chart-' + id);
+  if (!figure) return null;
+  var plot = figure.querySelector('.plot'), view = null;
+  var self = {
+    figure: figure,
+    controls: figure.querySelector('.controls'),
+    legend: figure.querySelector('.legend'),
+    plot: plot,
+    draw: function() {
+      if (view) view.finalize();
+      plot.textContent = '';
+      var built = build(Math.max(260, plot.clientWidth), self);
+      if (!built) return;
+      built.spec.config = config;
+      view = noonmarkVega.draw(built.spec, plot);
+      self.view = view;
+      view.addEventListener('mousemove', function(event, item) {
+        var d = item && item.datum;
+        if (d && d.id !== undefined)
+          pointTip(event, d, built.measure);
+        else if (!built.hover)
+          hideTip();
+        plot.style.cursor = d && d.id !== undefined ? 'pointer' : '';
+      });
+      view.addEventListener('mouseout', hideTip);
+      view.addEventListener('click', function(event, item) {
+        if (item && item.datum && item.datum.id !== undefined) page.select(item.datum.id);
+      });
+      if (built.hover) built.hover(view, plot);
+    }
+  };
+  drawn.push(self);
+  return self;
+}
+function pointTip(event, d, measure) {
+  var p = byId[d.id], rows = [[measureLabel(measure), shown(value(p, measure), measureUnit(measure))]];
+  ['error', 'acne', 'peter_panning', 'aliasing_dark', 'aliasing_light', 'shadow_ms'].forEach(function(m) {
+    if (m !== measure && m in p.metrics)
+      rows.push([measureLabel(m), shown(p.metrics[m], measureUnit(m)), m === 'error' || m === 'shadow_ms' ? '' : m]);
+  });
+  showTip(event, rows, 'Point ' + p.id + (p.phrase ? ': ' + p.phrase : ''));
+}
+function picker(label, options, chosen, changed) {
+  var select = make(
+      'select', {
+        on: {
+          change: function() {
+            changed(select.value);
+          }
+        }
+      },
+      options.map(function(o) {
+        var option = make('option', {value: o[0]}, o[1]);
+        if (String(o[0]) === String(chosen)) option.selected = true;
+        return option;
+      }));
+  return make('label', {}, [label, select]);
+}
+function segments(options, chosen, changed) {
+  var box = make('span', {class: 'segments'});
+  options.forEach(function(o) {
+    box.append(make(
+        'button', {
+          type: 'button',
+          'aria-pressed': String(o[0] === chosen),
+          on: {
+            click: function() {
+              box.querySelectorAll('button').forEach(function(b) {
+                b.setAttribute('aria-pressed', String(b.textContent === o[1]));
+              });
+              changed(o[0]);
+            }
+          }
+        },
+        o[1]));
+  });
+  return box;
+}
+
+// ---- how a swept setting is told apart: the first by colour, the second by shape (of lines: and dash), the third of
+// points by being hollow; any more can be chosen by a picker
+var categorical =
+    ['peter_panning', 'acne', 'coverage_light', 'precision', 'aliasing_dark', 'aliasing_light', 'coverage_dark'];
+var dashes = [[1, 0], [7, 4], [2, 3], [9, 3, 2, 3], [12, 4], [1, 2]],
+    shapes = ['circle', 'square', 'triangle-up', 'diamond', 'cross', 'triangle-down'];
+var shapePaths = {
+  circle: 'M8.5 5a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0-9 0z',
+  square: 'M9 1h8v8h-8z',
+  'triangle-up': 'M13 0l5 9h-10z',
+  diamond: 'M13-.5l3.7 5.5l-3.7 5.5l-3.7-5.5z',
+  cross: 'M11.3 0h3.4v3.3h3.3v3.4h-3.3v3.3h-3.4v-3.3h-3.3v-3.4h3.3z',
+  'triangle-down': 'M13 10l5-9h-10z'
+};
+function tellApart(names, points) {
+  // Numbers go to the colours' order, a choice to the shapes.
+  var several = names
+                    .filter(function(s) {
+                      return s.values.length > 1;
+                    })
+                    .sort(function(a, b) {
+                      return b.numeric - a.numeric;
+                    });
+  var first = several[0], second = several[1], third = points ? several[2] : undefined,
+      rest = several.slice(points ? 3 : 2), chosen = {};
+  function colour(s, v) {
+    var i = s.values.indexOf(v), n = s.values.length;
+    return s.numeric ? 'var(--q' + Math.round(i * 6 / (n - 1)) + ')' :
+                       'var(--c-' + categorical[i % categorical.length] + ')';
+  }
+  function index(s, p) {
+    return s ? s.values.indexOf(p.settings[s.name]) : 0;
+  }
+  function key(c, dash, shape, hollow) {
+    var e = make('span');
+    e.innerHTML = '<svg viewBox="0 0 26 10" aria-hidden="true">' +
+        (points ? '' :
+                  '<line x1="0" x2="26" y1="5" y2="5" stroke="' + c + '" stroke-width="2" stroke-dasharray="' +
+                 dash.join(' ') + '"/>') +
+        (points || shape !== 'circle' ?
+             '<path d="' + shapePaths[shape] + '" fill="' + (hollow ? 'none' : c) + '" stroke="' + c +
+                 '" stroke-width="1.4"' + (points ? '' : ' transform="translate(5.2 2) scale(.6)"') + '/>' :
+             '') +
+        '</svg>';
     return e;
   }
-  function finite(v) { return typeof v === "number" && isFinite(v); }
-  function digits(v) {
-    if (!finite(v)) return "not finite";
-    if (v === 0) return "0";
-    var a = Math.abs(v);
-    return a < 1e-4 || a >= 1e9 ? v.toExponential(2).replace("e+", "e") : String(+v.toPrecision(a >= 1000 ? Math.ceil(Math.log10(a) + 1e-12) : 3));
-  }
-  function shown(v, unit) { return !finite(v) ? "not finite" : unit === "fraction" ? digits(100 * v) + thin + "%" : digits(v) + (unit && unit !== "count" ? thin + unit : ""); }
-  function value(point, measure) {
-    if (measure === "best_error") return point.curve ? point.curve.best_error : NaN;
-    return measure in point.metrics ? point.metrics[measure] : NaN;
-  }
-  function measureLabel(m) { return m === "best_error" ? "Error at the best bias" : metricOf[m] ? metricOf[m].label : m; }
-  function measureUnit(m) { return m === "best_error" ? "fraction" : metricOf[m] ? metricOf[m].unit : ""; }
-  function unique(list) { return list.filter(function (v, i) { return list.indexOf(v) === i; }); }
-  // What can be drawn against a sweep: the error, the error at the best bias, what the experiment asks for, then the rest.
-  function measures() {
-    var list = ["error"].concat(data.points.some(function (p) { return p.curve; }) ? ["best_error"] : [], data.plot,
-      data.metrics.filter(function (m) { return m.plotted; }).map(function (m) { return m.name; }));
-    return unique(list).filter(function (m) { return data.points.some(function (p) { return finite(value(p, m)); }); });
-  }
-  // Ticks of a logarithmic axis: powers of ten, and 2 and 5 between when there is room.
-  function logTicks(low, high) {
-    var decades = Math.log10(high / low), steps = decades < 1.2 ? [1, 1.5, 2, 3, 5, 7] : decades < 4 ? [1, 2, 5] : [1], out = [];
-    for (var e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); ++e)
-      steps.forEach(function (s) { var v = +(s * Math.pow(10, e)).toPrecision(3); if (v >= low * 0.999 && v <= high * 1.001) out.push(v); });
-    return out;
-  }
-  function axisLabel(unit) { return unit === "fraction" ? "format(datum.value * 100, '~r') + '\u202f%'" : "format(datum.value, '~r')"; }
-
-  var config = {
-    background: "transparent",
-    axis: { domainColor: "var(--faint)", tickColor: "var(--faint)", gridColor: "var(--grid)", labelColor: "var(--soft)", titleColor: "var(--soft)",
-      labelFont: "var(--sans)", titleFont: "var(--sans)", labelFontSize: 12, titleFontSize: 12.5, titleFontWeight: 500, titlePadding: 9, labelPadding: 5, tickSize: 4 },
-    text: { font: "var(--sans)", fontSize: 12, fill: "var(--soft)" }
-  };
-
-  // ---- the tip
-  var tip = document.getElementById("tip");
-  function showTip(event, rows, title) {
-    tip.textContent = "";
-    if (title) tip.append(make("b", {}, title));
-    tip.append(make("table", {}, rows.map(function (r) {
-      var name = make("td", {}, r[2] ? [make("i", { class: "sw c-" + r[2] }), r[0]] : r[0]);
-      return make("tr", {}, [name, make("td", {}, r[1])]);
-    })));
-    tip.hidden = false;
-    var w = tip.offsetWidth, h = tip.offsetHeight, x = event.clientX + 16, y = event.clientY + 14;
-    if (x + w > innerWidth - 8) x = event.clientX - w - 14;
-    tip.style.left = Math.max(8, x) + "px";
-    tip.style.top = Math.min(y, innerHeight - h - 8) + "px";
-  }
-  function hideTip() { tip.hidden = true; }
-
-  page.select = function (id) {
-    if (!byId[id]) return;
-    page.selected = id;
-    page.onSelect.forEach(function (f) { f(id); });
-  };
-
-  // ---- drawing and redrawing
-  var drawn = [];
-  function chart(id, build) {
-    var figure = document.getElementById("chart-" + id);
-    if (!figure) return null;
-    var plot = figure.querySelector(".plot"), view = null;
-    var self = {
-      figure: figure, controls: figure.querySelector(".controls"), legend: figure.querySelector(".legend"), plot: plot,
-      draw: function () {
-        if (view) view.finalize();
-        plot.textContent = "";
-        var built = build(Math.max(260, plot.clientWidth), self);
-        if (!built) return;
-        built.spec.config = config;
-        view = noonmarkVega.draw(built.spec, plot);
-        self.view = view;
-        view.addEventListener("mousemove", function (event, item) {
-          var d = item && item.datum;
-          if (d && d.id !== undefined) pointTip(event, d, built.measure); else if (!built.hover) hideTip();
-          plot.style.cursor = d && d.id !== undefined ? "pointer" : "";
+  return {
+    of: function(p) {
+      var j = index(second, p);
+      return {
+        colour: first ? colour(first, p.settings[first.name]) : 'var(--ink)',
+        dash: dashes[j % dashes.length],
+        shape: shapes[j % shapes.length],
+        hollow: index(third, p) > 0,
+        line: names
+                  .map(function(s) {
+                    return p.settings[s.name];
+                  })
+                  .join('|')
+      };
+    },
+    kept: function(p) {
+      return rest.every(function(s) {
+        return !chosen[s.name] || p.settings[s.name] === chosen[s.name];
+      });
+    },
+    filters: function(self) {
+      rest.forEach(function(s) {
+        self.controls.append(picker(
+            s.label, [['', 'all']].concat(s.values.map(function(v) {
+              return [v, v];
+            })),
+            '', function(v) {
+              chosen[s.name] = v;
+              self.draw();
+            }));
+      });
+    },
+    legend: function(box) {
+      box.textContent = '';
+      [first, second, third].forEach(function(s, k) {
+        if (!s) return;
+        box.append(
+            make('span', {class: 'title'}, s.label + (s.unit && s.unit !== 'bias.unit' ? ' (' + s.unit + ')' : '')));
+        s.values.forEach(function(v, i) {
+          var e = k === 0 ? key(colour(s, v), [1, 0], 'circle') :
+                            key('var(--soft)', k === 1 ? dashes[i % dashes.length] : [1, 0],
+                                k === 1 ? shapes[i % shapes.length] : 'circle', k === 2 && i > 0);
+          e.append(v);
+          box.append(e);
         });
-        view.addEventListener("mouseout", hideTip);
-        view.addEventListener("click", function (event, item) { if (item && item.datum && item.datum.id !== undefined) page.select(item.datum.id); });
-        if (built.hover) built.hover(view, plot);
-      }
-    };
-    drawn.push(self);
-    return self;
-  }
-  function pointTip(event, d, measure) {
-    var p = byId[d.id], rows = [[measureLabel(measure), shown(value(p, measure), measureUnit(measure))]];
-    ["error", "acne", "peter_panning", "aliasing_dark", "aliasing_light", "shadow_ms"].forEach(function (m) {
-      if (m !== measure && m in p.metrics) rows.push([measureLabel(m), shown(p.metrics[m], measureUnit(m)), m === "error" || m === "shadow_ms" ? "" : m]);
-    });
-    showTip(event, rows, "Point " + p.id + (p.phrase ? ": " + p.phrase : ""));
-  }
-  function picker(label, options, chosen, changed) {
-    var select = make("select", { on: { change: function () { changed(select.value); } } }, options.map(function (o) {
-      var option = make("option", { value: o[0] }, o[1]);
-      if (String(o[0]) === String(chosen)) option.selected = true;
-      return option;
-    }));
-    return make("label", {}, [label, select]);
-  }
-  function segments(options, chosen, changed) {
-    var box = make("span", { class: "segments" });
-    options.forEach(function (o) {
-      box.append(make("button", { type: "button", "aria-pressed": String(o[0] === chosen), on: { click: function () {
-        box.querySelectorAll("button").forEach(function (b) { b.setAttribute("aria-pressed", String(b.textContent === o[1])); });
-        changed(o[0]);
-      } } }, o[1]));
-    });
-    return box;
-  }
-
-  // ---- how a swept setting is told apart: the first by colour, the second by dash and shape
-  var categorical = ["peter_panning", "acne", "coverage_light", "precision", "aliasing_dark", "aliasing_light", "coverage_dark"];
-  var dashes = [[1, 0], [7, 4], [2, 3], [9, 3, 2, 3]], shapes = ["circle", "square", "triangle-up", "diamond", "cross", "triangle-down"];
-  function tellApart(names) {
-    var several = names.filter(function (s) { return s.values.length > 1; });
-    function colour(s, v) {
-      var i = s.values.indexOf(v), n = s.values.length;
-      return s.numeric ? "var(--q" + (n < 2 ? 0 : Math.round(i * 6 / (n - 1))) + ")" : "var(--c-" + categorical[i % categorical.length] + ")";
+      });
     }
-    // Numbers go to the colours' order, a choice to the dashes.
-    several.sort(function (a, b) { return b.numeric - a.numeric; });
-    var first = several[0], second = several[1], rest = several.slice(2);
-    return {
-      of: function (p) {
-        var j = second ? second.values.indexOf(p.settings[second.name]) : 0;
-        return { colour: first ? colour(first, p.settings[first.name]) : "var(--ink)", dash: dashes[j % dashes.length], shape: shapes[j % shapes.length],
-          line: names.map(function (s) { return p.settings[s.name]; }).join("|") };
-      },
-      legend: function (box, lines) {
-        box.textContent = "";
-        function key(d, c, shape) {
-          var svg = '<svg viewBox="0 0 26 10" aria-hidden="true">' + (lines ? '<line x1="0" x2="26" y1="5" y2="5" stroke="' + c + '" stroke-width="2" stroke-dasharray="' + d.join(" ") + '"/>'
-            : shape === "circle" ? '<circle cx="13" cy="5" r="4.5" fill="' + c + '"/>' : shape === "square" ? '<rect x="9" y="1" width="8" height="8" fill="' + c + '"/>' : '<path d="M13 0l5 9h-10z" fill="' + c + '"/>') + "</svg>";
-          var e = make("span"); e.innerHTML = svg; return e;
-        }
-        [first, second].forEach(function (s, k) {
-          if (!s) return;
-          box.append(make("span", { class: "title" }, s.label + (s.unit ? " (" + s.unit + ")" : "")));
-          s.values.forEach(function (v, i) {
-            var e = k === 0 ? key([1, 0], colour(s, v), "circle") : key(dashes[i % dashes.length], "var(--soft)", shapes[i % shapes.length]);
-            e.append(v); box.append(e);
-          });
-        });
-        if (rest.length) box.append(make("span", { class: "title" }, "not told apart: " + rest.map(function (s) { return s.label; }).join(", ")));
-      }
-    };
-  }
+  };
+}
 
-  // A logarithmic axis cannot show zeros: they stand on a floor below the least positive value, hollow.
-  function logFloor(values) {
-    var positive = values.filter(function (v) { return v > 0; });
-    if (!positive.length) return null;
-    var low = Math.min.apply(null, positive), high = Math.max.apply(null, positive), zeros = positive.length < values.length;
-    return { low: zeros ? low / 2.2 : low / 1.25, high: high * 1.25, zero: zeros ? low / 2.2 : null };
-  }
+// A logarithmic axis cannot show zeros: they stand on a floor below the least positive value, hollow.
+function logFloor(values) {
+  var positive = values.filter(function(v) {
+    return v > 0;
+  });
+  if (!positive.length) return null;
+  var low = Math.min.apply(null, positive), high = Math.max.apply(null, positive),
+      zeros = positive.length < values.length;
+  return {low: zeros ? low / 2.2 : low / 1.25, high: high * 1.25, zero: zeros ? low / 2.2 : null};
+}
 
-  page.kit = { make: make, finite: finite, digits: digits, shown: shown, value: value, measureLabel: measureLabel, measureUnit: measureUnit, measures: measures,
-    logTicks: logTicks, axisLabel: axisLabel, showTip: showTip, hideTip: hideTip, chart: chart, picker: picker, segments: segments, tellApart: tellApart,
-    logFloor: logFloor, causeLabel: causeLabel, byId: byId, drawn: drawn, thin: thin };
+page.kit = {
+  make: make,
+  finite: finite,
+  digits: digits,
+  shown: shown,
+  value: value,
+  measureLabel: measureLabel,
+  measureUnit: measureUnit,
+  measures: measures,
+  logTicks: logTicks,
+  axisLabel: axisLabel,
+  showTip: showTip,
+  hideTip: hideTip,
+  chart: chart,
+  picker: picker,
+  segments: segments,
+  tellApart: tellApart,
+  logFloor: logFloor,
+  causeLabel: causeLabel,
+  byId: byId,
+  drawn: drawn,
+  thin: thin
+};
 })();

@@ -1,82 +1,162 @@
 // The page around the charts: pictures to flip between, the sortable table, selection, and the first drawing.
-(function () {
-  "use strict";
-  var page = window.noonmarkPage, kit = page.kit, make = kit.make;
+(function() {
+'use strict';
+var page = window.noonmarkPage, kit = page.kit, make = kit.make;
 
-  // ---- pictures
-  var sets = Array.prototype.slice.call(document.querySelectorAll(".pictures")), current = null;
-  sets.forEach(function (set) {
-    var figures = Array.prototype.slice.call(set.querySelectorAll("figure")), flip = make("div", { class: "flip" });
-    function show(i) {
-      i = (i + figures.length) % figures.length;
-      set.shownIndex = i;
-      figures.forEach(function (f, j) { f.classList.toggle("shown", i === j); flip.children[j].setAttribute("aria-pressed", String(i === j)); });
-    }
-    figures.forEach(function (f, j) { flip.append(make("button", { type: "button", on: { click: function () { show(j); } } }, (j < 9 ? j + 1 + " " : "") + f.dataset.name)); });
-    set.querySelector(".stage").before(flip);
-    set.show = show; set.count = figures.length; set.dataset.ready = "";
-    show(0);
-  });
-  function choose(set) { current = set; sets.forEach(function (s) { s.hidden = s !== set; }); }
-  if (sets.length) {
-    choose(sets[0]);
-    if (sets.length > 1) document.querySelector(".picture-picker").append(kit.picker("Point", sets.map(function (s) {
-      return [s.dataset.point, s.querySelector("h3").textContent];
-    }), sets[0].dataset.point, function (id) { var kept = current.shownIndex; choose(sets.filter(function (s) { return s.dataset.point === id; })[0]); current.show(Math.min(kept, current.count - 1)); }));
-  }
-  // Keys work while the pictures are in sight, and nothing that takes keys has the focus.
-  document.addEventListener("keydown", function (event) {
-    if (!current || event.ctrlKey || event.metaKey || event.altKey || /^(SELECT|INPUT|TEXTAREA)$/.test(document.activeElement.tagName)) return;
-    var box = current.getBoundingClientRect();
-    if (box.bottom < 60 || box.top > innerHeight - 60) return;
-    var i = current.shownIndex, digit = event.key >= "1" && event.key <= "9" ? +event.key - 1 : -1;
-    if (event.key === "ArrowRight") current.show(i + 1);
-    else if (event.key === "ArrowLeft") current.show(i - 1);
-    else if (digit >= 0 && digit < current.count) current.show(digit);
-    else return;
-    event.preventDefault();
-  });
-
-  // ---- the table
-  document.querySelectorAll("table.sortable").forEach(function (table) {
-    var body = table.tBodies[0], heads = Array.prototype.slice.call(table.tHead.rows[0].cells);
-    function sort(column) {
-      var down = heads[column].getAttribute("aria-sort") === "ascending";
-      heads.forEach(function (h) { h.removeAttribute("aria-sort"); });
-      heads[column].setAttribute("aria-sort", down ? "descending" : "ascending");
-      function key(row) { var v = row.cells[column].dataset.v; return v === undefined ? "" : v; }
-      var rows = Array.prototype.slice.call(body.rows).map(function (r) { var t = key(r), n = t === "" ? NaN : Number(t); return { r: r, t: t, n: n }; });
-      var numeric = rows.some(function (x) { return !isNaN(x.n); });
-      rows.sort(function (a, b) {
-        if (!numeric) return (a.t < b.t ? -1 : a.t > b.t ? 1 : 0) * (down ? -1 : 1);
-        if (isNaN(a.n) || isNaN(b.n)) return isNaN(a.n) - isNaN(b.n); // what is not finite goes last either way
-        return (a.n - b.n) * (down ? -1 : 1);
-      });
-      rows.forEach(function (x) { body.append(x.r); });
-    }
-    heads.forEach(function (head, i) {
-      head.tabIndex = 0;
-      head.addEventListener("click", function () { sort(i); });
-      head.addEventListener("keydown", function (e) { if (e.key === "Enter" || e.key === " ") { e.preventDefault(); sort(i); } });
+// ---- pictures
+var sets = Array.prototype.slice.call(document.querySelectorAll('.pictures')), current = null;
+sets.forEach(function(set) {
+  var figures = Array.prototype.slice.call(set.querySelectorAll('figure')), flip = make('div', {class: 'flip'});
+  function show(i) {
+    i = (i + figures.length) % figures.length;
+    set.shownIndex = i;
+    figures.forEach(function(f, j) {
+      f.classList.toggle('shown', i === j);
+      flip.children[j].setAttribute('aria-pressed', String(i === j));
     });
-    body.addEventListener("click", function (event) { var row = event.target.closest("tr"); if (row) page.select(+row.dataset.point); });
+    enlarge();
+  }
+  figures.forEach(function(f, j) {
+    flip.append(make(
+        'button', {
+          type: 'button',
+          on: {
+            click: function() {
+              show(j);
+            }
+          }
+        },
+        (j < 9 ? j + 1 + ' ' : '') + f.dataset.name));
   });
-  page.onSelect.push(function (id) {
-    document.querySelectorAll("tr.selected").forEach(function (r) { r.classList.remove("selected"); });
-    var row = document.getElementById("p" + id);
-    if (row) row.classList.add("selected");
-    var set = sets.filter(function (s) { return +s.dataset.point === id; })[0];
-    if (set && set !== current) { choose(set); var s = document.querySelector(".picture-picker select"); if (s) s.value = String(id); }
+  set.querySelector('.stage').before(flip);
+  set.show = show;
+  set.count = figures.length;
+  set.dataset.ready = '';
+  show(0);
+});
+function choose(set) {
+  current = set;
+  sets.forEach(function(s) {
+    s.hidden = s !== set;
   });
+}
+// A picture with fewer pixels than its place shows them as squares, since each pixel was judged by itself.
+function enlarge() {
+  document.querySelectorAll('.stage img').forEach(function(i) {
+    i.classList.toggle('enlarged', i.naturalWidth > 0 && i.naturalWidth < i.clientWidth);
+  });
+}
+if (sets.length) {
+  choose(sets[0]);
+  if (sets.length > 1)
+    document.querySelector('.picture-picker')
+        .append(kit.picker(
+            'Point', sets.map(function(s) {
+              return [s.dataset.point, s.querySelector('h3').textContent];
+            }),
+            sets[0].dataset.point, function(id) {
+              var kept = current.shownIndex;
+              choose(sets.filter(function(s) {
+                return s.dataset.point === id;
+              })[0]);
+              current.show(Math.min(kept, current.count - 1));
+            }));
+}
+// Keys work while the pictures are in sight, and nothing that takes keys has the focus.
+document.addEventListener('keydown', function(event) {
+  if (!current || event.ctrlKey || event.metaKey || event.altKey ||
+      /^(SELECT|INPUT|TEXTAREA)$/.test(document.activeElement.tagName))
+    return;
+  var box = current.getBoundingClientRect();
+  if (box.bottom < 60 || box.top > innerHeight - 60) return;
+  var i = current.shownIndex, digit = event.key >= '1' && event.key <= '9' ? +event.key - 1 : -1;
+  if (event.key === 'ArrowRight')
+    current.show(i + 1);
+  else if (event.key === 'ArrowLeft')
+    current.show(i - 1);
+  else if (digit >= 0 && digit < current.count)
+    current.show(digit);
+  else
+    return;
+  event.preventDefault();
+});
 
-  // ---- first drawing, and again when the width changes
-  function drawAll() { kit.drawn.forEach(function (c) { c.draw(); }); }
-  drawAll();
-  var width = innerWidth, timer = 0;
-  addEventListener("resize", function () {
-    if (innerWidth === width) return;
-    width = innerWidth;
-    clearTimeout(timer);
-    timer = setTimeout(drawAll, 150);
+// ---- the table
+document.querySelectorAll('table.sortable').forEach(function(table) {
+  var body = table.tBodies[0], heads = Array.prototype.slice.call(table.tHead.rows[0].cells);
+  function sort(column) {
+    var down = heads[column].getAttribute('aria-sort') === 'ascending';
+    heads.forEach(function(h) {
+      h.removeAttribute('aria-sort');
+    });
+    heads[column].setAttribute('aria-sort', down ? 'descending' : 'ascending');
+    function key(row) {
+      var v = row.cells[column].dataset.v;
+      return v === undefined ? '' : v;
+    }
+    var rows = Array.prototype.slice.call(body.rows).map(function(r) {
+      var t = key(r), n = t === '' ? NaN : Number(t);
+      return {r: r, t: t, n: n};
+    });
+    var numeric = rows.some(function(x) {
+      return !isNaN(x.n);
+    });
+    rows.sort(function(a, b) {
+      if (!numeric) return (a.t < b.t ? -1 : a.t > b.t ? 1 : 0) * (down ? -1 : 1);
+      if (isNaN(a.n) || isNaN(b.n)) return isNaN(a.n) - isNaN(b.n);  // what is not finite goes last either way
+      return (a.n - b.n) * (down ? -1 : 1);
+    });
+    rows.forEach(function(x) {
+      body.append(x.r);
+    });
+  }
+  heads.forEach(function(head, i) {
+    head.tabIndex = 0;
+    head.addEventListener('click', function() {
+      sort(i);
+    });
+    head.addEventListener('keydown', function(e) {
+      if (e.key === 'Enter' || e.key === ' ') {
+        e.preventDefault();
+        sort(i);
+      }
+    });
   });
+  body.addEventListener('click', function(event) {
+    var row = event.target.closest('tr');
+    if (row) page.select(+row.dataset.point);
+  });
+});
+page.onSelect.push(function(id) {
+  document.querySelectorAll('tr.selected').forEach(function(r) {
+    r.classList.remove('selected');
+  });
+  var row = document.getElementById('p' + id);
+  if (row) row.classList.add('selected');
+  var set = sets.filter(function(s) {
+    return +s.dataset.point === id;
+  })[0];
+  if (set && set !== current) {
+    choose(set);
+    var s = document.querySelector('.picture-picker select');
+    if (s) s.value = String(id);
+  }
+});
+
+// ---- first drawing, and again when the width changes
+function drawAll() {
+  kit.drawn.forEach(function(c) {
+    c.draw();
+  });
+  enlarge();
+}
+drawAll();
+addEventListener('load', enlarge);
+var width = innerWidth, timer = 0;
+addEventListener('resize', function() {
+  if (innerWidth === width) return;
+  width = innerWidth;
+  clearTimeout(timer);
+  timer = setTimeout(drawAll, 150);
+});
 })();
