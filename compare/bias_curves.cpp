@@ -114,7 +114,7 @@ BiasCounts::Best BiasCounts::best() const {
     stretches.push_back({x, error_dark_.size() - d + l});
     const float next = std::min(d < error_dark_.size() ? error_dark_[d] : infinity,
                                 l < error_light_.size() ? error_light_[l] : infinity);
-    if (next == infinity) break;
+    if (next > 1) break;  // a bias of 1 spans the whole map; nothing above it means anything
     x = next;
   }
   const auto least = std::min_element(stretches.begin(), stretches.end(),
@@ -157,7 +157,6 @@ BiasCurve summarise(const BiasCounts& counts, CurveParameter parameter, const Li
   curve.m_per_depth = frame.far_m - frame.near_m;
   curve.texels_per_depth = curve.m_per_depth / frame.texel_m();
 
-  // A bias of 1 spans the whole map; where no Peter Panning limits it, nothing above that means anything.
   const auto capped = [](float x) { return std::min(static_cast<double>(x), 1.0); };
   curve.acne_bound = options.acne_bound;
   curve.peter_panning_bound = options.peter_panning_bound;

@@ -48,7 +48,7 @@ class BiasCounts {
     float from = 0, to = 0;            // the stretch of least error; `to` may be infinity
     uint64_t wrong_taps = 0;
     float flat_from = 0, flat_to = 0;  // around it, wherever the error is within 10% of the least
-    uint64_t breakpoints = 0;          // of the error as a function of the bias, above 0
+    uint64_t breakpoints = 0;          // of the error as a function of the bias, in (0, 1]
   };
   Best best() const;
 
