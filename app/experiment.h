@@ -7,7 +7,7 @@
 // The file (every key may be left out; an unknown one is an error):
 //   title = "..."
 //   scene = "cube-room"              # or a table [scene] with name = and the scene's other settings
-//   pictures = "first"               # which points get pictures: first | all | none | worst
+//   pictures = "first"               # which points get pictures: first | all | none | worst | extremes (worst and best)
 //   [view] [light] [map] [bias] [filter] [truth]      # fixed settings: `noonmark settings` lists them
 //   [sweep]                          # every combination is one point; the first one named changes slowest
 //   map.resolution = [512, 1024]
@@ -55,7 +55,7 @@ struct Experiment {
   std::vector<Bound> bounds;
   bool curve_enabled = true;
   CurveOptions curve;
-  std::string pictures = "first";       // which points get pictures: first | all | none | worst
+  std::string pictures = "first";       // which points get pictures: first | all | none | worst | extremes (the worst and the best)
   std::vector<std::string> overridden;  // settings given by apply_override, in order
 };
 

@@ -25,7 +25,7 @@ class Reader : private TomlReader {
       if (item.key == "title")
         experiment_.title = string(*item.node, "title");
       else if (item.key == "pictures")
-        experiment_.pictures = one_of(*item.node, "pictures", {"first", "all", "none", "worst"});
+        experiment_.pictures = one_of(*item.node, "pictures", {"first", "all", "none", "worst", "extremes"});
       else if (item.key == "scene" && item.node->is_string())
         fix("scene.name", *item.node);
       else if (item.key == "sweep")

@@ -1,11 +1,13 @@
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
 #include "app/build_facts.h"
 #include "app/verbs.h"
 #include "scenes/error.h"
+#include "scenes/settings.h"
 
 namespace noonmark {
 namespace {
@@ -71,6 +73,15 @@ int run(int argc, char** argv) {
   CLI::App* settings = app.add_subcommand("settings", "List every setting, metric and quantity: unit, range, default, meaning");
   CLI::App* doctor = app.add_subcommand("doctor", "Say which OpenGL, ray tracer and libraries are at work");
 
+  if (argc > 1 && argv[1][0] != '-') {
+    std::vector<std::string_view> verbs;
+    for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+    if (std::find(verbs.begin(), verbs.end(), argv[1]) == verbs.end()) {
+      const std::string near = nearest_name(argv[1], verbs);
+      throw Error(ErrorKind::usage, "there is no verb '" + std::string(argv[1]) + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                                        " (noonmark --help lists them)");
+    }
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {

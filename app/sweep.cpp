@@ -120,15 +120,19 @@ std::vector<PictureRecord> keep_pictures(const Measurement& m, int64_t id, const
   return write_pictures(m, folder, "images", stem);
 }
 
-// The worst point by its error; one that is not finite is worse than any.
-int64_t worst_point(const std::vector<PointRecord>& points) {
+// The points whose pictures can only be chosen when all are measured: by their error; one that is not finite is worse
+// than any.
+std::vector<int64_t> chosen_late(const std::string& pictures, const std::vector<PointRecord>& points) {
   const auto badness = [](const PointRecord& p) {
     const double error = p.metrics.at("error");
     return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
   };
-  return std::max_element(points.begin(), points.end(), [&](const PointRecord& a, const PointRecord& b) {
-           return badness(a) < badness(b);
-         })->id;
+  const auto [best, worst] = std::minmax_element(points.begin(), points.end(), [&](const PointRecord& a, const PointRecord& b) {
+    return badness(a) < badness(b);
+  });
+  if (pictures == "worst" || (pictures == "extremes" && best == worst)) return {worst->id};
+  if (pictures == "extremes") return {best->id, worst->id};
+  return {};
 }
 
 void require_sound_ladders(const Results& results) {
@@ -176,12 +180,11 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
   }
 
   outcome.results = store.load();
-  if (!outcome.interrupted && experiment.pictures == "worst") {
-    const int64_t id = worst_point(outcome.results.points);
-    if (find_point(outcome.results.points, id)->pictures.empty()) {
-      store.set_pictures(id, keep_pictures(bench.measure(planned[static_cast<size_t>(id)], std::nullopt), id, options.out));
-      outcome.results = store.load();
-    }
+  if (!outcome.interrupted) {
+    for (int64_t id : chosen_late(experiment.pictures, outcome.results.points))
+      if (find_point(outcome.results.points, id)->pictures.empty())
+        store.set_pictures(id, keep_pictures(bench.measure(planned[static_cast<size_t>(id)], std::nullopt), id, options.out));
+    outcome.results = store.load();
   }
   outcome.results.bounds = evaluate_bounds(outcome.results.points, experiment.bounds, [&](const PointRecord& point) {
     return reproduce_command(experiment, point.settings);

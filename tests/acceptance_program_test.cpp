@@ -1,0 +1,229 @@
+// The program as a user meets it: verbs, exit codes, messages, files; a killed sweep that resumes.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sqlite3.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "scenes/file.h"
+#include "tests/acceptance_support.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("noonmark-" + std::to_string(getpid()) + "-" + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  pid_t start(const std::vector<std::string>& arguments) {
+    std::vector<char*> argv = {const_cast<char*>(NOONMARK_PROGRAM)};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    const pid_t child = fork();
+    if (child != 0) return child;
+    if (chdir(folder_.c_str()) != 0) _exit(126);
+    const int output = open("output.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(output, 1);
+    dup2(output, 2);
+    execv(NOONMARK_PROGRAM, argv.data());
+    _exit(127);
+  }
+  static int wait_for(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  int run(const std::vector<std::string>& arguments) {
+    const int code = wait_for(start(arguments));
+    output_ = read_file((folder_ / "output.txt").string());
+    return code;
+  }
+  std::string write(const std::string& name, const std::string& text) {
+    write_file_atomically((folder_ / name).string(), text);
+    return (folder_ / name).string();
+  }
+  bool says(const std::string& text) const { return output_.find(text) != std::string::npos; }
+
+  fs::path folder_;
+  std::string output_;
+};
+
+const std::string sweep = R"(
+title = "A small sweep"
+scene = "cube-room"
+pictures = "none"
+[view]
+width_px = 320
+height_px = 180
+[sweep]
+map.resolution = [64, 100, 128, 200, 256, 300, 400, 512]
+filter.kind = ["none", "box"]
+bias.constant = [0, 0.002, 0.01]
+[[bound]]
+metric = "residual"
+max = 1e-6
+)";
+
+int points_in(const fs::path& store) {
+  sqlite3* db = nullptr;
+  int count = 0;
+  if (sqlite3_open_v2(store.c_str(), &db, SQLITE_OPEN_READONLY, nullptr) == SQLITE_OK)
+    sqlite3_exec(db, "SELECT count(*) FROM points", [](void* out, int, char** values, char**) {
+      *static_cast<int*>(out) = std::stoi(values[0]);
+      return 0;
+    }, &count, nullptr);
+  sqlite3_close(db);
+  return count;
+}
+
+// Every column before the times, which are the last ones (compare/csv.h).
+std::string without_times(const fs::path& csv) {
+  std::istringstream lines(read_file(csv.string()));
+  std::string line, kept;
+  size_t columns = 0;
+  while (std::getline(lines, line)) {
+    std::vector<std::string> fields;
+    std::istringstream row(line);
+    for (std::string field; std::getline(row, field, ',');) fields.push_back(field);
+    if (columns == 0) {
+      while (columns < fields.size() && !fields[columns].ends_with("_ms")) ++columns;
+    }
+    for (size_t i = 0; i < columns; ++i) kept += fields[i] + ",";
+    kept += "\n";
+  }
+  return columns > 30 ? kept : "no times found";
+}
+
+TEST_F(Program, ResumesAfterSigkillWithTheSameResults) {
+  const std::string experiment = write("sweep.toml", sweep);
+  ASSERT_EQ(run({"run", experiment, "--out", "whole"}), 0) << output_;
+  ASSERT_EQ(points_in(folder_ / "whole/results.sqlite"), 48);
+
+  const pid_t child = start({"run", experiment, "--out", "killed"});
+  const fs::path store = folder_ / "killed/results.sqlite";
+  for (int i = 0; i < 6000 && points_in(store) < 10; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  kill(child, SIGKILL);
+  ASSERT_EQ(wait_for(child), -SIGKILL) << "it must not have finished before it was killed";
+  const int left = points_in(store);
+  EXPECT_GE(left, 10);
+  EXPECT_LT(left, 48);
+  EXPECT_FALSE(fs::exists(folder_ / "killed/results.csv"));
+
+  ASSERT_EQ(run({"run", experiment, "--out", "killed"}), 0) << output_;
+  EXPECT_TRUE(says(" of 48 points are in killed already")) << output_;
+  EXPECT_EQ(without_times(folder_ / "killed/results.csv"), without_times(folder_ / "whole/results.csv"));
+  for (const auto& entry : fs::directory_iterator(folder_ / "killed"))
+    EXPECT_TRUE(entry.path().filename() == "results.sqlite" || entry.path().filename() == "results.csv" || entry.path().filename() == "report.html") << entry;
+
+  // A changed experiment does not mix with what is there.
+  const std::string other = write("sweep.toml", sweep + "\n[map]\nformat = \"16\"\n");
+  EXPECT_EQ(run({"run", other, "--out", "killed"}), 2) << output_;
+  EXPECT_TRUE(says("map.format")) << output_;
+}
+
+TEST_F(Program, StopsAtSigtermAndSaysThatItIsIncomplete) {
+  const std::string experiment = write("sweep.toml", sweep);
+  const pid_t child = start({"check", experiment, "--out", "out"});
+  for (int i = 0; i < 6000 && points_in(folder_ / "out/results.sqlite") < 3; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  kill(child, SIGTERM);
+  EXPECT_EQ(wait_for(child), 6);
+  EXPECT_NE(read_file((folder_ / "out/summary.md").string()).find("Incomplete"), std::string::npos);
+}
+
+TEST_F(Program, ChecksTheExperimentOfTheDemo) {
+  const std::string shipped = std::string(NOONMARK_SOURCE_DIR) + "/experiments/cube-room.toml";
+  ASSERT_EQ(run({"check", shipped, "--out", "out"}), 0) << output_;
+  for (const char* file : {"report.html", "results.csv", "results.sqlite", "junit.xml", "summary.md"}) EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
+
+  // The same results judged by a tighter bound: broken, with the point, the pixel and the command.
+  const std::string tightened = write("tight.toml", read_file(shipped) + "\n[[bound]]\nmetric = \"aliasing\"\nmax = 1e-9\n");
+  ASSERT_EQ(run({"check", tightened, "--out", "out"}), 1) << output_;
+  EXPECT_TRUE(says("noonmark render")) << output_;
+  EXPECT_TRUE(says("pixel")) << output_;
+  EXPECT_NE(read_file((folder_ / "out/junit.xml").string()).find("<failure"), std::string::npos);
+}
+
+TEST_F(Program, RendersOnePointWithAllThatASecondOpinionNeeds) {
+  ASSERT_EQ(run({"render", "--set", "view.width_px=160", "--set", "view.height_px=90", "--set", "map.resolution=128", "--out", "one"}), 0) << output_;
+  for (const char* file : {"point.json", "ladder.exr", "map.exr", "point-truth.png", "point-map.png", "point-classes.png"})
+    EXPECT_GT(fs::file_size(folder_ / "one" / file), 200u) << file;
+  const std::string experiment = write("sweep.toml", sweep);
+  EXPECT_EQ(run({"render", experiment}), 2);
+  EXPECT_TRUE(says("--point")) << output_;
+  EXPECT_EQ(run({"render", experiment, "--point", "48"}), 2) << output_;
+  EXPECT_EQ(run({"render", experiment, "--point", "47", "--out", "one"}), 0) << output_;
+}
+
+TEST_F(Program, RebuildsTheReportFromTheStore) {
+  const std::string experiment = write("sweep.toml", sweep);
+  ASSERT_EQ(run({"run", experiment, "--set", "map.resolution=64", "--out", "out"}), 0) << output_;
+  const std::string report = read_file((folder_ / "out/report.html").string());
+  fs::remove(folder_ / "out/report.html");
+  ASSERT_EQ(run({"report", "out"}), 0) << output_;
+  EXPECT_EQ(read_file((folder_ / "out/report.html").string()), report);
+  EXPECT_EQ(run({"report", "nowhere"}), 3) << output_;
+}
+
+struct Mistake {
+  std::vector<std::string> arguments;
+  int exit_code;
+  std::string says;
+};
+
+TEST_F(Program, AnswersMistakesWithOneLineAndTheDocumentedCode) {
+  write("bad.toml", "scene = \"cube-room\"\n[map]\nresolutoin = 5\n");
+  write("no-bounds.toml", "scene = \"cube-room\"\n");
+  write("broken.gltf", "{\"asset\": {\"version\": \"2.0\"}");
+  const std::vector<Mistake> mistakes = {
+      {{"run", "nowhere.toml"}, 2, "nowhere.toml"},
+      {{"run", "bad.toml"}, 2, "did you mean"},
+      {{"run", "no-bounds.toml", "--set", "map.resolutin=5"}, 2, "map.resolution"},
+      {{"run", "no-bounds.toml", "--set", "map.resolution=0"}, 2, "1 ... 16384"},
+      {{"run", "no-bounds.toml", "--set", "scene.name=cube-rom"}, 2, "did you mean 'cube-room'"},
+      {{"check", "no-bounds.toml"}, 2, "[[bound]]"},
+      {{"render", "--set", "scene.name=broken.gltf"}, 3, "broken.gltf"},
+      {{"render", "--set", "scene.name=missing.glb"}, 3, "missing.glb"},
+      {{"render", "--set", "map.near_m=5", "--set", "map.far_m=4"}, 2, "map.near_m"},
+      {{"render", "--set", "light.position_m=1,1,1", "--set", "light.target_m=1,1,1"}, 2, "light"},
+      {{"render", "--set", "filter.kind=box", "--set", "filter.size=4"}, 2, "odd"},
+      {{"dance"}, 2, "dance"},
+      {{}, 2, "subcommand"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    SCOPED_TRACE(testing::PrintToString(mistake.arguments));
+    EXPECT_EQ(run(mistake.arguments), mistake.exit_code) << output_;
+    EXPECT_TRUE(says(mistake.says)) << output_;
+    EXPECT_FALSE(says("defect")) << output_;
+  }
+}
+
+TEST_F(Program, TellsWhatThereIs) {
+  ASSERT_EQ(run({"doctor"}), 0) << output_;
+  EXPECT_TRUE(says("OpenGL") && says("Embree") && says("ISA")) << output_;
+  ASSERT_EQ(run({"scenes"}), 0);
+  for (const BuiltinScene& scene : builtin_scenes()) EXPECT_TRUE(says(std::string(scene.name)));
+  ASSERT_EQ(run({"settings"}), 0);
+  for (const Setting& row : settings_table()) EXPECT_TRUE(says(std::string(row.name)));
+  ASSERT_EQ(run({"--help"}), 0);
+  EXPECT_TRUE(says("Exit codes"));
+  const std::string experiment = write("sweep.toml", sweep);
+  ASSERT_EQ(run({"run", experiment, "--dry-run"}), 0) << output_;
+  EXPECT_TRUE(says("48 points")) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

@@ -1,0 +1,35 @@
+// What the acceptance tests share: settings in a line, the scenes to try, and a second implementation of nothing.
+#pragma once
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/workbench.h"
+#include "scenes/library.h"
+
+namespace noonmark::acceptance {
+
+using Assignment = std::pair<std::string, std::string>;
+
+inline Settings with(std::initializer_list<Assignment> assignments, Settings settings = {}) {
+  for (const auto& [name, value] : assignments) find_setting(name).set(settings, value);
+  return settings;
+}
+
+// The default picture is large; a test needs enough receivers to meet every case, not more.
+inline Settings small(const std::string& scene, int width = 400, int height = 240) {
+  return with({{"scene.name", scene}, {"view.width_px", std::to_string(width)}, {"view.height_px", std::to_string(height)}});
+}
+
+// Steps are sums of at most a dozen floats in [0,1], each rounded to 2^-24.
+inline constexpr double rounding_of_steps = 1e-6;
+
+inline std::string model(const std::string& name) {
+  return (std::filesystem::path(NOONMARK_SOURCE_DIR).parent_path() / "shared/scenes" / name / (name + ".gltf")).string();
+}
+
+inline double metric(const Measurement& m, const std::string& name) { return m.record.metrics.at(name); }
+
+}  // namespace noonmark::acceptance
