@@ -50,11 +50,13 @@ Image<Color> classes(const Measurement& m) {
   return paint(m, [&](size_t i) {
     if (!(m.ladder.flags[i] & flag_facing)) return named_color("attached");
     if (m.ladder.flags[i] & flag_ambiguous) return named_color("ambiguous");
-    const Color right = named_color(m.ladder.rung[1][i] != 0 ? "lit" : "shadowed");
+    // A little shading, so that the shapes can be told apart.
+    const float shade = 0.72f + 0.28f * m.probe.n_dot_l[i];
+    const glm::vec3 right = shade * glm::vec3(named_color(m.ladder.rung[1][i] != 0 ? "lit" : "shadowed"));
     const Cause cause = static_cast<Cause>(m.ladder.cause[i]);
-    if (cause == Cause::none) return right;
+    if (cause == Cause::none) return Color(right + 0.5f);
     const float wrong = std::abs(m.ladder.rung[5][i] - m.ladder.rung[1][i]);
-    return Color(glm::mix(glm::vec3(right), glm::vec3(named_color(cause_name(cause))), 0.25f + 0.75f * std::min(wrong, 1.0f)) + 0.5f);
+    return Color(glm::mix(right, glm::vec3(named_color(cause_name(cause))), 0.25f + 0.75f * std::min(wrong, 1.0f)) + 0.5f);
   });
 }
 

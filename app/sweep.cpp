@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -135,6 +136,16 @@ std::vector<int64_t> chosen_late(const std::string& pictures, const std::vector<
   return {};
 }
 
+// What an earlier run left there, when it is measured anew: pictures of other points would otherwise stay for ever.
+void remove_pictures(const std::string& out) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(out + "/images", none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() > 5 && name[0] == 'p' && std::isdigit(static_cast<unsigned char>(name[1])) && (name.ends_with(".png") || name.ends_with(".exr")))
+      std::filesystem::remove(entry.path(), none);
+  }
+}
+
 void require_sound_ladders(const Results& results) {
   for (const PointRecord& point : results.points)
     for (const char* name : {"residual", "tap_residual"})
@@ -157,6 +168,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
   const raytrace::TracerInfo tracer = raytrace::tracer_info();
   const auto facts = provenance(bench, planned, tracer);
   ResultStore store(options.out + "/results.sqlite", fingerprint(experiment, facts), options.overwrite ? Existing::overwrite : Existing::resume);
+  if (options.overwrite) remove_pictures(options.out);
   const auto total = static_cast<int64_t>(planned.size());
   store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene)), total);
 

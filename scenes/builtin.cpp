@@ -29,7 +29,7 @@ Scene cube_room(const SceneSettings&) {
   add_box(scene, "floating cube", glm::dvec3(0.5), place({0, 1.5, 0}, 0));
   add_box(scene, "standing cube", glm::dvec3(0.5), place({2, 0, 1}, 0));
   add_box(scene, "turned cube", glm::dvec3(0.25), place({-1, 0, 2}, 60));
-  scene.camera = {.eye_m = {-1.5, 3.2, 7.5}, .target_m = {0.8, 0.1, 0.6}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 100};
+  scene.camera = {.eye_m = {-1.6, 2.8, 6.4}, .target_m = {1.0, 0.35, 0.6}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 100};
   scene.light = {.position_m = {-2, 4, -1}, .target_m = {0, 0, 0}};
   scene.map = MapVolume{.extent_m = 20, .near_m = 1, .far_m = 7.5};
   return scene;
