@@ -214,32 +214,34 @@ void write_report(const Results& results, const std::string& out) {
 
 void print_plan(const Experiment& experiment) {
   const std::vector<Settings> planned = points(experiment);
-  double weight = 0;  // of every point, in lookups of the first point's kind
-  const auto lookups = [](const Settings& s) {
-    const double taps = static_cast<double>(kernel_size(s.filter)) * kernel_size(s.filter);
-    return static_cast<double>(s.view.width_px) * s.view.height_px * taps;
+  const auto taps = [](const Settings& s) {
+    return static_cast<double>(s.view.width_px) * s.view.height_px * kernel_size(s.filter) * kernel_size(s.filter);
   };
+  double all_taps = 0;
   for (size_t i = 0; i < planned.size(); ++i) {
     std::string text;
     for (const Swept& swept : experiment.swept) text += fmt::format("  {} = {}", swept.name, find_setting(swept.name).get(planned[i]));
     fmt::print("{:5}{}\n", i, text);
-    weight += lookups(planned[i]);
+    all_taps += taps(planned[i]);
   }
-  Settings small = planned[0];
-  small.view.width_px = std::max(1, small.view.width_px / 4);
-  small.view.height_px = std::max(1, small.view.height_px / 4);
+  // Time is close to a constant for each point plus a share for each tap: two small pictures of the first point tell both.
   Workbench bench(gl::DebugMode::log);
-  const auto seconds = [&] {
+  const auto seconds = [&](int divisor, double nudge) {
+    Settings small = planned[0];
+    small.view.width_px = std::max(1, small.view.width_px / divisor);
+    small.view.height_px = std::max(1, small.view.height_px / divisor);
+    small.map.extent_scale *= nudge;  // or what is remembered of the point before would come for nothing
     const auto start = std::chrono::steady_clock::now();
     bench.measure(small, experiment.curve);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return std::pair(taps(small), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   };
-  const double first = seconds();  // loads the scene and compiles the shaders as well
-  small.bias.constant += 1e-3;     // a new lookup of the same map and truth would be remembered; move the map a little
-  small.map.extent_scale *= 1.001;
-  const double again = seconds();
-  fmt::print("{} point{}, {:.3g} million taps; about {:.0f} s here (judged from point 0 at a quarter of its width and height)\n", planned.size(),
-             planned.size() == 1 ? "" : "s", weight / 1e6, first + again * weight / lookups(small));
+  seconds(4, 1);  // loads the scene and compiles the shaders
+  const auto [few, short_time] = seconds(4, 1.001);
+  const auto [more, longer_time] = seconds(2, 1.002);
+  const double per_tap = more > few ? std::max(0.0, (longer_time - short_time) / (more - few)) : 0;
+  const double per_point = std::max(0.0, short_time - per_tap * few);
+  fmt::print("{} point{}, {:.3g} million taps; about {:.0f} s here (judged from point 0 at a quarter and at half of its size)\n", planned.size(),
+             planned.size() == 1 ? "" : "s", all_taps / 1e6, per_point * static_cast<double>(planned.size()) + per_tap * all_taps);
 }
 
 }  // namespace noonmark

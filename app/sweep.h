@@ -28,7 +28,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
 // report.html and results.csv from what is in the results' directory.
 void write_report(const Results& results, const std::string& out);
 
-// What a run would do: every point, and the time it would take, judged from the first point at a quarter of its size.
+// What a run would do: every point, and about how long it would take, judged from small pictures of the first point.
 void print_plan(const Experiment& experiment);
 
 }  // namespace noonmark

@@ -45,7 +45,7 @@ int check_one(const std::string& path, const ExperimentArguments& arguments, con
   }
   int broken = 0;
   for (const BoundResult& bound : outcome.results.bounds) {
-    fmt::print("{}\n", describe(bound, find_point(outcome.results.points, bound.point), outcome.results.info.swept));
+    fmt::print("{}", describe(bound, find_point(outcome.results.points, bound.point), outcome.results.info.swept));
     broken += !bound.held;
   }
   fmt::print("{}: {} of {} bounds held; the report is {}/report.html\n", path, outcome.results.bounds.size() - static_cast<size_t>(broken),

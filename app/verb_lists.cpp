@@ -34,7 +34,7 @@ int verb_settings() {
   const Settings defaults;
   fmt::print("Settings: --set name=value, or in an experiment file ([map] resolution = 2048).\n\n");
   for (const Setting& row : settings_table())
-    fmt::print("{:<28} {:<16} {}\n{:<45} {}{}{}\n", row.name, row.get(defaults), row.help, "", row.range_text(), row.unit.empty() ? "" : " ", row.unit);
+    fmt::print("{:<28} {:<16} {}\n{:<45} {}\n", row.name, row.get(defaults), row.help, "", row.range_with_unit());
   fmt::print("\nMetrics: for [[bound]] and [plot].\n\n");
   for (const Metric& metric : metrics_table()) fmt::print("{:<32} {:<10} {}\n", metric.name, metric.unit, metric.help);
   fmt::print("\nRead off the bias curve: for [[bound]].\n\n");

@@ -21,8 +21,7 @@ std::optional<T> parse_number(std::string_view text) {
 }
 
 [[noreturn]] void refuse(const Setting& row, std::string_view text) {
-  throw Error(ErrorKind::usage, fmt::format("{} = '{}' is not allowed; it takes {}{}{}", row.name, text, row.range_text(),
-                                            row.unit.empty() ? "" : " ", row.unit));
+  throw Error(ErrorKind::usage, fmt::format("{} = '{}' is not allowed; it takes {}", row.name, text, row.range_with_unit()));
 }
 
 // The shortest decimal that reads back as the same double. -0 becomes 0, so that equal values have equal keys.
@@ -214,17 +213,24 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 
 int kernel_size(const FilterSettings& filter) { return filter.kind == FilterKind::box ? filter.size : 1; }
 
-std::string Setting::range_text() const {
-  std::string range;
+std::string Setting::range_text() const { return may_be_auto ? bare_range() + " or auto" : bare_range(); }
+
+std::string Setting::range_with_unit() const {
+  std::string range = bare_range();
+  if (!unit.empty()) range += fmt::format(" {}", unit);
+  return may_be_auto ? range + ", or auto" : range;
+}
+
+std::string Setting::bare_range() const {
   switch (type) {
     case ValueType::integer:
-    case ValueType::real: range = fmt::format("{} ... {}", min, max); break;
-    case ValueType::flag: range = "true | false"; break;
-    case ValueType::choice: range = fmt::format("{}", fmt::join(choices, " | ")); break;
-    case ValueType::text: range = "a name or a path"; break;
-    case ValueType::point: range = "x,y,z"; break;
+    case ValueType::real: return fmt::format("{:g} ... {:g}", min, max);
+    case ValueType::flag: return "true | false";
+    case ValueType::choice: return fmt::format("{}", fmt::join(choices, " | "));
+    case ValueType::text: return "a name or a path";
+    case ValueType::point: return "x,y,z";
   }
-  return may_be_auto ? range + " or auto" : range;
+  throw std::logic_error("unknown value type");
 }
 
 std::span<const Setting> settings_table() {

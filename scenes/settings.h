@@ -102,7 +102,11 @@ struct Setting {
   std::function<std::string(const Settings&)> get;
   std::function<void(Settings&, std::string_view)> set;  // throws Error(usage): what, range
 
-  std::string range_text() const;  // "1 ... 16384", "16 | 24 | 32f", "x,y,z" ...
+  std::string range_text() const;       // "1 ... 170 or auto", "16 | 24 | 32f", "x,y,z" ...
+  std::string range_with_unit() const;  // "1 ... 170 deg, or auto"
+
+ private:
+  std::string bare_range() const;
 };
 
 std::span<const Setting> settings_table();
