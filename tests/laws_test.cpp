@@ -1,4 +1,4 @@
-// The laws of shadow maps (CONTRIBUTING.md names them): closed forms that the whole instrument must reproduce, from the
+// The laws of shadow maps: closed forms that the whole instrument must reproduce, from the
 // rasteriser to the curve. g: the receiver's depth gradient in the light's plane; w: one texel; A = |cos phi| + |sin phi|.
 #include <gtest/gtest.h>
 
