@@ -1,30 +1,27 @@
 #include "app/image_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <stdexcept>
 
 #include "scenes/error.h"
+#include "scenes/file.h"
 
 namespace noonmark {
 namespace {
 
+// Encoded in memory: OpenImageIO 2.4 does not notice when a disk fills up under it, and leaves files cut short.
 void write(const std::string& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels) {
-  // The format is chosen by the extension, so the file beside keeps it.
-  const std::filesystem::path target(path);
-  const std::string beside = (target.parent_path() / (".writing-" + target.filename().string())).string();
   const auto fail = [&](const std::string& why) {
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    throw Error(ErrorKind::scene, fmt::format("cannot write {}: {}; is the folder there, writable, and the disk not full?", path, why));
+    throw Error(ErrorKind::scene, fmt::format("cannot write {}: {}", path, why));
   };
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(beside);
+  OIIO::Filesystem::IOVecOutput bytes;  // outlives the output that writes to it
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path, &bytes);
   if (!output) fail(OIIO::geterror());
-  if (!output->open(beside, spec) || !output->write_image(type, pixels) || !output->close()) fail(output->geterror());
-  std::error_code error;
-  std::filesystem::rename(beside, target, error);
-  if (error) fail(error.message());
+  if (!output->open(path, spec) || !output->write_image(type, pixels) || !output->close()) fail(output->geterror());
+  write_file_atomically(path, {reinterpret_cast<const char*>(bytes.buffer().data()), bytes.buffer().size()});
 }
 
 }  // namespace

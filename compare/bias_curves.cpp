@@ -22,7 +22,12 @@ struct Lists {
   uint64_t receivers = 0;
 };
 
-void append(std::vector<float>& to, const std::vector<float>& from) { to.insert(to.end(), from.begin(), from.end()); }
+// Empties `from`: with large kernels these lists are gigabytes, and two copies of all of them would not do.
+void append(std::vector<float>& to, std::vector<float>& from) {
+  if (to.empty()) to.swap(from);
+  to.insert(to.end(), from.begin(), from.end());
+  std::vector<float>().swap(from);
+}
 
 }  // namespace
 
@@ -63,7 +68,7 @@ BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, 
         lists.wrong_dark.push_back(most);
     }
   });
-  parts.combine_each([&](const Lists& part) {
+  parts.combine_each([&](Lists& part) {
     receivers_ += part.receivers;
     append(error_dark_, part.error_dark);
     append(error_light_, part.error_light);
@@ -96,7 +101,8 @@ float BiasCounts::acne_free_from(uint64_t allowed) const {
 
 float BiasCounts::peter_panning_free_to(uint64_t allowed) const {
   const Thresholds& t = by_cause_[static_cast<size_t>(Cause::peter_panning)];
-  return t.size() <= allowed ? infinity : std::nextafter(t[allowed], -infinity);
+  if (t.size() <= allowed || t[allowed] == infinity) return infinity;  // infinity: a slope that no bias reaches
+  return std::nextafter(t[allowed], -infinity);
 }
 
 BiasCounts::Best BiasCounts::best() const {
@@ -120,7 +126,7 @@ BiasCounts::Best BiasCounts::best() const {
   const auto least = std::min_element(stretches.begin(), stretches.end(),
                                       [](const Stretch& a, const Stretch& b) { return a.wrong < b.wrong; });
   const auto end_of = [&](auto stretch) {
-    return stretch + 1 == stretches.end() ? infinity : std::nextafter((stretch + 1)->from, -infinity);
+    return stretch + 1 == stretches.end() ? 1.0f : std::nextafter((stretch + 1)->from, -infinity);
   };
   const double limit = 1.1 * static_cast<double>(least->wrong);
   auto first = least, last = least;
@@ -157,22 +163,27 @@ BiasCurve summarise(const BiasCounts& counts, CurveParameter parameter, const Li
   curve.m_per_depth = frame.far_m - frame.near_m;
   curve.texels_per_depth = curve.m_per_depth / frame.texel_m();
 
-  const auto capped = [](float x) { return std::min(static_cast<double>(x), 1.0); };
   curve.acne_bound = options.acne_bound;
   curve.peter_panning_bound = options.peter_panning_bound;
-  const auto allowed = [&](double bound) { return static_cast<uint64_t>(std::floor(bound * static_cast<double>(counts.taps()))); };
+  // The most taps whose share, as the metrics divide it, is within the bound; the product may round to either side.
+  const auto allowed = [&](double bound) {
+    auto count = static_cast<uint64_t>(bound * static_cast<double>(counts.taps()));
+    if (per(count + 1, counts.taps()) <= bound) ++count;
+    if (count > 0 && per(count, counts.taps()) > bound) --count;
+    return count;
+  };
   const float from = counts.acne_free_from(allowed(options.acne_bound));
   const float to = counts.peter_panning_free_to(allowed(options.peter_panning_bound));
   if (counts.receivers() > 0 && from <= to && from <= 1) {
     curve.window_min_depth = from;
-    curve.window_max_depth = capped(to);
+    curve.window_max_depth = std::min(static_cast<double>(to), 1.0);
   }
   if (counts.receivers() > 0) {
     const BiasCounts::Best best = counts.best();
-    curve.best_bias_depth = (best.from + capped(best.to)) / 2;
+    curve.best_bias_depth = (static_cast<double>(best.from) + best.to) / 2;
     curve.best_error = per(best.wrong_taps, counts.taps());
     curve.flat_min_depth = best.flat_from;
-    curve.flat_max_depth = capped(best.flat_to);
+    curve.flat_max_depth = best.flat_to;
     curve.breakpoints = best.breakpoints;
   } else {
     curve.best_error = std::numeric_limits<double>::quiet_NaN();

@@ -3,8 +3,8 @@
 // sorted once, and every count is read off exactly.
 //
 //   BiasCounts curves(evidence, stored_map, CurveParameter::constant);
-//   curves.acne(0.005f);                                  // taps, exactly as rendering with that bias would book
-//   BiasCurve curve = summarise(curves, frame, bounds);
+//   curves.caused(Cause::acne, 0.005f);                   // taps, exactly as rendering with that bias would book
+//   BiasCurve curve = summarise(curves, CurveParameter::constant, frame, options);
 //
 // Exact for filters that are means of comparisons and for forms that only change the number subtracted: none, constant,
 // slope. Thresholds are float because the shader's comparison is.
@@ -45,9 +45,9 @@ class BiasCounts {
   float peter_panning_free_to(uint64_t allowed) const;
 
   struct Best {
-    float from = 0, to = 0;            // the stretch of least error; `to` may be infinity
+    float from = 0, to = 0;            // the stretch of least error in [0, 1]; the lowest where several are equal
     uint64_t wrong_taps = 0;
-    float flat_from = 0, flat_to = 0;  // around it, wherever the error is within 10% of the least
+    float flat_from = 0, flat_to = 0;  // around it, as far as the error stays within 10% of the least
     uint64_t breakpoints = 0;          // of the error as a function of the bias, in (0, 1]
   };
   Best best() const;

@@ -13,15 +13,15 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // d[i] = min over j of (i - j)^2 + f[j]: the lower envelope of the parabolas rooted at every j with finite f.
-void transform(const std::vector<float>& f, std::vector<float>& d, std::vector<int>& root, std::vector<float>& from) {
+void transform(const std::vector<float>& f, std::vector<float>& d, std::vector<int>& root, std::vector<double>& from) {
   const int n = static_cast<int>(f.size());
   int k = -1;
   for (int q = 0; q < n; ++q) {
     if (f[q] == infinity) continue;
-    float start = -infinity;
+    double start = -infinity;  // double: a float near 4096 cannot tell where two parabolas cross beside a pixel
     while (k >= 0) {
       const double p = root[k];
-      start = static_cast<float>(((f[q] + static_cast<double>(q) * q) - (f[root[k]] + p * p)) / (2.0 * (q - p)));
+      start = ((f[q] + static_cast<double>(q) * q) - (f[root[k]] + p * p)) / (2.0 * (q - p));
       if (start > from[k]) break;
       start = -infinity;
       --k;
@@ -35,7 +35,7 @@ void transform(const std::vector<float>& f, std::vector<float>& d, std::vector<i
       d[q] = infinity;
       continue;
     }
-    while (i < k && from[i + 1] < static_cast<float>(q)) ++i;
+    while (i < k && from[i + 1] < q) ++i;
     const float away = static_cast<float>(q - root[i]);
     d[q] = away * away + f[root[i]];
   }
@@ -48,7 +48,8 @@ Image<float> distance_to(const Image<uint8_t>& mask) {
   Image<float> squared(width, height, infinity);
   const auto lines = [](int count, int length, const auto& get, const auto& set) {
     tbb::parallel_for(tbb::blocked_range<int>(0, count), [&](const tbb::blocked_range<int>& range) {
-      std::vector<float> f(length), d(length), from(length);
+      std::vector<float> f(length), d(length);
+      std::vector<double> from(length);
       std::vector<int> root(length);
       for (int line = range.begin(); line != range.end(); ++line) {
         for (int i = 0; i < length; ++i) f[i] = get(line, i);

@@ -14,9 +14,15 @@ bool counted(const Ladder& ladder, size_t i) {
   return (ladder.flags[i] & flag_facing) && !(ladder.flags[i] & flag_ambiguous);
 }
 
-// std::max that keeps a NaN.
+// Whether the receiver lies in a gap, lit between an occluder and its shadow: Peter Panning where the truth is dark.
+// Under a filter a tap of a receiver that is itself lit can show it too; that one has no occluder, and no distance to it.
+bool in_gap(const Ladder& ladder, size_t i) {
+  return counted(ladder, i) && ladder.step[static_cast<size_t>(Cause::peter_panning)][i] != 0 && ladder.rung[1][i] == 0;
+}
+
+// std::max that keeps a NaN, whichever of the two it is.
 void raise(double& value, double candidate) {
-  if (!(candidate <= value)) value = candidate;
+  if (!(candidate <= value) && !std::isnan(value)) value = candidate;
 }
 
 // Largest distance in the picture from an aliased pixel to the nearest pixel whose truth is what the map said here. Such
@@ -43,9 +49,8 @@ double edge_displacement_pixels(const Ladder& ladder) {
 }  // namespace
 
 Image<uint8_t> peter_panning_mask(const Ladder& ladder) {
-  const Image<float>& step = ladder.step[static_cast<size_t>(Cause::peter_panning)];
-  Image<uint8_t> mask(step.width, step.height);
-  for (size_t i = 0; i < mask.size(); ++i) mask[i] = counted(ladder, i) && step[i] != 0;
+  Image<uint8_t> mask(ladder.flags.width, ladder.flags.height);
+  for (size_t i = 0; i < mask.size(); ++i) mask[i] = in_gap(ladder, i);
   return mask;
 }
 
@@ -54,7 +59,6 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   uint64_t receivers = 0, facing = 0, base = 0, outside = 0, wrong = 0, aliased = 0;
   double error = 0, error_soft = 0, gap = 0, edge_max = 0, edge_sum = 0;
   std::array<double, cause_count> size{};
-  const Image<float>& panning = ladder.step[static_cast<size_t>(Cause::peter_panning)];
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
     receivers += in.primitive[i] != no_primitive;
     if (!(ladder.flags[i] & flag_facing)) continue;
@@ -67,7 +71,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     error_soft += std::abs(static_cast<double>(ladder.rung[5][i]) - ladder.rung[0][i]);
     wrong += hard != 0;
     for (int c = 0; c < cause_count; ++c) size[c] += std::abs(static_cast<double>(ladder.step[c][i]));
-    if (panning[i] != 0) {
+    if (in_gap(ladder, i)) {
       // The gap along the receiver: the light's way from P to the occluder, seen along the surface.
       const double cosine = std::clamp(static_cast<double>(in.n_dot_l[i]), 0.0, 1.0);
       raise(gap, in.occluder_distance_m[i] * std::sqrt(1 - cosine * cosine));
@@ -79,7 +83,9 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     }
   }
 
-  const auto share = [&](double sum) { return base == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(base); };
+  // Without a counted receiver nothing was measured, and nothing may look like a perfect score.
+  const auto measured = [&](double value) { return base == 0 ? std::numeric_limits<double>::quiet_NaN() : value; };
+  const auto share = [&](double sum) { return measured(sum / static_cast<double>(base)); };
   const auto caused = [&](Cause cause) { return share(size[static_cast<size_t>(cause)]); };
   return {
       {"error", share(error)},
@@ -96,10 +102,10 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"coverage_dark", caused(Cause::coverage_dark)},
       {"coverage_light", caused(Cause::coverage_light)},
       {"precision", caused(Cause::precision)},
-      {"peter_panning_gap_m", gap},
-      {"edge_displacement_texels", edge_max},
-      {"edge_displacement_mean_texels", aliased == 0 ? 0 : edge_sum / static_cast<double>(aliased)},
-      {"edge_displacement_pixels", edge_displacement_pixels(ladder)},
+      {"peter_panning_gap_m", measured(gap)},
+      {"edge_displacement_texels", measured(edge_max)},
+      {"edge_displacement_mean_texels", measured(aliased == 0 ? 0 : edge_sum / static_cast<double>(aliased))},
+      {"edge_displacement_pixels", measured(edge_displacement_pixels(ladder))},
       {"receivers", static_cast<double>(receivers)},
       {"facing", static_cast<double>(facing)},
       {"counted", static_cast<double>(base)},

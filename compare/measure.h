@@ -18,10 +18,11 @@ struct MeasureInput {
 };
 
 // Every metric of the table but the times. A value that is not finite in the images makes the metrics that it enters
-// not finite; nothing is skipped.
+// not finite; nothing is skipped. Without a counted receiver every fraction, gap and displacement is NaN.
 std::map<std::string, double> measure_ladder(const MeasureInput& input);
 
-// The pixels with any Peter Panning: those whose occluder's distance measure_ladder() needs.
+// The counted pixels with any Peter Panning whose own truth is dark: those whose occluder's distance measure_ladder()
+// needs.
 Image<uint8_t> peter_panning_mask(const Ladder& ladder);
 
 // The counted receiver with the largest |R5 - R1|; x = -1 where there is none.

@@ -31,7 +31,8 @@ float lit_threshold(float reference, float stored) {
 float slope_threshold(float bias, float factor) {
   if (bias <= 0) return 0;
   if (!(factor > 0)) return infinity;
-  const double guess = static_cast<double>(bias) / factor;
+  const double midpoint = (static_cast<double>(bias) + std::nextafter(bias, 0.0f)) / 2;
+  const double guess = midpoint / factor;
   if (guess > std::numeric_limits<float>::max()) return infinity;
   return smallest(static_cast<float>(guess), [&](float slope) { return slope * factor >= bias; });
 }

@@ -9,7 +9,8 @@ namespace noonmark {
 float lit_threshold(float reference, float stored);
 
 // The smallest float slope s >= 0 for which s * factor >= bias in float arithmetic; infinity when there is none.
-// factor: the shader's 1 - N.L; bias: a lit_threshold.
+// factor: the shader's 1 - N.L, not NaN; bias: a lit_threshold. Found as above, from the midpoint below bias: where
+// bias is denormal, walking from bias / factor can take millions of steps too.
 float slope_threshold(float bias, float factor);
 
 }  // namespace noonmark

@@ -264,6 +264,8 @@ std::string nearest_name(std::string_view wrong, std::span<const std::string_vie
     size_t distance = edit_distance(wrong, name);
     // "resolution" is meant as "map.resolution".
     if (name.size() > wrong.size() + 1 && name.ends_with(wrong) && name[name.size() - wrong.size() - 1] == '.') distance = 0;
+    // "bias.const" is meant as "bias.constant", not as "bias.unit", though that is as few letters away.
+    if (2 * wrong.size() > name.size() && name.starts_with(wrong)) distance = std::min<size_t>(distance, 1);
     if (distance < best_distance) {
       best_distance = distance;
       best = name;

@@ -1,0 +1,311 @@
+// The ladder's arithmetic: the causes' table, the sums, and what is left out of which.
+#include "compare/ladder.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "compare/cause_colors.h"
+#include "compare/measure.h"
+#include "scenes/receivers.h"
+#include "tests/compare_evidence.h"
+
+namespace noonmark {
+namespace {
+
+// A share of taps is a float and the sums add nine of them: 2^-24 each. The program's own limit is 1e-6.
+constexpr double sum_rounding = 9 * 0x1p-24;
+
+double step(const Ladder& ladder, Cause cause, size_t i) { return ladder.step[static_cast<size_t>(cause)][i]; }
+
+constexpr Cause tap_classes[] = {Cause::aliasing_dark, Cause::aliasing_light, Cause::acne,
+                                 Cause::peter_panning, Cause::coverage_dark,  Cause::coverage_light};
+
+Synthetic any_evidence(uint64_t seed, int kernel) {
+  Synthetic s = random_evidence(seed, {20, 15, 6, kernel, seed % 2 == 0});
+  set_verdicts(s);
+  return s;
+}
+
+TEST(TapCause, IsTheDesignsTable) {
+  for (int row = 0; row < 16; ++row) {
+    const bool f = row & 1, v = row & 2, l = row & 4, covered = row & 8;
+    Cause expected = Cause::none;
+    if (l != f) {
+      if (!covered)
+        expected = l ? Cause::coverage_light : Cause::coverage_dark;
+      else if (v == l)
+        expected = l ? Cause::aliasing_light : Cause::aliasing_dark;
+      else
+        expected = l ? Cause::peter_panning : Cause::acne;
+    }
+    EXPECT_EQ(tap_cause({.exact_lit = f, .texel_lit = v, .covered = covered}, l), expected) << "row " << row;
+    EXPECT_EQ(naive::causes[covered][f][v][l], expected) << "the test's own table, row " << row;
+  }
+}
+
+TEST(TapOf, ReadsWhatOpenGLWould) {
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    const Synthetic s = any_evidence(seed, static_cast<int>(seed % 3) * 2 + 1);
+    for (size_t i = 0; i < s.r4.size(); ++i) {
+      if (!s.truth.facing[i]) continue;
+      const std::vector<naive::Tap> expected = naive::taps_of(s, s.stored, i);
+      for (size_t t = 0; t < expected.size(); ++t) {
+        const Tap tap = tap_of(s.probe, s.taps, s.map, s.stored, i, s.kernel, static_cast<int>(t));
+        ASSERT_EQ(tap.exact_lit, expected[t].exact_lit);
+        ASSERT_EQ(tap.texel_lit, expected[t].texel_lit);
+        ASSERT_EQ(tap.covered, expected[t].covered);
+        ASSERT_EQ(tap.always_lit, expected[t].beyond_far && s.map.lit_beyond_far);
+        ASSERT_EQ(tap.depth, expected[t].depth);
+      }
+    }
+  }
+}
+
+class Climb : public testing::TestWithParam<int> {};
+
+TEST_P(Climb, StepsSumToTheErrorAndTapClassesToTheirRungs) {
+  for (uint64_t seed = 1; seed <= 40; ++seed) {
+    const Synthetic s = any_evidence(seed, GetParam());
+    const Ladder ladder = climb(s.evidence());
+    EXPECT_LT(ladder.residual, sum_rounding);
+    EXPECT_LT(ladder.tap_residual, sum_rounding);
+    for (size_t i = 0; i < s.r4.size(); ++i) {
+      double all = 0, classes = 0;
+      for (int c = 0; c < cause_count; ++c) all += step(ladder, static_cast<Cause>(c), i);
+      for (Cause cause : tap_classes) classes += step(ladder, cause, i);
+      if (!s.truth.facing[i]) {
+        ASSERT_EQ(ladder.flags[i], 0);
+        ASSERT_EQ(ladder.cause[i], 0);
+        for (const Image<float>& rung : ladder.rung) ASSERT_EQ(rung[i], 0);
+        for (const Image<float>& one : ladder.step) ASSERT_EQ(one[i], 0);
+        continue;
+      }
+      const std::vector<naive::Tap> taps = naive::taps_of(s, s.exact, i);
+      double r2 = 0, r3 = 0;
+      std::array<double, cause_count> expected{};
+      for (const naive::Tap& tap : taps) {
+        r2 += tap.exact_lit;
+        r3 += tap.texel_lit;
+        const bool lit = naive::verdict(s, tap, i, naive::bias_at(s.bias, s.probe.n_dot_l[i]));
+        expected[static_cast<size_t>(naive::cause_of(tap, lit))] += (lit ? 1.0 : -1.0) / static_cast<double>(taps.size());
+      }
+      r2 /= static_cast<double>(taps.size());
+      r3 /= static_cast<double>(taps.size());
+      const double rungs[6] = {s.truth.soft[i], static_cast<double>(s.truth.lit[i]), r2, r3, s.r4[i], s.r5[i]};
+      for (size_t n = 0; n < 6; ++n) ASSERT_NEAR(ladder.rung[n][i], rungs[n], 0x1p-24) << "R" << n;
+      ASSERT_EQ(ladder.rung[4][i], s.r4[i]);
+      ASSERT_EQ(ladder.rung[5][i], s.r5[i]);
+      ASSERT_NEAR(all, rungs[5] - rungs[0], sum_rounding);
+      ASSERT_NEAR(classes, rungs[4] - rungs[2], sum_rounding);
+      for (Cause cause : tap_classes) ASSERT_NEAR(step(ladder, cause, i), expected[static_cast<size_t>(cause)], 0x1p-24) << cause_name(cause);
+      ASSERT_NEAR(step(ladder, Cause::light_size, i), rungs[1] - rungs[0], 0x1p-24);
+      ASSERT_NEAR(step(ladder, Cause::filter, i), rungs[2] - rungs[1], 0x1p-24);
+      ASSERT_NEAR(step(ladder, Cause::precision, i), rungs[5] - rungs[4], 0x1p-24);
+      ASSERT_EQ(step(ladder, Cause::none, i), 0);
+    }
+  }
+}
+
+TEST_P(Climb, FlagsFacingAmbiguousAndOutside) {
+  int outside = 0, beyond = 0;
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    const Synthetic s = any_evidence(seed, GetParam());
+    const Ladder ladder = climb(s.evidence());
+    for (size_t i = 0; i < s.r4.size(); ++i) {
+      const glm::ivec2 t = s.probe.texel[i];
+      const bool off = t.x < 0 || t.y < 0 || t.x > 5 || t.y > 5, far = s.probe.reference[i] > 1;
+      const int expected = !s.truth.facing[i] ? 0 : 1 + (off || far ? 2 : 0) + (s.truth.ambiguous[i] ? 4 : 0);
+      ASSERT_EQ(ladder.flags[i], expected);
+      outside += s.truth.facing[i] && off && !far;
+      beyond += s.truth.facing[i] && far && !off;
+    }
+  }
+  EXPECT_GT(outside, 0);
+  EXPECT_GT(beyond, 0);
+}
+
+TEST_P(Climb, NamesEveryWrongPixelAndOnlyThose) {
+  for (uint64_t seed = 1; seed <= 40; ++seed) {
+    const Synthetic s = any_evidence(seed, GetParam());
+    const Ladder ladder = climb(s.evidence());
+    for (size_t i = 0; i < s.r4.size(); ++i) {
+      const Cause cause = static_cast<Cause>(ladder.cause[i]);
+      const bool wrong = s.truth.facing[i] && s.r5[i] != static_cast<float>(s.truth.lit[i]);
+      ASSERT_EQ(cause != Cause::none, wrong);
+      if (!wrong) continue;
+      ASSERT_NE(cause, Cause::light_size);  // the class says why R5 is not R1
+      // Nothing else is larger; of equal ones it is the first.
+      for (int c = static_cast<int>(Cause::filter); c < cause_count; ++c) {
+        const double other = std::abs(step(ladder, static_cast<Cause>(c), i)), own = std::abs(step(ladder, cause, i));
+        if (GetParam() > 1) {
+          ASSERT_TRUE(c < static_cast<int>(cause) ? other < own : other <= own);
+        }
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, Climb, testing::Values(1, 3, 5));
+
+TEST(ClimbUnfiltered, NamesTheRungFromWhichThePixelStaysWrong) {
+  std::set<Cause> seen;
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    const Synthetic s = any_evidence(seed, 1);
+    const Ladder ladder = climb(s.evidence());
+    for (size_t i = 0; i < s.r4.size(); ++i) {
+      if (!s.truth.facing[i]) continue;
+      const bool truth = s.truth.lit[i] != 0;
+      int wrong_classes = 0;
+      for (Cause cause : tap_classes) wrong_classes += step(ladder, cause, i) != 0;
+      ASSERT_LE(wrong_classes, 1);
+      if ((s.r5[i] != 0) == truth) continue;
+      // The last rung that was right; all above it are wrong.
+      int stays_wrong_from = 5;
+      while (stays_wrong_from > 1 && (ladder.rung[static_cast<size_t>(stays_wrong_from - 1)][i] != 0) != truth) --stays_wrong_from;
+      const Cause cause = static_cast<Cause>(ladder.cause[i]);
+      seen.insert(cause);
+      const naive::Tap tap = naive::taps_of(s, s.exact, i).front();
+      if (stays_wrong_from == 5)
+        ASSERT_EQ(cause, Cause::precision);
+      else if (!tap.covered)
+        ASSERT_EQ(cause, truth ? Cause::coverage_dark : Cause::coverage_light);
+      else if (stays_wrong_from == 3)
+        ASSERT_EQ(cause, truth ? Cause::aliasing_dark : Cause::aliasing_light);
+      else if (stays_wrong_from == 4)
+        ASSERT_EQ(cause, truth ? Cause::acne : Cause::peter_panning);
+      else
+        FAIL() << "unfiltered, R2 is R1, but the pixel is wrong from R" << stays_wrong_from;
+    }
+  }
+  EXPECT_EQ(seen.size(), 7) << "the evidence does not provoke every cause";
+}
+
+TEST(ClimbUnfiltered, SizesOfCausesSumToTheError) {
+  // But for receivers that R4 and R5 get wrong in turn: precision may mend what acne broke.
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    Synthetic s = any_evidence(seed, 1);
+    s.r5 = s.r4;
+    const Ladder ladder = climb(s.evidence());
+    for (size_t i = 0; i < s.r4.size(); ++i) {
+      double sizes = 0;
+      for (Cause cause : tap_classes) sizes += std::abs(step(ladder, cause, i));
+      ASSERT_EQ(sizes, std::abs(ladder.rung[5][i] - ladder.rung[1][i]));
+    }
+  }
+}
+
+size_t a_facing_receiver(const Synthetic& s, bool ambiguous) {
+  for (size_t i = s.r4.size() / 2; i < s.r4.size(); ++i)
+    if (s.truth.facing[i] && (s.truth.ambiguous[i] != 0) == ambiguous) return i;
+  throw std::logic_error("no such receiver");
+}
+
+std::map<std::string, double> metrics_of(const Synthetic& s, const Ladder& ladder) {
+  const Image<uint32_t> primitive(s.r4.width, s.r4.height, 0);
+  const Image<float> ones(s.r4.width, s.r4.height, 1);
+  return measure_ladder({ladder, primitive, ones, ones, ones, 1});
+}
+
+TEST(ClimbWithBrokenValues, KeepsThemInResidualsAndMetrics) {
+  for (float broken : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    for (int rung : {0, 4, 5}) {
+      for (int kernel : {1, 3}) {
+        Synthetic s = any_evidence(3, kernel);
+        const size_t i = a_facing_receiver(s, false);
+        (rung == 0 ? s.truth.soft : rung == 4 ? s.r4 : s.r5)[i] = broken;
+        const Ladder ladder = climb(s.evidence());
+        EXPECT_FALSE(std::isfinite(ladder.residual)) << "R" << rung;
+        EXPECT_EQ(std::isfinite(ladder.tap_residual), rung != 4) << "R" << rung;
+        std::map<std::string, double> metrics = metrics_of(s, ladder);
+        EXPECT_FALSE(std::isfinite(metrics.at("residual")));
+        if (rung == 0) {
+          EXPECT_FALSE(std::isfinite(metrics.at("light_size")));
+        }
+        if (rung != 4) {
+          EXPECT_FALSE(std::isfinite(metrics.at("error_soft")));
+        }
+        if (rung != 0) {
+          EXPECT_FALSE(std::isfinite(metrics.at("precision")));
+        }
+        if (rung == 5) {
+          EXPECT_FALSE(std::isfinite(metrics.at("error")));
+        }
+        if (rung == 5) {
+          EXPECT_FALSE(std::isfinite(worst_pixel(ladder).error));
+        }
+        if (rung == 5) {
+          EXPECT_EQ(s.r5.index(worst_pixel(ladder).x, worst_pixel(ladder).y), i);
+        }
+      }
+    }
+  }
+}
+
+TEST(ClimbWithBrokenValues, FindsOneInTheLastBlockOfMany) {
+  Synthetic s = random_evidence(9, {220, 170, 64, 1, false});
+  set_verdicts(s);
+  EXPECT_LT(climb(s.evidence()).residual, sum_rounding);
+  for (size_t i = s.r5.size(); i-- > 0;) {
+    if (!s.truth.facing[i]) continue;
+    s.r4[i] = std::numeric_limits<float>::quiet_NaN();
+    break;
+  }
+  EXPECT_TRUE(std::isnan(climb(s.evidence()).residual));
+  EXPECT_TRUE(std::isnan(climb(s.evidence()).tap_residual));
+}
+
+TEST(ClimbWithBrokenValues, IsNotFooledByAVerdictThatNoTapExplains) {
+  Synthetic s = any_evidence(4, 3);
+  const size_t i = a_facing_receiver(s, false);
+  s.r4[i] += 0.125f;
+  const Ladder ladder = climb(s.evidence());
+  EXPECT_NEAR(ladder.tap_residual, 0.125, sum_rounding);
+  EXPECT_NEAR(ladder.residual, 0.125, sum_rounding);
+}
+
+TEST(AmbiguousReceivers, AreInTheResidualsAndInNoMetric) {
+  Synthetic s = any_evidence(5, 3);
+  const std::map<std::string, double> before = metrics_of(s, climb(s.evidence()));
+  const size_t i = a_facing_receiver(s, true);
+  s.r4[i] = s.r5[i] = 17;
+  const Ladder ladder = climb(s.evidence());
+  EXPECT_GT(ladder.residual, 1);
+  EXPECT_GT(ladder.tap_residual, 1);
+  for (const auto& [name, value] : metrics_of(s, ladder)) {
+    if (name == "residual" || name == "tap_residual" || name == "edge_displacement_pixels") continue;
+    EXPECT_EQ(value, before.at(name)) << name;
+  }
+  EXPECT_NE(worst_pixel(ladder).error, 16);
+  EXPECT_NE(worst_pixel(ladder).error, 17);
+}
+
+TEST(Climb, OfNothingIsNothing) {
+  Synthetic s;
+  s.exact = Image<float>(1, 1, 1);
+  const Ladder ladder = climb(s.evidence());
+  EXPECT_EQ(ladder.flags.size(), 0);
+  EXPECT_EQ(ladder.residual, 0);
+}
+
+TEST(KernelOf, RefusesTapsThatAreNoSquare) {
+  for (int kernel : {1, 3, 5, 31}) EXPECT_EQ(kernel_of({kernel * kernel, {}}), kernel);
+  for (int taps : {2, 3, 8, 10, 24}) EXPECT_THROW(kernel_of({taps, {}}), std::logic_error);
+}
+
+TEST(Causes, HaveNamesAllDifferentAndAColourEach) {
+  std::set<std::string_view> names;
+  for (int c = 0; c < cause_count; ++c) names.insert(cause_name(static_cast<Cause>(c)));
+  EXPECT_EQ(names.size(), cause_count);
+  for (int c = 1; c < cause_count; ++c) EXPECT_TRUE(find_color(cause_name(static_cast<Cause>(c)))) << cause_name(static_cast<Cause>(c));
+  EXPECT_EQ(cause_name(Cause::acne), "acne");
+  EXPECT_EQ(cause_name(Cause::peter_panning), "peter_panning");
+  EXPECT_EQ(cause_name(Cause::precision), "precision");
+  EXPECT_EQ(cause_name(Cause::light_size), "light_size");
+}
+
+}  // namespace
+}  // namespace noonmark

@@ -1,0 +1,338 @@
+// The metrics against values worked out by hand, and the distances that they use against trying every pixel.
+#include "compare/measure.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+
+#include "compare/distance.h"
+#include "compare/metrics.h"
+#include "scenes/error.h"
+#include "scenes/receivers.h"
+
+namespace noonmark {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan_float = std::numeric_limits<float>::quiet_NaN();
+
+// A picture whose receivers all face the light, are lit and are right.
+struct Picture {
+  explicit Picture(int width, int height) {
+    for (Image<float>& rung : ladder.rung) rung = Image<float>(width, height, 1);
+    for (Image<float>& step : ladder.step) step = Image<float>(width, height, 0);
+    ladder.cause = Image<uint8_t>(width, height, 0);
+    ladder.flags = Image<uint8_t>(width, height, flag_facing);
+    primitive = Image<uint32_t>(width, height, 0);
+    edge = occluder = Image<float>(width, height, nan_float);  // not to be read where nothing is wrong
+    n_dot_l = Image<float>(width, height, 1);
+  }
+  void rungs(int x, int y, std::array<float, 6> r) {
+    for (size_t n = 0; n < 6; ++n) ladder.rung[n].at(x, y) = r[n];
+  }
+  void step(int x, int y, Cause cause, float size) {
+    ladder.step[static_cast<size_t>(cause)].at(x, y) = size;
+    ladder.cause.at(x, y) = static_cast<uint8_t>(cause);
+  }
+  std::map<std::string, double> metrics() const { return measure_ladder({ladder, primitive, edge, occluder, n_dot_l, texel_m}); }
+  double metric(const char* name) const { return metrics().at(name); }
+
+  Ladder ladder;
+  Image<uint32_t> primitive;
+  Image<float> edge, occluder, n_dot_l;
+  double texel_m = 0.5;
+};
+
+void attach(Picture& p, int x, int y) {
+  p.ladder.flags.at(x, y) = 0;
+  for (Image<float>& rung : p.ladder.rung) rung.at(x, y) = 0;
+}
+
+TEST(Measure, GivesSharesOfTheCountedReceivers) {
+  Picture p(4, 3);
+  p.primitive.at(0, 0) = no_primitive;  // background
+  attach(p, 0, 0);
+  attach(p, 1, 0);  // a receiver that faces away
+  p.ladder.flags.at(2, 0) |= flag_ambiguous;
+  p.rungs(2, 0, {0, 1, 1, 1, 0, 0});
+  p.step(2, 0, Cause::acne, -1);
+  p.ladder.flags.at(3, 0) |= flag_ambiguous;
+  // Nine are left.
+  p.ladder.flags.at(3, 0) &= static_cast<uint8_t>(~flag_ambiguous);
+  p.rungs(0, 1, {0.5f, 1, 0.75f, 1, 0.25f, 0.5f});
+  p.step(0, 1, Cause::light_size, 0.5f);
+  p.step(0, 1, Cause::filter, -0.25f);
+  p.step(0, 1, Cause::acne, -0.75f);
+  p.step(0, 1, Cause::aliasing_light, 0.25f);
+  p.edge.at(0, 1) = 0.75f;
+  p.step(0, 1, Cause::precision, 0.25f);
+  p.rungs(1, 1, {0, 0, 0, 0, 1, 1});
+  p.step(1, 1, Cause::coverage_light, 1);
+  p.ladder.flags.at(1, 1) |= flag_outside;
+  p.rungs(2, 1, {1, 1, 1, 0, 0, 0});
+  p.step(2, 1, Cause::aliasing_dark, -1);
+  p.edge.at(2, 1) = 0.25f;
+  p.rungs(3, 1, {1, 1, 1, 1, 0, 0});
+  p.step(3, 1, Cause::coverage_dark, -1);
+  p.ladder.flags.at(3, 1) |= flag_outside;
+  p.ladder.residual = 2e-7;
+  p.ladder.tap_residual = 3e-7;
+
+  const double base = 9;
+  const std::map<std::string, double> expected = {
+      {"error", (0.5 + 1 + 1 + 1) / base},
+      {"error_soft", (0 + 1 + 1 + 1) / base},
+      {"wrong", 4 / base},
+      {"light_size", 0.5 / base},
+      {"filter", 0.25 / base},
+      {"aliasing", 1.25 / base},
+      {"aliasing_dark", 1 / base},
+      {"aliasing_light", 0.25 / base},
+      {"acne", 0.75 / base},
+      {"peter_panning", 0},
+      {"coverage", 2 / base},
+      {"coverage_dark", 1 / base},
+      {"coverage_light", 1 / base},
+      {"precision", 0.25 / base},
+      {"peter_panning_gap_m", 0},
+      {"edge_displacement_texels", 1.5},
+      {"edge_displacement_mean_texels", 1},
+      {"edge_displacement_pixels", std::sqrt(2.0) - std::sqrt(2.0) + 1},  // (2, 1) to the dark (1, 1)
+      {"receivers", 11},
+      {"facing", 10},
+      {"counted", base},
+      {"attached", 1},
+      {"ambiguous", 0.1},
+      {"outside", 2 / base},
+      {"residual", 2e-7},
+      {"tap_residual", 3e-7},
+  };
+  const std::map<std::string, double> found = p.metrics();
+  ASSERT_EQ(found.size(), expected.size());
+  for (const auto& [name, value] : expected) EXPECT_DOUBLE_EQ(found.at(name), value) << name;
+}
+
+TEST(Measure, GapIsTheLightsWayAlongTheReceiver) {
+  Picture p(3, 1);
+  // theta = 30 and 60 degrees: 2 m and 1 m of light's way are a gap of 1 m and 0.866 m.
+  p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
+  p.step(0, 0, Cause::peter_panning, 1);
+  p.n_dot_l.at(0, 0) = std::sqrt(0.75f);
+  p.occluder.at(0, 0) = 2;
+  p.rungs(1, 0, {0, 0, 0, 0, 1, 1});
+  p.step(1, 0, Cause::peter_panning, 1);
+  p.n_dot_l.at(1, 0) = 0.5f;
+  p.occluder.at(1, 0) = 1;
+  constexpr double cosine_rounding = 1e-6;  // of the float cosine, through the sine
+  EXPECT_NEAR(p.metric("peter_panning_gap_m"), 1, cosine_rounding);
+  p.occluder.at(0, 0) = 0.5f;
+  EXPECT_NEAR(p.metric("peter_panning_gap_m"), std::sqrt(0.75), cosine_rounding);
+  p.n_dot_l.at(1, 0) = 1 + 0x1p-23f;  // a cosine above 1 by rounding is no NaN
+  EXPECT_NEAR(p.metric("peter_panning_gap_m"), 0.25, cosine_rounding);
+}
+
+TEST(Measure, GapIsOverReceiversInShadow) {
+  Picture p(4, 1);
+  // Under a filter, a tap of a lit receiver beside the edge: nothing stands between it and the light.
+  p.rungs(0, 0, {1, 1, 0.5f, 0.5f, 0.75f, 0.75f});
+  p.step(0, 0, Cause::peter_panning, 0.25f);
+  p.occluder.at(0, 0) = infinity;
+  p.n_dot_l.at(0, 0) = 0.5f;
+  EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
+  p.n_dot_l.at(0, 0) = 1;  // 0 * infinity
+  EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
+  EXPECT_EQ(p.metric("peter_panning"), 0.0625);  // but it is Peter Panning
+  p.rungs(1, 0, {0, 0, 0.5f, 0.5f, 0.75f, 0.75f});
+  p.step(1, 0, Cause::peter_panning, 0.25f);
+  p.occluder.at(1, 0) = 2;
+  p.n_dot_l.at(1, 0) = 0;
+  EXPECT_EQ(p.metric("peter_panning_gap_m"), 2);
+  p.rungs(2, 0, {0, 0, 0, 0, 1, 1});  // ambiguous: left out
+  p.step(2, 0, Cause::peter_panning, 1);
+  p.ladder.flags.at(2, 0) |= flag_ambiguous;
+  p.occluder.at(2, 0) = 100;
+  p.n_dot_l.at(2, 0) = 0;
+  p.rungs(3, 0, {0, 0, 0, 0, 0, 0});  // in shadow, rightly
+  EXPECT_EQ(p.metric("peter_panning_gap_m"), 2);
+  EXPECT_EQ(peter_panning_mask(p.ladder).pixels, (std::vector<uint8_t>{0, 1, 0, 0}));
+  // A dark receiver's distance that is not finite is a defect that must show.
+  p.occluder.at(1, 0) = infinity;
+  EXPECT_EQ(p.metric("peter_panning_gap_m"), infinity);
+  p.occluder.at(1, 0) = nan_float;
+  EXPECT_TRUE(std::isnan(p.metric("peter_panning_gap_m")));
+}
+
+TEST(Measure, EdgeDisplacementIsFromAliasedPixelsOnly) {
+  Picture p(5, 4);
+  // A shadow of two columns, falsely lit in one pixel, and a lit pixel far from it falsely dark.
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 2; ++x) p.rungs(x, y, {0, 0, 0, 0, 0, 0});
+  p.rungs(0, 0, {0, 0, 0, 1, 1, 1});
+  p.step(0, 0, Cause::aliasing_light, 1);
+  p.edge.at(0, 0) = 0.25f;
+  EXPECT_EQ(p.metric("edge_displacement_pixels"), 2);  // to (2, 0)
+  p.rungs(4, 3, {1, 1, 1, 0, 0, 0});
+  p.step(4, 3, Cause::aliasing_dark, -1);
+  p.edge.at(4, 3) = 1;
+  EXPECT_EQ(p.metric("edge_displacement_pixels"), 3);  // to (1, 3)
+  EXPECT_EQ(p.metric("edge_displacement_texels"), 2);
+  EXPECT_EQ(p.metric("edge_displacement_mean_texels"), 1.25);
+  // Receivers that face away are no truth: without the two dark columns nothing dark is in the picture.
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 2; ++x)
+      if (x + y > 0) attach(p, x, y);
+  attach(p, 2, 0);
+  EXPECT_NEAR(p.metric("edge_displacement_pixels"), 5, 1e-6);  // (4, 3) to (0, 0), the one dark receiver left
+  p.edge.at(0, 0) = nan_float;
+  EXPECT_TRUE(std::isnan(p.metric("edge_displacement_texels")));
+  EXPECT_TRUE(std::isnan(p.metric("edge_displacement_mean_texels")));
+}
+
+TEST(Measure, LeavesOutPixelsWhoseTruthThePictureDoesNotShow) {
+  Picture p(3, 2);  // all lit, one falsely dark: no dark receiver in sight
+  p.rungs(1, 1, {1, 1, 1, 0, 0, 0});
+  p.step(1, 1, Cause::aliasing_dark, -1);
+  p.edge.at(1, 1) = 0.5f;
+  EXPECT_EQ(p.metric("edge_displacement_pixels"), 0);
+  EXPECT_EQ(p.metric("edge_displacement_texels"), 1);
+}
+
+TEST(Measure, SaysNaNWhereNothingWasCounted) {
+  Picture none(2, 1), ambiguous(2, 1), empty(0, 0);
+  for (int x = 0; x < 2; ++x) attach(none, x, 0);
+  for (uint8_t& flags : ambiguous.ladder.flags.pixels) flags |= flag_ambiguous;
+  for (const Picture* p : {&none, &ambiguous, &empty}) {
+    for (const auto& [name, value] : p->metrics()) {
+      const bool is_count = find_metric(name).unit == "count" || find_metric(name).unit.empty();
+      if (name == "ambiguous" && p == &ambiguous)
+        EXPECT_EQ(value, 1);
+      else
+        EXPECT_EQ(std::isnan(value), !is_count) << name;
+    }
+    EXPECT_EQ(worst_pixel(p->ladder).x, -1);
+    EXPECT_EQ(worst_pixel(p->ladder).y, -1);
+  }
+}
+
+TEST(WorstPixel, IsTheFirstOfTheLargestErrors) {
+  Picture p(3, 2);
+  EXPECT_EQ(worst_pixel(p.ladder).x, 0);  // nothing wrong: the first counted one
+  EXPECT_EQ(worst_pixel(p.ladder).error, 0);
+  EXPECT_EQ(worst_pixel(p.ladder).cause, "none");
+  p.rungs(1, 0, {1, 1, 1, 1, 0.75f, 0.75f});
+  p.step(1, 0, Cause::acne, -0.25f);
+  p.rungs(2, 0, {0, 0, 0, 0, 0.5f, 0.5f});
+  p.step(2, 0, Cause::peter_panning, 0.5f);
+  p.rungs(0, 1, {1, 1, 1, 1, 0.5f, 0.5f});
+  p.step(0, 1, Cause::acne, -0.5f);
+  const auto expect = [&](int x, int y, std::string_view cause) {
+    const PointRecord::Worst worst = worst_pixel(p.ladder);
+    EXPECT_EQ(worst.x, x);
+    EXPECT_EQ(worst.y, y);
+    EXPECT_EQ(worst.cause, cause);
+  };
+  expect(2, 0, "peter_panning");
+  EXPECT_EQ(worst_pixel(p.ladder).error, 0.5);
+  p.ladder.flags.at(2, 0) |= flag_ambiguous;
+  expect(0, 1, "acne");
+  p.ladder.rung[5].at(2, 1) = nan_float;  // worse than any number
+  expect(2, 1, "none");
+  p.ladder.rung[5].at(1, 1) = infinity;
+  expect(2, 1, "none");
+  p.ladder.rung[5].at(2, 1) = 1;
+  expect(1, 1, "none");
+  p.ladder.rung[5].at(0, 0) = nan_float;
+  expect(0, 0, "none");
+  attach(p, 0, 0);
+  expect(1, 1, "none");
+}
+
+TEST(MetricsTable, NamesWhatIsMeasured) {
+  const std::set<std::string> times = {"map_ms", "lookup_ms", "shadow_ms"};  // the workbench's own
+  const std::set<std::string_view> units = {"fraction", "m", "texels", "pixels", "count", "ms", ""};
+  std::set<std::string> names;
+  for (const Metric& metric : metrics_table()) {
+    EXPECT_TRUE(names.insert(std::string(metric.name)).second) << metric.name << " twice";
+    EXPECT_TRUE(units.contains(metric.unit)) << metric.unit;
+    EXPECT_EQ(metric.unit == "ms", times.contains(std::string(metric.name))) << metric.name;
+    EXPECT_TRUE(metric.help.ends_with('.') && metric.help.size() > 10) << metric.name;
+    EXPECT_EQ(&find_metric(metric.name), &metric);
+  }
+  std::set<std::string> measured = times;
+  for (const auto& [name, value] : Picture(1, 1).metrics()) measured.insert(name);
+  EXPECT_EQ(names, measured);
+  EXPECT_EQ(find_metric("residual").unit, "");
+  EXPECT_EQ(find_metric("tap_residual").unit, "");
+}
+
+TEST(MetricsTable, SuggestsTheNearestName) {
+  try {
+    find_metric("peter_paning");
+    FAIL() << "found";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find("did you mean 'peter_panning'?"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(find_metric(""), Error);
+}
+
+// Squared, as whole numbers; -1 for none.
+void expect_distances(const Image<uint8_t>& mask) {
+  std::vector<std::pair<int64_t, int64_t>> marked;
+  for (int y = 0; y < mask.height; ++y)
+    for (int x = 0; x < mask.width; ++x)
+      if (mask.at(x, y)) marked.emplace_back(x, y);
+  const Image<float> found = distance_to(mask);
+  ASSERT_EQ(found.width, mask.width);
+  ASSERT_EQ(found.height, mask.height);
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width; ++x) {
+      int64_t nearest = -1;
+      for (const auto& [mx, my] : marked) {
+        const int64_t squared = (mx - x) * (mx - x) + (my - y) * (my - y);
+        if (nearest < 0 || squared < nearest) nearest = squared;
+      }
+      const float expected = nearest < 0 ? infinity : std::sqrt(static_cast<float>(nearest));
+      ASSERT_EQ(found.at(x, y), expected) << x << ", " << y << " of " << mask.width << " x " << mask.height;
+    }
+  }
+}
+
+RC_GTEST_PROP(DistanceTo, IsToTheNearestOfAll, ()) {
+  Image<uint8_t> mask(*rc::gen::inRange(1, 40), *rc::gen::inRange(1, 40));
+  const int one_in = *rc::gen::element(1, 2, 10, 100, 1000);
+  for (uint8_t& pixel : mask.pixels) pixel = *rc::gen::inRange(0, one_in) == 0;
+  expect_distances(mask);
+  RC_ASSERT(!testing::Test::HasFatalFailure());
+}
+
+TEST(DistanceTo, HoldsAtTheEdgesOfItsRange) {
+  expect_distances(Image<uint8_t>(0, 0));
+  expect_distances(Image<uint8_t>(7, 5, 0));
+  expect_distances(Image<uint8_t>(7, 5, 255));
+  for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 3000), std::pair(3000, 1), std::pair(64, 64)}) {
+    Image<uint8_t> mask(width, height, 0);
+    expect_distances(mask);
+    mask.pixels.back() = 1;
+    expect_distances(mask);
+    mask.pixels.front() = 7;
+    expect_distances(mask);
+  }
+}
+
+TEST(DistanceTo, IsExactAcrossLargePictures) {
+  std::mt19937_64 random(12);
+  for (int round = 0; round < 12; ++round) {
+    Image<uint8_t> mask(4096, 24, 0);
+    for (int i = 0; i < 6 + 20 * (round % 3); ++i) mask.at(static_cast<int>(random() % 4096), static_cast<int>(random() % 24)) = 1;
+    mask.at(0, static_cast<int>(random() % 24)) = mask.at(4095, static_cast<int>(random() % 24)) = 1;
+    expect_distances(mask);
+  }
+}
+
+}  // namespace
+}  // namespace noonmark

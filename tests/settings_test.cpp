@@ -1,0 +1,325 @@
+// The table of settings: one canonical text for each value, and nothing else accepted. And the two small headers that
+// turn settings into what the shader computes with.
+#include "scenes/settings.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "scenes/depth_bias.h"
+#include "scenes/error.h"
+#include "scenes/map_address.h"
+
+namespace noonmark {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string text_after(const Setting& row, std::string_view given) {
+  Settings settings;
+  row.set(settings, given);
+  return row.get(settings);
+}
+std::string text_after(std::string_view name, std::string_view given) { return text_after(find_setting(name), given); }
+
+// The message of the Error that the text is refused with; fails when it is taken.
+std::string refusal(const Setting& row, std::string_view given) {
+  Settings settings;
+  const std::string before = row.get(settings);
+  try {
+    row.set(settings, given);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_EQ(row.get(settings), before) << row.name << ": a refused text changed the value";
+    return error.what();
+  }
+  ADD_FAILURE() << row.name << " took '" << given << "' as " << row.get(settings);
+  return "";
+}
+std::string refusal(std::string_view name, std::string_view given) { return refusal(find_setting(name), given); }
+
+bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+TEST(SettingsTable, HasAWholeRowForEverySetting) {
+  // Numbers that count nothing and measure nothing.
+  const std::set<std::string_view> pure = {"map.extent_scale", "truth.standard_error"};
+  const std::set<std::string_view> units = {"px", "m", "deg", "texels", "bias.unit"};
+  std::set<std::string_view> names;
+  for (const Setting& row : settings_table()) {
+    EXPECT_TRUE(names.insert(row.name).second) << row.name << " twice";
+    EXPECT_EQ(&find_setting(row.name), &row);
+    EXPECT_TRUE(row.help.ends_with('.') && row.help.size() > 10) << row.name;
+    EXPECT_FALSE(row.range_text().empty()) << row.name;
+    EXPECT_TRUE(row.get && row.set) << row.name;
+    const bool number = row.type == ValueType::integer || row.type == ValueType::real;
+    if (number || row.type == ValueType::point)
+      EXPECT_TRUE(units.contains(row.unit) != pure.contains(row.name)) << row.name << " in '" << row.unit << "'";
+    else
+      EXPECT_EQ(row.unit, "") << row.name;
+    // The suffix of a name is its unit.
+    for (const auto& [suffix, unit] : {std::pair("_m", "m"), std::pair("_deg", "deg"), std::pair("_px", "px")})
+      if (row.name.ends_with(suffix)) {
+        EXPECT_EQ(row.unit, unit) << row.name;
+      }
+    if (number) {
+      EXPECT_LT(row.min, row.max) << row.name;
+    }
+    EXPECT_EQ(row.type == ValueType::choice, row.choices.size() > 1) << row.name;
+    EXPECT_EQ(row.range_text().ends_with(" or auto"), row.may_be_auto) << row.name;
+  }
+  EXPECT_EQ(names.size(), 30) << "a new setting needs no change here but this number";
+}
+
+TEST(SettingsTable, TakesItsOwnTextsBack) {
+  for (const Setting& row : settings_table()) {
+    const std::string text = row.get(Settings{});
+    EXPECT_EQ(text_after(row, text), text) << row.name;
+    for (std::string_view choice : row.choices) EXPECT_EQ(text_after(row, choice), choice) << row.name;
+    if (row.may_be_auto) {
+      EXPECT_EQ(text_after(row, "auto"), "auto") << row.name;
+    }
+    if (row.type == ValueType::flag) {
+      EXPECT_EQ(text_after(row, "true") + text_after(row, "false"), "truefalse") << row.name;
+    }
+  }
+}
+
+TEST(SettingsTable, ChangesOneMemberEach) {
+  for (const Setting& row : settings_table()) {
+    // A value of the row's that is not the default.
+    const std::string before = row.get(Settings{});
+    std::string other = "1,2,3";
+    if (row.type == ValueType::integer || row.type == ValueType::real) other = std::to_string(static_cast<int>(row.max));
+    if (row.type == ValueType::choice) other = before == row.choices[0] ? row.choices[1] : row.choices[0];
+    if (row.type == ValueType::flag) other = before == "true" ? "false" : "true";
+    if (row.type == ValueType::text) other = "other";
+    if (row.name == "truth.standard_error") other = "0.25";  // its range ends below 1
+    ASSERT_NE(other, before) << row.name;
+    Settings settings;
+    row.set(settings, other);
+    for (const Setting& each : settings_table())
+      EXPECT_EQ(each.get(settings), each.name == row.name ? other : each.get(Settings{})) << row.name << " changed " << each.name;
+  }
+}
+
+TEST(SettingsTable, HoldsItsRangesToTheLastFloat) {
+  for (const Setting& row : settings_table()) {
+    if (row.type == ValueType::real) {
+      const auto text = [](double v) { char buffer[40]; std::snprintf(buffer, sizeof buffer, "%.17g", v); return std::string(buffer); };
+      for (double end : {row.min, row.max}) EXPECT_EQ(std::stod(text_after(row, text(end))), end) << row.name;
+      // Below 0 the next double is the smallest denormal, which no decimal parser is asked to take; a normal one then.
+      const double below = row.min == 0 ? -1e-300 : std::nextafter(row.min, -infinity);
+      EXPECT_TRUE(contains(refusal(row, text(below)), row.range_text())) << row.name;
+      EXPECT_TRUE(contains(refusal(row, text(std::nextafter(row.max, infinity))), row.range_text())) << row.name;
+    } else if (row.type == ValueType::integer) {
+      const int min = static_cast<int>(row.min), max = static_cast<int>(row.max);
+      for (int end : {min, max}) EXPECT_EQ(text_after(row, std::to_string(end)), std::to_string(end)) << row.name;
+      EXPECT_TRUE(contains(refusal(row, std::to_string(min - 1)), row.range_text())) << row.name;
+      EXPECT_TRUE(contains(refusal(row, std::to_string(max + 1)), row.range_text())) << row.name;
+    }
+  }
+}
+
+TEST(SettingsTable, RefusesWhatIsNoValue) {
+  for (const Setting& row : settings_table()) {
+    refusal(row, "");
+    if (row.type == ValueType::text) continue;
+    for (std::string_view junk : {" ", "nonsense", "1x", "1 2", "--1", "+1", "0x10", "1,2", "1,2,3,", ",1,2", "1;2;3", "nan", "inf",
+                                  "-inf", "infinity", "1e999", "99999999999999999999", "Auto", "AUTO", "auto ", "TRUE", "1.0.0",
+                                  "nan,0,0", "0,inf,0", "1,,2", "1,2,3,4"})
+      refusal(row, junk);
+    if (row.type != ValueType::real) refusal(row, "0.5");
+    if (row.type != ValueType::flag) refusal(row, "true");
+    if (row.type != ValueType::point) refusal(row, "1,2,3");
+    if (!row.may_be_auto) refusal(row, "auto");
+  }
+  refusal("map.resolution", "1024.0");
+  refusal("map.resolution", "1e3");
+  refusal("map.resolution", "1024 ");
+  refusal("map.resolution", " 1024");
+  refusal("map.extent_m", "20m");
+  refusal("map.format", "32F");
+  const std::string message = refusal("map.resolution", "huge");
+  for (std::string_view part : {"map.resolution", "'huge'", "1 ... 16384", "texels"}) EXPECT_TRUE(contains(message, part)) << message;
+  EXPECT_TRUE(contains(refusal("map.format", "8"), "16 | 24 | 32f"));
+}
+
+TEST(Settings, HaveOneTextForEachValue) {
+  for (const char* same : {"1000", "1e3", "1000.0", "1.0e+3", "1E3", "0.1e4"}) EXPECT_EQ(text_after("map.extent_m", same), "1000") << same;
+  for (const char* same : {"0.005", "5e-3", ".005", "0.0050", "0.005000000000000000001"}) EXPECT_EQ(text_after("bias.constant", same), "0.005") << same;
+  for (const char* zero : {"0", "-0", "0.0", "-0.0", "0e5", "-0e-5"}) EXPECT_EQ(text_after("map.near_m", zero), "0") << zero;
+  for (const char* same : {"1,-2.5,0", "1.0,-25e-1,-0", "1, -2.5, 0"}) EXPECT_EQ(text_after("view.eye_m", same), "1,-2.5,0") << same;
+  EXPECT_EQ(text_after("map.extent_m", "1e9"), text_after("map.extent_m", "1000000000"));
+}
+
+RC_GTEST_PROP(Settings, ReadTheirOwnNumbersBackBitForBit, ()) {
+  // A double of any size within the row's range.
+  const double value = std::ldexp(1 + static_cast<double>(*rc::gen::inRange<int64_t>(0, int64_t{1} << 52)) * 0x1p-52, *rc::gen::inRange(-300, 28)) * *rc::gen::element(-1, 1);
+  Settings settings;
+  settings.map.near_m = value;
+  settings.light.position_m = glm::dvec3(value, -value, value / 3);
+  const Setting &number = find_setting("map.near_m"), &point = find_setting("light.position_m");
+  Settings back;
+  number.set(back, number.get(settings));
+  point.set(back, point.get(settings));
+  RC_ASSERT(*back.map.near_m == value);
+  RC_ASSERT(*back.light.position_m == *settings.light.position_m);
+  RC_ASSERT(number.get(back) == number.get(settings));
+  // However it was written: 17 digits name a double.
+  char long_text[64];
+  std::snprintf(long_text, sizeof long_text, "%.17e", value);
+  RC_ASSERT(text_after(number, long_text) == number.get(settings));
+}
+
+TEST(NearestName, FindsTypingErrorsAndNothingElse) {
+  const auto suggestion = [](std::string_view wrong) -> std::string {
+    try {
+      find_setting(wrong);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      const std::string what = error.what();
+      const size_t at = what.find("did you mean '");
+      return at == std::string::npos ? "" : what.substr(at + 14, what.find('\'', at + 14) - at - 14);
+    }
+    return "found";
+  };
+  EXPECT_EQ(suggestion("map.resolutoin"), "map.resolution");
+  EXPECT_EQ(suggestion("resolution"), "map.resolution");
+  EXPECT_EQ(suggestion("constant"), "bias.constant");
+  EXPECT_EQ(suggestion("bias.const"), "bias.constant");  // though "bias.unit" is no more letters away
+  EXPECT_EQ(suggestion("Map.Wrap"), "map.wrap");
+  EXPECT_EQ(suggestion("map.near"), "map.near_m");
+  EXPECT_EQ(suggestion("zzz"), "");
+  EXPECT_EQ(suggestion("completely.different.thing"), "");
+  EXPECT_EQ(suggestion("map.resolution"), "found");
+}
+
+RC_GTEST_PROP(NearestName, ForgivesTwoSlipsInAnyName, ()) {
+  const Setting& row = settings_table()[static_cast<size_t>(*rc::gen::inRange(0, static_cast<int>(settings_table().size())))];
+  std::string wrong(row.name);
+  for (int slip = 0; slip < 2; ++slip) {
+    const size_t at = static_cast<size_t>(*rc::gen::inRange(0, static_cast<int>(wrong.size())));
+    switch (*rc::gen::inRange(0, 3)) {
+      case 0: wrong.erase(at, 1); break;
+      case 1: wrong.insert(at, 1, '#'); break;
+      default: wrong[at] = '#';
+    }
+  }
+  const std::vector<std::string_view> only = {row.name};
+  RC_ASSERT(nearest_name(wrong, only) == row.name);
+}
+
+TEST(NearestName, PrefersTheNearestAndTheFirstOfEquals) {
+  const std::vector<std::string_view> names = {"abcd", "abce", "abxx"};
+  EXPECT_EQ(nearest_name("abcf", names), "abcd");
+  EXPECT_EQ(nearest_name("abce", names), "abce");
+  EXPECT_EQ(nearest_name("abxy", names), "abxx");
+  EXPECT_EQ(nearest_name("wxyz", names), "");
+  EXPECT_EQ(nearest_name("abcd", {}), "");
+  EXPECT_EQ(nearest_name("", names), "");
+}
+
+TEST(Validate, FindsWhatNoRowCanSee) {
+  Settings s;
+  EXPECT_NO_THROW(validate(s));
+  s.filter.size = 4;
+  EXPECT_THROW(validate(s), Error);
+  s.filter.size = 31;
+  EXPECT_NO_THROW(validate(s));
+  s.map.near_m = 5;
+  EXPECT_NO_THROW(validate(s));
+  s.map.far_m = 5;
+  EXPECT_THROW(validate(s), Error);
+  s.map.far_m = std::nextafter(5.0, 6.0);
+  EXPECT_NO_THROW(validate(s));
+  s.map.near_m = -1;
+  s.map.far_m = -2;
+  EXPECT_THROW(validate(s), Error);
+}
+
+TEST(KernelSize, IsOneWithoutAFilter) {
+  EXPECT_EQ(kernel_size({FilterKind::none, 5}), 1);
+  EXPECT_EQ(kernel_size({FilterKind::box, 5}), 5);
+}
+
+TEST(MapAddress, WrapsAsOpenGLSays) {
+  // OpenGL 4.5, 8.14.2: repeat takes the remainder towards minus infinity; the clamps clamp.
+  for (int n : {1, 2, 3, 8, 1000}) {
+    for (int i = -3 * n - 2; i <= 3 * n + 2; ++i) {
+      const bool inside = i >= 0 && i < n;
+      const int remainder = i - n * static_cast<int>(std::floor(static_cast<double>(i) / n));
+      const int edge = i < 0 ? 0 : i >= n ? n - 1 : i;
+      for (int j : {0, n / 2, n - 1}) {  // the other axis, inside
+        ASSERT_EQ(inside_map({i, j}, n), inside);
+        ASSERT_EQ(inside_map({j, i}, n), inside);
+        ASSERT_EQ(wrapped({i, j}, n, Wrap::repeat), glm::ivec2(remainder, j));
+        ASSERT_EQ(wrapped({j, i}, n, Wrap::repeat), glm::ivec2(j, remainder));
+        ASSERT_EQ(wrapped({i, j}, n, Wrap::clamp_to_edge), glm::ivec2(edge, j));
+        ASSERT_EQ(wrapped({j, i}, n, Wrap::clamp_to_edge), glm::ivec2(j, edge));
+        ASSERT_EQ(wrapped({i, j}, n, Wrap::clamp_to_border), inside ? glm::ivec2(i, j) : glm::ivec2(-1));
+        ASSERT_EQ(wrapped({j, i}, n, Wrap::clamp_to_border), inside ? glm::ivec2(j, i) : glm::ivec2(-1));
+      }
+    }
+    // The farthest texels that a lookup names, and a kernel beyond.
+    for (int far : {-(1 << 20) - 15, (1 << 20) + 15}) {
+      const glm::ivec2 read = wrapped({far, far}, n, Wrap::repeat);
+      ASSERT_TRUE(inside_map(read, n));
+      ASSERT_EQ((far - read.x) % n, 0);
+      ASSERT_EQ(wrapped({far, -far}, n, Wrap::clamp_to_edge), glm::ivec2(far < 0 ? 0 : n - 1, far < 0 ? n - 1 : 0));
+    }
+  }
+  EXPECT_EQ(border_depth, 1);
+}
+
+LightFrame frame_of(double near_m, double far_m, double extent_m, int resolution) {
+  LightFrame frame;
+  frame.near_m = near_m;
+  frame.far_m = far_m;
+  frame.extent_m = extent_m;
+  frame.resolution = resolution;
+  return frame;
+}
+
+TEST(DepthBias, TurnsEveryUnitIntoWindowDepth) {
+  const LightFrame frame = frame_of(1, 7.5, 20, 1000);
+  const auto constant = [&](BiasUnit unit) { return depth_bias(frame, {BiasForm::constant, unit, 0.3, 0.7, 0.9}); };
+  EXPECT_EQ(constant(BiasUnit::depth).constant, 0.3f);
+  EXPECT_EQ(constant(BiasUnit::m).constant, static_cast<float>(0.3 / 6.5));
+  EXPECT_FLOAT_EQ(constant(BiasUnit::texel).constant, static_cast<float>(0.3 * 0.02 / 6.5));
+  const DepthBias slope = depth_bias(frame, {BiasForm::slope, BiasUnit::m, 0.3, 0.7, 0.9});
+  EXPECT_FLOAT_EQ(slope.slope, static_cast<float>(0.7 / 6.5));
+  EXPECT_FLOAT_EQ(slope.floor, static_cast<float>(0.9 / 6.5));
+}
+
+TEST(DepthBias, LeavesWhatItsFormDoesNotUse) {
+  const LightFrame frame = frame_of(0, 1, 1, 1);
+  const DepthBias none = depth_bias(frame, {BiasForm::none, BiasUnit::depth, 0.3, 0.7, 0.9});
+  const DepthBias constant = depth_bias(frame, {BiasForm::constant, BiasUnit::depth, 0.3, 0.7, 0.9});
+  const DepthBias slope = depth_bias(frame, {BiasForm::slope, BiasUnit::depth, 0.3, 0.7, 0.9});
+  EXPECT_EQ(none.constant + none.slope + none.floor, 0);
+  EXPECT_EQ(constant.slope + constant.floor, 0);
+  EXPECT_EQ(slope.constant, 0);
+  for (float n_dot_l : {0.0f, 0.25f, 1.0f}) {
+    EXPECT_EQ(none.at(n_dot_l), 0);
+    EXPECT_EQ(constant.at(n_dot_l), 0.3f);
+  }
+}
+
+TEST(DepthBias, OfASlopeIsTheShadersFloatArithmetic) {
+  const DepthBias bias{.form = BiasForm::slope, .slope = 0.05f, .floor = 0.005f};
+  EXPECT_EQ(bias.at(1), 0.005f);
+  EXPECT_EQ(bias.at(1 + 0x1p-23f), 0.005f);  // a cosine above 1 by rounding
+  EXPECT_EQ(bias.at(0), 0.05f);
+  EXPECT_EQ(bias.at(0.5f), 0.025f);
+  for (int i = 0; i <= 1000; ++i) {
+    const float n_dot_l = static_cast<float>(i) / 1000;
+    const volatile float turned = 1.0f - n_dot_l, scaled = 0.05f * turned;  // rounded at each step
+    EXPECT_EQ(bias.at(n_dot_l), scaled > 0.005f ? scaled : 0.005f);
+  }
+}
+
+}  // namespace
+}  // namespace noonmark
