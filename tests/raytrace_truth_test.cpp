@@ -67,8 +67,8 @@ TEST_P(HardTruth, AgreesWithBruteForceFarFromTheOrigin) {
 
 INSTANTIATE_TEST_SUITE_P(Builtin, HardTruth,
                          testing::Values("cube-room", "plane", "wall", "plate", "pillars", "sphere", "bowl", "fence"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& given) {
+                           std::string name = given.param;
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
@@ -85,7 +85,7 @@ TEST_P(ModelTruth, AgreesWithBruteForce) {
   expect_sure(compare_with_brute_force(scene, true, 20000), 19990);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shared, ModelTruth, testing::Values("FlightHelmet", "Lantern"), [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Shared, ModelTruth, testing::Values("FlightHelmet", "Lantern"), [](const auto& given) { return given.param; });
 
 // Law 8: nothing shades a lone convex solid's facing side, however grazing and wherever it stands.
 TEST(HardTruthLaws, ConvexSolidsAreLitWhereTheyFace) {
@@ -118,7 +118,8 @@ TEST(HardTruthLaws, BowlIsLitEverywhere) {
   for (size_t i = 0; i < receivers.primitive.size(); ++i) ASSERT_TRUE(!truth.facing[i] || truth.lit[i]) << i;
 }
 
-// Receivers exactly on vertices and edges of solids, where rays are most easily lost or caught.
+// Receivers exactly on vertices and edges of solids, where rays are most easily lost or caught. (Float's rounding leaves
+// the sphere dents of a float's size; what they shade is ambiguous.)
 TEST(HardTruthLaws, VerticesAndEdgesOfConvexSolidsAreLit) {
   const Scene sphere = builtin("sphere");
   const LightFrame frame = frame_of(sphere);
@@ -135,7 +136,7 @@ TEST(HardTruthLaws, VerticesAndEdgesOfConvexSolidsAreLit) {
   int facing = 0, dark = 0;
   for (size_t i = 0; i < points.size(); ++i) {
     facing += truth.facing[i];
-    dark += truth.facing[i] && !truth.lit[i];
+    dark += truth.facing[i] && !truth.lit[i] && !truth.ambiguous[i];
   }
   EXPECT_GT(facing, 40000);
   EXPECT_EQ(dark, 0);
@@ -145,13 +146,12 @@ TEST(HardTruthLaws, VerticesAndEdgesOfConvexSolidsAreLit) {
 TEST(HardTruthLaws, DuplicatedFacesDoNotShadeThemselves) {
   Scene scene = builtin("sphere");
   const size_t count = scene.triangles.size();
-  for (size_t t = 0; t < count; ++t) {
-    const glm::uvec3 v = scene.triangles[t];
+  for (uint32_t t = 0; t < count; ++t) {
+    const glm::uvec3 v = scene.triangles[t];  // turned, or the other side
     scene.triangles.push_back(t % 2 ? glm::uvec3(v.y, v.z, v.x) : glm::uvec3(v.x, v.z, v.y));
   }
   const LightFrame frame = frame_of(scene);
-  ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), false, 20000, 4);
-  for (uint32_t& primitive : receivers.primitive.pixels) primitive %= count;
+  const ReceiverImage receivers = random_receivers(builtin("sphere"), frame.direction_to_light(), false, 20000, 4);
   const ReceiverTruth truth = Tracer(scene).receiver_truth(receivers, frame, {});
   int facing = 0, dark = 0;
   for (size_t i = 0; i < receivers.primitive.size(); ++i) {
