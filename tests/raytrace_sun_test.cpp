@@ -18,6 +18,9 @@ double disc_beyond(double at) {
   return (std::acos(at) - at * std::sqrt(1 - at * at)) / std::numbers::pi;
 }
 
+// Sampling stops where the samples agree best, so means lean towards agreement; seen up to 0.08 standard errors.
+constexpr double stopping_bias = 0.1;
+
 struct Errors {
   int receivers = 0, partial = 0, beyond_three = 0;
   double mean = 0;
@@ -112,7 +115,7 @@ TEST(Sun, OwnHorizonCutsTheDisc) {
       EXPECT_NEAR(soft, seen, 3 * standard_error);
       mean += soft / 2000.0;
     }
-    EXPECT_NEAR(mean, seen, 3 * standard_error / std::sqrt(2000.0)) << elevation_deg;
+    EXPECT_NEAR(mean, seen, (3 / std::sqrt(2000.0) + stopping_bias) * standard_error) << elevation_deg;
   }
 }
 
