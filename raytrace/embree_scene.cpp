@@ -54,8 +54,12 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::ve
     : scene_(scene), kept_(std::move(kept)) {
   embree_.reset(rtcNewScene(device.get()));
   rtcSetSceneFlags(embree_.get(), RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   const size_t count = kept_.empty() ? scene.triangles.size() : kept_.size();
+  if (count == 0) {  // an empty scene meets no ray; Embree gives no buffer of size 0
+    rtcCommitScene(embree_.get());
+    return;
+  }
+  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
                                            scene.positions.size());
   void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), count);

@@ -1,6 +1,7 @@
 // Where the shadow rays of a receiver image start: exactly at the float P that the shader has too, with the place of
 // the receiver's own plane along the ray known in double.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 
@@ -22,11 +23,21 @@ class ShadowStart {
     return from(receivers_.position[pixel], receivers_.primitive[pixel], direction);
   }
 
-  // From P moved by offset (metres, across the light) and carried along its own plane.
+  // The same for R1: where P's rounding put it beyond its own plane, as a grazing ray sees it, from behind the plane.
+  ShadowRay whole(size_t pixel) const {
+    const ShadowRay ray = at(pixel);
+    return ray.own_distance < 0 ? beside(pixel, glm::dvec3(0)) : ray;
+  }
+
+  // From P moved by offset (metres, across the light) and carried along its own plane to as far behind the plane as P's
+  // rounding reaches along a grazing ray, so that the ray meets all that is before the plane.
   ShadowRay beside(size_t pixel, glm::dvec3 offset) const {
     const uint32_t own = receivers_.primitive[pixel];
     const glm::dvec3 moved = glm::dvec3(receivers_.position[pixel]) + offset;
-    return from(glm::vec3(moved + own_distance(moved, own, to_light_) * glm::dvec3(to_light_)), own, to_light_);
+    const double to_plane = own_distance(moved, own, to_light_);
+    const double cosine = std::abs(glm::dot(glm::dvec3(receivers_.normal[pixel]), glm::dvec3(to_light_)));
+    const double behind = 0x1p-23 * (glm::length(moved) + std::abs(to_plane)) / std::max(cosine, 0x1p-23);
+    return from(glm::vec3(moved + (to_plane - behind) * glm::dvec3(to_light_)), own, to_light_);
   }
 
  private:

@@ -11,6 +11,8 @@
 namespace noonmark {
 namespace {
 
+constexpr size_t outside_buffer = 1u << 22;  // texels outside the map that a thread collects before it looks for twins
+
 // Sorts by row, then column, so that neighbours in the list are neighbours in the map.
 uint64_t texel_key(glm::ivec2 texel) {
   const auto shifted = [](int i) { return static_cast<uint64_t>(static_cast<uint32_t>(i) ^ 0x80000000u); };
@@ -41,6 +43,7 @@ TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Ima
   tbb::combinable<std::vector<uint64_t>> outside_keys;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, facing.size(), 4096), [&](const tbb::blocked_range<size_t>& range) {
     std::vector<uint64_t>& outside = outside_keys.local();
+    size_t full = std::max(outside_buffer, 2 * outside.size());
     for (size_t i = range.begin(); i != range.end(); ++i) {
       if (!facing[i]) continue;
       const glm::ivec2 base = probe.texel[i];
@@ -53,9 +56,10 @@ TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Ima
         }
       }
       // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills the memory.
-      if (outside.size() > 1u << 22) {
+      if (outside.size() > full) {
         std::sort(outside.begin(), outside.end());
         outside.erase(std::unique(outside.begin(), outside.end()), outside.end());
+        full = std::max(outside_buffer, 2 * outside.size());  // doubling: all different ones are not sorted at every pixel
       }
     }
   });

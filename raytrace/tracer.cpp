@@ -82,7 +82,7 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& receivers, const Light
     for (int place = 0; place < 5; ++place) {
       ShadowRay rays[packet_size];
       for (int i = 0; i < n; ++i)
-        rays[i] = place == 0 ? start.at(facing[first + i]) : start.beside(facing[first + i], places[place]);
+        rays[i] = place == 0 ? start.whole(facing[first + i]) : start.beside(facing[first + i], places[place]);
       dark[place] = impl_->embree.occluded(n, rays);
     }
     const uint32_t any = dark[0] | dark[1] | dark[2] | dark[3] | dark[4], all = dark[0] & dark[1] & dark[2] & dark[3] & dark[4];

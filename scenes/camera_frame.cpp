@@ -9,8 +9,9 @@ namespace noonmark {
 
 void upright_axes(glm::dvec3 forward, glm::dvec3 up_hint, glm::dvec3& right, glm::dvec3& up) {
   glm::dvec3 side = glm::cross(forward, up_hint);
-  // Below 1e-6 the direction of the cross product is rounding noise of the hint.
-  if (glm::length(side) < 1e-6 * glm::length(up_hint)) side = glm::cross(forward, glm::dvec3(0, 0, -1));
+  // Below 1e-6 the direction of the cross product is rounding noise of the hint. A hint of length 0 is none either.
+  if (!(glm::length(side) > 1e-6 * glm::length(up_hint))) side = glm::cross(forward, glm::dvec3(0, 0, -1));
+  if (!(glm::length(side) > 1e-6)) side = glm::cross(forward, glm::dvec3(0, 1, 0));
   right = glm::normalize(side);
   up = glm::cross(right, forward);
 }

@@ -21,11 +21,11 @@ struct CameraFrame {
   glm::dmat4 clip_from_world() const;
 };
 
-// Throws Error(usage) when eye and target coincide, up is parallel to the view, or near >= far.
+// Throws Error(usage) when eye and target coincide or near >= far.
 CameraFrame make_camera_frame(const Camera& camera, int width, int height);
 
 // An orthonormal pair (right, up) across `forward` (unit), upright as lookAt makes it; where forward is parallel to the
-// hint, -Z takes the hint's place.
+// hint, -Z takes the hint's place, and +Y where it is parallel to that too.
 void upright_axes(glm::dvec3 forward, glm::dvec3 up_hint, glm::dvec3& right, glm::dvec3& up);
 
 }  // namespace noonmark

@@ -52,10 +52,14 @@ ReceiverImage resolve_receivers(const Scene& scene, const Camera& camera, const 
           receivers.primitive.at(x, y) = no_primitive;
           continue;
         }
-        // Seen exactly edge-on, the plane gives no point; the triangle's point nearest to the ray's origin side will do.
-        const double along = slope != 0 ? glm::dot(cross, a - ray.origin) / slope : glm::dot(a - ray.origin, ray.direction) /
-                                                                                       glm::dot(ray.direction, ray.direction);
-        const glm::dvec3 point = nearest_in_triangle(ray.origin + along * ray.direction, a, b, c);
+        // Seen edge-on, the plane gives no point, or one so far away that nothing of it is left in double. Then the
+        // ray's point beside the triangle's first corner will do.
+        double along = glm::dot(cross, a - ray.origin) / slope;
+        if (!(glm::length(along * ray.direction) < 0x1p26 * (glm::length(a - ray.origin) + std::sqrt(area))))
+          along = glm::dot(a - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);
+        glm::dvec3 met = ray.origin + along * ray.direction;
+        met -= cross * (glm::dot(met - a, cross) / (area * area));  // onto the plane
+        const glm::dvec3 point = nearest_in_triangle(met, a, b, c);
         receivers.position.at(x, y) = glm::vec3(point);
         receivers.normal.at(x, y) = glm::vec3(cross * ((slope > 0 ? -1 : 1) / area));
       }
