@@ -77,7 +77,7 @@ BoundResult evaluate(std::span<const PointRecord> points, const Bound& bound) {
   result.max = bound.max;
   result.min = bound.min;
   result.join = bound.join;
-  for (const auto& [name, texts] : bound.where) result.where[name] = fmt::format("{}", fmt::join(texts, " | "));
+  result.where = bound.where;
 
   std::vector<Value> values;
   for (const PointRecord& point : points)
@@ -152,7 +152,7 @@ std::string bound_text(const BoundResult& bound) {
     text = fmt::format("{} >= {}", bound.metric, bound.min.value_or(not_a_number));
   std::string_view word = " where ";
   for (const auto& [name, values] : bound.where) {
-    text += fmt::format("{}{} = {}", word, name, values);
+    text += fmt::format("{}{} = {}", word, name, fmt::join(values, " | "));
     word = " and ";
   }
   return bound.join == "worst" ? text : fmt::format("{} ({})", text, bound.join);

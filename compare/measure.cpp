@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "compare/distance.h"
 #include "scenes/receivers.h"
@@ -72,9 +73,12 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     wrong += hard != 0;
     for (int c = 0; c < cause_count; ++c) size[c] += std::abs(static_cast<double>(ladder.step[c][i]));
     if (in_gap(ladder, i)) {
-      // The gap along the receiver: the light's way from P to the occluder, seen along the surface.
-      const double cosine = std::clamp(static_cast<double>(in.n_dot_l[i]), 0.0, 1.0);
-      raise(gap, in.occluder_distance_m[i] * std::sqrt(1 - cosine * cosine));
+      // The gap along the receiver: the light's way from P to the occluder, seen along the surface. What stands further
+      // off than the bias can reach casts no gap: there a steep receiver at the edge of a distant shadow is lit because
+      // its depth changes by as much as `reach` within the kernel (law 1).
+      const double cosine = std::clamp(static_cast<double>(in.n_dot_l[i]), 0.0, 1.0), sine = std::sqrt(1 - cosine * cosine);
+      const double reach = in.kernel * std::numbers::sqrt2 / 2 * in.texel_m * sine / cosine;
+      if (!(in.occluder_distance_m[i] > in.bias.at(in.n_dot_l[i]) * in.m_per_depth + reach)) raise(gap, in.occluder_distance_m[i] * sine);
     }
     if (ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i] != 0 || ladder.step[static_cast<size_t>(Cause::aliasing_light)][i] != 0) {
       ++aliased;

@@ -15,6 +15,9 @@ struct MeasureInput {
   const Image<float>& occluder_distance_m;  // of the pixels in peter_panning_mask; others are not read
   const Image<float>& n_dot_l;
   double texel_m = 1;
+  double m_per_depth = 1;                 // far - near
+  DepthBias bias;
+  int kernel = 1;                         // taps on a side
 };
 
 // Every metric of the table but the times. A value that is not finite in the images makes the metrics that it enters

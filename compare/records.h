@@ -51,7 +51,7 @@ struct PointRecord {
 struct BoundResult {
   std::string metric;
   std::optional<double> max, min;
-  std::map<std::string, std::string> where;  // setting name -> canonical text
+  std::map<std::string, std::vector<std::string>> where;  // setting name -> the canonical texts it speaks of
   std::string join;                          // "worst", "mean", "median"
   bool held = false;
   double found = 0;        // the joined value; not finite when any value was not

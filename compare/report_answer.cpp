@@ -218,8 +218,8 @@ std::string bounds_table(const Results& results) {
   std::string rows;
   for (const BoundResult& bound : results.bounds) {
     std::string where;
-    for (const auto& [name, value] : bound.where)
-      where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", html(name), html(value));
+    for (const auto& [name, values] : bound.where)
+      where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", html(name), html(fmt::format("{}", fmt::join(values, " | "))));
     const std::string_view unit = unit_of(bound.metric);
     std::string limit;
     if (bound.max) limit += fmt::format("at most {}", quantity(*bound.max, unit));

@@ -32,8 +32,10 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
 }
 
 bool speaks_of(const BoundResult& bound, const PointRecord& point) {
-  return std::all_of(bound.where.begin(), bound.where.end(),
-                     [&](const auto& where) { return setting_of(point, where.first) == where.second; });
+  return std::all_of(bound.where.begin(), bound.where.end(), [&](const auto& where) {
+    const auto& [name, texts] = where;
+    return std::find(texts.begin(), texts.end(), setting_of(point, name)) != texts.end();
+  });
 }
 
 bool meets_all(const PointRecord& point, const std::vector<BoundResult>& bounds, std::optional<double> bias_depth) {

@@ -210,7 +210,7 @@ std::vector<BoundResult> load_bounds(Database& db) {
     bound.metric = rows.text(0);
     if (!rows.null(1)) bound.max = rows.real(1);
     if (!rows.null(2)) bound.min = rows.real(2);
-    bound.where = nlohmann::json::parse(rows.text(3)).get<std::map<std::string, std::string>>();
+    bound.where = nlohmann::json::parse(rows.text(3)).get<std::map<std::string, std::vector<std::string>>>();
     bound.join = rows.text(4);
     bound.held = rows.integer(5) != 0;
     bound.found = rows.real(6);

@@ -99,7 +99,7 @@ TEST(Recommend, ABoundSpeaksOnlyOfThePointsItNames) {
   results.bounds = {{.metric = "error",
                      .max = 0.0,
                      .min = {},
-                     .where = {{"map.resolution", "256"}},
+                     .where = {{"map.resolution", {"128", "256"}}},
                      .join = "worst",
                      .reproduce = ""}};
   EXPECT_EQ(id_of(recommend(results)), 1);

@@ -88,7 +88,7 @@ TEST(Report, EscapesWhateverTextTheResultsHold) {
   info.libraries[evil] = evil;
   info.swept.push_back(evil);
   info.plot.push_back(evil);
-  results.bounds.push_back({evil, 1.0, {}, {{evil, evil}}, evil, false, nan, 3, 1, evil});
+  results.bounds.push_back({evil, 1.0, {}, {{evil, {evil}}}, evil, false, nan, 3, 1, evil});
   for (PointRecord& point : results.points) {
     point.settings[evil] = evil + std::to_string(point.id % 3);
     point.metrics[evil] = 1;

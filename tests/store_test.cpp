@@ -48,7 +48,7 @@ TEST_F(Store, ReturnsWhatItWasGiven) {
     BoundResult bound;
     bound.metric = "acne";
     bound.max = 0.1 + 0.2;
-    bound.where = {{"map.resolution", "512 | 1024"}};
+    bound.where = {{"map.resolution", {"512", "1024"}}};
     bound.join = "median";
     bound.held = true;
     bound.found = 0.25;
@@ -68,7 +68,7 @@ TEST_F(Store, ReturnsWhatItWasGiven) {
   EXPECT_EQ(bound.metric, "acne");
   EXPECT_EQ(bound.max, 0.1 + 0.2);
   EXPECT_EQ(bound.min, std::nullopt);
-  EXPECT_EQ(bound.where.at("map.resolution"), "512 | 1024");
+  EXPECT_EQ(bound.where.at("map.resolution"), (std::vector<std::string>{"512", "1024"}));
   EXPECT_EQ(bound.join, "median");
   EXPECT_TRUE(bound.held);
   EXPECT_EQ(bound.found, 0.25);
