@@ -359,6 +359,17 @@ TEST_F(Pictures, ClassesShowTheColoursOfTheLegend) {
   EXPECT_EQ(truth[1], map[1]);
 }
 
+TEST_F(Pictures, ShowWhatIsNoNumberAsWrong) {
+  ladder.flags.pixels[0] = flag_facing;
+  ladder.cause.pixels[0] = static_cast<uint8_t>(Cause::precision);
+  ladder.rung[1].pixels[0] = 1;
+  ladder.rung[5].pixels[0] = std::numeric_limits<float>::quiet_NaN();
+  write_pictures(measurement(), folder.path().string(), "images", "p");
+  EXPECT_EQ(read_png(folder.file("p-classes.png"))[0], named("precision"));
+  EXPECT_EQ(read_png(folder.file("p-difference.png"))[0], named("peter_panning"));
+  EXPECT_EQ(read_png(folder.file("p-map.png"))[0], Color(0, 0, 0));
+}
+
 TEST_F(Pictures, PointHoldsEverySettingAndWhatIsNotFinite) {
   Measurement m = measurement();
   for (const Metric& metric : metrics_table()) m.record.metrics[std::string(metric.name)] = 0.25;
