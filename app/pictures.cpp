@@ -20,7 +20,7 @@ Color named_color(std::string_view name) {
 
 // The sRGB transfer function (IEC 61966-2-1), so that linear shading looks linear.
 uint8_t encoded(double linear) {
-  const double v = std::clamp(linear, 0.0, 1.0);
+  const double v = linear > 0 ? std::min(linear, 1.0) : 0;  // NaN is black
   return static_cast<uint8_t>(std::lround(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055)));
 }
 
@@ -45,7 +45,8 @@ Image<Color> shaded(const Measurement& m, int rung) {
   });
 }
 
-// Each wrong pixel in the colour of its cause, as strong as it is wrong, over what is right.
+// Each wrong pixel in the colour of its cause, as strong as it is wrong (std::min in this order: NaN as wrong as can
+// be), over what is right.
 Image<Color> classes(const Measurement& m) {
   return paint(m, [&](size_t i) {
     if (!(m.ladder.flags[i] & flag_facing)) return named_color("attached");
@@ -56,7 +57,7 @@ Image<Color> classes(const Measurement& m) {
     const Cause cause = static_cast<Cause>(m.ladder.cause[i]);
     if (cause == Cause::none) return Color(right + 0.5f);
     const float wrong = std::abs(m.ladder.rung[5][i] - m.ladder.rung[1][i]);
-    return Color(glm::mix(right, glm::vec3(named_color(cause_name(cause))), 0.25f + 0.75f * std::min(wrong, 1.0f)) + 0.5f);
+    return Color(glm::mix(right, glm::vec3(named_color(cause_name(cause))), 0.25f + 0.75f * std::min(1.0f, wrong)) + 0.5f);
   });
 }
 
@@ -66,7 +67,7 @@ Image<Color> difference(const Measurement& m) {
   return paint(m, [&](size_t i) {
     if (!(m.ladder.flags[i] & flag_facing)) return named_color("attached");
     const float signed_error = m.ladder.rung[5][i] - m.ladder.rung[1][i];
-    return Color(glm::mix(right, signed_error < 0 ? dark : light, std::min(std::abs(signed_error), 1.0f)) + 0.5f);
+    return Color(glm::mix(right, signed_error < 0 ? dark : light, std::min(1.0f, std::abs(signed_error))) + 0.5f);
   });
 }
 

@@ -15,20 +15,31 @@
 namespace noonmark {
 namespace {
 
-std::vector<std::string> experiments_in(const std::vector<std::string>& paths) {
-  std::vector<std::string> files;
+struct Listed {
+  std::string file;
+  std::string name;  // of its results' folder below out/ or --out: the way below the folder that was given, or the stem
+};
+
+std::vector<Listed> experiments_in(const std::vector<std::string>& paths) {
+  namespace fs = std::filesystem;
+  std::vector<Listed> files;
   for (const std::string& path : paths) {
-    if (!std::filesystem::is_directory(path)) {
-      files.push_back(path);
+    if (!fs::is_directory(path)) {
+      files.push_back({path, fs::path(path).stem().string()});
       continue;
     }
     std::vector<std::string> found;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
+    for (const auto& entry : fs::recursive_directory_iterator(path))
       if (entry.path().extension() == ".toml") found.push_back(entry.path().string());
     if (found.empty()) throw Error(ErrorKind::usage, fmt::format("the folder {} holds no .toml file; give an experiment or a folder of them", path));
     std::sort(found.begin(), found.end());
-    files.insert(files.end(), found.begin(), found.end());
+    for (const std::string& file : found) files.push_back({file, fs::path(file).lexically_relative(path).replace_extension().string()});
   }
+  for (size_t i = 0; i < files.size(); ++i)
+    for (size_t j = 0; j < i; ++j)
+      if (files[i].name == files[j].name)
+        throw Error(ErrorKind::usage, fmt::format("{} and {} would share the results' folder {}; check them one by one with different --out",
+                                                  files[j].file, files[i].file, files[i].name));
   return files;
 }
 
@@ -56,12 +67,12 @@ int check_one(const std::string& path, const ExperimentArguments& arguments, con
 }  // namespace
 
 int verb_check(const std::vector<std::string>& paths, const ExperimentArguments& arguments) {
-  const std::vector<std::string> files = experiments_in(paths);
+  const std::vector<Listed> files = experiments_in(paths);
+  const bool alone = files.size() == 1 && !arguments.out.empty();
   int worst = 0;
-  for (const std::string& file : files) {
-    ExperimentArguments one = arguments;
-    if (files.size() > 1 && !arguments.out.empty()) one.out = arguments.out + "/" + std::filesystem::path(file).stem().string();
-    worst = std::max(worst, check_one(file, one, out_folder(file, one)));
+  for (const Listed& listed : files) {
+    const std::string out = alone ? arguments.out : (arguments.out.empty() ? std::string("out") : arguments.out) + "/" + listed.name;
+    worst = std::max(worst, check_one(listed.file, arguments, out));
     if (worst == static_cast<int>(ErrorKind::incomplete)) break;
   }
   return worst;

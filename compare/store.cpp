@@ -57,17 +57,28 @@ void remove_store(const std::string& path) {
   }
 }
 
-// "here 'map.resolution = 512', there 'map.resolution = 1024'" for the first line that differs.
+// The lines "name = value" of a fingerprint, in order.
+std::vector<std::pair<std::string, std::string>> named_lines(const std::string& text) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.emplace_back(line.substr(0, line.find(" = ")), line);
+  return lines;
+}
+
+// "now 'map.resolution = 512', there 'map.resolution = 1024'" for the first name that differs.
 std::string first_difference(const std::string& here, const std::string& there) {
-  std::istringstream a(here), b(there);
-  std::string line_a, line_b;
-  for (;;) {
-    const bool more_a = static_cast<bool>(std::getline(a, line_a));
-    const bool more_b = static_cast<bool>(std::getline(b, line_b));
-    if (!more_a) line_a = "nothing more";
-    if (!more_b) line_b = "nothing more";
-    if (line_a != line_b || (!more_a && !more_b)) return fmt::format("now '{}', there '{}'", line_a, line_b);
+  const auto a = named_lines(here), b = named_lines(there);
+  const auto find = [](const auto& lines, const std::string& name) {
+    return std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.first == name; });
+  };
+  for (const auto& [name, line] : a) {
+    const auto other = find(b, name);
+    if (other == b.end()) return fmt::format("now '{}', there nothing of the kind", line);
+    if (other->second != line) return fmt::format("now '{}', there '{}'", line, other->second);
   }
+  for (const auto& [name, line] : b)
+    if (find(a, name) == a.end()) return fmt::format("there '{}', now nothing of the kind", line);
+  return "the same settings in another order";
 }
 
 // Throws unless the file is a whole store of this version.

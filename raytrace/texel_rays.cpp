@@ -40,9 +40,13 @@ TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Ima
                      const LookupProbe& probe, Wrap wrap, int kernel) {
   const int resolution = view.frame().resolution, r = kernel / 2;
   Image<uint8_t> wanted(resolution, resolution, 0);
-  tbb::combinable<std::vector<uint64_t>> outside_keys;
+  struct Outside {
+    std::vector<uint64_t> keys;
+    size_t limit = size_t{1} << 22;
+  };
+  tbb::combinable<Outside> outside_keys;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, facing.size(), 4096), [&](const tbb::blocked_range<size_t>& range) {
-    std::vector<uint64_t>& outside = outside_keys.local();
+    Outside& outside = outside_keys.local();
     size_t full = std::max(outside_buffer, 2 * outside.size());
     for (size_t i = range.begin(); i != range.end(); ++i) {
       if (!facing[i]) continue;
@@ -52,14 +56,15 @@ TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Ima
           const glm::ivec2 texel = base + glm::ivec2(dx, dy);
           const glm::ivec2 read = wrapped(texel, resolution, wrap);
           if (read.x >= 0) std::atomic_ref(wanted.at(read.x, read.y)).store(1, std::memory_order_relaxed);
-          if (!inside_map(texel, resolution)) outside.push_back(texel_key(texel));
+          if (!inside_map(texel, resolution)) outside.keys.push_back(texel_key(texel));
         }
       }
-      // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills the memory.
-      if (outside.size() > full) {
-        std::sort(outside.begin(), outside.end());
-        outside.erase(std::unique(outside.begin(), outside.end()), outside.end());
-        full = std::max(outside_buffer, 2 * outside.size());  // doubling: all different ones are not sorted at every pixel
+      // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills the memory. The
+      // limit doubles with what is truly different, so that the sorting stays a small share of the work.
+      if (outside.keys.size() > outside.limit) {
+        std::sort(outside.keys.begin(), outside.keys.end());
+        outside.keys.erase(std::unique(outside.keys.begin(), outside.keys.end()), outside.keys.end());
+        outside.limit = std::max<size_t>(size_t{1} << 22, 2 * outside.keys.size());
       }
     }
   });
@@ -72,7 +77,7 @@ TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Ima
         [&](size_t i, uint32_t hit) { inside_.at(inside_texels_[i].x, inside_texels_[i].y) = hit; });
 
   std::vector<uint64_t> keys;
-  outside_keys.combine_each([&](const std::vector<uint64_t>& part) { keys.insert(keys.end(), part.begin(), part.end()); });
+  outside_keys.combine_each([&](const Outside& part) { keys.insert(keys.end(), part.keys.begin(), part.keys.end()); });
   tbb::parallel_sort(keys);
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   outside_.resize(keys.size());

@@ -1,6 +1,4 @@
 // The curves read off one pass, against counting every tap at every bias.
-#include "compare/bias_curves.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -9,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "compare/bias_curves.h"
 #include "tests/compare_evidence.h"
 
 namespace noonmark {
@@ -44,7 +43,8 @@ Counts counted_at(const Synthetic& s, CurveParameter parameter, float x) {
     for (const naive::Tap& tap : naive::taps_of(s, s.exact, i))
       ++c.caused[static_cast<size_t>(naive::cause_of(tap, naive::verdict(s, tap, i, bias)))];
     int wrong = 0;
-    for (const naive::Tap& tap : naive::taps_of(s, s.stored, i)) wrong += naive::verdict(s, tap, i, bias) != (s.truth.lit[i] != 0);
+    for (const naive::Tap& tap : naive::taps_of(s, s.stored, i))
+      wrong += naive::verdict(s, tap, i, bias) != (s.truth.lit[i] != 0);
     c.wrong_taps += static_cast<uint64_t>(wrong);
     c.wrong_receivers += wrong > 0;
   }
@@ -88,7 +88,8 @@ Synthetic evidence_for(CurveParameter parameter, uint64_t seed, const Shape& sha
   std::mt19937_64 random(seed);
   s.bias = {.form = BiasForm::constant, .constant = 0.01f};
   if (parameter == CurveParameter::slope)
-    s.bias = {.form = BiasForm::slope, .slope = 0.05f, .floor = seed % 2 ? 0.0f : static_cast<float>(random() % 5) / 16};
+    s.bias = {
+        .form = BiasForm::slope, .slope = 0.05f, .floor = seed % 2 ? 0.0f : static_cast<float>(random() % 5) / 16};
   return s;
 }
 
@@ -104,15 +105,19 @@ TEST_P(Curves, CountWhatRenderingWouldAtEveryBreakpointAndBetween) {
   for (uint64_t seed = 1; seed <= 12; ++seed) {
     const Synthetic s = evidence_for(parameter, seed, shape);
     const BiasCounts counts(s.evidence(), s.stored, parameter);
-    std::set<float> tried = {0.0f, std::numeric_limits<float>::denorm_min(), 1.0f, 3.0f, std::numeric_limits<float>::max()};
+    std::set<float> tried = {0.0f, std::numeric_limits<float>::denorm_min(), 1.0f, 3.0f,
+                             std::numeric_limits<float>::max()};
     for (float x : breakpoints(s, parameter)) {
       // Without a lattice there are thousands: every eleventh of them.
       if (!lattice && std::bit_cast<uint32_t>(x) % 11 != 0) continue;
       tried.insert({std::nextafter(x, 0.0f), x, std::nextafter(x, infinity)});
     }
     std::mt19937_64 random(seed);
-    for (int i = 0; i < 100; ++i) tried.insert(std::ldexp(1.0f, -static_cast<int>(random() % 20)) * std::uniform_real_distribution<float>(0, 2)(random));
-    for (float x : tried) ASSERT_EQ(read_off(counts, x), counted_at(s, parameter, x)) << "seed " << seed << " at " << std::hexfloat << x;
+    for (int i = 0; i < 100; ++i)
+      tried.insert(std::ldexp(1.0f, -static_cast<int>(random() % 20)) *
+                   std::uniform_real_distribution<float>(0, 2)(random));
+    for (float x : tried)
+      ASSERT_EQ(read_off(counts, x), counted_at(s, parameter, x)) << "seed " << seed << " at " << std::hexfloat << x;
     EXPECT_EQ(counts.taps(), counts.receivers() * static_cast<uint64_t>(kernel * kernel));
   }
 }
@@ -121,7 +126,9 @@ TEST_P(Curves, NameTheExactEndsOfTheWindow) {
   for (uint64_t seed = 20; seed <= 32; ++seed) {
     const Synthetic s = evidence_for(parameter, seed, shape);
     const BiasCounts counts(s.evidence(), s.stored, parameter);
-    const auto caused = [&](Cause cause, float x) { return counted_at(s, parameter, x).caused[static_cast<size_t>(cause)]; };
+    const auto caused = [&](Cause cause, float x) {
+      return counted_at(s, parameter, x).caused[static_cast<size_t>(cause)];
+    };
     for (uint64_t allowed : {0, 1, 2, 3, 5, 10, 40, 1000000}) {
       const float from = counts.acne_free_from(allowed);
       if (from < infinity) {
@@ -170,17 +177,21 @@ TEST_P(Curves, FindTheBestBiasByTryingAll) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Curves,
-                         testing::Combine(testing::Values(CurveParameter::constant, CurveParameter::slope), testing::Values(1, 3, 5), testing::Bool()),
+                         testing::Combine(testing::Values(CurveParameter::constant, CurveParameter::slope),
+                                          testing::Values(1, 3, 5), testing::Bool()),
                          [](const auto& named) {
-                           return std::string(std::get<0>(named.param) == CurveParameter::constant ? "Constant" : "Slope") +
-                                  std::to_string(std::get<1>(named.param)) + (std::get<2>(named.param) ? "Lattice" : "");
+                           return std::string(std::get<0>(named.param) == CurveParameter::constant ? "Constant"
+                                                                                                   : "Slope") +
+                                  std::to_string(std::get<1>(named.param)) +
+                                  (std::get<2>(named.param) ? "Lattice" : "");
                          });
 
 TEST(BiasCounts, AreTheSameOverManyBlocks) {
   for (CurveParameter parameter : {CurveParameter::constant, CurveParameter::slope}) {
     const Synthetic s = evidence_for(parameter, 5, {220, 170, 64, 1, false});  // several of the loop's blocks of 8192
     const BiasCounts counts(s.evidence(), s.stored, parameter);
-    for (int i = 0; i <= 40; ++i) ASSERT_EQ(read_off(counts, static_cast<float>(i) / 32), counted_at(s, parameter, static_cast<float>(i) / 32));
+    for (int i = 0; i <= 40; ++i)
+      ASSERT_EQ(read_off(counts, static_cast<float>(i) / 32), counted_at(s, parameter, static_cast<float>(i) / 32));
   }
 }
 
@@ -196,8 +207,10 @@ TEST(BiasCounts, AreWhatTheLadderBooksAtThatBias) {
     for (Cause cause : booked) {
       double sum = 0;
       for (size_t i = 0; i < s.r4.size(); ++i)
-        if (s.truth.facing[i] && !s.truth.ambiguous[i]) sum += std::abs(static_cast<double>(ladder.step[static_cast<size_t>(cause)][i]));
-      EXPECT_NEAR(sum * s.taps.taps_per_receiver, static_cast<double>(counts.caused(cause, x)), 1e-3) << cause_name(cause);
+        if (s.truth.facing[i] && !s.truth.ambiguous[i])
+          sum += std::abs(static_cast<double>(ladder.step[static_cast<size_t>(cause)][i]));
+      EXPECT_NEAR(sum * s.taps.taps_per_receiver, static_cast<double>(counts.caused(cause, x)), 1e-3)
+          << cause_name(cause);
     }
   }
 }
@@ -219,9 +232,7 @@ Synthetic row_of(int count) {
 }
 
 // Receiver i as acne below bias b (b a power of two: exact in float).
-void make_acne(Synthetic& s, size_t i, float b) {
-  s.exact.pixels[i] = s.stored.pixels[i] = s.probe.reference[i] - b;
-}
+void make_acne(Synthetic& s, size_t i, float b) { s.exact.pixels[i] = s.stored.pixels[i] = s.probe.reference[i] - b; }
 // Receiver i in the shadow of an occluder b before it.
 void make_shadow(Synthetic& s, size_t i, float b) {
   s.truth.lit[i] = 0;
@@ -253,7 +264,8 @@ TEST(Summarise, GivesSharesUnitsAndTheWindow) {
   EXPECT_EQ(c.wrong, c.error);
   EXPECT_EQ(c.acne, (std::vector<double>{0.2, 0.1, 0, 0, 0}));
   EXPECT_EQ(c.peter_panning, (std::vector<double>{0, 0, 0, 0.1, 0.2}));
-  for (const auto& series : {c.aliasing_dark, c.aliasing_light, c.coverage}) EXPECT_EQ(series, std::vector<double>(5, 0));
+  for (const auto& series : {c.aliasing_dark, c.aliasing_light, c.coverage})
+    EXPECT_EQ(series, std::vector<double>(5, 0));
   EXPECT_EQ(c.m_per_depth, 6.5);
   EXPECT_DOUBLE_EQ(c.texels_per_depth, 6.5 / 0.02);
   // reference - bias > stored lights a tie, so acne ends at the bias and Peter Panning starts at it; the float
@@ -286,7 +298,8 @@ TEST(Summarise, HasNoWindowWhereTheCausesOverlap) {
   Synthetic s = row_of(4);
   make_acne(s, 0, 0x1p-3f);
   make_shadow(s, 1, 0x1p-4f);
-  const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored, CurveParameter::constant), CurveParameter::constant, test_frame(), {0, 0, {}});
+  const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored, CurveParameter::constant), CurveParameter::constant,
+                                test_frame(), {0, 0, {}});
   EXPECT_FALSE(c.window_min_depth);
   EXPECT_FALSE(c.window_max_depth);
   EXPECT_EQ(c.best_error, 0.25);
@@ -313,9 +326,13 @@ TEST(Summarise, AllowsWhatTheMetricCallsWithinTheBound) {
       for (int i = 0; i < n; ++i) make_acne(s, static_cast<size_t>(i), 0x1p-4f);
       const double share = static_cast<double>(n) / of;
       const BiasCounts counts(s.evidence(), s.stored, CurveParameter::constant);
-      EXPECT_EQ(summarise(counts, CurveParameter::constant, test_frame(), {share, 0, {}}).window_min_depth, 0) << n << " of " << of;
+      EXPECT_EQ(summarise(counts, CurveParameter::constant, test_frame(), {share, 0, {}}).window_min_depth, 0)
+          << n << " of " << of;
       if (n > 0) {
-        EXPECT_GT(summarise(counts, CurveParameter::constant, test_frame(), {std::nextafter(share, 0), 0, {}}).window_min_depth, 0) << n;
+        EXPECT_GT(summarise(counts, CurveParameter::constant, test_frame(), {std::nextafter(share, 0), 0, {}})
+                      .window_min_depth,
+                  0)
+            << n;
       }
     }
   }
@@ -333,7 +350,8 @@ TEST(Summarise, SaysNaNWhereThereAreNoReceivers) {
     EXPECT_EQ(counts.wrong_taps(0.5f), 0);
     EXPECT_EQ(counts.best().wrong_taps, 0);
     const BiasCurve c = summarise(counts, CurveParameter::constant, test_frame(), {0.001, 0.001, {0, 0.5}});
-    for (const auto& series : {c.error, c.wrong, c.acne, c.peter_panning, c.aliasing_dark, c.aliasing_light, c.coverage}) {
+    for (const auto& series :
+         {c.error, c.wrong, c.acne, c.peter_panning, c.aliasing_dark, c.aliasing_light, c.coverage}) {
       ASSERT_EQ(series.size(), 2);
       for (double value : series) EXPECT_TRUE(std::isnan(value));
     }

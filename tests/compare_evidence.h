@@ -151,7 +151,8 @@ inline Cause cause_of(const Tap& tap, bool lit) { return causes[tap.covered][tap
 
 inline float visibility(const Synthetic& s, const Image<float>& map, size_t receiver) {
   int lit = 0;
-  for (const Tap& tap : taps_of(s, map, receiver)) lit += verdict(s, tap, receiver, bias_at(s.bias, s.probe.n_dot_l[receiver]));
+  for (const Tap& tap : taps_of(s, map, receiver))
+    lit += verdict(s, tap, receiver, bias_at(s.bias, s.probe.n_dot_l[receiver]));
   return static_cast<float>(lit) / static_cast<float>(s.kernel * s.kernel);
 }
 

@@ -1,6 +1,4 @@
 // The ladder's arithmetic: the causes' table, the sums, and what is left out of which.
-#include "compare/ladder.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -9,6 +7,7 @@
 #include <set>
 
 #include "compare/cause_colors.h"
+#include "compare/ladder.h"
 #include "compare/measure.h"
 #include "scenes/receivers.h"
 #include "tests/compare_evidence.h"
@@ -91,7 +90,8 @@ TEST_P(Climb, StepsSumToTheErrorAndTapClassesToTheirRungs) {
         r2 += tap.exact_lit;
         r3 += tap.texel_lit;
         const bool lit = naive::verdict(s, tap, i, naive::bias_at(s.bias, s.probe.n_dot_l[i]));
-        expected[static_cast<size_t>(naive::cause_of(tap, lit))] += (lit ? 1.0 : -1.0) / static_cast<double>(taps.size());
+        expected[static_cast<size_t>(naive::cause_of(tap, lit))] +=
+            (lit ? 1.0 : -1.0) / static_cast<double>(taps.size());
       }
       r2 /= static_cast<double>(taps.size());
       r3 /= static_cast<double>(taps.size());
@@ -101,7 +101,8 @@ TEST_P(Climb, StepsSumToTheErrorAndTapClassesToTheirRungs) {
       ASSERT_EQ(ladder.rung[5][i], s.r5[i]);
       ASSERT_NEAR(all, rungs[5] - rungs[0], sum_rounding);
       ASSERT_NEAR(classes, rungs[4] - rungs[2], sum_rounding);
-      for (Cause cause : tap_classes) ASSERT_NEAR(step(ladder, cause, i), expected[static_cast<size_t>(cause)], 0x1p-24) << cause_name(cause);
+      for (Cause cause : tap_classes)
+        ASSERT_NEAR(step(ladder, cause, i), expected[static_cast<size_t>(cause)], 0x1p-24) << cause_name(cause);
       ASSERT_NEAR(step(ladder, Cause::light_size, i), rungs[1] - rungs[0], 0x1p-24);
       ASSERT_NEAR(step(ladder, Cause::filter, i), rungs[2] - rungs[1], 0x1p-24);
       ASSERT_NEAR(step(ladder, Cause::precision, i), rungs[5] - rungs[4], 0x1p-24);
@@ -165,7 +166,8 @@ TEST(ClimbUnfiltered, NamesTheRungFromWhichThePixelStaysWrong) {
       if ((s.r5[i] != 0) == truth) continue;
       // The last rung that was right; all above it are wrong.
       int stays_wrong_from = 5;
-      while (stays_wrong_from > 1 && (ladder.rung[static_cast<size_t>(stays_wrong_from - 1)][i] != 0) != truth) --stays_wrong_from;
+      while (stays_wrong_from > 1 && (ladder.rung[static_cast<size_t>(stays_wrong_from - 1)][i] != 0) != truth)
+        --stays_wrong_from;
       const Cause cause = static_cast<Cause>(ladder.cause[i]);
       seen.insert(cause);
       const naive::Tap tap = naive::taps_of(s, s.exact, i).front();
@@ -300,7 +302,8 @@ TEST(Causes, HaveNamesAllDifferentAndAColourEach) {
   std::set<std::string_view> names;
   for (int c = 0; c < cause_count; ++c) names.insert(cause_name(static_cast<Cause>(c)));
   EXPECT_EQ(names.size(), cause_count);
-  for (int c = 1; c < cause_count; ++c) EXPECT_TRUE(find_color(cause_name(static_cast<Cause>(c)))) << cause_name(static_cast<Cause>(c));
+  for (int c = 1; c < cause_count; ++c)
+    EXPECT_TRUE(find_color(cause_name(static_cast<Cause>(c)))) << cause_name(static_cast<Cause>(c));
   EXPECT_EQ(cause_name(Cause::acne), "acne");
   EXPECT_EQ(cause_name(Cause::peter_panning), "peter_panning");
   EXPECT_EQ(cause_name(Cause::precision), "precision");

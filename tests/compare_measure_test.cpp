@@ -1,6 +1,4 @@
 // The metrics against values worked out by hand, and the distances that they use against trying every pixel.
-#include "compare/measure.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -10,6 +8,7 @@
 #include <set>
 
 #include "compare/distance.h"
+#include "compare/measure.h"
 #include "compare/metrics.h"
 #include "scenes/error.h"
 #include "scenes/receivers.h"
@@ -38,7 +37,9 @@ struct Picture {
     ladder.step[static_cast<size_t>(cause)].at(x, y) = size;
     ladder.cause.at(x, y) = static_cast<uint8_t>(cause);
   }
-  std::map<std::string, double> metrics() const { return measure_ladder({ladder, primitive, edge, occluder, n_dot_l, texel_m}); }
+  std::map<std::string, double> metrics() const {
+    return measure_ladder({ladder, primitive, edge, occluder, n_dot_l, texel_m});
+  }
   double metric(const char* name) const { return metrics().at(name); }
 
   Ladder ladder;
@@ -328,10 +329,18 @@ TEST(DistanceTo, IsExactAcrossLargePictures) {
   std::mt19937_64 random(12);
   for (int round = 0; round < 12; ++round) {
     Image<uint8_t> mask(4096, 24, 0);
-    for (int i = 0; i < 6 + 20 * (round % 3); ++i) mask.at(static_cast<int>(random() % 4096), static_cast<int>(random() % 24)) = 1;
+    for (int i = 0; i < 6 + 20 * (round % 3); ++i)
+      mask.at(static_cast<int>(random() % 4096), static_cast<int>(random() % 24)) = 1;
     mask.at(0, static_cast<int>(random() % 24)) = mask.at(4095, static_cast<int>(random() % 24)) = 1;
     expect_distances(mask);
   }
+}
+
+TEST(DistanceTo, TellsAHairsBreadthFarFromTheEdge) {
+  // In row 0 the two meet 1/12400 of a pixel before column 4100, closer than floats stand there.
+  Image<uint8_t> mask(8192, 2, 0);
+  mask.at(1000, 1) = mask.at(7200, 0) = 1;
+  expect_distances(mask);
 }
 
 }  // namespace

@@ -1,6 +1,4 @@
 // The thresholds against the shader's own comparison, in the float that OpenGL computes with.
-#include "compare/thresholds.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -9,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "compare/thresholds.h"
 
 namespace noonmark {
 namespace {
@@ -45,10 +45,14 @@ float any_size(std::mt19937_64& random) {
 // Window depths as a fixed-point map holds them, and what lies between.
 float depth(std::mt19937_64& random) {
   switch (random() % 4) {
-    case 0: return static_cast<float>(static_cast<double>(random() % 65536) / 65535);
-    case 1: return static_cast<float>(static_cast<double>(random() % 16777216) / 16777215);
-    case 2: return std::uniform_real_distribution<float>(0, 1)(random);
-    default: return std::ldexp(1.0f, -static_cast<int>(random() % 30));
+    case 0:
+      return static_cast<float>(static_cast<double>(random() % 65536) / 65535);
+    case 1:
+      return static_cast<float>(static_cast<double>(random() % 16777216) / 16777215);
+    case 2:
+      return std::uniform_real_distribution<float>(0, 1)(random);
+    default:
+      return std::ldexp(1.0f, -static_cast<int>(random() % 30));
   }
 }
 float moved(float x, int floats) {
@@ -63,7 +67,8 @@ void expect_lit_thresholds(int count, const MakePair& make) {
   for (int i = 0; i < count; ++i) {
     const auto [d, z] = make(random);
     const float b = lit_threshold(d, z);
-    ASSERT_TRUE(is_least(b, [&](float bias) { return lit(d, z, bias); })) << std::hexfloat << d << " against " << z << ": " << b;
+    ASSERT_TRUE(is_least(b, [&](float bias) { return lit(d, z, bias); }))
+        << std::hexfloat << d << " against " << z << ": " << b;
     if (i % 8 == 0) {
       ASSERT_EQ(b, bisected([&](float bias) { return lit(d, z, bias); })) << std::hexfloat << d << " against " << z;
     }
@@ -88,8 +93,20 @@ TEST(LitThreshold, IsTheLeastBiasForFloatsOfAnySize) {
 }
 
 TEST(LitThreshold, IsTheLeastBiasAtTheEnds) {
-  const float ends[] = {0, least, moved(least, 3), std::numeric_limits<float>::min(), 0x1p-24f, 0.5f, moved(1, -1), 1,
-                        moved(1, 1), 1.5f, 2, 1e20f, moved(largest, -1), largest};
+  const float ends[] = {0,
+                        least,
+                        moved(least, 3),
+                        std::numeric_limits<float>::min(),
+                        0x1p-24f,
+                        0.5f,
+                        moved(1, -1),
+                        1,
+                        moved(1, 1),
+                        1.5f,
+                        2,
+                        1e20f,
+                        moved(largest, -1),
+                        largest};
   expect_lit_thresholds(400'000, [&](std::mt19937_64& r) {
     const float d = r() % 2 ? ends[r() % std::size(ends)] : depth(r);
     return Pair{d, ends[r() % std::size(ends)]};
@@ -159,11 +176,14 @@ TEST(SlopeThreshold, IsTheLeastSlopeForFloatsOfAnySize) {
 }
 
 TEST(SlopeThreshold, IsTheLeastSlopeWhereProductsAreDenormal) {
-  expect_slope_thresholds(200'000, [](std::mt19937_64& r) {
-    return Pair{std::bit_cast<float>(static_cast<uint32_t>(r() % 64)), std::ldexp(std::uniform_real_distribution<float>(1, 2)(r), -static_cast<int>(r() % 60))};
-  });
   std::mt19937_64 random(3);
-  EXPECT_TRUE(quick([&](int i) { slope_threshold(std::bit_cast<float>(static_cast<uint32_t>(1 + i % 5)), 1e-10f * static_cast<float>(1 + i)); }));
+  ASSERT_TRUE(quick([&](int i) {
+    slope_threshold(std::bit_cast<float>(static_cast<uint32_t>(1 + i % 5)), 1e-10f * static_cast<float>(1 + i));
+  }));
+  expect_slope_thresholds(200'000, [](std::mt19937_64& r) {
+    return Pair{std::bit_cast<float>(static_cast<uint32_t>(r() % 64)),
+                std::ldexp(std::uniform_real_distribution<float>(1, 2)(r), -static_cast<int>(r() % 60))};
+  });
 }
 
 TEST(SlopeThreshold, OfNoBiasIsZeroAndOfNoFactorInfinite) {

@@ -35,7 +35,8 @@ ReadImage read_exr(const std::string& path) {
   ReadImage image{input->spec(), {}};
   const size_t count = static_cast<size_t>(image.spec.nchannels), size = image.spec.image_pixels();
   std::vector<float> pixels(size * count);
-  if (!input->read_image(0, 0, 0, image.spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data())) throw std::runtime_error(input->geterror());
+  if (!input->read_image(0, 0, 0, image.spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
+    throw std::runtime_error(input->geterror());
   for (size_t c = 0; c < count; ++c) {
     std::vector<float>& channel = image.channels[image.spec.channelnames[c]];
     for (size_t i = 0; i < size; ++i) channel.push_back(pixels[i * count + c]);
@@ -49,7 +50,8 @@ Image<Color> read_png(const std::string& path) {
   EXPECT_EQ(input->spec().nchannels, 3);
   EXPECT_EQ(input->spec().format, OIIO::TypeDesc::UINT8);
   Image<Color> picture(input->spec().width, input->spec().height);
-  if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, picture.pixels.data())) throw std::runtime_error(input->geterror());
+  if (!input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, picture.pixels.data()))
+    throw std::runtime_error(input->geterror());
   return picture;
 }
 
@@ -102,7 +104,8 @@ RC_GTEST_FIXTURE_PROP(ImageFile, ExrKeepsEveryBit, ()) {
   RC_ASSERT(image.spec.height == height);
   RC_ASSERT(image.spec.format == OIIO::TypeDesc::FLOAT);
   RC_ASSERT(image.channels.size() == channels.size());
-  for (const Channel& channel : channels) RC_ASSERT(bits(image.channels.at(channel.name)) == bits(channel.values.pixels));
+  for (const Channel& channel : channels)
+    RC_ASSERT(bits(image.channels.at(channel.name)) == bits(channel.values.pixels));
   RC_ASSERT(files_in(folder.path()) == std::set<std::string>{"a.exr"});
 }
 
@@ -122,7 +125,8 @@ TEST_F(ImageFile, ExrHasTheTopRowFirst) {
 }
 
 TEST_F(ImageFile, ExrRefusesChannelsOfDifferentSizes) {
-  EXPECT_THROW(write_exr(folder.file("a.exr"), {{"a", Image<float>(2, 2)}, {"b", Image<float>(4, 1)}}), std::logic_error);
+  EXPECT_THROW(write_exr(folder.file("a.exr"), {{"a", Image<float>(2, 2)}, {"b", Image<float>(4, 1)}}),
+               std::logic_error);
   EXPECT_TRUE(files_in(folder.path()).empty());
 }
 
@@ -235,8 +239,14 @@ class Pictures : public ImageFile {
       for (size_t i = 0; i < image.size(); ++i) image[i] = value(i);
     };
     const auto numbered = [](float first) { return [=](size_t i) { return first + static_cast<float>(i) / 8; }; };
-    fill(receivers.position, 3, 2, [](size_t i) { const float f = static_cast<float>(i); return glm::vec3(f, f + 0.25f, -f); });
-    fill(receivers.normal, 3, 2, [](size_t i) { const float f = static_cast<float>(i); return glm::vec3(-f, 1, f * 2); });
+    fill(receivers.position, 3, 2, [](size_t i) {
+      const float f = static_cast<float>(i);
+      return glm::vec3(f, f + 0.25f, -f);
+    });
+    fill(receivers.normal, 3, 2, [](size_t i) {
+      const float f = static_cast<float>(i);
+      return glm::vec3(-f, 1, f * 2);
+    });
     fill(receivers.primitive, 3, 2, [](size_t i) { return i == 5 ? no_primitive : static_cast<uint32_t>(1000 + i); });
     fill(probe.reference, 3, 2, numbered(0.125f));
     fill(probe.n_dot_l, 3, 2, [](size_t) { return 0.5f; });
@@ -245,7 +255,8 @@ class Pictures : public ImageFile {
     probe.texel.pixels = {{0, 0}, {-1, 3}, {1, 0}, {0, 1}, {2, 0}, {0, 0}};
     fill(stored, 2, 2, numbered(0.1f));
     fill(exact, 2, 2, numbered(0.2f));
-    for (size_t n = 0; n < 6; ++n) fill(ladder.rung[n], 3, 2, [n](size_t i) { return static_cast<float>((n + i) % 2); });
+    for (size_t n = 0; n < 6; ++n)
+      fill(ladder.rung[n], 3, 2, [n](size_t i) { return static_cast<float>((n + i) % 2); });
     for (size_t c = 0; c < cause_count; ++c) fill(ladder.step[c], 3, 2, numbered(static_cast<float>(c)));
     ladder.cause = ladder.flags = Image<uint8_t>(3, 2);
     ladder.cause.pixels = {0, 5, 6, 9, 3, 0};
@@ -298,7 +309,8 @@ TEST_F(Pictures, LadderHoldsTheChannelsOfTheDesign) {
     const ReadImage read = read_exr(folder.file("q-ladder.exr"));
     for (const auto& [name, map] : {std::pair("depth.stored", &stored), std::pair("depth.exact", &exact)}) {
       for (size_t i = 0; i < 5; ++i)
-        EXPECT_EQ(read.channels.at(name)[i], texels[i] < 0 ? 1.0f : (*map)[static_cast<size_t>(texels[i])]) << name << " of pixel " << i;
+        EXPECT_EQ(read.channels.at(name)[i], texels[i] < 0 ? 1.0f : (*map)[static_cast<size_t>(texels[i])])
+            << name << " of pixel " << i;
       EXPECT_TRUE(std::isnan(read.channels.at(name)[5]));
     }
   };
@@ -349,7 +361,8 @@ TEST_F(Pictures, ClassesShowTheColoursOfTheLegend) {
   ladder.rung[5].pixels = {0, 1, 0, 0, 0, 0};
   write_pictures(measurement(), folder.path().string(), "images", "p");
   EXPECT_EQ(read_png(folder.file("p-classes.png")).pixels,
-            (std::vector<Color>{named("acne"), named("lit"), named("shadowed"), named("ambiguous"), named("attached"), named("background")}));
+            (std::vector<Color>{named("acne"), named("lit"), named("shadowed"), named("ambiguous"), named("attached"),
+                                named("background")}));
   const Image<Color> difference = read_png(folder.file("p-difference.png"));
   EXPECT_EQ(difference[0], named("acne"));
   EXPECT_EQ(difference[1], named("lit"));
@@ -359,6 +372,17 @@ TEST_F(Pictures, ClassesShowTheColoursOfTheLegend) {
   EXPECT_EQ(truth[1], map[1]);
 }
 
+TEST_F(Pictures, ShowWhatIsNoNumberAsWrong) {
+  ladder.flags.pixels[0] = flag_facing;
+  ladder.cause.pixels[0] = static_cast<uint8_t>(Cause::precision);
+  ladder.rung[1].pixels[0] = 1;
+  ladder.rung[5].pixels[0] = std::numeric_limits<float>::quiet_NaN();
+  write_pictures(measurement(), folder.path().string(), "images", "p");
+  EXPECT_EQ(read_png(folder.file("p-classes.png"))[0], named("precision"));
+  EXPECT_EQ(read_png(folder.file("p-difference.png"))[0], named("peter_panning"));
+  EXPECT_EQ(read_png(folder.file("p-map.png"))[0], Color(0, 0, 0));
+}
+
 TEST_F(Pictures, PointHoldsEverySettingAndWhatIsNotFinite) {
   Measurement m = measurement();
   for (const Metric& metric : metrics_table()) m.record.metrics[std::string(metric.name)] = 0.25;
@@ -366,8 +390,10 @@ TEST_F(Pictures, PointHoldsEverySettingAndWhatIsNotFinite) {
   m.record.metrics["acne"] = inf_value;
   m.record.times["map_ms"] = -inf_value;
   const nlohmann::json json = nlohmann::json::parse(point_json(m, "noonmark render 'x'"));
-  for (const Setting& row : settings_table()) EXPECT_TRUE(json.at("settings").contains(std::string(row.name))) << row.name;
-  for (const Metric& metric : metrics_table()) EXPECT_TRUE(json.at("metrics").contains(std::string(metric.name))) << metric.name;
+  for (const Setting& row : settings_table())
+    EXPECT_TRUE(json.at("settings").contains(std::string(row.name))) << row.name;
+  for (const Metric& metric : metrics_table())
+    EXPECT_TRUE(json.at("metrics").contains(std::string(metric.name))) << metric.name;
   EXPECT_EQ(json.at("metrics").at("error"), "nan");
   EXPECT_EQ(json.at("metrics").at("acne"), "inf");
   EXPECT_EQ(json.at("metrics").at("wrong"), 0.25);
@@ -377,7 +403,8 @@ TEST_F(Pictures, PointHoldsEverySettingAndWhatIsNotFinite) {
   EXPECT_EQ(json.at("settings").at("bias.constant"), 0.005);
   EXPECT_EQ(json.at("settings").at("map.lit_beyond_far"), true);
   ASSERT_EQ(json.at("causes").size(), cause_count);
-  for (int c = 0; c < cause_count; ++c) EXPECT_EQ(json.at("causes")[static_cast<size_t>(c)], std::string(cause_name(static_cast<Cause>(c))));
+  for (int c = 0; c < cause_count; ++c)
+    EXPECT_EQ(json.at("causes")[static_cast<size_t>(c)], std::string(cause_name(static_cast<Cause>(c))));
   EXPECT_EQ(json.at("flags").at("outside"), flag_outside);
   EXPECT_EQ(json.at("command"), "noonmark render 'x'");
 }
