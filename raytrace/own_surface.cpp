@@ -6,8 +6,10 @@
 namespace noonmark {
 namespace {
 
-// A bracket of 2^-10 of the way: verdicts were identical from 2^-7 on.
+// From a bracket of 2^-10 of the way on, two planes that cross inside it count as continuous. Where they do not, a third
+// triangle may lie between (a corner): halve on, as far as rays can tell places apart.
 constexpr int jump_test_depth = 10;
+constexpr int deepest = 48;  // beyond double's own resolution of the way; what ends it is the rays' error
 
 }  // namespace
 
@@ -81,15 +83,7 @@ bool OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint6
   const Sheet sheet = walk(p, x);
   if (sheet.triangle == hit) return true;
   const double z = view_.hit_depth(hit, x);
-  // A ray that passes beside x by its float error may meet the sheet's next triangle, whose plane differs there by the
-  // error times the slopes. Edge-on triangles have no slope to speak of; hit_depth keeps to their range.
-  const auto slope = [&](uint32_t triangle) {
-    const double length = glm::length(view_.gradient(triangle));
-    return std::isfinite(length) ? length : 0.0;
-  };
-  const double rounding = view_.ray_error_m() * (1 + slope(hit) + slope(sheet.triangle == no_primitive ? p.primitive
-                                                                                                      : sheet.triangle));
-  if (z >= sheet.depth_m - rounding) return true;
+  if (z >= sheet.depth_m - depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle)) return true;
   return p.lit && continuous(p.at, p.primitive, x, hit, rays);
 }
 
@@ -102,10 +96,20 @@ double OwnSurface::edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dv
   return other * glm::length(to - from);
 }
 
+double OwnSurface::depth_error(uint32_t a, uint32_t b) const {
+  const auto slope = [&](uint32_t triangle) {
+    const double length = glm::length(view_.gradient(triangle));
+    return std::isfinite(length) ? length : 0.0;
+  };
+  return view_.ray_error_m() * (1 + slope(a) + slope(b));
+}
+
 bool OwnSurface::planes_cross(uint32_t a, uint32_t b, glm::dvec2 from, glm::dvec2 to) const {
   const double start = view_.plane_depth(a, from) - view_.plane_depth(b, from);
   const double end = view_.plane_depth(a, to) - view_.plane_depth(b, to);
-  return !(start > 0 && end > 0) && !(start < 0 && end < 0);
+  // Coplanar triangles differ by rounding, which may have one sign at both ends.
+  const double rounding = depth_error(a, b);
+  return !(start > rounding && end > rounding) && !(start < -rounding && end < -rounding);
 }
 
 bool OwnSurface::continuous(glm::dvec2 from, uint32_t from_triangle, glm::dvec2 to, uint32_t to_triangle,
@@ -117,19 +121,21 @@ bool OwnSurface::continuous(glm::dvec2 from, uint32_t from_triangle, glm::dvec2 
   };
   const glm::dvec2 way = to - from;
   const double length = glm::length(way);
-  Bracket stack[jump_test_depth + 2];
+  Bracket stack[deepest + 2];
   int top = 0;
   stack[top++] = {0, 1, from_triangle, to_triangle, 0};
   while (top > 0) {
     const Bracket bracket = stack[--top];
     if (bracket.first == bracket.last) continue;
-    if (bracket.depth == jump_test_depth) {
-      if (bracket.first == no_primitive || bracket.last == no_primitive) return false;
+    if (bracket.depth >= jump_test_depth) {
       // The rays that found the two triangles passed beside their places by up to the ray error.
       const double slack = length > 0 ? view_.ray_error_m() / length : 0;
-      if (!planes_cross(bracket.first, bracket.last, from + (bracket.begin - slack) * way, from + (bracket.end + slack) * way))
+      if (bracket.first != no_primitive && bracket.last != no_primitive &&
+          planes_cross(bracket.first, bracket.last, from + (bracket.begin - slack) * way, from + (bracket.end + slack) * way))
+        continue;
+      if (bracket.first == no_primitive || bracket.last == no_primitive || bracket.depth == deepest ||
+          bracket.end - bracket.begin <= 2 * slack)
         return false;
-      continue;
     }
     const double middle = (bracket.begin + bracket.end) / 2;
     ++rays;

@@ -1,14 +1,15 @@
 // What the ray-tracing tests share: random receivers on a scene's surfaces, and a second opinion on every hit that has
 // nothing in common with Embree: triangles projected into the light's plane, in double, kept in square bins.
 #pragma once
-#include <gtest/gtest.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "raytrace/tracer.h"
