@@ -180,7 +180,9 @@ BiasCurve summarise(const BiasCounts& counts, CurveParameter parameter, const Li
   }
   if (counts.receivers() > 0) {
     const BiasCounts::Best best = counts.best();
-    curve.best_bias_depth = (static_cast<double>(best.from) + best.to) / 2;
+    // Where nothing limits the bias from above, the middle would be half the map's depth; twice the need is advice enough.
+    const double start = best.from, end = best.to;
+    curve.best_bias_depth = end >= 1 ? std::min(2 * start, 1.0) : (start + end) / 2;
     curve.best_error = per(best.wrong_taps, counts.taps());
     curve.flat_min_depth = best.flat_from;
     curve.flat_max_depth = best.flat_to;

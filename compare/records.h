@@ -24,7 +24,7 @@ struct BiasCurve {
   // The usable window at the bounds below: every bias in [window_min, window_max] keeps both causes within them.
   double acne_bound = 0, peter_panning_bound = 0;  // fractions of counted receivers
   std::optional<double> window_min_depth, window_max_depth;  // both empty: no bias is good enough, the method fails here
-  double best_bias_depth = 0;         // the middle of the flat stretch with the least error
+  double best_bias_depth = 0;         // the middle of the stretch with the least error; twice its start where nothing ends it
   double best_error = 0;
   double flat_min_depth = 0, flat_max_depth = 0;  // biases whose error is within 10% of the best
   uint64_t breakpoints = 0;           // of the exact curve

@@ -42,12 +42,11 @@ TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Ima
   Image<uint8_t> wanted(resolution, resolution, 0);
   struct Outside {
     std::vector<uint64_t> keys;
-    size_t limit = size_t{1} << 22;
+    size_t limit = outside_buffer;
   };
   tbb::combinable<Outside> outside_keys;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, facing.size(), 4096), [&](const tbb::blocked_range<size_t>& range) {
     Outside& outside = outside_keys.local();
-    size_t full = std::max(outside_buffer, 2 * outside.size());
     for (size_t i = range.begin(); i != range.end(); ++i) {
       if (!facing[i]) continue;
       const glm::ivec2 base = probe.texel[i];
@@ -64,7 +63,7 @@ TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Ima
       if (outside.keys.size() > outside.limit) {
         std::sort(outside.keys.begin(), outside.keys.end());
         outside.keys.erase(std::unique(outside.keys.begin(), outside.keys.end()), outside.keys.end());
-        outside.limit = std::max<size_t>(size_t{1} << 22, 2 * outside.keys.size());
+        outside.limit = std::max(outside_buffer, 2 * outside.keys.size());
       }
     }
   });

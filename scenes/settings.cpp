@@ -186,7 +186,7 @@ std::vector<Setting> make_table() {
       choice("filter.kind", {"none", "box"}, "none: one nearest tap; box: the mean of N x N nearest taps.",
              MEMBER(filter.kind)),
       integer("filter.size", "texels", 1, 31, "box: taps on a side, odd.", MEMBER(filter.size)),
-      real("truth.standard_error", "", 1e-4, 0.5, "Largest standard error of R0 at a receiver, for a light with a size.",
+      real("truth.standard_error", "", 1e-3, 0.5, "Largest standard error of R0 at a receiver, for a light with a size.",
            MEMBER(truth.standard_error)),
   };
 }
