@@ -1,12 +1,11 @@
 // Which triangles share an edge.
-#include "raytrace/adjacency.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <set>
 
+#include "raytrace/adjacency.h"
 #include "scenes/library.h"
 #include "scenes/shapes.h"
 
@@ -101,8 +100,8 @@ RC_GTEST_PROP(Adjacency, AgreesWithBruteForceInAnyOrder, ()) {
   const int count = *rc::gen::inRange(0, 30);
   for (int i = 0; i < count; ++i) {
     for (int k = 0; k < 3; ++k)
-      scene.positions.push_back({static_cast<float>(*rc::gen::inRange(-1, 2)), static_cast<float>(*rc::gen::inRange(0, 2)),
-                                 *rc::gen::element(0.0f, -0.0f, 0.5f)});
+      scene.positions.push_back({static_cast<float>(*rc::gen::inRange(-1, 2)),
+                                 static_cast<float>(*rc::gen::inRange(0, 2)), *rc::gen::element(0.0f, -0.0f, 0.5f)});
     const uint32_t v = static_cast<uint32_t>(3 * i);
     scene.triangles.push_back({v, v + 1, v + 2});
   }
@@ -131,7 +130,8 @@ RC_GTEST_PROP(Adjacency, AgreesWithBruteForceInAnyOrder, ()) {
 TEST(Adjacency, DoesNotDependOnTheOrderOfTrianglesOrVertices) {
   const Scene scene = make_scene({.name = "cube-room"});
   Scene turned = scene;
-  const uint32_t count = static_cast<uint32_t>(scene.triangles.size()), vertices = static_cast<uint32_t>(scene.positions.size());
+  const uint32_t count = static_cast<uint32_t>(scene.triangles.size()),
+                 vertices = static_cast<uint32_t>(scene.positions.size());
   std::reverse(turned.positions.begin(), turned.positions.end());
   std::reverse(turned.triangles.begin(), turned.triangles.end());
   for (glm::uvec3& t : turned.triangles) t = glm::uvec3(vertices - 1) - t;

@@ -27,7 +27,9 @@ struct Bench {
   Tracer tracer;
   ReceiverImage receivers;
   explicit Bench(int n)
-      : scene(scene_of(n)), frame(test::frame_of(scene, 1024)), tracer(scene),
+      : scene(scene_of(n)),
+        frame(test::frame_of(scene, 1024)),
+        tracer(scene),
         receivers(test::random_receivers(scene, frame.direction_to_light(), false, 1280 * 720, 1)) {
     // In the order of pixels that look at neighbouring places, as a picture's do.
     std::vector<size_t> order(receivers.primitive.size());
@@ -50,8 +52,8 @@ struct Bench {
 };
 
 void report(benchmark::State& state, double milliseconds, uint64_t rays) {
-  state.counters["rays"] = benchmark::Counter(static_cast<double>(rays) / (milliseconds / 1e3), benchmark::Counter::kDefaults,
-                                              benchmark::Counter::OneK::kIs1000);
+  state.counters["rays"] = benchmark::Counter(static_cast<double>(rays) / (milliseconds / 1e3),
+                                              benchmark::Counter::kDefaults, benchmark::Counter::OneK::kIs1000);
   state.counters["stage_ms"] = milliseconds / static_cast<double>(state.iterations());
 }
 
@@ -94,7 +96,8 @@ void lookups(benchmark::State& state, bool taps) {
   double ms = 0;
   uint64_t rays = 0;
   for (auto _ : state) {
-    const LookupTruth lookup = b.tracer.lookup_truth(b.receivers, truth, probe, b.frame, {}, static_cast<int>(state.range(1)));
+    const LookupTruth lookup =
+        b.tracer.lookup_truth(b.receivers, truth, probe, b.frame, {}, static_cast<int>(state.range(1)));
     const StageTime& stage = taps ? lookup.tap_stage : lookup.texel_stage;
     ms += stage.milliseconds;
     rays += stage.rays;
@@ -107,8 +110,16 @@ void tap_truth(benchmark::State& state) { lookups(state, true); }
 BENCHMARK(build)->Arg(0)->Arg(224)->Arg(708)->ArgName("n")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(hard_truth)->Arg(0)->Arg(224)->Arg(708)->ArgName("n")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(soft_truth)->Arg(0)->Arg(224)->ArgName("n")->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(texel_rays)->ArgsProduct({{0, 224, 708}, {1}})->ArgNames({"n", "kernel"})->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(tap_truth)->ArgsProduct({{0, 224, 708}, {1, 3}})->ArgNames({"n", "kernel"})->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(texel_rays)
+    ->ArgsProduct({{0, 224, 708}, {1}})
+    ->ArgNames({"n", "kernel"})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(tap_truth)
+    ->ArgsProduct({{0, 224, 708}, {1, 3}})
+    ->ArgNames({"n", "kernel"})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace noonmark::raytrace

@@ -48,7 +48,8 @@ class LightBins {
     lists_.resize(static_cast<size_t>(bins) * static_cast<size_t>(bins));
     for (uint32_t t = 0; t < corners_.size(); ++t) {
       const Corners& c = corners_[t];
-      const glm::ivec2 first = cell(glm::min(glm::min(c[0], c[1]), c[2])), last = cell(glm::max(glm::max(c[0], c[1]), c[2]));
+      const glm::ivec2 first = cell(glm::min(glm::min(c[0], c[1]), c[2])),
+                       last = cell(glm::max(glm::max(c[0], c[1]), c[2]));
       for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) lists_[static_cast<size_t>(y * bins_ + x)].push_back(t);
     }
@@ -61,7 +62,8 @@ class LightBins {
     for (uint32_t t : lists_[static_cast<size_t>(static_cast<int>(at.y) * bins_ + static_cast<int>(at.x))]) {
       double area[3], sum = 0;
       const Corners& c = corners_[t];
-      for (int i = 0; i < 3; ++i) sum += area[i] = cross(glm::dvec2(c[(i + 1) % 3]) - x, glm::dvec2(c[(i + 2) % 3]) - x);
+      for (int i = 0; i < 3; ++i)
+        sum += area[i] = cross(glm::dvec2(c[(i + 1) % 3]) - x, glm::dvec2(c[(i + 2) % 3]) - x);
       if (sum == 0) continue;
       if (sum < 0 ? area[0] > 0 || area[1] > 0 || area[2] > 0 : area[0] < 0 || area[1] < 0 || area[2] < 0) continue;
       visit(t, plane(t, x));
@@ -111,7 +113,8 @@ class LightBins {
   using Corners = std::array<glm::dvec3, 3>;
   static double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
   glm::ivec2 cell(glm::dvec3 p) const {
-    return glm::clamp(glm::ivec2(glm::floor((glm::dvec2(p) - glm::dvec2(low_)) / cell_)), glm::ivec2(0), glm::ivec2(bins_ - 1));
+    return glm::clamp(glm::ivec2(glm::floor((glm::dvec2(p) - glm::dvec2(low_)) / cell_)), glm::ivec2(0),
+                      glm::ivec2(bins_ - 1));
   }
 
   LightFrame frame_;
@@ -129,9 +132,11 @@ struct Placed {
 
 // A receiver image one pixel high. facing_light: normals are turned to the light's side, as a viewer there sees them;
 // otherwise they are those of the counter-clockwise side.
-inline ReceiverImage receivers_at(const Scene& scene, const std::vector<Placed>& points, glm::dvec3 to_light, bool facing_light) {
+inline ReceiverImage receivers_at(const Scene& scene, const std::vector<Placed>& points, glm::dvec3 to_light,
+                                  bool facing_light) {
   const int n = static_cast<int>(points.size());
-  ReceiverImage out{Image<glm::vec3>(n, 1, glm::vec3(0)), Image<glm::vec3>(n, 1, glm::vec3(0)), Image<uint32_t>(n, 1, no_primitive)};
+  ReceiverImage out{Image<glm::vec3>(n, 1, glm::vec3(0)), Image<glm::vec3>(n, 1, glm::vec3(0)),
+                    Image<uint32_t>(n, 1, no_primitive)};
   for (size_t i = 0; i < points.size(); ++i) {
     const glm::uvec3 t = scene.triangles[points[i].primitive];
     const glm::dvec3 a = scene.positions[t.x], b = scene.positions[t.y], c = scene.positions[t.z];
@@ -144,7 +149,8 @@ inline ReceiverImage receivers_at(const Scene& scene, const std::vector<Placed>&
 }
 
 // Evenly spread over the surfaces' area (every triangle that is not a sliver), only where the normal faces the light.
-inline std::vector<Placed> points_on(const Scene& scene, glm::dvec3 to_light, bool facing_light, int count, uint32_t seed) {
+inline std::vector<Placed> points_on(const Scene& scene, glm::dvec3 to_light, bool facing_light, int count,
+                                     uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<double> area_until;
   double sum = 0;
@@ -169,7 +175,8 @@ inline std::vector<Placed> points_on(const Scene& scene, glm::dvec3 to_light, bo
   return points;
 }
 
-inline ReceiverImage random_receivers(const Scene& scene, glm::dvec3 to_light, bool facing_light, int count, uint32_t seed) {
+inline ReceiverImage random_receivers(const Scene& scene, glm::dvec3 to_light, bool facing_light, int count,
+                                      uint32_t seed) {
   return receivers_at(scene, points_on(scene, to_light, facing_light, count, seed), to_light, facing_light);
 }
 
@@ -181,7 +188,8 @@ inline LookupProbe probe_of(const ReceiverImage& receivers, const LightFrame& fr
   for (size_t i = 0; i < receivers.primitive.size(); ++i) {
     const glm::dvec3 p = frame.to_light(receivers.position[i]);
     probe.reference[i] = static_cast<float>(frame.window_depth(p.z));
-    probe.texel[i] = glm::ivec2(glm::floor((glm::dvec2(p) / frame.extent_m + 0.5) * static_cast<double>(frame.resolution)));
+    probe.texel[i] =
+        glm::ivec2(glm::floor((glm::dvec2(p) / frame.extent_m + 0.5) * static_cast<double>(frame.resolution)));
     probe.n_dot_l[i] = static_cast<float>(glm::dot(glm::dvec3(receivers.normal[i]), frame.direction_to_light()));
   }
   return probe;

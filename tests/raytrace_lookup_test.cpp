@@ -56,7 +56,8 @@ void expect_all_lit(const Scene& scene) {
 }
 
 TEST(OwnSurface, PlanesShadeNothing) {
-  for (double theta : {0.0, 45.0, 80.0, 89.9}) expect_all_lit(make_scene({.name = "plane", .theta_deg = theta, .phi_deg = 25}));
+  for (double theta : {0.0, 45.0, 80.0, 89.9})
+    expect_all_lit(make_scene({.name = "plane", .theta_deg = theta, .phi_deg = 25}));
 }
 
 TEST(OwnSurface, ConvexSolidsShadeNothingThatFaces) {
@@ -96,7 +97,8 @@ struct CubeOnFloor {
     const auto floor_in_nine = [&](Scene& s, bool under_cube) {
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-          if (under_cube || i != 1 || j != 1) add_quad(s, "floor", {at[i], 0, at[j]}, {0, 0, at[j + 1] - at[j]}, {at[i + 1] - at[i], 0, 0});
+          if (under_cube || i != 1 || j != 1)
+            add_quad(s, "floor", {at[i], 0, at[j]}, {0, 0, at[j + 1] - at[j]}, {at[i + 1] - at[i], 0, 0});
     };
     floor_in_nine(floor_split, true);
     cube(floor_split);
@@ -124,7 +126,8 @@ uint32_t primitive_at(const Scene& scene, glm::dvec3 p, glm::dvec3 normal) {
     const glm::dvec3 a = scene.positions[scene.triangles[t].x], b = scene.positions[scene.triangles[t].y],
                      c = scene.positions[scene.triangles[t].z], n = glm::cross(b - a, c - a);
     if (glm::dot(glm::normalize(n), normal) < 0.99 || std::abs(glm::dot(n, p - a)) > 1e-9 * glm::length(n)) continue;
-    if (glm::dot(n, glm::cross(b - a, p - a)) >= 0 && glm::dot(n, glm::cross(c - b, p - b)) >= 0 && glm::dot(n, glm::cross(a - c, p - c)) >= 0)
+    if (glm::dot(n, glm::cross(b - a, p - a)) >= 0 && glm::dot(n, glm::cross(c - b, p - b)) >= 0 &&
+        glm::dot(n, glm::cross(a - c, p - c)) >= 0)
       return t;
   }
   return no_primitive;
@@ -161,8 +164,9 @@ TEST(OwnSurface, OneMeshOrTwoSplitOrDoubledHaveTheSameCauses) {
       int different_places = 0;
       for (size_t i = 0; i < lit.size(); ++i) different_places += two.sure(i) && !two.texel_lit(i);
       EXPECT_GT(different_places, 10) << "no tap of this grid crosses a shadow edge: nothing is tested";
-      for (const auto& [name, scene] : {std::pair("one mesh", &cubes.as_one_mesh), std::pair("floor split", &cubes.floor_split),
-                                        std::pair("faces doubled", &cubes.doubled), std::pair("order reversed", &cubes.reversed)}) {
+      for (const auto& [name, scene] :
+           {std::pair("one mesh", &cubes.as_one_mesh), std::pair("floor split", &cubes.floor_split),
+            std::pair("faces doubled", &cubes.doubled), std::pair("order reversed", &cubes.reversed)}) {
         const Looked other = looked_at(*scene);
         int different = 0;
         for (size_t i = 0; i < lit.size(); ++i) {
@@ -186,7 +190,8 @@ TEST(OwnSurface, TheLitFootOfAWallIsLit) {
   std::uniform_real_distribution<double> in(0, 1);
   std::vector<Placed> points;
   for (int i = 0; i < 3000; ++i) {
-    const glm::dvec3 p(static_cast<float>(-0.5 * frame.texel_m() * in(random)), 0, static_cast<float>(2.4 * in(random) - 1.2));
+    const glm::dvec3 p(static_cast<float>(-0.5 * frame.texel_m() * in(random)), 0,
+                       static_cast<float>(2.4 * in(random)-1.2));
     points.push_back({p, primitive_at(scene, p, {0, 1, 0})});
   }
   const Looked looked = look_up(scene, frame, receivers_at(scene, points, frame.direction_to_light(), false), 1);
@@ -242,15 +247,17 @@ void expect_edges_where_taps_differ(const Scene& scene, int resolution, int coun
     EXPECT_LE(looked.lookup.edge_distance_m[i], reach);
     if (!differs || !looked.sure(i)) continue;
     ++differ;
-    const glm::dvec2 from(looked.frame.to_light(looked.receivers.position[i])), to = looked.frame.texel_centre(looked.probe.texel[i]);
+    const glm::dvec2 from(looked.frame.to_light(looked.receivers.position[i])),
+        to = looked.frame.texel_centre(looked.probe.texel[i]);
     ASSERT_LE(glm::length(to - from), reach);
     if (edge_between(brute, looked.receivers.primitive[i], from, to)) continue;
     if (!looked.exact_lit(i) && dark_exceptions > 0) {
       ++dark_without_edge;
     } else if (++without_edge <= 3) {
       const glm::vec3 p = looked.receivers.position[i];
-      ADD_FAILURE() << scene.name << ": no shadow edge beside receiver " << i << ", triangle " << looked.receivers.primitive[i] << ", "
-                    << p.x << ' ' << p.y << ' ' << p.z << (looked.exact_lit(i) ? " (lit)" : " (dark)");
+      ADD_FAILURE() << scene.name << ": no shadow edge beside receiver " << i << ", triangle "
+                    << looked.receivers.primitive[i] << ", " << p.x << ' ' << p.y << ' ' << p.z
+                    << (looked.exact_lit(i) ? " (lit)" : " (dark)");
     }
   }
   EXPECT_GT(differ, 20) << scene.name;
@@ -265,7 +272,7 @@ TEST(OwnSurface, AliasingNeedsAShadowEdgeWithinHalfADiagonal) {
     expect_edges_where_taps_differ(builtin(name), 64, 20000);
     expect_edges_where_taps_differ(builtin(name), 500, 40000);
   }
-  expect_edges_where_taps_differ(builtin("cube-room"), 64, 200000);  // most of them far out on its floor
+  expect_edges_where_taps_differ(builtin("cube-room"), 64, 200000);   // most of them far out on its floor
   expect_edges_where_taps_differ(builtin("fence"), 64, 20000, 0.02);  // its rails run through its wires and posts
   expect_edges_where_taps_differ(builtin("fence"), 500, 40000, 0.02);
 }
@@ -292,7 +299,8 @@ TEST(Lookup, EdgeDistanceInClosedForm) {
   for (size_t i = 0; i < looked.receivers.primitive.size(); ++i) {
     if (!looked.sure(i) || looked.exact_lit(i) == looked.texel_lit(i)) continue;
     ++differ;
-    const glm::dvec2 p(looked.frame.to_light(looked.receivers.position[i])), c = looked.frame.texel_centre(looked.probe.texel[i]);
+    const glm::dvec2 p(looked.frame.to_light(looked.receivers.position[i])),
+        c = looked.frame.texel_centre(looked.probe.texel[i]);
     const double way = glm::length(c - p), to_edge = way * (0.0371 - p.x) / (c.x - p.x);
     EXPECT_NEAR(looked.lookup.edge_distance_m[i], to_edge, way * 0x1p-8 + 1e-6);  // found to 2^-8 of the way
   }
@@ -321,7 +329,8 @@ TEST(Lookup, TapsAreInTheShadersOrder) {
   scene.map = MapVolume{.extent_m = 8, .near_m = 2, .far_m = 12};
   const LightFrame frame = frame_of(scene, 8);
   const glm::dvec3 p(0.5, 0, 0.5);  // the centre of texel (4, 3)
-  const Looked looked = look_up(scene, frame, receivers_at(scene, {{p, primitive_at(scene, p, {0, 1, 0})}}, {0, 1, 0}, true), 3);
+  const Looked looked =
+      look_up(scene, frame, receivers_at(scene, {{p, primitive_at(scene, p, {0, 1, 0})}}, {0, 1, 0}, true), 3);
   ASSERT_EQ(looked.probe.texel[0], glm::ivec2(4, 3));
   for (int tap = 0; tap < 9; ++tap) {
     const bool lit = tap % 3 >= 1 && tap / 3 <= 1;

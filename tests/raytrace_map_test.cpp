@@ -9,14 +9,16 @@ namespace {
 using namespace test;
 
 // Looks up exactly these texels, one receiver for each.
-LookupTruth look_up(const Scene& scene, const LightFrame& frame, const std::vector<glm::ivec2>& texels, const MapSettings& map,
-                    int kernel = 1) {
+LookupTruth look_up(const Scene& scene, const LightFrame& frame, const std::vector<glm::ivec2>& texels,
+                    const MapSettings& map, int kernel = 1) {
   const std::vector<Placed> points(texels.size(), points_on(scene, frame.direction_to_light(), true, 1, 1)[0]);
   const ReceiverImage receivers = receivers_at(scene, points, frame.direction_to_light(), true);
   LookupProbe probe = probe_of(receivers, frame);
   probe.texel.pixels = texels;
-  ReceiverTruth truth{Image<uint8_t>(receivers.width(), 1, 1), Image<uint8_t>(receivers.width(), 1, 1),
-                      Image<uint8_t>(receivers.width(), 1), {}};
+  ReceiverTruth truth{Image<uint8_t>(receivers.width(), 1, 1),
+                      Image<uint8_t>(receivers.width(), 1, 1),
+                      Image<uint8_t>(receivers.width(), 1),
+                      {}};
   return Tracer(scene).lookup_truth(receivers, truth, probe, frame, map, kernel);
 }
 
@@ -31,11 +33,13 @@ Image<float> whole_map(const Scene& scene, const LightFrame& frame, const MapSet
 constexpr double depth_rounding = 0x1p-25 + 1e-12;
 
 using Expected = std::function<double(glm::dvec2)>;  // metres along the light; infinity: nothing
-void expect_map(const Image<float>& map, const LightFrame& frame, const Expected& expected, double tolerance = depth_rounding) {
+void expect_map(const Image<float>& map, const LightFrame& frame, const Expected& expected,
+                double tolerance = depth_rounding) {
   int wrong = 0;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
-      const double z = expected(frame.texel_centre({x, y})), depth = std::isfinite(z) && z <= frame.far_m ? frame.window_depth(z) : 1;
+      const double z = expected(frame.texel_centre({x, y})),
+                   depth = std::isfinite(z) && z <= frame.far_m ? frame.window_depth(z) : 1;
       if (!(std::abs(map.at(x, y) - depth) <= tolerance) && ++wrong <= 3) {
         ADD_FAILURE() << "texel " << x << ' ' << y << ": " << map.at(x, y) << ", not " << depth;
       }
@@ -49,13 +53,17 @@ TEST(ExactMap, PlaneIsItsFormula) {
     for (double phi : {0.0, 33.0, 135.0}) {
       const Scene scene = make_scene({.name = "plane", .theta_deg = theta, .phi_deg = phi});
       const LightFrame frame = frame_of(scene, 50);
-      const double tangent = std::tan(glm::radians(theta)), c = std::cos(glm::radians(phi)), s = std::sin(glm::radians(phi));
+      const double tangent = std::tan(glm::radians(theta)), c = std::cos(glm::radians(phi)),
+                   s = std::sin(glm::radians(phi));
       const double half = 3, corner_rounding = 1e-6 * (1 + tangent);  // corners are floats, 3 m out
-      expect_map(whole_map(scene, frame), frame, [&](glm::dvec2 x) {
-        const double down = (c * x.x + s * x.y) / std::cos(glm::radians(theta)), across = -s * x.x + c * x.y;
-        const bool covered = std::abs(down) < half && std::abs(across) < half;
-        return covered ? 10 + tangent * (c * x.x + s * x.y) : std::numeric_limits<double>::infinity();
-      }, corner_rounding / 10);
+      expect_map(
+          whole_map(scene, frame), frame,
+          [&](glm::dvec2 x) {
+            const double down = (c * x.x + s * x.y) / std::cos(glm::radians(theta)), across = -s * x.x + c * x.y;
+            const bool covered = std::abs(down) < half && std::abs(across) < half;
+            return covered ? 10 + tangent * (c * x.x + s * x.y) : std::numeric_limits<double>::infinity();
+          },
+          corner_rounding / 10);
     }
   }
 }
@@ -116,7 +124,8 @@ TEST(ExactMap, BuiltinScenesAgreeWithBruteForce) {
         if (cut) settings.map.near_m = frame_of(scene).to_light({0, 0.2, 0}).z;
         const LightFrame frame = make_light_frame(scene, settings);
         const LightBins brute(scene, frame);
-        SCOPED_TRACE(std::string(given.name) + " culled " + std::to_string(static_cast<int>(cull)) + (cut ? " cut" : ""));
+        SCOPED_TRACE(std::string(given.name) + " culled " + std::to_string(static_cast<int>(cull)) +
+                     (cut ? " cut" : ""));
         const auto kept = [&](uint32_t t) {
           return cull == CulledFaces::none || brute.front(t) == (cull == CulledFaces::back);
         };

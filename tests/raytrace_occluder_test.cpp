@@ -10,7 +10,9 @@ namespace {
 
 using namespace test;
 
-Image<uint8_t> everywhere(const ReceiverImage& receivers) { return Image<uint8_t>(receivers.width(), receivers.height(), 1); }
+Image<uint8_t> everywhere(const ReceiverImage& receivers) {
+  return Image<uint8_t>(receivers.width(), receivers.height(), 1);
+}
 
 // A wall's lit face is the plane x = 0; the floor behind it at x is x / cos from it along the light.
 TEST(OccluderDistance, BehindAWallInClosedForm) {

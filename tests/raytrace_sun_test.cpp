@@ -71,9 +71,11 @@ TEST(Sun, HalfPlaneEdgeIsTheDiscsSegment) {
   const ReceiverImage receivers = on_floor(scene, frame.direction_to_light(), 4000, 1);
   const double diameter_deg = 5, radius = std::tan(diameter_deg * std::numbers::pi / 360);
   for (double standard_error : {0.05, 0.01}) {
-    const ReceiverTruth truth =
-        Tracer(scene).receiver_truth(receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
-    expect_within(errors(truth.soft, receivers, standard_error, [&](glm::dvec3 p) { return disc_beyond(-p.x / radius); }), standard_error);
+    const ReceiverTruth truth = Tracer(scene).receiver_truth(
+        receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
+    expect_within(
+        errors(truth.soft, receivers, standard_error, [&](glm::dvec3 p) { return disc_beyond(-p.x / radius); }),
+        standard_error);
   }
 }
 
@@ -87,11 +89,12 @@ TEST(Sun, StripUnderAnObliqueLightTakesWhatIsBetweenItsEdges) {
   const glm::dvec3 along = glm::cross(frame.direction_to_light(), across);
   scene.positions.clear(), scene.triangles.clear(), scene.parts.clear();
   add_quad(scene, "floor", -0.1 * across - 0.5 * along, 0.2 * across, along);
-  add_quad(scene, "strip", 2.0 * frame.direction_to_light() - 0.015 * across - 40.0 * along, 0.03 * across, 80.0 * along);
+  add_quad(scene, "strip", 2.0 * frame.direction_to_light() - 0.015 * across - 40.0 * along, 0.03 * across,
+           80.0 * along);
   const ReceiverImage receivers = on_floor(scene, frame.direction_to_light(), 4000, 2);
   const double diameter_deg = 3, radius = std::tan(diameter_deg * std::numbers::pi / 360), standard_error = 0.01;
-  const ReceiverTruth truth =
-      Tracer(scene).receiver_truth(receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
+  const ReceiverTruth truth = Tracer(scene).receiver_truth(
+      receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
   const Errors e = errors(truth.soft, receivers, standard_error, [&](glm::dvec3 p) {
     const double x = glm::dot(p, across);
     return 1 - (disc_beyond((-0.015 - x) / (2 * radius)) - disc_beyond((0.015 - x) / (2 * radius)));
@@ -107,8 +110,8 @@ TEST(Sun, OwnHorizonCutsTheDisc) {
     const LightFrame frame = frame_of(scene);
     const ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), true, 2000, 3);
     const double diameter_deg = 4, radius = std::tan(diameter_deg * std::numbers::pi / 360), standard_error = 0.02;
-    const ReceiverTruth truth =
-        Tracer(scene).receiver_truth(receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
+    const ReceiverTruth truth = Tracer(scene).receiver_truth(
+        receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
     const double seen = disc_beyond(-std::tan(elevation_deg * std::numbers::pi / 180) / radius);
     double mean = 0;
     for (float soft : truth.soft.pixels) {
@@ -133,7 +136,8 @@ TEST(Sun, TendsToR1AsItShrinks) {
   const Scene scene = builtin("cube-room");
   const LightFrame frame = frame_of(scene);
   const ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), false, 5000, 5);
-  const ReceiverTruth truth = Tracer(scene).receiver_truth(receivers, frame, {.angular_diameter_deg = 1e-4, .standard_error = 0.05});
+  const ReceiverTruth truth =
+      Tracer(scene).receiver_truth(receivers, frame, {.angular_diameter_deg = 1e-4, .standard_error = 0.05});
   int different = 0;
   for (size_t i = 0; i < truth.soft.size(); ++i) different += truth.soft[i] != truth.lit[i];
   EXPECT_LE(different, 1);  // penumbrae some micrometres wide
@@ -147,7 +151,8 @@ TEST(Sun, SamplesAreTheSameInEveryRunAndWithEveryNumberOfThreads) {
   const auto soft = [&](const Tracer& t, size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     StageTime hard, time;
-    auto image = t.receiver_truth(receivers, frame, {.angular_diameter_deg = 5, .standard_error = 0.02}, &hard, &time).soft;
+    auto image =
+        t.receiver_truth(receivers, frame, {.angular_diameter_deg = 5, .standard_error = 0.02}, &hard, &time).soft;
     return std::pair(image.pixels, time.rays);
   };
   const auto first = soft(tracer, 1);

@@ -18,7 +18,8 @@ namespace {
 
 std::vector<Scene> all_scenes() {
   std::vector<Scene> scenes;
-  for (const BuiltinScene& builtin : builtin_scenes()) scenes.push_back(make_scene({.name = std::string(builtin.name)}));
+  for (const BuiltinScene& builtin : builtin_scenes())
+    scenes.push_back(make_scene({.name = std::string(builtin.name)}));
   return scenes;
 }
 
@@ -26,7 +27,9 @@ const Scene& named(const std::vector<Scene>& scenes, const std::string& name) {
   return *std::find_if(scenes.begin(), scenes.end(), [&](const Scene& s) { return s.name == name; });
 }
 
-glm::dvec3 corner(const Scene& scene, uint32_t triangle, int i) { return scene.positions[scene.triangles[triangle][i]]; }
+glm::dvec3 corner(const Scene& scene, uint32_t triangle, int i) {
+  return scene.positions[scene.triangles[triangle][i]];
+}
 
 double signed_volume(const Scene& scene, const Part& part) {
   double sum = 0;
@@ -64,7 +67,8 @@ TEST(BuiltinScenes, AreFiniteAndInRange) {
     EXPECT_EQ(next, scene.triangles.size()) << scene.name;
     for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
       for (int i = 0; i < 3; ++i) ASSERT_LT(scene.triangles[t][i], scene.positions.size()) << scene.name;
-      const double area2 = glm::length(glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0)));
+      const double area2 =
+          glm::length(glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0)));
       ASSERT_GT(area2, 1e-8) << scene.name << ": a sliver, triangle " << t;
     }
   }
@@ -90,14 +94,16 @@ TEST(BuiltinScenes, OpenSurfacesFaceTheLight) {
     for (const Part& part : scene.parts) {
       if (part.name != "floor" && part.name != "plane" && part.name != "bowl") continue;
       for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
-        const glm::dvec3 n = glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0));
+        const glm::dvec3 n =
+            glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0));
         EXPECT_GT(glm::dot(n, to_light), 0) << scene.name << ' ' << part.name;
       }
     }
   }
 }
 
-// Some point of every scene but the far ones is in the picture, before nothing is clipped, and the picture's middle is on it.
+// Some point of every scene but the far ones is in the picture, before nothing is clipped, and the picture's middle is
+// on it.
 TEST(BuiltinScenes, TheCameraSeesThem) {
   for (const Scene& scene : all_scenes()) {
     const CameraFrame frame = make_camera_frame(scene.camera, 1280, 720);
@@ -122,7 +128,8 @@ TEST(BuiltinScenes, TheCameraSeesThem) {
     bool met = false;
     for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
       const glm::dvec3 a = corner(scene, t, 0), b = corner(scene, t, 1), c = corner(scene, t, 2), d = ray.direction;
-      const double s0 = glm::dot(d, glm::cross(a - ray.origin, b - ray.origin)), s1 = glm::dot(d, glm::cross(b - ray.origin, c - ray.origin)),
+      const double s0 = glm::dot(d, glm::cross(a - ray.origin, b - ray.origin)),
+                   s1 = glm::dot(d, glm::cross(b - ray.origin, c - ray.origin)),
                    s2 = glm::dot(d, glm::cross(c - ray.origin, a - ray.origin));
       if (!((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0))) continue;
       const glm::dvec3 n = glm::cross(b - a, c - a);
@@ -135,7 +142,8 @@ TEST(BuiltinScenes, TheCameraSeesThem) {
 
 bool inside(const LightFrame& f, glm::dvec3 world, bool depth_too = true) {
   const glm::dvec3 p = f.to_light(world);
-  return std::abs(p.x) <= f.extent_m / 2 && std::abs(p.y) <= f.extent_m / 2 && (!depth_too || (p.z >= f.near_m && p.z <= f.far_m));
+  return std::abs(p.x) <= f.extent_m / 2 && std::abs(p.y) <= f.extent_m / 2 &&
+         (!depth_too || (p.z >= f.near_m && p.z <= f.far_m));
 }
 
 bool part_inside(const Scene& scene, const LightFrame& f, const Part& part, bool depth_too = true) {
@@ -152,7 +160,8 @@ TEST(BuiltinScenes, TheLightsVolumeHoldsWhatThrowsAndTakesShadows) {
     for (const Part& part : scene.parts) {
       if (part.name == "floor") continue;
       EXPECT_TRUE(part_inside(scene, f, part)) << scene.name << ' ' << part.name;
-      const auto floor = std::find_if(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.name == "floor"; });
+      const auto floor =
+          std::find_if(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.name == "floor"; });
       if (floor == scene.parts.end() || scene.name == "cube-room") continue;
       const double floor_y = corner(scene, floor->first_triangle, 0).y;
       for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
@@ -190,7 +199,8 @@ TEST(BuiltinScenes, CubeRoomIsTheTutorialsScene) {
   const glm::dvec3 axis = glm::normalize(glm::dvec3(1, 0, 1)), x(1, 0, 0);
   const glm::dvec3 turned = 0.5 * x + std::sqrt(0.75) * glm::cross(axis, x) + 0.5 * glm::dot(axis, x) * axis;
   const uint32_t first = room.triangles[room.parts[3].first_triangle].x;
-  EXPECT_LT(glm::length(glm::dvec3(room.positions[first + 1]) - glm::dvec3(room.positions[first]) - 0.5 * turned), 1e-6);
+  EXPECT_LT(glm::length(glm::dvec3(room.positions[first + 1]) - glm::dvec3(room.positions[first]) - 0.5 * turned),
+            1e-6);
 
   const LightFrame f = make_light_frame(room, {});
   EXPECT_EQ(f.extent_m, 20);
@@ -218,9 +228,11 @@ TEST(BuiltinScenes, PlaneHasTheSlopeItSays) {
       const Scene scene = make_scene(settings);
       const LightFrame f = make_light_frame(scene, {});
       for (uint32_t t = 0; t < 2; ++t) {
-        const glm::dvec3 n = glm::normalize(glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0)));
+        const glm::dvec3 n = glm::normalize(
+            glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0)));
         const double float_rounding = 1e-6;  // corners 3 m out, in float: 2^-23 of 3 over 6
-        EXPECT_NEAR(glm::dot(n, f.direction_to_light()), std::cos(glm::radians(theta)), float_rounding) << theta << ' ' << phi;
+        EXPECT_NEAR(glm::dot(n, f.direction_to_light()), std::cos(glm::radians(theta)), float_rounding)
+            << theta << ' ' << phi;
         const glm::dvec3 light(glm::dot(n, f.right), glm::dot(n, f.up), glm::dot(n, f.forward));
         const glm::dvec2 gradient = -glm::dvec2(light) / light.z;
         const double tangent = std::tan(glm::radians(theta)), steep = 1 + tangent * tangent;
@@ -259,7 +271,8 @@ TEST(Shapes, QuadFrontIsTowardsTheCrossProduct) {
   add_quad(scene, "quad", {1, 2, 3}, {2, 0, 0}, {0, 0, -3});
   ASSERT_EQ(scene.triangles.size(), 2u);
   for (uint32_t t = 0; t < 2; ++t)
-    EXPECT_EQ(glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0)), glm::dvec3(0, 6, 0));
+    EXPECT_EQ(glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0)),
+              glm::dvec3(0, 6, 0));
   EXPECT_EQ(scene.positions.size(), 4u);
 }
 

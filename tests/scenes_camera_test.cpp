@@ -23,8 +23,13 @@ int kind_of_error(const Camera& camera) {
 }
 
 Camera some_camera(Projection projection) {
-  return {.projection = projection, .eye_m = {3, 2, 5}, .target_m = {0.5, -0.2, 0.1}, .fov_y_deg = 40, .height_m = 6,
-          .near_m = 0.5, .far_m = 60};
+  return {.projection = projection,
+          .eye_m = {3, 2, 5},
+          .target_m = {0.5, -0.2, 0.1},
+          .fov_y_deg = 40,
+          .height_m = 6,
+          .near_m = 0.5,
+          .far_m = 60};
 }
 
 TEST(CameraFrame, PixelRaysMeetTheMatrixAtPixelCentres) {
@@ -114,7 +119,8 @@ TEST(Receivers, LieOnTheirTriangleInTheRayWithTheNormalTowardsTheViewer) {
       scene.triangles = {{0, 1, 2}};
       const Camera camera = some_camera(projection);
       const int size = 24;
-      // As if the rasteriser had drawn it everywhere: most pixels' centres are beyond the triangle, as snapping puts some.
+      // As if the rasteriser had drawn it everywhere: most pixels' centres are beyond the triangle, as snapping puts
+      // some.
       const ReceiverImage image = resolve_receivers(scene, camera, Image<uint32_t>(size, size, 0));
       const CameraFrame frame = make_camera_frame(camera, size, size);
       const glm::dvec3 a = scene.positions[0], b = scene.positions[1], c = scene.positions[2];

@@ -92,7 +92,8 @@ TEST(LightFrame, TexelCentresAreWhereTheSamplerPutsThem) {
   for (int resolution : {1, 2, 7, 1024}) {
     settings.map.resolution = resolution;
     const LightFrame f = make_light_frame(scene_lit_from({-2, 4, -1}, {0, 0, 0}), settings);
-    for (const glm::ivec2 texel : {glm::ivec2(0, 0), glm::ivec2(resolution - 1, 0), glm::ivec2(-3, 5), glm::ivec2(4000, -1)}) {
+    for (const glm::ivec2 texel :
+         {glm::ivec2(0, 0), glm::ivec2(resolution - 1, 0), glm::ivec2(-3, 5), glm::ivec2(4000, -1)}) {
       const glm::dvec2 c = f.texel_centre(texel);
       // uv of the centre, as the matrix has it, times the resolution: half past the texel's index.
       const glm::dvec4 clip = f.clip_from_world() * glm::dvec4(f.to_world({c.x, c.y, 3}), 1);
