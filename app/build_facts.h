@@ -13,9 +13,9 @@ struct LibraryVersion {
 };
 
 struct BuildFacts {
-  std::string_view version;     // "0.1.0"
-  std::string_view commit;      // of the sources, with "-dirty" when tracked files differ from it; "unknown" without git
-  std::string_view compiler;    // "GNU 12.2.0"
+  std::string_view version;   // "0.1.0"
+  std::string_view commit;    // of the sources, with "-dirty" when tracked files differ from it; "unknown" without git
+  std::string_view compiler;  // "GNU 12.2.0"
   std::string_view build_type;  // "Release"
   std::span<const LibraryVersion> libraries;
 };

@@ -21,18 +21,6 @@ std::vector<size_t> digits(const Experiment& experiment, int64_t index) {
   return result;
 }
 
-// Plain words stay as they are; anything else goes into single quotes.
-std::string shell_quoted(const std::string& word) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-./,=+:@%").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
-  std::string quoted = "'";
-  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 // FNV-1a over 64 bits (Fowler, Noll, Vo): tells an edited scene from the one that was measured, nothing more.
 class Digest {
  public:
@@ -54,6 +42,17 @@ class Digest {
 };
 
 }  // namespace
+
+std::string shell_quoted(const std::string& word) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./,=+:@%").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string quoted = "'";
+  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
 
 void apply_override(Experiment& experiment, std::string_view assignment) {
   const size_t equals = assignment.find('=');

@@ -7,19 +7,14 @@
 // The file (every key may be left out; an unknown one is an error):
 //   title = "..."
 //   scene = "cube-room"              # or a table [scene] with name = and the scene's other settings
-//   pictures = "first"               # which points get pictures: first | all | none | worst | extremes (worst and best)
-//   [view] [light] [map] [bias] [filter] [truth]      # fixed settings: `noonmark settings` lists them
-//   [sweep]                          # every combination is one point; the first one named changes slowest
-//   map.resolution = [512, 1024]
-//   bias.constant = {min = 0, max = 0.01, steps = 5}                   # min + i * step; the last is max itself
-//   map.extent_m = {min = 10, max = 80, steps = 4, scale = "log"}      # min * (max / min)^(i / (steps - 1))
-//   [plot]
-//   metrics = ["error", "acne"]
-//   [curve]                          # error against bias
-//   enabled = true
-//   acne_bound = 0.001               # of the usable window
-//   peter_panning_bound = 0.001
-//   bias_depth = [0, 0.001, 0.002]   # or a range; left out: the measurement chooses the biases
+//   pictures = "first"               # which points get pictures: first | all | none | worst | extremes (worst and
+//   best) [view] [light] [map] [bias] [filter] [truth]      # fixed settings: `noonmark settings` lists them [sweep] #
+//   every combination is one point; the first one named changes slowest map.resolution = [512, 1024] bias.constant =
+//   {min = 0, max = 0.01, steps = 5}                   # min + i * step; the last is max itself map.extent_m = {min =
+//   10, max = 80, steps = 4, scale = "log"}      # min * (max / min)^(i / (steps - 1)) [plot] metrics = ["error",
+//   "acne"] [curve]                          # error against bias enabled = true acne_bound = 0.001               # of
+//   the usable window peter_panning_bound = 0.001 bias_depth = [0, 0.001, 0.002]   # or a range; left out: the
+//   measurement chooses the biases
 //   [[bound]]
 //   metric = "acne"                  # a metric, or a quantity of the curve such as window_width_depth
 //   max = 0.01                       # and/or min
@@ -55,7 +50,8 @@ struct Experiment {
   std::vector<Bound> bounds;
   bool curve_enabled = true;
   CurveOptions curve;
-  std::string pictures = "first";       // which points get pictures: first | all | none | worst | extremes (the worst and the best)
+  std::string pictures =
+      "first";  // which points get pictures: first | all | none | worst | extremes (the worst and the best)
   std::vector<std::string> overridden;  // settings given by apply_override, in order
 };
 
@@ -81,6 +77,9 @@ std::vector<Settings> points(const Experiment& experiment);
 
 // Every setting by its row's name, in canonical text: PointRecord::settings.
 std::map<std::string, std::string> settings_map(const Settings& settings);
+
+// A word as a shell reads it back: plain words stay as they are, anything else goes into single quotes.
+std::string shell_quoted(const std::string& word);
 
 // The command that renders one point of the experiment: its overridden and swept settings as --set, quoted for a shell.
 std::string reproduce_command(const Experiment& experiment, const std::map<std::string, std::string>& settings);

@@ -57,7 +57,8 @@ Image<Color> classes(const Measurement& m) {
     const Cause cause = static_cast<Cause>(m.ladder.cause[i]);
     if (cause == Cause::none) return Color(right + 0.5f);
     const float wrong = std::abs(m.ladder.rung[5][i] - m.ladder.rung[1][i]);
-    return Color(glm::mix(right, glm::vec3(named_color(cause_name(cause))), 0.25f + 0.75f * std::min(1.0f, wrong)) + 0.5f);
+    return Color(glm::mix(right, glm::vec3(named_color(cause_name(cause))), 0.25f + 0.75f * std::min(1.0f, wrong)) +
+                 0.5f);
   });
 }
 
@@ -110,7 +111,8 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
   add("map", "What the shadow map showed (R5).", shaded(m, 5));
   add("classes", "Why each wrong pixel is wrong.", classes(m));
   add("difference", "Map minus truth: too dark is orange, too light is blue.", difference(m));
-  add("depth", "The shadow map itself as the light sees it: bright is near, black is empty.", map_picture(m.stored_map));
+  add("depth", "The shadow map itself as the light sees it: bright is near, black is empty.",
+      map_picture(m.stored_map));
   return records;
 }
 

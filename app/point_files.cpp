@@ -40,8 +40,7 @@ nlohmann::json vector_json(glm::dvec3 v) { return {v.x, v.y, v.z}; }
 
 nlohmann::json matrix_rows(const glm::dmat4& matrix) {
   nlohmann::json rows;
-  for (int row = 0; row < 4; ++row)
-    rows.push_back({matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row]});
+  for (int row = 0; row < 4; ++row) rows.push_back({matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row]});
   return rows;
 }
 
@@ -49,31 +48,52 @@ nlohmann::json matrix_rows(const glm::dmat4& matrix) {
 nlohmann::json setting_json(const Setting& row, const std::string& text) {
   if (text == "auto") return text;
   switch (row.type) {
-    case ValueType::integer: return std::stoll(text);
-    case ValueType::real: return std::stod(text);
-    case ValueType::flag: return text == "true";
-    default: return text;
+    case ValueType::integer:
+      return std::stoll(text);
+    case ValueType::real:
+      return std::stod(text);
+    case ValueType::flag:
+      return text == "true";
+    default:
+      return text;
   }
 }
 
 nlohmann::json curve_json(const BiasCurve& c) {
   const auto optional = [](const std::optional<double>& v) { return v ? nlohmann::json(*v) : nlohmann::json(); };
-  return {{"parameter", c.parameter}, {"made", c.made}, {"bias_depth", c.bias_depth}, {"error", c.error}, {"wrong", c.wrong},
-          {"acne", c.acne}, {"peter_panning", c.peter_panning}, {"aliasing_dark", c.aliasing_dark},
-          {"aliasing_light", c.aliasing_light}, {"coverage", c.coverage}, {"m_per_depth", c.m_per_depth},
-          {"texels_per_depth", c.texels_per_depth}, {"acne_bound", c.acne_bound}, {"peter_panning_bound", c.peter_panning_bound},
-          {"window_min_depth", optional(c.window_min_depth)}, {"window_max_depth", optional(c.window_max_depth)},
-          {"best_bias_depth", number(c.best_bias_depth)}, {"best_error", number(c.best_error)},
-          {"flat_min_depth", number(c.flat_min_depth)}, {"flat_max_depth", number(c.flat_max_depth)}, {"breakpoints", c.breakpoints}};
+  return {{"parameter", c.parameter},
+          {"made", c.made},
+          {"bias_depth", c.bias_depth},
+          {"error", c.error},
+          {"wrong", c.wrong},
+          {"acne", c.acne},
+          {"peter_panning", c.peter_panning},
+          {"aliasing_dark", c.aliasing_dark},
+          {"aliasing_light", c.aliasing_light},
+          {"coverage", c.coverage},
+          {"m_per_depth", c.m_per_depth},
+          {"texels_per_depth", c.texels_per_depth},
+          {"acne_bound", c.acne_bound},
+          {"peter_panning_bound", c.peter_panning_bound},
+          {"window_min_depth", optional(c.window_min_depth)},
+          {"window_max_depth", optional(c.window_max_depth)},
+          {"best_bias_depth", number(c.best_bias_depth)},
+          {"best_error", number(c.best_error)},
+          {"flat_min_depth", number(c.flat_min_depth)},
+          {"flat_max_depth", number(c.flat_max_depth)},
+          {"breakpoints", c.breakpoints}};
 }
 
 }  // namespace
 
 void write_images(const Measurement& m, const std::string& prefix) {
   std::vector<Channel> channels;
-  const auto add = [&](std::string name, Image<float> values) { channels.push_back({std::move(name), std::move(values)}); };
+  const auto add = [&](std::string name, Image<float> values) {
+    channels.push_back({std::move(name), std::move(values)});
+  };
   for (int axis = 0; axis < 3; ++axis) {
-    add(fmt::format("P.{}", "XYZ"[axis]), channel_of(m.receivers.position, [&](const glm::vec3& p) { return p[axis]; }));
+    add(fmt::format("P.{}", "XYZ"[axis]),
+        channel_of(m.receivers.position, [&](const glm::vec3& p) { return p[axis]; }));
     add(fmt::format("N.{}", "XYZ"[axis]), channel_of(m.receivers.normal, [&](const glm::vec3& n) { return n[axis]; }));
   }
   // Up to 2^24 a float holds an index exactly; -1 where there is no surface.
@@ -90,8 +110,7 @@ void write_images(const Measurement& m, const std::string& prefix) {
 
   const auto top_first = [](const Image<float>& map) {
     Image<float> flipped(map.width, map.height);
-    for (int y = 0; y < map.height; ++y)
-      std::copy_n(&map.at(0, y), map.width, &flipped.at(0, map.height - 1 - y));
+    for (int y = 0; y < map.height; ++y) std::copy_n(&map.at(0, y), map.width, &flipped.at(0, map.height - 1 - y));
     return flipped;
   };
   write_exr(prefix + "map.exr", {{"depth.stored", top_first(m.stored_map)}, {"depth.exact", top_first(m.exact_map)}});
@@ -101,24 +120,43 @@ std::string point_json(const Measurement& m, const std::string& command) {
   nlohmann::ordered_json json;
   json["noonmark"] = {{"version", build_facts().version}, {"commit", build_facts().commit}};
   json["command"] = command;
-  json["scene"] = {{"name", m.scene.name}, {"triangles", m.scene.triangles.size()}, {"vertices", m.scene.positions.size()}};
-  for (const Setting& row : settings_table()) json["settings"][std::string(row.name)] = setting_json(row, row.get(m.settings));
+  json["scene"] = {
+      {"name", m.scene.name}, {"triangles", m.scene.triangles.size()}, {"vertices", m.scene.positions.size()}};
+  for (const Setting& row : settings_table())
+    json["settings"][std::string(row.name)] = setting_json(row, row.get(m.settings));
   for (const Metric& metric : metrics_table()) {
     const auto found = m.record.metrics.find(std::string(metric.name));
     if (found != m.record.metrics.end()) json["metrics"][std::string(metric.name)] = number(found->second);
   }
   for (const auto& [name, value] : m.record.times) json["times"][name] = number(value);
-  json["worst"] = {{"x", m.record.worst.x}, {"y", m.record.worst.y}, {"error", number(m.record.worst.error)}, {"cause", m.record.worst.cause}};
+  json["worst"] = {{"x", m.record.worst.x},
+                   {"y", m.record.worst.y},
+                   {"error", number(m.record.worst.error)},
+                   {"cause", m.record.worst.cause}};
 
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   json["camera"] = {{"projection", m.camera.projection == Projection::perspective ? "perspective" : "orthographic"},
-                    {"eye_m", vector_json(camera.eye_m)}, {"right", vector_json(camera.right)}, {"up", vector_json(camera.up)},
-                    {"forward", vector_json(camera.forward)}, {"half_width", camera.half_width}, {"half_height", camera.half_height},
-                    {"near_m", m.camera.near_m}, {"far_m", m.camera.far_m}, {"clip_from_world_rows", matrix_rows(camera.clip_from_world())}};
+                    {"eye_m", vector_json(camera.eye_m)},
+                    {"right", vector_json(camera.right)},
+                    {"up", vector_json(camera.up)},
+                    {"forward", vector_json(camera.forward)},
+                    {"half_width", camera.half_width},
+                    {"half_height", camera.half_height},
+                    {"near_m", m.camera.near_m},
+                    {"far_m", m.camera.far_m},
+                    {"clip_from_world_rows", matrix_rows(camera.clip_from_world())}};
   const LightFrame& f = m.frame;
-  json["light"] = {{"kind", "directional"}, {"origin_m", vector_json(f.origin_m)}, {"right", vector_json(f.right)}, {"up", vector_json(f.up)},
-                   {"forward", vector_json(f.forward)}, {"ray_direction", vector_json(f.ray_direction)}, {"extent_m", f.extent_m},
-                   {"near_m", f.near_m}, {"far_m", f.far_m}, {"resolution", f.resolution}, {"texel_m", f.texel_m()},
+  json["light"] = {{"kind", "directional"},
+                   {"origin_m", vector_json(f.origin_m)},
+                   {"right", vector_json(f.right)},
+                   {"up", vector_json(f.up)},
+                   {"forward", vector_json(f.forward)},
+                   {"ray_direction", vector_json(f.ray_direction)},
+                   {"extent_m", f.extent_m},
+                   {"near_m", f.near_m},
+                   {"far_m", f.far_m},
+                   {"resolution", f.resolution},
+                   {"texel_m", f.texel_m()},
                    {"angular_diameter_deg", effective_light(m.scene, m.settings).angular_diameter_deg},
                    {"clip_from_world_rows", matrix_rows(f.clip_from_world())}};
   for (int c = 0; c < cause_count; ++c) json["causes"].push_back(cause_name(static_cast<Cause>(c)));

@@ -7,7 +7,8 @@
 
 namespace noonmark {
 
-Progress::Progress(int64_t total, int64_t already) : total_(total), already_(already), terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(int64_t total, int64_t already)
+    : total_(total), already_(already), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
   if (line_open_) std::fputc('\n', stderr);
@@ -24,7 +25,8 @@ void Progress::finished(int64_t done, const std::string& what) {
   constexpr int width = 30;
   const int filled = total_ > 0 ? static_cast<int>(width * done / total_) : width;
   // Clears the rest of the line, and stays within 79 columns.
-  fmt::print(stderr, "\r[{:=<{}}{: <{}}] {}/{}  {:.0f} s left  {:.24}\x1b[K", "", filled, "", width - filled, done, total_, left, what);
+  fmt::print(stderr, "\r[{:=<{}}{: <{}}] {}/{}  {:.0f} s left  {:.24}\x1b[K", "", filled, "", width - filled, done,
+             total_, left, what);
   std::fflush(stderr);
   line_open_ = true;
 }

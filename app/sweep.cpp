@@ -1,7 +1,10 @@
 #include "app/sweep.h"
 
+#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -40,7 +43,12 @@ class StopOnSignal {
     stop_asked = 0;
     for (int i = 0; i < 2; ++i) {
       struct sigaction action {};
-      action.sa_handler = [](int) { stop_asked = 1; };
+      action.sa_handler = [](int) {
+        stop_asked = 1;
+        static constexpr char text[] = "\nstopping after this point, which is then stored; once more to stop at once\n";
+        [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
+      };
+      action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second signal ends the program
       sigaction(signals_[i], &action, &before_[i]);
     }
   }
@@ -52,7 +60,28 @@ class StopOnSignal {
 
  private:
   static constexpr int signals_[2] = {SIGINT, SIGTERM};
-  struct sigaction before_[2] {};
+  struct sigaction before_[2]{};
+};
+
+// Two runs that write into one folder would spoil each other's files.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::string& folder)
+      : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      close(descriptor_);
+      throw Error(ErrorKind::usage,
+                  fmt::format("another run is writing into {}; wait for it, or give another --out", folder));
+    }
+  }
+  ~FolderLock() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;  // the lock goes with it, also when the program is killed
 };
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
@@ -80,7 +109,8 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
   info.gl_timer = device.timer_queries ? "timer query" : "glFinish + steady clock";
   info.embree_version = tracer.version;
   info.embree_isa = tracer.isa;
-  for (const LibraryVersion& library : build_facts().libraries) info.libraries[std::string(library.name)] = library.version;
+  for (const LibraryVersion& library : build_facts().libraries)
+    info.libraries[std::string(library.name)] = library.version;
   for (const Swept& swept : experiment.swept) info.swept.push_back(swept.name);
   info.plot = experiment.plot;
   info.scene_name = scene.name;
@@ -90,7 +120,8 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
 
 std::string swept_text(const Experiment& experiment, const PointRecord& point) {
   std::string text;
-  for (const Swept& swept : experiment.swept) text += fmt::format("{}{}={}", text.empty() ? "" : " ", swept.name, point.settings.at(swept.name));
+  for (const Swept& swept : experiment.swept)
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", swept.name, point.settings.at(swept.name));
   return text.empty() ? "the only point" : text;
 }
 
@@ -128,9 +159,9 @@ std::vector<int64_t> chosen_late(const std::string& pictures, const std::vector<
     const double error = p.metrics.at("error");
     return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
   };
-  const auto [best, worst] = std::minmax_element(points.begin(), points.end(), [&](const PointRecord& a, const PointRecord& b) {
-    return badness(a) < badness(b);
-  });
+  const auto [best, worst] =
+      std::minmax_element(points.begin(), points.end(),
+                          [&](const PointRecord& a, const PointRecord& b) { return badness(a) < badness(b); });
   if (pictures == "worst" || (pictures == "extremes" && best == worst)) return {worst->id};
   if (pictures == "extremes") return {best->id, worst->id};
   return {};
@@ -141,7 +172,8 @@ void remove_pictures(const std::string& out) {
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(out + "/images", none)) {
     const std::string name = entry.path().filename().string();
-    if (name.size() > 5 && name[0] == 'p' && std::isdigit(static_cast<unsigned char>(name[1])) && (name.ends_with(".png") || name.ends_with(".exr")))
+    if (name.size() > 5 && name[0] == 'p' && std::isdigit(static_cast<unsigned char>(name[1])) &&
+        (name.ends_with(".png") || name.ends_with(".exr")))
       std::filesystem::remove(entry.path(), none);
   }
 }
@@ -150,10 +182,11 @@ void require_sound_ladders(const Results& results) {
   for (const PointRecord& point : results.points)
     for (const char* name : {"residual", "tap_residual"})
       if (!(point.metrics.at(name) <= largest_residual))
-        throw Error(ErrorKind::defect,
-                    fmt::format("point {}: the ladder's steps do not add up ({} = {}, at most {} is rounding); the results are "
-                                "stored, but do not trust them, and report this with the output of noonmark doctor",
-                                point.id, name, point.metrics.at(name), largest_residual));
+        throw Error(
+            ErrorKind::defect,
+            fmt::format("point {}: the ladder's steps do not add up ({} = {}, at most {} is rounding); the results are "
+                        "stored, but do not trust them, and report this with the output of noonmark doctor",
+                        point.id, name, point.metrics.at(name), largest_residual));
 }
 
 }  // namespace
@@ -162,12 +195,16 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
   const std::vector<Settings> planned = points(experiment);
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
-  if (error) throw Error(ErrorKind::usage, fmt::format("cannot make the folder {}: {}; give another --out", options.out, error.message()));
+  if (error)
+    throw Error(ErrorKind::usage,
+                fmt::format("cannot make the folder {}: {}; give another --out", options.out, error.message()));
 
+  const FolderLock lock(options.out);
   Workbench bench(gl::DebugMode::log);
   const raytrace::TracerInfo tracer = raytrace::tracer_info();
   const auto facts = provenance(bench, planned, tracer);
-  ResultStore store(options.out + "/results.sqlite", fingerprint(experiment, facts), options.overwrite ? Existing::overwrite : Existing::resume);
+  ResultStore store(options.out + "/results.sqlite", fingerprint(experiment, facts),
+                    options.overwrite ? Existing::overwrite : Existing::resume);
   if (options.overwrite) remove_pictures(options.out);
   const auto total = static_cast<int64_t>(planned.size());
   store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene)), total);
@@ -184,7 +221,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
       if (std::binary_search(before.begin(), before.end(), id)) continue;
       Measurement m = bench.measure(planned[static_cast<size_t>(id)], curve);
       m.record.id = id;
-      if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0)) m.record.pictures = keep_pictures(m, id, options.out);
+      if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0))
+        m.record.pictures = keep_pictures(m, id, options.out);
       store.add(m.record);
       progress.finished(++done, swept_text(experiment, m.record));
       outcome.interrupted = stop_asked && done < total;
@@ -195,7 +233,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
   if (!outcome.interrupted) {
     for (int64_t id : chosen_late(experiment.pictures, outcome.results.points))
       if (find_point(outcome.results.points, id)->pictures.empty())
-        store.set_pictures(id, keep_pictures(bench.measure(planned[static_cast<size_t>(id)], std::nullopt), id, options.out));
+        store.set_pictures(
+            id, keep_pictures(bench.measure(planned[static_cast<size_t>(id)], std::nullopt), id, options.out));
     outcome.results = store.load();
   }
   outcome.results.bounds = evaluate_bounds(outcome.results.points, experiment.bounds, [&](const PointRecord& point) {
@@ -209,7 +248,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
 
 void write_report(const Results& results, const std::string& out) {
   write_file_atomically(out + "/results.csv", to_csv(results));
-  write_file_atomically(out + "/report.html", render_report(results, [&](const std::string& path) { return read_file(out + "/" + path); }));
+  write_file_atomically(out + "/report.html",
+                        render_report(results, [&](const std::string& path) { return read_file(out + "/" + path); }));
 }
 
 void print_plan(const Experiment& experiment) {
@@ -220,11 +260,13 @@ void print_plan(const Experiment& experiment) {
   double all_taps = 0;
   for (size_t i = 0; i < planned.size(); ++i) {
     std::string text;
-    for (const Swept& swept : experiment.swept) text += fmt::format("  {} = {}", swept.name, find_setting(swept.name).get(planned[i]));
+    for (const Swept& swept : experiment.swept)
+      text += fmt::format("  {} = {}", swept.name, find_setting(swept.name).get(planned[i]));
     fmt::print("{:5}{}\n", i, text);
     all_taps += taps(planned[i]);
   }
-  // Time is close to a constant for each point plus a share for each tap: two small pictures of the first point tell both.
+  // Time is close to a constant for each point plus a share for each tap: two small pictures of the first point tell
+  // both.
   Workbench bench(gl::DebugMode::log);
   const auto seconds = [&](int divisor, double nudge) {
     Settings small = planned[0];
@@ -240,8 +282,11 @@ void print_plan(const Experiment& experiment) {
   const auto [more, longer_time] = seconds(2, 1.002);
   const double per_tap = more > few ? std::max(0.0, (longer_time - short_time) / (more - few)) : 0;
   const double per_point = std::max(0.0, short_time - per_tap * few);
-  fmt::print("{} point{}, {:.3g} million taps; about {:.0f} s here (judged from point 0 at a quarter and at half of its size)\n", planned.size(),
-             planned.size() == 1 ? "" : "s", all_taps / 1e6, per_point * static_cast<double>(planned.size()) + per_tap * all_taps);
+  fmt::print(
+      "{} point{}, {:.3g} million taps; about {:.0f} s here (judged from point 0 at a quarter and at half of its "
+      "size)\n",
+      planned.size(), planned.size() == 1 ? "" : "s", all_taps / 1e6,
+      per_point * static_cast<double>(planned.size()) + per_tap * all_taps);
 }
 
 }  // namespace noonmark

@@ -31,27 +31,34 @@ std::vector<Listed> experiments_in(const std::vector<std::string>& paths) {
     std::vector<std::string> found;
     for (const auto& entry : fs::recursive_directory_iterator(path))
       if (entry.path().extension() == ".toml") found.push_back(entry.path().string());
-    if (found.empty()) throw Error(ErrorKind::usage, fmt::format("the folder {} holds no .toml file; give an experiment or a folder of them", path));
+    if (found.empty())
+      throw Error(ErrorKind::usage,
+                  fmt::format("the folder {} holds no .toml file; give an experiment or a folder of them", path));
     std::sort(found.begin(), found.end());
-    for (const std::string& file : found) files.push_back({file, fs::path(file).lexically_relative(path).replace_extension().string()});
+    for (const std::string& file : found)
+      files.push_back({file, fs::path(file).lexically_relative(path).replace_extension().string()});
   }
   for (size_t i = 0; i < files.size(); ++i)
     for (size_t j = 0; j < i; ++j)
       if (files[i].name == files[j].name)
-        throw Error(ErrorKind::usage, fmt::format("{} and {} would share the results' folder {}; check them one by one with different --out",
-                                                  files[j].file, files[i].file, files[i].name));
+        throw Error(
+            ErrorKind::usage,
+            fmt::format("{} and {} would share the results' folder {}; check them one by one with different --out",
+                        files[j].file, files[i].file, files[i].name));
   return files;
 }
 
 int check_one(const std::string& path, const ExperimentArguments& arguments, const std::string& out) {
   const Experiment experiment = experiment_from(path, arguments);
   if (experiment.bounds.empty())
-    throw Error(ErrorKind::usage, fmt::format("{} has no [[bound]], so there is nothing to check; add one, or use noonmark run", path));
+    throw Error(ErrorKind::usage,
+                fmt::format("{} has no [[bound]], so there is nothing to check; add one, or use noonmark run", path));
   const SweepOutcome outcome = run_sweep(experiment, {out, arguments.overwrite, arguments.command});
   write_file_atomically(out + "/junit.xml", to_junit(outcome.results));
   write_file_atomically(out + "/summary.md", to_summary(outcome.results));
   if (outcome.interrupted) {
-    fmt::print("stopped after {} of {} points; the same command goes on from there\n", outcome.results.points.size(), outcome.results.planned_points);
+    fmt::print("stopped after {} of {} points; the same command goes on from there\n", outcome.results.points.size(),
+               outcome.results.planned_points);
     return static_cast<int>(ErrorKind::incomplete);
   }
   int broken = 0;
@@ -59,8 +66,8 @@ int check_one(const std::string& path, const ExperimentArguments& arguments, con
     fmt::print("{}", describe(bound, find_point(outcome.results.points, bound.point), outcome.results.info.swept));
     broken += !bound.held;
   }
-  fmt::print("{}: {} of {} bounds held; the report is {}/report.html\n", path, outcome.results.bounds.size() - static_cast<size_t>(broken),
-             outcome.results.bounds.size(), out);
+  fmt::print("{}: {} of {} bounds held; the report is {}/report.html\n", path,
+             outcome.results.bounds.size() - static_cast<size_t>(broken), outcome.results.bounds.size(), out);
   return broken > 0 ? 1 : 0;
 }
 
@@ -71,7 +78,8 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
   const bool alone = files.size() == 1 && !arguments.out.empty();
   int worst = 0;
   for (const Listed& listed : files) {
-    const std::string out = alone ? arguments.out : (arguments.out.empty() ? std::string("out") : arguments.out) + "/" + listed.name;
+    const std::string out =
+        alone ? arguments.out : (arguments.out.empty() ? std::string("out") : arguments.out) + "/" + listed.name;
     worst = std::max(worst, check_one(listed.file, arguments, out));
     if (worst == static_cast<int>(ErrorKind::incomplete)) break;
   }

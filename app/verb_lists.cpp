@@ -18,7 +18,8 @@ int verb_report(const std::string& folder) {
   const Results results = ResultStore::open(folder + "/results.sqlite").load();
   write_report(results, folder);
   fmt::print("{} of {} points; the report is {}/report.html\n", results.points.size(), results.planned_points, folder);
-  return results.points.size() < static_cast<size_t>(results.planned_points) ? static_cast<int>(ErrorKind::incomplete) : 0;
+  return results.points.size() < static_cast<size_t>(results.planned_points) ? static_cast<int>(ErrorKind::incomplete)
+                                                                             : 0;
 }
 
 int verb_scenes() {
@@ -38,7 +39,8 @@ int verb_settings() {
   fmt::print("\nMetrics: for [[bound]] and [plot].\n\n");
   for (const Metric& metric : metrics_table()) fmt::print("{:<32} {:<10} {}\n", metric.name, metric.unit, metric.help);
   fmt::print("\nRead off the bias curve: for [[bound]].\n\n");
-  for (const CurveQuantity& quantity : curve_quantities()) fmt::print("{:<32} {:<10} {}\n", quantity.name, quantity.unit, quantity.help);
+  for (const CurveQuantity& quantity : curve_quantities())
+    fmt::print("{:<32} {:<10} {}\n", quantity.name, quantity.unit, quantity.help);
   return 0;
 }
 
@@ -50,7 +52,8 @@ int verb_doctor() {
     const gl::Renderer renderer(gl::DebugMode::off);
     const gl::DeviceInfo& device = renderer.info();
     fmt::print("OpenGL    {} ({}), {}\n", device.renderer, device.vendor, device.version);
-    fmt::print("          through EGL {}, {}; maps up to {} texels\n", device.egl_platform, device.software ? "software" : "hardware", device.max_map_resolution);
+    fmt::print("          through EGL {}, {}; maps up to {} texels\n", device.egl_platform,
+               device.software ? "software" : "hardware", device.max_map_resolution);
     fmt::print("          times by {}\n", device.timer_queries ? "timer queries" : "glFinish and a steady clock");
   } catch (const Error& error) {
     fmt::print("OpenGL    NOT USABLE: {}\n", error.what());
@@ -65,7 +68,8 @@ int verb_doctor() {
   }
   fmt::print("Libraries");
   for (const LibraryVersion& library : facts.libraries) fmt::print(" {} {};", library.name, library.version);
-  fmt::print("\n{}\n", exit_code == 0 ? "Everything that a measurement needs is here." : "Nothing can be measured here until this is mended.");
+  fmt::print("\n{}\n", exit_code == 0 ? "Everything that a measurement needs is here."
+                                      : "Nothing can be measured here until this is mended.");
   return exit_code;
 }
 

@@ -16,8 +16,9 @@ namespace {
 Settings the_point(const Experiment& experiment, long point) {
   const std::vector<Settings> all = points(experiment);
   if (point < 0 && all.size() > 1)
-    throw Error(ErrorKind::usage, fmt::format("{} has {} points and render takes one; give --point 0 ... {}, or --set what is swept",
-                                              experiment.path, all.size(), all.size() - 1));
+    throw Error(ErrorKind::usage,
+                fmt::format("{} has {} points and render takes one; give --point 0 ... {}, or --set what is swept",
+                            experiment.path, all.size(), all.size() - 1));
   if (point >= static_cast<long>(all.size()))
     throw Error(ErrorKind::usage, fmt::format("there is no point {}; the last one is {}", point, all.size() - 1));
   return all[static_cast<size_t>(std::max(point, 0L))];
@@ -25,23 +26,31 @@ Settings the_point(const Experiment& experiment, long point) {
 
 void print_ladder(const Measurement& m) {
   const auto value = [&](const char* name) { return m.record.metrics.at(name); };
-  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted ({:.4f}% ambiguous)\n\n", m.scene.name, value("receivers"),
-             value("facing"), value("counted"), 100 * value("ambiguous"));
+  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted ({:.4f}% ambiguous)\n\n", m.scene.name,
+             value("receivers"), value("facing"), value("counted"), 100 * value("ambiguous"));
   fmt::print("  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_table())
     if (metric.unit == "fraction" && metric.name != "ambiguous")
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
   fmt::print("\n");
-  for (const char* name : {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "residual", "tap_residual", "map_ms", "lookup_ms"})
+  for (const char* name : {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "residual",
+                           "tap_residual", "map_ms", "lookup_ms"})
     fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);
   if (!m.record.curve) return;
+  if (value("counted") == 0) {
+    fmt::print(
+        "\n  no counted receiver, so no bias can be judged; does the camera see a surface that faces the light?\n");
+    return;
+  }
   const BiasCurve& c = *m.record.curve;
   if (c.window_min_depth)
-    fmt::print("\n  usable {}: {:.6g} ... {:.6g} depth = {:.4g} ... {:.4g} m = {:.4g} ... {:.4g} texels\n", c.parameter, *c.window_min_depth,
-               *c.window_max_depth, *c.window_min_depth * c.m_per_depth, *c.window_max_depth * c.m_per_depth,
-               *c.window_min_depth * c.texels_per_depth, *c.window_max_depth * c.texels_per_depth);
+    fmt::print("\n  usable {}: {:.6g} ... {:.6g} depth = {:.4g} ... {:.4g} m = {:.4g} ... {:.4g} texels\n", c.parameter,
+               *c.window_min_depth, *c.window_max_depth, *c.window_min_depth * c.m_per_depth,
+               *c.window_max_depth * c.m_per_depth, *c.window_min_depth * c.texels_per_depth,
+               *c.window_max_depth * c.texels_per_depth);
   else
-    fmt::print("\n  no {} keeps acne within {:g} and Peter Panning within {:g}\n", c.parameter, c.acne_bound, c.peter_panning_bound);
+    fmt::print("\n  no {} keeps acne within {:g} and Peter Panning within {:g}\n", c.parameter, c.acne_bound,
+               c.peter_panning_bound);
   fmt::print("  best {}: {:.6g} depth (error {:.5f}%)\n", c.parameter, c.best_bias_depth, 100 * c.best_error);
 }
 
@@ -53,9 +62,12 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   const std::string out = arguments.out.empty() ? "out/render" : arguments.out;
   std::error_code error;
   std::filesystem::create_directories(out, error);
-  if (error) throw Error(ErrorKind::usage, fmt::format("cannot make the folder {}: {}; give another --out", out, error.message()));
+  if (error)
+    throw Error(ErrorKind::usage,
+                fmt::format("cannot make the folder {}: {}; give another --out", out, error.message()));
   Workbench bench(gl::DebugMode::log);
-  const Measurement m = bench.measure(settings, experiment.curve_enabled ? std::optional(experiment.curve) : std::nullopt);
+  const Measurement m =
+      bench.measure(settings, experiment.curve_enabled ? std::optional(experiment.curve) : std::nullopt);
   write_pictures(m, out, ".", "point");
   write_images(m, out + "/");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));

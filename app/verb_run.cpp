@@ -17,7 +17,8 @@ int verb_run(const std::string& path, const ExperimentArguments& arguments, bool
   const std::string out = out_folder(path, arguments);
   const SweepOutcome outcome = run_sweep(experiment, {out, arguments.overwrite, arguments.command});
   if (outcome.interrupted) {
-    fmt::print("stopped after {} of {} points; the same command goes on from there\n", outcome.results.points.size(), outcome.results.planned_points);
+    fmt::print("stopped after {} of {} points; the same command goes on from there\n", outcome.results.points.size(),
+               outcome.results.planned_points);
     return static_cast<int>(ErrorKind::incomplete);
   }
   fmt::print("{} points measured; the report is {}/report.html\n", outcome.results.points.size(), out);

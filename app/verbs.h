@@ -9,7 +9,7 @@ struct ExperimentArguments {
   std::vector<std::string> sets;  // --set name=value, in order
   std::string out;                // --out; empty: out/<name of the experiment>
   bool overwrite = false;
-  std::string command;            // the whole command line, for the record
+  std::string command;  // the whole command line, for the record
 };
 
 int verb_run(const std::string& experiment, const ExperimentArguments& arguments, bool dry_run);

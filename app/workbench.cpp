@@ -137,8 +137,9 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
 
   const View& view = b.view.get(key_of(settings, {"scene.", "view."}), [&] {
     const Camera camera = chosen_camera(scene, settings.view);
-    return View{camera, resolve_receivers(scene, camera, b.renderer.render_primitives(camera, settings.view.width_px,
-                                                                                      settings.view.height_px))};
+    return View{camera, resolve_receivers(
+                            scene, camera,
+                            b.renderer.render_primitives(camera, settings.view.width_px, settings.view.height_px))};
   });
   const Truth& truth = b.truth.get(key_of(settings, {"scene.", "view.", "light.", "truth."}), [&] {
     Truth made;
@@ -154,15 +155,17 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
 
   const RenderedMap& map = b.map.get(key_of(settings, {"scene.", "light.", "map."}, {"map.lit_beyond_far"}), [&] {
     std::optional<gl::ShadowMap> rendered;
-    const double time = median_time([&](double* ms) { rendered.emplace(b.renderer.render_map(frame, settings.map, ms)); });
+    const double time =
+        median_time([&](double* ms) { rendered.emplace(b.renderer.render_map(frame, settings.map, ms)); });
     Image<float> depth = b.renderer.read_map(*rendered);
     return RenderedMap{std::move(*rendered), std::move(depth), time};
   });
   const int kernel = kernel_size(settings.filter);
   const std::string lookup_key =
-      key_of(settings, {"scene.", "view.", "light.", "map."}, {"map.lit_beyond_far", "map.format"}) + std::to_string(kernel);
+      key_of(settings, {"scene.", "view.", "light.", "map."}, {"map.lit_beyond_far", "map.format"}) +
+      std::to_string(kernel);
   Lookup& lookup = b.lookup.get(lookup_key, [&] {
-    LookupProbe probe = b.renderer.probe(frame, settings);
+    LookupProbe probe = b.renderer.probe(frame);
     raytrace::LookupTruth taps =
         loaded.tracer->lookup_truth(view.receivers, truth.receivers, probe, frame, settings.map, kernel);
     gl::ShadowMap exact = b.renderer.upload_map(taps.exact_map, settings.map);
@@ -174,8 +177,10 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const Image<float> r4 = b.renderer.lookup(lookup.exact_map, frame, settings);
 
   const DepthBias bias = depth_bias(frame, settings.bias);
-  const LookupEvidence evidence{truth.receivers, lookup.probe, lookup.truth.taps, lookup.truth.exact_map, settings.map, bias, r4, r5};
-  Measurement m{{}, settings, climb(evidence), frame, view.camera, scene, view.receivers, lookup.probe, map.depth, lookup.truth.exact_map};
+  const LookupEvidence evidence{
+      truth.receivers, lookup.probe, lookup.truth.taps, lookup.truth.exact_map, settings.map, bias, r4, r5};
+  Measurement m{{},    settings,       climb(evidence), frame,     view.camera,
+                scene, view.receivers, lookup.probe,    map.depth, lookup.truth.exact_map};
 
   const Image<float> occluders = loaded.tracer->occluder_distance(view.receivers, frame, peter_panning_mask(m.ladder));
   m.record.metrics = measure_ladder({m.ladder, view.receivers.primitive, lookup.truth.edge_distance_m, occluders,
@@ -198,8 +203,8 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     const bool slope = settings.bias.form == BiasForm::slope;
     const CurveParameter parameter = slope ? CurveParameter::slope : CurveParameter::constant;
     // The floor stays in the key: the slope's curve is made over it.
-    const std::string key = lookup_key + key_of(settings, {"map.", "bias.form"}) + (slope ? key_of(settings, {"bias.unit", "bias.floor"}) : "") +
-                            key_of(settings, {"truth."});
+    const std::string key = lookup_key + key_of(settings, {"map.", "bias.form"}) +
+                            (slope ? key_of(settings, {"bias.unit", "bias.floor"}) : "") + key_of(settings, {"truth."});
     m.record.curve = b.curve.get(key, [&] {
       return std::optional(summarise(BiasCounts(evidence, map.depth, parameter), parameter, frame, *curve_options));
     });

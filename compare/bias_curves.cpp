@@ -35,39 +35,41 @@ BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, 
   const int taps = e.taps.taps_per_receiver, kernel = kernel_of(e.taps);
   taps_per_receiver_ = taps;
   tbb::combinable<Lists> parts;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, e.truth.facing.size(), 8192), [&](const tbb::blocked_range<size_t>& range) {
-    Lists& lists = parts.local();
-    for (size_t i = range.begin(); i != range.end(); ++i) {
-      if (!e.truth.facing[i] || e.truth.ambiguous[i]) continue;
-      ++lists.receivers;
-      const float factor = 1.0f - e.probe.n_dot_l[i];  // the shader's own
-      const auto threshold = [&](const Tap& tap) {
-        if (tap.always_lit) return 0.0f;
-        const float bias = lit_threshold(e.probe.reference[i], tap.depth);
-        if (parameter == CurveParameter::constant) return bias;
-        return e.bias.floor >= bias ? 0.0f : slope_threshold(bias, factor);
-      };
-      float least = infinity, most = 0;
-      for (int t = 0; t < taps; ++t) {
-        const Tap exact = tap_of(e.probe, e.taps, e.map, e.exact_map, i, kernel, t);
-        const float at_r4 = threshold(exact);
-        // Wrong on one side of its threshold only: when dark if it should be lit, when lit if it should be dark.
-        if (!exact.exact_lit || at_r4 > 0)
-          lists.by_cause[static_cast<size_t>(tap_cause(exact, !exact.exact_lit))].push_back(at_r4);
-        const float at_r5 = threshold(tap_of(e.probe, e.taps, e.map, stored_map, i, kernel, t));
-        least = std::min(least, at_r5);
-        most = std::max(most, at_r5);
-        if (!e.truth.lit[i])
-          lists.error_light.push_back(at_r5);
-        else if (at_r5 > 0)
-          lists.error_dark.push_back(at_r5);
-      }
-      if (!e.truth.lit[i])
-        lists.wrong_light.push_back(least);
-      else if (most > 0)
-        lists.wrong_dark.push_back(most);
-    }
-  });
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, e.truth.facing.size(), 8192),
+                    [&](const tbb::blocked_range<size_t>& range) {
+                      Lists& lists = parts.local();
+                      for (size_t i = range.begin(); i != range.end(); ++i) {
+                        if (!e.truth.facing[i] || e.truth.ambiguous[i]) continue;
+                        ++lists.receivers;
+                        const float factor = 1.0f - e.probe.n_dot_l[i];  // the shader's own
+                        const auto threshold = [&](const Tap& tap) {
+                          if (tap.always_lit) return 0.0f;
+                          const float bias = lit_threshold(e.probe.reference[i], tap.depth);
+                          if (parameter == CurveParameter::constant) return bias;
+                          return e.bias.floor >= bias ? 0.0f : slope_threshold(bias, factor);
+                        };
+                        float least = infinity, most = 0;
+                        for (int t = 0; t < taps; ++t) {
+                          const Tap exact = tap_of(e.probe, e.taps, e.map, e.exact_map, i, kernel, t);
+                          const float at_r4 = threshold(exact);
+                          // Wrong on one side of its threshold only: when dark if it should be lit, when lit if it
+                          // should be dark.
+                          if (!exact.exact_lit || at_r4 > 0)
+                            lists.by_cause[static_cast<size_t>(tap_cause(exact, !exact.exact_lit))].push_back(at_r4);
+                          const float at_r5 = threshold(tap_of(e.probe, e.taps, e.map, stored_map, i, kernel, t));
+                          least = std::min(least, at_r5);
+                          most = std::max(most, at_r5);
+                          if (!e.truth.lit[i])
+                            lists.error_light.push_back(at_r5);
+                          else if (at_r5 > 0)
+                            lists.error_dark.push_back(at_r5);
+                        }
+                        if (!e.truth.lit[i])
+                          lists.wrong_light.push_back(least);
+                        else if (most > 0)
+                          lists.wrong_dark.push_back(most);
+                      }
+                    });
   parts.combine_each([&](Lists& part) {
     receivers_ += part.receivers;
     append(error_dark_, part.error_dark);
@@ -141,13 +143,15 @@ std::vector<double> default_bias_grid() {
   return grid;
 }
 
-BiasCurve summarise(const BiasCounts& counts, CurveParameter parameter, const LightFrame& frame, const CurveOptions& options) {
+BiasCurve summarise(const BiasCounts& counts, CurveParameter parameter, const LightFrame& frame,
+                    const CurveOptions& options) {
   BiasCurve curve;
   curve.parameter = parameter == CurveParameter::constant ? "bias.constant" : "bias.slope";
   curve.made = "one pass";
   curve.bias_depth = options.bias_depth.empty() ? default_bias_grid() : options.bias_depth;
   const auto per = [](uint64_t count, uint64_t base) {
-    return base == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(count) / static_cast<double>(base);
+    return base == 0 ? std::numeric_limits<double>::quiet_NaN()
+                     : static_cast<double>(count) / static_cast<double>(base);
   };
   for (double bias : curve.bias_depth) {
     const float x = static_cast<float>(bias);
@@ -180,7 +184,8 @@ BiasCurve summarise(const BiasCounts& counts, CurveParameter parameter, const Li
   }
   if (counts.receivers() > 0) {
     const BiasCounts::Best best = counts.best();
-    // Where nothing limits the bias from above, the middle would be half the map's depth; twice the need is advice enough.
+    // Where nothing limits the bias from above, the middle would be half the map's depth; twice the need is advice
+    // enough.
     const double start = best.from, end = best.to;
     curve.best_bias_depth = end >= 1 ? std::min(2 * start, 1.0) : (start + end) / 2;
     curve.best_error = per(best.wrong_taps, counts.taps());

@@ -1,6 +1,6 @@
-// The error at every bias from one lookup pass (design: all biases for the price of one). A tap of a comparing lookup is
-// lit exactly when the bias reaches the tap's threshold; (F, V) names the cause it has on either side. Thresholds are
-// sorted once, and every count is read off exactly.
+// The error at every bias from one lookup pass (design: all biases for the price of one). A tap of a comparing lookup
+// is lit exactly when the bias reaches the tap's threshold; (F, V) names the cause it has on either side. Thresholds
+// are sorted once, and every count is read off exactly.
 //
 //   BiasCounts curves(evidence, stored_map, CurveParameter::constant);
 //   curves.caused(Cause::acne, 0.005f);                   // taps, exactly as rendering with that bias would book
@@ -45,7 +45,7 @@ class BiasCounts {
   float peter_panning_free_to(uint64_t allowed) const;
 
   struct Best {
-    float from = 0, to = 0;            // the stretch of least error in [0, 1]; the lowest where several are equal
+    float from = 0, to = 0;  // the stretch of least error in [0, 1]; the lowest where several are equal
     uint64_t wrong_taps = 0;
     float flat_from = 0, flat_to = 0;  // around it, as far as the error stays within 10% of the least
     uint64_t breakpoints = 0;          // of the error as a function of the bias, in (0, 1]
@@ -72,6 +72,7 @@ struct CurveOptions {
 // 0, then 20 steps a decade from 1e-7 (about one quantum of 24 bits) to 1.
 std::vector<double> default_bias_grid();
 
-BiasCurve summarise(const BiasCounts& counts, CurveParameter parameter, const LightFrame& frame, const CurveOptions& options);
+BiasCurve summarise(const BiasCounts& counts, CurveParameter parameter, const LightFrame& frame,
+                    const CurveOptions& options);
 
 }  // namespace noonmark

@@ -171,8 +171,8 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
     text += fmt::format("  {}\n", point_text(*point, swept));
     if (point->worst.x >= 0)
       text +=
-          fmt::format("  worst pixel: x = {}, y = {} (row 0 on top), error {}{}{}\n", point->worst.x, point->worst.y,
-                      point->worst.error, point->worst.cause.empty() ? "" : ", ", point->worst.cause);
+          fmt::format("  worst pixel by |R5 - R1|: x = {}, y = {} (row 0 on top), error {}{}{}\n", point->worst.x,
+                      point->worst.y, point->worst.error, point->worst.cause.empty() ? "" : ", ", point->worst.cause);
   }
   if (!bound.reproduce.empty()) text += fmt::format("  reproduce: {}\n", bound.reproduce);
   return text;

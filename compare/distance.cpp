@@ -58,10 +58,12 @@ Image<float> distance_to(const Image<uint8_t>& mask) {
       }
     });
   };
-  lines(width, height, [&](int x, int y) { return mask.at(x, y) ? 0.0f : infinity; },
-        [&](int x, int y, float d) { squared.at(x, y) = d; });
-  lines(height, width, [&](int y, int x) { return squared.at(x, y); },
-        [&](int y, int x, float d) { squared.at(x, y) = std::sqrt(d); });
+  lines(
+      width, height, [&](int x, int y) { return mask.at(x, y) ? 0.0f : infinity; },
+      [&](int x, int y, float d) { squared.at(x, y) = d; });
+  lines(
+      height, width, [&](int y, int x) { return squared.at(x, y); },
+      [&](int y, int x, float d) { squared.at(x, y) = std::sqrt(d); });
   return squared;
 }
 

@@ -12,7 +12,9 @@ namespace noonmark {
 namespace {
 
 // Like std::max, but a NaN stays: a residual that cannot be computed must not pass for none.
-double larger(double a, double b) { return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b); }
+double larger(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b);
+}
 
 struct Residuals {
   double steps = 0, taps = 0;
@@ -38,9 +40,9 @@ Cause pixel_cause(const Ladder& ladder, size_t i, bool filtered) {
 }  // namespace
 
 std::string_view cause_name(Cause cause) {
-  static constexpr std::string_view names[cause_count] = {"none", "light_size", "filter", "aliasing_dark", "aliasing_light",
-                                                          "acne", "peter_panning", "coverage_dark", "coverage_light",
-                                                          "precision"};
+  static constexpr std::string_view names[cause_count] = {
+      "none", "light_size",    "filter",        "aliasing_dark",  "aliasing_light",
+      "acne", "peter_panning", "coverage_dark", "coverage_light", "precision"};
   return names[static_cast<size_t>(cause)];
 }
 
@@ -60,7 +62,8 @@ Ladder climb(const LookupEvidence& e) {
   ladder.flags = Image<uint8_t>(width, height, 0);
 
   const auto receiver = [&](size_t i, Residuals& worst) {
-    ladder.flags[i] = static_cast<uint8_t>((e.truth.facing[i] ? flag_facing : 0) | (e.truth.ambiguous[i] ? flag_ambiguous : 0));
+    ladder.flags[i] =
+        static_cast<uint8_t>((e.truth.facing[i] ? flag_facing : 0) | (e.truth.ambiguous[i] ? flag_ambiguous : 0));
     if (!e.truth.facing[i]) return;
     const bool outside = !inside_map(e.probe.texel[i], e.exact_map.width) || e.probe.reference[i] > 1.0f;
     if (outside) ladder.flags[i] |= flag_outside;
@@ -77,7 +80,8 @@ Ladder climb(const LookupEvidence& e) {
     }
     // Double, rounded once to float: the shader's own count / N^2 is that quotient in float.
     const auto share = [&](int count) { return static_cast<float>(static_cast<double>(count) / taps); };
-    const float r[6] = {e.truth.soft[i], static_cast<float>(e.truth.lit[i]), share(exact_lit), share(texel_lit), e.r4[i], e.r5[i]};
+    const float r[6] = {
+        e.truth.soft[i], static_cast<float>(e.truth.lit[i]), share(exact_lit), share(texel_lit), e.r4[i], e.r5[i]};
     for (int n = 0; n < 6; ++n) ladder.rung[n][i] = r[n];
 
     const auto set = [&](Cause cause, float value) { ladder.step[static_cast<size_t>(cause)][i] = value; };
@@ -91,7 +95,8 @@ Ladder climb(const LookupEvidence& e) {
 
     double all = 0, classes = 0;
     for (int c = 0; c < cause_count; ++c) all += ladder.step[c][i];
-    for (int c = static_cast<int>(Cause::aliasing_dark); c <= static_cast<int>(Cause::coverage_light); ++c) classes += ladder.step[c][i];
+    for (int c = static_cast<int>(Cause::aliasing_dark); c <= static_cast<int>(Cause::coverage_light); ++c)
+      classes += ladder.step[c][i];
     worst.steps = larger(worst.steps, std::abs((static_cast<double>(r[5]) - r[0]) - all));
     worst.taps = larger(worst.taps, std::abs((static_cast<double>(r[4]) - r[2]) - classes));
     ladder.cause[i] = static_cast<uint8_t>(pixel_cause(ladder, i, taps > 1));
@@ -103,7 +108,9 @@ Ladder climb(const LookupEvidence& e) {
         for (size_t i = range.begin(); i != range.end(); ++i) receiver(i, so_far);
         return so_far;
       },
-      [](Residuals a, Residuals b) { return Residuals{larger(a.steps, b.steps), larger(a.taps, b.taps)}; });
+      [](Residuals a, Residuals b) {
+        return Residuals{larger(a.steps, b.steps), larger(a.taps, b.taps)};
+      });
   ladder.residual = worst.steps;
   ladder.tap_residual = worst.taps;
   return ladder;

@@ -7,10 +7,10 @@
 // where the map really sampled; R4 the technique on an exact map; R5 what the GPU gave. R0, R1, R2, R3 come from rays,
 // R4 and R5 from OpenGL, so that their steps adding up is a finding.
 //
-// Causes are booked tap by tap, on taps that are wrong: F = V(P, P + o), V = V(P, c), L = the tap's verdict at R4. A tap
-// counts only where L != F. It is coverage where its centre lies outside the map, its receiver beyond far, or its true
-// blocker before near; else aliasing where V = L (the grid asked elsewhere and was answered truly); else acne (L dark)
-// or Peter Panning (L lit). So steps never cancel on pixels that are right, and the classes sum to R4 - R2.
+// Causes are booked tap by tap, on taps that are wrong: F = V(P, P + o), V = V(P, c), L = the tap's verdict at R4. A
+// tap counts only where L != F. It is coverage where its centre lies outside the map, its receiver beyond far, or its
+// true blocker before near; else aliasing where V = L (the grid asked elsewhere and was answered truly); else acne (L
+// dark) or Peter Panning (L lit). So steps never cancel on pixels that are right, and the classes sum to R4 - R2.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -26,15 +26,15 @@ namespace noonmark {
 
 enum class Cause : uint8_t {
   none,
-  light_size,      // R1 - R0
-  filter,          // R2 - R1
+  light_size,  // R1 - R0
+  filter,      // R2 - R1
   aliasing_dark,
   aliasing_light,
   acne,
   peter_panning,
   coverage_dark,
   coverage_light,
-  precision,       // R5 - R4
+  precision,  // R5 - R4
 };
 inline constexpr int cause_count = 10;
 std::string_view cause_name(Cause cause);
@@ -43,7 +43,7 @@ std::string_view cause_name(Cause cause);
 struct LookupEvidence {
   const ReceiverTruth& truth;
   const LookupProbe& probe;
-  const TapTruth& taps;          // equal weights: 1 / taps_per_receiver
+  const TapTruth& taps;  // equal weights: 1 / taps_per_receiver
   const Image<float>& exact_map;
   const MapSettings& map;
   DepthBias bias;
@@ -54,9 +54,9 @@ struct LookupEvidence {
 enum LadderFlags : uint8_t { flag_facing = 1, flag_outside = 2, flag_ambiguous = 4 };
 
 struct Ladder {
-  std::array<Image<float>, 6> rung;          // R0 ... R5; 0 where not facing
+  std::array<Image<float>, 6> rung;            // R0 ... R5; 0 where not facing
   std::array<Image<float>, cause_count> step;  // signed change of visibility by cause, in the order of Cause
-  Image<uint8_t> cause;                      // the Cause of each wrong pixel (R5 != R1); none where right
+  Image<uint8_t> cause;                        // the Cause of each wrong pixel (R5 != R1); none where right
   Image<uint8_t> flags;
   // Largest |(R5 - R0) - sum of steps| and |(R4 - R2) - sum of tap classes| over the facing receivers; NaN when any
   // value is. Above 1e-6 the instrument is broken.
@@ -67,11 +67,11 @@ Ladder climb(const LookupEvidence& evidence);
 
 // A tap of a lookup, ready to be judged at any bias. Shared by the ladder and by the bias curves.
 struct Tap {
-  bool exact_lit = false;  // F
-  bool texel_lit = false;  // V
-  bool covered = true;     // inside the map, before far, blocker not clipped
-  bool always_lit = false; // beyond far, and the lookup says lit without comparing
-  float depth = 1;         // of the map that it reads
+  bool exact_lit = false;   // F
+  bool texel_lit = false;   // V
+  bool covered = true;      // inside the map, before far, blocker not clipped
+  bool always_lit = false;  // beyond far, and the lookup says lit without comparing
+  float depth = 1;          // of the map that it reads
 };
 
 // Tap number `tap` of pixel i, reading `map_depth` (the exact map, or the GPU's as its sampler returns it).

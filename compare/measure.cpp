@@ -16,7 +16,8 @@ bool counted(const Ladder& ladder, size_t i) {
 }
 
 // Whether the receiver lies in a gap, lit between an occluder and its shadow: Peter Panning where the truth is dark.
-// Under a filter a tap of a receiver that is itself lit can show it too; that one has no occluder, and no distance to it.
+// Under a filter a tap of a receiver that is itself lit can show it too; that one has no occluder, and no distance to
+// it.
 bool in_gap(const Ladder& ladder, size_t i) {
   return counted(ladder, i) && ladder.step[static_cast<size_t>(Cause::peter_panning)][i] != 0 && ladder.rung[1][i] == 0;
 }
@@ -26,8 +27,8 @@ void raise(double& value, double candidate) {
   if (!(candidate <= value) && !std::isnan(value)) value = candidate;
 }
 
-// Largest distance in the picture from an aliased pixel to the nearest pixel whose truth is what the map said here. Such
-// a pixel may be hidden from the camera; then the picture does not say, and the pixel is left out.
+// Largest distance in the picture from an aliased pixel to the nearest pixel whose truth is what the map said here.
+// Such a pixel may be hidden from the camera; then the picture does not say, and the pixel is left out.
 double edge_displacement_pixels(const Ladder& ladder) {
   const int width = ladder.flags.width, height = ladder.flags.height;
   double largest = 0;
@@ -76,11 +77,16 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       // The gap along the receiver: the light's way from P to the occluder, seen along the surface. What stands further
       // off than the bias can reach casts no gap: there a steep receiver at the edge of a distant shadow is lit because
       // its depth changes by as much as `reach` within the kernel (law 1).
-      const double cosine = std::clamp(static_cast<double>(in.n_dot_l[i]), 0.0, 1.0), sine = std::sqrt(1 - cosine * cosine);
+      const double cosine = std::clamp(static_cast<double>(in.n_dot_l[i]), 0.0, 1.0),
+                   sine = std::sqrt(1 - cosine * cosine);
       const double reach = in.kernel * std::numbers::sqrt2 / 2 * in.texel_m * sine / cosine;
-      if (!(in.occluder_distance_m[i] > in.bias.at(in.n_dot_l[i]) * in.m_per_depth + reach)) raise(gap, in.occluder_distance_m[i] * sine);
+      const double distance = in.occluder_distance_m[i];
+      // A dark receiver without an occluder is a contradiction, and shows.
+      if (!(distance > in.bias.at(in.n_dot_l[i]) * in.m_per_depth + reach) || !std::isfinite(distance))
+        raise(gap, distance * sine);
     }
-    if (ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i] != 0 || ladder.step[static_cast<size_t>(Cause::aliasing_light)][i] != 0) {
+    if (ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i] != 0 ||
+        ladder.step[static_cast<size_t>(Cause::aliasing_light)][i] != 0) {
       ++aliased;
       raise(edge_max, in.edge_distance_m[i] / in.texel_m);
       edge_sum += in.edge_distance_m[i] / in.texel_m;
@@ -114,7 +120,8 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"facing", static_cast<double>(facing)},
       {"counted", static_cast<double>(base)},
       {"attached", static_cast<double>(receivers - facing)},
-      {"ambiguous", facing == 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(facing - base) / static_cast<double>(facing)},
+      {"ambiguous", facing == 0 ? std::numeric_limits<double>::quiet_NaN()
+                                : static_cast<double>(facing - base) / static_cast<double>(facing)},
       {"outside", share(static_cast<double>(outside))},
       {"residual", ladder.residual},
       {"tap_residual", ladder.tap_residual},

@@ -10,14 +10,14 @@ namespace noonmark {
 
 struct MeasureInput {
   const Ladder& ladder;
-  const Image<uint32_t>& primitive;       // ReceiverImage::primitive
-  const Image<float>& edge_distance_m;    // raytrace::LookupTruth
+  const Image<uint32_t>& primitive;         // ReceiverImage::primitive
+  const Image<float>& edge_distance_m;      // raytrace::LookupTruth
   const Image<float>& occluder_distance_m;  // of the pixels in peter_panning_mask; others are not read
   const Image<float>& n_dot_l;
   double texel_m = 1;
-  double m_per_depth = 1;                 // far - near
-  DepthBias bias;
-  int kernel = 1;                         // taps on a side
+  double m_per_depth = 1;  // far - near
+  DepthBias bias{};
+  int kernel = 1;  // taps on a side
 };
 
 // Every metric of the table but the times. A value that is not finite in the images makes the metrics that it enters

@@ -13,21 +13,22 @@ namespace noonmark {
 // parameter of the point's bias form: `bias.constant`, or `bias.slope` with the point's floor held.
 // Every series has one value per entry of bias_depth: a fraction of the counted receivers (facing and not ambiguous).
 struct BiasCurve {
-  std::string parameter;              // "bias.constant" or "bias.slope"
-  std::string made;                   // "one pass": read off thresholds; "point by point": rendered at each bias
-  std::vector<double> bias_depth;     // ascending, window depth; the first is 0
-  std::vector<double> error;          // mean |R5 - R1|
-  std::vector<double> wrong;          // share of receivers with R5 != R1
+  std::string parameter;           // "bias.constant" or "bias.slope"
+  std::string made;                // "one pass": read off thresholds; "point by point": rendered at each bias
+  std::vector<double> bias_depth;  // ascending, window depth; the first is 0
+  std::vector<double> error;       // mean |R5 - R1|
+  std::vector<double> wrong;       // share of receivers with R5 != R1
   std::vector<double> acne, peter_panning, aliasing_dark, aliasing_light, coverage;  // at R4, booked tap by tap
-  double m_per_depth = 1;             // far - near: multiply a bias in depth by it to have metres
-  double texels_per_depth = 1;        // (far - near) / w
+  double m_per_depth = 1;       // far - near: multiply a bias in depth by it to have metres
+  double texels_per_depth = 1;  // (far - near) / w
   // The usable window at the bounds below: every bias in [window_min, window_max] keeps both causes within them.
   double acne_bound = 0, peter_panning_bound = 0;  // fractions of counted receivers
-  std::optional<double> window_min_depth, window_max_depth;  // both empty: no bias is good enough, the method fails here
-  double best_bias_depth = 0;         // the middle of the stretch with the least error; twice its start where nothing ends it
+  std::optional<double> window_min_depth,
+      window_max_depth;        // both empty: no bias is good enough, the method fails here
+  double best_bias_depth = 0;  // the middle of the stretch with the least error; twice its start where nothing ends it
   double best_error = 0;
   double flat_min_depth = 0, flat_max_depth = 0;  // biases whose error is within 10% of the best
-  uint64_t breakpoints = 0;           // of the exact curve
+  uint64_t breakpoints = 0;                       // of the exact curve
 };
 
 // A picture of a point, for people. Path relative to the results' directory.
@@ -38,13 +39,17 @@ struct PictureRecord {
 };
 
 struct PointRecord {
-  int64_t id = 0;                              // position in the sweep, from 0
-  std::map<std::string, std::string> settings; // every setting by its row's name, in canonical text
-  std::map<std::string, double> metrics;       // by metric name; not finite = could not be measured, and fails any bound
-  std::map<std::string, double> times;         // "map_ms", "lookup_ms", "truth_ms", "rays" ...
+  int64_t id = 0;                               // position in the sweep, from 0
+  std::map<std::string, std::string> settings;  // every setting by its row's name, in canonical text
+  std::map<std::string, double> metrics;  // by metric name; not finite = could not be measured, and fails any bound
+  std::map<std::string, double> times;    // "map_ms", "lookup_ms", "truth_ms", "rays" ...
   std::optional<BiasCurve> curve;
   std::vector<PictureRecord> pictures;
-  struct Worst { int x = -1, y = -1; double error = 0; std::string cause; } worst;  // the worst pixel; row 0 on top
+  struct Worst {
+    int x = -1, y = -1;
+    double error = 0;
+    std::string cause;
+  } worst;  // the worst pixel; row 0 on top
 };
 
 // A bound and what became of it (compare/bounds.h).
@@ -52,27 +57,27 @@ struct BoundResult {
   std::string metric;
   std::optional<double> max, min;
   std::map<std::string, std::vector<std::string>> where;  // setting name -> the canonical texts it speaks of
-  std::string join;                          // "worst", "mean", "median"
+  std::string join;                                       // "worst", "mean", "median"
   bool held = false;
-  double found = 0;        // the joined value; not finite when any value was not
-  int64_t point = -1;      // the worst point
-  int points = 0;          // how many points it was asked of; 0 is a broken bound
-  std::string reproduce;   // the command that renders the worst point
+  double found = 0;       // the joined value; not finite when any value was not
+  int64_t point = -1;     // the worst point
+  int points = 0;         // how many points it was asked of; 0 is a broken bound
+  std::string reproduce;  // the command that renders the worst point
 };
 
 // How the results were made.
 struct RunInfo {
-  std::string experiment;        // path as given, or empty
+  std::string experiment;  // path as given, or empty
   std::string title;
-  std::string command;           // the command line
-  std::string commit, version;   // of Noonmark; commit may be "unknown"
-  std::string started;           // ISO 8601, UTC
+  std::string command;          // the command line
+  std::string commit, version;  // of Noonmark; commit may be "unknown"
+  std::string started;          // ISO 8601, UTC
   std::string host_cpu;
   std::string gl_vendor, gl_renderer, gl_version, gl_timer;  // gl_timer: "timer query" or "glFinish + steady clock"
   std::string embree_version, embree_isa;
-  std::map<std::string, std::string> libraries;              // name -> version
-  std::vector<std::string> swept;      // names of the swept settings, outermost first
-  std::vector<std::string> plot;       // metrics the experiment asks to plot
+  std::map<std::string, std::string> libraries;  // name -> version
+  std::vector<std::string> swept;                // names of the swept settings, outermost first
+  std::vector<std::string> plot;                 // metrics the experiment asks to plot
   std::string scene_name;
   uint64_t triangles = 0;
 };

@@ -204,13 +204,14 @@ std::string recommendation_box(const Results& results) {
       "shows <b>{}</b> error.{}</p>\n"
       "<dl>{}</dl>\n{}{}<p class=\"small\">The cheapest is <a href=\"#p{}\">point {}</a>: the lowest time of shadow "
       "map and lookup together among the "
-      "points where {}.</p></div>\n",
+      "points where {}; times within {:.0f} % count as equal, and of those it has the least error.</p></div>\n",
       quantity(found.cost_ms, "ms"), quantity(found.error, "fraction"), more, rows,
       causes.empty() ? "" : fmt::format("<p>Largest causes there, with the bias as rendered: {}.</p>\n", causes), other,
       point.id, point.id,
       !found.bias              ? "every bound holds"
       : results.bounds.empty() ? "the bias window is not empty"
-                               : "the bias window is not empty and every bound holds at that bias");
+                               : "the bias window is not empty and every bound holds at that bias",
+      100 * cost_tolerance);
 }
 
 std::string bounds_table(const Results& results) {
@@ -219,7 +220,8 @@ std::string bounds_table(const Results& results) {
   for (const BoundResult& bound : results.bounds) {
     std::string where;
     for (const auto& [name, values] : bound.where)
-      where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", html(name), html(fmt::format("{}", fmt::join(values, " | "))));
+      where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", html(name),
+                           html(fmt::format("{}", fmt::join(values, " | "))));
     const std::string_view unit = unit_of(bound.metric);
     std::string limit;
     if (bound.max) limit += fmt::format("at most {}", quantity(*bound.max, unit));

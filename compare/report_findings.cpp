@@ -131,7 +131,15 @@ Recommendation recommend_by(const Results& results, Better&& better) {
 }  // namespace
 
 Recommendation recommend(const Results& results) {
-  return recommend_by(results, [](const auto& a, const auto& b) { return a.cost_ms < b.cost_ms; });
+  const Recommendation cheapest =
+      recommend_by(results, [](const auto& a, const auto& b) { return a.cost_ms < b.cost_ms; });
+  if (!cheapest.point) return cheapest;
+  const double alike = (1 + cost_tolerance) * cheapest.cost_ms;
+  return recommend_by(results, [&](const auto& a, const auto& b) {
+    const bool a_alike = a.cost_ms <= alike, b_alike = b.cost_ms <= alike;
+    if (a_alike != b_alike) return a_alike;
+    return a_alike ? a.error < b.error : a.cost_ms < b.cost_ms;
+  });
 }
 
 Recommendation recommend_accurate(const Results& results) {

@@ -41,10 +41,13 @@ struct Recommendation {
   std::optional<BiasChoice> bias;      // found, and the point has a curve
 };
 
-// The cheapest point (lowest shadow_ms) that holds: every bound that speaks of it is met, and where it has a curve its
-// usable window is not empty. Bounds on what the curve knows are asked at the bias that would be set (the least error
-// within the window), the others at the point as it was rendered. A value that is not finite (cost and error included)
-// never holds. Among equals the lowest id.
+// Times within this fraction of the cheapest are taken for equal, because a second run would order them otherwise.
+inline constexpr double cost_tolerance = 0.1;
+
+// The cheapest point (lowest shadow_ms; among those alike in cost, the least error) that holds: every bound that speaks
+// of it is met, and where it has a curve its usable window is not empty. Bounds on what the curve knows are asked at
+// the bias that would be set (the least error within the window), the others at the point as it was rendered. A value
+// that is not finite (cost and error included) never holds. Among equals the lowest id.
 Recommendation recommend(const Results& results);
 // The same, but the point with the least error, then the lowest cost.
 Recommendation recommend_accurate(const Results& results);

@@ -108,7 +108,10 @@ std::string curve_parameter(const Results& results) {
 
 std::string best_table(const Results& results) {
   std::vector<const PointRecord*> order;
-  for (const PointRecord& point : results.points) order.push_back(&point);
+  for (const PointRecord& point : results.points)
+    if (std::isfinite(quantity(point, "error").value_or(std::numeric_limits<double>::infinity())))
+      order.push_back(&point);
+  if (order.empty()) return "\nNo point has an error that could be measured.\n";
   // Least error first, then least time; what could not be measured last.
   const auto key = [](const PointRecord* point, std::string_view name) {
     const double value = quantity(*point, name).value_or(std::numeric_limits<double>::infinity());

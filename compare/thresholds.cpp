@@ -17,7 +17,8 @@ float smallest(float guess, const Enough& enough) {
     value = std::nextafter(value, infinity);
     if (value == infinity) return infinity;
   }
-  for (float below = std::nextafter(value, 0.0f); below > 0 && enough(below); below = std::nextafter(value, 0.0f)) value = below;
+  for (float below = std::nextafter(value, 0.0f); below > 0 && enough(below); below = std::nextafter(value, 0.0f))
+    value = below;
   return value;
 }
 

@@ -84,7 +84,7 @@ class Renderer {
                       double* time_ms = nullptr);
 
   // What lookup computes before it compares. Independent of map contents and of bias.
-  LookupProbe probe(const LightFrame& frame, const Settings& settings);
+  LookupProbe probe(const LightFrame& frame);
 
  private:
   struct Impl;

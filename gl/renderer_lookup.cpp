@@ -5,8 +5,8 @@
 
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
-#include "scenes/error.h"
 #include "scenes/depth_bias.h"
+#include "scenes/error.h"
 
 namespace noonmark::gl {
 namespace {
@@ -83,7 +83,7 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
   return visibility;
 }
 
-LookupProbe Renderer::probe(const LightFrame& frame, const Settings&) {
+LookupProbe Renderer::probe(const LightFrame& frame) {
   Impl& r = *impl_;
   r.context->make_current();
   r.check_resolution(frame.resolution);

@@ -22,7 +22,7 @@ class Adjacency {
 
  private:
   std::vector<std::array<uint32_t, 3>> welded_;
-  std::vector<uint32_t> begin_;       // [3 * triangle + edge] into neighbours_
+  std::vector<uint32_t> begin_;  // [3 * triangle + edge] into neighbours_
   std::vector<uint32_t> neighbours_;
 };
 

@@ -62,7 +62,8 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::ve
   RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
                                            scene.positions.size());
-  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), count);
+  void* indices =
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), count);
   if (!vertices || !indices) {
     rtcReleaseGeometry(geometry);
     device_failed(device.get(), "Embree cannot hold the scene's " + std::to_string(count) + " triangles");
@@ -77,8 +78,8 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::ve
   rtcCommitScene(embree_.get());
   if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE) device_failed(device.get(), "Embree cannot build the scene");
 
-  // Float's relative error is 2^-24; at grazing angles the plane distance amplifies it. 2^-12 of the scene's size leaves
-  // a factor of 4096 for that, and deciding a hit in double that did not need it costs time but no truth.
+  // Float's relative error is 2^-24; at grazing angles the plane distance amplifies it. 2^-12 of the scene's size
+  // leaves a factor of 4096 for that, and deciding a hit in double that did not need it costs time but no truth.
   near_distance_ = largest_coordinate(scene) * 0x1p-12f;
 }
 
@@ -115,8 +116,10 @@ namespace {
 
 RTCRayHit single_ray(glm::vec3 origin, glm::vec3 direction, float tnear) {
   RTCRayHit ray{};
-  ray.ray = {origin.x, origin.y, origin.z, tnear, direction.x, direction.y, direction.z, 0,
-             std::numeric_limits<float>::infinity(), ~0u, 0, 0};
+  ray.ray = {origin.x,    origin.y,    origin.z,
+             tnear,       direction.x, direction.y,
+             direction.z, 0,           std::numeric_limits<float>::infinity(),
+             ~0u,         0,           0};
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   return ray;
@@ -170,7 +173,8 @@ double EmbreeScene::occluder_distance(const ShadowRay& start) const {
     const uint32_t primitive = kept_.empty() ? ray.hit.primID : kept_[ray.hit.primID];
     if (is_occluder(start, primitive, ray.ray.tfar)) return ray.ray.tfar;
     // On by the rounding of the scene's size: at t = 0 the next float above is no step at all.
-    tnear = std::max(std::nextafter(ray.ray.tfar, std::numeric_limits<float>::infinity()), ray.ray.tfar + near_distance_ * 0x1p-12f);
+    tnear = std::max(std::nextafter(ray.ray.tfar, std::numeric_limits<float>::infinity()),
+                     ray.ray.tfar + near_distance_ * 0x1p-12f);
   }
 }
 

@@ -17,7 +17,8 @@ LightView::LightView(const Scene& scene, const LightFrame& frame) : scene_(&scen
   }
   const double size = glm::length(high - low);
   ray_error_m_ = 0x1p-24 * (std::sqrt(3.0) * largest_coordinate(scene) + 4 * size);
-  start_m_ = low.z - 0.01 * size - 4 * ray_error_m_;  // a margin for the rounding of the start, so that nothing is behind it
+  start_m_ =
+      low.z - 0.01 * size - 4 * ray_error_m_;  // a margin for the rounding of the start, so that nothing is behind it
 }
 
 glm::dvec2 LightView::gradient(uint32_t triangle) const {

@@ -6,8 +6,8 @@
 namespace noonmark {
 namespace {
 
-// From a bracket of 2^-10 of the way on, two planes that cross inside it count as continuous. Where they do not, a third
-// triangle may lie between (a corner): halve on, as far as rays can tell places apart.
+// From a bracket of 2^-10 of the way on, two planes that cross inside it count as continuous. Where they do not, a
+// third triangle may lie between (a corner): halve on, as far as rays can tell places apart.
 constexpr int jump_test_depth = 10;
 constexpr int deepest = 48;  // beyond double's own resolution of the way; what ends it is the rays' error
 
@@ -87,7 +87,8 @@ bool OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint6
   return p.lit && continuous(p.at, p.primitive, x, hit, rays);
 }
 
-double OwnSurface::edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from, uint64_t& rays) const {
+double OwnSurface::edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from,
+                                 uint64_t& rays) const {
   double same = 0, other = 1;
   for (int halving = 0; halving < 8; ++halving) {
     const double middle = (same + other) / 2;
@@ -131,7 +132,8 @@ bool OwnSurface::continuous(glm::dvec2 from, uint32_t from_triangle, glm::dvec2 
       // The rays that found the two triangles passed beside their places by up to the ray error.
       const double slack = length > 0 ? view_.ray_error_m() / length : 0;
       if (bracket.first != no_primitive && bracket.last != no_primitive &&
-          planes_cross(bracket.first, bracket.last, from + (bracket.begin - slack) * way, from + (bracket.end + slack) * way))
+          planes_cross(bracket.first, bracket.last, from + (bracket.begin - slack) * way,
+                       from + (bracket.end + slack) * way))
         continue;
       if (bracket.first == no_primitive || bracket.last == no_primitive || bracket.depth == deepest ||
           bracket.end - bracket.begin <= 2 * slack)

@@ -46,7 +46,8 @@ class OwnSurface {
  private:
   bool continuous(glm::dvec2 from, uint32_t from_triangle, glm::dvec2 to, uint32_t to_triangle, uint64_t& rays) const;
   // By how much two depths that are one may differ: a ray that passes beside x by its float error may meet the sheet's
-  // next triangle, whose plane differs there by the error times the slopes. Edge-on triangles have no slope to speak of.
+  // next triangle, whose plane differs there by the error times the slopes. Edge-on triangles have no slope to speak
+  // of.
   double depth_error(uint32_t a, uint32_t b) const;
   bool planes_cross(uint32_t a, uint32_t b, glm::dvec2 from, glm::dvec2 to) const;
 

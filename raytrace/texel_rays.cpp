@@ -72,16 +72,20 @@ TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Ima
     for (int x = 0; x < resolution; ++x)
       if (wanted.at(x, y)) inside_texels_.push_back({x, y});
   inside_ = Image<uint32_t>(resolution, resolution, no_primitive);
-  trace(embree, view, inside_texels_.size(), [&](size_t i) { return inside_texels_[i]; },
-        [&](size_t i, uint32_t hit) { inside_.at(inside_texels_[i].x, inside_texels_[i].y) = hit; });
+  trace(
+      embree, view, inside_texels_.size(), [&](size_t i) { return inside_texels_[i]; },
+      [&](size_t i, uint32_t hit) { inside_.at(inside_texels_[i].x, inside_texels_[i].y) = hit; });
 
   std::vector<uint64_t> keys;
   outside_keys.combine_each([&](const Outside& part) { keys.insert(keys.end(), part.keys.begin(), part.keys.end()); });
   tbb::parallel_sort(keys);
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   outside_.resize(keys.size());
-  trace(embree, view, keys.size(), [&](size_t i) { return texel_of(keys[i]); },
-        [&](size_t i, uint32_t hit) { outside_[i] = {keys[i], hit}; });
+  trace(
+      embree, view, keys.size(), [&](size_t i) { return texel_of(keys[i]); },
+      [&](size_t i, uint32_t hit) {
+        outside_[i] = {keys[i], hit};
+      });
 }
 
 uint32_t TexelRays::outside_hit(glm::ivec2 texel) const {

@@ -76,7 +76,8 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& receivers, const Light
 
   // Each receiver's verdict at P and at four places beside it, as far away as the float error reaches.
   const double error = view.ray_error_m();
-  const glm::dvec3 places[5] = {glm::dvec3(0), error * frame.right, -error * frame.right, error * frame.up, -error * frame.up};
+  const glm::dvec3 places[5] = {glm::dvec3(0), error * frame.right, -error * frame.right, error * frame.up,
+                                -error * frame.up};
   for_each_packet(facing.size(), [&](size_t first, int n) {
     uint32_t dark[5];
     for (int place = 0; place < 5; ++place) {
@@ -85,7 +86,8 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& receivers, const Light
         rays[i] = place == 0 ? start.whole(facing[first + i]) : start.beside(facing[first + i], places[place]);
       dark[place] = impl_->embree.occluded(n, rays);
     }
-    const uint32_t any = dark[0] | dark[1] | dark[2] | dark[3] | dark[4], all = dark[0] & dark[1] & dark[2] & dark[3] & dark[4];
+    const uint32_t any = dark[0] | dark[1] | dark[2] | dark[3] | dark[4],
+                   all = dark[0] & dark[1] & dark[2] & dark[3] & dark[4];
     for (int i = 0; i < n; ++i) {
       truth.lit[facing[first + i]] = !(dark[0] >> i & 1);
       truth.ambiguous[facing[first + i]] = (any ^ all) >> i & 1;
@@ -106,7 +108,8 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& receivers, const Light
   return truth;
 }
 
-Image<float> Tracer::Impl::exact_map(const LightView& view, const TexelRays& texels, CulledFaces cull, uint64_t& rays) const {
+Image<float> Tracer::Impl::exact_map(const LightView& view, const TexelRays& texels, CulledFaces cull,
+                                     uint64_t& rays) const {
   const LightFrame& frame = view.frame();
   std::optional<EmbreeScene> uncut;  // only the faces that the rasteriser keeps
   bool nothing_kept = false;
@@ -136,12 +139,14 @@ Image<float> Tracer::Impl::exact_map(const LightView& view, const TexelRays& tex
       const glm::dvec2 centre = frame.texel_centre(list[first + i]);
       double depth = view.hit_depth(hits[i], centre);
       if (depth < frame.near_m) {  // the rasteriser clips it: what lies behind it, from the near plane on?
-        const uint32_t behind = seen.first_hit(glm::vec3(frame.to_world({centre.x, centre.y, frame.near_m})), frame.ray_direction);
+        const uint32_t behind =
+            seen.first_hit(glm::vec3(frame.to_world({centre.x, centre.y, frame.near_m})), frame.ray_direction);
         ++extra;
         if (behind == no_primitive) continue;
         depth = std::max(view.hit_depth(behind, centre), frame.near_m);
       }
-      if (depth <= frame.far_m) map.at(list[first + i].x, list[first + i].y) = static_cast<float>(frame.window_depth(depth));
+      if (depth <= frame.far_m)
+        map.at(list[first + i].x, list[first + i].y) = static_cast<float>(frame.window_depth(depth));
     }
   });
   rays += extra;
@@ -199,10 +204,11 @@ LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverT
         const bool exact_lit = centre_tap ? points[k].lit : surface.lit_at(points[k], exact[k], exact_hits[k], rays);
         const bool texel_lit = surface.lit_at(points[k], centre, hit, rays);
         const bool clipped = hit != no_primitive && view.hit_depth(hit, centre) < frame.near_m;
-        result.taps.taps[pixel * static_cast<size_t>(taps) + static_cast<size_t>(tap)] =
-            static_cast<uint8_t>((exact_lit ? tap_exact_lit : 0) | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0));
+        result.taps.taps[pixel * static_cast<size_t>(taps) + static_cast<size_t>(tap)] = static_cast<uint8_t>(
+            (exact_lit ? tap_exact_lit : 0) | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0));
         if (exact_lit != texel_lit) {
-          const double distance = surface.edge_distance(points[k], centre_tap ? points[k].at : exact[k], centre, exact_lit, rays);
+          const double distance =
+              surface.edge_distance(points[k], centre_tap ? points[k].at : exact[k], centre, exact_lit, rays);
           result.edge_distance_m[pixel] = std::max(result.edge_distance_m[pixel], static_cast<float>(distance));
         }
       }
@@ -213,7 +219,8 @@ LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverT
   return result;
 }
 
-Image<float> Tracer::occluder_distance(const ReceiverImage& receivers, const LightFrame& frame, const Image<uint8_t>& mask) const {
+Image<float> Tracer::occluder_distance(const ReceiverImage& receivers, const LightFrame& frame,
+                                       const Image<uint8_t>& mask) const {
   const ShadowStart start(impl_->scene, receivers, frame.ray_direction);
   const double length = glm::length(glm::dvec3(frame.ray_direction));
   Image<float> distance(receivers.width(), receivers.height(), 0);

@@ -2,7 +2,7 @@
 //
 //   raytrace::Tracer tracer(scene);
 //   ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {.angular_diameter_deg = 0.53});
-//   raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, renderer.probe(frame, s), frame, s.map, kernel);
+//   raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, renderer.probe(frame), frame, s.map, kernel);
 //
 // Conventions: scenes/scene.h. All calls use every core; results do not depend on how many there are. The scene must
 // outlive the tracer. Throws Error(device) when Embree fails.
@@ -34,11 +34,11 @@ struct SoftTruth {
 // The truth of one lookup: every tap of every facing receiver, and the exact map that those taps read.
 struct LookupTruth {
   TapTruth taps;
-  Image<float> exact_map;         // window depth at the centres of the texels looked up; 1 elsewhere. Row 0: lowest v
-  Image<float> edge_distance_m;   // per receiver: the largest distance, in the light's plane, from a tap's exact place
-                                  // to the shadow edge before the texel centre it snaps to; 0 where F = V at every tap
-  StageTime texel_stage;          // light-side rays through texel centres
-  StageTime tap_stage;            // V at every tap
+  Image<float> exact_map;        // window depth at the centres of the texels looked up; 1 elsewhere. Row 0: lowest v
+  Image<float> edge_distance_m;  // per receiver: the largest distance, in the light's plane, from a tap's exact place
+                                 // to the shadow edge before the texel centre it snaps to; 0 where F = V at every tap
+  StageTime texel_stage;         // light-side rays through texel centres
+  StageTime tap_stage;           // V at every tap
 };
 
 class Tracer {
@@ -59,7 +59,8 @@ class Tracer {
 
   // For the pixels where mask is not 0: distance in metres from P to its nearest occluder towards the light; infinity
   // without one. Other pixels: 0.
-  Image<float> occluder_distance(const ReceiverImage& receivers, const LightFrame& frame, const Image<uint8_t>& mask) const;
+  Image<float> occluder_distance(const ReceiverImage& receivers, const LightFrame& frame,
+                                 const Image<uint8_t>& mask) const;
 
  private:
   struct Impl;

@@ -29,7 +29,8 @@ Scene cube_room(const SceneSettings&) {
   add_box(scene, "floating cube", glm::dvec3(0.5), place({0, 1.5, 0}, 0));
   add_box(scene, "standing cube", glm::dvec3(0.5), place({2, 0, 1}, 0));
   add_box(scene, "turned cube", glm::dvec3(0.25), place({-1, 0, 2}, 60));
-  scene.camera = {.eye_m = {-1.6, 2.8, 6.4}, .target_m = {1.0, 0.35, 0.6}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 100};
+  scene.camera = {
+      .eye_m = {-1.6, 2.8, 6.4}, .target_m = {1.0, 0.35, 0.6}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 100};
   scene.light = {.position_m = {-2, 4, -1}, .target_m = {0, 0, 0}};
   scene.map = MapVolume{.extent_m = 20, .near_m = 1, .far_m = 7.5};
   return scene;
@@ -49,8 +50,12 @@ Scene plane(const SceneSettings& settings) {
   const glm::dvec3 down = glm::cross(across, normal);
   const double half_m = 3;
   add_quad(scene, "plane", -half_m * (across + down), 2 * half_m * down, 2 * half_m * across);
-  scene.camera = {.eye_m = 7.0 * normal, .target_m = {0, 0, 0}, .up = glm::normalize(0.9 * across + 0.44 * down),
-                  .fov_y_deg = 35, .near_m = 1, .far_m = 20};
+  scene.camera = {.eye_m = 7.0 * normal,
+                  .target_m = {0, 0, 0},
+                  .up = glm::normalize(0.9 * across + 0.44 * down),
+                  .fov_y_deg = 35,
+                  .near_m = 1,
+                  .far_m = 20};
   scene.map = MapVolume{.extent_m = 10, .near_m = 5, .far_m = 15};
   return scene;
 }

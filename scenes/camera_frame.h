@@ -12,7 +12,7 @@ struct Ray {
 };
 
 struct CameraFrame {
-  glm::dvec3 eye_m, right, up, forward;  // axes: unit, right-handed with forward = cross(up, right)
+  glm::dvec3 eye_m, right, up, forward;    // axes: unit, right-handed with forward = cross(up, right)
   double half_width = 1, half_height = 1;  // perspective: tangents; orthographic: metres
   Camera camera;
 

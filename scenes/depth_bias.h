@@ -15,9 +15,12 @@ struct DepthBias {
   // contraction). n_dot_l: as the shader has it.
   float at(float n_dot_l) const {
     switch (form) {
-      case BiasForm::none: return 0;
-      case BiasForm::constant: return constant;
-      case BiasForm::slope: return std::max(slope * (1.0f - n_dot_l), floor);
+      case BiasForm::none:
+        return 0;
+      case BiasForm::constant:
+        return constant;
+      case BiasForm::slope:
+        return std::max(slope * (1.0f - n_dot_l), floor);
     }
     return 0;
   }

@@ -11,9 +11,9 @@ namespace noonmark {
 
 // What the lookup shader computed before comparing, read back from it.
 struct LookupProbe {
-  Image<float> reference;     // window depth of P as the shader has it; not clamped
-  Image<glm::ivec2> texel;    // the texel that P falls into: floor(uv * resolution); may be outside the map
-  Image<float> n_dot_l;       // as the shader has it
+  Image<float> reference;   // window depth of P as the shader has it; not clamped
+  Image<glm::ivec2> texel;  // the texel that P falls into: floor(uv * resolution); may be outside the map
+  Image<float> n_dot_l;     // as the shader has it
 };
 
 // The bits of TapTruth::taps.

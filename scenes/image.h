@@ -14,7 +14,8 @@ struct Image {
   std::vector<T> pixels;  // width * height, row by row
 
   Image() = default;
-  Image(int w, int h, T fill = T{}) : width(w), height(h), pixels(static_cast<size_t>(w) * static_cast<size_t>(h), fill) {}
+  Image(int w, int h, T fill = T{})
+      : width(w), height(h), pixels(static_cast<size_t>(w) * static_cast<size_t>(h), fill) {}
 
   size_t size() const { return pixels.size(); }
   size_t index(int x, int y) const {

@@ -20,9 +20,11 @@ Scene make_scene(const SceneSettings& settings) {
   }
   if (settings.name.ends_with(".gltf") || settings.name.ends_with(".glb")) return load_gltf(settings.name);
   const std::string near = nearest_name(settings.name, names);
-  throw Error(ErrorKind::usage,
-              fmt::format("there is no built-in scene '{}'{}; give one that `noonmark scenes` lists, or the path of a .gltf or "
-                          ".glb file", settings.name, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+  throw Error(
+      ErrorKind::usage,
+      fmt::format("there is no built-in scene '{}'{}; give one that `noonmark scenes` lists, or the path of a .gltf or "
+                  ".glb file",
+                  settings.name, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
 }
 
 }  // namespace noonmark

@@ -15,8 +15,9 @@ namespace {
 LightFrame light_axes(const Light& light) {
   const glm::dvec3 way = light.target_m - light.position_m;
   if (!(glm::length(way) > 0) || !std::isfinite(glm::length(way)))
-    throw Error(ErrorKind::usage, "the light's position and target give no direction (they are one, or too far apart); set "
-                                  "light.position_m or light.target_m");
+    throw Error(ErrorKind::usage,
+                "the light's position and target give no direction (they are one, or too far apart); set "
+                "light.position_m or light.target_m");
   LightFrame frame;
   frame.origin_m = light.position_m;
   frame.ray_direction = glm::vec3(glm::normalize(way));
@@ -55,9 +56,12 @@ glm::dmat4 LightFrame::clip_from_world() const {
 
 double LightFrame::depth_per_bias_unit(BiasUnit unit) const {
   switch (unit) {
-    case BiasUnit::depth: return 1;
-    case BiasUnit::m: return 1 / (far_m - near_m);
-    case BiasUnit::texel: return texel_m() / (far_m - near_m);
+    case BiasUnit::depth:
+      return 1;
+    case BiasUnit::m:
+      return 1 / (far_m - near_m);
+    case BiasUnit::texel:
+      return texel_m() / (far_m - near_m);
   }
   throw std::logic_error("unknown bias unit");
 }
@@ -100,10 +104,12 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
   frame.far_m = settings.map.far_m.value_or(volume.far_m);
   frame.resolution = settings.map.resolution;
   if (!(frame.extent_m > 0) || !std::isfinite(frame.extent_m))
-    throw Error(ErrorKind::usage, fmt::format("the map's extent is {} m; set map.extent_m to more than 0", frame.extent_m));
+    throw Error(ErrorKind::usage,
+                fmt::format("the map's extent is {} m; set map.extent_m to more than 0", frame.extent_m));
   if (!(frame.near_m < frame.far_m) || !std::isfinite(frame.far_m - frame.near_m))
     throw Error(ErrorKind::usage, fmt::format("the map's near plane ({} m) is not before its far plane ({} m); set "
-                                              "map.near_m and map.far_m", frame.near_m, frame.far_m));
+                                              "map.near_m and map.far_m",
+                                              frame.near_m, frame.far_m));
   return frame;
 }
 

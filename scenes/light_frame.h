@@ -2,8 +2,8 @@
 // matrix that OpenGL gets is rounded from it (scenes/light_frame.cpp), and what that rounding costs shows as precision.
 //
 //   LightFrame frame = make_light_frame(scene, settings);
-//   glm::dvec3 p = frame.to_light(P);                    // (u, v, z): metres in the light's plane, metres along its axis
-//   glm::dvec2 c = frame.texel_centre({i, j});           // light-plane metres of a texel's centre
+//   glm::dvec3 p = frame.to_light(P);                    // (u, v, z): metres in the light's plane, metres along its
+//   axis glm::dvec2 c = frame.texel_centre({i, j});           // light-plane metres of a texel's centre
 #pragma once
 #include <glm/glm.hpp>
 
@@ -13,7 +13,7 @@
 namespace noonmark {
 
 struct LightFrame {
-  glm::dvec3 origin_m{0};    // where u, v and z are 0
+  glm::dvec3 origin_m{0};  // where u, v and z are 0
   glm::dvec3 right{1, 0, 0};
   glm::dvec3 up{0, 1, 0};
   glm::dvec3 forward{0, 0, -1};       // the way the light travels; unit

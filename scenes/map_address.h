@@ -22,8 +22,10 @@ inline glm::ivec2 wrapped(glm::ivec2 texel, int resolution, Wrap wrap) {
       const auto modulo = [&](int i) { return ((i % resolution) + resolution) % resolution; };
       return {modulo(texel.x), modulo(texel.y)};
     }
-    case Wrap::clamp_to_edge: return glm::clamp(texel, glm::ivec2(0), glm::ivec2(resolution - 1));
-    case Wrap::clamp_to_border: break;
+    case Wrap::clamp_to_edge:
+      return glm::clamp(texel, glm::ivec2(0), glm::ivec2(resolution - 1));
+    case Wrap::clamp_to_border:
+      break;
   }
   return {-1, -1};
 }

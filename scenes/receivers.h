@@ -14,9 +14,9 @@ namespace noonmark {
 inline constexpr uint32_t no_primitive = 0xffffffffu;
 
 struct ReceiverImage {
-  Image<glm::vec3> position;   // P, world, metres; float, because the shader reads it as float. Background: 0
-  Image<glm::vec3> normal;     // N, unit, geometric, on the viewer's side of the surface. Background: 0
-  Image<uint32_t> primitive;   // index into Scene::triangles, or no_primitive
+  Image<glm::vec3> position;  // P, world, metres; float, because the shader reads it as float. Background: 0
+  Image<glm::vec3> normal;    // N, unit, geometric, on the viewer's side of the surface. Background: 0
+  Image<uint32_t> primitive;  // index into Scene::triangles, or no_primitive
   int width() const { return primitive.width; }
   int height() const { return primitive.height; }
 };

@@ -38,9 +38,9 @@ struct Camera {
   Projection projection = Projection::perspective;
   glm::dvec3 eye_m{0, 0, 5};
   glm::dvec3 target_m{0, 0, 0};
-  glm::dvec3 up{0, 1, 0};      // need not be perpendicular to the view direction, only not parallel to it
-  double fov_y_deg = 45;       // perspective: the whole vertical angle
-  double height_m = 10;        // orthographic: the world height that the picture shows
+  glm::dvec3 up{0, 1, 0};  // need not be perpendicular to the view direction, only not parallel to it
+  double fov_y_deg = 45;   // perspective: the whole vertical angle
+  double height_m = 10;    // orthographic: the world height that the picture shows
   double near_m = 0.1;
   double far_m = 100;
 };

@@ -21,7 +21,8 @@ std::optional<T> parse_number(std::string_view text) {
 }
 
 [[noreturn]] void refuse(const Setting& row, std::string_view text) {
-  throw Error(ErrorKind::usage, fmt::format("{} = '{}' is not allowed; it takes {}", row.name, text, row.range_with_unit()));
+  throw Error(ErrorKind::usage,
+              fmt::format("{} = '{}' is not allowed; it takes {}", row.name, text, row.range_with_unit()));
 }
 
 // The shortest decimal that reads back as the same double. -0 becomes 0, so that equal values have equal keys.
@@ -56,7 +57,8 @@ std::string point_text(glm::dvec3 p) {
 // The rows below are built by these five, one for each kind of member. `member` maps Settings& to a reference.
 
 template <class Member>
-Setting integer(std::string_view name, std::string_view unit, double min, double max, std::string_view help, Member member) {
+Setting integer(std::string_view name, std::string_view unit, double min, double max, std::string_view help,
+                Member member) {
   Setting row{name, unit, ValueType::integer, min, max, false, {}, help, {}, {}};
   row.get = [member](const Settings& s) { return fmt::format("{}", member(const_cast<Settings&>(s))); };
   row.set = [member, row](Settings& s, std::string_view text) {
@@ -68,7 +70,8 @@ Setting integer(std::string_view name, std::string_view unit, double min, double
 }
 
 template <class Member>
-Setting real(std::string_view name, std::string_view unit, double min, double max, std::string_view help, Member member) {
+Setting real(std::string_view name, std::string_view unit, double min, double max, std::string_view help,
+             Member member) {
   constexpr bool is_optional = std::is_same_v<std::invoke_result_t<Member, Settings&>, std::optional<double>&>;
   Setting row{name, unit, ValueType::real, min, max, is_optional, {}, help, {}, {}};
   row.get = [member](const Settings& s) {
@@ -149,9 +152,10 @@ Setting text(std::string_view name, std::string_view help, Member member) {
 std::vector<Setting> make_table() {
   return {
       text("scene.name", "A built-in scene, or the path of a .gltf or .glb file.", MEMBER(scene.name)),
-      real("scene.theta_deg", "deg", 0, 89.9, "plane: the angle between its normal and the light.", MEMBER(scene.theta_deg)),
-      real("scene.phi_deg", "deg", -360, 360, "plane: azimuth of its slope in the light's plane, against the texel axes.",
-           MEMBER(scene.phi_deg)),
+      real("scene.theta_deg", "deg", 0, 89.9, "plane: the angle between its normal and the light.",
+           MEMBER(scene.theta_deg)),
+      real("scene.phi_deg", "deg", -360, 360,
+           "plane: azimuth of its slope in the light's plane, against the texel axes.", MEMBER(scene.phi_deg)),
       real("scene.thickness_m", "m", 1e-4, 10, "wall, plate: thickness.", MEMBER(scene.thickness_m)),
       real("scene.height_m", "m", 0, 100, "plate: height of its lit face above the floor.", MEMBER(scene.height_m)),
       integer("view.width_px", "px", 1, 8192, "Width of the picture.", MEMBER(view.width_px)),
@@ -159,22 +163,26 @@ std::vector<Setting> make_table() {
       point("view.eye_m", "Where the camera is; auto: the scene's.", MEMBER(view.eye_m)),
       point("view.target_m", "What the camera looks at; auto: the scene's.", MEMBER(view.target_m)),
       real("view.fov_deg", "deg", 1, 170, "Whole vertical angle of view; auto: the scene's.", MEMBER(view.fov_deg)),
-      point("light.position_m", "Where the light's map measures depth from; auto: the scene's.", MEMBER(light.position_m)),
-      point("light.target_m", "What the light points at, the middle of its map; auto: the scene's.", MEMBER(light.target_m)),
-      real("light.angular_diameter_deg", "deg", 0, 90, "Of a sun with a size, for R0 (the real sun: 0.53); auto: the scene's.",
-           MEMBER(light.angular_diameter_deg)),
+      point("light.position_m", "Where the light's map measures depth from; auto: the scene's.",
+            MEMBER(light.position_m)),
+      point("light.target_m", "What the light points at, the middle of its map; auto: the scene's.",
+            MEMBER(light.target_m)),
+      real("light.angular_diameter_deg", "deg", 0, 90,
+           "Of a sun with a size, for R0 (the real sun: 0.53); auto: the scene's.", MEMBER(light.angular_diameter_deg)),
       integer("map.resolution", "texels", 1, 16384, "Texels on a side of the shadow map.", MEMBER(map.resolution)),
       choice("map.format", {"16", "24", "32f"}, "Depth format of the shadow map.", MEMBER(map.format)),
       real("map.extent_m", "m", 1e-6, 1e9, "Whole width of what the map covers; auto: the scene's, or fitted tightly.",
            MEMBER(map.extent_m)),
-      real("map.extent_scale", "", 1e-3, 1e3, "Multiplies the extent, however it came about.", MEMBER(map.extent_scale)),
-      real("map.near_m", "m", -1e9, 1e9, "Near plane along the light's axis from its position; auto: the scene's, or fitted.",
-           MEMBER(map.near_m)),
-      real("map.far_m", "m", -1e9, 1e9, "Far plane along the light's axis from its position; auto: the scene's, or fitted.",
-           MEMBER(map.far_m)),
+      real("map.extent_scale", "", 1e-3, 1e3, "Multiplies the extent, however it came about.",
+           MEMBER(map.extent_scale)),
+      real("map.near_m", "m", -1e9, 1e9,
+           "Near plane along the light's axis from its position; auto: the scene's, or fitted.", MEMBER(map.near_m)),
+      real("map.far_m", "m", -1e9, 1e9,
+           "Far plane along the light's axis from its position; auto: the scene's, or fitted.", MEMBER(map.far_m)),
       choice("map.wrap", {"repeat", "clamp_to_edge", "clamp_to_border"},
              "What a lookup outside the map finds; the border is lit.", MEMBER(map.wrap)),
-      flag("map.lit_beyond_far", "Receivers beyond the far plane are lit without a comparison.", MEMBER(map.lit_beyond_far)),
+      flag("map.lit_beyond_far", "Receivers beyond the far plane are lit without a comparison.",
+           MEMBER(map.lit_beyond_far)),
       choice("map.cull", {"none", "back", "front"}, "Faces left out of the shadow map.", MEMBER(map.cull)),
       choice("bias.form", {"none", "constant", "slope"},
              "none; constant; slope: max(bias.slope * (1 - N.L), bias.floor).", MEMBER(bias.form)),
@@ -186,8 +194,8 @@ std::vector<Setting> make_table() {
       choice("filter.kind", {"none", "box"}, "none: one nearest tap; box: the mean of N x N nearest taps.",
              MEMBER(filter.kind)),
       integer("filter.size", "texels", 1, 31, "box: taps on a side, odd.", MEMBER(filter.size)),
-      real("truth.standard_error", "", 1e-3, 0.5, "Largest standard error of R0 at a receiver, for a light with a size.",
-           MEMBER(truth.standard_error)),
+      real("truth.standard_error", "", 1e-3, 0.5,
+           "Largest standard error of R0 at a receiver, for a light with a size.", MEMBER(truth.standard_error)),
   };
 }
 
@@ -224,11 +232,16 @@ std::string Setting::range_with_unit() const {
 std::string Setting::bare_range() const {
   switch (type) {
     case ValueType::integer:
-    case ValueType::real: return fmt::format("{:g} ... {:g}", min, max);
-    case ValueType::flag: return "true | false";
-    case ValueType::choice: return fmt::format("{}", fmt::join(choices, " | "));
-    case ValueType::text: return "a name or a path";
-    case ValueType::point: return "x,y,z";
+    case ValueType::real:
+      return fmt::format("{:g} ... {:g}", min, max);
+    case ValueType::flag:
+      return "true | false";
+    case ValueType::choice:
+      return fmt::format("{}", fmt::join(choices, " | "));
+    case ValueType::text:
+      return "a name or a path";
+    case ValueType::point:
+      return "x,y,z";
   }
   throw std::logic_error("unknown value type");
 }
@@ -251,10 +264,13 @@ const Setting& find_setting(std::string_view name) {
 
 void validate(const Settings& s) {
   if (s.filter.size % 2 == 0)
-    throw Error(ErrorKind::usage, fmt::format("filter.size = {} is even; a box has an odd number of taps on a side, so that "
-                                              "one is at the receiver", s.filter.size));
+    throw Error(ErrorKind::usage,
+                fmt::format("filter.size = {} is even; a box has an odd number of taps on a side, so that "
+                            "one is at the receiver",
+                            s.filter.size));
   if (s.map.near_m && s.map.far_m && *s.map.near_m >= *s.map.far_m)
-    throw Error(ErrorKind::usage, fmt::format("map.near_m = {} is not less than map.far_m = {}", *s.map.near_m, *s.map.far_m));
+    throw Error(ErrorKind::usage,
+                fmt::format("map.near_m = {} is not less than map.far_m = {}", *s.map.near_m, *s.map.far_m));
 }
 
 std::string nearest_name(std::string_view wrong, std::span<const std::string_view> names) {
@@ -263,7 +279,8 @@ std::string nearest_name(std::string_view wrong, std::span<const std::string_vie
   for (std::string_view name : names) {
     size_t distance = edit_distance(wrong, name);
     // "resolution" is meant as "map.resolution".
-    if (name.size() > wrong.size() + 1 && name.ends_with(wrong) && name[name.size() - wrong.size() - 1] == '.') distance = 0;
+    if (name.size() > wrong.size() + 1 && name.ends_with(wrong) && name[name.size() - wrong.size() - 1] == '.')
+      distance = 0;
     // "bias.const" is meant as "bias.constant", not as "bias.unit", though that is as few letters away.
     if (2 * wrong.size() > name.size() && name.starts_with(wrong)) distance = std::min<size_t>(distance, 1);
     if (distance < best_distance) {

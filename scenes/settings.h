@@ -61,7 +61,7 @@ struct BiasSettings {
   BiasForm form = BiasForm::constant;
   BiasUnit unit = BiasUnit::depth;  // of the three numbers below
   double constant = 0.005;
-  double slope = 0.05;   // slope form: max(slope * (1 - N.L), floor)
+  double slope = 0.05;  // slope form: max(slope * (1 - N.L), floor)
   double floor = 0.005;
 };
 

@@ -19,7 +19,8 @@ void add_box(Scene& scene, const std::string& name, glm::dvec3 half, const glm::
 void add_box(Scene& scene, const std::string& name, glm::dvec3 min, glm::dvec3 max);
 
 // A rectangular grid of (columns x rows) cells over (s, t) in [0,1]^2, placed by `at`; its front is towards
-// cross(d/ds, d/dt). wrap_s welds the column s = 1 to s = 0. Cells that collapse to a point at a pole make one triangle.
+// cross(d/ds, d/dt). wrap_s welds the column s = 1 to s = 0. Cells that collapse to a point at a pole make one
+// triangle.
 void add_surface(Scene& scene, const std::string& name, int columns, int rows, bool wrap_s,
                  const std::function<glm::dvec3(double s, double t)>& at);
 

@@ -22,10 +22,15 @@ TEST_P(Alone, ShowsAcneOnly) {
     for (const char* kind : {"none", "box"}) {
       for (const char* format : {"16", "24", "32f"}) {
         for (const char* bias : {"0", "0.001", "0.02", "0.5"}) {
-          const Measurement m = bench.measure(with({{"map.resolution", resolution}, {"filter.kind", kind}, {"map.format", format}, {"bias.constant", bias}},
-                                                   small(GetParam(), 300, 200)), std::nullopt);
+          const Measurement m = bench.measure(with({{"map.resolution", resolution},
+                                                    {"filter.kind", kind},
+                                                    {"map.format", format},
+                                                    {"bias.constant", bias}},
+                                                   small(GetParam(), 300, 200)),
+                                              std::nullopt);
           SCOPED_TRACE(std::string(resolution) + " " + kind + " " + format + " " + bias);
-          for (const char* name : {"aliasing", "peter_panning", "coverage", "filter", "light_size"}) EXPECT_EQ(metric(m, name), 0) << name;
+          for (const char* name : {"aliasing", "peter_panning", "coverage", "filter", "light_size"})
+            EXPECT_EQ(metric(m, name), 0) << name;
           most_acne = std::max(most_acne, metric(m, "acne"));
         }
       }
@@ -33,7 +38,8 @@ TEST_P(Alone, ShowsAcneOnly) {
   }
   EXPECT_GT(most_acne, 0.3) << "at bias 0 about half of a slope is dark";
 }
-INSTANTIATE_TEST_SUITE_P(Scenes, Alone, testing::Values("plane", "sphere", "bowl"), [](const auto& scene) { return scene.param; });
+INSTANTIATE_TEST_SUITE_P(Scenes, Alone, testing::Values("plane", "sphere", "bowl"),
+                         [](const auto& scene) { return scene.param; });
 
 // Law 2: from the shadow-side foot a bias of b metres along the light lights a gap max(0, b sin(theta) - t / cos(psi))
 // along the light's trace on the floor.
@@ -41,21 +47,27 @@ TEST(Wall, ShowsPeterPanningOfTheSizeOfLaw2) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* thickness : {"0.05", "0.1", "0.3"}) {
     for (const char* bias_m : {"0.2", "0.5", "0.8"}) {
-      const Measurement m = bench.measure(with({{"scene.thickness_m", thickness}, {"bias.constant", bias_m}, {"bias.unit", "m"}, {"map.resolution", "2048"}},
-                                               small("wall", 960, 540)), std::nullopt);
+      const Measurement m = bench.measure(with({{"scene.thickness_m", thickness},
+                                                {"bias.constant", bias_m},
+                                                {"bias.unit", "m"},
+                                                {"map.resolution", "2048"}},
+                                               small("wall", 960, 540)),
+                                          std::nullopt);
       const glm::dvec3 to_light = m.frame.direction_to_light();
       const glm::dvec2 trace = -glm::normalize(glm::dvec2(to_light.x, to_light.z));  // the way that shadows fall
       const double b = std::stod(bias_m), t = std::stod(thickness);
       const double sin_theta = std::sqrt(1 - to_light.y * to_light.y), cos_psi = trace.x;
       const double predicted = std::max(0.0, b * sin_theta - t / cos_psi);
 
-      // Floor receivers behind the first wall, away from its ends: how far along the trace from the foot, and what is wrong?
+      // Floor receivers behind the first wall, away from its ends: how far along the trace from the foot, and what is
+      // wrong?
       double measured = 0;
       uint64_t between = 0, behind = 0;
       const double texel_on_floor = m.frame.texel_m() / to_light.y;
       for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {
         const glm::vec3 p = m.receivers.position[i];
-        if (m.receivers.primitive[i] >= 2 || !(m.ladder.flags[i] & flag_facing)) continue;  // the floor is the first two
+        if (m.receivers.primitive[i] >= 2 || !(m.ladder.flags[i] & flag_facing))
+          continue;                                // the floor is the first two
         const double along = (p.x - t) / trace.x;  // metres along the trace from the shadow-side foot
         const double foot_z = p.z - along * trace.y;
         if (along < 0 || along > 1.2 || foot_z < 0.5 || foot_z > 2.5) continue;
@@ -75,7 +87,8 @@ TEST(Wall, ShowsPeterPanningOfTheSizeOfLaw2) {
 TEST(Wall, HasNoPeterPanningAtItsLitFoot) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* bias : {"0.001", "0.02", "0.05", "0.2"}) {
-    const Measurement m = bench.measure(with({{"bias.constant", bias}, {"map.resolution", "1024"}}, small("wall", 960, 540)), std::nullopt);
+    const Measurement m = bench.measure(
+        with({{"bias.constant", bias}, {"map.resolution", "1024"}}, small("wall", 960, 540)), std::nullopt);
     uint64_t foot = 0, panning = 0;
     for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {
       const glm::vec3 p = m.receivers.position[i];
@@ -104,7 +117,8 @@ TEST(CubeRoom, ShowsEachStoryOfTheTutorials) {
 }
 
 // A minimal .gltf of a scene's triangles: one primitive, or one for each part.
-std::string write_gltf(const Scene& scene, const std::filesystem::path& folder, const std::string& stem, bool one_mesh) {
+std::string write_gltf(const Scene& scene, const std::filesystem::path& folder, const std::string& stem,
+                       bool one_mesh) {
   std::string bytes;
   const auto append = [&](const void* data, size_t size) { bytes.append(static_cast<const char*>(data), size); };
   append(scene.positions.data(), scene.positions.size() * sizeof(glm::vec3));
@@ -114,17 +128,27 @@ std::string write_gltf(const Scene& scene, const std::filesystem::path& folder, 
 
   glm::vec3 low = scene.positions[0], high = low;
   for (const glm::vec3& p : scene.positions) low = glm::min(low, p), high = glm::max(high, p);
-  nlohmann::json json = {{"asset", {{"version", "2.0"}}}, {"scene", 0},
+  nlohmann::json json = {{"asset", {{"version", "2.0"}}},
+                         {"scene", 0},
                          {"buffers", {{{"uri", stem + ".bin"}, {"byteLength", bytes.size()}}}},
-                         {"bufferViews", {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", index_start}},
-                                          {{"buffer", 0}, {"byteOffset", index_start}, {"byteLength", bytes.size() - index_start}}}},
-                         {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", scene.positions.size()}, {"type", "VEC3"},
-                                         {"min", {low.x, low.y, low.z}}, {"max", {high.x, high.y, high.z}}}}}};
+                         {"bufferViews",
+                          {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", index_start}},
+                           {{"buffer", 0}, {"byteOffset", index_start}, {"byteLength", bytes.size() - index_start}}}},
+                         {"accessors",
+                          {{{"bufferView", 0},
+                            {"componentType", 5126},
+                            {"count", scene.positions.size()},
+                            {"type", "VEC3"},
+                            {"min", {low.x, low.y, low.z}},
+                            {"max", {high.x, high.y, high.z}}}}}};
   const std::vector<Part> whole = {{"all", 0, static_cast<uint32_t>(scene.triangles.size())}};
   for (const Part& part : one_mesh ? whole : scene.parts) {
     const size_t accessor = json["accessors"].size();
-    json["accessors"].push_back({{"bufferView", 1}, {"byteOffset", part.first_triangle * sizeof(glm::uvec3)}, {"componentType", 5125},
-                                 {"count", part.triangle_count * 3}, {"type", "SCALAR"}});
+    json["accessors"].push_back({{"bufferView", 1},
+                                 {"byteOffset", part.first_triangle * sizeof(glm::uvec3)},
+                                 {"componentType", 5125},
+                                 {"count", part.triangle_count * 3},
+                                 {"type", "SCALAR"}});
     const size_t mesh = json["meshes"].size();
     json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", accessor}}}}});
     json["nodes"].push_back({{"mesh", mesh}});
@@ -162,8 +186,15 @@ TEST(StandingCube, HasTheSameCausesAsOneMeshAndAsTwo) {
     for (const char* bias : {"0", "0.5", "1", "4"}) {
       SCOPED_TRACE(std::string(kind) + " " + bias);
       const auto measured = [&](const std::string& path) {
-        return bench.measure(with({{"filter.kind", kind}, {"bias.constant", bias}, {"bias.unit", "texel"}, {"map.resolution", "200"}, {"map.extent_m", "9"}},
-                                  small(path, 480, 270)), std::nullopt).ladder;
+        return bench
+            .measure(with({{"filter.kind", kind},
+                           {"bias.constant", bias},
+                           {"bias.unit", "texel"},
+                           {"map.resolution", "200"},
+                           {"map.extent_m", "9"}},
+                          small(path, 480, 270)),
+                     std::nullopt)
+            .ladder;
       };
       const Ladder a = measured(two), b = measured(one), c = measured(joined);
       uint64_t wrong = 0, differ_one = 0, differ_joined = 0;

@@ -25,7 +25,8 @@ std::vector<std::string> all_scenes() {
 class EveryScene : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    if (GetParam().ends_with(".gltf") && !std::filesystem::exists(GetParam())) GTEST_SKIP() << GetParam() << " is not here";
+    if (GetParam().ends_with(".gltf") && !std::filesystem::exists(GetParam()))
+      GTEST_SKIP() << GetParam() << " is not here";
   }
 };
 
@@ -37,7 +38,11 @@ const std::vector<std::vector<Assignment>> techniques = {
     {{"bias.form", "slope"}, {"map.format", "32f"}, {"map.cull", "back"}},
     {{"bias.constant", "0"}, {"map.cull", "front"}},
     {{"bias.constant", "0.003"}, {"map.wrap", "repeat"}, {"map.lit_beyond_far", "false"}, {"map.extent_scale", "0.4"}},
-    {{"bias.constant", "1.5"}, {"bias.unit", "texel"}, {"map.wrap", "clamp_to_edge"}, {"map.extent_scale", "0.4"}, {"filter.kind", "box"}},
+    {{"bias.constant", "1.5"},
+     {"bias.unit", "texel"},
+     {"map.wrap", "clamp_to_edge"},
+     {"map.extent_scale", "0.4"},
+     {"filter.kind", "box"}},
     {{"bias.constant", "0.002"}, {"light.angular_diameter_deg", "2"}, {"truth.standard_error", "0.1"}},
 };
 
@@ -94,7 +99,8 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
 TEST_P(EveryScene, LitReceiversHaveNoPeterPanning) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* bias : {"0", "0.01", "0.3"}) {
-    const Measurement m = bench.measure(with({{"map.resolution", "256"}, {"bias.constant", bias}}, small(GetParam())), std::nullopt);
+    const Measurement m =
+        bench.measure(with({{"map.resolution", "256"}, {"bias.constant", bias}}, small(GetParam())), std::nullopt);
     const Image<float>& panning = m.ladder.step[static_cast<size_t>(Cause::peter_panning)];
     uint64_t on_lit = 0;
     for (size_t i = 0; i < panning.size(); ++i) on_lit += panning[i] != 0 && m.ladder.rung[1][i] == 1;
@@ -131,12 +137,13 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
     for (const char* form : {"constant", "slope"}) {
       SCOPED_TRACE(std::string(kind) + " " + form);
       Settings settings = with({{"filter.kind", kind}, {"bias.form", form}, {"bias.floor", "0.0007"}}, base);
-      const LookupProbe probe = renderer.probe(frame, settings);
+      const LookupProbe probe = renderer.probe(frame);
       const raytrace::LookupTruth taps =
           tracer.lookup_truth(receivers, truth, probe, frame, settings.map, kernel_size(settings.filter));
       const gl::ShadowMap exact = renderer.upload_map(taps.exact_map, settings.map);
       const Image<float> nothing;
-      const LookupEvidence evidence{truth, probe, taps.taps, taps.exact_map, settings.map, depth_bias(frame, settings.bias), nothing, nothing};
+      const LookupEvidence evidence{
+          truth, probe, taps.taps, taps.exact_map, settings.map, depth_bias(frame, settings.bias), nothing, nothing};
       const bool slope = settings.bias.form == BiasForm::slope;
       const BiasCounts counts(evidence, stored, slope ? CurveParameter::slope : CurveParameter::constant);
       ASSERT_GT(counts.receivers(), 10000u);
@@ -147,7 +154,8 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
         (slope ? settings.bias.slope : settings.bias.constant) = x;
         const Image<float> r5 = renderer.lookup(map, frame, settings);
         const Image<float> r4 = renderer.lookup(exact, frame, settings);
-        const Ladder ladder = climb({truth, probe, taps.taps, taps.exact_map, settings.map, depth_bias(frame, settings.bias), r4, r5});
+        const Ladder ladder =
+            climb({truth, probe, taps.taps, taps.exact_map, settings.map, depth_bias(frame, settings.bias), r4, r5});
         uint64_t wrong_receivers = 0;
         double wrong_taps = 0;
         std::array<double, cause_count> booked{};
@@ -155,13 +163,16 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
           if (!truth.facing[i] || truth.ambiguous[i]) continue;
           wrong_receivers += r5[i] != static_cast<float>(truth.lit[i]);
           wrong_taps += std::abs(static_cast<double>(r5[i]) - truth.lit[i]) * taps.taps.taps_per_receiver;
-          for (int c = 0; c < cause_count; ++c) booked[c] += std::abs(static_cast<double>(ladder.step[c][i])) * taps.taps.taps_per_receiver;
+          for (int c = 0; c < cause_count; ++c)
+            booked[c] += std::abs(static_cast<double>(ladder.step[c][i])) * taps.taps.taps_per_receiver;
         }
         EXPECT_EQ(counts.wrong_receivers(x), wrong_receivers) << x;
         // Ninths are not exact in float; their sum over the picture is within half a tap of a whole number.
         EXPECT_EQ(counts.wrong_taps(x), static_cast<uint64_t>(std::llround(wrong_taps))) << x;
-        for (Cause cause : {Cause::acne, Cause::peter_panning, Cause::aliasing_dark, Cause::aliasing_light, Cause::coverage_dark, Cause::coverage_light})
-          EXPECT_EQ(counts.caused(cause, x), static_cast<uint64_t>(std::llround(booked[static_cast<size_t>(cause)]))) << cause_name(cause) << " at " << x;
+        for (Cause cause : {Cause::acne, Cause::peter_panning, Cause::aliasing_dark, Cause::aliasing_light,
+                            Cause::coverage_dark, Cause::coverage_light})
+          EXPECT_EQ(counts.caused(cause, x), static_cast<uint64_t>(std::llround(booked[static_cast<size_t>(cause)])))
+              << cause_name(cause) << " at " << x;
         different_counts += wrong_receivers != counts.wrong_receivers(0);
       }
       // Slopes below the floor change nothing, and they are up to two thirds of those tried.

@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 class Program : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / ("noonmark-" + std::to_string(getpid()) + "-" + testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = fs::path(testing::TempDir()) / ("noonmark-" + std::to_string(getpid()) + "-" +
+                                              testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -81,10 +82,13 @@ int points_in(const fs::path& store) {
   sqlite3* db = nullptr;
   int count = 0;
   if (sqlite3_open_v2(store.c_str(), &db, SQLITE_OPEN_READONLY, nullptr) == SQLITE_OK)
-    sqlite3_exec(db, "SELECT count(*) FROM points", [](void* out, int, char** values, char**) {
-      *static_cast<int*>(out) = std::stoi(values[0]);
-      return 0;
-    }, &count, nullptr);
+    sqlite3_exec(
+        db, "SELECT count(*) FROM points",
+        [](void* out, int, char** values, char**) {
+          *static_cast<int*>(out) = std::stoi(values[0]);
+          return 0;
+        },
+        &count, nullptr);
   sqlite3_close(db);
   return count;
 }
@@ -126,7 +130,9 @@ TEST_F(Program, ResumesAfterSigkillWithTheSameResults) {
   EXPECT_TRUE(says(" of 48 points are in killed already")) << output_;
   EXPECT_EQ(without_times(folder_ / "killed/results.csv"), without_times(folder_ / "whole/results.csv"));
   for (const auto& entry : fs::directory_iterator(folder_ / "killed"))
-    EXPECT_TRUE(entry.path().filename() == "results.sqlite" || entry.path().filename() == "results.csv" || entry.path().filename() == "report.html") << entry;
+    EXPECT_TRUE(entry.path().filename() == "results.sqlite" || entry.path().filename() == "results.csv" ||
+                entry.path().filename() == "report.html")
+        << entry;
 
   // A changed experiment does not mix with what is there.
   const std::string other = write("sweep.toml", sweep + "\n[map]\nformat = \"16\"\n");
@@ -137,7 +143,8 @@ TEST_F(Program, ResumesAfterSigkillWithTheSameResults) {
 TEST_F(Program, StopsAtSigtermAndSaysThatItIsIncomplete) {
   const std::string experiment = write("sweep.toml", sweep);
   const pid_t child = start({"check", experiment, "--out", "out"});
-  for (int i = 0; i < 6000 && points_in(folder_ / "out/results.sqlite") < 3; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int i = 0; i < 6000 && points_in(folder_ / "out/results.sqlite") < 3; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   kill(child, SIGTERM);
   EXPECT_EQ(wait_for(child), 6);
   EXPECT_NE(read_file((folder_ / "out/summary.md").string()).find("Incomplete"), std::string::npos);
@@ -146,10 +153,12 @@ TEST_F(Program, StopsAtSigtermAndSaysThatItIsIncomplete) {
 TEST_F(Program, ChecksTheExperimentOfTheDemo) {
   const std::string shipped = std::string(NOONMARK_SOURCE_DIR) + "/experiments/cube-room.toml";
   ASSERT_EQ(run({"check", shipped, "--out", "out"}), 0) << output_;
-  for (const char* file : {"report.html", "results.csv", "results.sqlite", "junit.xml", "summary.md"}) EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
+  for (const char* file : {"report.html", "results.csv", "results.sqlite", "junit.xml", "summary.md"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
 
   // The same results judged by a tighter bound: broken, with the point, the pixel and the command.
-  const std::string tightened = write("tight.toml", read_file(shipped) + "\n[[bound]]\nmetric = \"aliasing\"\nmax = 1e-9\n");
+  const std::string tightened =
+      write("tight.toml", read_file(shipped) + "\n[[bound]]\nmetric = \"aliasing\"\nmax = 1e-9\n");
   ASSERT_EQ(run({"check", tightened, "--out", "out"}), 1) << output_;
   EXPECT_TRUE(says("noonmark render")) << output_;
   EXPECT_TRUE(says("pixel")) << output_;
@@ -157,8 +166,12 @@ TEST_F(Program, ChecksTheExperimentOfTheDemo) {
 }
 
 TEST_F(Program, RendersOnePointWithAllThatASecondOpinionNeeds) {
-  ASSERT_EQ(run({"render", "--set", "view.width_px=160", "--set", "view.height_px=90", "--set", "map.resolution=128", "--out", "one"}), 0) << output_;
-  for (const char* file : {"point.json", "ladder.exr", "map.exr", "point-truth.png", "point-map.png", "point-classes.png"})
+  ASSERT_EQ(run({"render", "--set", "view.width_px=160", "--set", "view.height_px=90", "--set", "map.resolution=128",
+                 "--out", "one"}),
+            0)
+      << output_;
+  for (const char* file :
+       {"point.json", "ladder.exr", "map.exr", "point-truth.png", "point-map.png", "point-classes.png"})
     EXPECT_GT(fs::file_size(folder_ / "one" / file), 200u) << file;
   const std::string experiment = write("sweep.toml", sweep);
   EXPECT_EQ(run({"render", experiment}), 2);

@@ -20,14 +20,16 @@ inline Settings with(std::initializer_list<Assignment> assignments, Settings set
 
 // The default picture is large; a test needs enough receivers to meet every case, not more.
 inline Settings small(const std::string& scene, int width = 400, int height = 240) {
-  return with({{"scene.name", scene}, {"view.width_px", std::to_string(width)}, {"view.height_px", std::to_string(height)}});
+  return with(
+      {{"scene.name", scene}, {"view.width_px", std::to_string(width)}, {"view.height_px", std::to_string(height)}});
 }
 
 // Steps are sums of at most a dozen floats in [0,1], each rounded to 2^-24.
 inline constexpr double rounding_of_steps = 1e-6;
 
 inline std::string model(const std::string& name) {
-  return (std::filesystem::path(NOONMARK_SOURCE_DIR).parent_path() / "shared/scenes" / name / (name + ".gltf")).string();
+  return (std::filesystem::path(NOONMARK_SOURCE_DIR).parent_path() / "shared/scenes" / name / (name + ".gltf"))
+      .string();
 }
 
 inline double metric(const Measurement& m, const std::string& name) { return m.record.metrics.at(name); }

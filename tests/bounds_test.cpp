@@ -173,7 +173,7 @@ TEST(Bounds, ABrokenBoundSaysWhereAndHowToSeeIt) {
   EXPECT_EQ(describe(result, &points[1], swept),
             "broken: acne <= 0.4; found 0.5 (worst of 2 points)\n"
             "  point 1: map.resolution = 512\n"
-            "  worst pixel: x = 12, y = 34 (row 0 on top), error 0.6666666666666666, acne\n"
+            "  worst pixel by |R5 - R1|: x = 12, y = 34 (row 0 on top), error 0.6666666666666666, acne\n"
             "  reproduce: render 1\n");
   EXPECT_EQ(describe(ask({0.1}, bound), &points[0], swept), "held: acne <= 0.4; found 0.1 (worst of 1 point)\n");
 }

@@ -38,7 +38,8 @@ struct Picture {
     ladder.cause.at(x, y) = static_cast<uint8_t>(cause);
   }
   std::map<std::string, double> metrics() const {
-    return measure_ladder({ladder, primitive, edge, occluder, n_dot_l, texel_m});
+    return measure_ladder(
+        {ladder, primitive, edge, occluder, n_dot_l, texel_m, 10, {BiasForm::constant, bias, 0, 0}, 1});
   }
   double metric(const char* name) const { return metrics().at(name); }
 
@@ -46,6 +47,7 @@ struct Picture {
   Image<uint32_t> primitive;
   Image<float> edge, occluder, n_dot_l;
   double texel_m = 0.5;
+  float bias = 1;  // of 10 m: nearly every occluder is within its reach
 };
 
 void attach(Picture& p, int x, int y) {
@@ -134,6 +136,18 @@ TEST(Measure, GapIsTheLightsWayAlongTheReceiver) {
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), std::sqrt(0.75), cosine_rounding);
   p.n_dot_l.at(1, 0) = 1 + 0x1p-23f;  // a cosine above 1 by rounding is no NaN
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), 0.25, cosine_rounding);
+}
+
+TEST(Measure, GapEndsWhereTheBiasCannotReach) {
+  Picture p(1, 1);
+  p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
+  p.step(0, 0, Cause::peter_panning, 1);
+  p.n_dot_l.at(0, 0) = std::sqrt(0.5f);  // 45 degrees: a texel of 0.5 m adds at most 0.5 / sqrt(2) m of depth
+  p.bias = 0.1f;                         // 1 m
+  p.occluder.at(0, 0) = 1.3f;
+  EXPECT_NEAR(p.metric("peter_panning_gap_m"), 1.3 * std::sqrt(0.5), 1e-6);
+  p.occluder.at(0, 0) = 1.4f;  // a steep receiver at the edge of a distant shadow
+  EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
 }
 
 TEST(Measure, GapIsOverReceiversInShadow) {

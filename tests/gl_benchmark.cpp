@@ -91,7 +91,7 @@ void probe(benchmark::State& state) {
   Bench b(100);
   b.load_receivers();
   const LightFrame frame = make_light_frame(b.scene, b.settings);
-  for (auto _ : state) benchmark::DoNotOptimize(b.renderer.probe(frame, b.settings).reference.pixels.data());
+  for (auto _ : state) benchmark::DoNotOptimize(b.renderer.probe(frame).reference.pixels.data());
 }
 
 BENCHMARK(primitives)

@@ -86,7 +86,7 @@ TEST(GlLife, CallsLeaveNothingBehind) {
     const ShadowMap map = renderer.render_map(frame, settings.map, &ms);
     const ShadowMap copy = renderer.upload_map(renderer.read_map(map), settings.map);
     renderer.lookup(copy, frame, settings, &ms);
-    renderer.probe(frame, settings);
+    renderer.probe(frame);
   };
   everything(8);
   const int before = live_objects();

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "gl_fixture.h"
-#include "scenes/receivers.h"
 #include "scenes/depth_bias.h"
+#include "scenes/receivers.h"
 
 namespace noonmark::gl {
 namespace {
@@ -138,7 +138,7 @@ TEST_F(GlLookupTest, EqualsTheHostBitForBit) {
       const LightFrame frame = make_light_frame(scene, settings);
       renderer.load_receivers(receivers, frame.direction_to_light());
       const ShadowMap map = renderer.render_map(frame, settings.map);
-      const LookupProbe probe = renderer.probe(frame, settings);
+      const LookupProbe probe = renderer.probe(frame);
       const Image<float> host =
           lookup_on_host(probe, receivers, renderer.read_map(map), depth_bias(frame, settings.bias), settings, met);
       expect_same(renderer.lookup(map, frame, settings), host, describe(settings));
@@ -165,7 +165,7 @@ TEST_F(GlLookupTest, TurnsAtTheExactFloat) {
   const LightFrame frame = make_light_frame(scene, settings);
   renderer.load_receivers(receivers, frame.direction_to_light());
   const ShadowMap map = renderer.render_map(frame, settings.map);
-  const LookupProbe probe = renderer.probe(frame, settings);
+  const LookupProbe probe = renderer.probe(frame);
   const Image<float> stored = renderer.read_map(map);
   int turned = 0;
   for (size_t i = 0; i < receivers.primitive.size() && turned < 40; i += 17) {
@@ -194,7 +194,7 @@ TEST_F(GlLookupTest, ProbeIsNearTheExactPlaces) {
   settings.map.extent_scale = 0.3;  // so that there are receivers on all sides of the map, at negative texels too
   const LightFrame frame = make_light_frame(scene, settings);
   renderer.load_receivers(receivers, frame.direction_to_light());
-  const LookupProbe probe = renderer.probe(frame, settings);
+  const LookupProbe probe = renderer.probe(frame);
   // Four products and sums of magnitude below 4 in float: a few times 2^-22.
   constexpr double float_error = 2e-6;
   for (size_t i = 0; i < receivers.primitive.size(); ++i) {
@@ -280,7 +280,7 @@ TEST_F(GlLookupTest, ReceiversThatAreNotFiniteAreDark) {
   renderer.load_receivers(receivers, frame.direction_to_light());
   const ShadowMap map = renderer.upload_map(Image<float>(2, 2, 1.0f), settings.map);
   EXPECT_EQ(renderer.lookup(map, frame, settings).pixels, (std::vector<float>{1, 0, 0, 0, 0, 0}));
-  const LookupProbe probe = renderer.probe(frame, settings);
+  const LookupProbe probe = renderer.probe(frame);
   for (size_t i = 1; i < 6; ++i) EXPECT_EQ(probe.reference[i], 0.0f) << i;
 }
 

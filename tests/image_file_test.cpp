@@ -354,6 +354,8 @@ Color named(std::string_view name) {
 }
 
 TEST_F(Pictures, ClassesShowTheColoursOfTheLegend) {
+  for (float& cosine : probe.n_dot_l.pixels)
+    cosine = 1;  // the full light: shading leaves the legend's colours as they are
   // One wrong by all (full colour), one right and lit, one right and dark, ambiguous, facing away, no surface.
   ladder.flags.pixels = {1, 1, 1, 5, 0, 0};
   ladder.cause.pixels = {static_cast<uint8_t>(Cause::acne), 0, 0, 0, 0, 0};

@@ -1,5 +1,6 @@
 // The laws of shadow maps: closed forms that the whole instrument must reproduce, from the
-// rasteriser to the curve. g: the receiver's depth gradient in the light's plane; w: one texel; A = |cos phi| + |sin phi|.
+// rasteriser to the curve. g: the receiver's depth gradient in the light's plane; w: one texel; A = |cos phi| + |sin
+// phi|.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,9 +21,9 @@ CurveOptions exact_window() {
   return options;
 }
 
-// Law 1 (kernel reach after Isidoro 2006): a plane is free of acne from k w A tan(theta) metres along the light on, with
-// k = r + 1/2 for nearest taps of a box of radius r, plus half a depth quantum; and not before, as the supremum over
-// alignments of receivers and texels.
+// Law 1 (kernel reach after Isidoro 2006): a plane is free of acne from k w A tan(theta) metres along the light on,
+// with k = r + 1/2 for nearest taps of a box of radius r, plus half a depth quantum; and not before, as the supremum
+// over alignments of receivers and texels.
 TEST(Law1, GivesTheAcneFreeBiasOfAPlane) {
   Workbench bench(gl::DebugMode::fatal);
   for (double theta : {10.0, 45.0, 70.0, 80.0}) {
@@ -30,14 +31,22 @@ TEST(Law1, GivesTheAcneFreeBiasOfAPlane) {
       for (int size : {1, 3, 5}) {
         for (const char* format : {"16", "24", "32f"}) {
           if (size > 1 && std::string(format) != "24") continue;  // the quantum does not depend on the kernel
-          const Measurement m = bench.measure(with({{"scene.theta_deg", text(theta)}, {"scene.phi_deg", text(phi)}, {"filter.kind", "box"},
-                                                    {"filter.size", std::to_string(size)}, {"map.format", format}, {"map.resolution", "128"}},
-                                                   small("plane", 480, 270)), exact_window());
+          const Measurement m = bench.measure(with({{"scene.theta_deg", text(theta)},
+                                                    {"scene.phi_deg", text(phi)},
+                                                    {"filter.kind", "box"},
+                                                    {"filter.size", std::to_string(size)},
+                                                    {"map.format", format},
+                                                    {"map.resolution", "128"}},
+                                                   small("plane", 480, 270)),
+                                              exact_window());
           SCOPED_TRACE(testing::Message() << "theta " << theta << " phi " << phi << " size " << size << " " << format);
           ASSERT_TRUE(m.record.curve->window_min_depth.has_value());
           const double range = m.frame.far_m - m.frame.near_m;
-          const double slope = (std::abs(std::cos(radians(phi))) + std::abs(std::sin(radians(phi)))) * std::tan(radians(theta));
-          const double quantum = std::string(format) == "16" ? range / 65535 : std::string(format) == "24" ? range / 16777215 : 0;
+          const double slope =
+              (std::abs(std::cos(radians(phi))) + std::abs(std::sin(radians(phi)))) * std::tan(radians(theta));
+          const double quantum = std::string(format) == "16"   ? range / 65535
+                                 : std::string(format) == "24" ? range / 16777215
+                                                               : 0;
           const double predicted = (size / 2 + 0.5) * m.frame.texel_m() * slope + quantum / 2;
           // Not above: the law is a supremum; two more quanta are the rasteriser's (it may be two off), and float's own
           // rounding of depths in [0,1] is three times 2^-24 of the range. Not much below: the picture has 90,000
@@ -58,7 +67,10 @@ TEST(Law6, ExtentAndResolutionTrade) {
     const Settings base = with({{"bias.constant", "0.002"}, {"map.format", "32f"}}, small(scene, 640, 360));
     const double extent = make_scene(base.scene).map->extent_m;
     const auto measured = [&](double scale, int resolution) {
-      return bench.measure(with({{"map.extent_m", text(extent * scale)}, {"map.resolution", std::to_string(resolution)}}, base), std::nullopt).record.metrics;
+      return bench
+          .measure(with({{"map.extent_m", text(extent * scale)}, {"map.resolution", std::to_string(resolution)}}, base),
+                   std::nullopt)
+          .record.metrics;
     };
     const auto small_map = measured(1, 256), large_map = measured(2, 512);
     // The two float matrices round differently, so that receivers within 2^-22 of a texel's border change sides, and
@@ -73,11 +85,15 @@ TEST(Law9, ErrorsHalveWithEachDoubling) {
   Workbench bench(gl::DebugMode::fatal);
   double before = 0;
   for (int resolution : {128, 256, 512, 1024}) {
-    const Measurement m = bench.measure(with({{"bias.constant", "1.3"}, {"bias.unit", "texel"}, {"map.resolution", std::to_string(resolution)}, {"map.format", "32f"}},
-                                             small("plate", 960, 540)), std::nullopt);
+    const Measurement m = bench.measure(with({{"bias.constant", "1.3"},
+                                              {"bias.unit", "texel"},
+                                              {"map.resolution", std::to_string(resolution)},
+                                              {"map.format", "32f"}},
+                                             small("plate", 960, 540)),
+                                        std::nullopt);
     const double error = metric(m, "error");
-    // One grid alignment each, so the slope of a single step scatters; the prototype saw exponents of 0.90 to 1.16, that
-    // is factors of 1.87 to 2.23, and a picture of one plate has fewer edges.
+    // One grid alignment each, so the slope of a single step scatters; the prototype saw exponents of 0.90 to 1.16,
+    // that is factors of 1.87 to 2.23, and a picture of one plate has fewer edges.
     if (before > 0) {
       EXPECT_NEAR(before / error, 2, 0.6) << resolution;
     }
@@ -90,9 +106,12 @@ TEST(Law2, LosesAPlateBelowTheHeightItNames) {
   Workbench bench(gl::DebugMode::fatal);
   const double bias_m = 0.3;
   const auto lost = [&](double share) {
-    const Settings probe = with({{"bias.constant", text(bias_m)}, {"bias.unit", "m"}, {"map.resolution", "1024"}, {"map.format", "32f"}}, small("plate", 960, 540));
+    const Settings probe =
+        with({{"bias.constant", text(bias_m)}, {"bias.unit", "m"}, {"map.resolution", "1024"}, {"map.format", "32f"}},
+             small("plate", 960, 540));
     const double cosine = make_light_frame(make_scene(probe.scene), probe).direction_to_light().y;
-    const Measurement m = bench.measure(with({{"scene.height_m", text(share * bias_m * cosine)}, {"scene.thickness_m", "0.01"}}, probe), std::nullopt);
+    const Measurement m = bench.measure(
+        with({{"scene.height_m", text(share * bias_m * cosine)}, {"scene.thickness_m", "0.01"}}, probe), std::nullopt);
     uint64_t dark = 0, panning = 0;
     for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {
       if (m.receivers.primitive[i] >= 2 || !(m.ladder.flags[i] & flag_facing) || m.ladder.rung[1][i] != 0) continue;
@@ -102,7 +121,7 @@ TEST(Law2, LosesAPlateBelowTheHeightItNames) {
     EXPECT_GT(dark, 300u);
     return static_cast<double>(panning) / static_cast<double>(dark);
   };
-  EXPECT_GT(lost(0.9), 0.9);   // all but the taps at its edges, which are aliasing
+  EXPECT_GT(lost(0.9), 0.9);  // all but the taps at its edges, which are aliasing
   EXPECT_EQ(lost(1.1), 0);
 }
 

@@ -176,7 +176,8 @@ Results sample_results() {
         {name, fmt::format("images/p0018-{}.png", name), fmt::format("The {} of this point.", name)});
   results.points[26].pictures.push_back({"truth", "images/p0026-truth.png", "The truth of this point."});
   results.bounds.push_back({"residual", 1e-6, {}, {}, "worst", true, 2.4e-7, 0, 32, ""});
-  results.bounds.push_back({"peter_panning", 0.002, {}, {{"filter.kind", {"none"}}}, "worst", true, 0.00079, 4, 16, ""});
+  results.bounds.push_back(
+      {"peter_panning", 0.002, {}, {{"filter.kind", {"none"}}}, "worst", true, 0.00079, 4, 16, ""});
   return results;
 }
 

@@ -117,13 +117,13 @@ TEST(SettingsTable, HoldsItsRangesToTheLastFloat) {
       for (double end : {row.min, row.max}) EXPECT_EQ(std::stod(text_after(row, text(end))), end) << row.name;
       // Below 0 the next double is the smallest denormal, which no decimal parser is asked to take; a normal one then.
       const double below = row.min == 0 ? -1e-300 : std::nextafter(row.min, -infinity);
-      EXPECT_TRUE(contains(refusal(row, text(below)), row.range_text())) << row.name;
-      EXPECT_TRUE(contains(refusal(row, text(std::nextafter(row.max, infinity))), row.range_text())) << row.name;
+      EXPECT_TRUE(contains(refusal(row, text(below)), row.range_with_unit())) << row.name;
+      EXPECT_TRUE(contains(refusal(row, text(std::nextafter(row.max, infinity))), row.range_with_unit())) << row.name;
     } else if (row.type == ValueType::integer) {
       const int min = static_cast<int>(row.min), max = static_cast<int>(row.max);
       for (int end : {min, max}) EXPECT_EQ(text_after(row, std::to_string(end)), std::to_string(end)) << row.name;
-      EXPECT_TRUE(contains(refusal(row, std::to_string(min - 1)), row.range_text())) << row.name;
-      EXPECT_TRUE(contains(refusal(row, std::to_string(max + 1)), row.range_text())) << row.name;
+      EXPECT_TRUE(contains(refusal(row, std::to_string(min - 1)), row.range_with_unit())) << row.name;
+      EXPECT_TRUE(contains(refusal(row, std::to_string(max + 1)), row.range_with_unit())) << row.name;
     }
   }
 }

@@ -163,9 +163,9 @@ TEST_F(Store, ResumesItsOwnExperimentOnly) {
 
 TEST_F(Store, NamesTheDifferenceWhenOneFingerprintBeginsTheOther) {
   fresh();
-  EXPECT_NE(
-      refusal(fingerprint + "map.cull = back\n", ErrorKind::usage).find("now 'map.cull = back', there 'nothing more'"),
-      std::string::npos);
+  EXPECT_NE(refusal(fingerprint + "map.cull = back\n", ErrorKind::usage)
+                .find("now 'map.cull = back', there nothing of the kind"),
+            std::string::npos);
 }
 
 TEST_F(Store, RefusesAPointTwice) {
