@@ -150,6 +150,31 @@ TEST_F(Program, StopsAtSigtermAndSaysThatItIsIncomplete) {
   EXPECT_NE(read_file((folder_ / "out/summary.md").string()).find("Incomplete"), std::string::npos);
 }
 
+TEST_F(Program, KeepsASecondRunOutOfTheFolder) {
+  const std::string experiment = write("sweep.toml", sweep);
+  const pid_t first = start({"run", experiment, "--out", "out"});
+  for (int i = 0; i < 6000 && points_in(folder_ / "out/results.sqlite") < 1; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 2);
+  EXPECT_TRUE(says("another run is writing into out")) << output_;
+  kill(first, SIGKILL);
+  wait_for(first);
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << "a killed run leaves no lock: " << output_;
+}
+
+TEST_F(Program, ChecksAFolderWithAResultsFolderForEachExperiment) {
+  const std::string one =
+      "scene = \"plate\"\n[view]\nwidth_px = 64\nheight_px = 36\n[[bound]]\nmetric = \"residual\"\nmax = ";
+  fs::create_directories(folder_ / "exps/a");
+  fs::create_directories(folder_ / "exps/b");
+  write("exps/a/x.toml", one + "1e-6\n");
+  write("exps/b/x.toml", one + "1e-6\n");
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}), 0) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "out/a/x/junit.xml") && fs::exists(folder_ / "out/b/x/junit.xml")) << output_;
+  write("exps/b/x.toml", one + "-1\n");  // no residual is below 0
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}), 1) << output_;
+}
+
 TEST_F(Program, ChecksTheExperimentOfTheDemo) {
   const std::string shipped = std::string(NOONMARK_SOURCE_DIR) + "/experiments/cube-room.toml";
   ASSERT_EQ(run({"check", shipped, "--out", "out"}), 0) << output_;
