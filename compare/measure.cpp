@@ -123,6 +123,8 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"ambiguous", facing == 0 ? std::numeric_limits<double>::quiet_NaN()
                                 : static_cast<double>(facing - base) / static_cast<double>(facing)},
       {"outside", share(static_cast<double>(outside))},
+      {"ambiguous_receivers", static_cast<double>(facing - base)},
+      {"outside_receivers", static_cast<double>(outside)},
       {"residual", ladder.residual},
       {"tap_residual", ladder.tap_residual},
   };

@@ -43,6 +43,8 @@ constexpr Metric table[] = {
     {"ambiguous", "fraction",
      "Share of facing receivers whose truth changes within float error; left out of all errors.", false},
     {"outside", "fraction", "Share of counted receivers that fall outside the map or beyond its far plane.", true},
+    {"ambiguous_receivers", "count", "Facing receivers whose truth changes within float error.", false},
+    {"outside_receivers", "count", "Counted receivers outside the map or beyond its far plane.", false},
     {"residual", "", "Largest |(R5 - R0) - sum of signed steps| over all facing receivers; a defect above 1e-6.",
      false},
     {"tap_residual", "", "Largest |(R4 - R2) - sum of tap classes| over all facing receivers; a defect above 1e-6.",

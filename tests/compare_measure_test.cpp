@@ -111,6 +111,8 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"attached", 1},
       {"ambiguous", 0.1},
       {"outside", 2 / base},
+      {"ambiguous_receivers", 1},
+      {"outside_receivers", 2},
       {"residual", 2e-7},
       {"tap_residual", 3e-7},
   };
