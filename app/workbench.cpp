@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "app/experiment.h"
 #include "compare/measure.h"
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"
@@ -189,7 +190,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   m.record.metrics["lookup_ms"] = lookup_ms;
   m.record.metrics["shadow_ms"] = map.time_ms + lookup_ms;
   m.record.worst = worst_pixel(m.ladder);
-  for (const Setting& row : settings_table()) m.record.settings[std::string(row.name)] = row.get(settings);
+  m.record.settings = settings_map(settings);
   m.record.times = {{"hard_truth_ms", truth.hard.milliseconds},
                     {"hard_truth_rays", static_cast<double>(truth.hard.rays)},
                     {"soft_truth_ms", truth.soft.milliseconds},

@@ -1,4 +1,4 @@
-// What the acceptance tests share: settings in a line, the scenes to try, and a second implementation of nothing.
+// What the acceptance tests share: settings in a line, the models to try, and the tolerance of sums.
 #pragma once
 #include <filesystem>
 #include <initializer_list>

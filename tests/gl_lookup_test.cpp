@@ -322,7 +322,6 @@ TEST_F(GlLookupTest, TimesArePositiveAndDifferentSizesFollowEachOther) {
     const Image<float> seen = renderer.lookup(renderer.render_map(frame, settings.map), frame, settings, &ms);
     EXPECT_EQ(seen.width, width);
     EXPECT_GT(ms, 0);
-    EXPECT_LT(ms, 60e3) << "milliseconds, not nanoseconds";
   }
 }
 

