@@ -67,12 +67,32 @@ void apply_override(Experiment& experiment, std::string_view assignment) {
     throw Error(ErrorKind::usage, fmt::format("--set {}: {}", assignment, error.what()));
   }
   std::erase_if(experiment.swept, [&](const Swept& swept) { return swept.name == name; });
+  for (Experiment& part : experiment.parts) apply_override(part, assignment);
   if (std::find(experiment.overridden.begin(), experiment.overridden.end(), name) == experiment.overridden.end())
     experiment.overridden.push_back(name);
 }
 
+const Experiment& part_of_point(const Experiment& experiment, int64_t id) {
+  for (const Experiment& part : experiment.parts) {
+    const int64_t count = point_count(part);
+    if (id < count) return part;
+    id -= count;
+  }
+  return experiment;
+}
+
+std::vector<std::string> swept_names(const Experiment& experiment) {
+  std::vector<std::string> names;
+  for (const Swept& swept : experiment.swept) names.push_back(swept.name);
+  for (const Experiment& part : experiment.parts)
+    for (const std::string& name : swept_names(part))
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
 int64_t point_count(const Experiment& experiment) {
-  int64_t count = 1;
+  int64_t count = experiment.parts.empty() ? 1 : 0;
+  for (const Experiment& part : experiment.parts) count += point_count(part);
   for (const Swept& swept : experiment.swept) {
     count *= static_cast<int64_t>(swept.values.size());
     // Each list fits in memory, so the product stays far from overflow when it is checked at every step.
@@ -86,6 +106,11 @@ int64_t point_count(const Experiment& experiment) {
 std::vector<Settings> points(const Experiment& experiment) {
   const int64_t count = point_count(experiment);
   std::vector<Settings> all;
+  if (!experiment.parts.empty()) {
+    for (const Experiment& part : experiment.parts)
+      for (Settings& settings : points(part)) all.push_back(std::move(settings));
+    return all;
+  }
   all.reserve(static_cast<size_t>(count));
   for (int64_t id = 0; id < count; ++id) {
     Settings settings = experiment.base;
@@ -99,9 +124,11 @@ std::vector<Settings> points(const Experiment& experiment) {
     try {
       validate(settings);
     } catch (const Error& error) {
-      throw Error(ErrorKind::usage,
-                  fmt::format("{}: point {}{}{}{}: {}", experiment.path, id, choice.empty() ? "" : " (",
-                              fmt::join(choice, ", "), choice.empty() ? "" : ")", error.what()));
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("{}: {}point {}{}{}{}: {}", experiment.path,
+                      experiment.part.empty() ? "" : fmt::format("part '{}': ", experiment.part), id,
+                      choice.empty() ? "" : " (", fmt::join(choice, ", "), choice.empty() ? "" : ")", error.what()));
     }
     all.push_back(std::move(settings));
   }
@@ -114,20 +141,23 @@ std::map<std::string, std::string> settings_map(const Settings& settings) {
   return map;
 }
 
-std::string reproduce_command(const Experiment& experiment, const std::map<std::string, std::string>& settings) {
+std::string reproduce_command(const Experiment& experiment, const PointRecord& point) {
   std::string command = "noonmark render " + shell_quoted(experiment.path);
   const auto add = [&](const std::string& name) {
-    const auto setting = settings.find(name);
-    if (setting != settings.end()) command += " --set " + shell_quoted(name + "=" + setting->second);
+    const auto setting = point.settings.find(name);
+    if (setting != point.settings.end()) command += " --set " + shell_quoted(name + "=" + setting->second);
   };
   for (const std::string& name : experiment.overridden) add(name);
+  if (!experiment.parts.empty()) return command + fmt::format(" --point {}", point.id);
   for (const Swept& swept : experiment.swept) add(swept.name);
   return command;
 }
 
-std::string fingerprint(const Experiment& experiment, std::span<const std::pair<std::string, std::string>> more) {
+namespace {
+
+// What determines the points of one experiment, or of one part.
+std::string points_text(const Experiment& experiment) {
   std::string text;
-  for (const auto& [name, value] : more) text += fmt::format("{} = {}\n", name, value);
   for (const Setting& row : settings_table()) {
     const auto swept = std::find_if(experiment.swept.begin(), experiment.swept.end(),
                                     [&](const Swept& s) { return s.name == row.name; });
@@ -144,6 +174,27 @@ std::string fingerprint(const Experiment& experiment, std::span<const std::pair<
     text += curve.bias_depth.empty() ? "curve.bias_depth = auto\n"
                                      : fmt::format("curve.bias_depth = [{}]\n", fmt::join(curve.bias_depth, ", "));
   }
+  return text;
+}
+
+// The lines of a part, each named after it.
+std::string in_part(const std::string& part, const std::string& lines) {
+  std::string text;
+  for (size_t begin = 0; begin < lines.size();) {
+    const size_t end = lines.find('\n', begin);
+    text += fmt::format("part '{}': {}\n", part, lines.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string fingerprint(const Experiment& experiment, std::span<const std::pair<std::string, std::string>> more) {
+  std::string text;
+  for (const auto& [name, value] : more) text += fmt::format("{} = {}\n", name, value);
+  if (experiment.parts.empty()) text += points_text(experiment);
+  for (const Experiment& part : experiment.parts) text += in_part(part.part, points_text(part));
   return text + fmt::format("pictures = {}\n", experiment.pictures);
 }
 

@@ -7,19 +7,38 @@
 // The file (every key may be left out; an unknown one is an error):
 //   title = "..."
 //   scene = "cube-room"              # or a table [scene] with name = and the scene's other settings
-//   pictures = "first"               # which points get pictures: first | all | none | worst | extremes (worst and
-//   best) [view] [light] [map] [bias] [filter] [truth]      # fixed settings: `noonmark settings` lists them [sweep] #
-//   every combination is one point; the first one named changes slowest map.resolution = [512, 1024] bias.constant =
-//   {min = 0, max = 0.01, steps = 5}                   # min + i * step; the last is max itself map.extent_m = {min =
-//   10, max = 80, steps = 4, scale = "log"}      # min * (max / min)^(i / (steps - 1)) [plot] metrics = ["error",
-//   "acne"] [curve]                          # error against bias enabled = true acne_bound = 0.001               # of
-//   the usable window peter_panning_bound = 0.001 bias_depth = [0, 0.001, 0.002]   # or a range; left out: the
-//   measurement chooses the biases
+//   pictures = "first"               # which points get pictures: first | all | none | worst | extremes (both ends)
+//   [view] [light] [map] [bias] [filter] [truth]      # fixed settings: `noonmark settings` lists them
+//   [sweep]                          # every combination is one point; the first one named changes slowest
+//   map.resolution = [512, 1024]
+//   bias.constant = {min = 0, max = 0.01, steps = 5}                   # min + i * step; the last is max itself
+//   map.extent_m = {min = 10, max = 80, steps = 4, scale = "log"}      # min * (max / min)^(i / (steps - 1))
+//   [plot]
+//   metrics = ["error", "acne"]
+//   [curve]                          # error against bias
+//   enabled = true
+//   acne_bound = 0.001               # of the usable window
+//   peter_panning_bound = 0.001
+//   bias_depth = [0, 0.001, 0.002]   # or a range; left out: the measurement chooses the biases
 //   [[bound]]
 //   metric = "acne"                  # a metric, or a quantity of the curve such as window_width_depth
 //   max = 0.01                       # and/or min
 //   join = "worst"                   # worst | mean | median of the points asked
 //   where = {"map.resolution" = 1024, "filter.kind" = ["none", "box"]}
+//   [let]                            # definitions for the formulas of laws, in order (compare/formula.h)
+//   k = "(filter.size - 1) / 2 + 0.5"
+//   [[law]]                          # a number that must follow from others (compare/laws.h)
+//   name = "1 acne-free bias"
+//   says = "one sentence"
+//   measured = "acne_free_bias_m"
+//   equals = "k * texel_m * tan_deg(scene.theta_deg)"       # or at_most, at_least; a formula or a number
+//   within = 0.05                    # of it; and slack = a formula or a number, in the measured number's unit
+//   join = "each"                    # each | mean | slope (with over = a setting)
+//   where = {}                       # as a bound's
+//   against = {"filter.kind" = "none"}    # read `equals` at the point that differs from the measured one in this alone
+//
+// Several experiments in one file: [[part]] tables, each with a name and any of scene, settings, sweep, curve, bound,
+// let and law. What stands outside them are their defaults; sweeps, bounds and laws stand inside.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -31,6 +50,7 @@
 
 #include "compare/bias_curves.h"
 #include "compare/bounds.h"
+#include "compare/laws.h"
 #include "scenes/scene.h"
 #include "scenes/settings.h"
 
@@ -48,11 +68,15 @@ struct Experiment {
   std::vector<Swept> swept;  // outermost first
   std::vector<std::string> plot;
   std::vector<Bound> bounds;
+  std::vector<std::pair<std::string, std::string>> let;  // definitions for the laws
+  std::vector<Law> laws;
   bool curve_enabled = true;
   CurveOptions curve;
   std::string pictures =
       "first";  // which points get pictures: first | all | none | worst | extremes (the worst and the best)
   std::vector<std::string> overridden;  // settings given by apply_override, in order
+  std::string part;                     // its name, where it is a part of another
+  std::vector<Experiment> parts;        // where there are any, the points are theirs, one part after the other
 };
 
 // A sweep of more points than this is a mistake in the file, not a plan.
@@ -69,6 +93,12 @@ Experiment parse_experiment(std::string_view toml, const std::string& path);
 // Bounds stay: one whose `where` no point meets any more is broken, not dropped. Throws Error(usage).
 void apply_override(Experiment& experiment, std::string_view assignment);
 
+// The part that holds point `id`, or the experiment itself where it has no parts.
+const Experiment& part_of_point(const Experiment& experiment, int64_t id);
+
+// The names of everything swept, in any part, each once.
+std::vector<std::string> swept_names(const Experiment& experiment);
+
 // 1 without a sweep.
 int64_t point_count(const Experiment& experiment);
 
@@ -81,8 +111,9 @@ std::map<std::string, std::string> settings_map(const Settings& settings);
 // A word as a shell reads it back: plain words stay as they are, anything else goes into single quotes.
 std::string shell_quoted(const std::string& word);
 
-// The command that renders one point of the experiment: its overridden and swept settings as --set, quoted for a shell.
-std::string reproduce_command(const Experiment& experiment, const std::map<std::string, std::string>& settings);
+// The command that renders one point of the experiment, quoted for a shell: its overridden and swept settings as --set,
+// or, of an experiment with parts, its number.
+std::string reproduce_command(const Experiment& experiment, const PointRecord& point);
 
 // Everything that determines the results, as text of one "name = value" per line, for ResultStore. What the experiment
 // cannot know comes in `more`: version, OpenGL renderer, Embree ISA, scene_digest of each scene.

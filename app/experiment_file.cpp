@@ -9,6 +9,7 @@
 
 #include "app/experiment.h"
 #include "app/toml_reader.h"
+#include "compare/formula.h"
 #include "compare/quantities.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -19,31 +20,49 @@ namespace {
 class Reader : private TomlReader {
  public:
   explicit Reader(const std::string& path) : TomlReader(path) { experiment_.path = path; }
+  // Of a part, which begins as what stands outside the parts.
+  explicit Reader(const Experiment& defaults) : TomlReader(defaults.path), experiment_(defaults), in_part_(true) {}
 
   Experiment read(const toml::table& root) {
     for (const Item& item : items(root)) {
-      if (item.key == "title")
+      if (in_part_ && item.key == "name")
+        experiment_.part = string(*item.node, "name");
+      else if (!in_part_ && item.key == "title")
         experiment_.title = string(*item.node, "title");
-      else if (item.key == "pictures")
+      else if (!in_part_ && item.key == "pictures")
         experiment_.pictures = one_of(*item.node, "pictures", {"first", "all", "none", "worst", "extremes"});
+      else if (!in_part_ && item.key == "plot")
+        read_plot(table(*item.node, "[plot]"));
+      else if (!in_part_ && item.key == "part")
+        parts_ = item.node;
       else if (item.key == "scene" && item.node->is_string())
         fix("scene.name", *item.node);
       else if (item.key == "sweep")
         sweep_ = &table(*item.node, "[sweep]");
-      else if (item.key == "plot")
-        read_plot(table(*item.node, "[plot]"));
       else if (item.key == "curve")
         read_curve(table(*item.node, "[curve]"));
+      else if (item.key == "let")
+        read_let(table(*item.node, "[let]"));
       else if (item.key == "bound")
         bounds_ = item.node;
+      else if (item.key == "law")
+        laws_ = item.node;
       else if (is_group(item.key))
         read_settings(table(*item.node, "[" + item.key + "]"), item.key, &Reader::fix);
       else
-        unknown(item, "key", root_keys(), "");
+        unknown(item, "key", root_keys(), in_part_ ? "part." : "");
     }
-    // These two look at what is fixed, wherever in the file that stands.
+    if (in_part_ && experiment_.part.empty()) fail(root, "a [[part]] needs a name");
+    if (parts_) {
+      for (const toml::node* inside : {static_cast<const toml::node*>(sweep_), bounds_, laws_})
+        if (inside) fail(*inside, "this stands inside a [[part]] where a file has parts");
+      read_parts(*parts_);
+      return std::move(experiment_);
+    }
+    // These look at what is fixed, wherever in the file that stands.
     if (sweep_) read_sweep(*sweep_);
     if (bounds_) read_bounds(*bounds_);
+    if (laws_) read_laws(*laws_);
     check_points(root);
     return std::move(experiment_);
   }
@@ -106,10 +125,28 @@ class Reader : private TomlReader {
     const std::vector<std::string_view> names = groups();
     return std::find(names.begin(), names.end(), key) != names.end();
   }
-  static std::vector<std::string_view> root_keys() {
+  std::vector<std::string_view> root_keys() const {
     std::vector<std::string_view> names = groups();
-    for (std::string_view key : {"title", "pictures", "sweep", "plot", "curve", "bound"}) names.push_back(key);
+    for (std::string_view key : {"sweep", "curve", "let", "bound", "law"}) names.push_back(key);
+    if (in_part_) names.push_back("name");
+    if (!in_part_)
+      for (std::string_view key : {"title", "pictures", "plot", "part"}) names.push_back(key);
     return names;
+  }
+
+  // ---- [[part]]
+
+  void read_parts(const toml::node& node) {
+    if (!node.is_array() || !node.is_array_of_tables()) fail(node, "parts are written as [[part]], one for each");
+    std::vector<Experiment> parts;
+    for (const toml::node& element : *node.as_array()) {
+      Experiment part = Reader(experiment_).read(*element.as_table());
+      for (const Experiment& other : parts)
+        if (other.part == part.part) fail(element, fmt::format("two parts have the name '{}'", part.part));
+      parts.push_back(std::move(part));
+    }
+    experiment_.parts = std::move(parts);
+    at(node.source(), [&] { return point_count(experiment_); });
   }
 
   using Use = void (Reader::*)(const std::string& setting, const toml::node& value);
@@ -200,7 +237,7 @@ class Reader : private TomlReader {
       const std::string what = std::string(error.what()).substr(file.size());
       const toml::source_region* where = sweep_ ? &sweep_->source() : &root.source();
       size_t first = std::string::npos;
-      const size_t message = what.starts_with("point ") ? what.find(": ") : 0;
+      const size_t message = what.starts_with("point ") || what.starts_with("part ") ? what.find(": ") : 0;
       for (const auto& [name, place] : places_) {
         const size_t found = what.find(name, message);
         if (found < first) {
@@ -283,7 +320,7 @@ class Reader : private TomlReader {
       else if (item.key == "join")
         bound.join = one_of(*item.node, "join", {"worst", "mean", "median"});
       else if (item.key == "where")
-        read_where(this->table(*item.node, "where"), bound);
+        bound.where = read_conditions(*item.node, "where");
       else
         unknown(item, "key", {"metric", "max", "min", "join", "where"}, "bound.");
     }
@@ -292,10 +329,12 @@ class Reader : private TomlReader {
     experiment_.bounds.push_back(std::move(bound));
   }
 
-  void read_where(const toml::table& table, Bound& bound) {
-    where_ = &bound.where;
-    read_settings(table, "", &Reader::condition);
+  Conditions read_conditions(const toml::node& node, const std::string& name) {
+    Conditions conditions;
+    where_ = &conditions;
+    read_settings(table(node, name), "", &Reader::condition);
     where_ = nullptr;
+    return conditions;
   }
 
   void condition(const std::string& name, const toml::node& value) {
@@ -319,7 +358,79 @@ class Reader : private TomlReader {
     return {row.get(experiment_.base)};
   }
 
+  // ---- [let] [[law]]
+
+  // A formula, or a number as one.
+  std::string formula(const toml::node& node, const std::string& name) const {
+    if (node.is_number()) return fmt::format("{}", number(node, name));
+    const std::string text = string(node, name);
+    at(node.source(), [&] { Formula read(text); });
+    return text;
+  }
+
+  void read_let(const toml::table& table) {
+    for (const Item& item : items(table)) {
+      for (const auto& [name, text] : experiment_.let)
+        if (name == item.key) fail(item.where, fmt::format("let defines '{}' twice", name));
+      experiment_.let.emplace_back(item.key, formula(*item.node, "let." + item.key));
+    }
+  }
+
+  void read_laws(const toml::node& node) {
+    if (!node.is_array() || !node.is_array_of_tables()) fail(node, "laws are written as [[law]], one for each");
+    for (const toml::node& element : *node.as_array()) read_law(*element.as_table());
+  }
+
+  void read_law(const toml::table& table) {
+    Law law;
+    const auto relate = [&](const Item& item, LawRelation relation) {
+      if (!law.predicted.empty()) fail(item.where, "a law has one of equals, at_most and at_least");
+      law.predicted = formula(*item.node, item.key);
+      law.relation = relation;
+    };
+    for (const Item& item : items(table)) {
+      if (item.key == "name")
+        law.name = string(*item.node, "name");
+      else if (item.key == "says")
+        law.says = string(*item.node, "says");
+      else if (item.key == "measured")
+        law.measured = formula(*item.node, "measured");
+      else if (item.key == "equals")
+        relate(item, LawRelation::equal);
+      else if (item.key == "at_most")
+        relate(item, LawRelation::at_most);
+      else if (item.key == "at_least")
+        relate(item, LawRelation::at_least);
+      else if (item.key == "within")
+        law.within = number(*item.node, "within");
+      else if (item.key == "slack")
+        law.slack = formula(*item.node, "slack");
+      else if (item.key == "join")
+        law.join = one_of(*item.node, "join", {"each", "mean", "slope"});
+      else if (item.key == "over")
+        law.over = string(*item.node, "over");
+      else if (item.key == "where")
+        law.where = read_conditions(*item.node, "where");
+      else if (item.key == "against")
+        law.against = read_conditions(*item.node, "against");
+      else
+        unknown(item, "key",
+                {"name", "says", "measured", "equals", "at_most", "at_least", "within", "slack", "join", "over",
+                 "where", "against"},
+                "law.");
+    }
+    law.let = experiment_.let;
+    at(table.source(), [&] { check_law(law); });
+    if (!experiment_.curve_enabled)
+      for (const std::string& name : curve_names(law))
+        fail(table, fmt::format("'{}' is read off the bias curve, and curve.enabled is false", name));
+    experiment_.laws.push_back(std::move(law));
+  }
+
   Experiment experiment_;
+  bool in_part_ = false;
+  const toml::node* parts_ = nullptr;
+  const toml::node* laws_ = nullptr;
   std::map<std::string, toml::source_region> places_;  // of every setting that the file gives
   const toml::table* sweep_ = nullptr;
   const toml::node* bounds_ = nullptr;

@@ -22,6 +22,7 @@
 #include "app/workbench.h"
 #include "compare/bounds.h"
 #include "compare/csv.h"
+#include "compare/laws.h"
 #include "compare/report.h"
 #include "compare/store.h"
 #include "raytrace/tracer.h"
@@ -111,7 +112,7 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
   info.embree_isa = tracer.isa;
   for (const LibraryVersion& library : build_facts().libraries)
     info.libraries[std::string(library.name)] = library.version;
-  for (const Swept& swept : experiment.swept) info.swept.push_back(swept.name);
+  info.swept = swept_names(experiment);
   info.plot = experiment.plot;
   info.scene_name = scene.name;
   info.triangles = scene.triangles.size();
@@ -119,7 +120,7 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
 }
 
 std::string swept_text(const Experiment& experiment, const PointRecord& point) {
-  std::string text;
+  std::string text = point.part;
   for (const Swept& swept : experiment.swept)
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", swept.name, point.settings.at(swept.name));
   return text.empty() ? "the only point" : text;
@@ -189,6 +190,28 @@ void require_sound_ladders(const Results& results) {
                         point.id, name, point.metrics.at(name), largest_residual));
 }
 
+// Every part's bounds and laws, asked of that part's points.
+void judge(const Experiment& experiment, Results& results) {
+  const auto reproduce = [&](const PointRecord& point) { return reproduce_command(experiment, point); };
+  const auto judge_part = [&](const Experiment& part, std::span<const PointRecord> points) {
+    for (BoundResult& bound : evaluate_bounds(points, part.bounds, reproduce))
+      results.bounds.push_back(std::move(bound));
+    for (LawResult& law : evaluate_laws(points, part.laws, reproduce)) {
+      law.part = part.part;
+      results.laws.push_back(std::move(law));
+    }
+  };
+  results.bounds.clear();
+  results.laws.clear();
+  if (experiment.parts.empty()) return judge_part(experiment, results.points);
+  for (const Experiment& part : experiment.parts) {
+    const auto in_part = [&](const PointRecord& point) { return point.part == part.part; };
+    const auto begin = std::find_if(results.points.begin(), results.points.end(), in_part);
+    const auto end = std::find_if_not(begin, results.points.end(), in_part);  // parts are stored one after the other
+    judge_part(part, {begin, end});
+  }
+}
+
 }  // namespace
 
 SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options) {
@@ -211,7 +234,6 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
 
   const std::vector<int64_t> before = store.finished();
   if (!before.empty()) fmt::print(stderr, "{} of {} points are in {} already\n", before.size(), total, options.out);
-  const std::optional<CurveOptions> curve = experiment.curve_enabled ? std::optional(experiment.curve) : std::nullopt;
   SweepOutcome outcome;
   {
     const StopOnSignal guard;
@@ -219,12 +241,15 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
     auto done = static_cast<int64_t>(before.size());
     for (int64_t id = 0; id < total && !outcome.interrupted; ++id) {
       if (std::binary_search(before.begin(), before.end(), id)) continue;
-      Measurement m = bench.measure(planned[static_cast<size_t>(id)], curve);
+      const Experiment& part = part_of_point(experiment, id);
+      Measurement m = bench.measure(planned[static_cast<size_t>(id)],
+                                    part.curve_enabled ? std::optional(part.curve) : std::nullopt);
       m.record.id = id;
+      m.record.part = part.part;
       if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0))
         m.record.pictures = keep_pictures(m, id, options.out);
       store.add(m.record);
-      progress.finished(++done, swept_text(experiment, m.record));
+      progress.finished(++done, swept_text(part, m.record));
       outcome.interrupted = stop_asked && done < total;
     }
   }
@@ -237,10 +262,9 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
             id, keep_pictures(bench.measure(planned[static_cast<size_t>(id)], std::nullopt), id, options.out));
     outcome.results = store.load();
   }
-  outcome.results.bounds = evaluate_bounds(outcome.results.points, experiment.bounds, [&](const PointRecord& point) {
-    return reproduce_command(experiment, point.settings);
-  });
+  judge(experiment, outcome.results);
   store.set_bounds(outcome.results.bounds);
+  store.set_laws(outcome.results.laws);
   write_report(outcome.results, options.out);
   require_sound_ladders(outcome.results);
   return outcome;
@@ -259,8 +283,9 @@ void print_plan(const Experiment& experiment) {
   };
   double all_taps = 0;
   for (size_t i = 0; i < planned.size(); ++i) {
-    std::string text;
-    for (const Swept& swept : experiment.swept)
+    const Experiment& part = part_of_point(experiment, static_cast<int64_t>(i));
+    std::string text = part.part.empty() ? "" : "  " + part.part;
+    for (const Swept& swept : part.swept)
       text += fmt::format("  {} = {}", swept.name, find_setting(swept.name).get(planned[i]));
     fmt::print("{:5}{}\n", i, text);
     all_taps += taps(planned[i]);
@@ -274,7 +299,7 @@ void print_plan(const Experiment& experiment) {
     small.view.height_px = std::max(1, small.view.height_px / divisor);
     small.map.extent_scale *= nudge;  // or what is remembered of the point before would come for nothing
     const auto start = std::chrono::steady_clock::now();
-    bench.measure(small, experiment.curve);
+    bench.measure(small, part_of_point(experiment, 0).curve);
     return std::pair(taps(small), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   };
   seconds(4, 1);  // loads the scene and compiles the shaders

@@ -8,6 +8,7 @@
 #include "app/verbs.h"
 #include "compare/bounds.h"
 #include "compare/junit.h"
+#include "compare/laws.h"
 #include "compare/summary.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -50,9 +51,13 @@ std::vector<Listed> experiments_in(const std::vector<std::string>& paths) {
 
 int check_one(const std::string& path, const ExperimentArguments& arguments, const std::string& out) {
   const Experiment experiment = experiment_from(path, arguments);
-  if (experiment.bounds.empty())
-    throw Error(ErrorKind::usage,
-                fmt::format("{} has no [[bound]], so there is nothing to check; add one, or use noonmark run", path));
+  const auto promises = [](const Experiment& e) { return !e.bounds.empty() || !e.laws.empty(); };
+  if (!promises(experiment) && std::none_of(experiment.parts.begin(), experiment.parts.end(), promises))
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{} has no [[bound]] and no [[law]], so there is nothing to check; add one, or use noonmark "
+                    "run",
+                    path));
   const SweepOutcome outcome = run_sweep(experiment, {out, arguments.overwrite, arguments.command});
   write_file_atomically(out + "/junit.xml", to_junit(outcome.results));
   write_file_atomically(out + "/summary.md", to_summary(outcome.results));
@@ -61,14 +66,20 @@ int check_one(const std::string& path, const ExperimentArguments& arguments, con
                outcome.results.planned_points);
     return static_cast<int>(ErrorKind::incomplete);
   }
-  int broken = 0;
-  for (const BoundResult& bound : outcome.results.bounds) {
-    fmt::print("{}", describe(bound, find_point(outcome.results.points, bound.point), outcome.results.info.swept));
-    broken += !bound.held;
+  const Results& results = outcome.results;
+  size_t bounds_held = 0, laws_held = 0;
+  for (const BoundResult& bound : results.bounds) {
+    fmt::print("{}", describe(bound, find_point(results.points, bound.point), results.info.swept));
+    bounds_held += bound.held;
   }
-  fmt::print("{}: {} of {} bounds held; the report is {}/report.html\n", path,
-             outcome.results.bounds.size() - static_cast<size_t>(broken), outcome.results.bounds.size(), out);
-  return broken > 0 ? 1 : 0;
+  for (const LawResult& law : results.laws) laws_held += law.held;
+  if (!results.laws.empty()) fmt::print("{}{}", results.bounds.empty() ? "" : "\n", law_table(results.laws));
+  std::string verdict;
+  if (!results.bounds.empty()) verdict = fmt::format("{} of {} bounds held", bounds_held, results.bounds.size());
+  if (!results.laws.empty())
+    verdict += fmt::format("{}{} of {} laws hold", verdict.empty() ? "" : ", ", laws_held, results.laws.size());
+  fmt::print("{}: {}; the report is {}/report.html\n", path, verdict, out);
+  return bounds_held == results.bounds.size() && laws_held == results.laws.size() ? 0 : 1;
 }
 
 }  // namespace

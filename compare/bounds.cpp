@@ -22,14 +22,6 @@ constexpr std::string_view joins[] = {"worst", "mean", "median"};
   throw Error(ErrorKind::usage, fmt::format("bound on '{}': {}", bound.metric, why));
 }
 
-bool matches(const PointRecord& point, const Bound& bound) {
-  return std::all_of(bound.where.begin(), bound.where.end(), [&](const auto& condition) {
-    const auto setting = point.settings.find(condition.first);
-    return setting != point.settings.end() &&
-           std::find(condition.second.begin(), condition.second.end(), setting->second) != condition.second.end();
-  });
-}
-
 struct Value {
   const PointRecord* point;
   double value;
@@ -81,7 +73,7 @@ BoundResult evaluate(std::span<const PointRecord> points, const Bound& bound) {
 
   std::vector<Value> values;
   for (const PointRecord& point : points)
-    if (matches(point, bound)) values.push_back({&point, quantity(point, bound.metric).value_or(not_a_number)});
+    if (matches(point, bound.where)) values.push_back({&point, quantity(point, bound.metric).value_or(not_a_number)});
   result.points = static_cast<int>(values.size());
   result.found = not_a_number;
   if (values.empty()) return result;
@@ -119,15 +111,10 @@ void check_bound(const Bound& bound) {
     refuse(bound, fmt::format("join = '{}' is not one of worst | mean | median{}", bound.join,
                               near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
   }
-  for (const auto& [name, texts] : bound.where) {
-    const Setting& row = find_setting(name);
-    if (texts.empty()) refuse(bound, fmt::format("where {} lists no value", name));
-    Settings scratch;
-    for (const std::string& text : texts) {
-      row.set(scratch, text);
-      if (row.get(scratch) != text)
-        refuse(bound, fmt::format("where {} = '{}' must be written '{}'", name, text, row.get(scratch)));
-    }
+  try {
+    check_conditions(bound.where);
+  } catch (const Error& error) {
+    refuse(bound, error.what());
   }
 }
 

@@ -13,14 +13,15 @@
 #include <string>
 #include <vector>
 
+#include "compare/conditions.h"
 #include "compare/records.h"
 
 namespace noonmark {
 
 struct Bound {
-  std::string metric;                                     // a metric or a quantity of the curve (quantities.h)
-  std::optional<double> max, min;                         // inclusive; at least one
-  std::map<std::string, std::vector<std::string>> where;  // setting -> allowed canonical texts; empty: every point
+  std::string metric;              // a metric or a quantity of the curve (quantities.h)
+  std::optional<double> max, min;  // inclusive; at least one
+  Conditions where;                // empty: every point
   // worst: the largest value for a max, the smallest for a min (with both: the one that breaks, else the largest).
   // mean, median: of all points asked; the median of an even number is the mean of the two in the middle.
   std::string join = "worst";

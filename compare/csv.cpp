@@ -58,6 +58,8 @@ std::vector<Column> columns(const Results& results) {
 
   std::vector<Column> list, at_the_end;
   list.push_back({"point", [](const PointRecord& p) { return fmt::format("{}", p.id); }});
+  if (std::any_of(results.points.begin(), results.points.end(), [](const PointRecord& p) { return !p.part.empty(); }))
+    list.push_back({"part", [](const PointRecord& p) { return p.part; }});
   for (const std::string& name : names(settings, present_settings))
     list.push_back({name, [name](const PointRecord& p) {
                       const auto found = p.settings.find(name);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "compare/bounds.h"
+#include "compare/laws.h"
 
 namespace noonmark {
 namespace {
@@ -77,14 +78,15 @@ std::string to_junit(const Results& results) {
   const auto finished = static_cast<int64_t>(results.points.size());
   const bool incomplete = finished < results.planned_points;
   const auto failures =
-      std::count_if(results.bounds.begin(), results.bounds.end(), [](const BoundResult& b) { return !b.held; });
+      std::count_if(results.bounds.begin(), results.bounds.end(), [](const BoundResult& b) { return !b.held; }) +
+      std::count_if(results.laws.begin(), results.laws.end(), [](const LawResult& l) { return !l.held; });
   const std::string suite = results.info.title.empty() ? "noonmark" : results.info.title;
 
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
   xml += fmt::format(
       "  <testsuite name=\"{}\" package=\"noonmark\" id=\"0\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"0\" "
       "timestamp=\"{}\" hostname=\"localhost\">\n",
-      escaped(suite), results.bounds.size() + (incomplete ? 1 : 0), failures, incomplete ? 1 : 0,
+      escaped(suite), results.bounds.size() + results.laws.size() + (incomplete ? 1 : 0), failures, incomplete ? 1 : 0,
       escaped(timestamp(results.info.started)));
   xml += "    <properties>\n";
   const std::pair<std::string_view, const std::string&> properties[] = {
@@ -95,21 +97,29 @@ std::string to_junit(const Results& results) {
     xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
   xml += "    </properties>\n";
 
-  std::set<std::string> taken;  // CI servers follow a testcase by its name, so two bounds may not share one
-  for (const BoundResult& bound : results.bounds) {
-    std::string name = bound_text(bound);
-    for (int copy = 2; !taken.insert(name).second; ++copy) name = fmt::format("{} #{}", bound_text(bound), copy);
+  std::set<std::string> taken;  // CI servers follow a testcase by its name, so no two may share one
+  const auto testcase = [&](const std::string& title, bool held, std::string_view type, const auto& message,
+                            const auto& text) {
+    std::string name = title;
+    for (int copy = 2; !taken.insert(name).second; ++copy) name = fmt::format("{} #{}", title, copy);
     xml += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"0\"", escaped(suite), escaped(name));
-    if (bound.held) {
-      xml += "/>\n";
-      continue;
-    }
-    const std::string message =
-        bound.points == 0 ? "no finished point matches the bound" : fmt::format("found {}", bound.found);
-    const std::string text = describe(bound, find_point(results.points, bound.point), results.info.swept);
-    xml += fmt::format(">\n      <failure message=\"{}\" type=\"bound\">{}</failure>\n    </testcase>\n",
-                       escaped(message), escaped(text));
-  }
+    xml += held ? "/>\n"
+                : fmt::format(">\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n",
+                              escaped(message()), type, escaped(text()));
+  };
+  for (const BoundResult& bound : results.bounds)
+    testcase(
+        bound_text(bound), bound.held, "bound",
+        [&] {
+          return bound.points == 0 ? "no finished point matches the bound" : fmt::format("found {}", bound.found);
+        },
+        [&] { return describe(bound, find_point(results.points, bound.point), results.info.swept); });
+  for (const LawResult& law : results.laws)
+    testcase(
+        law.name, law.held, "law", [&] { return law_text(law); },
+        [&] {
+          return law_table({&law, 1});
+        });
   if (incomplete)
     xml += fmt::format(
         "    <testcase classname=\"{}\" name=\"the sweep is complete\" time=\"0\">\n      <error "

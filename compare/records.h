@@ -40,6 +40,7 @@ struct PictureRecord {
 
 struct PointRecord {
   int64_t id = 0;                               // position in the sweep, from 0
+  std::string part;                             // of the experiment; empty where it has none
   std::map<std::string, std::string> settings;  // every setting by its row's name, in canonical text
   std::map<std::string, double> metrics;  // by metric name; not finite = could not be measured, and fails any bound
   std::map<std::string, double> times;    // "map_ms", "lookup_ms", "truth_ms", "rays" ...
@@ -65,6 +66,26 @@ struct BoundResult {
   std::string reproduce;  // the command that renders the worst point
 };
 
+enum class LawRelation { equal, at_most, at_least };
+
+// A law and what became of it (compare/laws.h).
+struct LawResult {
+  std::string part, name, says;
+  std::string measured, predicted;  // the formulas
+  LawRelation relation = LawRelation::equal;
+  std::string tolerance;  // "within 5%", "within 5% + depth_quantum_m"; empty: none
+  std::string join;       // "each", "mean", "slope over map.resolution"
+  struct Sample {
+    int64_t point = -1;  // the measured point; the first one where many are joined
+    double predicted = 0, measured = 0;
+    double allowed = 0;  // how far measured may be off
+  };
+  std::vector<Sample> samples;
+  int worst = -1;  // index of the sample furthest off, in units of what is allowed; -1: no sample
+  bool held = false;
+  std::string reproduce;  // the command that renders the worst sample's point
+};
+
 // How the results were made.
 struct RunInfo {
   std::string experiment;  // path as given, or empty
@@ -87,6 +108,7 @@ struct Results {
   std::vector<PointRecord> points;  // ordered by id; a sweep that was cut short has fewer than it should
   int64_t planned_points = 0;
   std::vector<BoundResult> bounds;
+  std::vector<LawResult> laws;
 };
 
 }  // namespace noonmark

@@ -194,10 +194,12 @@ void load_curves(Database& db, std::map<int64_t, PointRecord>& points) {
 
 std::map<int64_t, PointRecord> load_points(Database& db) {
   std::map<int64_t, PointRecord> points;
-  for (Statement rows(db, "SELECT point, worst_x, worst_y, worst_error, worst_cause FROM finished"); rows.step();) {
+  for (Statement rows(db, "SELECT point, worst_x, worst_y, worst_error, worst_cause, part FROM finished");
+       rows.step();) {
     PointRecord& point = points[rows.integer(0)];
     point.id = rows.integer(0);
     point.worst = {static_cast<int>(rows.integer(1)), static_cast<int>(rows.integer(2)), rows.real(3), rows.text(4)};
+    point.part = rows.text(5);
   }
   for (Statement rows(db, "SELECT point, name, text FROM settings"); rows.step();)
     points.at(rows.integer(0)).settings[rows.text(1)] = rows.text(2);
@@ -231,6 +233,38 @@ std::vector<BoundResult> load_bounds(Database& db) {
     bounds.push_back(std::move(bound));
   }
   return bounds;
+}
+
+constexpr std::pair<LawRelation, std::string_view> relations[] = {
+    {LawRelation::equal, "="}, {LawRelation::at_most, "<="}, {LawRelation::at_least, ">="}};
+
+std::vector<LawResult> load_laws(Database& db) {
+  std::vector<LawResult> laws;
+  for (Statement rows(
+           db,
+           "SELECT part, name, says, measured, relation, predicted, tolerance, join_by, held, worst, reproduce "
+           "FROM laws ORDER BY i");
+       rows.step();) {
+    LawResult law;
+    law.part = rows.text(0);
+    law.name = rows.text(1);
+    law.says = rows.text(2);
+    law.measured = rows.text(3);
+    for (const auto& [relation, sign] : relations)
+      if (rows.text(4) == sign) law.relation = relation;
+    law.predicted = rows.text(5);
+    law.tolerance = rows.text(6);
+    law.join = rows.text(7);
+    law.held = rows.integer(8) != 0;
+    law.worst = static_cast<int>(rows.integer(9));
+    law.reproduce = rows.text(10);
+    laws.push_back(std::move(law));
+  }
+  for (Statement rows(db, "SELECT law, point, predicted, measured, allowed FROM law_samples ORDER BY law, i");
+       rows.step();)
+    laws.at(static_cast<size_t>(rows.integer(0)))
+        .samples.push_back({rows.integer(1), rows.real(2), rows.real(3), rows.real(4)});
+  return laws;
 }
 
 }  // namespace
@@ -280,8 +314,8 @@ void ResultStore::add(const PointRecord& point) {
   if (db_->ask(fmt::format("SELECT 1 FROM finished WHERE point = {}", point.id)))
     throw Error(ErrorKind::usage,
                 fmt::format("point {} is in the result store already; let no two runs share one --out", point.id));
-  Statement(*db_, "INSERT INTO finished VALUES (?, ?, ?, ?, ?)")
-      .run(point.id, point.worst.x, point.worst.y, point.worst.error, point.worst.cause);
+  Statement(*db_, "INSERT INTO finished VALUES (?, ?, ?, ?, ?, ?)")
+      .run(point.id, point.part, point.worst.x, point.worst.y, point.worst.error, point.worst.cause);
   Statement settings(*db_, "INSERT INTO settings VALUES (?, ?, ?, ?)");
   for (const auto& [name, text] : point.settings) {
     bind_setting_value(settings, 3, name, text);
@@ -329,6 +363,27 @@ void ResultStore::set_bounds(const std::vector<BoundResult>& bounds) {
   transaction.commit();
 }
 
+void ResultStore::set_laws(const std::vector<LawResult>& laws) {
+  Transaction transaction(*db_);
+  db_->execute("DELETE FROM laws; DELETE FROM law_samples");
+  Statement insert(*db_, "INSERT INTO laws VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert_sample(*db_, "INSERT INTO law_samples VALUES (?, ?, ?, ?, ?, ?)");
+  for (size_t i = 0; i < laws.size(); ++i) {
+    const LawResult& law = laws[i];
+    std::string sign;
+    for (const auto& [relation, text] : relations)
+      if (relation == law.relation) sign = text;
+    insert.run(static_cast<int64_t>(i), law.part, law.name, law.says, law.measured, sign, law.predicted, law.tolerance,
+               law.join, law.held ? 1 : 0, law.worst, law.reproduce);
+    for (size_t j = 0; j < law.samples.size(); ++j) {
+      const LawResult::Sample& sample = law.samples[j];
+      insert_sample.run(static_cast<int64_t>(i), static_cast<int64_t>(j), sample.point, sample.predicted,
+                        sample.measured, sample.allowed);
+    }
+  }
+  transaction.commit();
+}
+
 Results ResultStore::load() const {
   Results results;
   db_->execute("BEGIN");  // one moment of the store, whoever writes meanwhile
@@ -336,6 +391,7 @@ Results ResultStore::load() const {
     load_info(*db_, results);
     for (auto& [id, point] : load_points(*db_)) results.points.push_back(std::move(point));
     results.bounds = load_bounds(*db_);
+    results.laws = load_laws(*db_);
   } catch (const Error&) {
     db_->execute("ROLLBACK");
     throw;

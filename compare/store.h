@@ -7,7 +7,7 @@
 //
 // For people: `SELECT map_resolution, filter_kind, acne FROM points` (a view: every setting, metric and quantity of the
 // curve as a column of its own type), and the tables behind it: info, settings, metrics, times, curves, curve_points,
-// pictures, bounds; `columns` says what each column of `points` means, and its unit.
+// pictures, bounds, laws, law_samples; `columns` says what each column of `points` means, and its unit.
 //
 // - A point is one transaction, flushed to the disk before add() returns: a kill at any time loses at most the point in
 //   flight. A rollback journal is used, not a write-ahead log, so that a finished store is one file.
@@ -56,6 +56,7 @@ class ResultStore {
   // Replaces what was there.
   void set_info(const RunInfo& info, int64_t planned_points);
   void set_bounds(const std::vector<BoundResult>& bounds);
+  void set_laws(const std::vector<LawResult>& laws);
 
   Results load() const;
   std::string fingerprint() const;

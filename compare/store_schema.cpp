@@ -15,7 +15,8 @@ namespace {
 // settings.value: integers, reals and flags (0 or 1) as numbers, everything else as text; settings.text: canonical.
 constexpr std::string_view tables = R"sql(
 CREATE TABLE info (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE finished (point INTEGER PRIMARY KEY, worst_x INTEGER, worst_y INTEGER, worst_error REAL, worst_cause TEXT);
+CREATE TABLE finished (
+  point INTEGER PRIMARY KEY, part TEXT NOT NULL, worst_x INTEGER, worst_y INTEGER, worst_error REAL, worst_cause TEXT);
 CREATE TABLE settings (point INTEGER, name TEXT, value, text TEXT NOT NULL, PRIMARY KEY (point, name)) WITHOUT ROWID;
 CREATE TABLE metrics (point INTEGER, name TEXT, value REAL, PRIMARY KEY (point, name)) WITHOUT ROWID;
 CREATE TABLE times (point INTEGER, name TEXT, value REAL, PRIMARY KEY (point, name)) WITHOUT ROWID;
@@ -31,6 +32,11 @@ CREATE TABLE pictures (point INTEGER, i INTEGER, name TEXT, path TEXT, caption T
 CREATE TABLE bounds (
   i INTEGER PRIMARY KEY, metric TEXT, max REAL, min REAL, where_json TEXT, join_by TEXT, held INTEGER, found REAL,
   point INTEGER, points INTEGER, reproduce TEXT);
+CREATE TABLE laws (
+  i INTEGER PRIMARY KEY, part TEXT, name TEXT, says TEXT, measured TEXT, relation TEXT, predicted TEXT, tolerance TEXT,
+  join_by TEXT, held INTEGER, worst INTEGER, reproduce TEXT);
+CREATE TABLE law_samples (
+  law INTEGER, i INTEGER, point INTEGER, predicted REAL, measured REAL, allowed REAL, PRIMARY KEY (law, i)) WITHOUT ROWID;
 CREATE TABLE columns (name TEXT PRIMARY KEY, kind TEXT, unit TEXT, help TEXT);
 )sql";
 
@@ -77,6 +83,7 @@ std::string curve_expression(std::string_view name) {
 std::string store_schema() {
   View view;
   view.column("point", "f.point", "", "", "Position in the sweep, from 0.");
+  view.column("part", "f.part", "", "", "The experiment's part; empty where it has none.");
   for (const Setting& row : settings_table()) {
     std::string name(row.name);  // a dot would have to be quoted in every query
     std::replace(name.begin(), name.end(), '.', '_');

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "compare/bounds.h"
+#include "compare/laws.h"
 #include "compare/metrics.h"
 #include "compare/quantities.h"
 
@@ -42,28 +43,63 @@ void add_heading(std::string& text, const std::vector<std::string>& names) {
   add_row(text, std::vector<std::string>(names.size(), "---"));
 }
 
+// As Markdown shows text unchanged: indented, not fenced, so that no run of backticks in a name can end it.
+std::string indented(const std::string& lines) {
+  std::string text;
+  for (size_t begin = 0; begin < lines.size();) {
+    const size_t end = std::min(lines.find('\n', begin), lines.size());
+    text += "    " + lines.substr(begin, end - begin) + "\n";
+    begin = end + 1;
+  }
+  return text;
+}
+
 // Four digits are enough for a page; the store has them all.
 std::string short_number(std::optional<double> value) { return value ? fmt::format("{:.4g}", *value) : "–"; }
 
+// "3 bounds", "the law"
+std::string counted(size_t count, std::string_view what) {
+  return count == 1 ? fmt::format("the {}", what) : fmt::format("all {} {}s", count, what);
+}
+
 std::string verdict(const Results& results) {
   const auto finished = static_cast<int64_t>(results.points.size());
-  const auto broken =
-      std::count_if(results.bounds.begin(), results.bounds.end(), [](const BoundResult& b) { return !b.held; });
-  const size_t count = results.bounds.size();
+  std::string broken, held;
+  const auto judge = [&](const auto& list, std::string_view what) {
+    const auto count = std::count_if(list.begin(), list.end(), [](const auto& one) { return !one.held; });
+    if (count > 0)
+      broken += fmt::format("{}{} of {} {}{}", broken.empty() ? "" : ", ", count, list.size(), what,
+                            list.size() == 1 ? "" : "s");
+    if (!list.empty()) held += (held.empty() ? "" : " and ") + counted(list.size(), what);
+  };
+  judge(results.bounds, "bound");
+  judge(results.laws, "law");
   std::string text;
   if (finished < results.planned_points)
     text = fmt::format("**Incomplete: {} of {} points are finished.** Run it again to go on.", finished,
                        results.planned_points);
-  else if (broken > 0)
-    text = fmt::format("**Broken: {} of {} bound{}.**", broken, count, count == 1 ? "" : "s");
-  else if (count > 0)
-    text = fmt::format("**Held: {} {} over {} point{}.**", count == 1 ? "the" : "all",
-                       count == 1 ? "bound" : fmt::format("{} bounds", count), finished, finished == 1 ? "" : "s");
+  else if (!broken.empty())
+    text = fmt::format("**Broken: {}.**", broken);
+  else if (!held.empty())
+    text = fmt::format("**Held: {} over {} point{}.**", held, finished, finished == 1 ? "" : "s");
   else
     text = fmt::format("**Measured {} point{}.** The experiment sets no bounds.", finished, finished == 1 ? "" : "s");
-  if (finished < results.planned_points && broken > 0)
-    text += fmt::format(" {} of {} bounds are broken so far.", broken, count);
+  if (finished < results.planned_points && !broken.empty()) text += fmt::format(" Broken so far: {}.", broken);
   return text + "\n";
+}
+
+std::string laws_table(const Results& results) {
+  std::string text = "\n## Laws\n\n";
+  add_heading(text, {"", "law", "samples", "predicted", "measured", "measured / predicted"});
+  for (const LawResult& law : results.laws) {
+    const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
+    add_row(text, {law.held ? "holds" : "**broken**", cell(law.name), fmt::format("{}", law.samples.size()),
+                   worst ? short_number(worst->predicted) : "–", worst ? short_number(worst->measured) : "–",
+                   cell(ratio_text(law))});
+  }
+  for (const LawResult& law : results.laws)
+    if (!law.held) text += "\n" + indented(law_table({&law, 1}));
+  return text;
 }
 
 std::string bounds_table(const Results& results) {
@@ -83,14 +119,7 @@ std::string bounds_table(const Results& results) {
   for (const BoundResult& bound : results.bounds) {
     if (bound.held) continue;
     const std::string why = describe(bound, find_point(results.points, bound.point), results.info.swept);
-    // Indented, not fenced: no run of backticks in a name can end it.
-    text += "\n";
-    size_t begin = 0;
-    while (begin < why.size()) {
-      const size_t end = std::min(why.find('\n', begin), why.size());
-      text += "    " + why.substr(begin, end - begin) + "\n";
-      begin = end + 1;
-    }
+    text += "\n" + indented(why);
   }
   return text;
 }
@@ -164,8 +193,10 @@ std::string best_table(const Results& results) {
 std::string to_summary(const Results& results) {
   const RunInfo& info = results.info;
   std::string text = fmt::format("# {}\n\n{}", cell(info.title.empty() ? "Noonmark" : info.title), verdict(results));
+  if (!results.laws.empty()) text += laws_table(results);
   if (!results.bounds.empty()) text += bounds_table(results);
-  if (!results.points.empty()) text += best_table(results);
+  // Points of different parts are not there to be compared.
+  if (!results.points.empty() && results.points.front().part.empty()) text += best_table(results);
   text += fmt::format("\nMade by noonmark {} ({}) on {}; Embree {} ({}).\n", cell(info.version), cell(info.commit),
                       cell(info.gl_renderer), cell(info.embree_version), cell(info.embree_isa));
   return text;

@@ -28,6 +28,12 @@ std::vector<std::string> values_of(const Experiment& experiment, const std::stri
   return texts;
 }
 using Texts = std::vector<std::string>;
+PointRecord point_of(const Experiment& experiment, int64_t id) {
+  PointRecord point;
+  point.id = id;
+  point.settings = settings_map(points(experiment).at(static_cast<size_t>(id)));
+  return point;
+}
 
 TEST(Experiment, WithoutAnythingIsOnePointOfDefaults) {
   const Experiment experiment = parse("");
@@ -144,7 +150,7 @@ TEST(Experiment, OverridesReplaceTheValueAndItsSweep) {
   EXPECT_EQ(e.base.view.eye_m, glm::dvec3(1, 2, 3));
   apply_override(e, "scene=plane");
   EXPECT_EQ(e.base.scene.name, "plane");
-  EXPECT_EQ(reproduce_command(e, settings_map(points(e).at(1))),
+  EXPECT_EQ(reproduce_command(e, point_of(e, 1)),
             "noonmark render folder/x.toml --set map.resolution=2048 --set view.eye_m=1,2,3 --set scene.name=plane "
             "--set map.cull=back");
   for (const char* bad : {"map.resolution", "=3", "map.resolution=0", "map.resolution=512,1024", "map.resolutio=1"})
@@ -155,7 +161,7 @@ TEST(Experiment, OverridesReplaceTheValueAndItsSweep) {
 
 TEST(Experiment, TheReproducingCommandSurvivesTheShell) {
   Experiment e = parse_experiment("[sweep]\nscene.name = [\"it's a $cene.gltf\"]\n", "my exp.toml");
-  EXPECT_EQ(reproduce_command(e, settings_map(points(e).at(0))),
+  EXPECT_EQ(reproduce_command(e, point_of(e, 0)),
             R"(noonmark render 'my exp.toml' --set 'scene.name=it'\''s a $cene.gltf')");
 }
 

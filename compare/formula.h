@@ -1,0 +1,36 @@
+// Formulas over the numbers of a point, as laws are written: "(k + 0.5) * texel_m * tan_deg(scene.theta_deg)".
+//
+//   Formula f("2 * texel_m");
+//   f.names();                                             // {"texel_m"}
+//   f.value([&](const std::string& name) { return number_of_point(point, name); });
+//
+// Names are those of settings and metrics, dots included, and whatever else the caller gives values for. Operators + -
+// * / ^, comparisons (1 or 0), && || ?:, the constant pi, and the functions sin cos tan asin acos atan atan2 (of
+// radians), sin_deg cos_deg tan_deg (of degrees), atan_deg, hypot, sqrt, exp, ln, log2, log10, abs, min, max, floor.
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace noonmark {
+
+class Formula {
+ public:
+  // Throws Error(usage) that quotes the formula and says where it cannot be read.
+  explicit Formula(const std::string& text);
+  ~Formula();
+  Formula(Formula&&) noexcept;
+  Formula& operator=(Formula&&) noexcept;
+
+  // Every name that needs a value, each once, in alphabetical order.
+  const std::vector<std::string>& names() const;
+  // In double. NaN when any name's value is NaN, whatever the formula does with it, and for what has no value (0 / 0).
+  double value(const std::function<double(const std::string&)>& value_of) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace noonmark
