@@ -80,6 +80,45 @@ std::string subtitle(const Results& results) {
   return out;
 }
 
+using ReadFile = std::function<std::string(const std::string& path)>;
+
+struct Section {
+  const char* id;
+  const char* label;  // in the page's head
+  std::string (*html)(const Results&, const ReadFile&);
+  bool compares;  // the points with each other, which says nothing of points in different parts
+};
+template <std::string (*make)(const Results&)>
+std::string plain(const Results& results, const ReadFile&) {
+  return make(results);
+}
+constexpr Section all_sections[] = {
+    {"answer", "Answer", plain<report::answer_section>, false},
+    {"bias", "Bias", plain<report::bias_section>, true},
+    {"sweep", "Resolution", plain<report::sweep_section>, true},
+    {"budget", "Causes", plain<report::budget_section>, true},
+    {"cost", "Speed", plain<report::cost_section>, true},
+    {"pictures", "Pictures", report::pictures_section, false},
+    {"points", "Points", plain<report::points_section>, false},
+    {"meaning", "Meaning", plain<report::meaning_section>, false},
+    {"making", "Making", plain<report::making_section>, false},
+};
+
+std::vector<Section> sections_of(const Results& results) {
+  const bool parts = !results.points.empty() && !results.points.front().part.empty();
+  std::vector<Section> sections;
+  for (const Section& section : all_sections)
+    if (!parts || !section.compares) sections.push_back(section);
+  return sections;
+}
+
+std::string navigation(const Results& results) {
+  std::string links;
+  for (const Section& section : sections_of(results))
+    links += fmt::format("<a href=\"#{}\">{}</a>", section.id, section.label);
+  return links;
+}
+
 }  // namespace
 
 std::string render_report(const Results& results,
@@ -90,16 +129,17 @@ std::string render_report(const Results& results,
     if (name == "title") return title;
     if (name == "subtitle") return subtitle(results);
     if (name == "style") return colour_rules() + std::string(file("report/style.css"));
-    if (name == "sections")
-      return report::answer_section(results) + report::bias_section(results) + report::sweep_section(results) +
-             report::budget_section(results) + report::cost_section(results) +
-             report::pictures_section(results, read_file) + report::points_section(results) +
-             report::meaning_section(results) + report::making_section(results);
+    if (name == "nav") return navigation(results);
+    if (name == "sections") {
+      std::string sections;
+      for (const Section& section : sections_of(results)) sections += section.html(results, read_file);
+      return sections;
+    }
     if (name == "data") return report::script_json(report::chart_data(results));
     if (name == "vega") return vega_script();
     if (name == "script") {
       std::string script;
-      for (const char* part : {"charts", "chart_bias", "chart_sweep", "page"})
+      for (const char* part : {"charts", "chart_bias", "chart_sweep", "chart_laws", "page"})
         script += file(fmt::format("report/{}.js", part));
       return script;
     }

@@ -28,17 +28,18 @@ std::string_view unit_of(const std::string& metric) {
 
 // "All 4 bounds hold", as the coloured line on top.
 std::string verdict(const Results& results) {
-  const size_t broken = static_cast<size_t>(
-      std::count_if(results.bounds.begin(), results.bounds.end(), [](const auto& bound) { return !bound.held; }));
-  std::string kind = "none", text = "No bounds were set";
-  if (!results.bounds.empty()) {
-    kind = broken ? "broken" : "held";
-    text = broken ? fmt::format("{} of {} bounds broken", broken, results.bounds.size())
-                  : fmt::format("{} bound{}",
-                                results.bounds.size() == 1 ? "The" : fmt::format("All {}", results.bounds.size()),
-                                results.bounds.size() == 1 ? " holds" : "s hold");
-  }
-  std::string out = fmt::format("<span class=\"pill {}\">{}</span>", kind, text);
+  std::string out;
+  const auto judge = [&](const auto& list, const char* noun, const char* alone) {
+    if (list.empty()) return;
+    const auto broken = std::count_if(list.begin(), list.end(), [](const auto& one) { return !one.held; });
+    const std::string text = broken             ? fmt::format("{} of {} {}s broken", broken, list.size(), noun)
+                             : list.size() == 1 ? std::string(alone)
+                                                : fmt::format("All {} {}s hold", list.size(), noun);
+    out += fmt::format("{}<span class=\"pill {}\">{}</span>", out.empty() ? "" : " ", broken ? "broken" : "held", text);
+  };
+  judge(results.bounds, "bound", "The bound holds");
+  judge(results.laws, "law", "The law holds");
+  if (out.empty()) out = "<span class=\"pill none\">No bounds were set</span>";
   if (static_cast<int64_t>(results.points.size()) < results.planned_points)
     out += fmt::format(" <span class=\"pill broken\">Incomplete: {} of {} points</span>", results.points.size(),
                        results.planned_points);
@@ -249,6 +250,10 @@ std::string answer_section(const Results& results) {
   if (results.points.empty())
     return "<section id=\"answer\"><h2>The answer</h2>" + verdict(results) +
            "<p>No point was measured.</p></section>\n";
+  // Points of different parts are not there to be compared: there is no cheapest among them.
+  if (!results.points.front().part.empty())
+    return "<section id=\"answer\"><h2>The answer</h2>" + verdict(results) + laws_table(results) +
+           bounds_table(results) + "<ul class=\"findings\">\n" + health_items(results) + "</ul></section>\n";
   std::vector<const PointRecord*> all;
   for (const PointRecord& point : results.points) all.push_back(&point);
   std::string items = window_items(results);
@@ -258,7 +263,7 @@ std::string answer_section(const Results& results) {
   items += health_items(results);
   return "<section id=\"answer\"><h2>The answer</h2>" + verdict(results) + "<div class=\"answer\">" +
          recommendation_box(results) + "<div class=\"breaks\"><h3>What breaks</h3><ul class=\"findings\">\n" + items +
-         "</ul></div></div>\n" + bounds_table(results) + "</section>\n";
+         "</ul></div></div>\n" + bounds_table(results) + laws_table(results) + "</section>\n";
 }
 
 }  // namespace noonmark::report

@@ -103,6 +103,7 @@ json chart_data(const Results& results) {
     data["points"].push_back(std::move(entry));
   }
 
+  data["laws"] = law_data(results);
   const Recommendation recommendation = recommend(results);
   data["recommended"] = recommendation.point ? json(recommendation.point->id) : json();
   for (const char* which : {"error", "best_error"}) {

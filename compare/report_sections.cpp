@@ -20,14 +20,6 @@ std::string folded(const std::string& title, size_t rows, const std::string& inn
                      inner);
 }
 
-// The figure that charts.js fills; hidden without JavaScript, when the table below says the same.
-std::string chart(const std::string& name, const std::string& caption) {
-  return fmt::format(
-      "<figure class=\"chart js-only\" id=\"chart-{0}\"><div class=\"controls\"></div><div class=\"legend\"></div>"
-      "<div class=\"plot\" role=\"img\" aria-label=\"{1}\"></div><figcaption>{1}</figcaption></figure>\n",
-      name, caption);
-}
-
 std::string point_link(const PointRecord& point) { return fmt::format("<a href=\"#p{0}\">{0}</a>", point.id); }
 
 // Head cells and row cells for the swept settings: what tells one point from another.
@@ -56,6 +48,13 @@ std::string bias_cell(double depth, const BiasCurve& curve) {
 bool is_part(std::string_view cause) { return cause != "light_size" && cause != "aliasing" && cause != "coverage"; }
 
 }  // namespace
+
+std::string chart_place(const std::string& name, const std::string& caption) {
+  return fmt::format(
+      "<figure class=\"chart js-only\" id=\"chart-{0}\"><div class=\"controls\"></div><div class=\"legend\"></div>"
+      "<div class=\"plot\" role=\"img\" aria-label=\"{1}\"></div><figcaption>{1}</figcaption></figure>\n",
+      name, caption);
+}
 
 std::string swatch(const std::string& cause) { return fmt::format("<i class=\"sw c-{}\"></i>", html(cause)); }
 
@@ -93,7 +92,7 @@ std::string bias_section(const Results& results) {
       "Peter Panning within {} of the counted receivers.{}</p>\n",
       quantity(first->acne_bound, "fraction"), quantity(first->peter_panning_bound, "fraction"),
       alike ? fmt::format(" Varied: <code>{}</code>; made: {}.", html(first->parameter), html(first->made)) : "");
-  out += chart("bias", "Share of counted receivers by cause against the bias; the usable window is shaded.");
+  out += chart_place("bias", "Share of counted receivers by cause against the bias; the usable window is shaded.");
   std::string head =
       "<thead><tr>" + swept_head(results) +
       "<th class=\"first\" colspan=\"3\">Window from</th><th class=\"first\" colspan=\"3\">Window to</th>"
@@ -149,8 +148,9 @@ std::string sweep_section(const Results& results) {
     }
     const std::string unit = setting_unit(name);
     out += fmt::format("<h3>{}</h3>\n", html(name));
-    out += chart(fmt::format("sweep-{}", charts),
-                 fmt::format("Error against {}; one line for each other swept setting.", html(setting_label(name))));
+    out +=
+        chart_place(fmt::format("sweep-{}", charts),
+                    fmt::format("Error against {}; one line for each other swept setting.", html(setting_label(name))));
     out += fmt::format(
         "<div class=\"scroll fit\"><table class=\"numbers small-table\"><thead><tr><th>{}{}</th><th>Mean error "
         "<small>%</small></th>"
@@ -223,7 +223,7 @@ std::string cost_section(const Results& results) {
   if (front.empty()) return out + "<p>No point has both a finite time and a finite error.</p></section>\n";
   out += "<p>Points on the Pareto front: no other point is both faster and more accurate.</p>\n";
   if (results.points.size() > 1)
-    out += chart("cost", "Error against the time of shadow map and lookup; the line is the Pareto front.");
+    out += chart_place("cost", "Error against the time of shadow map and lookup; the line is the Pareto front.");
   std::string rows;
   for (size_t i : front) {
     const PointRecord& point = results.points[i];

@@ -8,7 +8,8 @@
 
 namespace noonmark::report {
 
-std::string answer_section(const Results& results);  // what breaks and what to set
+std::string answer_section(const Results& results);  // what breaks and what to set; bounds and laws
+std::string laws_table(const Results& results);      // with the chart of measured against predicted; empty without laws
 std::string bias_section(const Results& results);    // error against bias: the chart's place and the windows' table
 std::string sweep_section(const Results& results);   // error against resolution, extent and other swept numbers
 std::string budget_section(const Results& results);  // bars by cause
@@ -26,6 +27,12 @@ nlohmann::json chart_data(const Results& results);
 // together have more than max_curve_entries.
 std::vector<size_t> drawn_biases(const BiasCurve& curve, size_t entries_of_all_curves);
 inline constexpr size_t max_curve_entries = 60000;  // about 4 MB of JSON
+
+// Of the laws whose samples can be drawn.
+nlohmann::json law_data(const Results& results);
+
+// The figure that charts.js fills; hidden without JavaScript, when the table below says the same.
+std::string chart_place(const std::string& name, const std::string& caption);
 
 // "acne" -> a square of its colour, as HTML.
 std::string swatch(const std::string& cause);

@@ -104,9 +104,11 @@ std::string points_section(const Results& results) {
       same += fmt::format("{}{} {}", same.empty() ? "" : ", ", html(metric_label(name)),
                           quantity(metric_of(results.points.front(), name), metric.unit));
   }
-  out +=
-      "<p class=\"js-only small\">Click a head to sort, a row to see its bias curve.</p>\n<div class=\"scroll "
-      "tall\"><table class=\"numbers sortable\"><thead><tr><th>Point</th>";
+  const bool parts = !results.points.front().part.empty();  // then the page has no chart of bias curves
+  out += fmt::format("<p class=\"js-only small\">Click a head to sort{}.</p>\n",
+                     parts ? "" : ", a row to see its bias curve");
+  out += "<div class=\"scroll tall\"><table class=\"numbers sortable\"><thead><tr><th>Point</th>";
+  if (parts) out += "<th>Part</th>";
   for (const std::string& name : results.info.swept) {
     const std::string unit = setting_unit(name);
     out += fmt::format("<th title=\"{}\">{}{}</th>", html(name), html(setting_label(name)),
@@ -119,6 +121,7 @@ std::string points_section(const Results& results) {
   out += "</tr></thead><tbody>\n";
   for (const PointRecord& point : results.points) {
     out += fmt::format("<tr id=\"p{0}\" data-point=\"{0}\"><th scope=\"row\" data-v=\"{0}\">{0}</th>", point.id);
+    if (parts) out += fmt::format("<td class=\"text\" data-v=\"{0}\">{0}</td>", html(point.part));
     for (const std::string& name : results.info.swept) {
       const std::string value = setting_of(point, name);
       out += fmt::format("<td data-v=\"{0}\">{0}</td>", html(value));

@@ -340,6 +340,7 @@ function build(width) {
 }
 
 var self = kit.chart('bias', build);
+if (!self) return;
 var facts = kit.make('p', {class: 'facts'});
 self.legend.before(facts);
 function three(depth, curve) {
