@@ -4,6 +4,7 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "compare/cause_colors.h"
@@ -69,10 +70,17 @@ std::string fill(std::string_view page, Lookup&& lookup) {
 
 std::string subtitle(const Results& results) {
   const RunInfo& info = results.info;
-  std::string out = info.scene_name.empty() ? "" : "Scene " + report::html(info.scene_name) + " · ";
+  std::set<std::string> parts;
+  for (const PointRecord& point : results.points)
+    if (!point.part.empty()) parts.insert(point.part);
+  std::string out;
+  if (!parts.empty())
+    out = fmt::format("{} part{} · ", parts.size(), parts.size() == 1 ? "" : "s");
+  else if (!info.scene_name.empty())
+    out = "Scene " + report::html(info.scene_name) + " · ";
   out += fmt::format("{} point{}", results.points.size(), results.points.size() == 1 ? "" : "s");
   std::string swept;
-  for (const std::string& name : info.swept)
+  for (const std::string& name : parts.empty() ? info.swept : std::vector<std::string>())  // no product of all
     swept += fmt::format("{}{} ({})", swept.empty() ? "" : " × ", report::html(report::setting_label(name)),
                          values_of(results, name).size());
   if (!swept.empty()) out += " · " + swept;

@@ -17,6 +17,7 @@
 #include "compare/report_sections.h"
 #include "compare/report_text.h"
 #include "tests/report_sample.h"
+#include "tests/sample_results.h"
 
 namespace noonmark {
 namespace {
@@ -76,6 +77,35 @@ TEST(ReportText, Base64AsInRfc4648) {
   for (const auto& [bytes, text] : cases) EXPECT_EQ(report::base64(bytes), text);
 }
 
+TEST(Report, TellsEveryLaw) {
+  Results results = sample_results();
+  LawResult held = sample_law();
+  held.name = "6: the same texels";
+  held.held = true;
+  LawResult unasked = sample_law();
+  unasked.samples.clear();
+  unasked.worst = -1;
+  results.laws = {sample_law(), held, unasked};
+  const std::string page = render_report(results, sample_picture);
+  for (const char* text :
+       {"2 of 3 laws broken", "1: acne-free bias", "6: the same texels", "✓ holds", "✗ broken",
+        "acne_free_bias_m &lt;= 0.5 * texel_m (within 5%)", "0.950 .. 3.000", "Off by 0.2",
+        "noonmark render x.toml --point 3", "no point matches", "id=\"chart-laws\"", "\"measured\":0.19"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+}
+
+TEST(Report, DoesNotComparePointsOfDifferentParts) {
+  Results results = sample_results();
+  for (PointRecord& point : results.points) point.part = point.id < 3 ? "one" : "two";
+  results.laws = {sample_law()};
+  const std::string page = render_report(results, sample_picture);
+  for (const char* text : {"What to set", "id=\"bias\"", "href=\"#bias\"", "id=\"cost\"", "bias curve.</p>"})
+    EXPECT_EQ(page.find(text), std::string::npos) << text;
+  for (const char* text :
+       {"id=\"answer\"", "id=\"points\"", "href=\"#points\"", "<th>Part</th>", ">two</td>", "2 parts"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+}
+
 TEST(Report, EscapesWhateverTextTheResultsHold) {
   const std::string evil = "</script><script>alert('1')</script><img src=x onerror=\"alert(2)\">&amp;{{data}}\xff\xfe";
   Results results = sample_results();
@@ -89,6 +119,11 @@ TEST(Report, EscapesWhateverTextTheResultsHold) {
   info.swept.push_back(evil);
   info.plot.push_back(evil);
   results.bounds.push_back({evil, 1.0, {}, {{evil, {evil}}}, evil, false, nan, 3, 1, evil});
+  LawResult law = sample_law();
+  for (std::string* text :
+       {&law.part, &law.name, &law.says, &law.measured, &law.predicted, &law.tolerance, &law.join, &law.reproduce})
+    *text = evil;
+  results.laws.push_back(law);
   for (PointRecord& point : results.points) {
     point.settings[evil] = evil + std::to_string(point.id % 3);
     point.metrics[evil] = 1;

@@ -75,6 +75,22 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
   return point;
 }
 
+inline LawResult sample_law() {
+  LawResult law;
+  law.part = "law 1";
+  law.name = "1: acne-free bias";
+  law.says = "Free of acne from k w A tan(theta) on.";
+  law.measured = "acne_free_bias_m";
+  law.predicted = "0.5 * texel_m";
+  law.relation = LawRelation::at_most;
+  law.tolerance = "within 5%";
+  law.join = "each";
+  law.samples = {{3, 0.1, 0.3, 0.005}, {4, 0.2, 0.19, 0.01}};
+  law.worst = 0;
+  law.reproduce = "noonmark render x.toml --point 3";
+  return law;
+}
+
 inline RunInfo sample_info() {
   RunInfo info;
   info.experiment = "experiments/cube room.toml";
@@ -125,12 +141,24 @@ inline bool same(const PictureRecord& a, const PictureRecord& b) {
   return a.name == b.name && a.path == b.path && a.caption == b.caption;
 }
 inline bool same(const PointRecord& a, const PointRecord& b) {
-  return a.id == b.id && a.settings == b.settings && same(a.metrics, b.metrics) && same(a.times, b.times) &&
-         a.curve.has_value() == b.curve.has_value() && (!a.curve || same(*a.curve, *b.curve)) &&
+  return a.id == b.id && a.part == b.part && a.settings == b.settings && same(a.metrics, b.metrics) &&
+         same(a.times, b.times) && a.curve.has_value() == b.curve.has_value() &&
+         (!a.curve || same(*a.curve, *b.curve)) &&
          std::equal(a.pictures.begin(), a.pictures.end(), b.pictures.begin(), b.pictures.end(),
                     [](const PictureRecord& x, const PictureRecord& y) { return same(x, y); }) &&
          a.worst.x == b.worst.x && a.worst.y == b.worst.y && same(a.worst.error, b.worst.error) &&
          a.worst.cause == b.worst.cause;
+}
+
+inline bool same(const LawResult& a, const LawResult& b) {
+  return a.part == b.part && a.name == b.name && a.says == b.says && a.measured == b.measured &&
+         a.predicted == b.predicted && a.relation == b.relation && a.tolerance == b.tolerance && a.join == b.join &&
+         a.worst == b.worst && a.held == b.held && a.reproduce == b.reproduce &&
+         std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
+                    [](const LawResult::Sample& x, const LawResult::Sample& y) {
+                      return x.point == y.point && same(x.predicted, y.predicted) && same(x.measured, y.measured) &&
+                             same(x.allowed, y.allowed);
+                    });
 }
 
 }  // namespace noonmark

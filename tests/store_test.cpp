@@ -84,6 +84,29 @@ TEST_F(Store, ReturnsWhatItWasGiven) {
                      b.plot, b.scene_name, b.triangles));
 }
 
+TEST_F(Store, KeepsLawsWithTheirSamples) {
+  LawResult other = sample_law(), without = sample_law();
+  other.relation = LawRelation::at_least;
+  other.held = true;
+  other.samples[1].measured = nan_value;
+  without.samples.clear();
+  without.worst = -1;
+  {
+    ResultStore store = fresh();
+    PointRecord point = sample_point(3);
+    point.part = "law 1";
+    store.add(point);
+    store.set_laws({other});
+    store.set_laws({sample_law(), without, other});
+  }
+  const Results results = ResultStore::open(path).load();
+  EXPECT_EQ(results.points.at(0).part, "law 1");
+  ASSERT_EQ(results.laws.size(), 3u);
+  EXPECT_TRUE(same(results.laws[0], sample_law()));
+  EXPECT_TRUE(same(results.laws[1], without));
+  EXPECT_TRUE(same(results.laws[2], other));
+}
+
 TEST_F(Store, KeepsWhatIsNotFiniteApartFromWhatIsAbsent) {
   PointRecord point = sample_point(0);
   point.metrics = {{"acne", nan_value}, {"error", inf_value}, {"wrong", -inf_value}, {"filter", -0.0}};
