@@ -5,6 +5,7 @@
 
 #include "app/build_facts.h"
 #include "app/experiment.h"
+#include "app/threads.h"
 #include "app/verbs.h"
 #include "scenes/error.h"
 #include "scenes/settings.h"
@@ -43,6 +44,9 @@ int run(int argc, char** argv) {
         ->expected(1)
         ->take_all()
         ->type_name("NAME=VALUE");
+    verb->add_option("--threads", arguments.threads,
+                     "How many threads to use (default: all cores); no result depends on it")
+        ->check(CLI::Range(1, 1024));
     verb->footer(exit_codes);
   };
   const auto with_out = [&](CLI::App* verb, const char* what) {
@@ -100,6 +104,7 @@ int run(int argc, char** argv) {
     app.exit(error);
     return static_cast<int>(ErrorKind::usage);
   }
+  const ThreadLimit limit(arguments.threads);
   if (*run) return verb_run(experiment, arguments, dry_run);
   if (*check) return verb_check(paths, arguments);
   if (*render) return verb_render(experiment, point, arguments);

@@ -9,6 +9,7 @@ struct ExperimentArguments {
   std::vector<std::string> sets;  // --set name=value, in order
   std::string out;                // --out; empty: out/<name of the experiment>
   bool overwrite = false;
+  int threads = 0;      // --threads; 0: all cores
   std::string command;  // the whole command line, for the record
 };
 

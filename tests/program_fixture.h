@@ -1,0 +1,61 @@
+// Runs the program itself, in a folder of its own.
+#pragma once
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenes/file.h"
+
+namespace noonmark::acceptance {
+
+namespace fs = std::filesystem;
+
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("noonmark-" + std::to_string(getpid()) + "-" +
+                                              testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  pid_t start(const std::vector<std::string>& arguments) {
+    std::vector<char*> argv = {const_cast<char*>(NOONMARK_PROGRAM)};
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    const pid_t child = fork();
+    if (child != 0) return child;
+    if (chdir(folder_.c_str()) != 0) _exit(126);
+    const int output = open("output.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(output, 1);
+    dup2(output, 2);
+    execv(NOONMARK_PROGRAM, argv.data());
+    _exit(127);
+  }
+  static int wait_for(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  int run(const std::vector<std::string>& arguments) {
+    const int code = wait_for(start(arguments));
+    output_ = read_file((folder_ / "output.txt").string());
+    return code;
+  }
+  std::string write(const std::string& name, const std::string& text) {
+    write_file_atomically((folder_ / name).string(), text);
+    return (folder_ / name).string();
+  }
+  bool says(const std::string& text) const { return output_.find(text) != std::string::npos; }
+
+  fs::path folder_;
+  std::string output_;
+};
+
+}  // namespace noonmark::acceptance
