@@ -20,6 +20,7 @@ struct Lists {
   std::vector<float> error_dark, error_light, wrong_dark, wrong_light;
   std::array<std::vector<float>, cause_count> by_cause;
   uint64_t receivers = 0;
+  float stored_acne = 0;  // the largest threshold
 };
 
 // Empties `from`: with large kernels these lists are gigabytes, and two copies of all of them would not do.
@@ -57,6 +58,8 @@ BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, 
                           if (!exact.exact_lit || at_r4 > 0)
                             lists.by_cause[static_cast<size_t>(tap_cause(exact, !exact.exact_lit))].push_back(at_r4);
                           const float at_r5 = threshold(tap_of(e.probe, e.taps, e.map, stored_map, i, kernel, t));
+                          if (exact.covered && exact.exact_lit && exact.texel_lit)
+                            lists.stored_acne = std::max(lists.stored_acne, at_r5);
                           least = std::min(least, at_r5);
                           most = std::max(most, at_r5);
                           if (!e.truth.lit[i])
@@ -72,6 +75,7 @@ BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, 
                     });
   parts.combine_each([&](Lists& part) {
     receivers_ += part.receivers;
+    stored_acne_free_from_ = std::max(stored_acne_free_from_, part.stored_acne);
     append(error_dark_, part.error_dark);
     append(error_light_, part.error_light);
     append(wrong_dark_, part.wrong_dark);
@@ -192,6 +196,9 @@ BiasCurve summarise(const BiasCounts& counts, CurveParameter parameter, const Li
     curve.flat_min_depth = best.flat_from;
     curve.flat_max_depth = best.flat_to;
     curve.breakpoints = best.breakpoints;
+    const auto if_any = [](float x) { return x < infinity ? std::optional<double>(x) : std::nullopt; };
+    curve.acne_free_bias_depth = if_any(counts.acne_free_from(0));
+    curve.acne_free_bias_stored_depth = if_any(counts.stored_acne_free_from());
   } else {
     curve.best_error = std::numeric_limits<double>::quiet_NaN();
   }

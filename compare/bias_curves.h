@@ -43,6 +43,9 @@ class BiasCounts {
   // no bias makes more).
   float acne_free_from(uint64_t allowed) const;
   float peter_panning_free_to(uint64_t allowed) const;
+  // The least x from which the stored map darkens no covered tap that is lit at its exact place and at its texel's
+  // centre: what acne_free_from(0) is on the exact map.
+  float stored_acne_free_from() const { return stored_acne_free_from_; }
 
   struct Best {
     float from = 0, to = 0;  // the stretch of least error in [0, 1]; the lowest where several are equal
@@ -60,6 +63,7 @@ class BiasCounts {
 
   uint64_t receivers_ = 0;
   int taps_per_receiver_ = 1;
+  float stored_acne_free_from_ = 0;
   Thresholds error_dark_, error_light_, wrong_dark_, wrong_light_;
   std::array<Thresholds, cause_count> by_cause_;
 };

@@ -20,8 +20,9 @@ struct MeasureInput {
   int kernel = 1;  // taps on a side
 };
 
-// Every metric of the table but the times. A value that is not finite in the images makes the metrics that it enters
-// not finite; nothing is skipped. Without a counted receiver every fraction, gap and displacement is NaN.
+// Every metric of the table but the times and those of compare/law_metrics.h. A value that is not finite in the images
+// makes the metrics that it enters not finite; nothing is skipped. Without a counted receiver every fraction, gap and
+// displacement is NaN.
 std::map<std::string, double> measure_ladder(const MeasureInput& input);
 
 // The counted pixels with any Peter Panning whose own truth is dark: those whose occluder's distance measure_ladder()

@@ -50,6 +50,18 @@ constexpr CurveQuantity table[] = {
      [](const BiasCurve& c) { return Value(c.flat_min_depth); }},
     {"flat_max_depth", "depth", "Up to here the error is within 10% of the best.",
      [](const BiasCurve& c) { return Value(c.flat_max_depth); }},
+    {"acne_free_bias_depth", "depth",
+     "Least bias without any acne, on an exact map; of the form slope: least bias.slope, over the set floor.",
+     [](const BiasCurve& c) { return c.acne_free_bias_depth; }},
+    {"acne_free_bias_m", "m", "Least bias without any acne, along the light.",
+     [](const BiasCurve& c) { return scaled(c.acne_free_bias_depth, c.m_per_depth); }},
+    {"acne_free_bias_texels", "texels", "Least bias without any acne, in texels of the map.",
+     [](const BiasCurve& c) { return scaled(c.acne_free_bias_depth, c.texels_per_depth); }},
+    {"acne_free_bias_stored_depth", "depth",
+     "Least bias without any acne on the GPU's own map, its format and rasteriser included.",
+     [](const BiasCurve& c) { return c.acne_free_bias_stored_depth; }},
+    {"acne_free_bias_stored_m", "m", "Least bias without any acne on the GPU's own map, along the light.",
+     [](const BiasCurve& c) { return scaled(c.acne_free_bias_stored_depth, c.m_per_depth); }},
 };
 
 }  // namespace

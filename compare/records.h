@@ -29,6 +29,9 @@ struct BiasCurve {
   double best_error = 0;
   double flat_min_depth = 0, flat_max_depth = 0;  // biases whose error is within 10% of the best
   uint64_t breakpoints = 0;                       // of the exact curve
+  // The least value of the parameter from which no tap is acne, whatever the bounds above: on the exact map, as `acne`
+  // is defined, and on the GPU's own with its format and rasteriser. Empty where no value is enough.
+  std::optional<double> acne_free_bias_depth, acne_free_bias_stored_depth;
 };
 
 // A picture of a point, for people. Path relative to the results' directory.

@@ -127,11 +127,11 @@ void add_curve(Database& db, int64_t point, const BiasCurve& curve) {
   if (curve.window_min_depth.has_value() != curve.window_max_depth.has_value())
     throw std::logic_error("a usable bias window has two ends or none");
 
-  Statement(db, "INSERT INTO curves VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+  Statement(db, "INSERT INTO curves VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .run(point, curve.parameter, curve.made, curve.m_per_depth, curve.texels_per_depth, curve.acne_bound,
            curve.peter_panning_bound, curve.window_min_depth ? 1 : 0, curve.window_min_depth, curve.window_max_depth,
            curve.best_bias_depth, curve.best_error, curve.flat_min_depth, curve.flat_max_depth,
-           static_cast<int64_t>(curve.breakpoints));
+           static_cast<int64_t>(curve.breakpoints), curve.acne_free_bias_depth, curve.acne_free_bias_stored_depth);
   Statement insert(db, "INSERT INTO curve_points VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (size_t i = 0; i < count; ++i)
     insert.run(point, static_cast<int64_t>(i), curve.bias_depth[i], curve.error[i], curve.wrong[i], curve.acne[i],
@@ -162,7 +162,7 @@ void load_curves(Database& db, std::map<int64_t, PointRecord>& points) {
   for (Statement rows(db,
                       "SELECT point, parameter, made, m_per_depth, texels_per_depth, acne_bound, peter_panning_bound, "
                       "has_window, window_min_depth, window_max_depth, best_bias_depth, best_error, flat_min_depth, "
-                      "flat_max_depth, breakpoints FROM curves");
+                      "flat_max_depth, breakpoints, acne_free_bias_depth, acne_free_bias_stored_depth FROM curves");
        rows.step();) {
     BiasCurve& curve = points.at(rows.integer(0)).curve.emplace();
     curve.parameter = rows.text(1);
@@ -180,6 +180,8 @@ void load_curves(Database& db, std::map<int64_t, PointRecord>& points) {
     curve.flat_min_depth = rows.real(12);
     curve.flat_max_depth = rows.real(13);
     curve.breakpoints = static_cast<uint64_t>(rows.integer(14));
+    if (!rows.null(15)) curve.acne_free_bias_depth = rows.real(15);
+    if (!rows.null(16)) curve.acne_free_bias_stored_depth = rows.real(16);
   }
   for (Statement rows(db,
                       "SELECT point, bias_depth, error, wrong, acne, peter_panning, aliasing_dark, aliasing_light, "

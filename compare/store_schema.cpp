@@ -24,6 +24,7 @@ CREATE TABLE curves (
   point INTEGER PRIMARY KEY, parameter TEXT, made TEXT, m_per_depth REAL, texels_per_depth REAL,
   acne_bound REAL, peter_panning_bound REAL, has_window INTEGER, window_min_depth REAL, window_max_depth REAL,
   best_bias_depth REAL, best_error REAL, flat_min_depth REAL, flat_max_depth REAL, breakpoints INTEGER,
+  acne_free_bias_depth REAL, acne_free_bias_stored_depth REAL,
   window_width_depth REAL GENERATED ALWAYS AS (CASE WHEN has_window THEN window_max_depth - window_min_depth ELSE 0 END));
 CREATE TABLE curve_points (
   point INTEGER, i INTEGER, bias_depth REAL, error REAL, wrong REAL, acne REAL, peter_panning REAL,

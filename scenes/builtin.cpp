@@ -75,12 +75,15 @@ Scene wall(const SceneSettings& settings) {
 }
 
 // A thin plate above a floor. Its shadow is lost once its lit face stands less than b cos(theta) above the floor,
-// however thick it is: the map stores the lit face.
+// however thick it is: the map stores the lit face. phi: turns it about the vertical, so that under a light straight
+// above its edges cross the texels at that angle.
 Scene plate(const SceneSettings& settings) {
   Scene scene;
   add_floor(scene, 3, 0);
   const double top = settings.height_m;
-  add_box(scene, "plate", {-0.8, top - settings.thickness_m, -0.6}, {0.8, top, 0.6});
+  const glm::dvec3 low(-0.8, top - settings.thickness_m, -0.6), high(0.8, top, 0.6);
+  const glm::dmat4 placed = glm::translate(glm::dmat4(1), (low + high) / 2.0);
+  add_box(scene, "plate", (high - low) / 2.0, glm::rotate(placed, radians(settings.phi_deg), glm::dvec3(0, 1, 0)));
   scene.camera = {.eye_m = {3.2, 2.6, 4.2}, .target_m = {0.2, 0.1, 0.1}, .fov_y_deg = 35, .near_m = 0.1, .far_m = 30};
   scene.light = {.position_m = {-3, 4, -1.5}, .target_m = {0, 0, 0}};
   scene.map = MapVolume{.extent_m = 9, .near_m = 0.5, .far_m = 10};
@@ -153,7 +156,7 @@ constexpr BuiltinScene scenes[] = {
     {"cube-room", "the standard tutorial scene: acne stripes, Peter Panning, a map smaller than the floor", cube_room},
     {"plane", "acne alone, on a plane of any slope (scene.theta_deg, scene.phi_deg)", plane},
     {"wall", "Peter Panning at the foot of a wall (scene.thickness_m), none at a lit foot", wall},
-    {"plate", "a plate whose shadow a bias can lose (scene.height_m, scene.thickness_m)", plate},
+    {"plate", "a plate whose shadow a bias can lose (scene.height_m, scene.thickness_m, scene.phi_deg)", plate},
     {"pillars", "objects 30 m apart: extent against resolution", pillars},
     {"sphere", "every slope up to grazing, no occluder", sphere},
     {"bowl", "a concave receiver that does not shade itself", bowl},

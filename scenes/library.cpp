@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "scenes/error.h"
+#include "scenes/remesh.h"
 
 namespace noonmark {
+namespace {
 
-Scene make_scene(const SceneSettings& settings) {
+Scene scene_as_built(const SceneSettings& settings) {
   std::vector<std::string_view> names;
   for (const BuiltinScene& builtin : builtin_scenes()) {
     if (builtin.name == settings.name) {
@@ -26,5 +28,9 @@ Scene make_scene(const SceneSettings& settings) {
                   ".glb file",
                   settings.name, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
 }
+
+}  // namespace
+
+Scene make_scene(const SceneSettings& settings) { return remeshed(scene_as_built(settings), settings.mesh); }
 
 }  // namespace noonmark

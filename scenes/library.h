@@ -20,8 +20,8 @@ struct BuiltinScene {
 
 std::span<const BuiltinScene> builtin_scenes();
 
-// A built-in name, or a path that ends in .gltf or .glb. Throws Error(usage) for an unknown name (suggesting the
-// nearest), Error(scene) for a file that cannot be used.
+// A built-in name, or a path that ends in .gltf or .glb; in the triangles that settings.mesh names. Throws Error(usage)
+// for an unknown name (suggesting the nearest), Error(scene) for a file that cannot be used.
 Scene make_scene(const SceneSettings& settings);
 
 // scenes/gltf.cpp. Nothing outside the file's own folder is read; images are never loaded. A camera and a light are

@@ -110,6 +110,9 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
     throw Error(ErrorKind::usage, fmt::format("the map's near plane ({} m) is not before its far plane ({} m); set "
                                               "map.near_m and map.far_m",
                                               frame.near_m, frame.far_m));
+  // Texels, matrix and depths are all relative to the origin, so the grid moves as one.
+  frame.origin_m +=
+      (settings.map.shift_u_texels * frame.right + settings.map.shift_v_texels * frame.up) * frame.texel_m();
   return frame;
 }
 

@@ -13,7 +13,7 @@
 namespace noonmark {
 
 struct LightFrame {
-  glm::dvec3 origin_m{0};  // where u, v and z are 0
+  glm::dvec3 origin_m{0};  // where u, v and z are 0: the light's position, moved by map.shift_*_texels
   glm::dvec3 right{1, 0, 0};
   glm::dvec3 up{0, 1, 0};
   glm::dvec3 forward{0, 0, -1};       // the way the light travels; unit

@@ -16,6 +16,7 @@
 
 namespace noonmark {
 
+enum class MeshForm { as_built, one_mesh, split, reversed, doubled };  // scenes/remesh.h
 enum class DepthFormat { d16, d24, d32f };
 enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
 enum class CulledFaces { none, back, front };
@@ -26,9 +27,11 @@ enum class FilterKind { none, box };
 struct SceneSettings {
   std::string name = "cube-room";  // a built-in scene, or the path of a .gltf or .glb file
   double theta_deg = 45;           // plane: the angle between its normal and the light
-  double phi_deg = 0;              // plane: azimuth of the slope in the light's plane, against the texel axes
+  double phi_deg = 0;              // plane: azimuth of the slope in the light's plane, against the texel axes; plate:
+                                   // how far it is turned about the vertical
   double thickness_m = 0.1;        // wall, plate
   double height_m = 0.5;           // plate: of its lit face above the floor
+  MeshForm mesh = MeshForm::as_built;  // the same surface in other triangles
 };
 
 struct ViewSettings {
@@ -50,6 +53,8 @@ struct MapSettings {
   DepthFormat format = DepthFormat::d24;
   std::optional<double> extent_m;  // whole width; empty: the scene's, or fitted tightly where it has none
   double extent_scale = 1;         // multiplies the extent, however it came about
+  double shift_u_texels = 0;       // moves the whole grid in the light's plane, along its right ...
+  double shift_v_texels = 0;       // ... and its up
   std::optional<double> near_m;    // along the light's axis from its position; empty: the scene's, or fitted
   std::optional<double> far_m;
   Wrap wrap = Wrap::clamp_to_border;  // the border's depth is 1: lit

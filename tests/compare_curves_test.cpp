@@ -153,6 +153,39 @@ TEST_P(Curves, NameTheExactEndsOfTheWindow) {
   }
 }
 
+// Taps of the stored map that are dark at x though they are covered and both their truths are lit.
+uint64_t stored_acne(const Synthetic& s, CurveParameter parameter, float x) {
+  uint64_t count = 0;
+  for (size_t i = 0; i < s.truth.facing.size(); ++i) {
+    if (!s.truth.facing[i] || s.truth.ambiguous[i]) continue;
+    for (const naive::Tap& tap : naive::taps_of(s, s.stored, i))
+      count +=
+          tap.covered && tap.exact_lit && tap.texel_lit && !naive::verdict(s, tap, i, swept_bias(s, parameter, i, x));
+  }
+  return count;
+}
+
+TEST_P(Curves, NameTheExactEndOfTheStoredMapsAcne) {
+  for (uint64_t seed = 20; seed <= 32; ++seed) {
+    const Synthetic s = evidence_for(parameter, seed, shape);
+    const BiasCounts counts(s.evidence(), s.stored, parameter);
+    const float from = counts.stored_acne_free_from();
+    if (from < infinity) {
+      EXPECT_EQ(stored_acne(s, parameter, from), 0);
+    } else {
+      EXPECT_GT(stored_acne(s, parameter, std::numeric_limits<float>::max()), 0);
+    }
+    if (from > 0) {
+      EXPECT_GT(stored_acne(s, parameter, std::nextafter(from, 0.0f)), 0) << seed << " from " << from;
+    }
+    // The record has both ends whatever its bounds are, and none where no bias is enough.
+    const BiasCurve curve = summarise(counts, parameter, LightFrame{}, {1, 1, {}});
+    const auto expected = [](float x) { return x < infinity ? std::optional<double>(x) : std::nullopt; };
+    EXPECT_EQ(curve.acne_free_bias_depth, expected(counts.acne_free_from(0)));
+    EXPECT_EQ(curve.acne_free_bias_stored_depth, expected(from));
+  }
+}
+
 TEST_P(Curves, FindTheBestBiasByTryingAll) {
   for (uint64_t seed = 40; seed <= 52; ++seed) {
     const Synthetic s = evidence_for(parameter, seed, shape);
@@ -266,6 +299,7 @@ TEST(Summarise, GivesSharesUnitsAndTheWindow) {
   EXPECT_EQ(c.peter_panning, (std::vector<double>{0, 0, 0, 0.1, 0.2}));
   for (const auto& series : {c.aliasing_dark, c.aliasing_light, c.coverage})
     EXPECT_EQ(series, std::vector<double>(5, 0));
+  EXPECT_NEAR(c.acne_free_bias_depth.value(), 0x1p-5, 0x1p-24);
   EXPECT_EQ(c.m_per_depth, 6.5);
   EXPECT_DOUBLE_EQ(c.texels_per_depth, 6.5 / 0.02);
   // reference - bias > stored lights a tie, so acne ends at the bias and Peter Panning starts at it; the float

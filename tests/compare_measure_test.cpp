@@ -8,6 +8,7 @@
 #include <set>
 
 #include "compare/distance.h"
+#include "compare/law_metrics.h"
 #include "compare/measure.h"
 #include "compare/metrics.h"
 #include "scenes/error.h"
@@ -73,6 +74,9 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
   p.step(0, 1, Cause::aliasing_light, 0.25f);
   p.edge.at(0, 1) = 0.75f;
   p.step(0, 1, Cause::precision, 0.25f);
+  p.step(2, 2, Cause::peter_panning, 0.25f);  // of a lit receiver
+  p.step(1, 1, Cause::peter_panning, 0.25f);  // of a dark one
+  p.occluder.at(1, 1) = 100;                  // out of the bias's reach: no gap
   p.rungs(1, 1, {0, 0, 0, 0, 1, 1});
   p.step(1, 1, Cause::coverage_light, 1);
   p.ladder.flags.at(1, 1) |= flag_outside;
@@ -96,7 +100,8 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"aliasing_dark", 1 / base},
       {"aliasing_light", 0.25 / base},
       {"acne", 0.75 / base},
-      {"peter_panning", 0},
+      {"peter_panning", 0.5 / base},
+      {"peter_panning_lit", 0.25 / base},
       {"coverage", 2 / base},
       {"coverage_dark", 1 / base},
       {"coverage_light", 1 / base},
@@ -270,7 +275,7 @@ TEST(WorstPixel, IsTheFirstOfTheLargestErrors) {
 
 TEST(MetricsTable, NamesWhatIsMeasured) {
   const std::set<std::string> times = {"map_ms", "lookup_ms", "shadow_ms"};  // the workbench's own
-  const std::set<std::string_view> units = {"fraction", "m", "texels", "pixels", "count", "ms", ""};
+  const std::set<std::string_view> units = {"fraction", "m", "m2", "texels", "pixels", "count", "ms", ""};
   std::set<std::string> names;
   for (const Metric& metric : metrics_table()) {
     EXPECT_TRUE(names.insert(std::string(metric.name)).second) << metric.name << " twice";
@@ -280,7 +285,11 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
     EXPECT_EQ(&find_metric(metric.name), &metric);
   }
   std::set<std::string> measured = times;
-  for (const auto& [name, value] : Picture(1, 1).metrics()) measured.insert(name);
+  const Picture picture(1, 1);
+  for (const auto& [name, value] : picture.metrics()) measured.insert(name);
+  const ReceiverImage receivers{Image<glm::vec3>(1, 1), Image<glm::vec3>(1, 1, glm::vec3(0, 1, 0)), picture.primitive};
+  for (const auto& [name, value] : measure_laws({picture.ladder, receivers, Camera{}, LightFrame{}}))
+    measured.insert(name);
   EXPECT_EQ(names, measured);
   EXPECT_EQ(find_metric("residual").unit, "");
   EXPECT_EQ(find_metric("tap_residual").unit, "");

@@ -67,6 +67,8 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
     curve.flat_min_depth = 0.04;
     curve.flat_max_depth = 0.06;
     curve.breakpoints = 87420;
+    curve.acne_free_bias_depth = 0.1 / 7;
+    curve.acne_free_bias_stored_depth = id % 2 ? std::optional(0.2 / 7) : std::nullopt;
     point.curve = curve;
   }
   point.pictures = {{"truth", "images/p0003-truth.png", "The truth."},
@@ -135,7 +137,9 @@ inline bool same(const BiasCurve& a, const BiasCurve& b) {
          same(a.peter_panning_bound, b.peter_panning_bound) && same(a.window_min_depth, b.window_min_depth) &&
          same(a.window_max_depth, b.window_max_depth) && same(a.best_bias_depth, b.best_bias_depth) &&
          same(a.best_error, b.best_error) && same(a.flat_min_depth, b.flat_min_depth) &&
-         same(a.flat_max_depth, b.flat_max_depth) && a.breakpoints == b.breakpoints;
+         same(a.flat_max_depth, b.flat_max_depth) && a.breakpoints == b.breakpoints &&
+         same(a.acne_free_bias_depth, b.acne_free_bias_depth) &&
+         same(a.acne_free_bias_stored_depth, b.acne_free_bias_stored_depth);
 }
 inline bool same(const PictureRecord& a, const PictureRecord& b) {
   return a.name == b.name && a.path == b.path && a.caption == b.caption;

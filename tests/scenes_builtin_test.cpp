@@ -254,6 +254,25 @@ TEST(BuiltinScenes, WallAndPlateHaveTheThicknessTheySay) {
   EXPECT_FLOAT_EQ(static_cast<float>(top), 0.75f);
 }
 
+// Seen by a light straight above (its u to the right along x, its v along -z), the edge that faces +x at first faces
+// azimuth phi.
+TEST(BuiltinScenes, PhiTurnsThePlate) {
+  const Scene still = make_scene({.name = "plate", .thickness_m = 0.02});
+  for (double phi : {0.0, 20.0, 45.0, -130.0}) {
+    const Scene turned = make_scene({.name = "plate", .phi_deg = phi, .thickness_m = 0.02});
+    ASSERT_EQ(turned.positions.size(), still.positions.size());
+    const double c = std::cos(glm::radians(phi)), s = std::sin(glm::radians(phi));
+    const Part& plate = still.parts[1];
+    for (uint32_t t = 0; t < still.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 p = corner(still, t, i);
+        const bool moves = t >= plate.first_triangle;
+        const glm::dvec3 expected = moves ? glm::dvec3(c * p.x + s * p.z, p.y, -s * p.x + c * p.z) : p;
+        EXPECT_LT(glm::length(corner(turned, t, i) - expected), 1e-6) << phi;  // some roundings of floats near 1
+      }
+  }
+}
+
 TEST(BuiltinScenes, SphereIsConvexAndBowlOpensUpward) {
   const std::vector<Scene> scenes = all_scenes();
   const Scene& sphere = named(scenes, "sphere");

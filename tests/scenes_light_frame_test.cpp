@@ -128,6 +128,46 @@ TEST(LightFrame, SettingsChangeTheVolume) {
   EXPECT_EQ(f.resolution, 17);
 }
 
+// A place keeps its light-plane distance to every place, and moves against the grid by exactly the shift: in metres, in
+// the matrix, in the texels' centres.
+TEST(LightFrame, TheShiftMovesTheGridAndNothingElse) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 200; ++i) {
+    const Scene scene = scene_lit_from(random_point(random, 5), random_point(random, 5));
+    Settings settings;
+    settings.map.resolution = 1 + static_cast<int>(random() % 2000);
+    settings.map.extent_scale = random_in(random, 0.5, 2);
+    const LightFrame still = make_light_frame(scene, settings);
+    const glm::dvec2 shift(random_in(random, -1, 1), random_in(random, -1, 1));
+    settings.map.shift_u_texels = shift.x;
+    settings.map.shift_v_texels = shift.y;
+    const LightFrame moved = make_light_frame(scene, settings);
+    EXPECT_EQ(moved.texel_m(), still.texel_m());
+    EXPECT_EQ(moved.forward, still.forward);
+    EXPECT_EQ(moved.ray_direction, still.ray_direction);
+
+    const glm::dvec3 p = random_point(random, 10);
+    const glm::dvec3 before = still.to_light(p), after = moved.to_light(p);
+    EXPECT_NEAR(after.x, before.x - shift.x * still.texel_m(), rounding_m);
+    EXPECT_NEAR(after.y, before.y - shift.y * still.texel_m(), rounding_m);
+    EXPECT_NEAR(after.z, before.z, rounding_m);
+    const glm::dvec4 clip = moved.clip_from_world() * glm::dvec4(p, 1);
+    EXPECT_NEAR(clip.x, after.x / (moved.extent_m / 2), rounding_m);
+    EXPECT_NEAR(clip.y, after.y / (moved.extent_m / 2), rounding_m);
+    EXPECT_NEAR(clip.z / 2 + 0.5, moved.window_depth(before.z), rounding_m);
+    // The world place of a texel's centre, and back through the matrix into the middle of that texel.
+    const glm::ivec2 texel(random() % 3000, random() % 3000);
+    const glm::dvec2 c = moved.texel_centre(texel);
+    const glm::dvec3 world = moved.to_world({c.x, c.y, 3});
+    const glm::dvec2 old = still.texel_centre(texel);
+    EXPECT_NEAR(still.to_light(world).x, old.x + shift.x * still.texel_m(), rounding_m);
+    EXPECT_NEAR(still.to_light(world).y, old.y + shift.y * still.texel_m(), rounding_m);
+    const glm::dvec4 back = moved.clip_from_world() * glm::dvec4(world, 1);
+    EXPECT_NEAR((back.x / 2 + 0.5) * moved.resolution, texel.x + 0.5, 1e-8);
+    EXPECT_NEAR((back.y / 2 + 0.5) * moved.resolution, texel.y + 0.5, 1e-8);
+  }
+}
+
 TEST(LightFrame, AMovedLightGetsAFittedVolume) {
   Scene scene = make_scene({.name = "wall"});
   Settings settings;

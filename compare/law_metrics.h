@@ -1,0 +1,39 @@
+// Metrics in which the laws of shadow maps are closed forms: lengths of the map, the bias that law 1 asks for, and
+// errors summed over the light's plane, which do not depend on where the camera stands.
+//
+//   m.merge(measure_laws({ladder, receivers, camera, frame, settings.map.format, kernel}));
+#pragma once
+#include <map>
+#include <string>
+
+#include "compare/ladder.h"
+#include "scenes/light_frame.h"
+#include "scenes/receivers.h"
+#include "scenes/scene.h"
+
+namespace noonmark {
+
+struct LawInput {
+  const Ladder& ladder;
+  const ReceiverImage& receivers;
+  const Camera& camera;
+  const LightFrame& frame;
+  DepthFormat format = DepthFormat::d24;
+  int kernel = 1;  // taps on a side
+};
+
+// One step of the map's format in metres along the light; of 32-bit float the largest step in [0,1].
+double depth_quantum_m(DepthFormat format, double range_m);
+
+// The size of the depth's gradient along the texel axes, |dz/du| + |dz/dv|, of a plane with this normal.
+double gradient_1(const LightFrame& frame, glm::dvec3 normal);
+
+// How much of the light's plane the surface behind pixel (x, y) covers, in m2: the pixel's solid angle, carried to the
+// receiver's distance and turned from the view to the surface and from the surface to the light. Exact to the first
+// order of the pixel's size; the whole pixel is taken to be the surface at its centre.
+double light_plane_area(const Camera& camera, const LightFrame& frame, const ReceiverImage& receivers, int x, int y);
+
+// Without a counted receiver the areas and the law's bias are NaN; what is not finite in the images makes them so.
+std::map<std::string, double> measure_laws(const LawInput& input);
+
+}  // namespace noonmark
