@@ -8,7 +8,7 @@
 #include <set>
 
 #include "app/experiment.h"
-#include "app/toml_reader.h"
+#include "app/settings_reader.h"
 #include "compare/formula.h"
 #include "compare/quantities.h"
 #include "scenes/error.h"
@@ -17,11 +17,11 @@
 namespace noonmark {
 namespace {
 
-class Reader : private TomlReader {
+class Reader : private SettingsReader {
  public:
-  explicit Reader(const std::string& path) : TomlReader(path) { experiment_.path = path; }
+  explicit Reader(const std::string& path) : SettingsReader(path) { experiment_.path = path; }
   // Of a part, which begins as what stands outside the parts.
-  explicit Reader(const Experiment& defaults) : TomlReader(defaults.path), experiment_(defaults), in_part_(true) {}
+  explicit Reader(const Experiment& defaults) : SettingsReader(defaults.path), experiment_(defaults), in_part_(true) {}
 
   Experiment read(const toml::table& root) {
     for (const Item& item : items(root)) {
@@ -48,7 +48,8 @@ class Reader : private TomlReader {
       else if (item.key == "law")
         laws_ = item.node;
       else if (is_group(item.key))
-        read_settings(table(*item.node, "[" + item.key + "]"), item.key, &Reader::fix);
+        read_settings(table(*item.node, "[" + item.key + "]"), item.key,
+                      [this](const auto&... value) { fix(value...); });
       else
         unknown(item, "key", root_keys(), in_part_ ? "part." : "");
     }
@@ -68,63 +69,6 @@ class Reader : private TomlReader {
   }
 
  private:
-  // The text that the setting's row takes for one TOML value.
-  std::string raw_text(const Setting& row, const toml::node& node) const {
-    if (node.is_integer()) return fmt::format("{}", node.as_integer()->get());
-    if (node.is_floating_point()) return fmt::format("{}", node.as_floating_point()->get());
-    if (node.is_boolean()) return node.as_boolean()->get() ? "true" : "false";
-    if (node.is_array() && row.type == ValueType::point) {
-      std::vector<std::string> parts;
-      for (const toml::node& part : *node.as_array())
-        parts.push_back(fmt::format("{}", number(part, std::string(row.name))));
-      return fmt::format("{}", fmt::join(parts, ","));
-    }
-    if (node.is_string()) {
-      const std::string text = node.as_string()->get();
-      const bool quoted_number =
-          row.type == ValueType::integer || row.type == ValueType::real || row.type == ValueType::flag;
-      if (quoted_number && !(row.may_be_auto && text == "auto"))
-        fail(node, fmt::format("{} = \"{}\" is a string; it takes {}, written without quotes", row.name, text,
-                               row.range_text()));
-      return row.name == "scene.name" ? scene_path(text) : text;
-    }
-    fail(node, fmt::format("{} cannot be this kind of value; it takes {}", row.name, row.range_text()));
-  }
-
-  std::string canonical(const Setting& row, const toml::node& node) const {
-    return at(node.source(), [&] { return canonical_text(row, raw_text(row, node)); });
-  }
-
-  static std::string canonical_text(const Setting& row, const std::string& text) {
-    Settings scratch;
-    row.set(scratch, text);
-    return row.get(scratch);
-  }
-
-  // A relative path of a scene file starts at the experiment's folder. Built-in names have no such ending.
-  std::string scene_path(const std::string& name) const {
-    const std::filesystem::path path(name);
-    std::string ending = path.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if ((ending != ".gltf" && ending != ".glb") || path.is_absolute()) return name;
-    return (std::filesystem::path(experiment_.path).parent_path() / path).lexically_normal().string();
-  }
-
-  // ---- settings by table
-
-  static std::vector<std::string_view> groups() {
-    std::vector<std::string_view> names;
-    for (const Setting& row : settings_table()) {
-      const std::string_view group = row.name.substr(0, row.name.find('.'));
-      if (std::find(names.begin(), names.end(), group) == names.end()) names.push_back(group);
-    }
-    return names;
-  }
-  static bool is_group(const std::string& key) {
-    const std::vector<std::string_view> names = groups();
-    return std::find(names.begin(), names.end(), key) != names.end();
-  }
   std::vector<std::string_view> root_keys() const {
     std::vector<std::string_view> names = groups();
     for (std::string_view key : {"sweep", "curve", "let", "bound", "law"}) names.push_back(key);
@@ -149,31 +93,6 @@ class Reader : private TomlReader {
     at(node.source(), [&] { return point_count(experiment_); });
   }
 
-  using Use = void (Reader::*)(const std::string& setting, const toml::node& value);
-
-  // Hands every setting in a table to `use`: `resolution` in group `map`, or, with no group, `map.resolution` as nested
-  // tables, dotted keys or one quoted key.
-  void read_settings(const toml::table& table, const std::string& group, Use use) {
-    for (const Item& item : items(table)) {
-      const std::string name = group.empty() ? item.key : group + "." + item.key;
-      if (group.empty() && is_group(item.key)) {
-        if (!item.node->is_table())
-          fail(*item.node, fmt::format("'{0}' is a group of settings; name one, such as {0}.{1}", item.key,
-                                       settings_of(item.key).front().substr(item.key.size() + 1)));
-        read_settings(*item.node->as_table(), item.key, use);
-        continue;
-      }
-      at(item.where, [&] { find_setting(name); });
-      (this->*use)(name, *item.node);
-    }
-  }
-  static std::vector<std::string_view> settings_of(const std::string& group) {
-    std::vector<std::string_view> names;
-    for (const Setting& row : settings_table())
-      if (row.name.starts_with(group + ".")) names.push_back(row.name);
-    return names;
-  }
-
   void fix(const std::string& name, const toml::node& value) {
     const Setting& row = find_setting(name);
     row.set(experiment_.base, canonical(row, value));
@@ -183,7 +102,7 @@ class Reader : private TomlReader {
   // ---- [sweep]
 
   void read_sweep(const toml::table& table) {
-    read_settings(table, "", &Reader::sweep);
+    read_settings(table, "", [this](const auto&... value) { sweep(value...); });
     std::stable_sort(sweep_order_.begin(), sweep_order_.end());
     std::vector<Swept> ordered;
     for (const auto& [line, column, index] : sweep_order_) ordered.push_back(std::move(experiment_.swept[index]));
@@ -215,17 +134,6 @@ class Reader : private TomlReader {
     const toml::source_position place = value.source().begin;
     sweep_order_.emplace_back(place.line, place.column, experiment_.swept.size());
     experiment_.swept.push_back(std::move(swept));
-  }
-
-  static std::string range_text(const Setting& row, double value) {
-    if (row.type == ValueType::real) return canonical_text(row, fmt::format("{}", value));
-    // pow() of a doubling range misses the integers by a few units in the last place, never by a billionth.
-    constexpr double rounding = 1e-9;
-    const double nearest = std::round(value);
-    if (std::abs(value - nearest) > rounding * std::abs(nearest))
-      throw Error(ErrorKind::usage,
-                  fmt::format("{} takes integers, and the range gives {}; list the values instead", row.name, value));
-    return canonical_text(row, fmt::format("{:.0f}", nearest));
   }
 
   // What no single value can see. validate() names the setting first; that setting's place is the error's.
@@ -332,7 +240,7 @@ class Reader : private TomlReader {
   Conditions read_conditions(const toml::node& node, const std::string& name) {
     Conditions conditions;
     where_ = &conditions;
-    read_settings(table(node, name), "", &Reader::condition);
+    read_settings(table(node, name), "", [this](const auto&... value) { condition(value...); });
     where_ = nullptr;
     return conditions;
   }

@@ -1,5 +1,5 @@
 // TOML values as an experiment file has them, read so that every message can name file:line:column. For
-// experiment_file.cpp alone: toml++ is a large header.
+// settings_reader.h alone: toml++ is a large header.
 #pragma once
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -33,6 +33,7 @@ struct PlacedError : Error {
 class TomlReader {
  protected:
   explicit TomlReader(std::string path) : path_(std::move(path)) {}
+  const std::string& path() const { return path_; }
 
   // ---- messages
 

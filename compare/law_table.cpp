@@ -27,14 +27,17 @@ std::string law_text(const LawResult& law) {
 
 std::string ratio_text(const LawResult& law) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
+  size_t told = 0;
   for (const LawResult::Sample& sample : law.samples) {
+    if (std::abs(sample.predicted) <= sample.allowed) continue;  // a ratio to next to nothing says nothing
     const double ratio = sample.measured / sample.predicted;
     if (!std::isfinite(ratio)) return "";
+    ++told;
     low = std::min(low, ratio);
     high = std::max(high, ratio);
   }
-  if (law.samples.empty()) return "";
-  return law.samples.size() == 1 ? fmt::format("{:.3f}", low) : fmt::format("{:.3f} .. {:.3f}", low, high);
+  if (told == 0) return "";
+  return told == 1 ? fmt::format("{:.3f}", low) : fmt::format("{:.3f} .. {:.3f}", low, high);
 }
 
 std::string law_table(std::span<const LawResult> laws) {

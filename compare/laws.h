@@ -54,7 +54,8 @@ std::vector<LawResult> evaluate_laws(std::span<const PointRecord> points, std::s
 // "acne_free_bias_m = k * texel_m (within 5%)"
 std::string law_text(const LawResult& law);
 
-// "0.981 .. 1.002": the least and the largest measured / predicted; empty where one of them is not finite.
+// "0.981 .. 1.002": the least and the largest measured / predicted, of the samples whose prediction is more than what
+// they may be off; empty without one, and where one is not finite.
 std::string ratio_text(const LawResult& law);
 
 // A table for a terminal: law, points, predicted, measured, deviation, verdict; under each broken law the sample that
