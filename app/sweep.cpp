@@ -23,6 +23,7 @@
 #include "compare/bounds.h"
 #include "compare/csv.h"
 #include "compare/report.h"
+#include "compare/soundness.h"
 #include "compare/store.h"
 #include "raytrace/tracer.h"
 #include "scenes/error.h"
@@ -30,9 +31,6 @@
 
 namespace noonmark {
 namespace {
-
-// Steps are sums of floats in [0,1]; a dozen roundings of 2^-24 stay below this.
-constexpr double largest_residual = 1e-6;
 
 // A signal handler can reach nothing but a global.
 volatile std::sig_atomic_t stop_asked = 0;
@@ -178,18 +176,21 @@ void remove_pictures(const std::string& out) {
   }
 }
 
-void require_sound_ladders(const Results& results) {
-  for (const PointRecord& point : results.points)
-    for (const char* name : {"residual", "tap_residual"})
-      if (!(point.metrics.at(name) <= largest_residual))
+}  // namespace
+
+void require_sound(const Results& results) {
+  for (const PointRecord& point : results.points) {
+    for (const SoundLimit& limit : sound_limits) {
+      const double value = point.metrics.at(limit.metric);
+      if (!(value <= limit.most) && point.metrics.at("facing") > 0)
         throw Error(
             ErrorKind::defect,
-            fmt::format("point {}: the ladder's steps do not add up ({} = {}, at most {} is rounding); the results are "
-                        "stored, but do not trust them, and report this with the output of noonmark doctor",
-                        point.id, name, point.metrics.at(name), largest_residual));
+            fmt::format("point {}: the measurement contradicts itself ({} = {}, a sound one has at most {}); the "
+                        "results are stored, but do not trust them, and report this with the output of noonmark doctor",
+                        point.id, limit.metric, value, limit.most));
+    }
+  }
 }
-
-}  // namespace
 
 SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options) {
   const std::vector<Settings> planned = points(experiment);
@@ -242,7 +243,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
   });
   store.set_bounds(outcome.results.bounds);
   write_report(outcome.results, options.out);
-  require_sound_ladders(outcome.results);
+  require_sound(outcome.results);
   return outcome;
 }
 
