@@ -63,6 +63,8 @@ constexpr Metric table[] = {
     {"reference_error_m", "m", "Largest error of the lookup's reference depth, along the light.", false},
     {"map_error_quanta", "",
      "Median |stored - exact| depth of the texels that receivers fall into, in steps of the map's format.", true},
+    {"map_bits", "", "Bits of the coarsest depth format that could have stored what receivers look up: 16, 24 or 32.",
+     false},
     {"map_ms", "ms", "Time of the shadow map pass.", true},
     {"lookup_ms", "ms", "Time of the lookup pass over the picture.", true},
     {"shadow_ms", "ms", "Shadow map pass and lookup together: the price of the technique.", true},

@@ -89,7 +89,19 @@ double quantum(DepthFormat format, float depth) {
   return static_cast<double>(std::nextafter(depth, 2.0f)) - depth;
 }
 
-double map_error_quanta(const SoundnessInput& in) {
+// Whether the float is what n bits read as: k / (2^n - 1), or a float beside it, where the driver's conversion rounds.
+bool held_by(int bits, float depth) {
+  const double steps = std::exp2(bits) - 1;
+  const float nearest = static_cast<float>(std::round(depth * steps) / steps);
+  return std::abs(nearest - depth) <= std::nextafter(depth, 2.0f) - depth;
+}
+
+struct MapFound {
+  double error_quanta = 0;
+  int bits = 16;
+};
+
+MapFound compare_maps(const SoundnessInput& in) {
   const Image<float>& exact = in.evidence.exact_map;
   Image<uint8_t> asked(exact.width, exact.height);
   for (size_t i = 0; i < in.evidence.truth.facing.size(); ++i) {
@@ -97,15 +109,19 @@ double map_error_quanta(const SoundnessInput& in) {
     if (in.evidence.truth.facing[i] && inside_map(texel, exact.width)) asked.at(texel.x, texel.y) = 1;
   }
   std::vector<double> errors;
+  MapFound found;
   for (size_t i = 0; i < asked.size(); ++i) {
     if (!asked[i]) continue;
     const double error = std::abs(static_cast<double>(in.stored_map[i]) - exact[i]);
     errors.push_back(std::isnan(error) ? infinity : error / quantum(in.evidence.map.format, exact[i]));
+    if (found.bits == 16 && !held_by(16, in.stored_map[i])) found.bits = 24;
+    if (found.bits == 24 && !held_by(24, in.stored_map[i])) found.bits = 32;
   }
-  if (errors.empty()) return 0;  // nothing of the map was looked at
+  if (errors.empty()) return found;  // nothing of the map was looked at
   const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
   std::nth_element(errors.begin(), middle, errors.end());
-  return *middle;
+  found.error_quanta = *middle;
+  return found;
 }
 
 }  // namespace
@@ -141,6 +157,7 @@ std::map<std::string, double> measure_soundness(const SoundnessInput& in) {
         return so_far;
       },
       join);
+  const MapFound map = compare_maps(in);
   const auto measured = [&](double value) {
     return found.facing == 0 ? std::numeric_limits<double>::quiet_NaN() : value;
   };
@@ -149,7 +166,8 @@ std::map<std::string, double> measure_soundness(const SoundnessInput& in) {
       {"rounding_excess", measured(found.excess)},
       {"address_error_texels", measured(found.address_texels)},
       {"reference_error_m", measured(found.reference * (in.frame.far_m - in.frame.near_m))},
-      {"map_error_quanta", measured(map_error_quanta(in))},
+      {"map_error_quanta", measured(map.error_quanta)},
+      {"map_bits", measured(map.bits)},
   };
 }
 
