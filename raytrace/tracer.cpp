@@ -79,11 +79,13 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& receivers, const Light
   const double error = view.ray_error_m();
   const glm::dvec3 places[5] = {glm::dvec3(0), error * frame.right, -error * frame.right, error * frame.up,
                                 -error * frame.up};
+  std::atomic<uint64_t> hard_rays = 0;
   for_each_packet(facing.size(), [&](size_t first, int n) {
     uint32_t dark[6];
     for (int place = 0; place < 6; ++place) {
       dark[place] = 0;
       if (place == 5 && dark[0] == 0) continue;  // who sees through more is no darker
+      hard_rays += static_cast<uint64_t>(n);
       ShadowRay rays[packet_size];
       for (int i = 0; i < n; ++i)
         rays[i] =
@@ -98,7 +100,7 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& receivers, const Light
       truth.ambiguous[facing[first + i]] = (any ^ all) >> i & 1;
     }
   });
-  if (hard_stage) *hard_stage = {hard_watch.milliseconds(), 6 * facing.size()};
+  if (hard_stage) *hard_stage = {hard_watch.milliseconds(), hard_rays};
 
   const Stopwatch soft_watch;
   uint64_t soft_rays = 0;
