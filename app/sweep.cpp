@@ -24,6 +24,7 @@
 #include "compare/csv.h"
 #include "compare/laws.h"
 #include "compare/report.h"
+#include "compare/soundness.h"
 #include "compare/store.h"
 #include "raytrace/tracer.h"
 #include "scenes/error.h"
@@ -31,9 +32,6 @@
 
 namespace noonmark {
 namespace {
-
-// Steps are sums of floats in [0,1]; a dozen roundings of 2^-24 stay below this.
-constexpr double largest_residual = 1e-6;
 
 // A signal handler can reach nothing but a global.
 volatile std::sig_atomic_t stop_asked = 0;
@@ -179,17 +177,6 @@ void remove_pictures(const std::string& out) {
   }
 }
 
-void require_sound_ladders(const Results& results) {
-  for (const PointRecord& point : results.points)
-    for (const char* name : {"residual", "tap_residual"})
-      if (!(point.metrics.at(name) <= largest_residual))
-        throw Error(
-            ErrorKind::defect,
-            fmt::format("point {}: the ladder's steps do not add up ({} = {}, at most {} is rounding); the results are "
-                        "stored, but do not trust them, and report this with the output of noonmark doctor",
-                        point.id, name, point.metrics.at(name), largest_residual));
-}
-
 // Every part's bounds and laws, asked of that part's points.
 void judge(const Experiment& experiment, Results& results) {
   const auto reproduce = [&](const PointRecord& point) { return reproduce_command(experiment, point); };
@@ -213,6 +200,20 @@ void judge(const Experiment& experiment, Results& results) {
 }
 
 }  // namespace
+
+void require_sound(const Results& results) {
+  for (const PointRecord& point : results.points) {
+    for (const SoundLimit& limit : sound_limits) {
+      const double value = point.metrics.at(limit.metric);
+      if (!(value <= limit.most) && point.metrics.at("facing") > 0)
+        throw Error(
+            ErrorKind::defect,
+            fmt::format("point {}: the measurement contradicts itself ({} = {}, a sound one has at most {}); the "
+                        "results are stored, but do not trust them, and report this with the output of noonmark doctor",
+                        point.id, limit.metric, value, limit.most));
+    }
+  }
+}
 
 SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options) {
   const std::vector<Settings> planned = points(experiment);
@@ -266,7 +267,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
   store.set_bounds(outcome.results.bounds);
   store.set_laws(outcome.results.laws);
   write_report(outcome.results, options.out);
-  require_sound_ladders(outcome.results);
+  require_sound(outcome.results);
   return outcome;
 }
 

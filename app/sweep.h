@@ -21,9 +21,13 @@ struct SweepOutcome {
 };
 
 // Resumes where an earlier run of the same experiment stopped. Writes results.sqlite point by point; then results.csv,
-// report.html and, when pictures are asked for, images/. Throws Error: usage, scene, device; defect when a ladder does
-// not add up (after everything is stored).
+// report.html and, when pictures are asked for, images/. Throws Error: usage, scene, device; defect when a
+// measurement is not sound (after everything is stored).
 SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options);
+
+// Throws Error(defect) at the first point with a metric beyond its limit in compare/soundness.h. Points without a
+// facing receiver have nothing to contradict.
+void require_sound(const Results& results);
 
 // report.html and results.csv from what is in the results' directory.
 void write_report(const Results& results, const std::string& out);

@@ -34,7 +34,7 @@ void print_ladder(const Measurement& m) {
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
   fmt::print("\n");
   for (const char* name : {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "residual",
-                           "tap_residual", "map_ms", "lookup_ms"})
+                           "tap_residual", "rounding_excess", "map_ms", "lookup_ms"})
     fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);
   if (!m.record.curve) return;
   if (value("counted") == 0) {

@@ -10,6 +10,7 @@
 #include "app/experiment.h"
 #include "compare/law_metrics.h"
 #include "compare/measure.h"
+#include "compare/soundness.h"
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"
 #include "scenes/library.h"
@@ -97,7 +98,7 @@ Camera chosen_camera(const Scene& scene, const ViewSettings& view) {
 }  // namespace
 
 struct Workbench::Impl {
-  explicit Impl(gl::DebugMode debug) : renderer(debug) {}
+  Impl(gl::DebugMode debug, gl::ShaderReplacements shaders) : renderer(debug, std::move(shaders)) {}
 
   LoadedScene& load(const Settings& settings) {
     return scene.get(key_of(settings, {"scene."}), [&] {
@@ -118,7 +119,8 @@ struct Workbench::Impl {
   std::string receivers_on_device;
 };
 
-Workbench::Workbench(gl::DebugMode debug) : impl_(std::make_unique<Impl>(debug)) {}
+Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders)
+    : impl_(std::make_unique<Impl>(debug, std::move(shaders))) {}
 Workbench::~Workbench() = default;
 
 const gl::DeviceInfo& Workbench::device() const { return impl_->renderer.info(); }
@@ -188,6 +190,9 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   m.record.metrics = measure_ladder({m.ladder, view.receivers.primitive, lookup.truth.edge_distance_m, occluders,
                                      lookup.probe.n_dot_l, frame.texel_m(), frame.far_m - frame.near_m, bias, kernel});
   m.record.metrics.merge(measure_laws({m.ladder, view.receivers, view.camera, frame, settings.map.format, kernel}));
+  const Image<float> ties = tie_map(evidence);
+  const Image<float> tie_lookup = b.renderer.lookup(b.renderer.upload_map(ties, settings.map), frame, settings);
+  m.record.metrics.merge(measure_soundness({evidence, map.depth, ties, tie_lookup, view.receivers, frame}));
   m.record.metrics["map_ms"] = map.time_ms;
   m.record.metrics["lookup_ms"] = lookup_ms;
   m.record.metrics["shadow_ms"] = map.time_ms + lookup_ms;

@@ -32,7 +32,8 @@ struct Measurement {
 
 class Workbench {
  public:
-  explicit Workbench(gl::DebugMode debug);
+  // shaders: variants to measure in place of the program's own.
+  explicit Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders = {});
   ~Workbench();
 
   // curve: none when empty or when the settings' filter or bias form cannot be read off one pass. Throws Error.

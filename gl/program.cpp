@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "gl/renderer.h"
 #include "gl_shaders.h"
 #include "scenes/error.h"
 
@@ -68,12 +69,28 @@ void Program::set_if_used(const char* uniform, glm::vec3 value) {
   glProgramUniform3fv(id(), glGetUniformLocation(id(), uniform), 1, &value.x);
 }
 
+std::string shader_file(const std::string& name) {
+  const std::string_view text = shaders::embedded(name);
+  if (text.empty())
+    throw Error(ErrorKind::usage,
+                fmt::format("there is no shader file '{}'; gl/CMakeLists.txt lists those of the program", name));
+  return std::string(text);
+}
+
+ProgramCache::ProgramCache(std::map<std::string, std::string> replaced) : replaced_(std::move(replaced)) {
+  for (const auto& [name, text] : replaced_) shader_file(name);
+}
+
 Program& ProgramCache::get(const std::string& vertex, const std::string& fragment, const ShaderSlots& slots) {
   std::string key = vertex + '\n' + fragment;
   for (const auto& [slot, file] : slots) key += '\n' + slot + '=' + file;
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second;
-  return programs_.emplace(key, Program(vertex, fragment, slots, shaders::embedded)).first->second;
+  const ShaderFiles files = [&](std::string_view name) {
+    const auto replacement = replaced_.find(std::string(name));
+    return replacement == replaced_.end() ? shaders::embedded(name) : std::string_view(replacement->second);
+  };
+  return programs_.emplace(key, Program(vertex, fragment, slots, files)).first->second;
 }
 
 }  // namespace noonmark::gl

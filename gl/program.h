@@ -34,9 +34,13 @@ class Program {
 
 class ProgramCache {
  public:
+  // replaced: texts that stand in for embedded files. Throws Error(usage) when one of them is not embedded.
+  explicit ProgramCache(std::map<std::string, std::string> replaced = {});
+
   Program& get(const std::string& vertex, const std::string& fragment, const ShaderSlots& slots = {});
 
  private:
+  std::map<std::string, std::string> replaced_;
   std::map<std::string, Program> programs_;
 };
 

@@ -50,7 +50,8 @@ DeviceInfo describe(const EglContext& context) {
 
 }  // namespace
 
-Renderer::Impl::Impl(DebugMode debug) : context(std::make_shared<EglContext>(debug)) {
+Renderer::Impl::Impl(DebugMode debug, ShaderReplacements shaders)
+    : context(std::make_shared<EglContext>(debug)), programs(std::move(shaders)) {
   info = describe(*context);
   timer.emplace(info.timer_queries);
   scene_vertices = make_vertex_array();
@@ -136,7 +137,8 @@ void Renderer::Impl::run(const std::string& key, double* time_ms, const std::fun
   warm.insert(key);
 }
 
-Renderer::Renderer(DebugMode debug) : impl_(std::make_unique<Impl>(debug)) {}
+Renderer::Renderer(DebugMode debug, ShaderReplacements shaders)
+    : impl_(std::make_unique<Impl>(debug, std::move(shaders))) {}
 Renderer::~Renderer() = default;
 
 const DeviceInfo& Renderer::info() const { return impl_->info; }

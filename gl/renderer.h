@@ -11,6 +11,7 @@
 // from that thread. Throws Error(device) for drivers and shaders (with the shader's file and line).
 #pragma once
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -28,6 +29,14 @@ enum class DebugMode {
   log,    // driver messages of medium and high severity go to the log
   fatal,  // an error message from the driver throws Error(defect) at the next call; for tests
 };
+
+// Whole texts that stand in for GLSL files of the program, by name ("shaders/compare.glsl"): to measure one's own
+// variant of a shader, and to prove that a defect in one shows. What is replaced keeps its interface, or does not
+// compile.
+using ShaderReplacements = std::map<std::string, std::string>;
+
+// The program's own text of a GLSL file, to make a variant from. Throws Error(usage) where there is no such file.
+std::string shader_file(const std::string& name);
 
 struct DeviceInfo {
   std::string vendor, renderer, version, egl_platform;
@@ -53,7 +62,8 @@ class ShadowMap {
 
 class Renderer {
  public:
-  explicit Renderer(DebugMode debug);
+  // Throws Error(usage) when a replaced file is none of the program's.
+  explicit Renderer(DebugMode debug, ShaderReplacements shaders = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

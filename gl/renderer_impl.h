@@ -49,7 +49,7 @@ struct Renderer::Impl {
   Target lit_taps, reference, texel, n_dot_l, map_strip;
   glm::vec3 direction_to_light{0, 1, 0};
 
-  explicit Impl(DebugMode debug);
+  Impl(DebugMode debug, ShaderReplacements shaders);
   ~Impl();
 
   // Makes `target` of this format and size, if it is not already. Throws Error(device) when memory is short.

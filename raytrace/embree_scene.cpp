@@ -192,7 +192,25 @@ bool EmbreeScene::is_occluder(const ShadowRay& ray, uint32_t primitive, float di
   // cosine is 16 times that rounding.
   const double scale = glm::length(glm::dvec3(ray.origin)) + glm::length(a);
   const double rounding = 0x1p-48 * scale * glm::length(cross) / std::abs(slope);
-  return exact > ray.own_distance + rounding;
+  return exact > ray.own_distance + rounding && !(ray.through_own_plane && one_plane(primitive, ray.own));
+}
+
+// Whether the corners of one of the two triangles are as near to the other's plane as rounding both to float may leave
+// what was one plane: half a float step in each of three axes, twice.
+bool EmbreeScene::one_plane(uint32_t a, uint32_t b) const {
+  const auto within = [&](uint32_t plane, uint32_t corners) {
+    const glm::uvec3 t = scene_.triangles[plane], v = scene_.triangles[corners];
+    const glm::dvec3 p = scene_.positions[t.x];
+    const glm::dvec3 normal =
+        glm::normalize(glm::cross(glm::dvec3(scene_.positions[t.y]) - p, glm::dvec3(scene_.positions[t.z]) - p));
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 corner = scene_.positions[v[i]];
+      const double scale = std::max(glm::length(corner), glm::length(p));
+      if (!(std::abs(glm::dot(normal, corner - p)) <= 0x1p-22 * scale)) return false;
+    }
+    return true;
+  };
+  return within(a, b) || within(b, a);
 }
 
 void EmbreeScene::reject_own_surface(const RTCFilterFunctionNArguments* arguments) {

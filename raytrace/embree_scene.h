@@ -44,6 +44,7 @@ struct ShadowRay {
   glm::vec3 direction{0};
   uint32_t own = no_primitive;
   double own_distance = 0;
+  bool through_own_plane = false;  // sees through faces that lie in own's plane but for float's rounding of corners
 };
 
 class EmbreeScene {
@@ -64,6 +65,7 @@ class EmbreeScene {
  private:
   static void reject_own_surface(const RTCFilterFunctionNArguments* arguments);
   bool is_occluder(const ShadowRay& ray, uint32_t primitive, float distance) const;
+  bool one_plane(uint32_t a, uint32_t b) const;
 
   struct Release {
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }

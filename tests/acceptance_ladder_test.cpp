@@ -89,6 +89,11 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
     EXPECT_EQ(classed_though_right, 0u);
     EXPECT_LE(metric(m, "residual"), rounding_of_steps);
     EXPECT_LE(metric(m, "tap_residual"), rounding_of_steps);
+    EXPECT_EQ(metric(m, "contract"), 0) << "the GPU's verdicts are the technique's, to the last bit";
+    EXPECT_LE(metric(m, "rounding_excess"), 1);
+    EXPECT_LE(metric(m, "map_bits"), m.settings.map.format == DepthFormat::d16   ? 16
+                                     : m.settings.map.format == DepthFormat::d24 ? 24
+                                                                                 : 32);
     EXPECT_LT(metric(m, "ambiguous"), 0.001);
     for (const auto& [name, value] : m.record.metrics) EXPECT_TRUE(std::isfinite(value)) << name;
   }
