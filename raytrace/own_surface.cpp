@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace noonmark {
 namespace {
 
-// From a bracket of 2^-10 of the way on, two planes that cross inside it count as continuous. Where they do not, a
-// third triangle may lie between (a corner): halve on, as far as rays can tell places apart.
-constexpr int jump_test_depth = 10;
-constexpr int deepest = 48;  // beyond double's own resolution of the way; what ends it is the rays' error
+// Double's rounding as a share of float's: 2^-29 for one operation, and 2^5 for all of them.
+constexpr double rounding_share = 0x1p-24;
 
 }  // namespace
 
@@ -73,18 +72,41 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec2 x) const {
   return ends_at(view_.plane_depth(p.primitive, x));
 }
 
-bool OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint64_t& rays) const {
+uint32_t OwnSurface::first_hit(glm::dvec2 x, uint64_t& rays) const {
   ++rays;
-  return lit_at(p, x, embree_.first_hit(view_.ray_origin(x), view_.frame().ray_direction), rays);
+  return embree_.first_hit(view_.ray_origin(x), view_.frame().ray_direction);
 }
 
-bool OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
-  if (hit == no_primitive || hit == p.primitive) return true;
+OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
+  Verdict here = verdict(p, x, hit, rays);
+  if (!here.sure || !silhouettes_.near(x)) return here;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double z = hit == no_primitive ? infinity : view_.hit_depth(hit, x);
+  for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+    const glm::dvec2 beside = x + beside_m() * way;
+    const uint32_t other = first_hit(beside, rays);
+    const double other_z = other == no_primitive ? infinity : view_.hit_depth(other, x);
+    const bool step = hit == no_primitive || other == no_primitive
+                          ? hit != other
+                          : hit != other && std::abs(z - other_z) > rounding_share * depth_error(hit, other);
+    if (step || verdict(p, beside, other, rays).lit != here.lit) {
+      here.sure = false;
+      break;
+    }
+  }
+  return here;
+}
+
+OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
+  if (hit == no_primitive || hit == p.primitive) return {true, true};
   const Sheet sheet = walk(p, x);
-  if (sheet.triangle == hit) return true;
+  if (sheet.triangle == hit) return {true, true};
   const double z = view_.hit_depth(hit, x);
-  if (z >= sheet.depth_m - depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle)) return true;
-  return p.lit && continuous(p.at, p.primitive, x, hit, rays);
+  const double error = depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle);
+  if (z >= sheet.depth_m - rounding_share * error) return {true, true};
+  const Way found = p.lit ? way(p, x, hit, rays) : Way::jump;
+  if (z >= sheet.depth_m - error) return {true, found == Way::continuous};
+  return {found != Way::jump, found != Way::unsure};
 }
 
 double OwnSurface::edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from,
@@ -92,7 +114,8 @@ double OwnSurface::edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dv
   double same = 0, other = 1;
   for (int halving = 0; halving < 8; ++halving) {
     const double middle = (same + other) / 2;
-    (lit_at(p, from + middle * (to - from), rays) == lit_from ? same : other) = middle;
+    const glm::dvec2 x = from + middle * (to - from);
+    (verdict(p, x, first_hit(x, rays), rays).lit == lit_from ? same : other) = middle;
   }
   return other * glm::length(to - from);
 }
@@ -105,47 +128,31 @@ double OwnSurface::depth_error(uint32_t a, uint32_t b) const {
   return view_.ray_error_m() * (1 + slope(a) + slope(b));
 }
 
-bool OwnSurface::planes_cross(uint32_t a, uint32_t b, glm::dvec2 from, glm::dvec2 to) const {
-  const double start = view_.plane_depth(a, from) - view_.plane_depth(b, from);
-  const double end = view_.plane_depth(a, to) - view_.plane_depth(b, to);
-  // Coplanar triangles differ by rounding, which may have one sign at both ends.
-  const double rounding = depth_error(a, b);
-  return !(start > rounding && end > rounding) && !(start < -rounding && end < -rounding);
-}
-
-bool OwnSurface::continuous(glm::dvec2 from, uint32_t from_triangle, glm::dvec2 to, uint32_t to_triangle,
-                            uint64_t& rays) const {
-  struct Bracket {
-    double begin, end;  // fractions of the way
-    uint32_t first, last;
-    int depth;
-  };
-  const glm::dvec2 way = to - from;
+OwnSurface::Way OwnSurface::way(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
+  const glm::dvec2 way = x - p.at;
   const double length = glm::length(way);
-  Bracket stack[deepest + 2];
-  int top = 0;
-  stack[top++] = {0, 1, from_triangle, to_triangle, 0};
-  while (top > 0) {
-    const Bracket bracket = stack[--top];
-    if (bracket.first == bracket.last) continue;
-    if (bracket.depth >= jump_test_depth) {
-      // The rays that found the two triangles passed beside their places by up to the ray error.
-      const double slack = length > 0 ? view_.ray_error_m() / length : 0;
-      if (bracket.first != no_primitive && bracket.last != no_primitive &&
-          planes_cross(bracket.first, bracket.last, from + (bracket.begin - slack) * way,
-                       from + (bracket.end + slack) * way))
-        continue;
-      if (bracket.first == no_primitive || bracket.last == no_primitive || bracket.depth == deepest ||
-          bracket.end - bracket.begin <= 2 * slack)
-        return false;
+  if (!(length > 0)) return Way::continuous;
+  const std::vector<double> at = silhouettes_.crossings(p.at, x);
+  const double aside = beside_m() / length;
+  Way found = Way::continuous;
+  for (size_t first = 0, last; first < at.size(); first = last + 1) {
+    last = first;  // silhouettes that rays cannot tell apart are crossed together
+    while (last + 1 < at.size() && at[last + 1] - at[last] <= 2 * aside) ++last;
+    const double begin = at[first] - aside, end = at[last] + aside;
+    const uint32_t before = begin > 0 ? first_hit(p.at + begin * way, rays) : p.primitive;
+    const uint32_t after = end < 1 ? first_hit(p.at + end * way, rays) : hit;
+    if (before == after) continue;
+    if (before == no_primitive || after == no_primitive) return Way::jump;
+    double least = std::numeric_limits<double>::infinity();  // difference of their depths where they meet
+    for (double t : {at[first], at[last]}) {
+      const glm::dvec2 y = p.at + t * way;
+      least = std::min(least, std::abs(view_.plane_depth(before, y) - view_.plane_depth(after, y)));
     }
-    const double middle = (bracket.begin + bracket.end) / 2;
-    ++rays;
-    const uint32_t hit = embree_.first_hit(view_.ray_origin(from + middle * way), view_.frame().ray_direction);
-    stack[top++] = {bracket.begin, middle, bracket.first, hit, bracket.depth + 1};
-    stack[top++] = {middle, bracket.end, hit, bracket.last, bracket.depth + 1};
+    const double error = depth_error(before, after);
+    if (!(least <= error)) return Way::jump;
+    if (!(least <= rounding_share * error)) found = Way::unsure;
   }
-  return true;
+  return found;
 }
 
 }  // namespace noonmark

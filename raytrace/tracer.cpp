@@ -201,11 +201,14 @@ LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverT
         const glm::ivec2 texel = probe.texel[pixel] + offset;
         const uint32_t hit = texels.hit(texel);
         const glm::dvec2 centre = frame.texel_centre(texel);
-        const bool exact_lit = centre_tap ? points[k].lit : surface.lit_at(points[k], exact[k], exact_hits[k], rays);
-        const bool texel_lit = surface.lit_at(points[k], centre, hit, rays);
+        const OwnSurface::Verdict at_exact = centre_tap ? OwnSurface::Verdict{points[k].lit, true}
+                                                        : surface.lit_at(points[k], exact[k], exact_hits[k], rays);
+        const OwnSurface::Verdict at_texel = surface.lit_at(points[k], centre, hit, rays);
+        const bool exact_lit = at_exact.lit, texel_lit = at_texel.lit;
         const bool clipped = hit != no_primitive && view.hit_depth(hit, centre) < frame.near_m;
         result.taps.taps[pixel * static_cast<size_t>(taps) + static_cast<size_t>(tap)] = static_cast<uint8_t>(
-            (exact_lit ? tap_exact_lit : 0) | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0));
+            (exact_lit ? tap_exact_lit : 0) | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
+            (at_exact.sure && at_texel.sure ? 0 : tap_ambiguous));
         if (exact_lit != texel_lit) {
           const double distance =
               surface.edge_distance(points[k], centre_tap ? points[k].at : exact[k], centre, exact_lit, rays);
