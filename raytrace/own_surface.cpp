@@ -104,9 +104,10 @@ OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec2 x, uin
   const double z = view_.hit_depth(hit, x);
   const double error = depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle);
   if (z >= sheet.depth_m - rounding_share * error) return {true, true};
-  const Way found = p.lit ? way(p, x, hit, rays) : Way::jump;
-  if (z >= sheet.depth_m - error) return {true, found == Way::continuous};
-  return {found != Way::jump, found != Way::unsure};
+  if (!p.lit) return {z >= sheet.depth_m - error, z < sheet.depth_m - error};
+  const Way found = way(p, x, hit, rays);
+  if (z >= sheet.depth_m - error) return {true, found.continuous && found.sure};
+  return {found.continuous, found.sure};
 }
 
 double OwnSurface::edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from,
@@ -131,26 +132,38 @@ double OwnSurface::depth_error(uint32_t a, uint32_t b) const {
 OwnSurface::Way OwnSurface::way(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
   const glm::dvec2 way = x - p.at;
   const double length = glm::length(way);
-  if (!(length > 0)) return Way::continuous;
-  const std::vector<double> at = silhouettes_.crossings(p.at, x);
+  if (!(length > 0)) return {true, true};
+  const std::vector<Silhouettes::Crossing> at = silhouettes_.crossings(p.at, x);
   const double aside = beside_m() / length;
-  Way found = Way::continuous;
+  const auto begin_of = [&](size_t i) { return at[i].t - aside / at[i].sine; };
+  const auto end_of = [&](size_t i) { return at[i].t + aside / at[i].sine; };
+  Way found{true, true};
   for (size_t first = 0, last; first < at.size(); first = last + 1) {
     last = first;  // silhouettes that rays cannot tell apart are crossed together
-    while (last + 1 < at.size() && at[last + 1] - at[last] <= 2 * aside) ++last;
-    const double begin = at[first] - aside, end = at[last] + aside;
+    double begin = begin_of(first), end = end_of(first);
+    while (last + 1 < at.size() && begin_of(last + 1) <= end) {
+      ++last;
+      begin = std::min(begin, begin_of(last));
+      end = std::max(end, end_of(last));
+    }
     const uint32_t before = begin > 0 ? first_hit(p.at + begin * way, rays) : p.primitive;
     const uint32_t after = end < 1 ? first_hit(p.at + end * way, rays) : hit;
     if (before == after) continue;
-    if (before == no_primitive || after == no_primitive) return Way::jump;
-    double least = std::numeric_limits<double>::infinity();  // difference of their depths where they meet
-    for (double t : {at[first], at[last]}) {
-      const glm::dvec2 y = p.at + t * way;
-      least = std::min(least, std::abs(view_.plane_depth(before, y) - view_.plane_depth(after, y)));
+    const bool one_place = at[last].t - at[first].t <= 2 * aside;  // else something may lie between the crossings
+    double step = std::numeric_limits<double>::infinity(), error = 0;
+    if (before != no_primitive && after != no_primitive) {
+      error = depth_error(before, after);
+      for (size_t i = first; i <= last; ++i) {
+        const glm::dvec2 y = p.at + at[i].t * way;
+        step = std::min(step, std::abs(view_.plane_depth(before, y) - view_.plane_depth(after, y)));
+      }
     }
-    const double error = depth_error(before, after);
-    if (!(least <= error)) return Way::jump;
-    if (!(least <= rounding_share * error)) found = Way::unsure;
+    if (step <= error) {
+      found.sure = found.sure && step <= rounding_share * error;
+    } else {
+      if (one_place) return {false, true};
+      found = {false, false};
+    }
   }
   return found;
 }

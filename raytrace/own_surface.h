@@ -48,7 +48,10 @@ class OwnSurface {
   Sheet walk(const SurfacePoint& p, glm::dvec2 x) const;
 
  private:
-  enum class Way { continuous, unsure, jump };  // unsure: continuous but for a step that float error could make
+  struct Way {
+    bool continuous = true;
+    bool sure = true;  // not: continuous but for a step that float error could make, or too many silhouettes in one place
+  };
 
   // The verdict at this one hit.
   Verdict verdict(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const;

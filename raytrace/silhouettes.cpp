@@ -70,19 +70,22 @@ Silhouettes::Silhouettes(const Adjacency& adjacency, const LightView& view, doub
   for (uint32_t e = 0; e < edges_.size(); ++e) each_cell(edges_[e], reach_m, [&](size_t cell) { listed_[fill[cell]++] = e; });
 }
 
-std::vector<double> Silhouettes::crossings(glm::dvec2 from, glm::dvec2 to) const {
-  std::vector<double> at;
+std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec2 from, glm::dvec2 to) const {
+  std::vector<Crossing> at;
   if (edges_.empty()) return at;
+  const glm::dvec2 way = to - from;
+  const double length2 = glm::dot(way, way);
   each_cell({from, to}, 0, [&](size_t cell) {
     for (uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
       const Edge& edge = edges_[listed_[i]];
       const double a = orientation(from, to, edge.a), b = orientation(from, to, edge.b);
       if ((a > 0 && b > 0) || (a < 0 && b < 0) || a == b) continue;
-      const double t = glm::dot(edge.a + a / (a - b) * (edge.b - edge.a) - from, to - from) / glm::dot(to - from, to - from);
-      if (t > 0 && t < 1) at.push_back(t);
+      const glm::dvec2 along = edge.b - edge.a;
+      const double t = glm::dot(edge.a + a / (a - b) * along - from, way) / length2;
+      if (t > 0 && t < 1) at.push_back({t, std::abs(a - b) / std::sqrt(length2 * glm::dot(along, along))});
     }
   });
-  std::sort(at.begin(), at.end());
+  std::sort(at.begin(), at.end(), [](const Crossing& x, const Crossing& y) { return x.t < y.t; });
   at.erase(std::unique(at.begin(), at.end()), at.end());  // an edge is listed in many cells
   return at;
 }

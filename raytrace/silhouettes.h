@@ -24,8 +24,13 @@ class Silhouettes {
     return begin_[cell] != begin_[cell + 1] && near_listed(x, cell);
   }
 
-  // Where the straight way crosses such edges, as fractions of the way; sorted.
-  std::vector<double> crossings(glm::dvec2 from, glm::dvec2 to) const;
+  struct Crossing {
+    double t = 0;     // fraction of the way
+    double sine = 1;  // of the angle between the way and the edge
+    bool operator==(const Crossing&) const = default;
+  };
+  // Where the straight way crosses such edges, in order.
+  std::vector<Crossing> crossings(glm::dvec2 from, glm::dvec2 to) const;
 
  private:
   struct Edge {

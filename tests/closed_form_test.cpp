@@ -95,6 +95,7 @@ constexpr double ambiguous_reach = 4;
 
 struct Verdict {
   bool banded = false, ambiguous = false, r1 = false, far = false;
+  std::string taps_wrong;  // each one: number, F and V by formula, F and V by rays
   int tap_ambiguous = 0, r2 = 0, r3 = 0, clipped = 0, depth = 0, taps = 0, dark = 0, differ = 0;
 };
 
@@ -141,6 +142,9 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
       v.tap_ambiguous += (bits & tap_ambiguous) != 0;
       v.r2 += f_known && f != exact_lit;
       v.r3 += at_texel_known && at_texel != texel_lit;
+      if ((f_known && f != exact_lit) || (at_texel_known && at_texel != texel_lit))
+        v.taps_wrong += " tap " + std::to_string(tap) + ": " + std::to_string(f) + std::to_string(at_texel) + " for " +
+                        std::to_string(exact_lit) + std::to_string(texel_lit);
       if (!depth_known) continue;
       v.clipped += (first < frame.near_m) != ((bits & tap_near_clipped) != 0);
       if (!inside_map(texel, frame.resolution)) continue;
@@ -169,7 +173,7 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
       const auto [shape, face] = model.owner[receivers.primitive[i]];
       RC_LOG() << "receiver " << i << " (" << p.x << ' ' << p.y << ' ' << p.z << ") on shape " << shape << " face "
                << face << ", R1 " << static_cast<int>(truth.lit[i]) << ": wrong R1 " << v.r1 << " R2 " << v.r2
-               << " R3 " << v.r3 << " clipped " << v.clipped << " depth " << v.depth << '\n';
+               << " R3 " << v.r3 << " clipped " << v.clipped << " depth " << v.depth << v.taps_wrong << '\n';
     }
   }
 }
