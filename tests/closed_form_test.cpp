@@ -230,9 +230,29 @@ void expect_agreement(const Site& site, int kinds, int segments, int scenes, Tal
   all.record();
 }
 
+void print(const Tally& t) {
+  std::printf("scenes %d facing %ld ambiguous %ld taps_ambiguous %ld banded %ld r1 %ld r2 %ld r3 %ld clipped %ld depth %ld hidden %ld far %ld taps %ld dark %ld differ %ld\n", t.scenes, t.facing, t.ambiguous, t.taps_ambiguous, t.banded, t.r1, t.r2, t.r3, t.clipped, t.depth, t.hidden, t.far_from_edges, t.taps, t.dark_taps, t.differ);
+}
+
 TEST(ClosedForm, FlatShapesAtTheOrigin) {
   Tally all;
   expect_agreement(at_origin, 2, 8, 100, all);
+  print(all);
+}
+TEST(ClosedForm, FlatShapesAt1Km) {
+  Tally all;
+  expect_agreement(at_1_km, 2, 8, 100, all);
+  print(all);
+}
+TEST(ClosedForm, FlatShapesAt1000Km) {
+  Tally all;
+  expect_agreement(at_1000_km, 2, 8, 100, all);
+  print(all);
+}
+TEST(ClosedForm, RoundShapesAtTheOrigin) {
+  Tally all;
+  expect_agreement(at_origin, 4, 48, 100, all);
+  print(all);
 }
 
 }  // namespace
