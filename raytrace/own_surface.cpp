@@ -150,20 +150,21 @@ OwnSurface::Way OwnSurface::way(const SurfacePoint& p, glm::dvec2 x, uint32_t hi
     const uint32_t after = end < 1 ? first_hit(p.at + end * way, rays) : hit;
     if (before == after) continue;
     const bool one_place = at[last].t - at[first].t <= 2 * aside;  // else something may lie between the crossings
-    double step = std::numeric_limits<double>::infinity(), error = 0;
+    // How far apart their depths are: where silhouettes are crossed, and at the least between the two rays, where two
+    // surfaces that run into one another may change places.
+    double step = std::numeric_limits<double>::infinity(), least = step, error = 0;
     if (before != no_primitive && after != no_primitive) {
       error = depth_error(before, after);
-      for (size_t i = first; i <= last; ++i) {
-        const glm::dvec2 y = p.at + at[i].t * way;
-        step = std::min(step, std::abs(view_.plane_depth(before, y) - view_.plane_depth(after, y)));
-      }
+      const auto gap = [&](double t) {
+        return view_.plane_depth(before, p.at + t * way) - view_.plane_depth(after, p.at + t * way);
+      };
+      for (size_t i = first; i <= last; ++i) step = std::min(step, std::abs(gap(at[i].t)));
+      const double start = gap(begin), stop = gap(end);
+      least = start * stop <= 0 ? 0 : std::min({step, std::abs(start), std::abs(stop)});
     }
-    if (step <= error) {
-      found.sure = found.sure && step <= rounding_share * error;
-    } else {
-      if (one_place) return {false, true};
-      found = {false, false};
-    }
+    if (step <= rounding_share * error) continue;
+    if (!(least <= error) && one_place) return {false, true};
+    found = {found.continuous && least <= error, false};
   }
   return found;
 }

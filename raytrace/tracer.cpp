@@ -40,6 +40,21 @@ std::vector<uint32_t> kept_triangles(const Scene& scene, const LightFrame& frame
 
 }  // namespace
 
+// Depth of the first surface at x from the near plane on. The rays start a little before it, for they start and end in
+// float; what is before it in double is passed.
+std::optional<double> first_from_near(const EmbreeScene& seen, const LightView& view, glm::dvec2 x, uint64_t& rays) {
+  const LightFrame& frame = view.frame();
+  const double near = frame.near_m;
+  for (double from = near - 2 * view.ray_error_m();;) {
+    ++rays;
+    const uint32_t hit = seen.first_hit(glm::vec3(frame.to_world({x.x, x.y, from})), frame.ray_direction);
+    if (hit == no_primitive) return std::nullopt;
+    const double depth = view.hit_depth(hit, x);
+    if (depth >= near) return depth;
+    from = std::max(from, std::min(depth, near)) + 2 * view.ray_error_m();
+  }
+}
+
 struct Tracer::Impl {
   explicit Impl(const Scene& s) : scene(s), embree(device, s), adjacency(s) {}
 
@@ -125,12 +140,13 @@ Image<float> Tracer::Impl::exact_map(const LightView& view, const TexelRays& tex
   const std::vector<glm::ivec2>& list = texels.inside_texels();
   std::atomic<uint64_t> extra = 0;
   for_each_packet(list.size(), [&](size_t first, int n) {
+    uint64_t extra_here = 0;
     uint32_t hits[packet_size];
     glm::vec3 origins[packet_size];
     if (uncut) {
       for (int i = 0; i < n; ++i) origins[i] = view.ray_origin(frame.texel_centre(list[first + i]));
       seen.first_hits(n, origins, frame.ray_direction, hits);
-      extra += n;
+      extra_here += static_cast<uint64_t>(n);
     } else {
       for (int i = 0; i < n; ++i) hits[i] = texels.hit(list[first + i]);
     }
@@ -139,15 +155,14 @@ Image<float> Tracer::Impl::exact_map(const LightView& view, const TexelRays& tex
       const glm::dvec2 centre = frame.texel_centre(list[first + i]);
       double depth = view.hit_depth(hits[i], centre);
       if (depth < frame.near_m) {  // the rasteriser clips it: what lies behind it, from the near plane on?
-        const uint32_t behind =
-            seen.first_hit(glm::vec3(frame.to_world({centre.x, centre.y, frame.near_m})), frame.ray_direction);
-        ++extra;
-        if (behind == no_primitive) continue;
-        depth = std::max(view.hit_depth(behind, centre), frame.near_m);
+        const std::optional<double> behind = first_from_near(seen, view, centre, extra_here);
+        if (!behind) continue;
+        depth = *behind;
       }
       if (depth <= frame.far_m)
         map.at(list[first + i].x, list[first + i].y) = static_cast<float>(frame.window_depth(depth));
     }
+    extra += extra_here;
   });
   rays += extra;
   return map;
