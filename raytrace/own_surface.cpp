@@ -153,17 +153,23 @@ OwnSurface::Way OwnSurface::way(const SurfacePoint& p, glm::dvec2 x, uint32_t hi
     // How far apart their depths are: where silhouettes are crossed, and at the least between the two rays, where two
     // surfaces that run into one another may change places.
     double step = std::numeric_limits<double>::infinity(), least = step, error = 0;
+    bool plain = before == no_primitive || after == no_primitive;  // the edge crossed is the nearer one's own
     if (before != no_primitive && after != no_primitive) {
       error = depth_error(before, after);
       const auto gap = [&](double t) {
         return view_.plane_depth(before, p.at + t * way) - view_.plane_depth(after, p.at + t * way);
       };
-      for (size_t i = first; i <= last; ++i) step = std::min(step, std::abs(gap(at[i].t)));
+      for (size_t i = first; i <= last; ++i) {
+        const glm::dvec2 y = p.at + at[i].t * way;
+        const double front = std::min(view_.plane_depth(before, y), view_.plane_depth(after, y));
+        step = std::min(step, std::abs(gap(at[i].t)));
+        plain |= std::abs(at[i].depth_m - front) <= rounding_share * error;
+      }
       const double start = gap(begin), stop = gap(end);
       least = start * stop <= 0 ? 0 : std::min({step, std::abs(start), std::abs(stop)});
     }
     if (step <= rounding_share * error) continue;
-    if (!(least <= error) && one_place) return {false, true};
+    if (!(least <= error) && one_place && plain) return {false, true};
     found = {found.continuous && least <= error, false};
   }
   return found;

@@ -29,7 +29,7 @@ bool goes_on(const Adjacency& adjacency, const LightView& view, uint32_t triangl
 
 // Every cell that the edge, widened by the reach, touches: row by row, from the edge's part over that row.
 void Silhouettes::each_cell(const Edge& edge, double reach_m, const auto& visit) const {
-  const glm::dvec2 a = (edge.a - low_) * cells_per_m_, b = (edge.b - low_) * cells_per_m_;
+  const glm::dvec2 a = (glm::dvec2(edge.a) - low_) * cells_per_m_, b = (glm::dvec2(edge.b) - low_) * cells_per_m_;
   const double reach = reach_m * cells_per_m_ + 1e-6;
   const auto cell = [&](double at) { return static_cast<int>(std::clamp(at, 0.0, size_ - 1.0)); };
   for (int row = cell(std::min(a.y, b.y) - reach); row <= cell(std::max(a.y, b.y) + reach); ++row) {
@@ -50,10 +50,10 @@ Silhouettes::Silhouettes(const Adjacency& adjacency, const LightView& view, doub
   for (uint32_t t = 0; t < adjacency.triangles(); ++t) {
     for (int e = 0; e < 3; ++e) {
       if (goes_on(adjacency, view, t, e)) continue;
-      const Edge edge{view.corner2(t, e), view.corner2(t, (e + 1) % 3)};
+      const Edge edge{view.corner(t, e), view.corner(t, (e + 1) % 3)};
       edges_.push_back(edge);
-      low = glm::min(low, glm::min(edge.a, edge.b));
-      high = glm::max(high, glm::max(edge.a, edge.b));
+      low = glm::min(low, glm::dvec2(glm::min(edge.a, edge.b)));
+      high = glm::max(high, glm::dvec2(glm::max(edge.a, edge.b)));
     }
   }
   if (edges_.empty()) return;
@@ -75,14 +75,15 @@ std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec2 from, glm::
   if (edges_.empty()) return at;
   const glm::dvec2 way = to - from;
   const double length2 = glm::dot(way, way);
-  each_cell({from, to}, 0, [&](size_t cell) {
+  each_cell({glm::dvec3(from, 0), glm::dvec3(to, 0)}, 0, [&](size_t cell) {
     for (uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
       const Edge& edge = edges_[listed_[i]];
-      const double a = orientation(from, to, edge.a), b = orientation(from, to, edge.b);
+      const glm::dvec2 start(edge.a), along = glm::dvec2(edge.b) - start;
+      const double a = orientation(from, to, start), b = orientation(from, to, glm::dvec2(edge.b));
       if ((a > 0 && b > 0) || (a < 0 && b < 0) || a == b) continue;
-      const glm::dvec2 along = edge.b - edge.a;
-      const double t = glm::dot(edge.a + a / (a - b) * along - from, way) / length2;
-      if (t > 0 && t < 1) at.push_back({t, std::abs(a - b) / std::sqrt(length2 * glm::dot(along, along))});
+      const double part = a / (a - b), t = glm::dot(start + part * along - from, way) / length2;
+      const double sine = std::abs(a - b) / std::sqrt(length2 * glm::dot(along, along));
+      if (t > 0 && t < 1) at.push_back({t, sine, edge.a.z + part * (edge.b.z - edge.a.z)});
     }
   });
   std::sort(at.begin(), at.end(), [](const Crossing& x, const Crossing& y) { return x.t < y.t; });
@@ -93,10 +94,10 @@ std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec2 from, glm::
 bool Silhouettes::near_listed(glm::dvec2 x, size_t cell) const {
   for (uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
     const Edge& edge = edges_[listed_[i]];
-    const glm::dvec2 way = edge.b - edge.a;
+    const glm::dvec2 start(edge.a), way = glm::dvec2(edge.b) - start;
     const double length2 = glm::dot(way, way);
-    const double along = length2 > 0 ? std::clamp(glm::dot(x - edge.a, way) / length2, 0.0, 1.0) : 0;
-    const glm::dvec2 beside = x - edge.a - along * way;
+    const double along = length2 > 0 ? std::clamp(glm::dot(x - start, way) / length2, 0.0, 1.0) : 0;
+    const glm::dvec2 beside = x - start - along * way;
     if (glm::dot(beside, beside) <= reach_m_ * reach_m_) return true;
   }
   return false;

@@ -25,8 +25,9 @@ class Silhouettes {
   }
 
   struct Crossing {
-    double t = 0;     // fraction of the way
-    double sine = 1;  // of the angle between the way and the edge
+    double t = 0;        // fraction of the way
+    double sine = 1;     // of the angle between the way and the edge
+    double depth_m = 0;  // of the edge
     bool operator==(const Crossing&) const = default;
   };
   // Where the straight way crosses such edges, in order.
@@ -34,7 +35,7 @@ class Silhouettes {
 
  private:
   struct Edge {
-    glm::dvec2 a, b;
+    glm::dvec3 a, b;
   };
   void each_cell(const Edge& edge, double reach_m, const auto& visit) const;
   bool near_listed(glm::dvec2 x, size_t cell) const;
