@@ -79,7 +79,8 @@ uint32_t OwnSurface::first_hit(glm::dvec2 x, uint64_t& rays) const {
 
 OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
   Verdict here = verdict(p, x, hit, rays);
-  if (!here.sure || !silhouettes_.near(x)) return here;
+  // Beside a silhouette, and where a dark receiver's own sheet comes out from under another surface.
+  if (!here.sure || !(silhouettes_.near(x) || (here.lit && !p.lit))) return here;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double z = hit == no_primitive ? infinity : view_.hit_depth(hit, x);
   for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {

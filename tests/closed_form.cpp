@@ -155,6 +155,25 @@ double ClosedForm::first_depth(glm::dvec2 x, double z_from) const {
   return first;
 }
 
+bool ClosedForm::may_be_first(glm::dvec2 x, double z_from, double z_m, double error_m, double reach_m) const {
+  const double first = first_depth(x, z_from);
+  if (std::abs(z_m - first) <= error_m || z_m == first) return true;
+  return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& p) {
+    const double aside = reach_m * (1 + glm::length(p.gradient));
+    if (outline_distance(p, x) <= reach_m && std::abs(depth(p, x) - z_m) <= error_m + aside) return true;
+    return covers(p, x) && std::abs(depth(p, x) - z_m) <= error_m && depth(p, x) >= z_from &&
+           depth(p, x) <= first + reach_m * (1 + steepest(x));
+  });
+}
+
+// The steepest surface over x.
+double ClosedForm::steepest(glm::dvec2 x) const {
+  double slope = 0;
+  for (const Piece& p : pieces_)
+    if (covers(p, x)) slope = std::max(slope, glm::length(p.gradient));
+  return slope;
+}
+
 // S. A box's faces that the light sees from the same side are one sheet; its fold is the box's outline.
 double ClosedForm::sheet_depth(const Place& place, glm::dvec2 x) const {
   const Piece& own = own_piece(place);
@@ -171,7 +190,7 @@ double ClosedForm::sheet_depth(const Place& place, glm::dvec2 x) const {
   return std::min(depth(own, x), end_depth);
 }
 
-bool ClosedForm::jump_between(const Piece& own, glm::dvec2 from, glm::dvec2 to) const {
+double ClosedForm::largest_jump(const Piece& own, glm::dvec2 from, glm::dvec2 to) const {
   struct Covered {
     const Piece* piece;
     Interval way;
@@ -188,6 +207,7 @@ bool ClosedForm::jump_between(const Piece& own, glm::dvec2 from, glm::dvec2 to) 
   }
   std::sort(ends.begin(), ends.end());
   const double same = rounding * size_m_ / std::max(glm::length(to - from), rounding * size_m_);
+  double largest = 0;
   for (size_t i = 0; i < ends.size();) {
     size_t last = i;  // outlines that meet in one place: a box's faces at their common edge
     while (last + 1 < ends.size() && ends[last + 1] <= ends[last] + same) ++last;
@@ -202,19 +222,20 @@ bool ClosedForm::jump_between(const Piece& own, glm::dvec2 from, glm::dvec2 to) 
       if (c.way.begin <= right && c.way.end > right)
         after = std::min(after, depth(*c.piece, from + right * (to - from)));
     }
-    if (before != after && !(std::abs(before - after) <= error)) return true;
+    if (before != after && !(std::abs(before - after) <= error)) largest = std::max(largest, std::abs(before - after));
   }
-  return false;
+  return largest;
 }
 
-bool ClosedForm::lit_at(const Place& place, glm::dvec2 x) const {
+ClosedForm::Answer ClosedForm::answer_at(const Place& place, glm::dvec2 x) const {
   const Piece& own = own_piece(place);
   const Piece* first = nullptr;
   for (const Piece& p : pieces_)
     if (covers(p, x) && (!first || depth(p, x) < depth(*first, x))) first = &p;
-  if (!first) return true;
-  if (depth(*first, x) >= sheet_depth(place, x) - tie(own, *first)) return true;
-  return lit(place) && !jump_between(own, in_plane(place.p), x);
+  if (!first || depth(*first, x) >= sheet_depth(place, x) - tie(own, *first)) return {};
+  if (!lit(place)) return {.lit = false};
+  const double jump = largest_jump(own, in_plane(place.p), x);
+  return {jump == 0, true, jump};
 }
 
 // The directions start + s way (s in [0, 1]) in which the piece stands before p.

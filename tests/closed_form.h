@@ -55,7 +55,17 @@ class ClosedForm {
   double first_depth(glm::dvec2 x, double z_from = -std::numeric_limits<double>::infinity()) const;
 
   // V(P, x); not for P on a sphere, whose sheet depends on its triangles.
-  bool lit_at(const Place& place, glm::dvec2 x) const;
+  bool lit_at(const Place& place, glm::dvec2 x) const { return answer_at(place, x).lit; }
+  struct Answer {
+    bool lit = true;
+    bool by_jumps = false;  // the first-hit depth's jumps between P and x decided
+    double jump_m = 0;      // the largest of them
+  };
+  Answer answer_at(const Place& place, glm::dvec2 x) const;
+
+  // May a map hold depth z_m at x, to within error_m? The first depth from z_from on, or that of a surface so little
+  // behind it, or of a face that ends so little beside it, that a ray that passes up to reach_m beside x may meet it.
+  bool may_be_first(glm::dvec2 x, double z_from, double z_m, double error_m, double reach_m) const;
 
   // R0: the share of the sun's disc that P sees above its own horizon (normal: on the viewer's side). The disc is cut
   // into chords, on which every shape covers an interval that is known exactly.
@@ -90,8 +100,9 @@ class ClosedForm {
   Interval along(const Piece& piece, glm::dvec2 from, glm::dvec2 to) const;
   const Piece& own_piece(const Place& place) const;
   double sheet_depth(const Place& place, glm::dvec2 x) const;
-  bool jump_between(const Piece& own, glm::dvec2 from, glm::dvec2 to) const;
+  double largest_jump(const Piece& own, glm::dvec2 from, glm::dvec2 to) const;
   double tie(const Piece& a, const Piece& b) const;
+  double steepest(glm::dvec2 x) const;
   double outline_distance(const Piece& piece, glm::dvec2 x) const;
   Interval shaded(const Piece& piece, glm::dvec3 p, glm::dvec3 start, glm::dvec3 way) const;
 

@@ -96,7 +96,7 @@ constexpr double ambiguous_reach = 4;
 struct Verdict {
   bool banded = false, ambiguous = false, r1 = false, far = false;
   std::string taps_wrong;  // each one: number, F and V by formula, F and V by rays
-  int tap_ambiguous = 0, r2 = 0, r3 = 0, clipped = 0, depth = 0, taps = 0, dark = 0, differ = 0;
+  int tap_ambiguous = 0, r2 = 0, r3 = 0, clipped = 0, depth = 0, depth_either = 0, taps = 0, dark = 0, differ = 0;
 };
 
 void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage& receivers, int kernel, Tally& tally) {
@@ -105,7 +105,12 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
   const LookupProbe probe = probe_of(receivers, frame);
   const LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe, frame, {}, kernel);
   const ClosedForm inner(model.inner, frame), outer(model.outer, frame);
-  const double reach = ambiguous_reach * ray_error_m(model.scene);
+  const double error = ray_error_m(model.scene), reach = ambiguous_reach * error;
+  double round_step = 0;  // how much deeper a sphere is at its inner form's outline than the outer form there, and back
+  for (size_t i = 0; i < model.inner.size(); ++i)
+    if (model.inner[i].kind == ShapeKind::sphere)
+      round_step = std::max(round_step, 2 * std::sqrt(model.outer[i].radius * model.outer[i].radius -
+                                                      model.inner[i].radius * model.inner[i].radius));
   const double depth_step = 0x1p-24 + 1e-12 * (inner.size_m() / (frame.far_m - frame.near_m));
   std::vector<Verdict> verdicts(receivers.primitive.size());
   tbb::parallel_for(size_t{0}, verdicts.size(), [&](size_t i) {
@@ -131,10 +136,19 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
       const uint8_t bits = lookup.taps.taps[i * static_cast<size_t>(kernel * kernel) + static_cast<size_t>(tap)];
       const bool exact_lit = bits & tap_exact_lit, texel_lit = bits & tap_texel_lit;
       const glm::dvec2 x = p + glm::dvec2(offset) * frame.texel_m(), c = frame.texel_centre(texel);
-      const bool f = offset == glm::ivec2(0) ? lit : inner.lit_at(place, x), at_texel = inner.lit_at(place, c);
+      // Known: the inner and the outer form agree. Where jumps decide they must be larger than what the outlines'
+      // places between the two forms can make of them.
+      const auto ask = [&](glm::dvec2 y, bool& known) {
+        const ClosedForm::Answer in = inner.answer_at(place, y);
+        if (!model.round) return in.lit;
+        const ClosedForm::Answer out = outer.answer_at(place, y);
+        known = in.lit == out.lit && in.by_jumps == out.by_jumps &&
+                (!in.by_jumps || std::min(in.jump_m, out.jump_m) > round_step);
+        return in.lit;
+      };
+      bool f_known = !v.banded, at_texel_known = true;
+      const bool f = offset == glm::ivec2(0) ? lit : ask(x, f_known), at_texel = ask(c, at_texel_known);
       const double first = inner.first_depth(c), cut = inner.first_depth(c, frame.near_m);
-      const bool f_known = !model.round || f == (offset == glm::ivec2(0) ? outer.lit(place) : outer.lit_at(place, x));
-      const bool at_texel_known = !model.round || at_texel == outer.lit_at(place, c);
       const bool depth_known = !model.round || (first == outer.first_depth(c) && cut == outer.first_depth(c, frame.near_m));
       ++v.taps;
       v.dark += !f;
@@ -150,7 +164,9 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
       if (!inside_map(texel, frame.resolution)) continue;
       const double expected = cut <= frame.far_m ? frame.window_depth(cut) : 1;
       const double found = lookup.exact_map.at(texel.x, texel.y);
-      v.depth += !(std::abs(found - expected) <= depth_step);
+      if (std::abs(found - expected) <= depth_step) continue;
+      const double range = frame.far_m - frame.near_m, z = frame.near_m + found * range;
+      ++(inner.may_be_first(c, frame.near_m, z, depth_step * range, error) ? v.depth_either : v.depth);
     }
   });
   ++tally.scenes;
