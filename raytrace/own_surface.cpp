@@ -77,23 +77,20 @@ uint32_t OwnSurface::first_hit(glm::dvec2 x, uint64_t& rays) const {
   return embree_.first_hit(view_.ray_origin(x), view_.frame().ray_direction);
 }
 
+bool OwnSurface::clipped(uint32_t hit, glm::dvec2 x) const {
+  return hit != no_primitive && view_.hit_depth(hit, x) < view_.frame().near_m;
+}
+
 OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
   Verdict here = verdict(p, x, hit, rays);
   // Beside a silhouette, and where a dark receiver's own sheet comes out from under another surface.
   if (!here.sure || !(silhouettes_.near(x) || (here.lit && !p.lit))) return here;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const double z = hit == no_primitive ? infinity : view_.hit_depth(hit, x);
   for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
     const glm::dvec2 beside = x + beside_m() * way;
     const uint32_t other = first_hit(beside, rays);
-    const double other_z = other == no_primitive ? infinity : view_.hit_depth(other, x);
-    const bool step = hit == no_primitive || other == no_primitive
-                          ? hit != other
-                          : hit != other && std::abs(z - other_z) > rounding_share * depth_error(hit, other);
-    if (step || verdict(p, beside, other, rays).lit != here.lit) {
-      here.sure = false;
-      break;
-    }
+    if (clipped(other, beside) == clipped(hit, x) && verdict(p, beside, other, rays).lit == here.lit) continue;
+    here.sure = false;
+    break;
   }
   return here;
 }

@@ -28,7 +28,7 @@ class OwnSurface {
   OwnSurface(const EmbreeScene& embree, const Adjacency& adjacency, const LightView& view)
       : embree_(embree), adjacency_(adjacency), view_(view), silhouettes_(adjacency, view, beside_m()) {}
 
-  // sure: float error can change neither the verdict nor the depth that the light finds first at x.
+  // sure: float error changes neither the verdict nor on which side of the near plane the light is first met.
   struct Verdict {
     bool lit = false;
     bool sure = true;
@@ -41,6 +41,9 @@ class OwnSurface {
   // metres in the light's plane.
   double edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from, uint64_t& rays) const;
 
+  // Is what the light meets first at x before the map's near plane?
+  bool clipped(uint32_t hit, glm::dvec2 x) const;
+
   struct Sheet {
     double depth_m = 0;                // S
     uint32_t triangle = no_primitive;  // where the walk arrived, or no_primitive when it ended early
@@ -48,6 +51,7 @@ class OwnSurface {
   Sheet walk(const SurfacePoint& p, glm::dvec2 x) const;
 
  private:
+  uint32_t first_hit(glm::dvec2 x, uint64_t& rays) const;
   struct Way {
     bool continuous = true;
     bool sure = true;  // not: continuous but for a step that float error could make, or too many silhouettes in one place
@@ -55,7 +59,6 @@ class OwnSurface {
 
   // The verdict at this one hit.
   Verdict verdict(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const;
-  uint32_t first_hit(glm::dvec2 x, uint64_t& rays) const;
   // Places this far beside x are on the other side of a silhouette that the ray through x may have missed: the ray's
   // own error, and that of the ray there.
   double beside_m() const { return 2 * view_.ray_error_m(); }

@@ -220,7 +220,7 @@ LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverT
                                                         : surface.lit_at(points[k], exact[k], exact_hits[k], rays);
         const OwnSurface::Verdict at_texel = surface.lit_at(points[k], centre, hit, rays);
         const bool exact_lit = at_exact.lit, texel_lit = at_texel.lit;
-        const bool clipped = hit != no_primitive && view.hit_depth(hit, centre) < frame.near_m;
+        const bool clipped = surface.clipped(hit, centre);
         result.taps.taps[pixel * static_cast<size_t>(taps) + static_cast<size_t>(tap)] = static_cast<uint8_t>(
             (exact_lit ? tap_exact_lit : 0) | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
             (at_exact.sure && at_texel.sure ? 0 : tap_ambiguous));

@@ -21,7 +21,7 @@ enum TapBits : uint8_t {
   tap_exact_lit = 1,     // F: V(P, P + o), the tap at its exact, unsnapped place
   tap_texel_lit = 2,     // V: V(P, c), the tap at the centre of the texel it snaps to
   tap_near_clipped = 4,  // the true blocker at that centre lies before the map's near plane
-  tap_ambiguous = 8,     // F, V or the depth at the texel's centre changes within float error
+  tap_ambiguous = 8,     // F, V or what the near plane clips changes within float error
 };
 
 // The truth of every tap of every facing receiver. Taps run row by row, lowest v first, as the shader's loop does.

@@ -157,10 +157,9 @@ double ClosedForm::first_depth(glm::dvec2 x, double z_from) const {
 
 bool ClosedForm::may_be_first(glm::dvec2 x, double z_from, double z_m, double error_m, double reach_m) const {
   const double first = first_depth(x, z_from);
+  if (near_edge(x, reach_m)) return true;
   if (std::abs(z_m - first) <= error_m || z_m == first) return true;
   return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& p) {
-    const double aside = reach_m * (1 + glm::length(p.gradient));
-    if (outline_distance(p, x) <= reach_m && std::abs(depth(p, x) - z_m) <= error_m + aside) return true;
     return covers(p, x) && std::abs(depth(p, x) - z_m) <= error_m && depth(p, x) >= z_from &&
            depth(p, x) <= first + reach_m * (1 + steepest(x));
   });

@@ -64,7 +64,7 @@ class ClosedForm {
   Answer answer_at(const Place& place, glm::dvec2 x) const;
 
   // May a map hold depth z_m at x, to within error_m? The first depth from z_from on, or that of a surface so little
-  // behind it, or of a face that ends so little beside it, that a ray that passes up to reach_m beside x may meet it.
+  // behind it that a ray that passes up to reach_m beside x may meet it; anything where an outline is as near as that.
   bool may_be_first(glm::dvec2 x, double z_from, double z_m, double error_m, double reach_m) const;
 
   // R0: the share of the sun's disc that P sees above its own horizon (normal: on the viewer's side). The disc is cut
