@@ -40,7 +40,7 @@ BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, 
                     [&](const tbb::blocked_range<size_t>& range) {
                       Lists& lists = parts.local();
                       for (size_t i = range.begin(); i != range.end(); ++i) {
-                        if (!e.truth.facing[i] || e.truth.ambiguous[i]) continue;
+                        if (!e.truth.facing[i] || is_ambiguous(e.truth, e.taps, i)) continue;
                         ++lists.receivers;
                         const float factor = 1.0f - e.probe.n_dot_l[i];  // the shader's own
                         const auto threshold = [&](const Tap& tap) {

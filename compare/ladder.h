@@ -12,6 +12,7 @@
 // true blocker before near; else aliasing where V = L (the grid asked elsewhere and was answered truly); else acne (L
 // dark) or Peter Panning (L lit). So steps never cancel on pixels that are right, and the classes sum to R4 - R2.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -89,6 +90,13 @@ inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSetti
   result.always_lit = beyond_far && map.lit_beyond_far;
   result.depth = read.x < 0 ? border_depth : map_depth.at(read.x, read.y);
   return result;
+}
+
+// Could float error change what the rays say of this receiver? Then it is counted, and left out of the errors.
+inline bool is_ambiguous(const ReceiverTruth& truth, const TapTruth& taps, size_t i) {
+  const auto first = taps.taps.begin() + static_cast<std::ptrdiff_t>(i) * taps.taps_per_receiver;
+  return truth.ambiguous[i] || std::any_of(first, first + taps.taps_per_receiver,
+                                           [](uint8_t bits) { return (bits & tap_ambiguous) != 0; });
 }
 
 // The cause of a tap whose verdict at R4 is `lit`.

@@ -17,6 +17,8 @@ class Adjacency {
   // The other triangles at edge `edge` (0: corners 0-1, 1: 1-2, 2: 2-0) of `triangle`.
   std::span<const uint32_t> across(uint32_t triangle, int edge) const;
 
+  uint32_t triangles() const { return static_cast<uint32_t>(welded_.size()); }
+
   // The corners of a triangle as welded vertices: equal numbers mean exactly equal positions.
   const std::array<uint32_t, 3>& welded(uint32_t triangle) const { return welded_[triangle]; }
 

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace noonmark {
 namespace {
 
-// From a bracket of 2^-10 of the way on, two planes that cross inside it count as continuous. Where they do not, a
-// third triangle may lie between (a corner): halve on, as far as rays can tell places apart.
-constexpr int jump_test_depth = 10;
-constexpr int deepest = 48;  // beyond double's own resolution of the way; what ends it is the rays' error
+// Double's rounding as a share of float's: 2^-29 for one operation, and 2^5 for all of them.
+constexpr double rounding_share = 0x1p-24;
 
 }  // namespace
 
@@ -73,18 +72,40 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec2 x) const {
   return ends_at(view_.plane_depth(p.primitive, x));
 }
 
-bool OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint64_t& rays) const {
+uint32_t OwnSurface::first_hit(glm::dvec2 x, uint64_t& rays) const {
   ++rays;
-  return lit_at(p, x, embree_.first_hit(view_.ray_origin(x), view_.frame().ray_direction), rays);
+  return embree_.first_hit(view_.ray_origin(x), view_.frame().ray_direction);
 }
 
-bool OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
-  if (hit == no_primitive || hit == p.primitive) return true;
+bool OwnSurface::clipped(uint32_t hit, glm::dvec2 x) const {
+  return hit != no_primitive && view_.hit_depth(hit, x) < view_.frame().near_m;
+}
+
+OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
+  Verdict here = verdict(p, x, hit, rays);
+  // Beside a silhouette, and where a dark receiver's own sheet comes out from under another surface.
+  if (!here.sure || !(silhouettes_.near(x) || (here.lit && !p.lit))) return here;
+  for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+    const glm::dvec2 beside = x + beside_m() * way;
+    const uint32_t other = first_hit(beside, rays);
+    if (clipped(other, beside) == clipped(hit, x) && verdict(p, beside, other, rays).lit == here.lit) continue;
+    here.sure = false;
+    break;
+  }
+  return here;
+}
+
+OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
+  if (hit == no_primitive || hit == p.primitive) return {true, true};
   const Sheet sheet = walk(p, x);
-  if (sheet.triangle == hit) return true;
+  if (sheet.triangle == hit) return {true, true};
   const double z = view_.hit_depth(hit, x);
-  if (z >= sheet.depth_m - depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle)) return true;
-  return p.lit && continuous(p.at, p.primitive, x, hit, rays);
+  const double error = depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle);
+  if (z >= sheet.depth_m - rounding_share * error) return {true, true};
+  if (!p.lit) return {z >= sheet.depth_m - error, z < sheet.depth_m - error};
+  const Way found = way(p, x, hit, rays);
+  if (z >= sheet.depth_m - error) return {true, found.continuous && found.sure};
+  return {found.continuous, found.sure};
 }
 
 double OwnSurface::edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from,
@@ -92,7 +113,8 @@ double OwnSurface::edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dv
   double same = 0, other = 1;
   for (int halving = 0; halving < 8; ++halving) {
     const double middle = (same + other) / 2;
-    (lit_at(p, from + middle * (to - from), rays) == lit_from ? same : other) = middle;
+    const glm::dvec2 x = from + middle * (to - from);
+    (verdict(p, x, first_hit(x, rays), rays).lit == lit_from ? same : other) = middle;
   }
   return other * glm::length(to - from);
 }
@@ -105,47 +127,50 @@ double OwnSurface::depth_error(uint32_t a, uint32_t b) const {
   return view_.ray_error_m() * (1 + slope(a) + slope(b));
 }
 
-bool OwnSurface::planes_cross(uint32_t a, uint32_t b, glm::dvec2 from, glm::dvec2 to) const {
-  const double start = view_.plane_depth(a, from) - view_.plane_depth(b, from);
-  const double end = view_.plane_depth(a, to) - view_.plane_depth(b, to);
-  // Coplanar triangles differ by rounding, which may have one sign at both ends.
-  const double rounding = depth_error(a, b);
-  return !(start > rounding && end > rounding) && !(start < -rounding && end < -rounding);
-}
-
-bool OwnSurface::continuous(glm::dvec2 from, uint32_t from_triangle, glm::dvec2 to, uint32_t to_triangle,
-                            uint64_t& rays) const {
-  struct Bracket {
-    double begin, end;  // fractions of the way
-    uint32_t first, last;
-    int depth;
-  };
-  const glm::dvec2 way = to - from;
+OwnSurface::Way OwnSurface::way(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
+  const glm::dvec2 way = x - p.at;
   const double length = glm::length(way);
-  Bracket stack[deepest + 2];
-  int top = 0;
-  stack[top++] = {0, 1, from_triangle, to_triangle, 0};
-  while (top > 0) {
-    const Bracket bracket = stack[--top];
-    if (bracket.first == bracket.last) continue;
-    if (bracket.depth >= jump_test_depth) {
-      // The rays that found the two triangles passed beside their places by up to the ray error.
-      const double slack = length > 0 ? view_.ray_error_m() / length : 0;
-      if (bracket.first != no_primitive && bracket.last != no_primitive &&
-          planes_cross(bracket.first, bracket.last, from + (bracket.begin - slack) * way,
-                       from + (bracket.end + slack) * way))
-        continue;
-      if (bracket.first == no_primitive || bracket.last == no_primitive || bracket.depth == deepest ||
-          bracket.end - bracket.begin <= 2 * slack)
-        return false;
+  if (!(length > 0)) return {true, true};
+  const std::vector<Silhouettes::Crossing> at = silhouettes_.crossings(p.at, x);
+  const double aside = beside_m() / length;
+  const auto begin_of = [&](size_t i) { return at[i].t - aside / at[i].sine; };
+  const auto end_of = [&](size_t i) { return at[i].t + aside / at[i].sine; };
+  Way found{true, true};
+  for (size_t first = 0, last; first < at.size(); first = last + 1) {
+    last = first;  // silhouettes that rays cannot tell apart are crossed together
+    double begin = begin_of(first), end = end_of(first);
+    while (last + 1 < at.size() && begin_of(last + 1) <= end) {
+      ++last;
+      begin = std::min(begin, begin_of(last));
+      end = std::max(end, end_of(last));
     }
-    const double middle = (bracket.begin + bracket.end) / 2;
-    ++rays;
-    const uint32_t hit = embree_.first_hit(view_.ray_origin(from + middle * way), view_.frame().ray_direction);
-    stack[top++] = {bracket.begin, middle, bracket.first, hit, bracket.depth + 1};
-    stack[top++] = {middle, bracket.end, hit, bracket.last, bracket.depth + 1};
+    const uint32_t before = begin > 0 ? first_hit(p.at + begin * way, rays) : p.primitive;
+    const uint32_t after = end < 1 ? first_hit(p.at + end * way, rays) : hit;
+    if (before == after) continue;
+    const bool one_place = at[last].t - at[first].t <= 2 * aside;  // else something may lie between the crossings
+    // How far apart their depths are: where silhouettes are crossed, and at the least between the two rays, where two
+    // surfaces that run into one another may change places.
+    double step = std::numeric_limits<double>::infinity(), least = step, error = 0;
+    bool plain = before == no_primitive || after == no_primitive;  // the edge crossed is the nearer one's own
+    if (before != no_primitive && after != no_primitive) {
+      error = depth_error(before, after);
+      const auto gap = [&](double t) {
+        return view_.plane_depth(before, p.at + t * way) - view_.plane_depth(after, p.at + t * way);
+      };
+      for (size_t i = first; i <= last; ++i) {
+        const glm::dvec2 y = p.at + at[i].t * way;
+        const double front = std::min(view_.plane_depth(before, y), view_.plane_depth(after, y));
+        step = std::min(step, std::abs(gap(at[i].t)));
+        plain |= std::abs(at[i].depth_m - front) <= rounding_share * error;
+      }
+      const double start = gap(begin), stop = gap(end);
+      least = start * stop <= 0 ? 0 : std::min({step, std::abs(start), std::abs(stop)});
+    }
+    if (step <= rounding_share * error) continue;
+    if (!(least <= error) && one_place && plain) return {false, true};
+    found = {found.continuous && least <= error, false};
   }
-  return true;
+  return found;
 }
 
 }  // namespace noonmark

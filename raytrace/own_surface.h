@@ -13,6 +13,7 @@
 #include "raytrace/adjacency.h"
 #include "raytrace/embree_scene.h"
 #include "raytrace/light_view.h"
+#include "raytrace/silhouettes.h"
 
 namespace noonmark {
 
@@ -25,17 +26,23 @@ struct SurfacePoint {
 class OwnSurface {
  public:
   OwnSurface(const EmbreeScene& embree, const Adjacency& adjacency, const LightView& view)
-      : embree_(embree), adjacency_(adjacency), view_(view) {}
+      : embree_(embree), adjacency_(adjacency), view_(view), silhouettes_(adjacency, view, beside_m()) {}
+
+  // sure: float error changes neither the verdict nor on which side of the near plane the light is first met.
+  struct Verdict {
+    bool lit = false;
+    bool sure = true;
+  };
 
   // hit: the triangle of the first hit on the light ray through x, or no_primitive. rays: counts those cast here.
-  bool lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const;
-
-  // The same, casting the ray through x itself.
-  bool lit_at(const SurfacePoint& p, glm::dvec2 x, uint64_t& rays) const;
+  Verdict lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const;
 
   // Where V changes between two places with different verdicts, to 2^-8 of the way: the distance from `from` to there,
   // metres in the light's plane.
   double edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from, uint64_t& rays) const;
+
+  // Is what the light meets first at x before the map's near plane?
+  bool clipped(uint32_t hit, glm::dvec2 x) const;
 
   struct Sheet {
     double depth_m = 0;                // S
@@ -44,16 +51,28 @@ class OwnSurface {
   Sheet walk(const SurfacePoint& p, glm::dvec2 x) const;
 
  private:
-  bool continuous(glm::dvec2 from, uint32_t from_triangle, glm::dvec2 to, uint32_t to_triangle, uint64_t& rays) const;
+  uint32_t first_hit(glm::dvec2 x, uint64_t& rays) const;
+  struct Way {
+    bool continuous = true;
+    bool sure = true;  // not: continuous but for a step that float error could make, or too many silhouettes in one place
+  };
+
+  // The verdict at this one hit.
+  Verdict verdict(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const;
+  // Places this far beside x are on the other side of a silhouette that the ray through x may have missed: the ray's
+  // own error, and that of the ray there.
+  double beside_m() const { return 2 * view_.ray_error_m(); }
+  // Has the first-hit depth a jump between P, lit, and x? It can have one only where the way crosses a silhouette.
+  Way way(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const;
   // By how much two depths that are one may differ: a ray that passes beside x by its float error may meet the sheet's
   // next triangle, whose plane differs there by the error times the slopes. Edge-on triangles have no slope to speak
   // of.
   double depth_error(uint32_t a, uint32_t b) const;
-  bool planes_cross(uint32_t a, uint32_t b, glm::dvec2 from, glm::dvec2 to) const;
 
   const EmbreeScene& embree_;
   const Adjacency& adjacency_;
   const LightView& view_;
+  Silhouettes silhouettes_;
 };
 
 }  // namespace noonmark

@@ -40,6 +40,21 @@ std::vector<uint32_t> kept_triangles(const Scene& scene, const LightFrame& frame
 
 }  // namespace
 
+// Depth of the first surface at x from the near plane on. The rays start a little before it, for they start and end in
+// float; what is before it in double is passed.
+std::optional<double> first_from_near(const EmbreeScene& seen, const LightView& view, glm::dvec2 x, uint64_t& rays) {
+  const LightFrame& frame = view.frame();
+  const double near = frame.near_m;
+  for (double from = near - 2 * view.ray_error_m();;) {
+    ++rays;
+    const uint32_t hit = seen.first_hit(glm::vec3(frame.to_world({x.x, x.y, from})), frame.ray_direction);
+    if (hit == no_primitive) return std::nullopt;
+    const double depth = view.hit_depth(hit, x);
+    if (depth >= near) return depth;
+    from = std::max(from, std::min(depth, near)) + 2 * view.ray_error_m();
+  }
+}
+
 struct Tracer::Impl {
   explicit Impl(const Scene& s) : scene(s), embree(device, s), adjacency(s) {}
 
@@ -132,12 +147,13 @@ Image<float> Tracer::Impl::exact_map(const LightView& view, const TexelRays& tex
   const std::vector<glm::ivec2>& list = texels.inside_texels();
   std::atomic<uint64_t> extra = 0;
   for_each_packet(list.size(), [&](size_t first, int n) {
+    uint64_t extra_here = 0;
     uint32_t hits[packet_size];
     glm::vec3 origins[packet_size];
     if (uncut) {
       for (int i = 0; i < n; ++i) origins[i] = view.ray_origin(frame.texel_centre(list[first + i]));
       seen.first_hits(n, origins, frame.ray_direction, hits);
-      extra += n;
+      extra_here += static_cast<uint64_t>(n);
     } else {
       for (int i = 0; i < n; ++i) hits[i] = texels.hit(list[first + i]);
     }
@@ -146,15 +162,14 @@ Image<float> Tracer::Impl::exact_map(const LightView& view, const TexelRays& tex
       const glm::dvec2 centre = frame.texel_centre(list[first + i]);
       double depth = view.hit_depth(hits[i], centre);
       if (depth < frame.near_m) {  // the rasteriser clips it: what lies behind it, from the near plane on?
-        const uint32_t behind =
-            seen.first_hit(glm::vec3(frame.to_world({centre.x, centre.y, frame.near_m})), frame.ray_direction);
-        ++extra;
-        if (behind == no_primitive) continue;
-        depth = std::max(view.hit_depth(behind, centre), frame.near_m);
+        const std::optional<double> behind = first_from_near(seen, view, centre, extra_here);
+        if (!behind) continue;
+        depth = *behind;
       }
       if (depth <= frame.far_m)
         map.at(list[first + i].x, list[first + i].y) = static_cast<float>(frame.window_depth(depth));
     }
+    extra += extra_here;
   });
   rays += extra;
   return map;
@@ -208,11 +223,14 @@ LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverT
         const glm::ivec2 texel = probe.texel[pixel] + offset;
         const uint32_t hit = texels.hit(texel);
         const glm::dvec2 centre = frame.texel_centre(texel);
-        const bool exact_lit = centre_tap ? points[k].lit : surface.lit_at(points[k], exact[k], exact_hits[k], rays);
-        const bool texel_lit = surface.lit_at(points[k], centre, hit, rays);
-        const bool clipped = hit != no_primitive && view.hit_depth(hit, centre) < frame.near_m;
+        const OwnSurface::Verdict at_exact = centre_tap ? OwnSurface::Verdict{points[k].lit, true}
+                                                        : surface.lit_at(points[k], exact[k], exact_hits[k], rays);
+        const OwnSurface::Verdict at_texel = surface.lit_at(points[k], centre, hit, rays);
+        const bool exact_lit = at_exact.lit, texel_lit = at_texel.lit;
+        const bool clipped = surface.clipped(hit, centre);
         result.taps.taps[pixel * static_cast<size_t>(taps) + static_cast<size_t>(tap)] = static_cast<uint8_t>(
-            (exact_lit ? tap_exact_lit : 0) | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0));
+            (exact_lit ? tap_exact_lit : 0) | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
+            (at_exact.sure && at_texel.sure ? 0 : tap_ambiguous));
         if (exact_lit != texel_lit) {
           const double distance =
               surface.edge_distance(points[k], centre_tap ? points[k].at : exact[k], centre, exact_lit, rays);

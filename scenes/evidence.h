@@ -21,6 +21,7 @@ enum TapBits : uint8_t {
   tap_exact_lit = 1,     // F: V(P, P + o), the tap at its exact, unsnapped place
   tap_texel_lit = 2,     // V: V(P, c), the tap at the centre of the texel it snaps to
   tap_near_clipped = 4,  // the true blocker at that centre lies before the map's near plane
+  tap_ambiguous = 8,     // F, V or what the near plane clips changes within float error
 };
 
 // The truth of every tap of every facing receiver. Taps run row by row, lowest v first, as the shader's loop does.
@@ -33,7 +34,7 @@ struct TapTruth {
 struct ReceiverTruth {
   Image<uint8_t> facing;     // 1 where N.L > 0
   Image<uint8_t> lit;        // R1: one exact shadow ray to the light's centre. 0 where not facing
-  Image<uint8_t> ambiguous;  // 1 where the verdict of R1 changes within float error
+  Image<uint8_t> ambiguous;  // 1 where the verdict of R1 changes within float error; taps have their own
   Image<float> soft;         // R0: fraction of the light's disc that is seen; equals `lit` for a light without size
 };
 

@@ -37,7 +37,7 @@ float swept_bias(const Synthetic& s, CurveParameter parameter, size_t receiver, 
 Counts counted_at(const Synthetic& s, CurveParameter parameter, float x) {
   Counts c;
   for (size_t i = 0; i < s.truth.facing.size(); ++i) {
-    if (!s.truth.facing[i] || s.truth.ambiguous[i]) continue;
+    if (!s.truth.facing[i] || naive::ambiguous(s, i)) continue;
     ++c.receivers;
     const float bias = swept_bias(s, parameter, i, x);
     for (const naive::Tap& tap : naive::taps_of(s, s.exact, i))
@@ -63,7 +63,7 @@ std::set<float> breakpoints(const Synthetic& s, CurveParameter parameter, bool e
   std::set<float> all;
   const auto add = [&](const Image<float>& map) {
     for (size_t i = 0; i < s.truth.facing.size(); ++i) {
-      if (!s.truth.facing[i] || s.truth.ambiguous[i]) continue;
+      if (!s.truth.facing[i] || naive::ambiguous(s, i)) continue;
       for (const naive::Tap& tap : naive::taps_of(s, map, i)) {
         const auto lit = [&](float x) { return naive::verdict(s, tap, i, swept_bias(s, parameter, i, x)); };
         uint32_t dark = 0, at = std::bit_cast<uint32_t>(infinity);
@@ -240,7 +240,7 @@ TEST(BiasCounts, AreWhatTheLadderBooksAtThatBias) {
     for (Cause cause : booked) {
       double sum = 0;
       for (size_t i = 0; i < s.r4.size(); ++i)
-        if (s.truth.facing[i] && !s.truth.ambiguous[i])
+        if (s.truth.facing[i] && !naive::ambiguous(s, i))
           sum += std::abs(static_cast<double>(ladder.step[static_cast<size_t>(cause)][i]));
       EXPECT_NEAR(sum * s.taps.taps_per_receiver, static_cast<double>(counts.caused(cause, x)), 1e-3)
           << cause_name(cause);

@@ -74,6 +74,7 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
       if (taps == 1 ? s.truth.lit[i] != 0 : chance(s.truth.lit[i] ? 80 : 20)) bits |= tap_exact_lit;
       if (chance(75) ? (bits & tap_exact_lit) != 0 : chance(50)) bits |= tap_texel_lit;
       if (chance(10)) bits |= tap_near_clipped;
+      if (chance(3)) bits |= tap_ambiguous;
       s.taps.taps[i * static_cast<size_t>(taps) + static_cast<size_t>(t)] = bits;
     }
   }
@@ -117,6 +118,14 @@ inline std::vector<Tap> taps_of(const Synthetic& s, const Image<float>& map, siz
       result.push_back({(bits & 1) != 0, (bits & 2) != 0, inside && !beyond && (bits & 4) == 0, beyond, depth});
     }
   }
+  return result;
+}
+
+// The receiver's own verdict, or that of any of its taps, may be another one.
+inline bool ambiguous(const Synthetic& s, size_t receiver) {
+  bool result = s.truth.ambiguous[receiver] != 0;
+  const size_t taps = static_cast<size_t>(s.kernel) * static_cast<size_t>(s.kernel);
+  for (size_t t = 0; t < taps; ++t) result |= (s.taps.taps[receiver * taps + t] & 8) != 0;
   return result;
 }
 

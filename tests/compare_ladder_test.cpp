@@ -119,7 +119,7 @@ TEST_P(Climb, FlagsFacingAmbiguousAndOutside) {
     for (size_t i = 0; i < s.r4.size(); ++i) {
       const glm::ivec2 t = s.probe.texel[i];
       const bool off = t.x < 0 || t.y < 0 || t.x > 5 || t.y > 5, far = s.probe.reference[i] > 1;
-      const int expected = !s.truth.facing[i] ? 0 : 1 + (off || far ? 2 : 0) + (s.truth.ambiguous[i] ? 4 : 0);
+      const int expected = !s.truth.facing[i] ? 0 : 1 + (off || far ? 2 : 0) + (naive::ambiguous(s, i) ? 4 : 0);
       ASSERT_EQ(ladder.flags[i], expected);
       outside += s.truth.facing[i] && off && !far;
       beyond += s.truth.facing[i] && far && !off;
@@ -202,7 +202,7 @@ TEST(ClimbUnfiltered, SizesOfCausesSumToTheError) {
 
 size_t a_facing_receiver(const Synthetic& s, bool ambiguous) {
   for (size_t i = s.r4.size() / 2; i < s.r4.size(); ++i)
-    if (s.truth.facing[i] && (s.truth.ambiguous[i] != 0) == ambiguous) return i;
+    if (s.truth.facing[i] && naive::ambiguous(s, i) == ambiguous) return i;
   throw std::logic_error("no such receiver");
 }
 
