@@ -157,7 +157,7 @@ TEST_P(Curves, NameTheExactEndsOfTheWindow) {
 uint64_t stored_acne(const Synthetic& s, CurveParameter parameter, float x) {
   uint64_t count = 0;
   for (size_t i = 0; i < s.truth.facing.size(); ++i) {
-    if (!s.truth.facing[i] || s.truth.ambiguous[i]) continue;
+    if (!s.truth.facing[i] || naive::ambiguous(s, i)) continue;
     for (const naive::Tap& tap : naive::taps_of(s, s.stored, i))
       count +=
           tap.covered && tap.exact_lit && tap.texel_lit && !naive::verdict(s, tap, i, swept_bias(s, parameter, i, x));
