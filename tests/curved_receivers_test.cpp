@@ -359,6 +359,36 @@ INSTANTIATE_TEST_SUITE_P(Places, SphereOnFloor, testing::Values(1.0, 0.97, 1.03,
                      : "Dome";
 });
 
+// A sphere within a slightly larger one: whatever of it faces the light is dark, and so is every place that a texel
+// reaches on it. Carried along its tangent plane instead of along itself it would break through the shell, which stands
+// nearer than the sphere bends away within a coarse texel. With a bias that reaches through the shell: Peter Panning.
+TEST(Shell, KeepsWhatIsWithinDarkAtEveryTap) {
+  for (const auto& [columns, rows] : {std::pair(24, 12), std::pair(128, 64)}) {
+    Scene scene;
+    add_sphere(scene, columns, rows, 1, 0);
+    const size_t within = scene.triangles.size();
+    add_sphere(scene, columns, rows, 1.01, 0);
+    scene.light = {.position_m = {-3, 4, 1}, .target_m = {0, 0, 0}};
+    uint64_t taps = 0, panning = 0;
+    on_many_grids(scene, 950, 5000, [&](const Judged& j) {
+      const TrueEdges edges(scene, j.frame);
+      const auto inner = [&](size_t i) {
+        return j.receivers.primitive[i] < within &&
+               !edges.outline_within(glm::dvec2(j.frame.to_light(j.receivers.position[i])), j.reach());
+      };
+      const Tally sum = tally(j, inner);
+      taps += sum.taps;
+      EXPECT_EQ(sum.dark, sum.taps);
+      EXPECT_EQ(sum.differ, 0u);
+      const Judged::Causes causes = j.causes(1, inner);
+      EXPECT_EQ(causes[at(Cause::none)] + causes[at(Cause::peter_panning)], sum.taps);
+      panning += causes[at(Cause::peter_panning)];
+    });
+    EXPECT_GT(taps, 5000u);
+    EXPECT_GT(panning, taps / 2);
+  }
+}
+
 // --- The same surfaces, held otherwise
 // ----------------------------------------------------------------------------------
 
