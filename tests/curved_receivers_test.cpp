@@ -10,46 +10,6 @@
 namespace noonmark::curved {
 namespace {
 
-constexpr int resolutions[] = {19, 64, 200};
-
-size_t at(Cause cause) { return static_cast<size_t>(cause); }
-
-struct Tally {
-  uint64_t taps = 0, differ = 0, dark = 0, ambiguous = 0, facing = 0;
-};
-
-Tally tally(const Judged& j, const std::function<bool(size_t)>& chosen = nullptr) {
-  Tally sum;
-  for (size_t i = 0; i < j.truth.facing.size(); ++i) {
-    sum.facing += j.truth.facing[i];
-    sum.ambiguous += j.truth.facing[i] && j.truth.ambiguous[i];
-    if (!j.counted(i) || (chosen && !chosen(i))) continue;
-    for (int t = 0; t < j.kernel * j.kernel; ++t) {
-      const Tap tap = j.tap(i, t);
-      ++sum.taps;
-      sum.differ += tap.exact_lit != tap.texel_lit;
-      sum.dark += !tap.exact_lit;
-    }
-  }
-  return sum;
-}
-
-// Calls visit(judged) for grids of several sizes, each shifted and turned by chance, without a filter and with 3x3.
-void on_many_grids(const Scene& scene, uint32_t seed, int count, const std::function<void(const Judged&)>& visit,
-                   bool facing_light = false) {
-  std::mt19937 random(seed);
-  const raytrace::Tracer tracer(scene);
-  for (int resolution : resolutions) {
-    for (int kernel : {1, 3}) {
-      const LightFrame frame = aligned(scene, resolution, random);
-      const ReceiverImage receivers =
-          test::random_receivers(scene, frame.direction_to_light(), facing_light, count, seed + resolution);
-      SCOPED_TRACE(testing::Message() << "resolution " << resolution << " kernel " << kernel);
-      visit(judge(tracer, receivers, frame, kernel));
-    }
-  }
-}
-
 // How a shape is that shades nothing of itself.
 struct Lone {
   // A texel beyond a receiver's own fold may show another limb, higher than the fold, and the light's view jumps on the
@@ -88,7 +48,6 @@ void expect_acne_only(const Scene& scene, uint32_t seed, const Lone& lone = {}) 
 }
 
 // --- Where no point shades another
-// ------------------------------------------------------------------------------------
 
 // A height field hides nothing of itself from a light straight above, steep or not, concave or not: of every vertical
 // line it holds one point. Coarse cells are creased where their two triangles meet, in ridges and in valleys.
@@ -161,48 +120,6 @@ TEST(CoplanarFaces, ShowAcneOnly) {
 }
 
 // --- Where something does
-// ---------------------------------------------------------------------------------------------
-
-// Every tap whose truth changes between its place and the texel's centre lies within half a texel's diagonal of an edge
-// at which the light's view of the scene jumps (law 4), whatever the receiver's shape. The edges are those of the
-// triangles' outlines, found without rays.
-// Of lit unfiltered receivers without exception. A tap further off, or of a dark receiver, asks for P's surface at a
-// place that it may not reach: where P stands at its own fold (a terminator), the surface goes on at the fold's depth,
-// and V changes where that passes through what the light sees there. That is the design's own admission ("dark
-// receivers at a concave terminator"), and rare.
-struct Explained {
-  uint64_t taps = 0, at_jumps = 0, at_own_folds = 0, never = 0;
-};
-
-Explained explain_aliasing(const Judged& j, const TrueEdges& edges,
-                           const std::function<bool(size_t)>& chosen = nullptr) {
-  Explained sum;
-  const double half_diagonal = j.frame.texel_m() * (std::sqrt(0.5) + 1e-6);
-  for (size_t i = 0; i < j.truth.facing.size(); ++i) {
-    if (!j.counted(i) || (chosen && !chosen(i))) continue;
-    for (int t = 0; t < j.kernel * j.kernel; ++t) {
-      ++sum.taps;
-      const Tap tap = j.tap(i, t);
-      if (tap.exact_lit == tap.texel_lit) continue;
-      const glm::dvec2 p = glm::dvec2(j.frame.to_light(j.receivers.position[i]));
-      if (edges.jump_within(j.place(i, t), half_diagonal))
-        ++sum.at_jumps;
-      else if ((j.kernel > 1 || !j.truth.lit[i]) && edges.outline_within(p, j.reach()))
-        ++sum.at_own_folds;
-      else
-        ++sum.never;
-    }
-  }
-  return sum;
-}
-
-void expect_aliasing_at_true_edges(const Judged& j, const TrueEdges& edges,
-                                   const std::function<bool(size_t)>& chosen = nullptr) {
-  const Explained sum = explain_aliasing(j, edges, chosen);
-  EXPECT_EQ(sum.never, 0u);
-  // 3x3 taps of the coarsest grid reach over a fifth of these shapes.
-  EXPECT_LE(sum.at_own_folds, sum.taps / (j.kernel == 1 ? 200 : 20)) << "of " << sum.at_jumps << " at true edges";
-}
 
 // From the side a torus shades its own far half: the near tube's shadow falls on the inner slope beyond the hole.
 TEST(Torus, ObliquelyLitAliasesAtItsShadowsEdgesOnly) {
@@ -359,107 +276,34 @@ INSTANTIATE_TEST_SUITE_P(Places, SphereOnFloor, testing::Values(1.0, 0.97, 1.03,
                      : "Dome";
 });
 
-// --- The same surfaces, held otherwise
-// ----------------------------------------------------------------------------------
-
-// Tap by tap, the truths of two scenes that are the same set of points. Ambiguous receivers are left out, and few.
-void expect_same_taps(const Judged& a, const Judged& b) {
-  uint64_t different = 0, ambiguous = 0, differ = 0;
-  for (size_t i = 0; i < a.truth.facing.size(); ++i) {
-    ASSERT_EQ(a.truth.facing[i], b.truth.facing[i]);
-    if (!a.truth.facing[i]) continue;
-    if (a.truth.ambiguous[i] || b.truth.ambiguous[i]) {
-      ++ambiguous;
-      continue;
-    }
-    for (int t = 0; t < a.kernel * a.kernel; ++t) {
-      const size_t tap = i * static_cast<size_t>(a.kernel * a.kernel) + static_cast<size_t>(t);
-      different += a.lookup.taps.taps[tap] != b.lookup.taps.taps[tap];
-      differ += a.tap(i, t).exact_lit != a.tap(i, t).texel_lit;
-    }
+// A sphere within a slightly larger one: whatever of it faces the light is dark, and so is every place that a texel
+// reaches on it. Carried along its tangent plane instead of along itself it would break through the shell, which stands
+// nearer than the sphere bends away within a coarse texel. With a bias that reaches through the shell: Peter Panning.
+TEST(Shell, KeepsWhatIsWithinDarkAtEveryTap) {
+  for (const auto& [columns, rows] : {std::pair(24, 12), std::pair(128, 64)}) {
+    Scene scene;
+    add_sphere(scene, columns, rows, 1, 0);
+    const size_t within = scene.triangles.size();
+    add_sphere(scene, columns, rows, 1.01, 0);
+    scene.light = {.position_m = {-3, 4, 1}, .target_m = {0, 0, 0}};
+    uint64_t taps = 0, panning = 0;
+    on_many_grids(scene, 950, 5000, [&](const Judged& j) {
+      const TrueEdges edges(scene, j.frame);
+      const auto inner = [&](size_t i) {
+        return j.receivers.primitive[i] < within &&
+               !edges.outline_within(glm::dvec2(j.frame.to_light(j.receivers.position[i])), j.reach());
+      };
+      const Tally sum = tally(j, inner);
+      taps += sum.taps;
+      EXPECT_EQ(sum.dark, sum.taps);
+      EXPECT_EQ(sum.differ, 0u);
+      const Judged::Causes causes = j.causes(1, inner);
+      EXPECT_EQ(causes[at(Cause::none)] + causes[at(Cause::peter_panning)], sum.taps);
+      panning += causes[at(Cause::peter_panning)];
+    });
+    EXPECT_GT(taps, 5000u);
+    EXPECT_GT(panning, taps / 2);
   }
-  EXPECT_EQ(different, 0u);
-  EXPECT_LT(ambiguous, 10u);
-  EXPECT_GT(differ, 5u) << "there must be something to compare";
-}
-
-// Every face twice, the second time turned over: nothing lies before anything that did not before.
-TEST(DoubledFaces, ChangeNoTap) {
-  Scene single;
-  add_floor(single, 4);
-  add_sphere(single, 24, 12, 1, 0.9);
-  add_box(single, "box", {-2.5, 0, -1}, {-1.5, 0.7, 1});
-  single.light = {.position_m = {-3, 4, 1}, .target_m = {0, 0, 0}};
-  Scene twice = single;
-  for (const glm::uvec3 t : single.triangles) twice.triangles.push_back({t.x, t.z, t.y});
-  const raytrace::Tracer tracer(single), tracer_twice(twice);
-  on_many_grids(single, 700, 5000,
-                [&](const Judged& j) { expect_same_taps(j, judge(tracer_twice, j.receivers, j.frame, j.kernel)); });
-}
-
-// A box on a floor: two meshes; one mesh of which the floor is cut along the box's foot, so that they share corners and
-// edges; and the cut floor without shared corners. The causes are the same (law 11), tap by tap.
-TEST(BoxOnFloor, HasTheSameTapsAsOneMeshOrTwo) {
-  const double cuts[4] = {-3, -0.5, 0.5, 3};
-  Scene whole, cut;
-  add_floor(whole, 3);
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k)
-      add_quad(cut, "floor", {cuts[i], 0, cuts[k]}, {0, 0, cuts[k + 1] - cuts[k]}, {cuts[i + 1] - cuts[i], 0, 0});
-  const uint32_t floor_whole = static_cast<uint32_t>(whole.triangles.size()),
-                 floor_cut = static_cast<uint32_t>(cut.triangles.size());
-  for (Scene* scene : {&whole, &cut}) {
-    add_box(*scene, "box", {-0.5, 0, -0.5}, {0.5, 1, 0.5});
-    scene->light = {.position_m = {-3, 4, 1.3}, .target_m = {0, 0, 0}};
-  }
-  const raytrace::Tracer tracer(whole), tracer_cut(cut);
-  on_many_grids(whole, 800, 5000, [&](const Judged& j) {
-    ReceiverImage moved = j.receivers;
-    for (uint32_t& primitive : moved.primitive.pixels) {
-      const glm::vec3 p = j.receivers.position[static_cast<size_t>(&primitive - moved.primitive.pixels.data())];
-      if (primitive >= floor_whole) {
-        primitive += floor_cut - floor_whole;
-        continue;
-      }
-      for (uint32_t t = 0; t < floor_cut; ++t) {  // the piece of the cut floor that holds it
-        double sum = 0, area[3];
-        for (int e = 0; e < 3; ++e) {
-          const glm::dvec3 a = glm::dvec3(cut.positions[cut.triangles[t][e]]) - glm::dvec3(p),
-                           b = glm::dvec3(cut.positions[cut.triangles[t][(e + 1) % 3]]) - glm::dvec3(p);
-          sum += area[e] = glm::cross(a, b).y;
-        }
-        if (sum * area[0] >= 0 && sum * area[1] >= 0 && sum * area[2] >= 0) primitive = t;
-      }
-    }
-    expect_same_taps(j, judge(tracer_cut, moved, j.frame, j.kernel));
-  });
-}
-
-// At the lit foot of a box the map's texels straddle floor and wall, and the light sees the one rise from the other
-// without a jump: acne, however deep. Behind the box, where its shadow falls, aliasing.
-TEST(BoxOnFloor, ShowsAcneAtItsLitFootAndAliasingAtItsShadow) {
-  Scene scene;
-  add_floor(scene, 3);
-  add_box(scene, "box", {-0.5, 0, -0.5}, {0.5, 1, 0.5});
-  scene.light = {.position_m = {-3, 4, 1}, .target_m = {0, 0, 0}};
-  uint64_t foot_acne = 0, shadow_differ = 0;
-  on_many_grids(scene, 900, 8000, [&](const Judged& j) {
-    if (j.frame.resolution < 64) return;  // texels as wide as the box reach its upper edge
-    const double reach = j.reach() / std::abs(j.frame.forward.y);
-    // In front of the middle of the lit side, so near that taps meet it, away from its ends.
-    const auto at_foot = [&](size_t i) {
-      const glm::vec3 p = j.receivers.position[i];
-      return j.receivers.primitive[i] < 2 && p.x < -0.5 && p.x > -0.5 - reach && std::abs(p.z) < 0.5 - 2 * reach;
-    };
-    const Tally foot = tally(j, at_foot);
-    EXPECT_EQ(foot.differ, 0u);
-    EXPECT_EQ(foot.dark, 0u);
-    foot_acne += j.causes(0, at_foot)[at(Cause::acne)];
-    shadow_differ += tally(j).differ;
-    expect_aliasing_at_true_edges(j, TrueEdges(scene, j.frame));
-  });
-  EXPECT_GT(foot_acne, 50u);
-  EXPECT_GT(shadow_differ, 300u);
 }
 
 }  // namespace

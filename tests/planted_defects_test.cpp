@@ -157,6 +157,13 @@ std::vector<Planted> defects() {
                  {.shaders = patched("shaders/lookup.frag", "lit_beyond_far != 0 &&", "lit_beyond_far == 2 &&")},
                  {{"contract", 0, 0.03}, {"tap_residual", 1e-6, 1}}});
 
+  // The lookup alone reads the pixel beside.
+  all.push_back(
+      {"LookupAtTheNextPixel",
+       cubes(),
+       {.shaders = patched("shaders/lookup.frag", "ivec2(gl_FragCoord.xy)", "ivec2(gl_FragCoord.xy) + ivec2(1, 0)")},
+       {{"contract", 0, 0.05}, {"tap_residual", 1e-6, 1}}});
+
   // --- What the probe shares with the lookup. The truth follows its texels, and the contract is kept. ---------------
 
   const auto half_texel = patched(receiver, "window.xy * float(resolution)", "window.xy * float(resolution) - 0.5");
@@ -180,6 +187,12 @@ std::vector<Planted> defects() {
                                      "precise vec2 place = floor(vec2(window.x, 1.0 - window.y)")},
                  {{"address_error_texels", 1e-4, 100}, {"rounding_excess", 1, 1000}},
                  {"contract", "reference_error_m"}});
+  // The receiver beside, in the lookup and in the probe.
+  all.push_back({"ReceiverOfTheNextPixel",
+                 cubes(),
+                 {.shaders = patched(receiver, "texelFetch(position_image, pixel,",
+                                     "texelFetch(position_image, pixel + ivec2(1, 0),")},
+                 {{"address_error_texels", 1e-4, 5}, {"rounding_excess", 1, 1000}}});
   // 1 - N.L becomes 1 + N.L: on the floor 15 times the bias, 0.6 m along the light, and at the foot of the
   // standing cubes a gap of 0.3 m.
   all.push_back({"LightNegatedInNDotL",
