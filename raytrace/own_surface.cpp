@@ -81,17 +81,35 @@ bool OwnSurface::clipped(uint32_t hit, glm::dvec2 x) const {
   return hit != no_primitive && view_.hit_depth(hit, x) < view_.frame().near_m;
 }
 
+bool OwnSurface::covers(uint32_t triangle, glm::dvec2 x) const {
+  if (triangle == no_primitive) return false;
+  double least = 0, most = 0;
+  for (int e = 0; e < 3; ++e) {
+    const double side = orientation(view_.corner2(triangle, e), view_.corner2(triangle, (e + 1) % 3), x);
+    least = std::min(least, side);
+    most = std::max(most, side);
+  }
+  return (least >= 0) != (most <= 0);  // on one side of all edges; edge-on triangles cover nothing
+}
+
 OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
   Verdict here = verdict(p, x, hit, rays);
   // Beside a silhouette, and where a dark receiver's own sheet comes out from under another surface.
   if (!here.sure || !(silhouettes_.near(x) || (here.lit && !p.lit))) return here;
+  // The rays around x find what there is to meet; which of it covers x, and is first, double can tell.
+  const bool before_near = clipped(hit, x);
+  uint32_t first = covers(hit, x) ? hit : no_primitive;
+  bool changes = false;
   for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
     const glm::dvec2 beside = x + beside_m() * way;
     const uint32_t other = first_hit(beside, rays);
-    if (clipped(other, beside) == clipped(hit, x) && verdict(p, beside, other, rays).lit == here.lit) continue;
-    here.sure = false;
-    break;
+    changes |= clipped(other, beside) != before_near || verdict(p, beside, other, rays).lit != here.lit;
+    if (covers(other, x) && (first == no_primitive || view_.plane_depth(other, x) < view_.plane_depth(first, x)))
+      first = other;
   }
+  if (!changes) return here;
+  if (first != no_primitive && clipped(first, x) == before_near) return verdict(p, x, first, rays);
+  here.sure = false;
   return here;
 }
 

@@ -41,6 +41,9 @@ class OwnSurface {
   // metres in the light's plane.
   double edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from, uint64_t& rays) const;
 
+  // Does the light ray through x pass the triangle, in double?
+  bool covers(uint32_t triangle, glm::dvec2 x) const;
+
   // Is what the light meets first at x before the map's near plane?
   bool clipped(uint32_t hit, glm::dvec2 x) const;
 

@@ -21,6 +21,7 @@ struct Tally {
   int64_t facing = 0, ambiguous = 0, taps_ambiguous = 0;
   int64_t banded = 0;                                // between a round shape's inner and outer form
   int64_t r1 = 0, r2 = 0, r3 = 0, clipped = 0, depth = 0;  // disagreements of receivers that are sure
+  int64_t depth_either = 0;                          // depths of texels beside an outline or a crease: either surface's
   int64_t hidden = 0;                                // disagreements of ambiguous receivers
   int64_t far_from_edges = 0;                        // ambiguous, yet no outline or crease is near
   int64_t taps = 0, dark_taps = 0, differ = 0;       // so that the comparison is not of nothing
@@ -30,7 +31,7 @@ struct Tally {
     const auto put = [](const char* name, int64_t n) { testing::Test::RecordProperty(name, static_cast<int>(n)); };
     put("scenes", scenes), put("facing", facing), put("ambiguous", ambiguous), put("taps_ambiguous", taps_ambiguous);
     put("banded", banded), put("wrong_r1", r1), put("wrong_r2", r2), put("wrong_r3", r3), put("wrong_depth", depth);
-    put("wrong_clipped", clipped), put("hidden", hidden), put("far_from_edges", far_from_edges), put("taps", taps);
+    put("wrong_clipped", clipped), put("depth_either", depth_either), put("hidden", hidden), put("far_from_edges", far_from_edges), put("taps", taps);
     put("dark_taps", dark_taps), put("taps_that_differ", differ);
   }
 };
@@ -183,7 +184,7 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
       continue;
     }
     tally.r1 += v.r1, tally.r2 += v.r2 > 0, tally.r3 += v.r3 > 0, tally.clipped += v.clipped > 0;
-    tally.depth += v.depth > 0;
+    tally.depth += v.depth > 0, tally.depth_either += v.depth_either;
     if (v.r1 || v.r2 || v.r3 || v.clipped || v.depth) {
       const glm::vec3 p = receivers.position[i];
       const auto [shape, face] = model.owner[receivers.primitive[i]];
@@ -233,6 +234,7 @@ void expect_agreement(const Site& site, int kinds, int segments, int scenes, Tal
         all.taps_ambiguous += tally.taps_ambiguous, all.banded += tally.banded, all.hidden += tally.hidden;
         all.r1 += tally.r1, all.r2 += tally.r2, all.r3 += tally.r3, all.clipped += tally.clipped;
         all.depth += tally.depth, all.far_from_edges += tally.far_from_edges;
+        all.depth_either += tally.depth_either;
         all.taps += tally.taps, all.dark_taps += tally.dark_taps, all.differ += tally.differ;
         RC_ASSERT(tally.wrong() == 0);
         RC_ASSERT(tally.far_from_edges == 0);
@@ -246,29 +248,111 @@ void expect_agreement(const Site& site, int kinds, int segments, int scenes, Tal
   all.record();
 }
 
-void print(const Tally& t) {
-  std::printf("scenes %d facing %ld ambiguous %ld taps_ambiguous %ld banded %ld r1 %ld r2 %ld r3 %ld clipped %ld depth %ld hidden %ld far %ld taps %ld dark %ld differ %ld\n", t.scenes, t.facing, t.ambiguous, t.taps_ambiguous, t.banded, t.r1, t.r2, t.r3, t.clipped, t.depth, t.hidden, t.far_from_edges, t.taps, t.dark_taps, t.differ);
+// Scenes that hold only points on faces of all sizes and pictures from anywhere are harsher than a person's: tiny shapes
+// get as many receivers as large ones. So their ambiguous share has a bound of its own for each site, some times what
+// was seen; real pictures are held to a thousandth in raytrace_witness_test.cpp.
+void expect_sound(const Tally& all, double ambiguous_share) {
+  EXPECT_EQ(all.wrong(), 0);
+  EXPECT_EQ(all.far_from_edges, 0);
+  EXPECT_GT(all.facing, 30000);
+  EXPECT_GT(all.taps, 100000);
+  EXPECT_GT(all.dark_taps, all.taps / 50);
+  EXPECT_GT(all.differ, 500);
+  EXPECT_LT(static_cast<double>(all.ambiguous + all.taps_ambiguous), ambiguous_share * static_cast<double>(all.facing));
+  EXPECT_LT(static_cast<double>(all.depth_either), ambiguous_share * static_cast<double>(all.taps));
 }
 
-TEST(ClosedForm, FlatShapesAtTheOrigin) {
+struct Sweep {
+  const char* name;
+  const Site* site;
+  int kinds, segments, scenes;
+  double ambiguous_share;
+};
+
+class ClosedFormSweep : public testing::TestWithParam<Sweep> {};
+
+TEST_P(ClosedFormSweep, TracerAgrees) {
+  const Sweep& sweep = GetParam();
   Tally all;
-  expect_agreement(at_origin, 2, 8, 100, all);
-  print(all);
+  expect_agreement(*sweep.site, sweep.kinds, sweep.segments, sweep.scenes, all);
+  expect_sound(all, sweep.ambiguous_share);
 }
-TEST(ClosedForm, FlatShapesAt1Km) {
-  Tally all;
-  expect_agreement(at_1_km, 2, 8, 100, all);
-  print(all);
+
+INSTANTIATE_TEST_SUITE_P(Random, ClosedFormSweep,
+                         testing::Values(Sweep{"FlatAtTheOrigin", &at_origin, 2, 8, 250, 0.02},
+                                         Sweep{"FlatAt1Km", &at_1_km, 2, 8, 250, 0.05},
+                                         Sweep{"FlatAt1000Km", &at_1000_km, 2, 8, 250, 0.2},
+                                         Sweep{"RoundAtTheOrigin", &at_origin, 4, 48, 100, 0.02}),
+                         [](const auto& given) { return given.param.name; });
+
+// A finer sphere and disc leave less between their two forms: as the square of a segment.
+TEST(ClosedForm, TheBandOfRoundShapesShrinksWithTheirTriangles) {
+  double share[2];
+  for (int fine : {0, 1}) {
+    Tally all;
+    std::mt19937 random(3);
+    for (int i = 0; i < 12; ++i) {
+      SceneSpec spec;
+      for (int k = 0; k < 6; ++k) {
+        const auto in = [&](int low, int high) { return low + static_cast<int>(random() % static_cast<uint32_t>(high - low)); };
+        spec.shapes.push_back({.kind = 2 + k % 2, .x = in(-900, 900), .y = in(100, 500), .z = in(-900, 900), .a = in(200, 700)});
+      }
+      spec.resolution = 200;
+      spec.seed = 7;
+      compare_scene(spec, at_origin, fine ? 96 : 24, 600, all);
+    }
+    EXPECT_EQ(all.wrong(), 0);
+    share[fine] = static_cast<double>(all.banded) / static_cast<double>(all.facing);
+    RecordProperty(fine ? "banded_per_million_96" : "banded_per_million_24", static_cast<int>(1e6 * share[fine]));
+  }
+  EXPECT_LT(share[1], 0.02);
+  EXPECT_LT(share[1], share[0] / 4);  // 16 by the square; the rest is left to chance
 }
-TEST(ClosedForm, FlatShapesAt1000Km) {
-  Tally all;
-  expect_agreement(at_1000_km, 2, 8, 100, all);
-  print(all);
-}
-TEST(ClosedForm, RoundShapesAtTheOrigin) {
-  Tally all;
-  expect_agreement(at_origin, 4, 48, 100, all);
-  print(all);
+
+// R0. Each receiver within a bound of its own standard error, and all of them together without bias.
+TEST(ClosedForm, SunsOfAnySize) {
+  constexpr double standard_error = 0.02;
+  // The samples are even in every prefix, so their errors are below those of independent ones, whose largest of some
+  // thousands stays under five standard errors. Chords: 256 of them leave under one in a thousand.
+  constexpr double most_errors = 5, chord_error = 1e-3;
+  int compared = 0, partial = 0, wrong = 0, beyond_three = 0, banded = 0;
+  double mean = 0;
+  for (int seed = 1; seed <= 24; ++seed) {
+    const SceneSpec spec = any_scene(seed % 2 ? 2 : 4)(rc::Random(static_cast<uint64_t>(seed)), rc::kNominalSize).value();
+    const Modelled model = model_of(spec, seed % 3 == 0 ? at_1_km : at_origin, 96);
+    const LightFrame frame = frame_for(model, spec);
+    const double diameter_deg = 0.5 * (1 << seed % 6);
+    const ReceiverImage receivers =
+        points_on_faces(model.scene, frame.direction_to_light(), true, 300, static_cast<uint32_t>(seed));
+    const ReceiverTruth truth = Tracer(model.scene).receiver_truth(
+        receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
+    const ClosedForm inner(model.inner, frame), outer(model.outer, frame);
+    for (size_t i = 0; i < receivers.primitive.size(); ++i) {
+      const auto [shape, face] = model.owner[receivers.primitive[i]];
+      if (!truth.facing[i] || model.inner[static_cast<size_t>(shape)].kind == ShapeKind::sphere) continue;
+      const Place place{receivers.position[i], shape, face};
+      const double most = inner.seen(place, receivers.normal[i], diameter_deg, 256),
+                   least = outer.seen(place, receivers.normal[i], diameter_deg, 256);
+      const double above = truth.soft[i] - most, below = least - truth.soft[i];
+      banded += most - least > standard_error;
+      ++compared;
+      partial += most > 0.01 && least < 0.99;
+      beyond_three += std::max(above, below) > 3 * standard_error + chord_error;
+      mean += std::max(above, 0.0) - std::max(below, 0.0);
+      if (std::max(above, below) > most_errors * standard_error + chord_error && ++wrong <= 5)
+        ADD_FAILURE() << spec << "\nreceiver " << i << " on shape " << shape << ": " << truth.soft[i] << ", not "
+                      << least << " to " << most << ", diameter " << diameter_deg;
+    }
+  }
+  RecordProperty("compared", compared);
+  RecordProperty("partial", partial);
+  RecordProperty("beyond_three", beyond_three);
+  RecordProperty("banded", banded);
+  RecordProperty("mean_error_1e6", static_cast<int>(1e6 * mean / compared));
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(partial, 300);
+  EXPECT_LE(beyond_three, compared / 200);
+  EXPECT_LT(std::abs(mean / compared), 4 * standard_error / std::sqrt(partial) + 1e-4);
 }
 
 }  // namespace
