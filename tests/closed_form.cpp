@@ -241,6 +241,8 @@ ClosedForm::Answer ClosedForm::answer_at(const Place& place, glm::dvec2 x) const
 ClosedForm::Interval ClosedForm::shaded(const Piece& piece, glm::dvec3 p, glm::dvec3 start, glm::dvec3 way) const {
   Interval i{0, 1};
   const glm::dvec3 m = piece.world_at - p;
+  const glm::dvec3 across = glm::cross(piece.world_u, piece.world_v);  // p in a flat shape's own plane: edge-on
+  if (piece.kind != ShapeKind::sphere && std::abs(glm::dot(across, m)) <= rounding * size_m_ * glm::length(across)) return {};
   if (piece.kind == ShapeKind::rectangle) {  // the cone over its four corners
     const glm::dvec3 corner[4] = {m, m + piece.world_u, m + piece.world_u + piece.world_v, m + piece.world_v};
     const double side = glm::dot(glm::cross(piece.world_u, piece.world_v), m) < 0 ? -1 : 1;
