@@ -292,7 +292,7 @@ TEST_P(ClosedFormSweep, TracerAgrees) {
 INSTANTIATE_TEST_SUITE_P(Random, ClosedFormSweep,
                          testing::Values(Sweep{"FlatAtTheOrigin", &at_origin, 2, 8, 250, 0.02, 0},
                                          Sweep{"FlatAt1Km", &at_1_km, 2, 8, 250, 0.05, 0},
-                                         Sweep{"FlatAt1000Km", &at_1000_km, 2, 8, 250, 0.2, 8},
+                                         Sweep{"FlatAt1000Km", &at_1000_km, 2, 8, 60, 0.2, 8},
                                          Sweep{"RoundAtTheOrigin", &at_origin, 4, 48, 100, 0.02, 0}),
                          [](const auto& given) { return given.param.name; });
 
@@ -326,7 +326,7 @@ TEST(ClosedForm, SunsOfAnySize) {
   // The samples are even in every prefix, so their errors are below those of independent ones, whose largest of some
   // thousands stays under five standard errors. Chords: 256 of them leave under one in a thousand.
   constexpr double most_errors = 5, chord_error = 1e-3;
-  int compared = 0, partial = 0, wrong = 0, beyond_three = 0, banded = 0;
+  int compared = 0, partial = 0, wrong = 0, beyond_three = 0, banded = 0, contacts = 0;
   double mean = 0;
   for (int seed = 1; seed <= 24; ++seed) {
     const SceneSpec spec = any_scene(seed % 2 ? 2 : 4)(rc::Random(static_cast<uint64_t>(seed)), rc::kNominalSize).value();
@@ -344,6 +344,10 @@ TEST(ClosedForm, SunsOfAnySize) {
       const Place place{receivers.position[i], shape, face};
       const double most = inner.seen(place, receivers.normal[i], diameter_deg, 256),
                    least = outer.seen(place, receivers.normal[i], diameter_deg, 256);
+      if (most > 0.99 && !inner.lit(place)) {  // in the plane of another shape that lies on its own: a contact
+        ++contacts;
+        continue;
+      }
       const double above = truth.soft[i] - most, below = least - truth.soft[i];
       banded += most - least > standard_error;
       ++compared;
@@ -362,7 +366,8 @@ TEST(ClosedForm, SunsOfAnySize) {
   RecordProperty("banded", banded);
   RecordProperty("mean_error_1e6", static_cast<int>(1e6 * mean / compared));
   EXPECT_EQ(wrong, 0);
-  EXPECT_GT(partial, 300);
+  EXPECT_GT(partial, 100);
+  EXPECT_LE(contacts, compared / 200);
   EXPECT_LE(beyond_three, compared / 200);
   EXPECT_LT(std::abs(mean / compared), 4 * standard_error / std::sqrt(partial) + 1e-4);
 }
