@@ -19,22 +19,23 @@ using namespace test;
 struct Tally {
   int scenes = 0;
   int64_t facing = 0, ambiguous = 0, taps_ambiguous = 0;
-  int64_t banded = 0;                                // between a round shape's inner and outer form
+  int64_t banded = 0;                                      // between a round shape's inner and outer form
   int64_t r1 = 0, r2 = 0, r3 = 0, clipped = 0, depth = 0;  // disagreements of receivers that are sure
-  int64_t depth_either = 0;                          // depths of texels beside an outline or a crease: either surface's
+  int64_t depth_either = 0;  // depths of texels beside an outline or a crease: either surface's
   // Disagreements of receivers that are not ambiguous but for places within a ray's error of an outline or a crease: a
   // tap's ray cannot tell which of two surfaces that run into one another is first, and the tracer knows no creases.
   int64_t creases = 0;
-  int64_t hidden = 0;                                // disagreements of ambiguous receivers
-  int64_t far_from_edges = 0;                        // ambiguous, yet no outline or crease is near
-  int64_t taps = 0, dark_taps = 0, differ = 0;       // so that the comparison is not of nothing
+  int64_t hidden = 0;                           // disagreements of ambiguous receivers
+  int64_t far_from_edges = 0;                   // ambiguous, yet no outline or crease is near
+  int64_t taps = 0, dark_taps = 0, differ = 0;  // so that the comparison is not of nothing
 
   int64_t wrong() const { return r1 + r2 + r3 + clipped + depth; }
   void record() const {
     const auto put = [](const char* name, int64_t n) { testing::Test::RecordProperty(name, static_cast<int>(n)); };
     put("scenes", scenes), put("facing", facing), put("ambiguous", ambiguous), put("taps_ambiguous", taps_ambiguous);
     put("banded", banded), put("wrong_r1", r1), put("wrong_r2", r2), put("wrong_r3", r3), put("wrong_depth", depth);
-    put("wrong_clipped", clipped), put("depth_either", depth_either), put("creases", creases), put("hidden", hidden), put("far_from_edges", far_from_edges), put("taps", taps);
+    put("wrong_clipped", clipped), put("depth_either", depth_either), put("creases", creases), put("hidden", hidden),
+        put("far_from_edges", far_from_edges), put("taps", taps);
     put("dark_taps", dark_taps), put("taps_that_differ", differ);
   }
 };
@@ -153,7 +154,8 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
       bool f_known = !v.banded, at_texel_known = true;
       const bool f = offset == glm::ivec2(0) ? lit : ask(x, f_known), at_texel = ask(c, at_texel_known);
       const double first = inner.first_depth(c), cut = inner.first_depth(c, frame.near_m);
-      const bool depth_known = !model.round || (first == outer.first_depth(c) && cut == outer.first_depth(c, frame.near_m));
+      const bool depth_known =
+          !model.round || (first == outer.first_depth(c) && cut == outer.first_depth(c, frame.near_m));
       ++v.taps;
       v.dark += !f;
       v.differ += f != at_texel;
@@ -162,8 +164,8 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
       v.r3 += at_texel_known && at_texel != texel_lit;
       if ((f_known && f != exact_lit) || (at_texel_known && at_texel != texel_lit))
         v.crease |= inner.near_edge(f != exact_lit ? x : c, error),
-        v.taps_wrong += " tap " + std::to_string(tap) + ": " + std::to_string(f) + std::to_string(at_texel) + " for " +
-                        std::to_string(exact_lit) + std::to_string(texel_lit);
+            v.taps_wrong += " tap " + std::to_string(tap) + ": " + std::to_string(f) + std::to_string(at_texel) +
+                            " for " + std::to_string(exact_lit) + std::to_string(texel_lit);
       if (!depth_known) continue;
       v.clipped += (first < frame.near_m) != ((bits & tap_near_clipped) != 0);
       if (!inside_map(texel, frame.resolution)) continue;
@@ -197,8 +199,8 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
       const glm::vec3 p = receivers.position[i];
       const auto [shape, face] = model.owner[receivers.primitive[i]];
       RC_LOG() << "receiver " << i << " (" << p.x << ' ' << p.y << ' ' << p.z << ") on shape " << shape << " face "
-               << face << ", R1 " << static_cast<int>(truth.lit[i]) << ": wrong R1 " << v.r1 << " R2 " << v.r2
-               << " R3 " << v.r3 << " clipped " << v.clipped << " depth " << v.depth << v.taps_wrong << '\n';
+               << face << ", R1 " << static_cast<int>(truth.lit[i]) << ": wrong R1 " << v.r1 << " R2 " << v.r2 << " R3 "
+               << v.r3 << " clipped " << v.clipped << " depth " << v.depth << v.taps_wrong << '\n';
     }
   }
 }
@@ -219,7 +221,8 @@ void compare_scene(const SceneSpec& spec, const Site& site, int segments, int po
           kernel, tally);
   const int width = 32, height = 18;
   compare(model, frame,
-          resolve_receivers(model.scene, model.scene.camera, seen_primitives(model.scene, model.scene.camera, width, height)),
+          resolve_receivers(model.scene, model.scene.camera,
+                            seen_primitives(model.scene, model.scene.camera, width, height)),
           kernel, tally);
 }
 
@@ -257,9 +260,9 @@ void expect_agreement(const Site& site, int kinds, int segments, int scenes, Tal
   all.record();
 }
 
-// Scenes that hold only points on faces of all sizes and pictures from anywhere are harsher than a person's: tiny shapes
-// get as many receivers as large ones. So their ambiguous share has a bound of its own for each site, some times what
-// was seen; real pictures are held to a thousandth in raytrace_witness_test.cpp.
+// Scenes that hold only points on faces of all sizes and pictures from anywhere are harsher than a person's: tiny
+// shapes get as many receivers as large ones. So their ambiguous share has a bound of its own for each site, some times
+// what was seen; real pictures are held to a thousandth in raytrace_witness_test.cpp.
 void expect_sound(const Tally& all, double ambiguous_share, int most_creases) {
   EXPECT_EQ(all.wrong(), 0);
   EXPECT_EQ(all.far_from_edges, 0);
@@ -305,8 +308,11 @@ TEST(ClosedForm, TheBandOfRoundShapesShrinksWithTheirTriangles) {
     for (int i = 0; i < 12; ++i) {
       SceneSpec spec;
       for (int k = 0; k < 6; ++k) {
-        const auto in = [&](int low, int high) { return low + static_cast<int>(random() % static_cast<uint32_t>(high - low)); };
-        spec.shapes.push_back({.kind = 2 + k % 2, .x = in(-900, 900), .y = in(100, 500), .z = in(-900, 900), .a = in(200, 700)});
+        const auto in = [&](int low, int high) {
+          return low + static_cast<int>(random() % static_cast<uint32_t>(high - low));
+        };
+        spec.shapes.push_back(
+            {.kind = 2 + k % 2, .x = in(-900, 900), .y = in(100, 500), .z = in(-900, 900), .a = in(200, 700)});
       }
       spec.resolution = 200;
       spec.seed = 8;  // even: points on the sides that the spheres show
@@ -329,14 +335,16 @@ TEST(ClosedForm, SunsOfAnySize) {
   int compared = 0, partial = 0, wrong = 0, beyond_three = 0, banded = 0, contacts = 0;
   double mean = 0;
   for (int seed = 1; seed <= 24; ++seed) {
-    const SceneSpec spec = any_scene(seed % 2 ? 2 : 4)(rc::Random(static_cast<uint64_t>(seed)), rc::kNominalSize).value();
+    const SceneSpec spec =
+        any_scene(seed % 2 ? 2 : 4)(rc::Random(static_cast<uint64_t>(seed)), rc::kNominalSize).value();
     const Modelled model = model_of(spec, seed % 3 == 0 ? at_1_km : at_origin, 96);
     const LightFrame frame = frame_for(model, spec);
     const double diameter_deg = 0.5 * (1 << seed % 6);
     const ReceiverImage receivers =
         points_on_faces(model.scene, frame.direction_to_light(), true, 300, static_cast<uint32_t>(seed));
-    const ReceiverTruth truth = Tracer(model.scene).receiver_truth(
-        receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
+    const ReceiverTruth truth =
+        Tracer(model.scene)
+            .receiver_truth(receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
     const ClosedForm inner(model.inner, frame), outer(model.outer, frame);
     for (size_t i = 0; i < receivers.primitive.size(); ++i) {
       const auto [shape, face] = model.owner[receivers.primitive[i]];
@@ -357,7 +365,9 @@ TEST(ClosedForm, SunsOfAnySize) {
       if (std::max(above, below) > most_errors * standard_error + chord_error && ++wrong <= 5)
         ADD_FAILURE() << spec << "\nreceiver " << i << " on shape " << shape << ": " << truth.soft[i] << ", not "
                       << least << " to " << most << ", diameter " << diameter_deg << ", face " << face << ", R1 "
-                      << static_cast<int>(truth.lit[i]) << ", not " << inner.lit(place) << ", at " << place.p.x << ' ' << place.p.y << ' ' << place.p.z << " normal " << receivers.normal[i].x << ' ' << receivers.normal[i].y << ' ' << receivers.normal[i].z;
+                      << static_cast<int>(truth.lit[i]) << ", not " << inner.lit(place) << ", at " << place.p.x << ' '
+                      << place.p.y << ' ' << place.p.z << " normal " << receivers.normal[i].x << ' '
+                      << receivers.normal[i].y << ' ' << receivers.normal[i].z;
     }
   }
   RecordProperty("compared", compared);
