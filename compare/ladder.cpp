@@ -62,8 +62,8 @@ Ladder climb(const LookupEvidence& e) {
   ladder.flags = Image<uint8_t>(width, height, 0);
 
   const auto receiver = [&](size_t i, Residuals& worst) {
-    ladder.flags[i] =
-        static_cast<uint8_t>((e.truth.facing[i] ? flag_facing : 0) | (is_ambiguous(e.truth, e.taps, i) ? flag_ambiguous : 0));
+    ladder.flags[i] = static_cast<uint8_t>((e.truth.facing[i] ? flag_facing : 0) |
+                                           (is_ambiguous(e.truth, e.taps, i) ? flag_ambiguous : 0));
     if (!e.truth.facing[i]) return;
     const bool outside = !inside_map(e.probe.texel[i], e.exact_map.width) || e.probe.reference[i] > 1.0f;
     if (outside) ladder.flags[i] |= flag_outside;

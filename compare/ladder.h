@@ -95,8 +95,8 @@ inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSetti
 // Could float error change what the rays say of this receiver? Then it is counted, and left out of the errors.
 inline bool is_ambiguous(const ReceiverTruth& truth, const TapTruth& taps, size_t i) {
   const auto first = taps.taps.begin() + static_cast<std::ptrdiff_t>(i) * taps.taps_per_receiver;
-  return truth.ambiguous[i] || std::any_of(first, first + taps.taps_per_receiver,
-                                           [](uint8_t bits) { return (bits & tap_ambiguous) != 0; });
+  return truth.ambiguous[i] ||
+         std::any_of(first, first + taps.taps_per_receiver, [](uint8_t bits) { return (bits & tap_ambiguous) != 0; });
 }
 
 // The cause of a tap whose verdict at R4 is `lit`.

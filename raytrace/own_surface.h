@@ -57,7 +57,8 @@ class OwnSurface {
   uint32_t first_hit(glm::dvec2 x, uint64_t& rays) const;
   struct Way {
     bool continuous = true;
-    bool sure = true;  // not: continuous but for a step that float error could make, or too many silhouettes in one place
+    bool sure =
+        true;  // not: continuous but for a step that float error could make, or too many silhouettes in one place
   };
 
   // The verdict at this one hit.

@@ -67,7 +67,8 @@ Silhouettes::Silhouettes(const Adjacency& adjacency, const LightView& view, doub
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   listed_.resize(begin_.back());
   std::vector<uint32_t> fill(begin_.begin(), begin_.end() - 1);
-  for (uint32_t e = 0; e < edges_.size(); ++e) each_cell(edges_[e], reach_m, [&](size_t cell) { listed_[fill[cell]++] = e; });
+  for (uint32_t e = 0; e < edges_.size(); ++e)
+    each_cell(edges_[e], reach_m, [&](size_t cell) { listed_[fill[cell]++] = e; });
 }
 
 std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec2 from, glm::dvec2 to) const {

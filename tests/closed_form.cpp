@@ -198,7 +198,8 @@ double ClosedForm::largest_jump(const Piece& own, glm::dvec2 from, glm::dvec2 to
   std::vector<double> ends;
   for (const Piece& p : pieces_) {
     Interval i = along(p, from, to);
-    if (&p == &own) i = i.empty() ? Interval{0, 0} : Interval{0, i.end};  // P's rounding may have put it beside its face
+    if (&p == &own)
+      i = i.empty() ? Interval{0, 0} : Interval{0, i.end};  // P's rounding may have put it beside its face
     if (i.empty()) continue;
     list.push_back({&p, i});
     ends.push_back(i.begin);
@@ -241,6 +242,9 @@ ClosedForm::Answer ClosedForm::answer_at(const Place& place, glm::dvec2 x) const
 ClosedForm::Interval ClosedForm::shaded(const Piece& piece, glm::dvec3 p, glm::dvec3 start, glm::dvec3 way) const {
   Interval i{0, 1};
   const glm::dvec3 m = piece.world_at - p;
+  const glm::dvec3 across = glm::cross(piece.world_u, piece.world_v);  // p in a flat shape's own plane: edge-on
+  if (piece.kind != ShapeKind::sphere && std::abs(glm::dot(across, m)) <= rounding * size_m_ * glm::length(across))
+    return {};
   if (piece.kind == ShapeKind::rectangle) {  // the cone over its four corners
     const glm::dvec3 corner[4] = {m, m + piece.world_u, m + piece.world_u + piece.world_v, m + piece.world_v};
     const double side = glm::dot(glm::cross(piece.world_u, piece.world_v), m) < 0 ? -1 : 1;
@@ -311,8 +315,8 @@ double ClosedForm::outline_distance(const Piece& p, glm::dvec2 x) const {
     return std::abs(glm::length(st.x * p.u + st.y * p.v) - p.radius);
   }
   const glm::dvec2 a(p.at), b = a + glm::dvec2(p.u), c = b + glm::dvec2(p.v), d = a + glm::dvec2(p.v);
-  return std::min({segment_distance(x, a, b), segment_distance(x, b, c), segment_distance(x, c, d),
-                   segment_distance(x, d, a)});
+  return std::min(
+      {segment_distance(x, a, b), segment_distance(x, b, c), segment_distance(x, c, d), segment_distance(x, d, a)});
 }
 
 bool ClosedForm::near_edge(glm::dvec2 x, double reach) const {

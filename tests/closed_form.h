@@ -6,8 +6,8 @@
 //   truth.lit_at({P, shape, face}, frame.texel_centre({i, j}));   // V(P, x)
 //
 // Everything is asked in the light's plane: a directional light meets each shape in a range of places x (the shape's
-// outline) and, inside it, at a depth that is a smooth function of x. So the first hit is a lower envelope, shadow edges
-// are outlines, and every jump of the first-hit depth along a straight way lies where the way crosses an outline.
+// outline) and, inside it, at a depth that is a smooth function of x. So the first hit is a lower envelope, shadow
+// edges are outlines, and every jump of the first-hit depth along a straight way lies where the way crosses an outline.
 #pragma once
 #include <array>
 #include <glm/glm.hpp>
@@ -22,9 +22,9 @@ namespace noonmark::test {
 
 enum class ShapeKind { rectangle, box, disc, sphere };
 
-// rectangle: at + s edge[0] + t edge[1], its front towards cross(edge[0], edge[1]); box: all three edges from the corner
-// `at`, right-handed (any parallelepiped); disc: radius about `at` in the plane of edge[0] and edge[1], which are
-// orthogonal; sphere: radius about `at`.
+// rectangle: at + s edge[0] + t edge[1], its front towards cross(edge[0], edge[1]); box: all three edges from the
+// corner `at`, right-handed (any parallelepiped); disc: radius about `at` in the plane of edge[0] and edge[1], which
+// are orthogonal; sphere: radius about `at`.
 struct Shape {
   ShapeKind kind = ShapeKind::rectangle;
   glm::dvec3 at{0};
@@ -81,8 +81,8 @@ class ClosedForm {
   // One smooth range of depths in the light's plane: a parallelogram, an ellipse, or the near half of a sphere.
   struct Piece {
     int shape, face;
-    ShapeKind kind;          // rectangle, disc or sphere
-    glm::dvec3 at, u, v;     // light coordinates
+    ShapeKind kind;       // rectangle, disc or sphere
+    glm::dvec3 at, u, v;  // light coordinates
     glm::dvec3 world_at, world_u, world_v;
     double radius;
     glm::dvec2 gradient{0};  // of the depth; flat pieces only

@@ -19,8 +19,8 @@ using namespace test;
 class EveryTriangle {
  public:
   EveryTriangle(const Scene& scene, glm::dvec3 to_light) {
-    const glm::dvec3 w = to_light, u = glm::normalize(glm::cross(w, std::abs(w.x) < 0.5 ? glm::dvec3(1, 0, 0)
-                                                                                        : glm::dvec3(0, 1, 0)));
+    const glm::dvec3 w = to_light,
+                     u = glm::normalize(glm::cross(w, std::abs(w.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
     axes_ = {u, glm::cross(w, u), w};
     for (const glm::uvec3 t : scene.triangles) {
       Corners c;
@@ -198,8 +198,7 @@ void expect_few_ambiguous(const Scene& scene) {
   testing::Test::RecordProperty(scene.name + ".ambiguous_r1", by_receiver);
   EXPECT_GT(facing, 10000);
   for (int kernel : {1, 3}) {
-    const LookupTruth lookup =
-        tracer.lookup_truth(receivers, truth, probe_of(receivers, frame), frame, {}, kernel);
+    const LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe_of(receivers, frame), frame, {}, kernel);
     int ambiguous = 0;
     const size_t taps = static_cast<size_t>(kernel * kernel);
     for (size_t i = 0; i < truth.facing.size(); ++i) {
