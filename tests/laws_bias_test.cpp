@@ -41,7 +41,7 @@ TEST(Law1, GivesTheAcneFreeBiasOfAPlane) {
                                                     {"filter.size", std::to_string(size)},
                                                     {"map.format", format},
                                                     {"map.resolution", "96"}},
-                                                   small("plane", 300, 170)),
+                                                   small("plane", 240, 136)),
                                               exact_window());
           SCOPED_TRACE(testing::Message() << "theta " << theta << " phi " << phi << " size " << size << " " << format);
           const double a = std::abs(std::cos(radians(phi))) + std::abs(std::sin(radians(phi)));

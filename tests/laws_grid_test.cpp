@@ -158,6 +158,7 @@ TEST(Law7, GivesWhatAFilterBlurs) {
     const glm::dvec2 along(std::cos(radians(phi)), std::sin(radians(phi))), across(-along.y, along.x);
     for (int size : {3, 5}) {
       for (int resolution : {32, 96}) {
+        if (resolution == 96 && (phi != 20 || size == 5)) continue;  // once is enough
         const Measurement m = bench.measure(
             with({{"filter.kind", "box"}, {"filter.size", std::to_string(size)}}, plate_from_above(phi, resolution)),
             std::nullopt);

@@ -84,7 +84,8 @@ TEST(Law4, EveryAliasedTapHasATrueEdgeNear) {
 TEST(Law11, CausesDoNotDependOnHowASurfaceIsCut) {
   Workbench bench(gl::DebugMode::fatal);
   for (const std::string& name : every_scene()) {
-    for (const char* filter : {"none", "box"}) {
+    {
+      const char* filter = "box";  // its middle tap is the unfiltered one
       Ladder built;
       double built_ambiguous = 0;
       for (const char* mesh : {"as_built", "one_mesh", "reversed", "doubled", "split"}) {
