@@ -189,7 +189,8 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const Image<float> occluders = loaded.tracer->occluder_distance(view.receivers, frame, peter_panning_mask(m.ladder));
   m.record.metrics = measure_ladder({m.ladder, view.receivers.primitive, lookup.truth.edge_distance_m, occluders,
                                      lookup.probe.n_dot_l, frame.texel_m(), frame.far_m - frame.near_m, bias, kernel});
-  m.record.metrics.merge(measure_laws({m.ladder, view.receivers, view.camera, frame, settings.map.format, kernel}));
+  m.record.metrics.merge(
+      measure_laws({m.ladder, scene, view.receivers, view.camera, frame, settings.map.format, kernel}));
   const Image<float> ties = tie_map(evidence);
   const Image<float> tie_lookup = b.renderer.lookup(b.renderer.upload_map(ties, settings.map), frame, settings);
   m.record.metrics.merge(measure_soundness({evidence, map.depth, ties, tie_lookup, view.receivers, frame}));

@@ -1,7 +1,7 @@
 // Metrics in which the laws of shadow maps are closed forms: lengths of the map, the bias that law 1 asks for, and
 // errors summed over the light's plane, which do not depend on where the camera stands.
 //
-//   m.merge(measure_laws({ladder, receivers, camera, frame, settings.map.format, kernel}));
+//   m.merge(measure_laws({ladder, scene, receivers, camera, frame, settings.map.format, kernel}));
 #pragma once
 #include <map>
 #include <string>
@@ -15,6 +15,7 @@ namespace noonmark {
 
 struct LawInput {
   const Ladder& ladder;
+  const Scene& scene;
   const ReceiverImage& receivers;
   const Camera& camera;
   const LightFrame& frame;
@@ -28,10 +29,10 @@ double depth_quantum_m(DepthFormat format, double range_m);
 // The size of the depth's gradient along the texel axes, |dz/du| + |dz/dv|, of a plane with this normal.
 double gradient_1(const LightFrame& frame, glm::dvec3 normal);
 
-// How much of the light's plane the surface behind pixel (x, y) covers, in m2: the pixel's solid angle, carried to the
+// How much of the light's plane the surface behind each pixel covers, in m2: the pixel's solid angle, carried to the
 // receiver's distance and turned from the view to the surface and from the surface to the light. Exact to the first
-// order of the pixel's size; the whole pixel is taken to be the surface at its centre.
-double light_plane_area(const Camera& camera, const LightFrame& frame, const ReceiverImage& receivers, int x, int y);
+// order of the pixel's size; the whole pixel is taken to be the surface at its centre. 0 for background.
+Image<double> light_plane_areas(const Camera& camera, const LightFrame& frame, const ReceiverImage& receivers);
 
 // Without a counted receiver the areas and the law's bias are NaN; what is not finite in the images makes them so.
 std::map<std::string, double> measure_laws(const LawInput& input);

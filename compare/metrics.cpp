@@ -57,6 +57,8 @@ constexpr Metric table[] = {
      "q: one step of the map's format, along the light; of 32f, the largest step in [0,1], 2^-24 of the range.", false},
     {"acne_free_bias_law_m", "m",
      "What the law asks for: the largest k w |gradient|_1 of a lit counted receiver, plus half a quantum.", true},
+    {"acne_free_bias_scene_law_m", "m",
+     "The same over every face of the scene that is turned to the light: no receiver needs more.", true},
     {"counted_area_m2", "m2", "The light's plane as far as counted receivers cover it.", false},
     {"filter_area_m2", "m2", "The filter's blur, over the light's plane instead of the picture.", true},
     {"aliasing_area_m2", "m2", "Aliasing, dark and light, over the light's plane instead of the picture.", true},

@@ -44,12 +44,13 @@ struct Sight {
     return origin - glm::dot(origin, normal) / glm::dot(way, normal) * way;
   }
   std::map<std::string, double> metrics(DepthFormat format = DepthFormat::d24, int kernel = 1) const {
-    return measure_laws({ladder, receivers, camera, frame, format, kernel});
+    return measure_laws({ladder, scene, receivers, camera, frame, format, kernel});
   }
 
   Camera camera;
   glm::dvec3 normal;
   Ladder ladder;
+  Scene scene;
   ReceiverImage receivers;
   LightFrame frame;
 };
@@ -75,7 +76,7 @@ TEST(LightPlaneArea, IsThatOfThePixelsOutline) {
           twice += corners[i].z * corners[(i + 1) % 4].x - corners[i].x * corners[(i + 1) % 4].z;
         const double expected = std::abs(twice) / 2;
         // First order in the pixel's size; what is left is its square: (1 / size)^2.
-        EXPECT_NEAR(light_plane_area(camera, s.frame, s.receivers, at.x, at.y) / expected, 1, 1.0 / (size * size));
+        EXPECT_NEAR(light_plane_areas(camera, s.frame, s.receivers).at(at.x, at.y) / expected, 1, 1.0 / (size * size));
       }
     }
   }
@@ -83,7 +84,11 @@ TEST(LightPlaneArea, IsThatOfThePixelsOutline) {
 
 TEST(LawMetrics, SumStepsOverTheLightsPlane) {
   Sight s(perspective, tilted, 40, 20);
-  const auto area = [&](int x, int y) { return light_plane_area(perspective, s.frame, s.receivers, x, y); };
+  s.receivers.primitive.at(0, 0) = no_primitive;
+  s.ladder.flags.at(0, 0) = 0;
+  const Image<double> areas = light_plane_areas(perspective, s.frame, s.receivers);
+  EXPECT_EQ(areas.at(0, 0), 0);
+  const auto area = [&](int x, int y) { return areas.at(x, y); };
   double all = 0;
   for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 40; ++x) all += area(x, y);
@@ -130,6 +135,26 @@ TEST(LawMetrics, GiveTheBiasThatTheSteepestLitReceiverNeeds) {
   EXPECT_NEAR(law(1), 0.5 * 0.125 * 3 + q / 2, float_normal);
   s.ladder.rung[1].at(1, 1) = 0;  // dark: needs no bias
   EXPECT_NEAR(law(1), 0.5 * 0.125 * 0.7 + q / 2, float_normal);
+}
+
+// Faces that the camera does not see count, those that are edge-on to the light or turned from it do not.
+TEST(LawMetrics, GiveTheBiasThatTheSteepestFaceNeeds) {
+  Sight s(perspective, tilted, 4, 4);
+  const auto add = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+    const uint32_t first = static_cast<uint32_t>(s.scene.positions.size());
+    s.scene.positions.insert(s.scene.positions.end(), {a, b, c});
+    s.scene.triangles.push_back({first, first + 1, first + 2});
+  };
+  const double q = 10 / 16777215.0;
+  const auto law = [&] { return s.metrics(DepthFormat::d24, 3).at("acne_free_bias_scene_law_m"); };
+  EXPECT_NEAR(law(), q / 2, 1e-15);
+  add({0, 0, 0}, {0, 0, 1}, {1, -3, 0});  // falls by 3 along u
+  EXPECT_NEAR(law(), 1.5 * 0.125 * 3 + q / 2, 1e-12);
+  add({0, 0, 0}, {0, 1, 0}, {1, 0, 0});  // edge-on
+  add({0, 0, 0}, {1, 9, 0}, {0, 0, 1});  // turned away
+  EXPECT_NEAR(law(), 1.5 * 0.125 * 3 + q / 2, 1e-12);
+  add({0, 0, 0}, {0, 2, 1}, {1, -3, 0});  // 3 along u and 2 along v
+  EXPECT_NEAR(law(), 1.5 * 0.125 * 5 + q / 2, 1e-12);
 }
 
 TEST(LawMetrics, SayNaNWhereNothingWasCountedOrIsNoNumber) {

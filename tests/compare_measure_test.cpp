@@ -288,7 +288,7 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
   const Picture picture(1, 1);
   for (const auto& [name, value] : picture.metrics()) measured.insert(name);
   const ReceiverImage receivers{Image<glm::vec3>(1, 1), Image<glm::vec3>(1, 1, glm::vec3(0, 1, 0)), picture.primitive};
-  for (const auto& [name, value] : measure_laws({picture.ladder, receivers, Camera{}, LightFrame{}}))
+  for (const auto& [name, value] : measure_laws({picture.ladder, Scene{}, receivers, Camera{}, LightFrame{}}))
     measured.insert(name);
   // compare/soundness.h's; its own test holds it to them.
   for (const char* name :
