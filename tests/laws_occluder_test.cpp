@@ -129,29 +129,30 @@ Settings any_settings(const std::string& scene) {
   return s;
 }
 
-// For R1 itself to be wrong of a receiver on a lone solid, a ray must leave it within float error of an edge, without
-// the ambiguity test noticing: seen once in some hundred thousand receivers of turned boxes. Such a receiver's taps
-// follow its R1, so the law is asked of the others, and no picture may hold two.
-constexpr int false_truths_allowed = 1;
+// At the outline of a closed solid a pixel's centre may miss the faces that are turned to the camera, by the
+// rasteriser's snapping of vertices to a fraction of a pixel, and meet the inside of one that is turned away. Such a
+// receiver is inside the solid, and dark.
+bool seen_from_inside(const Measurement& m, size_t i) {
+  const glm::uvec3 t = m.scene.triangles[m.receivers.primitive[i]];
+  const glm::dvec3 a = m.scene.positions[t.x], b = m.scene.positions[t.y], c = m.scene.positions[t.z];
+  return glm::dot(glm::cross(b - a, c - a), glm::dvec3(m.receivers.normal[i])) < 0;
+}
 
-void expect_nothing_but_acne(Workbench& bench, const Settings& settings) {
+void expect_nothing_but_acne(Workbench& bench, const Settings& settings, bool closed) {
   const Measurement m = bench.measure(settings, std::nullopt);
   RC_PRE(metric(m, "counted") > 0);  // the fitted camera may see the dark side only
-  uint64_t broken = 0;
-  int false_truths = 0;
+  uint64_t broken = 0, false_truths = 0;
   for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
     if (!(m.ladder.flags[i] & flag_facing) || (m.ladder.flags[i] & flag_ambiguous)) continue;
-    if (m.ladder.rung[1][i] != 1) {
-      ++false_truths;
-      continue;
-    }
+    if (closed && seen_from_inside(m, i)) continue;
+    false_truths += m.ladder.rung[1][i] != 1;
     for (Cause cause : {Cause::filter, Cause::aliasing_dark, Cause::aliasing_light, Cause::peter_panning})
       broken += step(m, cause, i) != 0;
   }
-  if (broken > 0 || false_truths > false_truths_allowed)
+  if (broken > 0 || false_truths > 0)
     for (const Setting& row : settings_table()) RC_LOG() << row.name << " = " << row.get(settings) << "\n";
   RC_ASSERT(broken == 0u);
-  RC_ASSERT(false_truths <= false_truths_allowed);
+  RC_ASSERT(false_truths == 0u);
 }
 
 Workbench& shared_bench() {  // one context for all the cases of a property
@@ -161,7 +162,7 @@ Workbench& shared_bench() {  // one context for all the cases of a property
 
 RC_GTEST_PROP(Law8, APlaneASphereABowlFromAboveHaveAcneOnly, ()) {
   const auto scene = *rc::gen::weightedElement<std::string>({{6, "plane"}, {1, "sphere"}, {1, "bowl"}});
-  expect_nothing_but_acne(shared_bench(), any_settings(scene));
+  expect_nothing_but_acne(shared_bench(), any_settings(scene), false);
 }
 
 // A lone box of any size and turn under any light, as a file, with camera and map fitted to it.
@@ -196,7 +197,7 @@ RC_GTEST_PROP(Law8, ALoneBoxHasAcneOnly, ()) {
   Settings settings = any_settings(folder.write("box.gltf", document.dump()));
   settings.light.position_m = glm::dvec3(real(-5, 5), real(2, 6), real(-5, 5));
   settings.light.target_m = glm::dvec3(0);
-  expect_nothing_but_acne(shared_bench(), settings);
+  expect_nothing_but_acne(shared_bench(), settings, true);
 }
 
 // Peter Panning lights what is dark; unfiltered, a lit receiver has one tap, and it is lit.
