@@ -75,6 +75,8 @@ nlohmann::json curve_json(const BiasCurve& c) {
           {"texels_per_depth", c.texels_per_depth},
           {"acne_bound", c.acne_bound},
           {"peter_panning_bound", c.peter_panning_bound},
+          {"acne_free_bias_depth", optional(c.acne_free_bias_depth)},
+          {"acne_free_bias_stored_depth", optional(c.acne_free_bias_stored_depth)},
           {"window_min_depth", optional(c.window_min_depth)},
           {"window_max_depth", optional(c.window_max_depth)},
           {"best_bias_depth", number(c.best_bias_depth)},

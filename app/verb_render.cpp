@@ -51,6 +51,9 @@ void print_ladder(const Measurement& m) {
   else
     fmt::print("\n  no {} keeps acne within {:g} and Peter Panning within {:g}\n", c.parameter, c.acne_bound,
                c.peter_panning_bound);
+  if (c.acne_free_bias_depth && c.parameter == "bias.constant")
+    fmt::print("  free of acne from: {:.6g} depth = {:.4g} m; no receiver in the picture asks for more than {:.4g} m\n",
+               *c.acne_free_bias_depth, *c.acne_free_bias_depth * c.m_per_depth, value("acne_free_bias_law_m"));
   fmt::print("  best {}: {:.6g} depth (error {:.5f}%)\n", c.parameter, c.best_bias_depth, 100 * c.best_error);
 }
 
