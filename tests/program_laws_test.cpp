@@ -20,7 +20,7 @@ TEST_F(ProgramLaws, EveryLawOfTheExperimentHolds) {
 }
 
 TEST_F(ProgramLaws, ABrokenLawIsExitCodeOne) {
-  write("x.toml", R"(
+  write("x.toml", R"toml(
 [view]
 width_px = 160
 height_px = 90
@@ -40,7 +40,7 @@ within = 0.001
 name = "half of what it takes"
 measured = "acne_free_bias_m"
 at_most = "texel_m / 4 * tan_deg(scene.theta_deg)"
-)");
+)toml");
   EXPECT_EQ(run({"check", "x.toml", "--out", "out"}), 1) << output_;
   EXPECT_TRUE(says("x.toml: 1 of 2 laws hold")) << output_;
   EXPECT_TRUE(std::regex_search(output_, std::regex("right .* holds"))) << output_;
