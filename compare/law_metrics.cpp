@@ -75,7 +75,7 @@ std::map<std::string, double> measure_laws(const LawInput& in) {
   const auto step = [&](Cause cause, size_t i) {
     return std::abs(static_cast<double>(ladder.step[static_cast<size_t>(cause)][i]));
   };
-  double steepest = 0, counted = 0, filter = 0, aliasing = 0, acne = 0, panning = 0;
+  double steepest = 0, counted = 0, filter = 0, displacement = 0, aliasing = 0, acne = 0, panning = 0;
   bool any = false;
   for (int y = 0; y < ladder.flags.height; ++y) {
     for (int x = 0; x < ladder.flags.width; ++x) {
@@ -86,6 +86,7 @@ std::map<std::string, double> measure_laws(const LawInput& in) {
       const double area = footprints.area(x, y);
       counted += area;
       filter += area * step(Cause::filter, i);
+      displacement += area * step(Cause::displacement, i);
       aliasing += area * (step(Cause::aliasing_dark, i) + step(Cause::aliasing_light, i));
       acne += area * step(Cause::acne, i);
       panning += area * step(Cause::peter_panning, i);
@@ -101,6 +102,7 @@ std::map<std::string, double> measure_laws(const LawInput& in) {
           {"acne_free_bias_law_m", measured(law)},
           {"counted_area_m2", measured(counted)},
           {"filter_area_m2", measured(filter)},
+          {"displacement_area_m2", measured(displacement)},
           {"aliasing_area_m2", measured(aliasing)},
           {"acne_area_m2", measured(acne)},
           {"peter_panning_area_m2", measured(panning)}};

@@ -82,10 +82,10 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       const double cosine = std::clamp(static_cast<double>(in.n_dot_l[i]), 0.0, 1.0),
                    sine = std::sqrt(1 - cosine * cosine);
       const double reach = in.kernel * std::numbers::sqrt2 / 2 * in.texel_m * sine / cosine;
+      const double bias_m = in.bias.at(in.n_dot_l[i]) * in.m_per_depth + in.bias.normal_offset_m / cosine;
       const double distance = in.occluder_distance_m[i];
       // A dark receiver without an occluder is a contradiction, and shows.
-      if (!(distance > in.bias.at(in.n_dot_l[i]) * in.m_per_depth + reach) || !std::isfinite(distance))
-        raise(gap, distance * sine);
+      if (!(distance > bias_m + reach) || !std::isfinite(distance)) raise(gap, distance * sine);
     }
     if (ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i] != 0 ||
         ladder.step[static_cast<size_t>(Cause::aliasing_light)][i] != 0) {
@@ -105,6 +105,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"wrong", share(static_cast<double>(wrong))},
       {"light_size", caused(Cause::light_size)},
       {"filter", caused(Cause::filter)},
+      {"displacement", caused(Cause::displacement)},
       {"aliasing", caused(Cause::aliasing_dark) + caused(Cause::aliasing_light)},
       {"aliasing_dark", caused(Cause::aliasing_dark)},
       {"aliasing_light", caused(Cause::aliasing_light)},
