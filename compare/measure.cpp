@@ -81,11 +81,12 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       // its depth changes by as much as `reach` within the kernel (law 1).
       const double cosine = std::clamp(static_cast<double>(in.n_dot_l[i]), 0.0, 1.0),
                    sine = std::sqrt(1 - cosine * cosine);
-      const double reach = in.kernel * std::numbers::sqrt2 / 2 * in.texel_m * sine / cosine;
-      const double bias_m = in.bias.at(in.n_dot_l[i]) * in.m_per_depth + in.bias.normal_offset_m / cosine;
+      const double offset = in.bias.normal_offset_m;  // along the normal; along the light it reaches offset / cosine
+      const double reach = (in.kernel * std::numbers::sqrt2 / 2 * in.texel_m * sine + offset) / cosine;
       const double distance = in.occluder_distance_m[i];
       // A dark receiver without an occluder is a contradiction, and shows.
-      if (!(distance > bias_m + reach) || !std::isfinite(distance)) raise(gap, distance * sine);
+      if (!(distance > in.bias.at(in.n_dot_l[i]) * in.m_per_depth + reach) || !std::isfinite(distance))
+        raise(gap, distance * sine);
     }
     if (ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i] != 0 ||
         ladder.step[static_cast<size_t>(Cause::aliasing_light)][i] != 0) {
