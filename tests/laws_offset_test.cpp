@@ -160,6 +160,9 @@ TEST(Law3, MovesShadowsTowardsTheLight) {
               << " m towards the light and " << glm::length(moved - glm::dot(moved, away) * away) << " m aside\n";
     EXPECT_NEAR(-glm::dot(moved, away), d * sine / cosine, 0.1 * m.frame.texel_m() / cosine);
     EXPECT_LT(glm::length(moved - glm::dot(moved, away) * away), 0.1 * m.frame.texel_m());
+    // Law 4, from the place where the lookup asks: half a texel's diagonal, and the float address's rounding.
+    EXPECT_LE(metric(m, "edge_displacement_texels"), std::sqrt(0.5) + 128 * 0x1p-22);
+    EXPECT_GT(metric(m, "edge_displacement_texels"), 0.5);
     // Each edge, d tan(theta) along the light's trace: over the light's plane 2 d sin(theta) times the shadow's width.
     // Exact up to where the sides meet, as long as d is less than the plate's thickness.
     const double width = 1.6 * std::abs(away.z) + 1.2 * std::abs(away.x);
@@ -241,7 +244,7 @@ TEST(Law3, DisplacesACubesShadowAndNothingElse) {
   }
   EXPECT_EQ(away_from_corners, 0u);
   EXPECT_LE(panning, 10u);
-  // A bias lights the corners too, as deep as it reaches (law 2): 4 texels are what the cube's lit sides ask for.
+  // A bias lights the corners too, as deep as it reaches (law 2); 4 texels free the lit sides as well.
   const Measurement b = bench.measure(
       with({{"bias.form", "constant"}, {"bias.unit", "texel"}, {"bias.constant", "4"}}, settings), std::nullopt);
   EXPECT_GT(metric(b, "peter_panning"), 10 * metric(m, "peter_panning"));
