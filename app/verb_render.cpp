@@ -7,6 +7,7 @@
 #include "app/verbs.h"
 #include "app/workbench.h"
 #include "compare/metrics.h"
+#include "compare/quantities.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 
@@ -36,6 +37,7 @@ void print_ladder(const Measurement& m) {
   for (const char* name : {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "residual",
                            "tap_residual", "rounding_excess", "map_ms", "lookup_ms"})
     fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);
+  if (const std::string_view why = why_no_curve(m.record); !why.empty()) fmt::print("\n  no bias curve: {}\n", why);
   if (!m.record.curve) return;
   if (value("counted") == 0) {
     fmt::print(

@@ -165,13 +165,14 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     return RenderedMap{std::move(*rendered), std::move(depth), time};
   });
   const int kernel = kernel_size(settings.filter);
+  const DepthBias bias = depth_bias(frame, settings.bias);
   const std::string lookup_key =
       key_of(settings, {"scene.", "view.", "light.", "map."}, {"map.lit_beyond_far", "map.format"}) +
-      std::to_string(kernel);
+      fmt::format("{} {}", kernel, bias.normal_offset_m);
   Lookup& lookup = b.lookup.get(lookup_key, [&] {
-    LookupProbe probe = b.renderer.probe(frame);
+    LookupProbe probe = b.renderer.probe(frame, bias);
     raytrace::LookupTruth taps =
-        loaded.tracer->lookup_truth(view.receivers, truth.receivers, probe, frame, settings.map, kernel);
+        loaded.tracer->lookup_truth(view.receivers, truth.receivers, probe, frame, settings.map, kernel, bias);
     gl::ShadowMap exact = b.renderer.upload_map(taps.exact_map, settings.map);
     return Lookup{std::move(probe), std::move(taps), std::move(exact)};
   });
@@ -180,7 +181,6 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const double lookup_ms = median_time([&](double* ms) { r5 = b.renderer.lookup(map.map, frame, settings, ms); });
   const Image<float> r4 = b.renderer.lookup(lookup.exact_map, frame, settings);
 
-  const DepthBias bias = depth_bias(frame, settings.bias);
   const LookupEvidence evidence{
       truth.receivers, lookup.probe, lookup.truth.taps, lookup.truth.exact_map, settings.map, bias, r4, r5};
   Measurement m{{},    settings,       climb(evidence), frame,     view.camera,
@@ -208,7 +208,8 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
                     {"tap_ms", lookup.truth.tap_stage.milliseconds},
                     {"tap_rays", static_cast<double>(lookup.truth.tap_stage.rays)}};
 
-  if (curve_options) {
+  // A form that moves the lookup has no threshold for each tap: its every value asks other texels.
+  if (curve_options && settings.bias.form != BiasForm::normal_offset) {
     const bool slope = settings.bias.form == BiasForm::slope;
     const CurveParameter parameter = slope ? CurveParameter::slope : CurveParameter::constant;
     // The floor stays in the key: the slope's curve is made over it.

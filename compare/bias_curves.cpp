@@ -55,10 +55,10 @@ BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, 
                           const float at_r4 = threshold(exact);
                           // Wrong on one side of its threshold only: when dark if it should be lit, when lit if it
                           // should be dark.
-                          if (!exact.exact_lit || at_r4 > 0)
-                            lists.by_cause[static_cast<size_t>(tap_cause(exact, !exact.exact_lit))].push_back(at_r4);
+                          if (!exact.moved_lit || at_r4 > 0)
+                            lists.by_cause[static_cast<size_t>(tap_cause(exact, !exact.moved_lit))].push_back(at_r4);
                           const float at_r5 = threshold(tap_of(e.probe, e.taps, e.map, stored_map, i, kernel, t));
-                          if (exact.covered && exact.exact_lit && exact.texel_lit)
+                          if (exact.covered && exact.moved_lit && exact.texel_lit)
                             lists.stored_acne = std::max(lists.stored_acne, at_r5);
                           least = std::min(least, at_r5);
                           most = std::max(most, at_r5);

@@ -154,6 +154,8 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
   if (bound.held) return text;
 
   if (!std::isfinite(bound.found)) text += "  a value that could not be measured breaks every bound\n";
+  if (point && find_quantity(bound.metric).of_curve && !why_no_curve(*point).empty())
+    text += fmt::format("  it is read off the bias curve, and this point has none: {}\n", why_no_curve(*point));
   if (point) {
     text += fmt::format("  {}\n", point_text(*point, swept));
     if (point->worst.x >= 0)

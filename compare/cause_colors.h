@@ -15,7 +15,7 @@ struct CauseColor {
   std::string_view label;
 };
 
-inline constexpr std::array<CauseColor, 11> cause_colors{{
+inline constexpr std::array<CauseColor, 12> cause_colors{{
     {"acne", 213, 94, 0, "Acne (too dark)"},
     {"peter_panning", 0, 114, 178, "Peter Panning (too light)"},
     {"aliasing_dark", 230, 159, 0, "Aliasing, too dark"},
@@ -23,6 +23,7 @@ inline constexpr std::array<CauseColor, 11> cause_colors{{
     {"coverage_dark", 170, 51, 119, "Coverage, too dark"},
     {"coverage_light", 0, 158, 115, "Coverage, too light"},
     {"filter", 150, 155, 162, "Filter (blur by design)"},
+    {"displacement", 136, 84, 56, "Displacement (moved lookup)"},
     {"precision", 204, 121, 167, "Precision"},
     {"light_size", 202, 186, 60, "Light size"},
     {"aliasing", 158, 170, 117, "Aliasing"},  // where dark and light are not told apart

@@ -41,7 +41,7 @@ Cause pixel_cause(const Ladder& ladder, size_t i, bool filtered) {
 
 std::string_view cause_name(Cause cause) {
   static constexpr std::string_view names[cause_count] = {
-      "none", "light_size",    "filter",        "aliasing_dark",  "aliasing_light",
+      "none", "light_size",    "filter",        "displacement",   "aliasing_dark", "aliasing_light",
       "acne", "peter_panning", "coverage_dark", "coverage_light", "precision"};
   return names[static_cast<size_t>(cause)];
 }
@@ -69,12 +69,13 @@ Ladder climb(const LookupEvidence& e) {
     if (outside) ladder.flags[i] |= flag_outside;
 
     const float bias = e.bias.at(e.probe.n_dot_l[i]);
-    int exact_lit = 0, texel_lit = 0;
+    int exact_lit = 0, moved_lit = 0, texel_lit = 0;
     std::array<int, cause_count> booked{};
     for (int t = 0; t < taps; ++t) {
       const Tap tap = tap_of(e.probe, e.taps, e.map, e.exact_map, i, kernel, t);
       const bool lit = tap.always_lit || !(e.probe.reference[i] - bias > tap.depth);
       exact_lit += tap.exact_lit;
+      moved_lit += tap.moved_lit;
       texel_lit += tap.texel_lit;
       ++booked[static_cast<size_t>(tap_cause(tap, lit))];
     }
@@ -87,6 +88,7 @@ Ladder climb(const LookupEvidence& e) {
     const auto set = [&](Cause cause, float value) { ladder.step[static_cast<size_t>(cause)][i] = value; };
     set(Cause::light_size, r[1] - r[0]);
     set(Cause::filter, r[2] - r[1]);
+    set(Cause::displacement, share(moved_lit) - r[2]);
     set(Cause::precision, r[5] - r[4]);
     for (Cause dark : {Cause::acne, Cause::aliasing_dark, Cause::coverage_dark})
       set(dark, -share(booked[static_cast<size_t>(dark)]));
@@ -95,7 +97,7 @@ Ladder climb(const LookupEvidence& e) {
 
     double all = 0, classes = 0;
     for (int c = 0; c < cause_count; ++c) all += ladder.step[c][i];
-    for (int c = static_cast<int>(Cause::aliasing_dark); c <= static_cast<int>(Cause::coverage_light); ++c)
+    for (int c = static_cast<int>(Cause::displacement); c <= static_cast<int>(Cause::coverage_light); ++c)
       classes += ladder.step[c][i];
     worst.steps = larger(worst.steps, std::abs((static_cast<double>(r[5]) - r[0]) - all));
     worst.taps = larger(worst.taps, std::abs((static_cast<double>(r[4]) - r[2]) - classes));

@@ -5,12 +5,17 @@
 //
 // Rungs: R0 the light with its size; R1 one exact shadow ray; R2 the filter's taps at their exact places; R3 the taps
 // where the map really sampled; R4 the technique on an exact map; R5 what the GPU gave. R0, R1, R2, R3 come from rays,
-// R4 and R5 from OpenGL, so that their steps adding up is a finding.
+// R4 and R5 from OpenGL, so that their steps adding up is a finding. A technique that looks the receiver up elsewhere
+// (normal offset) has a rung between R2 and R3: the taps at the exact places where it asks.
 //
-// Causes are booked tap by tap, on taps that are wrong: F = V(P, P + o), V = V(P, c), L = the tap's verdict at R4. A
-// tap counts only where L != F. It is coverage where its centre lies outside the map, its receiver beyond far, or its
-// true blocker before near; else aliasing where V = L (the grid asked elsewhere and was answered truly); else acne (L
-// dark) or Peter Panning (L lit). So steps never cancel on pixels that are right, and the classes sum to R4 - R2.
+// With F = V(P, P + o), D = V(P, P' + o) where P' is P as it is looked up (D = F for techniques that do not move it),
+// V = V(P, c) and L = the tap's verdict at R4:
+// - displacement is the mean of D - F: what moving the lookup means to do, whatever the map holds.
+// - The other causes are booked tap by tap, on taps that are wrong: a tap counts only where L != D. It is coverage
+// where
+//   its centre lies outside the map, its receiver beyond far, or its true blocker before near; else aliasing where V =
+//   L (the grid asked elsewhere and was answered truly); else acne (L dark) or Peter Panning (L lit).
+// So the classes sum to R4 - R2, and without displacement steps never cancel on pixels that are right.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -29,6 +34,7 @@ enum class Cause : uint8_t {
   none,
   light_size,  // R1 - R0
   filter,      // R2 - R1
+  displacement,
   aliasing_dark,
   aliasing_light,
   acne,
@@ -37,7 +43,7 @@ enum class Cause : uint8_t {
   coverage_light,
   precision,  // R5 - R4
 };
-inline constexpr int cause_count = 10;
+inline constexpr int cause_count = 11;
 std::string_view cause_name(Cause cause);
 
 // What a lookup is judged on. All images have the picture's size, but for the exact map.
@@ -59,8 +65,8 @@ struct Ladder {
   std::array<Image<float>, cause_count> step;  // signed change of visibility by cause, in the order of Cause
   Image<uint8_t> cause;                        // the Cause of each wrong pixel (R5 != R1); none where right
   Image<uint8_t> flags;
-  // Largest |(R5 - R0) - sum of steps| and |(R4 - R2) - sum of tap classes| over the facing receivers; NaN when any
-  // value is. Above 1e-6 the instrument is broken.
+  // Largest |(R5 - R0) - sum of steps| and |(R4 - R2) - displacement - sum of tap classes| over the facing receivers;
+  // NaN when any value is. Above 1e-6 the instrument is broken.
   double residual = 0, tap_residual = 0;
 };
 
@@ -69,6 +75,7 @@ Ladder climb(const LookupEvidence& evidence);
 // A tap of a lookup, ready to be judged at any bias. Shared by the ladder and by the bias curves.
 struct Tap {
   bool exact_lit = false;   // F
+  bool moved_lit = false;   // D
   bool texel_lit = false;   // V
   bool covered = true;      // inside the map, before far, blocker not clipped
   bool always_lit = false;  // beyond far, and the lookup says lit without comparing
@@ -85,6 +92,7 @@ inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSetti
   const bool beyond_far = probe.reference[i] > 1.0f;
   Tap result;
   result.exact_lit = bits & tap_exact_lit;
+  result.moved_lit = result.exact_lit != ((bits & tap_displaced) != 0);
   result.texel_lit = bits & tap_texel_lit;
   result.covered = inside_map(texel, map_depth.width) && !beyond_far && !(bits & tap_near_clipped);
   result.always_lit = beyond_far && map.lit_beyond_far;
@@ -101,7 +109,7 @@ inline bool is_ambiguous(const ReceiverTruth& truth, const TapTruth& taps, size_
 
 // The cause of a tap whose verdict at R4 is `lit`.
 inline Cause tap_cause(const Tap& tap, bool lit) {
-  if (lit == tap.exact_lit) return Cause::none;
+  if (lit == tap.moved_lit) return Cause::none;
   if (!tap.covered) return lit ? Cause::coverage_light : Cause::coverage_dark;
   if (lit == tap.texel_lit) return lit ? Cause::aliasing_light : Cause::aliasing_dark;
   return lit ? Cause::peter_panning : Cause::acne;

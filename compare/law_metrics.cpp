@@ -68,7 +68,7 @@ std::map<std::string, double> measure_laws(const LawInput& in) {
   const auto step = [&](Cause cause, size_t i) {
     return std::abs(static_cast<double>(ladder.step[static_cast<size_t>(cause)][i]));
   };
-  double steepest = 0, counted = 0, filter = 0, aliasing = 0, acne = 0, panning = 0;
+  double steepest = 0, counted = 0, filter = 0, displacement = 0, aliasing = 0, acne = 0, panning = 0;
   bool any = false;
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
     if (!(ladder.flags[i] & flag_facing) || (ladder.flags[i] & flag_ambiguous)) continue;
@@ -76,6 +76,7 @@ std::map<std::string, double> measure_laws(const LawInput& in) {
     if (ladder.rung[1][i] != 0) raise(steepest, gradient_1(in.frame, glm::dvec3(in.receivers.normal[i])));
     counted += areas[i];
     filter += areas[i] * step(Cause::filter, i);
+    displacement += areas[i] * step(Cause::displacement, i);
     aliasing += areas[i] * (step(Cause::aliasing_dark, i) + step(Cause::aliasing_light, i));
     acne += areas[i] * step(Cause::acne, i);
     panning += areas[i] * step(Cause::peter_panning, i);
@@ -101,6 +102,7 @@ std::map<std::string, double> measure_laws(const LawInput& in) {
           {"acne_free_bias_scene_law_m", law(steepest_face)},
           {"counted_area_m2", measured(counted)},
           {"filter_area_m2", measured(filter)},
+          {"displacement_area_m2", measured(displacement)},
           {"aliasing_area_m2", measured(aliasing)},
           {"acne_area_m2", measured(acne)},
           {"peter_panning_area_m2", measured(panning)}};

@@ -81,7 +81,8 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       // its depth changes by as much as `reach` within the kernel (law 1).
       const double cosine = std::clamp(static_cast<double>(in.n_dot_l[i]), 0.0, 1.0),
                    sine = std::sqrt(1 - cosine * cosine);
-      const double reach = in.kernel * std::numbers::sqrt2 / 2 * in.texel_m * sine / cosine;
+      const double offset = in.bias.normal_offset_m;  // along the normal; along the light it reaches offset / cosine
+      const double reach = (in.kernel * std::numbers::sqrt2 / 2 * in.texel_m * sine + offset) / cosine;
       const double distance = in.occluder_distance_m[i];
       // A dark receiver without an occluder is a contradiction, and shows.
       if (!(distance > in.bias.at(in.n_dot_l[i]) * in.m_per_depth + reach) || !std::isfinite(distance))
@@ -105,6 +106,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"wrong", share(static_cast<double>(wrong))},
       {"light_size", caused(Cause::light_size)},
       {"filter", caused(Cause::filter)},
+      {"displacement", caused(Cause::displacement)},
       {"aliasing", caused(Cause::aliasing_dark) + caused(Cause::aliasing_light)},
       {"aliasing_dark", caused(Cause::aliasing_dark)},
       {"aliasing_light", caused(Cause::aliasing_light)},

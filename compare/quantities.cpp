@@ -83,6 +83,13 @@ QuantityInfo find_quantity(std::string_view name) {
                                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
+std::string_view why_no_curve(const PointRecord& point) {
+  const auto form = point.settings.find("bias.form");
+  if (point.curve || form == point.settings.end() || form->second != "normal_offset") return "";
+  return "bias.form normal_offset moves the lookup, so that no one pass knows its every value: sweep "
+         "bias.normal_offset instead";
+}
+
 std::optional<double> quantity(const PointRecord& point, std::string_view name) {
   const auto found = point.metrics.find(std::string(name));
   if (found != point.metrics.end()) return found->second;

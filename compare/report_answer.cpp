@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compare/metrics.h"
+#include "compare/quantities.h"
 #include "compare/report_sections.h"
 #include "compare/report_text.h"
 
@@ -87,8 +88,14 @@ bool set_too_large(const PointRecord& point) {
 std::string window_items(const Results& results) {
   const auto curved =
       std::find_if(results.points.begin(), results.points.end(), [](const auto& p) { return p.curve.has_value(); });
+  const auto without =
+      std::find_if(results.points.begin(), results.points.end(), [](const auto& p) { return !p.curve.has_value(); });
+  const std::string why =
+      without == results.points.end() || why_no_curve(*without).empty()
+          ? ""
+          : item("note", fmt::format("Points without a bias curve: {}.", html(std::string(why_no_curve(*without)))));
   if (curved == results.points.end())
-    return item("note", "No bias curve was measured, so no usable window can be given.");
+    return item("note", "No bias curve was measured, so no usable window can be given.") + why;
   const BiasCurve& first = *curved->curve;
   const std::string bounds =
       fmt::format("acne at most {} and Peter Panning at most {}", quantity(first.acne_bound, "fraction"),
@@ -100,7 +107,8 @@ std::string window_items(const Results& results) {
     out += item("bad", fmt::format("<b>The method fails {}</b>: no value of {} keeps {}{}{}", where.count,
                                    html(first.parameter), bounds, where.list.empty() ? "." : ", with", where.list));
   } else {
-    out += item("good", fmt::format("A usable bias exists at every point: some value of {} keeps {}.",
+    out += item("good", fmt::format("A usable bias exists at every point{}: some value of {} keeps {}.",
+                                    without == results.points.end() ? "" : " that has a bias curve",
                                     html(first.parameter), bounds));
   }
   const auto low = flags_of(results, set_too_small), high = flags_of(results, set_too_large);
@@ -117,7 +125,7 @@ std::string window_items(const Results& results) {
   }
   if (!any(low) && !any(high) && any(flags_of(results, has_usable_bias)))
     out += item("good", "The bias as set lies within the usable window wherever there is one.");
-  return out;
+  return out + why;
 }
 
 std::string cause_sentence(std::span<const PointRecord* const> points) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "compare/cause_colors.h"
+#include "compare/quantities.h"
 #include "compare/report_text.h"
 
 namespace noonmark::report {
@@ -85,6 +86,11 @@ std::string bias_section(const Results& results) {
     rows += "</tr>\n";
   }
   std::string out = "<section id=\"bias\"><h2>Error against bias</h2>\n";
+  for (const PointRecord& point : results.points) {
+    if (why_no_curve(point).empty()) continue;
+    out += fmt::format("<p class=\"small\">Some points have no curve: {}.</p>\n", why_no_curve(point));
+    break;
+  }
   if (count == 0) return out + "<p>No bias curve was measured.</p></section>\n";
   out += fmt::format(
       "<p>Too little bias leaves acne; too much detaches shadows. The usable window is every bias that keeps acne "
@@ -204,8 +210,8 @@ std::string budget_section(const Results& results) {
   return fmt::format(
       "<section id=\"budget\"><h2>The error budget</h2>\n<p>What each cause adds to the error, with the bias as "
       "rendered, as a share of counted "
-      "receivers. The number at the end is the whole error, mean |R5 − R1|; filtered causes may cancel in it, so the "
-      "bar can be longer.</p>\n"
+      "receivers. The number at the end is the whole error, mean |R5 − R1|; filtered causes may cancel in it, and "
+      "displacement with the others, so the bar can be longer.</p>\n"
       "<div class=\"legend\">{}</div>\n"
       "<div class=\"budget{}\"><input type=\"radio\" name=\"budget\" id=\"budget-size\" checked><label "
       "for=\"budget-size\">By size</label>"

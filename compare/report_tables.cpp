@@ -149,8 +149,8 @@ std::string meaning_section(const Results& results) {
       "asked the same question, how lit is "
       "it?, by a ladder of methods that differ in one respect from rung to rung: R0 the light with its size; R1 one "
       "exact ray to its centre; R2 the "
-      "filter's taps at their exact places; R3 the taps where the map sampled; R4 the technique on an exact depth map; "
-      "R5 what the GPU showed. Each "
+      "filter's taps at their exact places (and, where the technique looks elsewhere, at those); R3 the taps where the "
+      "map sampled; R4 the technique on an exact depth map; R5 what the GPU showed. Each "
       "step is the effect of one cause. Fractions are of the counted receivers: facing the light, and with a truth "
       "that is not ambiguous.</p>\n<dl class=\"terms\">\n";
   for (const Metric& metric : metrics_table())

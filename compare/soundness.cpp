@@ -37,13 +37,19 @@ Found join(Found a, const Found& b) {
 // The probe's numbers at one receiver against the frame. What float arithmetic may be off by, for a row of the matrix
 // with S = sum |m_j p_j|: rounding the row u S, four products and three sums 4 u S, the division by w (2.5 ulp in GLSL)
 // 3 u S, halving and adding one half 2 u (S/2 + 1/2), times the resolution u more; halved on the way from clip space to
-// the window that is less than u (6 S + 2). No factor is added for comfort.
+// the window that is less than u (6 S + 2). Where the lookup is moved by d N, p is P + d N, each part of which is a
+// rounded product in a rounded sum: u (|d N_j| + |p_j|) times |m_j|, halved too. No factor is added for comfort.
 void compare_probe(const SoundnessInput& in, const glm::dmat4& clip, size_t i, Found& found) {
-  const glm::dvec4 p(glm::dvec3(in.receivers.position[i]), 1);
+  const DepthBias& bias = in.evidence.bias;
+  const glm::dvec3 at(in.receivers.position[i]);
+  const glm::dvec4 p(bias.looked_up(at, in.receivers.normal[i]), 1);
   const auto most = [&](int row) {
-    double sum = 0;
-    for (int j = 0; j < 4; ++j) sum += std::abs(clip[j][row] * p[j]);
-    return u * (6 * sum + 2);
+    double sum = 0, moved = 0;
+    for (int j = 0; j < 4; ++j) {
+      sum += std::abs(clip[j][row] * p[j]);
+      if (bias.moves_lookup() && j < 3) moved += std::abs(clip[j][row]) * (std::abs(p[j] - at[j]) + std::abs(p[j]));
+    }
+    return u * (6 * sum + 2 + moved / 2);
   };
   const LookupProbe& probe = in.evidence.probe;
   const glm::dvec3 light = in.frame.to_light(glm::dvec3(p));

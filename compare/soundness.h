@@ -34,7 +34,8 @@ struct SoundnessInput {
 //                         technique's definition makes of the probe's numbers and that map's. Sound: 0.
 //   rounding_excess       largest error of the probe's texel, reference depth and N.L against the frame in double, as a
 //                         multiple of the most that float arithmetic can make. Sound: at most 1.
-//   address_error_texels  largest distance of the exact place of P from the texel that the probe names; 0 inside it.
+//   address_error_texels  largest distance of the exact place where P is looked up from the texel that the probe names;
+//                         0 inside it.
 //   reference_error_m     largest error of the reference depth.
 //   map_error_quanta      median |stored - exact| over the texels that receivers fall into, in steps of the format that
 //                         the settings claim (32f: the spacing of floats at that depth).

@@ -13,6 +13,7 @@ constexpr BiasRow bias_rows[] = {
     {BiasForm::none, "shaders/bias/none.glsl"},
     {BiasForm::constant, "shaders/bias/constant.glsl"},
     {BiasForm::slope, "shaders/bias/slope.glsl"},
+    {BiasForm::normal_offset, "shaders/bias/normal_offset.glsl"},
 };
 
 struct FilterRow {

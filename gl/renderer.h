@@ -15,6 +15,7 @@
 #include <memory>
 #include <string>
 
+#include "scenes/depth_bias.h"
 #include "scenes/evidence.h"
 #include "scenes/image.h"
 #include "scenes/light_frame.h"
@@ -93,8 +94,9 @@ class Renderer {
   Image<float> lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings,
                       double* time_ms = nullptr);
 
-  // What lookup computes before it compares. Independent of map contents and of bias.
-  LookupProbe probe(const LightFrame& frame);
+  // What lookup computes before it compares. Independent of map contents, and of the bias but for forms that move the
+  // lookup.
+  LookupProbe probe(const LightFrame& frame, const DepthBias& bias = {});
 
  private:
   struct Impl;

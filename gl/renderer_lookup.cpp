@@ -63,6 +63,7 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
   program.set_if_used("bias_constant", bias.constant);
   program.set_if_used("bias_slope", bias.slope);
   program.set_if_used("bias_floor", bias.floor);
+  program.set_if_used("normal_offset_m", bias.normal_offset_m);
   program.set_if_used("kernel_radius_texels", (kernel - 1) / 2);
   program.set("lit_beyond_far", settings.map.lit_beyond_far ? 1 : 0);
   glBindTextureUnit(2, map.impl_->depth.id());
@@ -83,12 +84,13 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
   return visibility;
 }
 
-LookupProbe Renderer::probe(const LightFrame& frame) {
+LookupProbe Renderer::probe(const LightFrame& frame, const DepthBias& bias) {
   Impl& r = *impl_;
   r.context->make_current();
   r.check_resolution(frame.resolution);
-  Program& program = r.programs.get("shaders/screen.vert", "shaders/probe.frag");
+  Program& program = r.programs.get("shaders/screen.vert", "shaders/probe.frag", {{"bias", bias_file(bias.form)}});
   r.set_receiver_uniforms(program, frame, frame.resolution);
+  program.set_if_used("normal_offset_m", bias.normal_offset_m);
   const int width = r.position_image.width, height = r.position_image.height;
   r.require(r.reference, GL_R32F, width, height);
   r.require(r.texel, GL_RG32I, width, height);

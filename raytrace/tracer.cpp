@@ -1,5 +1,6 @@
 #include "raytrace/tracer.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <optional>
@@ -176,7 +177,8 @@ Image<float> Tracer::Impl::exact_map(const LightView& view, const TexelRays& tex
 }
 
 LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
-                                 const LightFrame& frame, const MapSettings& map, int kernel) const {
+                                 const LightFrame& frame, const MapSettings& map, int kernel,
+                                 const DepthBias& bias) const {
   const Stopwatch texel_watch;
   const LightView view(impl_->scene, frame);
   const TexelRays texels(impl_->embree, view, truth.facing, probe, map.wrap, kernel);
@@ -196,44 +198,54 @@ LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverT
   for_each_packet(receivers.primitive.size(), [&](size_t first, int n) {
     uint64_t rays = 0;
     SurfacePoint points[packet_size];
+    glm::dvec2 looked_up[packet_size];   // P' in the light's plane; P but for forms that move the lookup
     int lanes[packet_size], active = 0;  // the facing ones among the packet's pixels
     for (int i = 0; i < n; ++i) {
       if (!truth.facing[first + i]) continue;
-      const glm::dvec3 p = frame.to_light(receivers.position[first + i]);
-      points[active] = {glm::dvec2(p), receivers.primitive[first + i], truth.lit[first + i] != 0};
+      const glm::dvec3 p = receivers.position[first + i], normal = receivers.normal[first + i];
+      points[active] = {glm::dvec2(frame.to_light(p)), receivers.primitive[first + i], truth.lit[first + i] != 0};
+      looked_up[active] = glm::dvec2(frame.to_light(bias.looked_up(p, normal)));
       lanes[active++] = i;
     }
     if (active == 0) return;
     for (int tap = 0; tap < taps; ++tap) {
       const glm::ivec2 offset(tap % kernel - r, tap / kernel - r);
-      const bool centre_tap = offset == glm::ivec2(0);
-      glm::vec3 origins[packet_size];
-      glm::dvec2 exact[packet_size];
-      uint32_t exact_hits[packet_size];
-      if (!centre_tap) {  // V(P, P) is R1
+      OwnSurface::Verdict exact[packet_size], moved[packet_size];  // F and D
+      const auto at_offset = [&](const auto& place, OwnSurface::Verdict* verdicts) {
+        glm::vec3 origins[packet_size];
+        glm::dvec2 x[packet_size];
+        uint32_t hits[packet_size];
         for (int k = 0; k < active; ++k) {
-          exact[k] = points[k].at + glm::dvec2(offset) * frame.texel_m();
-          origins[k] = view.ray_origin(exact[k]);
+          x[k] = place(k) + glm::dvec2(offset) * frame.texel_m();
+          origins[k] = view.ray_origin(x[k]);
         }
-        impl_->embree.first_hits(active, origins, frame.ray_direction, exact_hits);
+        impl_->embree.first_hits(active, origins, frame.ray_direction, hits);
         rays += static_cast<uint64_t>(active);
-      }
+        for (int k = 0; k < active; ++k) verdicts[k] = surface.lit_at(points[k], x[k], hits[k], rays);
+      };
+      if (offset == glm::ivec2(0))  // V(P, P) is R1
+        for (int k = 0; k < active; ++k) exact[k] = {points[k].lit, true};
+      else
+        at_offset([&](int k) { return points[k].at; }, exact);
+      if (bias.moves_lookup())
+        at_offset([&](int k) { return looked_up[k]; }, moved);
+      else
+        std::copy_n(exact, active, moved);
       for (int k = 0; k < active; ++k) {
         const size_t pixel = first + static_cast<size_t>(lanes[k]);
         const glm::ivec2 texel = probe.texel[pixel] + offset;
         const uint32_t hit = texels.hit(texel);
         const glm::dvec2 centre = frame.texel_centre(texel);
-        const OwnSurface::Verdict at_exact = centre_tap ? OwnSurface::Verdict{points[k].lit, true}
-                                                        : surface.lit_at(points[k], exact[k], exact_hits[k], rays);
         const OwnSurface::Verdict at_texel = surface.lit_at(points[k], centre, hit, rays);
-        const bool exact_lit = at_exact.lit, texel_lit = at_texel.lit;
+        const bool exact_lit = exact[k].lit, moved_lit = moved[k].lit, texel_lit = at_texel.lit;
         const bool clipped = surface.clipped(hit, centre);
-        result.taps.taps[pixel * static_cast<size_t>(taps) + static_cast<size_t>(tap)] = static_cast<uint8_t>(
-            (exact_lit ? tap_exact_lit : 0) | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
-            (at_exact.sure && at_texel.sure ? 0 : tap_ambiguous));
-        if (exact_lit != texel_lit) {
-          const double distance =
-              surface.edge_distance(points[k], centre_tap ? points[k].at : exact[k], centre, exact_lit, rays);
+        result.taps.taps[pixel * static_cast<size_t>(taps) + static_cast<size_t>(tap)] =
+            static_cast<uint8_t>((exact_lit ? tap_exact_lit : 0) | (moved_lit != exact_lit ? tap_displaced : 0) |
+                                 (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
+                                 (exact[k].sure && moved[k].sure && at_texel.sure ? 0 : tap_ambiguous));
+        if (moved_lit != texel_lit) {
+          const glm::dvec2 from = looked_up[k] + glm::dvec2(offset) * frame.texel_m();
+          const double distance = surface.edge_distance(points[k], from, centre, moved_lit, rays);
           result.edge_distance_m[pixel] = std::max(result.edge_distance_m[pixel], static_cast<float>(distance));
         }
       }

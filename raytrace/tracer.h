@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 
+#include "scenes/depth_bias.h"
 #include "scenes/evidence.h"
 #include "scenes/light_frame.h"
 #include "scenes/receivers.h"
@@ -36,7 +37,8 @@ struct LookupTruth {
   TapTruth taps;
   Image<float> exact_map;        // window depth at the centres of the texels looked up; 1 elsewhere. Row 0: lowest v
   Image<float> edge_distance_m;  // per receiver: the largest distance, in the light's plane, from a tap's exact place
-                                 // to the shadow edge before the texel centre it snaps to; 0 where F = V at every tap
+                                 // (of the lookup as it is made, moved or not) to the shadow edge before the texel
+                                 // centre it snaps to; 0 where D = V at every tap
   StageTime texel_stage;         // light-side rays through texel centres
   StageTime tap_stage;           // V at every tap
 };
@@ -53,9 +55,11 @@ class Tracer {
   ReceiverTruth receiver_truth(const ReceiverImage& receivers, const LightFrame& frame, const SoftTruth& soft,
                                StageTime* hard_stage = nullptr, StageTime* soft_stage = nullptr) const;
 
-  // kernel: taps on a side, odd. map: resolution is the frame's; wrap and cull are read.
+  // kernel: taps on a side, odd. map: resolution is the frame's; wrap and cull are read. bias: the one that the probe
+  // was taken with; only forms that move the lookup matter, and they cost one ray more for each tap.
   LookupTruth lookup_truth(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
-                           const LightFrame& frame, const MapSettings& map, int kernel) const;
+                           const LightFrame& frame, const MapSettings& map, int kernel,
+                           const DepthBias& bias = {}) const;
 
   // For the pixels where mask is not 0: distance in metres from P to its nearest occluder towards the light; infinity
   // without one. Other pixels: 0.

@@ -10,6 +10,7 @@
 namespace noonmark {
 
 // What the lookup shader computed before comparing, read back from it.
+// P: where the receiver is looked up, which is where it is but for bias forms that move it.
 struct LookupProbe {
   Image<float> reference;   // window depth of P as the shader has it; not clamped
   Image<glm::ivec2> texel;  // the texel that P falls into: floor(uv * resolution); may be outside the map
@@ -21,7 +22,8 @@ enum TapBits : uint8_t {
   tap_exact_lit = 1,     // F: V(P, P + o), the tap at its exact, unsnapped place
   tap_texel_lit = 2,     // V: V(P, c), the tap at the centre of the texel it snaps to
   tap_near_clipped = 4,  // the true blocker at that centre lies before the map's near plane
-  tap_ambiguous = 8,     // F, V or what the near plane clips changes within float error
+  tap_ambiguous = 8,     // F, D, V or what the near plane clips changes within float error
+  tap_displaced = 16,  // D, V(P, P' + o) at the exact place that a moved lookup has, is not F; P' = P where none moves
 };
 
 // The truth of every tap of every facing receiver. Taps run row by row, lowest v first, as the shader's loop does.

@@ -20,7 +20,7 @@ enum class MeshForm { as_built, one_mesh, split, reversed, doubled };  // scenes
 enum class DepthFormat { d16, d24, d32f };
 enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
 enum class CulledFaces { none, back, front };
-enum class BiasForm { none, constant, slope };
+enum class BiasForm { none, constant, slope, normal_offset };
 enum class BiasUnit { depth, m, texel };
 enum class FilterKind { none, box };
 
@@ -64,10 +64,12 @@ struct MapSettings {
 
 struct BiasSettings {
   BiasForm form = BiasForm::constant;
-  BiasUnit unit = BiasUnit::depth;  // of the three numbers below
+  BiasUnit unit = BiasUnit::depth;  // of constant, slope and floor
   double constant = 0.005;
   double slope = 0.05;  // slope form: max(slope * (1 - N.L), floor)
   double floor = 0.005;
+  // Along the receiver's normal, so that no depth can be its unit: in texels whatever `unit` says, as engines have it.
+  double normal_offset = 1;
 };
 
 struct FilterSettings {

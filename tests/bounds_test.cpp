@@ -126,7 +126,13 @@ TEST(Bounds, QuantitiesOfTheCurveCanBeBounded) {
   points[0].curve->window_min_depth = points[0].curve->window_max_depth = std::nullopt;
   expect(evaluate_bounds(points, std::span(&usable, 1), command_of).at(0), false, 0, 0);
   points[0].curve.reset();
-  expect(evaluate_bounds(points, std::span(&usable, 1), command_of).at(0), false, nan_value, 0);
+  const BoundResult without = evaluate_bounds(points, std::span(&usable, 1), command_of).at(0);
+  expect(without, false, nan_value, 0);
+  EXPECT_EQ(describe(without, &points[0]).find("bias curve"), std::string::npos) << "why, nothing says";
+  points[0].settings["bias.form"] = "normal_offset";
+  EXPECT_NE(describe(without, &points[0]).find("this point has none: bias.form normal_offset moves the lookup"),
+            std::string::npos)
+      << describe(without, &points[0]);
 }
 
 TEST(Bounds, MistakesNameWhatWasMeant) {

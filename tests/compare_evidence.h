@@ -44,12 +44,13 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
   s.map.resolution = n;
   s.map.wrap = static_cast<Wrap>(random() % 3);
   s.map.lit_beyond_far = chance(50);
-  s.bias.form = static_cast<BiasForm>(random() % 3);
+  s.bias.form = static_cast<BiasForm>(random() % 4);
   if (s.bias.form == BiasForm::constant) s.bias.constant = depth() / 4;
   if (s.bias.form == BiasForm::slope) {
     s.bias.slope = depth();
     s.bias.floor = chance(50) ? 0 : depth() / 4;
   }
+  if (s.bias.form == BiasForm::normal_offset) s.bias.normal_offset_m = 0.25f;
   s.truth.facing = s.truth.lit = s.truth.ambiguous = Image<uint8_t>(w, h, 0);
   s.truth.soft = s.probe.reference = s.probe.n_dot_l = Image<float>(w, h, 0);
   s.probe.texel = Image<glm::ivec2>(w, h);
@@ -75,6 +76,7 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
       if (chance(75) ? (bits & tap_exact_lit) != 0 : chance(50)) bits |= tap_texel_lit;
       if (chance(10)) bits |= tap_near_clipped;
       if (chance(3)) bits |= tap_ambiguous;
+      if (s.bias.form == BiasForm::normal_offset && chance(20)) bits |= tap_displaced;
       s.taps.taps[i * static_cast<size_t>(taps) + static_cast<size_t>(t)] = bits;
     }
   }
@@ -83,9 +85,10 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
 
 namespace naive {
 
-// One tap in the plainest words: its two truths, whether the map covers it, and the depth that OpenGL finds for it.
+// One tap in the plainest words: its truths (at its own exact place, at the one where a moved lookup asks, at the
+// texel's centre), whether the map covers it, and the depth that OpenGL finds for it.
 struct Tap {
-  bool exact_lit, texel_lit, covered, beyond_far;
+  bool exact_lit, moved_lit, texel_lit, covered, beyond_far;
   float depth;
 };
 
@@ -115,7 +118,8 @@ inline std::vector<Tap> taps_of(const Synthetic& s, const Image<float>& map, siz
       const int column = folded(x, n, s.map.wrap, border), row = folded(y, n, s.map.wrap, border);
       const float depth = border ? 1.0f : map.pixels[static_cast<size_t>(row * n + column)];
       const bool inside = 0 <= x && x < n && 0 <= y && y < n;
-      result.push_back({(bits & 1) != 0, (bits & 2) != 0, inside && !beyond && (bits & 4) == 0, beyond, depth});
+      const bool exact = (bits & 1) != 0, moved = (bits & 16) != 0 ? !exact : exact;
+      result.push_back({exact, moved, (bits & 2) != 0, inside && !beyond && (bits & 4) == 0, beyond, depth});
     }
   }
   return result;
@@ -148,7 +152,7 @@ inline float bias_at(const DepthBias& bias, float n_dot_l) {
   return 0;
 }
 
-// The design's table, all of it: [covered][F][V][L].
+// The design's table, all of it: [covered][D][V][L].
 inline constexpr Cause causes[2][2][2][2] = {
     {{{Cause::none, Cause::coverage_light}, {Cause::none, Cause::coverage_light}},
      {{Cause::coverage_dark, Cause::none}, {Cause::coverage_dark, Cause::none}}},
@@ -156,7 +160,7 @@ inline constexpr Cause causes[2][2][2][2] = {
      {{Cause::aliasing_dark, Cause::none}, {Cause::acne, Cause::none}}},
 };
 
-inline Cause cause_of(const Tap& tap, bool lit) { return causes[tap.covered][tap.exact_lit][tap.texel_lit][lit]; }
+inline Cause cause_of(const Tap& tap, bool lit) { return causes[tap.covered][tap.moved_lit][tap.texel_lit][lit]; }
 
 inline float visibility(const Synthetic& s, const Image<float>& map, size_t receiver) {
   int lit = 0;

@@ -96,6 +96,7 @@ TEST(LawMetrics, SumStepsOverTheLightsPlane) {
     return s.ladder.step[static_cast<size_t>(cause)].at(x, y);
   };
   step(Cause::filter, 1, 2) = -0.25f;
+  step(Cause::displacement, 15, 16) = -0.375f;
   step(Cause::aliasing_dark, 3, 4) = -0.5f;
   step(Cause::aliasing_light, 5, 6) = 0.125f;
   step(Cause::acne, 7, 8) = -1;
@@ -107,6 +108,7 @@ TEST(LawMetrics, SumStepsOverTheLightsPlane) {
   const auto found = s.metrics();
   EXPECT_DOUBLE_EQ(found.at("counted_area_m2"), all - area(11, 12) - area(13, 14));
   EXPECT_DOUBLE_EQ(found.at("filter_area_m2"), 0.25 * area(1, 2));
+  EXPECT_DOUBLE_EQ(found.at("displacement_area_m2"), 0.375 * area(15, 16));
   EXPECT_DOUBLE_EQ(found.at("aliasing_area_m2"), 0.5 * area(3, 4) + 0.125 * area(5, 6));
   EXPECT_DOUBLE_EQ(found.at("acne_area_m2"), area(7, 8));
   EXPECT_DOUBLE_EQ(found.at("peter_panning_area_m2"), 0.75 * area(9, 10));

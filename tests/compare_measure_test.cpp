@@ -40,7 +40,7 @@ struct Picture {
   }
   std::map<std::string, double> metrics() const {
     return measure_ladder(
-        {ladder, primitive, edge, occluder, n_dot_l, texel_m, 10, {BiasForm::constant, bias, 0, 0}, 1});
+        {ladder, primitive, edge, occluder, n_dot_l, texel_m, 10, {BiasForm::constant, bias, 0, 0, normal_offset_m}, 1});
   }
   double metric(const char* name) const { return metrics().at(name); }
 
@@ -48,6 +48,7 @@ struct Picture {
   Image<uint32_t> primitive;
   Image<float> edge, occluder, n_dot_l;
   double texel_m = 0.5;
+  float normal_offset_m = 0;
   float bias = 1;  // of 10 m: nearly every occluder is within its reach
 };
 
@@ -70,6 +71,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
   p.rungs(0, 1, {0.5f, 1, 0.75f, 1, 0.25f, 0.5f});
   p.step(0, 1, Cause::light_size, 0.5f);
   p.step(0, 1, Cause::filter, -0.25f);
+  p.step(0, 1, Cause::displacement, 0.125f);
   p.step(0, 1, Cause::acne, -0.75f);
   p.step(0, 1, Cause::aliasing_light, 0.25f);
   p.edge.at(0, 1) = 0.75f;
@@ -96,6 +98,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"wrong", 4 / base},
       {"light_size", 0.5 / base},
       {"filter", 0.25 / base},
+      {"displacement", 0.125 / base},
       {"aliasing", 1.25 / base},
       {"aliasing_dark", 1 / base},
       {"aliasing_light", 0.25 / base},
@@ -154,6 +157,21 @@ TEST(Measure, GapEndsWhereTheBiasCannotReach) {
   p.occluder.at(0, 0) = 1.3f;
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), 1.3 * std::sqrt(0.5), 1e-6);
   p.occluder.at(0, 0) = 1.4f;  // a steep receiver at the edge of a distant shadow
+  EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
+}
+
+// An offset d along the normal puts a receiver d / cos(theta) before itself along the light.
+TEST(Measure, GapEndsWhereTheNormalOffsetCannotReach) {
+  Picture p(1, 1);
+  p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
+  p.step(0, 0, Cause::peter_panning, 1);
+  p.n_dot_l.at(0, 0) = 0.5f;  // 60 degrees: a texel of 0.5 m adds at most 0.5 / sqrt(2) m times tan(theta)
+  p.bias = 0;
+  p.normal_offset_m = 0.75f;
+  const float reach = 0.75f / 0.5f + static_cast<float>(0.5 * std::sqrt(0.5) * std::sqrt(3.0));
+  p.occluder.at(0, 0) = reach - 0.01f;
+  EXPECT_NEAR(p.metric("peter_panning_gap_m"), (reach - 0.01) * std::sqrt(0.75), 1e-6);
+  p.occluder.at(0, 0) = reach + 0.01f;
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
 }
 

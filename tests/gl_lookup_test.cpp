@@ -92,11 +92,12 @@ Settings random_settings(std::mt19937& random) {
   s.map.lit_beyond_far = random() % 2;
   s.map.near_m = 1 + unit(random);
   s.map.far_m = one_of(random, {6.0, 9.0, 30.0});
-  s.bias.form = one_of(random, {BiasForm::none, BiasForm::constant, BiasForm::slope});
+  s.bias.form = one_of(random, {BiasForm::none, BiasForm::constant, BiasForm::slope, BiasForm::normal_offset});
   s.bias.unit = one_of(random, {BiasUnit::depth, BiasUnit::m, BiasUnit::texel});
   s.bias.constant = 0.02 * unit(random);
   s.bias.slope = 0.1 * unit(random);
   s.bias.floor = 0.01 * unit(random);
+  s.bias.normal_offset = 3 * unit(random);
   s.filter.kind = one_of(random, {FilterKind::none, FilterKind::box});
   s.filter.size = one_of(random, {1, 3, 5, 7, 31});
   return s;
@@ -138,9 +139,9 @@ TEST_F(GlLookupTest, EqualsTheHostBitForBit) {
       const LightFrame frame = make_light_frame(scene, settings);
       renderer.load_receivers(receivers, frame.direction_to_light());
       const ShadowMap map = renderer.render_map(frame, settings.map);
-      const LookupProbe probe = renderer.probe(frame);
-      const Image<float> host =
-          lookup_on_host(probe, receivers, renderer.read_map(map), depth_bias(frame, settings.bias), settings, met);
+      const DepthBias bias = depth_bias(frame, settings.bias);
+      const LookupProbe probe = renderer.probe(frame, bias);
+      const Image<float> host = lookup_on_host(probe, receivers, renderer.read_map(map), bias, settings, met);
       expect_same(renderer.lookup(map, frame, settings), host, describe(settings));
     }
   }
@@ -183,6 +184,44 @@ TEST_F(GlLookupTest, TurnsAtTheExactFloat) {
     ++turned;
   }
   EXPECT_EQ(turned, 40);
+}
+
+// The probe of a moved lookup is that of receivers which lie there; and no other form moves it, not even by a bit.
+TEST_F(GlLookupTest, ProbeMovesWithTheNormalOffsetAlone) {
+  std::mt19937 random(2011);
+  const Scene scene = random_scene(random);
+  const ReceiverImage receivers = load(scene, 96, 64);
+  Settings settings;
+  settings.map.resolution = 64;
+  const LightFrame frame = make_light_frame(scene, settings);
+  renderer.load_receivers(receivers, frame.direction_to_light());
+  const LookupProbe unmoved = renderer.probe(frame);
+  const auto expect_equal = [&](const LookupProbe& probe, const char* form) {
+    for (size_t i = 0; i < receivers.primitive.size(); ++i) {
+      ASSERT_TRUE(same_bits(probe.reference[i], unmoved.reference[i])) << form;
+      ASSERT_EQ(probe.texel[i], unmoved.texel[i]) << form;
+      ASSERT_TRUE(same_bits(probe.n_dot_l[i], unmoved.n_dot_l[i])) << form;
+    }
+  };
+  expect_equal(renderer.probe(frame, {.form = BiasForm::constant, .constant = 0.1f}), "constant");
+  expect_equal(renderer.probe(frame, {.form = BiasForm::slope, .slope = 0.1f, .floor = 0.1f}), "slope");
+  expect_equal(renderer.probe(frame, {.form = BiasForm::normal_offset}), "normal_offset of 0");
+
+  const float offset_m = 0.37f;
+  const LookupProbe moved = renderer.probe(frame, {.form = BiasForm::normal_offset, .normal_offset_m = offset_m});
+  // The shader's own float arithmetic: the host is built without contraction.
+  ReceiverImage there = receivers;
+  for (size_t i = 0; i < there.position.size(); ++i) there.position[i] += offset_m * there.normal[i];
+  renderer.load_receivers(there, frame.direction_to_light());
+  const LookupProbe expected = renderer.probe(frame);
+  size_t elsewhere = 0;
+  for (size_t i = 0; i < receivers.primitive.size(); ++i) {
+    ASSERT_TRUE(same_bits(moved.reference[i], expected.reference[i]));
+    ASSERT_EQ(moved.texel[i], expected.texel[i]);
+    ASSERT_TRUE(same_bits(moved.n_dot_l[i], unmoved.n_dot_l[i])) << "the normal stays";
+    elsewhere += moved.texel[i] != unmoved.texel[i];
+  }
+  EXPECT_GT(elsewhere, 1000u);
 }
 
 TEST_F(GlLookupTest, ProbeIsNearTheExactPlaces) {

@@ -43,6 +43,7 @@ Settings cubes(std::initializer_list<acceptance::Assignment> more = {}) {
 Settings cubes_3x3(std::initializer_list<acceptance::Assignment> more = {}) {
   return with(more, cubes({{"filter.kind", "box"}, {"bias.constant", "0.008"}}));
 }
+Settings offset_cubes() { return cubes({{"bias.form", "normal_offset"}, {"bias.normal_offset", "0.7"}}); }
 // The map covers two fifths of what it should, so that many receivers fall outside.
 Settings narrow() { return cubes({{"map.extent_scale", "0.4"}}); }
 
@@ -213,6 +214,35 @@ std::vector<Planted> defects() {
                  {.shaders = patched(receiver, "return Receiver(true, window.z,", "return Receiver(true, ndc.z,")},
                  {{"reference_error_m", 1e-5, 1}, {"rounding_excess", 1, 1000}, {"peter_panning", 1e-4, 0.01}},
                  {"contract", "address_error_texels"}});
+
+  // --- The normal offset. It moves the address and the depth: the contract cannot see what the probe shares. ---------
+
+  const char* const offset = "shaders/bias/normal_offset.glsl";
+  all.push_back({"NormalOffsetInwards",
+                 offset_cubes(),
+                 {.shaders = patched(offset, "position + offset", "position - offset")},
+                 {{"rounding_excess", 1, 1000}, {"address_error_texels", 1e-4, 0.3}, {"acne", 1e-3, 0.5}},
+                 {"contract"}});
+  // Half of what was asked.
+  all.push_back({"NormalOffsetHalved",
+                 offset_cubes(),
+                 {.shaders = patched(offset, "normal_offset_m * normal", "0.5 * normal_offset_m * normal")},
+                 {{"rounding_excess", 1, 1000}},
+                 {"contract"}});
+  // The depth of the moved place at the texel of the unmoved one: what "offset the depth only" does.
+  all.push_back(
+      {"NormalOffsetOfTheDepthAlone",
+       offset_cubes(),
+       {.shaders = patched(receiver, "precise vec2 place = floor(window.xy",
+                           "precise vec4 unmoved = clip_from_world * vec4(position.xyz, 1.0);\n  precise vec2 "
+                           "place = floor((unmoved.xy / unmoved.w * 0.5 + 0.5)")},
+       {{"rounding_excess", 1, 1000}, {"address_error_texels", 1e-4, 0.3}},
+       {"contract", "reference_error_m"}});
+  // The truth believes in an offset that the lookup was never given.
+  all.push_back({"NormalOffsetForgotten",
+                 offset_cubes(),
+                 {.asked = [](Settings& s) { s.bias.normal_offset = 0; }},
+                 {{"contract", 0, 0.1}, {"tap_residual", 1e-6, 1}}});
 
   // --- The map. R4 is right and R5 is not: precision, of the size of what is wrong. ---------------------------------
 

@@ -65,15 +65,15 @@ inline Figures measure(const Settings& settings, const Defect& defect = {}) {
   const Image<float> stored = renderer.read_map(map);
 
   const int kernel = kernel_size(settings.filter);
-  const LookupProbe probe = renderer.probe(frame);
-  const raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, probe, frame, settings.map, kernel);
+  DepthBias bias = depth_bias(frame, settings.bias);
+  const LookupProbe probe = renderer.probe(frame, bias);
+  const raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, probe, frame, settings.map, kernel, bias);
   Settings asked = settings;
   if (defect.asked) defect.asked(asked);
   const MapSettings& uploaded = defect.every_map ? drawn_map : settings.map;
   const Image<float> r5 = renderer.lookup(map, frame, asked);
   const Image<float> r4 = renderer.lookup(renderer.upload_map(taps.exact_map, uploaded), frame, asked);
 
-  DepthBias bias = depth_bias(frame, settings.bias);
   if (defect.believed_bias) defect.believed_bias(bias);
   const LookupEvidence evidence{truth, probe, taps.taps, taps.exact_map, settings.map, bias, r4, r5};
   const Ladder ladder = climb(evidence);

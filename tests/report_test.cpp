@@ -194,6 +194,27 @@ TEST(Report, SameResultsSameBytes) {
   EXPECT_EQ(render_report(sample_results(), sample_picture), render_report(sample_results(), sample_picture));
 }
 
+// A form whose lookup moves has no curve: some points with and some without, and all without.
+TEST(Report, SaysWhyPointsHaveNoCurve) {
+  Results results = sample_results();
+  const char* const why = "bias.form normal_offset moves the lookup";
+  EXPECT_EQ(render_report(results, sample_picture).find(why), std::string::npos);
+  results.points[6].curve.reset();
+  results.points[6].settings["bias.form"] = "normal_offset";
+  results.points[6].metrics["displacement"] = 0.002;
+  const std::string some = render_report(results, sample_picture);
+  EXPECT_NE(some.find(why), std::string::npos);
+  EXPECT_NE(some.find("Displacement"), std::string::npos);
+  EXPECT_EQ(some.find("A usable bias exists at every point:"), std::string::npos);
+  for (PointRecord& point : results.points) {
+    point.curve.reset();
+    point.settings["bias.form"] = "normal_offset";
+  }
+  const std::string none = render_report(results, sample_picture);
+  EXPECT_NE(none.find(why), std::string::npos);
+  EXPECT_NE(none.find("No bias curve was measured"), std::string::npos);
+}
+
 TEST(Report, EmbeddedDataIsTheResults) {
   Results results = sample_results();
   results.points[3].metrics["acne"] = nan;

@@ -343,10 +343,23 @@ TEST(DepthBias, LeavesWhatItsFormDoesNotUse) {
   EXPECT_EQ(none.constant + none.slope + none.floor, 0);
   EXPECT_EQ(constant.slope + constant.floor, 0);
   EXPECT_EQ(slope.constant, 0);
+  EXPECT_EQ(none.normal_offset_m + constant.normal_offset_m + slope.normal_offset_m, 0);
   for (float n_dot_l : {0.0f, 0.25f, 1.0f}) {
     EXPECT_EQ(none.at(n_dot_l), 0);
     EXPECT_EQ(constant.at(n_dot_l), 0.3f);
   }
+}
+
+TEST(DepthBias, OfANormalOffsetIsALengthAndNoDepth) {
+  for (const BiasUnit unit : {BiasUnit::depth, BiasUnit::m, BiasUnit::texel}) {
+    const DepthBias bias = depth_bias(frame_of(1, 7.5, 20, 1000), {BiasForm::normal_offset, unit, 0.3, 0.7, 0.9, 1.5});
+    EXPECT_EQ(bias.normal_offset_m, 0.03f) << "1.5 texels of 20 mm, whatever the unit of the others";
+    EXPECT_EQ(bias.constant + bias.slope + bias.floor, 0);
+    EXPECT_EQ(bias.at(0.5f), 0);
+    EXPECT_TRUE(bias.moves_lookup());
+    EXPECT_EQ(bias.looked_up({1, 2, 3}, {0, -1, 0}), glm::dvec3(1, 2 - static_cast<double>(0.03f), 3));
+  }
+  EXPECT_FALSE(depth_bias(frame_of(0, 1, 1, 1), {BiasForm::normal_offset, BiasUnit::depth, 1, 1, 1, 0}).moves_lookup());
 }
 
 TEST(DepthBias, OfASlopeIsTheShadersFloatArithmetic) {

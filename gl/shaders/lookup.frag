@@ -4,7 +4,6 @@
 #include "shaders/receiver.glsl"
 #include "shaders/map.glsl"
 #include "shaders/compare.glsl"
-#include <bias>
 #include <filter>
 
 uniform int lit_beyond_far;               // 1: a receiver beyond the far plane is lit without a comparison

@@ -1,4 +1,6 @@
 // The tutorials' form: grows as the surface turns from the light, and never falls below a floor.
+#include "shaders/bias/in_place.glsl"
+
 uniform float bias_slope;  // window depth
 uniform float bias_floor;  // window depth
 
