@@ -50,7 +50,7 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec2 x) const {
     double flattest = -2;
     const glm::dvec2 slope = view_.gradient(triangle);
     for (uint32_t candidate : adjacency_.across(triangle, out)) {
-      if (candidate == from) continue;
+      if (candidate == from || view_.edge_on(candidate)) continue;
       int apex = 0;  // the corner of the candidate that is not on the edge
       for (int i = 0; i < 3; ++i) {
         const uint32_t v = adjacency_.welded(candidate)[i];
@@ -89,7 +89,7 @@ bool OwnSurface::covers(uint32_t triangle, glm::dvec2 x) const {
     least = std::min(least, side);
     most = std::max(most, side);
   }
-  return (least >= 0) != (most <= 0);  // on one side of all edges; edge-on triangles cover nothing
+  return (least >= 0) != (most <= 0) && !view_.edge_on(triangle);  // on one side of all edges
 }
 
 uint32_t OwnSurface::exact_first(glm::dvec2 x, uint64_t& rays) const {
@@ -127,17 +127,18 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint
     if (beside) exact();
     return {true, sure};
   }
-  bool lit = false;
-  if (!beside) {
-    const Sheet sheet = hit == no_primitive || hit == p.primitive ? Sheet{} : walk(p, x);
-    lit = hit == no_primitive || hit == p.primitive || sheet.triangle == hit ||
-          view_.hit_depth(hit, x) >=
-              sheet.depth_m - depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle);
-  }
-  const uint32_t first = beside || lit ? exact() : hit;
+  const uint32_t first = beside || may_be_lit(p, x, hit) ? exact() : hit;
   Verdict v = verdict(p, x, first, crossed, rays);
   v.sure &= sure;
   return v;
+}
+
+bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec2 x, uint32_t hit) const {
+  if (hit == no_primitive || hit == p.primitive) return true;
+  const Sheet sheet = walk(p, x);
+  if (sheet.triangle == hit) return true;
+  const double error = depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle);
+  return view_.hit_depth(hit, x) >= sheet.depth_m - error;
 }
 
 OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec2 x, uint32_t hit,
@@ -145,10 +146,24 @@ OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec2 x, uin
   if (hit == no_primitive || hit == p.primitive) return {true, true};
   const Sheet sheet = walk(p, x);
   if (sheet.triangle == hit) return {true, true};
-  const double error = depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle);
-  if (view_.hit_depth(hit, x) >= sheet.depth_m - rounding_share * error) return {true, true};
-  if (!p.lit) return {false, true};
-  return continuous(p, x, hit, crossed, rays);
+  // Where P's own rounding put it beside its surface, the way crosses an edge that the exact P's does not, or the other
+  // way about, and may leave the sheet elsewhere.
+  const bool on_surface = walk(p, p.at).triangle != no_primitive;
+  const double behind = sheet.depth_m - view_.hit_depth(hit, x);
+  if (behind <= rounding_of_sheet(p, x, sheet, hit)) return {true, on_surface || sheet.triangle != no_primitive};
+  if (!p.lit) return {false, on_surface || sheet.triangle != no_primitive};
+  return {continuous(p, x, hit, crossed, rays), on_surface};
+}
+
+// A plane that is carried on from a small triangle has its rounding grow with the way.
+double OwnSurface::rounding_of_sheet(const SurfacePoint& p, glm::dvec2 x, const Sheet& sheet, uint32_t hit) const {
+  if (sheet.triangle != no_primitive) return rounding_share * depth_error(hit, sheet.triangle);
+  double longest = 0;
+  for (int e = 0; e < 3; ++e)
+    longest = std::max(longest, glm::length(view_.corner2(p.primitive, (e + 1) % 3) - view_.corner2(p.primitive, e)));
+  const double width = std::abs(view_.projected_area2(p.primitive)) / longest;
+  const double growth = glm::length(x - p.at) / width;
+  return rounding_share * depth_error(hit, p.primitive) * (1 + (std::isfinite(growth) ? growth : 0));
 }
 
 double OwnSurface::edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from,
@@ -172,14 +187,13 @@ double OwnSurface::depth_error(uint32_t a, uint32_t b) const {
   return view_.ray_error_m() * (1 + slope(a) + slope(b));
 }
 
-OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec2 x, uint32_t hit,
-                                           const std::vector<Silhouettes::Crossing>& at, uint64_t& rays) const {
+bool OwnSurface::continuous(const SurfacePoint& p, glm::dvec2 x, uint32_t hit,
+                            const std::vector<Silhouettes::Crossing>& at, uint64_t& rays) const {
   const glm::dvec2 way = x - p.at;
   const double length = glm::length(way);
   const double aside = rounding_share * beside_m() / length;
   const auto begin_of = [&](size_t i) { return at[i].t - aside / at[i].sine; };
   const auto end_of = [&](size_t i) { return at[i].t + aside / at[i].sine; };
-  Verdict found{true, true};
   for (size_t first = 0, last; first < at.size(); first = last + 1) {
     last = first;  // silhouettes that double cannot tell apart are crossed together
     double begin = begin_of(first), end = end_of(first);
@@ -191,16 +205,16 @@ OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec2 x, 
     const uint32_t before = begin > 0 ? exact_first(p.at + begin * way, rays) : p.primitive;
     const uint32_t after = end < 1 ? exact_first(p.at + end * way, rays) : hit;
     if (before == after) continue;
-    if (before == no_primitive || after == no_primitive) return {false, true};
+    if (before == no_primitive || after == no_primitive) return false;
     double step = std::numeric_limits<double>::infinity();
     for (size_t i = first; i <= last; ++i) {
       const glm::dvec2 y = p.at + at[i].t * way;
       step = std::min(step, std::abs(view_.hit_depth(before, y) - view_.hit_depth(after, y)));
     }
     if (step <= rounding_share * depth_error(before, after)) continue;
-    return {false, true};
+    return false;
   }
-  return found;
+  return true;
 }
 
 }  // namespace noonmark

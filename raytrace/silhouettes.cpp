@@ -15,6 +15,7 @@ bool goes_on(const Adjacency& adjacency, const LightView& view, uint32_t triangl
   const glm::dvec2 a = view.corner2(triangle, edge), b = view.corner2(triangle, (edge + 1) % 3);
   const double own = orientation(a, b, view.corner2(triangle, (edge + 2) % 3));
   for (uint32_t other : adjacency.across(triangle, edge)) {
+    if (view.edge_on(other)) continue;
     for (int i = 0; i < 3; ++i) {
       const uint32_t v = adjacency.welded(other)[i];
       if (v == adjacency.welded(triangle)[edge] || v == adjacency.welded(triangle)[(edge + 1) % 3]) continue;
