@@ -112,8 +112,8 @@ uint32_t OwnSurface::exact_first(glm::dvec2 x, uint64_t& rays) const {
 
 OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
   // What the light meets first is asked exactly where the ray may have met another surface than that: beside a
-  // silhouette, and where two surfaces run into one another. The latter can change a verdict only where P's own sheet is
-  // one of the two: a dark receiver's comes out from under another surface, or a lit one's goes under.
+  // silhouette, and where two surfaces run into one another. The latter can change a verdict only where P's own sheet
+  // is one of the two: a dark receiver's comes out from under another surface, or a lit one's goes under.
   const bool beside = silhouettes_.near(x);
   std::vector<Silhouettes::Crossing> crossed;
   if (p.lit) crossed = silhouettes_.crossings(p.at, x);
@@ -146,9 +146,10 @@ OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec2 x, uin
   if (hit == no_primitive || hit == p.primitive) return {true, true};
   const Sheet sheet = walk(p, x);
   if (sheet.triangle == hit) return {true, true};
-  // Where P's own rounding put it beside its surface, the way crosses an edge that the exact P's does not, or the other
-  // way about, and may leave the sheet elsewhere.
-  const bool on_surface = walk(p, p.at).triangle != no_primitive;
+  // Where P's own rounding put it beside its surface or onto its edge, the way crosses an edge that the exact P's does
+  // not, or the other way about, and may leave the sheet elsewhere.
+  const bool on_edge = !crossed.empty() && crossed.front().t * glm::length(x - p.at) <= rounding_share * beside_m();
+  const bool on_surface = !on_edge && walk(p, p.at).triangle != no_primitive;
   const double behind = sheet.depth_m - view_.hit_depth(hit, x);
   if (behind <= rounding_of_sheet(p, x, sheet, hit)) return {true, on_surface || sheet.triangle != no_primitive};
   if (!p.lit) return {false, on_surface || sheet.triangle != no_primitive};
