@@ -20,6 +20,12 @@ inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray) {
   arguments.context = &context;
   rtcIntersect1(scene, &ray, &arguments);
 }
+inline void occluded(RTCScene scene, Context& context, RTCRay& ray) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded1(scene, &ray, &arguments);
+}
 inline void intersect16(const int* valid, RTCScene scene, Context& context, RTCRayHit16& rays) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
@@ -38,6 +44,7 @@ struct Context : RTCIntersectContext {
 };
 
 inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray) { rtcIntersect1(scene, &context, &ray); }
+inline void occluded(RTCScene scene, Context& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
 inline void intersect16(const int* valid, RTCScene scene, Context& context, RTCRayHit16& rays) {
   rtcIntersect16(valid, scene, &context, &rays);
 }

@@ -13,6 +13,7 @@ namespace {
 struct ShadowContext : embree::Context {
   const EmbreeScene* scene = nullptr;
   const ShadowRay* rays = nullptr;
+  std::vector<uint32_t>* all = nullptr;  // where all_hits() collects
 };
 
 [[noreturn]] void device_failed(RTCDevice device, const std::string& what) {
@@ -71,7 +72,7 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::ve
   std::memcpy(vertices, scene.positions.data(), scene.positions.size() * sizeof(glm::vec3));
   auto* triangles = static_cast<glm::uvec3*>(indices);
   for (size_t i = 0; i < count; ++i) triangles[i] = scene.triangles[kept_.empty() ? i : kept_[i]];
-  rtcSetGeometryOccludedFilterFunction(geometry, reject_own_surface);
+  rtcSetGeometryOccludedFilterFunction(geometry, filter);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(embree_.get(), geometry);
   rtcReleaseGeometry(geometry);
@@ -133,6 +134,14 @@ uint32_t EmbreeScene::first_hit(glm::vec3 origin, glm::vec3 direction) const {
   embree::intersect(embree_.get(), context, ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return no_primitive;
   return kept_.empty() ? ray.hit.primID : kept_[ray.hit.primID];
+}
+
+void EmbreeScene::all_hits(glm::vec3 origin, glm::vec3 direction, std::vector<uint32_t>& primitives) const {
+  RTCRay ray = single_ray(origin, direction, 0).ray;
+  ShadowContext context;
+  context.scene = this;
+  context.all = &primitives;  // the filter lets none of them stop the ray
+  embree::occluded(embree_.get(), context, ray);
 }
 
 uint32_t EmbreeScene::occluded(int count, const ShadowRay* starts) const {
@@ -213,15 +222,20 @@ bool EmbreeScene::one_plane(uint32_t a, uint32_t b) const {
   return within(a, b) || within(b, a);
 }
 
-void EmbreeScene::reject_own_surface(const RTCFilterFunctionNArguments* arguments) {
-  // Called for the ray queries of occluded() only; intersect queries have no filter.
+void EmbreeScene::filter(const RTCFilterFunctionNArguments* arguments) {
+  // Called for the queries of occluded() and all_hits() only; intersect queries have no filter.
   const auto* context = static_cast<const ShadowContext*>(reinterpret_cast<const embree::Context*>(arguments->context));
   const EmbreeScene& scene = *context->scene;
   for (unsigned i = 0; i < arguments->N; ++i) {
     if (arguments->valid[i] == 0) continue;
-    const unsigned lane = RTCRayN_id(arguments->ray, arguments->N, i);
     const unsigned hit = RTCHitN_primID(arguments->hit, arguments->N, i);
     const uint32_t primitive = scene.kept_.empty() ? hit : scene.kept_[hit];
+    if (context->all) {
+      context->all->push_back(primitive);
+      arguments->valid[i] = 0;
+      continue;
+    }
+    const unsigned lane = RTCRayN_id(arguments->ray, arguments->N, i);
     const float distance = RTCRayN_tfar(arguments->ray, arguments->N, i);
     if (!scene.is_occluder(context->rays[lane], primitive, distance)) arguments->valid[i] = 0;
   }

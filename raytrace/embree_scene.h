@@ -56,6 +56,9 @@ class EmbreeScene {
   void first_hits(int count, const glm::vec3* origins, glm::vec3 direction, uint32_t* primitives) const;
   uint32_t first_hit(glm::vec3 origin, glm::vec3 direction) const;
 
+  // Every triangle that the ray meets, in no order.
+  void all_hits(glm::vec3 origin, glm::vec3 direction, std::vector<uint32_t>& primitives) const;
+
   // Bit i: ray i meets another triangle than its own, beyond its own plane. count: 1 ... 16.
   uint32_t occluded(int count, const ShadowRay* rays) const;
 
@@ -63,7 +66,7 @@ class EmbreeScene {
   double occluder_distance(const ShadowRay& ray) const;
 
  private:
-  static void reject_own_surface(const RTCFilterFunctionNArguments* arguments);
+  static void filter(const RTCFilterFunctionNArguments* arguments);
   bool is_occluder(const ShadowRay& ray, uint32_t primitive, float distance) const;
   bool one_plane(uint32_t a, uint32_t b) const;
 

@@ -27,6 +27,13 @@ class LightView {
     return orientation(corner2(triangle, 0), corner2(triangle, 1), corner2(triangle, 2));
   }
 
+  // Seen from the side, to within double's rounding of a direction and of corners (2^-53 each, and a large margin: what
+  // is so thin has no inside that double can tell). Such a triangle covers nothing, and no surface goes on over it.
+  bool edge_on(uint32_t triangle) const {
+    const glm::dvec3 a = corner(triangle, 0), n = glm::cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
+    return !(std::abs(n.z) > 0x1p-30 * glm::length(n));
+  }
+
   // dz/d(u, v) of the triangle's plane; not finite when it is edge-on to the light.
   glm::dvec2 gradient(uint32_t triangle) const;
 

@@ -50,7 +50,7 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec2 x) const {
     double flattest = -2;
     const glm::dvec2 slope = view_.gradient(triangle);
     for (uint32_t candidate : adjacency_.across(triangle, out)) {
-      if (candidate == from) continue;
+      if (candidate == from || view_.edge_on(candidate)) continue;
       int apex = 0;  // the corner of the candidate that is not on the edge
       for (int i = 0; i < 3; ++i) {
         const uint32_t v = adjacency_.welded(candidate)[i];
@@ -89,41 +89,82 @@ bool OwnSurface::covers(uint32_t triangle, glm::dvec2 x) const {
     least = std::min(least, side);
     most = std::max(most, side);
   }
-  return (least >= 0) != (most <= 0);  // on one side of all edges; edge-on triangles cover nothing
+  return (least >= 0) != (most <= 0) && !view_.edge_on(triangle);  // on one side of all edges
+}
+
+uint32_t OwnSurface::exact_first(glm::dvec2 x, uint64_t& rays) const {
+  std::vector<uint32_t> found;
+  ++rays;
+  embree_.all_hits(view_.ray_origin(x), view_.frame().ray_direction, found);
+  silhouettes_.near(x, found);
+  uint32_t first = no_primitive;
+  for (uint32_t triangle : found) {
+    if (!covers(triangle, x)) {  // the sheet may go on below x
+      const glm::dvec2 centre =
+          (view_.corner2(triangle, 0) + view_.corner2(triangle, 1) + view_.corner2(triangle, 2)) / 3.0;
+      triangle = walk({centre, triangle}, x).triangle;
+      if (!covers(triangle, x)) continue;
+    }
+    if (first == no_primitive || view_.hit_depth(triangle, x) < view_.hit_depth(first, x)) first = triangle;
+  }
+  return first;
 }
 
 OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
-  Verdict here = verdict(p, x, hit, rays);
-  // Beside a silhouette, and where a dark receiver's own sheet comes out from under another surface.
-  if (!here.sure || !(silhouettes_.near(x) || (here.lit && !p.lit))) return here;
-  // The rays around x find what there is to meet; which of it covers x, and is first, double can tell.
-  const bool before_near = clipped(hit, x);
-  uint32_t first = covers(hit, x) ? hit : no_primitive;
-  bool changes = false;
-  for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
-    const glm::dvec2 beside = x + beside_m() * way;
-    const uint32_t other = first_hit(beside, rays);
-    changes |= clipped(other, beside) != before_near || verdict(p, beside, other, rays).lit != here.lit;
-    if (covers(other, x) && (first == no_primitive || view_.plane_depth(other, x) < view_.plane_depth(first, x)))
-      first = other;
+  // What the light meets first is asked exactly where the ray may have met another surface than that: beside a
+  // silhouette, and where two surfaces run into one another. The latter can change a verdict only where P's own sheet
+  // is one of the two: a dark receiver's comes out from under another surface, or a lit one's goes under.
+  const bool beside = silhouettes_.near(x);
+  std::vector<Silhouettes::Crossing> crossed;
+  if (p.lit) crossed = silhouettes_.crossings(p.at, x);
+  bool sure = true;
+  const auto exact = [&] {
+    const uint32_t first = exact_first(x, rays);
+    sure = clipped(first, x) == clipped(hit, x);
+    return first;
+  };
+  if (p.lit && crossed.empty()) {  // no jump: lit, whatever is first
+    if (beside) exact();
+    return {true, sure};
   }
-  if (!changes) return here;
-  if (first != no_primitive && clipped(first, x) == before_near) return verdict(p, x, first, rays);
-  here.sure = false;
-  return here;
+  const uint32_t first = beside || may_be_lit(p, x, hit) ? exact() : hit;
+  Verdict v = verdict(p, x, first, crossed, rays);
+  v.sure &= sure;
+  return v;
 }
 
-OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
+bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec2 x, uint32_t hit) const {
+  if (hit == no_primitive || hit == p.primitive) return true;
+  const Sheet sheet = walk(p, x);
+  if (sheet.triangle == hit) return true;
+  const double error = depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle);
+  return view_.hit_depth(hit, x) >= sheet.depth_m - error;
+}
+
+OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec2 x, uint32_t hit,
+                                        const std::vector<Silhouettes::Crossing>& crossed, uint64_t& rays) const {
   if (hit == no_primitive || hit == p.primitive) return {true, true};
   const Sheet sheet = walk(p, x);
   if (sheet.triangle == hit) return {true, true};
-  const double z = view_.hit_depth(hit, x);
-  const double error = depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle);
-  if (z >= sheet.depth_m - rounding_share * error) return {true, true};
-  if (!p.lit) return {z >= sheet.depth_m - error, z < sheet.depth_m - error};
-  const Way found = way(p, x, hit, rays);
-  if (z >= sheet.depth_m - error) return {true, found.continuous && found.sure};
-  return {found.continuous, found.sure};
+  // Where P's own rounding put it beside its surface or onto its edge, the way crosses an edge that the exact P's does
+  // not, or the other way about, and may leave the sheet elsewhere.
+  const bool on_edge = !crossed.empty() && crossed.front().t * glm::length(x - p.at) <= rounding_share * beside_m();
+  const bool on_surface = !on_edge && walk(p, p.at).triangle != no_primitive;
+  const double behind = sheet.depth_m - view_.hit_depth(hit, x);
+  if (behind <= rounding_of_sheet(p, x, sheet, hit)) return {true, on_surface || sheet.triangle != no_primitive};
+  if (!p.lit) return {false, on_surface || sheet.triangle != no_primitive};
+  return {continuous(p, x, hit, crossed, rays), on_surface};
+}
+
+// A plane that is carried on from a small triangle has its rounding grow with the way.
+double OwnSurface::rounding_of_sheet(const SurfacePoint& p, glm::dvec2 x, const Sheet& sheet, uint32_t hit) const {
+  if (sheet.triangle != no_primitive) return rounding_share * depth_error(hit, sheet.triangle);
+  double longest = 0;
+  for (int e = 0; e < 3; ++e)
+    longest = std::max(longest, glm::length(view_.corner2(p.primitive, (e + 1) % 3) - view_.corner2(p.primitive, e)));
+  const double width = std::abs(view_.projected_area2(p.primitive)) / longest;
+  const double growth = glm::length(x - p.at) / width;
+  return rounding_share * depth_error(hit, p.primitive) * (1 + (std::isfinite(growth) ? growth : 0));
 }
 
 double OwnSurface::edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from,
@@ -132,7 +173,9 @@ double OwnSurface::edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dv
   for (int halving = 0; halving < 8; ++halving) {
     const double middle = (same + other) / 2;
     const glm::dvec2 x = from + middle * (to - from);
-    (verdict(p, x, first_hit(x, rays), rays).lit == lit_from ? same : other) = middle;
+    const std::vector<Silhouettes::Crossing> crossed =
+        p.lit ? silhouettes_.crossings(p.at, x) : std::vector<Silhouettes::Crossing>();
+    (verdict(p, x, first_hit(x, rays), crossed, rays).lit == lit_from ? same : other) = middle;
   }
   return other * glm::length(to - from);
 }
@@ -145,50 +188,34 @@ double OwnSurface::depth_error(uint32_t a, uint32_t b) const {
   return view_.ray_error_m() * (1 + slope(a) + slope(b));
 }
 
-OwnSurface::Way OwnSurface::way(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
+bool OwnSurface::continuous(const SurfacePoint& p, glm::dvec2 x, uint32_t hit,
+                            const std::vector<Silhouettes::Crossing>& at, uint64_t& rays) const {
   const glm::dvec2 way = x - p.at;
   const double length = glm::length(way);
-  if (!(length > 0)) return {true, true};
-  const std::vector<Silhouettes::Crossing> at = silhouettes_.crossings(p.at, x);
-  const double aside = beside_m() / length;
+  const double aside = rounding_share * beside_m() / length;
   const auto begin_of = [&](size_t i) { return at[i].t - aside / at[i].sine; };
   const auto end_of = [&](size_t i) { return at[i].t + aside / at[i].sine; };
-  Way found{true, true};
   for (size_t first = 0, last; first < at.size(); first = last + 1) {
-    last = first;  // silhouettes that rays cannot tell apart are crossed together
+    last = first;  // silhouettes that double cannot tell apart are crossed together
     double begin = begin_of(first), end = end_of(first);
     while (last + 1 < at.size() && begin_of(last + 1) <= end) {
       ++last;
       begin = std::min(begin, begin_of(last));
       end = std::max(end, end_of(last));
     }
-    const uint32_t before = begin > 0 ? first_hit(p.at + begin * way, rays) : p.primitive;
-    const uint32_t after = end < 1 ? first_hit(p.at + end * way, rays) : hit;
+    const uint32_t before = begin > 0 ? exact_first(p.at + begin * way, rays) : p.primitive;
+    const uint32_t after = end < 1 ? exact_first(p.at + end * way, rays) : hit;
     if (before == after) continue;
-    const bool one_place = at[last].t - at[first].t <= 2 * aside;  // else something may lie between the crossings
-    // How far apart their depths are: where silhouettes are crossed, and at the least between the two rays, where two
-    // surfaces that run into one another may change places.
-    double step = std::numeric_limits<double>::infinity(), least = step, error = 0;
-    bool plain = before == no_primitive || after == no_primitive;  // the edge crossed is the nearer one's own
-    if (before != no_primitive && after != no_primitive) {
-      error = depth_error(before, after);
-      const auto gap = [&](double t) {
-        return view_.plane_depth(before, p.at + t * way) - view_.plane_depth(after, p.at + t * way);
-      };
-      for (size_t i = first; i <= last; ++i) {
-        const glm::dvec2 y = p.at + at[i].t * way;
-        const double front = std::min(view_.plane_depth(before, y), view_.plane_depth(after, y));
-        step = std::min(step, std::abs(gap(at[i].t)));
-        plain |= std::abs(at[i].depth_m - front) <= rounding_share * error;
-      }
-      const double start = gap(begin), stop = gap(end);
-      least = start * stop <= 0 ? 0 : std::min({step, std::abs(start), std::abs(stop)});
+    if (before == no_primitive || after == no_primitive) return false;
+    double step = std::numeric_limits<double>::infinity();
+    for (size_t i = first; i <= last; ++i) {
+      const glm::dvec2 y = p.at + at[i].t * way;
+      step = std::min(step, std::abs(view_.hit_depth(before, y) - view_.hit_depth(after, y)));
     }
-    if (step <= rounding_share * error) continue;
-    if (!(least <= error) && one_place && plain) return {false, true};
-    found = {found.continuous && least <= error, false};
+    if (step <= rounding_share * depth_error(before, after)) continue;
+    return false;
   }
-  return found;
+  return true;
 }
 
 }  // namespace noonmark

@@ -55,19 +55,21 @@ class OwnSurface {
 
  private:
   uint32_t first_hit(glm::dvec2 x, uint64_t& rays) const;
-  struct Way {
-    bool continuous = true;
-    bool sure =
-        true;  // not: continuous but for a step that float error could make, or too many silhouettes in one place
-  };
+  // The same, exactly: of all that the ray through x meets, and of the sheets that end so near that it may have passed
+  // them by, the first that covers x in double.
+  uint32_t exact_first(glm::dvec2 x, uint64_t& rays) const;
 
-  // The verdict at this one hit.
-  Verdict verdict(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const;
-  // Places this far beside x are on the other side of a silhouette that the ray through x may have missed: the ray's
-  // own error, and that of the ray there.
+  // The verdict at this one hit, crossed: the silhouettes between P and x.
+  Verdict verdict(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, const std::vector<Silhouettes::Crossing>& crossed,
+                  uint64_t& rays) const;
+  // Silhouettes within this distance of x may part the ray that was cast from the exact one, or from one as far away.
   double beside_m() const { return 2 * view_.ray_error_m(); }
-  // Has the first-hit depth a jump between P, lit, and x? It can have one only where the way crosses a silhouette.
-  Way way(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const;
+  // Has the first-hit depth no jump between P, lit, and x? It can have one only where the way crosses a silhouette.
+  bool continuous(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, const std::vector<Silhouettes::Crossing>& crossed,
+                  uint64_t& rays) const;
+  // Is this hit P's own sheet, or behind it, but for the ray's error?
+  bool may_be_lit(const SurfacePoint& p, glm::dvec2 x, uint32_t hit) const;
+  double rounding_of_sheet(const SurfacePoint& p, glm::dvec2 x, const Sheet& sheet, uint32_t hit) const;
   // By how much two depths that are one may differ: a ray that passes beside x by its float error may meet the sheet's
   // next triangle, whose plane differs there by the error times the slopes. Edge-on triangles have no slope to speak
   // of.

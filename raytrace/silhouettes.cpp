@@ -15,6 +15,7 @@ bool goes_on(const Adjacency& adjacency, const LightView& view, uint32_t triangl
   const glm::dvec2 a = view.corner2(triangle, edge), b = view.corner2(triangle, (edge + 1) % 3);
   const double own = orientation(a, b, view.corner2(triangle, (edge + 2) % 3));
   for (uint32_t other : adjacency.across(triangle, edge)) {
+    if (view.edge_on(other)) continue;
     for (int i = 0; i < 3; ++i) {
       const uint32_t v = adjacency.welded(other)[i];
       if (v == adjacency.welded(triangle)[edge] || v == adjacency.welded(triangle)[(edge + 1) % 3]) continue;
@@ -50,7 +51,7 @@ Silhouettes::Silhouettes(const Adjacency& adjacency, const LightView& view, doub
   for (uint32_t t = 0; t < adjacency.triangles(); ++t) {
     for (int e = 0; e < 3; ++e) {
       if (goes_on(adjacency, view, t, e)) continue;
-      const Edge edge{view.corner(t, e), view.corner(t, (e + 1) % 3)};
+      const Edge edge{view.corner(t, e), view.corner(t, (e + 1) % 3), t};
       edges_.push_back(edge);
       low = glm::min(low, glm::dvec2(glm::min(edge.a, edge.b)));
       high = glm::max(high, glm::dvec2(glm::max(edge.a, edge.b)));
@@ -76,7 +77,7 @@ std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec2 from, glm::
   if (edges_.empty()) return at;
   const glm::dvec2 way = to - from;
   const double length2 = glm::dot(way, way);
-  each_cell({glm::dvec3(from, 0), glm::dvec3(to, 0)}, 0, [&](size_t cell) {
+  each_cell({glm::dvec3(from, 0), glm::dvec3(to, 0), 0}, 0, [&](size_t cell) {
     for (uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
       const Edge& edge = edges_[listed_[i]];
       const glm::dvec2 start(edge.a), along = glm::dvec2(edge.b) - start;
@@ -92,16 +93,26 @@ std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec2 from, glm::
   return at;
 }
 
-bool Silhouettes::near_listed(glm::dvec2 x, size_t cell) const {
+void Silhouettes::near(glm::dvec2 x, std::vector<uint32_t>& triangles) const {
+  const glm::dvec2 at = (x - low_) * cells_per_m_;
+  if (!(at.x >= 0 && at.y >= 0 && at.x < size_ && at.y < size_)) return;
+  near_listed(x, static_cast<size_t>(at.y) * static_cast<size_t>(size_) + static_cast<size_t>(at.x), &triangles);
+}
+
+bool Silhouettes::near_listed(glm::dvec2 x, size_t cell, std::vector<uint32_t>* triangles) const {
+  bool any = false;
   for (uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
     const Edge& edge = edges_[listed_[i]];
     const glm::dvec2 start(edge.a), way = glm::dvec2(edge.b) - start;
     const double length2 = glm::dot(way, way);
     const double along = length2 > 0 ? std::clamp(glm::dot(x - start, way) / length2, 0.0, 1.0) : 0;
     const glm::dvec2 beside = x - start - along * way;
-    if (glm::dot(beside, beside) <= reach_m_ * reach_m_) return true;
+    if (glm::dot(beside, beside) > reach_m_ * reach_m_) continue;
+    if (!triangles) return true;
+    triangles->push_back(edge.triangle);
+    any = true;
   }
-  return false;
+  return any;
 }
 
 }  // namespace noonmark

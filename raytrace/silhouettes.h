@@ -21,8 +21,10 @@ class Silhouettes {
     const glm::dvec2 at = (x - low_) * cells_per_m_;
     if (!(at.x >= 0 && at.y >= 0 && at.x < size_ && at.y < size_)) return false;
     const size_t cell = static_cast<size_t>(at.y) * static_cast<size_t>(size_) + static_cast<size_t>(at.x);
-    return begin_[cell] != begin_[cell + 1] && near_listed(x, cell);
+    return begin_[cell] != begin_[cell + 1] && near_listed(x, cell, nullptr);
   }
+  // The same, and the triangles that have those edges.
+  void near(glm::dvec2 x, std::vector<uint32_t>& triangles) const;
 
   struct Crossing {
     double t = 0;        // fraction of the way
@@ -36,9 +38,10 @@ class Silhouettes {
  private:
   struct Edge {
     glm::dvec3 a, b;
+    uint32_t triangle = 0;
   };
   void each_cell(const Edge& edge, double reach_m, const auto& visit) const;
-  bool near_listed(glm::dvec2 x, size_t cell) const;
+  bool near_listed(glm::dvec2 x, size_t cell, std::vector<uint32_t>* triangles) const;
 
   double reach_m_;
   glm::dvec2 low_{0};

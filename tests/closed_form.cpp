@@ -12,6 +12,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Double's rounding of depths that are one: some hundred times 2^-53, as a fraction of the scene's size.
 constexpr double rounding = 1e-13;
 
+// A face that is so near to edge-on shows no side to the light: a direction in double is not more exact than some times
+// 2^-53, and 0 may be meant.
+constexpr double edge_on_sine = 0x1p-30;
+
 double cross2(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
 double segment_distance(glm::dvec2 x, glm::dvec2 a, glm::dvec2 b) {
@@ -73,7 +77,7 @@ ClosedForm::ClosedForm(const std::vector<Shape>& shapes, const LightFrame& frame
       size_m_ = std::max({size_m_, glm::length(p.at) + glm::length(p.u) + glm::length(p.v) + p.radius});
       if (p.kind != ShapeKind::sphere) {
         const glm::dvec3 n = glm::cross(p.u, p.v);
-        p.edge_on = std::abs(n.z) < 1e-9 * glm::length(n);
+        p.edge_on = std::abs(n.z) <= edge_on_sine * glm::length(n);
         p.gradient = glm::dvec2(n) / -n.z;
         p.front = n.z < 0;
       }
