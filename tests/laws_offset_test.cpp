@@ -123,6 +123,7 @@ TEST(Law3, MovesShadowsTowardsTheLight) {
     glm::dvec3 truth_sum(0), map_sum(0);
     double truth_dark = 0, map_dark = 0;
     const Image<float>& step = m.ladder.step[static_cast<size_t>(Cause::displacement)];
+    const Image<double> areas = light_plane_areas(m.camera, m.frame, m.receivers);
     for (int y = 0; y < step.height; ++y) {
       for (int x = 0; x < step.width; ++x) {
         const size_t i = step.index(x, y);
@@ -143,7 +144,7 @@ TEST(Law3, MovesShadowsTowardsTheLight) {
         const float moved = m.ladder.rung[2][i] + step[i];
         EXPECT_EQ(moved, lit(further).value_or(moved)) << x << ", " << y;
         displaced += step[i] != 0;
-        const double area = light_plane_area(m.camera, m.frame, m.receivers, x, y) / cosine;
+        const double area = areas.at(x, y) / cosine;
         truth_sum += area * (1 - m.ladder.rung[1][i]) * p;
         truth_dark += area * (1 - m.ladder.rung[1][i]);
         map_sum += area * (1 - m.ladder.rung[5][i]) * p;
