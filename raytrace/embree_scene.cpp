@@ -204,8 +204,8 @@ bool EmbreeScene::is_occluder(const ShadowRay& ray, uint32_t primitive, float di
   return exact > ray.own_distance + rounding && !(ray.through_own_plane && one_plane(primitive, ray.own));
 }
 
-// Whether the corners of one of the two triangles are as near to the other's plane as rounding both to float may leave
-// what was one plane: half a float step in each of three axes, twice.
+// The corners of one of the two must be as near to the other's plane as rounding leaves what was one plane: half a
+// float step in each of three axes, twice.
 bool EmbreeScene::one_plane(uint32_t a, uint32_t b) const {
   const auto within = [&](uint32_t plane, uint32_t corners) {
     const glm::uvec3 t = scene_.triangles[plane], v = scene_.triangles[corners];

@@ -62,13 +62,16 @@ class EmbreeScene {
   // Bit i: ray i meets another triangle than its own, beyond its own plane. count: 1 ... 16.
   uint32_t occluded(int count, const ShadowRay* rays) const;
 
+  // May the two triangles have been parts of one plane before their corners were rounded to float? Which of such faces
+  // is before the other is rounding's word.
+  bool one_plane(uint32_t a, uint32_t b) const;
+
   // Distance (in units of the direction's length) to the occluder nearest to the receiver; infinity without one.
   double occluder_distance(const ShadowRay& ray) const;
 
  private:
   static void filter(const RTCFilterFunctionNArguments* arguments);
   bool is_occluder(const ShadowRay& ray, uint32_t primitive, float distance) const;
-  bool one_plane(uint32_t a, uint32_t b) const;
 
   struct Release {
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }

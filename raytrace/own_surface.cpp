@@ -117,10 +117,11 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint
   const bool beside = silhouettes_.near(x);
   std::vector<Silhouettes::Crossing> crossed;
   if (p.lit) crossed = silhouettes_.crossings(p.at, x);
-  bool sure = true;
+  // A lit P on a silhouette, its own surface's border for one: whether the way crosses it, rounding says.
+  bool sure = !(p.lit && silhouettes_.near(p.at, rounding_share * beside_m()));
   const auto exact = [&] {
     const uint32_t first = exact_first(x, rays);
-    sure = clipped(first, x) == clipped(hit, x);
+    sure &= clipped(first, x) == clipped(hit, x);
     return first;
   };
   if (p.lit && crossed.empty()) {  // no jump: lit, whatever is first
@@ -152,8 +153,13 @@ OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec2 x, uin
   const bool on_surface = !on_edge && walk(p, p.at).triangle != no_primitive;
   const double behind = sheet.depth_m - view_.hit_depth(hit, x);
   if (behind <= rounding_of_sheet(p, x, sheet, hit)) return {true, on_surface || sheet.triangle != no_primitive};
-  if (!p.lit) return {false, on_surface || sheet.triangle != no_primitive};
-  return {continuous(p, x, hit, crossed, rays), on_surface};
+  if (!p.lit) {
+    const bool twin = embree_.one_plane(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle);
+    return {false, !twin && (on_surface || sheet.triangle != no_primitive)};
+  }
+  Verdict v = continuous(p, x, hit, crossed, rays);
+  v.sure &= on_surface;
+  return v;
 }
 
 // A plane that is carried on from a small triangle has its rounding grow with the way.
@@ -188,8 +194,9 @@ double OwnSurface::depth_error(uint32_t a, uint32_t b) const {
   return view_.ray_error_m() * (1 + slope(a) + slope(b));
 }
 
-bool OwnSurface::continuous(const SurfacePoint& p, glm::dvec2 x, uint32_t hit,
-                            const std::vector<Silhouettes::Crossing>& at, uint64_t& rays) const {
+OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec2 x, uint32_t hit,
+                                           const std::vector<Silhouettes::Crossing>& at, uint64_t& rays) const {
+  bool sure = true;
   const glm::dvec2 way = x - p.at;
   const double length = glm::length(way);
   const double aside = rounding_share * beside_m() / length;
@@ -206,16 +213,17 @@ bool OwnSurface::continuous(const SurfacePoint& p, glm::dvec2 x, uint32_t hit,
     const uint32_t before = begin > 0 ? exact_first(p.at + begin * way, rays) : p.primitive;
     const uint32_t after = end < 1 ? exact_first(p.at + end * way, rays) : hit;
     if (before == after) continue;
-    if (before == no_primitive || after == no_primitive) return false;
+    if (before == no_primitive || after == no_primitive) return {false, true};
     double step = std::numeric_limits<double>::infinity();
     for (size_t i = first; i <= last; ++i) {
       const glm::dvec2 y = p.at + at[i].t * way;
       step = std::min(step, std::abs(view_.hit_depth(before, y) - view_.hit_depth(after, y)));
     }
     if (step <= rounding_share * depth_error(before, after)) continue;
-    return false;
+    if (!embree_.one_plane(before, after)) return {false, true};
+    sure = false;
   }
-  return true;
+  return {sure, sure};
 }
 
 }  // namespace noonmark

@@ -65,8 +65,9 @@ class OwnSurface {
   // Silhouettes within this distance of x may part the ray that was cast from the exact one, or from one as far away.
   double beside_m() const { return 2 * view_.ray_error_m(); }
   // Has the first-hit depth no jump between P, lit, and x? It can have one only where the way crosses a silhouette.
-  bool continuous(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, const std::vector<Silhouettes::Crossing>& crossed,
-                  uint64_t& rays) const;
+  // Unsure where the only jumps are between faces that may have been one plane before their corners were rounded.
+  Verdict continuous(const SurfacePoint& p, glm::dvec2 x, uint32_t hit,
+                     const std::vector<Silhouettes::Crossing>& crossed, uint64_t& rays) const;
   // Is this hit P's own sheet, or behind it, but for the ray's error?
   bool may_be_lit(const SurfacePoint& p, glm::dvec2 x, uint32_t hit) const;
   double rounding_of_sheet(const SurfacePoint& p, glm::dvec2 x, const Sheet& sheet, uint32_t hit) const;

@@ -72,9 +72,17 @@ Silhouettes::Silhouettes(const Adjacency& adjacency, const LightView& view, doub
     each_cell(edges_[e], reach_m, [&](size_t cell) { listed_[fill[cell]++] = e; });
 }
 
+size_t Silhouettes::cell_of(glm::dvec2 x) const {
+  const glm::dvec2 at = glm::clamp((x - low_) * cells_per_m_, glm::dvec2(0), glm::dvec2(size_ - 1.0));
+  return static_cast<size_t>(at.y) * static_cast<size_t>(size_) + static_cast<size_t>(at.x);
+}
+
 std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec2 from, glm::dvec2 to) const {
   std::vector<Crossing> at;
   if (edges_.empty()) return at;
+  // Most taps stay within a cell that lists no edge: an edge is listed wherever it comes within reach of the cell.
+  const size_t begin = cell_of(from), end = cell_of(to);
+  if (begin == end && begin_[begin] == begin_[begin + 1]) return at;
   const glm::dvec2 way = to - from;
   const double length2 = glm::dot(way, way);
   each_cell({glm::dvec3(from, 0), glm::dvec3(to, 0), 0}, 0, [&](size_t cell) {
@@ -96,10 +104,11 @@ std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec2 from, glm::
 void Silhouettes::near(glm::dvec2 x, std::vector<uint32_t>& triangles) const {
   const glm::dvec2 at = (x - low_) * cells_per_m_;
   if (!(at.x >= 0 && at.y >= 0 && at.x < size_ && at.y < size_)) return;
-  near_listed(x, static_cast<size_t>(at.y) * static_cast<size_t>(size_) + static_cast<size_t>(at.x), &triangles);
+  near_listed(x, static_cast<size_t>(at.y) * static_cast<size_t>(size_) + static_cast<size_t>(at.x), reach_m_,
+              &triangles);
 }
 
-bool Silhouettes::near_listed(glm::dvec2 x, size_t cell, std::vector<uint32_t>* triangles) const {
+bool Silhouettes::near_listed(glm::dvec2 x, size_t cell, double within_m, std::vector<uint32_t>* triangles) const {
   bool any = false;
   for (uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
     const Edge& edge = edges_[listed_[i]];
@@ -107,7 +116,7 @@ bool Silhouettes::near_listed(glm::dvec2 x, size_t cell, std::vector<uint32_t>* 
     const double length2 = glm::dot(way, way);
     const double along = length2 > 0 ? std::clamp(glm::dot(x - start, way) / length2, 0.0, 1.0) : 0;
     const glm::dvec2 beside = x - start - along * way;
-    if (glm::dot(beside, beside) > reach_m_ * reach_m_) continue;
+    if (glm::dot(beside, beside) > within_m * within_m) continue;
     if (!triangles) return true;
     triangles->push_back(edge.triangle);
     any = true;

@@ -16,12 +16,13 @@ class Silhouettes {
   // reach_m: how near is near, in metres of the light's plane.
   Silhouettes(const Adjacency& adjacency, const LightView& view, double reach_m);
 
-  // Is x within reach of such an edge?
-  bool near(glm::dvec2 x) const {
+  // Is x within reach of such an edge, or nearer than that?
+  bool near(glm::dvec2 x) const { return near(x, reach_m_); }
+  bool near(glm::dvec2 x, double within_m) const {
     const glm::dvec2 at = (x - low_) * cells_per_m_;
     if (!(at.x >= 0 && at.y >= 0 && at.x < size_ && at.y < size_)) return false;
     const size_t cell = static_cast<size_t>(at.y) * static_cast<size_t>(size_) + static_cast<size_t>(at.x);
-    return begin_[cell] != begin_[cell + 1] && near_listed(x, cell, nullptr);
+    return begin_[cell] != begin_[cell + 1] && near_listed(x, cell, within_m, nullptr);
   }
   // The same, and the triangles that have those edges.
   void near(glm::dvec2 x, std::vector<uint32_t>& triangles) const;
@@ -41,7 +42,8 @@ class Silhouettes {
     uint32_t triangle = 0;
   };
   void each_cell(const Edge& edge, double reach_m, const auto& visit) const;
-  bool near_listed(glm::dvec2 x, size_t cell, std::vector<uint32_t>* triangles) const;
+  size_t cell_of(glm::dvec2 x) const;  // of the grid's nearest place, where x lies outside
+  bool near_listed(glm::dvec2 x, size_t cell, double within_m, std::vector<uint32_t>* triangles) const;
 
   double reach_m_;
   glm::dvec2 low_{0};

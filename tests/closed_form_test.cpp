@@ -23,7 +23,7 @@ struct Tally {
   int64_t r1 = 0, r2 = 0, r3 = 0, clipped = 0, depth = 0;  // disagreements of receivers that are sure
   int64_t depth_either = 0;  // depths of texels beside an outline or a crease: either surface's
   // Disagreements of receivers that are not ambiguous but for places within a ray's error of an outline or a crease: a
-  // tap's ray cannot tell which of two surfaces that run into one another is first, and the tracer knows no creases.
+  // tap's ray cannot tell which of two surfaces that run into one another is first.
   int64_t creases = 0;
   int64_t hidden = 0;                           // disagreements of ambiguous receivers
   int64_t far_from_edges = 0;                   // ambiguous, yet no outline or crease is near
