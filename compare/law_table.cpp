@@ -12,17 +12,25 @@ namespace {
 
 constexpr size_t widest_name = 60;
 
+std::string_view limit_sign(LawRelation relation) { return relation == LawRelation::at_most ? "<=" : ">="; }
+
 std::string short_number(double value) { return fmt::format("{:.4g}", value); }
 
 }  // namespace
 
 std::string law_text(const LawResult& law) {
-  const char* sign = law.relation == LawRelation::equal ? "=" : law.relation == LawRelation::at_most ? "<=" : ">=";
+  const std::string_view sign = law.relation == LawRelation::equal ? "=" : limit_sign(law.relation);
   const std::string joined = law.join == "each"   ? law.measured
                              : law.join == "mean" ? fmt::format("mean of {}", law.measured)
                                                   : fmt::format("{} of {}", law.join, law.measured);
   return fmt::format("{} {} {}{}", joined, sign, law.predicted,
                      law.tolerance.empty() ? "" : fmt::format(" ({})", law.tolerance));
+}
+
+std::string predicted_text(const LawResult& law) {
+  if (law.worst < 0) return "-";
+  const std::string value = short_number(law.samples[static_cast<size_t>(law.worst)].predicted);
+  return law.relation == LawRelation::equal ? value : fmt::format("{} {}", limit_sign(law.relation), value);
 }
 
 std::string ratio_text(const LawResult& law) {
@@ -43,13 +51,13 @@ std::string ratio_text(const LawResult& law) {
 std::string law_table(std::span<const LawResult> laws) {
   size_t width = 3;
   for (const LawResult& law : laws) width = std::min(widest_name, std::max(width, law.name.size()));
-  std::string text = fmt::format("{:<{}}  {:>7}  {:>10}  {:>10}  {:>16}  {}\n", "law", width, "samples", "predicted",
+  std::string text = fmt::format("{:<{}}  {:>7}  {:>12}  {:>10}  {:>16}  {}\n", "law", width, "samples", "predicted",
                                  "measured", "ratio", "verdict");
   for (const LawResult& law : laws) {
     const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
-    text += fmt::format("{:<{}}  {:>7}  {:>10}  {:>10}  {:>16}  {}\n", law.name, width, law.samples.size(),
-                        worst ? short_number(worst->predicted) : "-", worst ? short_number(worst->measured) : "-",
-                        ratio_text(law), law.held ? "holds" : "BROKEN");
+    text += fmt::format("{:<{}}  {:>7}  {:>12}  {:>10}  {:>16}  {}\n", law.name, width, law.samples.size(),
+                        predicted_text(law), worst ? short_number(worst->measured) : "-", ratio_text(law),
+                        law.held ? "holds" : "BROKEN");
     if (law.held) continue;
     text += fmt::format("    {}\n", law_text(law));
     if (!worst)

@@ -54,6 +54,9 @@ std::vector<LawResult> evaluate_laws(std::span<const PointRecord> points, std::s
 // "acne_free_bias_m = k * texel_m (within 5%)"
 std::string law_text(const LawResult& law);
 
+// "0.0676", "<= 0.707": what the law asks of the sample that is furthest off; "-" without a sample.
+std::string predicted_text(const LawResult& law);
+
 // "0.981 .. 1.002": the least and the largest measured / predicted, of the samples whose prediction is more than what
 // they may be off; empty without one, and where one is not finite.
 std::string ratio_text(const LawResult& law);

@@ -49,8 +49,8 @@ std::string laws_table(const Results& results) {
         "<td>{}</td></tr>\n{}",
         law.held ? "held" : "broken", law.held ? "✓ holds" : "✗ broken", html(law.name),
         law.says.empty() ? "" : fmt::format("<br><span class=\"says\">{}</span>", html(law.says)), html(law_text(law)),
-        law.samples.size(), worst ? number(worst->predicted) : "–", worst ? number(worst->measured) : "–",
-        html(ratio_text(law)), broken_rows(law));
+        law.samples.size(), html(predicted_text(law)), worst ? number(worst->measured) : "–", html(ratio_text(law)),
+        broken_rows(law));
   }
   std::string out = "<h3 id=\"laws\">Laws</h3>\n";
   if (std::any_of(results.laws.begin(), results.laws.end(), charted))

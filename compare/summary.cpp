@@ -94,8 +94,7 @@ std::string laws_table(const Results& results) {
   for (const LawResult& law : results.laws) {
     const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
     add_row(text, {law.held ? "holds" : "**broken**", cell(law.name), fmt::format("{}", law.samples.size()),
-                   worst ? short_number(worst->predicted) : "–", worst ? short_number(worst->measured) : "–",
-                   cell(ratio_text(law))});
+                   cell(predicted_text(law)), worst ? short_number(worst->measured) : "–", cell(ratio_text(law))});
   }
   for (const LawResult& law : results.laws)
     if (!law.held) text += "\n" + indented(law_table({&law, 1}));

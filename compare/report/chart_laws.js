@@ -10,11 +10,24 @@ var self = kit.chart('laws', function(width) {
   var rows = law.samples.map(function(s) {
     return {p: s.predicted, m: s.measured, allowed: s.allowed, point: s.point};
   });
-  var all = [];
-  rows.forEach(function(r) {
-    all.push(r.p, r.m);
+  function ends(list) {
+    var all = [];
+    list.forEach(function(r) {
+      all.push(r.p, r.m);
+    });
+    return [Math.min.apply(null, all), Math.max.apply(null, all)];
+  }
+  // What spans more than a decade is drawn on logarithmic axes, without its zeros.
+  var above = rows.filter(function(r) {
+    return r.p > 0 && r.m > 0;
   });
-  var low = Math.min.apply(null, all), high = Math.max.apply(null, all), log = low > 0;
+  var range = ends(rows), log = above.length > 1 && range[0] >= 0 && ends(above)[1] > 10 * ends(above)[0];
+  var zeros = log ? rows.length - above.length : 0;
+  if (log) {
+    rows = above;
+    range = ends(above);
+  }
+  var low = range[0], high = range[1];
   if (log) {
     low /= 1.25;
     high *= 1.25;
@@ -48,7 +61,7 @@ var self = kit.chart('laws', function(width) {
       data: [{name: 'rows', values: rows}],
       scales: [scale('x', [0, w]), scale('y', [h, 0])],
       axes: [
-        axis('bottom', 'x', 'predicted ' + quantity),
+        axis('bottom', 'x', 'predicted ' + quantity + (zeros ? ' (' + zeros + ' samples of 0 are not drawn)' : '')),
         axis('left', 'y', 'measured ' + quantity)
       ],
       marks: [
