@@ -56,7 +56,7 @@ class Reader : private SettingsReader {
     if (in_part_ && experiment_.part.empty()) fail(root, "a [[part]] needs a name");
     if (parts_) {
       for (const toml::node* inside : {static_cast<const toml::node*>(sweep_), bounds_, laws_})
-        if (inside) fail(*inside, "this stands inside a [[part]] where a file has parts");
+        if (inside) fail(*inside, "sweep, bounds and laws stand inside a [[part]] where a file has parts");
       read_parts(*parts_);
       return std::move(experiment_);
     }
@@ -85,8 +85,12 @@ class Reader : private SettingsReader {
     std::vector<Experiment> parts;
     for (const toml::node& element : *node.as_array()) {
       Experiment part = Reader(experiment_).read(*element.as_table());
-      for (const Experiment& other : parts)
+      for (const Experiment& other : parts) {
         if (other.part == part.part) fail(element, fmt::format("two parts have the name '{}'", part.part));
+        for (const Law& law : part.laws)
+          for (const Law& there : other.laws)
+            if (there.name == law.name) fail(element, fmt::format("two laws have the name '{}'", law.name));
+      }
       parts.push_back(std::move(part));
     }
     experiment_.parts = std::move(parts);
@@ -332,6 +336,10 @@ class Reader : private SettingsReader {
     if (!experiment_.curve_enabled)
       for (const std::string& name : curve_names(law))
         fail(table, fmt::format("'{}' is read off the bias curve, and curve.enabled is false", name));
+    for (const Law& other : experiment_.laws)
+      if (other.name == law.name) fail(table, fmt::format("two laws have the name '{}'", law.name));
+    if (!law.over.empty() && values_of(find_setting(law.over)).size() < 2)
+      fail(table, fmt::format("a slope over {}, which has one value; sweep it", law.over));
     experiment_.laws.push_back(std::move(law));
   }
 

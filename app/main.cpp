@@ -14,7 +14,7 @@ namespace noonmark {
 namespace {
 
 constexpr const char* exit_codes =
-    "Exit codes: 0 held; 1 a bound is broken; 2 wrong usage or experiment; 3 bad scene or file;\n"
+    "Exit codes: 0 held; 1 a bound or a law is broken; 2 wrong usage or experiment; 3 bad scene or file;\n"
     "4 no usable OpenGL or ray tracer; 5 a defect of Noonmark; 6 the sweep is incomplete.";
 
 std::string joined(int argc, char** argv) {
@@ -64,7 +64,8 @@ int run(int argc, char** argv) {
   with_overwrite(run);
   run->add_flag("--dry-run", dry_run, "Only print the points and an estimate of the time");
 
-  CLI::App* check = app.add_subcommand("check", "Run experiments and judge their bounds: the exit code is the verdict");
+  CLI::App* check =
+      app.add_subcommand("check", "Run experiments and judge their bounds and laws: the exit code is the verdict");
   check->add_option("experiments", paths, "TOML files, or folders of them")->required();
   with_sets(check);
   with_out(check,

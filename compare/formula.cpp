@@ -19,6 +19,9 @@ constexpr double degree = std::numbers::pi / 180;
 
 constexpr const char* name_characters = "0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
+constexpr const char* functions =
+    "sin cos tan asin acos atan atan2 sin_deg cos_deg tan_deg atan_deg hypot sqrt exp ln log2 log10 abs min max floor";
+
 // muParser assigns to variables with a lone '='.
 bool assigns(const std::string& text) {
   for (size_t i = 0; i < text.size(); ++i) {
@@ -83,7 +86,8 @@ Formula::Formula(const std::string& text) : impl_(std::make_unique<Impl>()) {
     if (parser.GetNumResults() != 1)
       throw Error(ErrorKind::usage, fmt::format("the formula '{}' has several values; write one", text));
   } catch (const mu::Parser::exception_type& error) {
-    throw Error(ErrorKind::usage, fmt::format("the formula '{}' cannot be read: {}", text, error.GetMsg()));
+    throw Error(ErrorKind::usage,
+                fmt::format("the formula '{}' cannot be read: {} (functions: {})", text, error.GetMsg(), functions));
   }
 }
 

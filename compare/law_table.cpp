@@ -44,7 +44,7 @@ std::string ratio_text(const LawResult& law) {
     low = std::min(low, ratio);
     high = std::max(high, ratio);
   }
-  if (told == 0) return "";
+  if (told == 0 || law.relation != LawRelation::equal) return "";
   return told == 1 ? fmt::format("{:.3f}", low) : fmt::format("{:.3f} .. {:.3f}", low, high);
 }
 

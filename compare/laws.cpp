@@ -203,23 +203,25 @@ double deviation(LawRelation relation, const LawResult::Sample& sample) {
 }
 
 bool holds(LawRelation relation, const LawResult::Sample& sample) {
-  return std::isfinite(sample.measured) && std::isfinite(sample.predicted) &&
-         deviation(relation, sample) <= sample.allowed;
+  return std::isfinite(sample.measured) && std::isfinite(sample.predicted) && std::isfinite(sample.allowed) &&
+         sample.allowed >= 0 && deviation(relation, sample) <= sample.allowed;
 }
 
-// By how much of its size a sample exceeds what is allowed; what is not finite exceeds everything.
+// How far off a sample is: up to 1 the part of what is allowed, beyond 1 by how much of its size it exceeds that. What
+// is not finite exceeds everything.
 double excess(LawRelation relation, const LawResult::Sample& sample) {
-  const double size = std::max({std::abs(sample.predicted), std::abs(sample.measured), sample.allowed});
-  const double beyond = deviation(relation, sample) - sample.allowed;
-  if (!std::isfinite(beyond)) return std::numeric_limits<double>::infinity();
-  return size > 0 ? beyond / size : 0;
+  const double off = deviation(relation, sample), beyond = off - sample.allowed;
+  if (!std::isfinite(beyond) || !(sample.allowed >= 0)) return std::numeric_limits<double>::infinity();
+  if (beyond > 0) return 1 + beyond / std::max({std::abs(sample.predicted), std::abs(sample.measured), sample.allowed});
+  return sample.allowed > 0 ? off / sample.allowed : 0;
 }
 
 }  // namespace
 
 void check_law(const Law& law) {
   if (law.name.empty()) throw Error(ErrorKind::usage, "a law needs a name");
-  if (law.measured.empty() || law.predicted.empty()) refuse(law, "needs what is measured and what it must be");
+  if (law.measured.empty() || law.predicted.empty())
+    refuse(law, "needs `measured`, and one of equals, at_most and at_least");
   if (!(law.within >= 0) || !std::isfinite(law.within)) refuse(law, "within must be a fraction, 0 or more");
   if (law.join != "each" && law.join != "mean" && law.join != "slope")
     refuse(law, fmt::format("join = '{}' is not one of each | mean | slope", law.join));

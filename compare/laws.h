@@ -8,7 +8,8 @@
 // settings that are numbers by their row's name (a flag is 1 or 0, a point has .x .y .z), the metrics, and the
 // quantities of the bias curve.
 //
-// What breaks a law: a difference beyond the tolerance at any sample; a side that is not finite; no point to ask.
+// What breaks a law: a difference beyond the tolerance at any sample; a side, or a tolerance, that is not finite; a
+// tolerance below 0; no point to ask.
 #pragma once
 #include <functional>
 #include <span>
@@ -58,7 +59,7 @@ std::string law_text(const LawResult& law);
 std::string predicted_text(const LawResult& law);
 
 // "0.981 .. 1.002": the least and the largest measured / predicted, of the samples whose prediction is more than what
-// they may be off; empty without one, and where one is not finite.
+// they may be off; empty without one, where one is not finite, and for limits, of which it says nothing.
 std::string ratio_text(const LawResult& law);
 
 // A table for a terminal: law, points, predicted, measured, deviation, verdict; under each broken law the sample that

@@ -176,7 +176,7 @@ against = {filter.size = 5}
 TEST(ExperimentLaws, MistakesAreNamedWithTheirPlace) {
   expect_error(law("measured = \"erro\"\nequals = 0"), "1:", {"'erro'", "did you mean 'error'?"});
   expect_error(law("measured = \"error +\"\nequals = 0"), "3:12", {"cannot be read"});
-  expect_error(law("measured = \"error\""), "1:", {"what it must be"});
+  expect_error(law("measured = \"error\""), "1:", {"one of equals"});
   expect_error(law("measured = \"error\"\nequals = 0\nat_most = 1"), "5:1", {"one of equals, at_most and at_least"});
   expect_error(law("measured = \"error\"\nequls = 0"), "4:1", {"did you mean 'law.equals'?"});
   expect_error(law("measured = \"error\"\nequals = \"map.format\""), "1:", {"map.format is no number"});
@@ -189,6 +189,14 @@ TEST(ExperimentLaws, MistakesAreNamedWithTheirPlace) {
                "3:", {"curve.enabled is false"});
   expect_error("[let]\nerror = \"1\"\n" + law("measured = \"error\"\nequals = 0"), "3:", {"name of something else"});
   expect_error("[law]\nname = \"l\"", "1:1", {"[[law]]"});
+  const std::string slope = "measured = \"error\"\nequals = 0\njoin = \"slope\"\nover = \"map.resolution\"";
+  expect_error(law(slope), "1:", {"map.resolution", "one value"});
+  const std::string plain = law("measured = \"error\"\nequals = 0\n");
+  expect_error(plain + plain, "5:", {"two laws have the name 'l'"});
+  expect_error(
+      "[[part]]\nname = \"a\"\n[[part.law]]\nname = \"l\"\nmeasured = \"error\"\nequals = 0\n[[part]]\nname = "
+      "\"b\"\n[[part.law]]\nname = \"l\"\nmeasured = \"error\"\nequals = 0",
+      "7:", {"two laws have the name 'l'"});
   expect_error("[let]\nx = \"1 = 2\"", "2:5", {"compare with =="});
 }
 

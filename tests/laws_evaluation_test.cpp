@@ -109,7 +109,9 @@ TEST(Laws, NameTheSampleFurthestOff) {
   EXPECT_FALSE(result.held);
   EXPECT_EQ(result.worst, 1);
   EXPECT_EQ(result.reproduce, "render 1");
-  EXPECT_EQ(ratio_text(result), "1.100 .. 1.300");
+  EXPECT_EQ(ratio_text(result), "") << "a limit has no ratio";
+  EXPECT_EQ(ratio_text(judge(law("error", "1"), {point(0, 1, "none", 1.1), point(1, 1, "none", 1.3)})),
+            "1.100 .. 1.300");
 }
 
 TEST(Laws, WhatIsNotFiniteBreaksThem) {
@@ -124,6 +126,14 @@ TEST(Laws, WhatIsNotFiniteBreaksThem) {
       EXPECT_FALSE(judge(l, {point(0, 1, "none", bad)}).held);
     }
   EXPECT_FALSE(judge(law("error", "1"), {}).held) << "no point to ask";
+}
+
+TEST(Laws, AToleranceWithoutEndOrBelowZeroBreaksThem) {
+  for (const char* slack : {"1 / 0", "0 / 0", "-1"}) {
+    Law l = law("error", "1");
+    l.slack = slack;
+    EXPECT_FALSE(judge(l, {point(0, 1, "none", 1)}).held) << slack;
+  }
 }
 
 TEST(Laws, WhereAndAgainstPairPoints) {
