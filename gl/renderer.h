@@ -3,8 +3,8 @@
 //   gl::Renderer renderer(gl::DebugMode::fatal);
 //   renderer.load_scene(scene);
 //   ReceiverImage receivers = resolve_receivers(scene, camera, renderer.render_primitives(camera, 1280, 720));
-//   renderer.load_receivers(receivers, frame.direction_to_light());
-//   gl::ShadowMap map = renderer.render_map(frame, settings.map);
+//   renderer.load_receivers(receivers, camera.eye_m);
+//   gl::ShadowMap map = renderer.render_map(frame, settings);
 //   Image<float> r5 = renderer.lookup(map, frame, settings);
 //
 // Conventions: scenes/scene.h. One Renderer owns one EGL context, current on the thread that made it; all calls come
@@ -77,26 +77,32 @@ class Renderer {
   // For each pixel the index of the visible triangle (no culling), or no_primitive.
   Image<uint32_t> render_primitives(const Camera& camera, int width, int height);
 
-  // Uploads P and N. direction_to_light: unit; the shader's N.L uses it rounded to float.
-  void load_receivers(const ReceiverImage& receivers, glm::dvec3 direction_to_light);
+  // Uploads P and N. eye_m: the camera, for filters that grow with the view distance.
+  void load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m);
 
-  // Renders the scene's depth from the light. time_ms, when given, gets the pass's own time (device or glFinish clock).
-  ShadowMap render_map(const LightFrame& frame, const MapSettings& settings, double* time_ms = nullptr);
+  // Renders the scene's depth from the light: settings.map, and settings.bias where its form is the polygon offset.
+  // time_ms, when given, gets the pass's own time (device or glFinish clock).
+  ShadowMap render_map(const LightFrame& frame, const Settings& settings, double* time_ms = nullptr);
 
   // A map made elsewhere (R4's exact one): 32-bit float depth whatever settings.format says, wrap as settings has it.
+  // depth: of LightFrame::map_size(); six times as high as wide it is a cube.
   // Throws Error(defect) for depths outside [0,1] and for NaN: OpenGL may clamp them.
   ShadowMap upload_map(const Image<float>& depth, const MapSettings& settings);
 
-  // The depths as the lookup's sampler returns them, bit for bit; row 0 at the lowest v.
+  // The depths as the lookup's sampler returns them, bit for bit; laid out as LightFrame::map_size() says.
   Image<float> read_map(const ShadowMap& map);
+
+  // What one unit of glPolygonOffset is on this device, in window depth, measured by drawing with it; of 32-bit float,
+  // whose unit depends on the primitive's depth, NaN.
+  double polygon_offset_unit(DepthFormat format);
 
   // The technique: for every receiver its visibility in [0,1]. Background pixels: 0.
   Image<float> lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings,
                       double* time_ms = nullptr);
 
-  // What lookup computes before it compares. Independent of map contents, and of the bias but for forms that move the
-  // lookup.
-  LookupProbe probe(const LightFrame& frame, const DepthBias& bias = {});
+  // What lookup computes before it compares. Independent of the map's contents and of the bias's value, but for forms
+  // that move the lookup.
+  LookupProbe probe(const LightFrame& frame, const Settings& settings);
 
  private:
   struct Impl;

@@ -1,8 +1,8 @@
 // The truth, by rays: what is lit, how sure that is, and what a perfect shadow map would hold.
 //
 //   raytrace::Tracer tracer(scene);
-//   ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {.angular_diameter_deg = 0.53});
-//   raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, renderer.probe(frame), frame, s.map, kernel);
+//   ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {light});
+//   raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, renderer.probe(frame, s), frame, s.map, bias);
 //
 // Conventions: scenes/scene.h. All calls use every core; results do not depend on how many there are. The scene must
 // outlive the tracer. Throws Error(device) when Embree fails.
@@ -28,17 +28,17 @@ struct TracerInfo {
 TracerInfo tracer_info();
 
 struct SoftTruth {
-  double angular_diameter_deg = 0;  // 0: the light has no size and R0 = R1
-  double standard_error = 0.01;     // of R0 at each receiver
+  Light light;                   // its size; without one R0 = R1
+  double standard_error = 0.01;  // of R0 at each receiver
 };
 
 // The truth of one lookup: every tap of every facing receiver, and the exact map that those taps read.
 struct LookupTruth {
   TapTruth taps;
-  Image<float> exact_map;        // window depth at the centres of the texels looked up; 1 elsewhere. Row 0: lowest v
-  Image<float> edge_distance_m;  // per receiver: the largest distance, in the light's plane, from a tap's exact place
-                                 // (of the lookup as it is made, moved or not) to the shadow edge before the texel
-                                 // centre it snaps to; 0 where D = V at every tap
+  Image<float> exact_map;  // window depth at the centres of the texels looked up; 1 elsewhere. LightFrame::map_size()
+  Image<float> edge_distance_texels;  // per receiver: the largest distance, across the light's rays and in texels there,
+                                      // from a tap's exact place (of the lookup as it is made, moved or not) to the
+                                      // shadow edge before the texel centre it snaps to; 0 where D = V at every tap
   StageTime texel_stage;         // light-side rays through texel centres
   StageTime tap_stage;           // V at every tap
 };
@@ -51,15 +51,16 @@ class Tracer {
   Tracer& operator=(const Tracer&) = delete;
 
   // R1 by one exact shadow ray each, whether it is ambiguous (its verdict changes when the start moves by the float
-  // error in the light's plane), and R0. Only the frame's axes matter, not its map.
+  // error in the light's plane), and R0. Only the frame's light matters, not its map.
   ReceiverTruth receiver_truth(const ReceiverImage& receivers, const LightFrame& frame, const SoftTruth& soft,
                                StageTime* hard_stage = nullptr, StageTime* soft_stage = nullptr) const;
 
-  // kernel: taps on a side, odd. map: resolution is the frame's; wrap and cull are read. bias: the one that the probe
-  // was taken with; only forms that move the lookup matter, and they cost one ray more for each tap.
+  // map: resolution is the frame's; format, wrap, cull and depth_clamp are read. bias: the one that the probe was taken
+  // with; forms that move the lookup cost one ray more for each tap, a polygon offset is in the exact map.
+  // offset_unit: gl::Renderer::polygon_offset_unit.
   LookupTruth lookup_truth(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
-                           const LightFrame& frame, const MapSettings& map, int kernel,
-                           const DepthBias& bias = {}) const;
+                           const LightFrame& frame, const MapSettings& map, const DepthBias& bias = {},
+                           double offset_unit = 0) const;
 
   // For the pixels where mask is not 0: distance in metres from P to its nearest occluder towards the light; infinity
   // without one. Other pixels: 0.

@@ -1,32 +1,29 @@
 #include "scenes/light_frame.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
-
-#include "scenes/camera_frame.h"
-#include "scenes/error.h"
+#include <stdexcept>
 
 namespace noonmark {
-namespace {
 
-LightFrame light_axes(const Light& light) {
-  const glm::dvec3 way = light.target_m - light.position_m;
-  if (!(glm::length(way) > 0) || !std::isfinite(glm::length(way)))
-    throw Error(ErrorKind::usage,
-                "the light's position and target give no direction (they are one, or too far apart); set "
-                "light.position_m or light.target_m");
-  LightFrame frame;
-  frame.origin_m = light.position_m;
-  frame.ray_direction = glm::vec3(glm::normalize(way));
-  frame.forward = glm::normalize(glm::dvec3(frame.ray_direction));
-  upright_axes(frame.forward, {0, 1, 0}, frame.right, frame.up);
-  return frame;
+// OpenGL 4.5 core, table 8.19: which axes are s and t of each face.
+const CubeFace& cube_face(int face) {
+  static const std::array<CubeFace, 6> faces = {{
+      {{0, 0, -1}, {0, -1, 0}, {1, 0, 0}},
+      {{0, 0, 1}, {0, -1, 0}, {-1, 0, 0}},
+      {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}},
+      {{1, 0, 0}, {0, 0, -1}, {0, -1, 0}},
+      {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
+      {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+  }};
+  return faces.at(static_cast<size_t>(face));
 }
 
-}  // namespace
+int cube_face_of(glm::dvec3 d) {
+  const glm::dvec3 a = glm::abs(d);
+  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+  return 2 * axis + (d[axis] < 0 ? 1 : 0);
+}
 
 glm::dvec3 LightFrame::to_light(glm::dvec3 world) const {
   const glm::dvec3 d = world - origin_m;
@@ -37,83 +34,126 @@ glm::dvec3 LightFrame::to_world(glm::dvec3 light) const {
   return origin_m + light.x * right + light.y * up + light.z * forward;
 }
 
-glm::dvec2 LightFrame::texel_centre(glm::ivec2 texel) const {
-  return (glm::dvec2(texel) + 0.5) * texel_m() - extent_m / 2;
+glm::dvec3 LightFrame::direction_to_light(glm::dvec3 world) const {
+  return parallel() ? -forward : glm::normalize(origin_m - world);
 }
 
-glm::dmat4 LightFrame::clip_from_world() const {
-  const glm::dvec3 scale(2 / extent_m, 2 / extent_m, 2 / (far_m - near_m));
-  const glm::dvec3 axes[3] = {right * scale.x, up * scale.y, forward * scale.z};
-  const double offsets[3] = {0, 0, -2 * near_m / (far_m - near_m) - 1};
-  glm::dmat4 matrix(0);  // column-major: matrix[column][row]
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) matrix[column][row] = axes[row][column];
-    matrix[3][row] = offsets[row] - glm::dot(axes[row], origin_m);
+bool LightFrame::in_cone(glm::dvec3 world) const {
+  return kind != LightKind::spot || glm::dot(glm::normalize(world - origin_m), forward) >= cos_half_cone;
+}
+
+double LightFrame::depth_m(glm::dvec3 light) const { return kind == LightKind::point ? glm::length(light) : light.z; }
+
+double LightFrame::window_depth(double depth) const {
+  switch (kind) {
+    case LightKind::directional:
+      return (depth - near_m) / (far_m - near_m);
+    case LightKind::spot:
+      return far_m * (depth - near_m) / (depth * (far_m - near_m));
+    case LightKind::point:
+      return depth / far_m;
   }
-  matrix[3][3] = 1;
+  throw std::logic_error("a kind of light without a depth");
+}
+
+double LightFrame::window_depth_slope(double depth) const {
+  switch (kind) {
+    case LightKind::directional:
+      return 1 / (far_m - near_m);
+    case LightKind::spot:
+      return far_m * near_m / (depth * depth * (far_m - near_m));
+    case LightKind::point:
+      return 1 / far_m;
+  }
+  throw std::logic_error("a kind of light without a depth");
+}
+
+double LightFrame::texel_m(glm::dvec3 light) const {
+  if (parallel()) return texel_m();
+  const glm::dvec3 a = glm::abs(light);
+  const double z = kind == LightKind::spot ? light.z : std::max({a.x, a.y, a.z});
+  return 2 * z * tan_half_fov / resolution;
+}
+
+glm::dvec3 LightFrame::place(glm::dvec3 light) const { return parallel() ? glm::dvec3(light.x, light.y, 1) : light; }
+
+glm::dvec3 LightFrame::tap_place(glm::dvec3 light, glm::dvec3 offset) const {
+  if (kind == LightKind::point) return light + offset;
+  const double w = texel_m(light);
+  return place(light + glm::dvec3(offset.x * w, offset.y * w, 0));
+}
+
+glm::dvec3 LightFrame::texel_place(glm::ivec2 texel) const {
+  if (parallel()) return {(glm::dvec2(texel) + 0.5) * texel_m() - extent_m / 2, 1};
+  int face = 0;
+  if (kind == LightKind::point) {
+    face = texel.y / resolution;
+    texel.y %= resolution;
+  }
+  const glm::dvec2 side =
+      (2.0 * (glm::dvec2(texel) + 0.5 + shift_texels) / static_cast<double>(resolution) - 1.0) * tan_half_fov;
+  if (kind == LightKind::spot) return {side, 1};
+  const CubeFace& axes = cube_face(face);
+  return axes.forward + side.x * axes.right + side.y * axes.up;
+}
+
+glm::dvec2 LightFrame::map_texels(glm::dvec3 place) const {
+  if (parallel()) return (glm::dvec2(place) / extent_m + 0.5) * static_cast<double>(resolution);
+  glm::dvec3 axes = place;
+  int face = 0;
+  if (kind == LightKind::point) {
+    face = cube_face_of(place);
+    const CubeFace& f = cube_face(face);
+    axes = {glm::dot(place, f.right), glm::dot(place, f.up), glm::dot(place, f.forward)};
+  }
+  const glm::dvec2 side = glm::dvec2(axes) / (axes.z * tan_half_fov);
+  return (side + 1.0) / 2.0 * static_cast<double>(resolution) - shift_texels + glm::dvec2(0, face * resolution);
+}
+
+glm::dmat4 LightFrame::clip_from_world(int face) const {
+  glm::dvec3 axes[3] = {right, up, forward};
+  if (kind == LightKind::point) {
+    const CubeFace& f = cube_face(face);
+    axes[0] = f.right;
+    axes[1] = f.up;
+    axes[2] = f.forward;
+  }
+  const double range = far_m - near_m;
+  glm::dvec3 rows[4];
+  double offsets[4] = {0, 0, 0, 0};
+  if (parallel()) {
+    rows[0] = axes[0] * (2 / extent_m);
+    rows[1] = axes[1] * (2 / extent_m);
+    rows[2] = axes[2] * (2 / range);
+    rows[3] = glm::dvec3(0);
+    offsets[2] = -2 * near_m / range - 1;
+    offsets[3] = 1;
+  } else {
+    const glm::dvec2 shift = 2.0 * shift_texels / static_cast<double>(resolution);
+    rows[0] = axes[0] / tan_half_fov - axes[2] * shift.x;
+    rows[1] = axes[1] / tan_half_fov - axes[2] * shift.y;
+    rows[2] = axes[2] * ((far_m + near_m) / range);
+    rows[3] = axes[2];
+    offsets[2] = -2 * far_m * near_m / range;
+  }
+  glm::dmat4 matrix(0);  // column-major: matrix[column][row]
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 3; ++column) matrix[column][row] = rows[row][column];
+    matrix[3][row] = offsets[row] - glm::dot(rows[row], origin_m);
+  }
   return matrix;
 }
 
-double LightFrame::depth_per_bias_unit(BiasUnit unit) const {
+double LightFrame::depth_per_bias_unit(BiasUnit unit, glm::dvec3 light) const {
   switch (unit) {
     case BiasUnit::depth:
       return 1;
     case BiasUnit::m:
-      return 1 / (far_m - near_m);
+      return window_depth_slope(depth_m(light));
     case BiasUnit::texel:
-      return texel_m() / (far_m - near_m);
+      return texel_m(light) * window_depth_slope(depth_m(light));
   }
   throw std::logic_error("unknown bias unit");
-}
-
-MapVolume fit_map(const Scene& scene, const Light& light) {
-  const LightFrame frame = light_axes(light);
-  double reach = 0;
-  double near_m = std::numeric_limits<double>::infinity();
-  double far_m = -near_m;
-  for (const glm::vec3& position : scene.positions) {
-    const glm::dvec3 p = frame.to_light(position);
-    reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
-    near_m = std::min(near_m, p.z);
-    far_m = std::max(far_m, p.z);
-  }
-  // The margin keeps the outermost vertices inside after the float matrix has rounded them: 2^-10 of the size, far more
-  // than float's 2^-24 of it, far less than a texel's share of the errors.
-  const double margin = 0x1p-10;
-  const double depth = std::max(far_m - near_m, reach * margin);
-  return {2 * reach * (1 + margin), near_m - depth * margin, far_m + depth * margin};
-}
-
-Light effective_light(const Scene& scene, const Settings& settings) {
-  Light light = scene.light;
-  if (settings.light.position_m) light.position_m = *settings.light.position_m;
-  if (settings.light.target_m) light.target_m = *settings.light.target_m;
-  if (settings.light.angular_diameter_deg) light.angular_diameter_deg = *settings.light.angular_diameter_deg;
-  return light;
-}
-
-LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
-  const Light light = effective_light(scene, settings);
-  const bool moved = settings.light.position_m || settings.light.target_m;
-  // The scene's own volume was chosen for the scene's own light.
-  const MapVolume volume = scene.map && !moved ? *scene.map : fit_map(scene, light);
-
-  LightFrame frame = light_axes(light);
-  frame.extent_m = settings.map.extent_m.value_or(volume.extent_m) * settings.map.extent_scale;
-  frame.near_m = settings.map.near_m.value_or(volume.near_m);
-  frame.far_m = settings.map.far_m.value_or(volume.far_m);
-  frame.resolution = settings.map.resolution;
-  if (!(frame.extent_m > 0) || !std::isfinite(frame.extent_m))
-    throw Error(ErrorKind::usage,
-                fmt::format("the map's extent is {} m; set map.extent_m to more than 0", frame.extent_m));
-  if (!(frame.near_m < frame.far_m) || !std::isfinite(frame.far_m - frame.near_m))
-    throw Error(ErrorKind::usage, fmt::format("the map's near plane ({} m) is not before its far plane ({} m); set "
-                                              "map.near_m and map.far_m",
-                                              frame.near_m, frame.far_m));
-  // Texels, matrix and depths are all relative to the origin, so the grid moves as one.
-  frame.origin_m +=
-      (settings.map.shift_u_texels * frame.right + settings.map.shift_v_texels * frame.up) * frame.texel_m();
-  return frame;
 }
 
 }  // namespace noonmark

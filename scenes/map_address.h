@@ -10,20 +10,21 @@ namespace noonmark {
 
 inline constexpr float border_depth = 1.0f;  // lit
 
-inline bool inside_map(glm::ivec2 texel, int resolution) {
-  return texel.x >= 0 && texel.y >= 0 && texel.x < resolution && texel.y < resolution;
+// size: of the map's image, LightFrame::map_size(). A cube's texels are always inside.
+inline bool inside_map(glm::ivec2 texel, glm::ivec2 size) {
+  return texel.x >= 0 && texel.y >= 0 && texel.x < size.x && texel.y < size.y;
 }
 
 // The texel that a sampler with this wrap mode reads; {-1, -1} for the border.
-inline glm::ivec2 wrapped(glm::ivec2 texel, int resolution, Wrap wrap) {
-  if (inside_map(texel, resolution)) return texel;
+inline glm::ivec2 wrapped(glm::ivec2 texel, glm::ivec2 size, Wrap wrap) {
+  if (inside_map(texel, size)) return texel;
   switch (wrap) {
     case Wrap::repeat: {
-      const auto modulo = [&](int i) { return ((i % resolution) + resolution) % resolution; };
-      return {modulo(texel.x), modulo(texel.y)};
+      const auto modulo = [](int i, int n) { return ((i % n) + n) % n; };
+      return {modulo(texel.x, size.x), modulo(texel.y, size.y)};
     }
     case Wrap::clamp_to_edge:
-      return glm::clamp(texel, glm::ivec2(0), glm::ivec2(resolution - 1));
+      return glm::clamp(texel, glm::ivec2(0), size - 1);
     case Wrap::clamp_to_border:
       break;
   }

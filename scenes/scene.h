@@ -13,7 +13,9 @@
 // - Receiver: the visible surface point at a pixel's centre (scenes/receivers.h).
 // - theta: the angle between the receiver's geometric normal N and the direction to the light L. Facing receivers have
 //   N.L > 0; the others are dark by shading, whatever the map says, and are left out of the errors.
-// - w: the world size of one texel at the receiver; orthographic: extent / resolution.
+// - w: the world size of one texel at the receiver; directional light: extent / resolution; spot: 2 z tan(fov / 2) /
+//   resolution, z along the light's axis; point: 2 z / resolution, z along the axis of the cube's face.
+// - Depth that the map measures: along the light's axis (directional, spot), or the distance from the light (point).
 // - Geometry is float because OpenGL and Embree take float, and because the float positions ARE the scene: every truth
 //   is the truth of these positions. What is derived from them (light frame, depths, plane equations) is double.
 #pragma once
@@ -45,20 +47,26 @@ struct Camera {
   double far_m = 100;
 };
 
-enum class LightKind { directional };
+enum class LightKind { directional, spot, point };
+enum class LightShape { sphere, disc };
 
-// A directional light. position_m and target_m fix its direction and where its map's depth and centre are measured
-// from, as the usual lookAt(position, target, up) does.
+// position_m and target_m fix a directional light's direction and where its map's depth and centre are measured from,
+// as the usual lookAt(position, target, up) does; a spot light is at position_m and points at target_m; of a point
+// light, target_m means nothing. Lights do not fall off: only their visibility is measured.
 struct Light {
   LightKind kind = LightKind::directional;
   glm::dvec3 position_m{0, 10, 0};
   glm::dvec3 target_m{0, 0, 0};
-  double angular_diameter_deg = 0;  // of a sun with a size (0.53 for the real one); 0: a point at infinity
+  double angular_diameter_deg = 0;  // directional: of a sun with a size (0.53 for the real one); 0: a point at infinity
+  double radius_m = 0;              // spot, point: of a light with a size; 0: a point
+  LightShape shape = LightShape::sphere;  // disc: across a spot light's axis; of a point light, facing each receiver
+  double cone_deg = 60;                   // spot: the whole angle of the cone; beyond it nothing is lit
 };
 
-// What part of the world a directional light's map covers. near and far are along the light's axis from position_m.
+// What part of the world a light's map covers. Near and far are along the light's axis from position_m; a point light's
+// far is a distance: depth 1 of its map.
 struct MapVolume {
-  double extent_m = 20;  // whole width and height of the square map, centred on the axis
+  double extent_m = 20;  // directional: whole width and height of the square map, centred on the axis
   double near_m = 1;
   double far_m = 10;
 };

@@ -169,50 +169,107 @@ std::vector<Setting> make_table() {
       point("view.eye_m", "Where the camera is; auto: the scene's.", MEMBER(view.eye_m)),
       point("view.target_m", "What the camera looks at; auto: the scene's.", MEMBER(view.target_m)),
       real("view.fov_deg", "deg", 1, 170, "Whole vertical angle of view; auto: the scene's.", MEMBER(view.fov_deg)),
-      point("light.position_m", "Where the light's map measures depth from; auto: the scene's.",
+      choice("light.kind", {"auto", "directional", "spot", "point"},
+             "directional: parallel rays and one orthographic map; spot: one perspective map; point: a cube map of "
+             "distances; auto: the scene's.",
+             MEMBER(light.kind)),
+      point("light.position_m",
+            "Where a spot or point light is; a directional light's map measures depth from there; auto: the scene's.",
             MEMBER(light.position_m)),
       point("light.target_m", "What the light points at, the middle of its map; auto: the scene's.",
             MEMBER(light.target_m)),
       real("light.angular_diameter_deg", "deg", 0, 90,
-           "Of a sun with a size, for R0 (the real sun: 0.53); auto: the scene's.", MEMBER(light.angular_diameter_deg)),
+           "directional: of a sun with a size, for R0 (the real sun: 0.53); auto: the scene's.",
+           MEMBER(light.angular_diameter_deg)),
+      real("light.radius_m", "m", 0, 1e6, "spot, point: of a light with a size, for R0; auto: the scene's.",
+           MEMBER(light.radius_m)),
+      choice("light.shape", {"sphere", "disc"},
+             "spot, point: what a light with a size is, for R0: a sphere; or a disc, across a spot light's axis, and "
+             "facing each receiver for a point light.",
+             MEMBER(light.shape)),
+      real("light.cone_deg", "deg", 1, 170,
+           "spot: whole angle of the cone, beyond which nothing is lit; auto: the scene's.", MEMBER(light.cone_deg)),
       integer("map.resolution", "texels", 1, 16384, "Texels on a side of the shadow map.", MEMBER(map.resolution)),
       choice("map.format", {"16", "24", "32f"}, "Depth format of the shadow map.", MEMBER(map.format)),
-      real("map.extent_m", "m", 1e-6, 1e9, "Whole width of what the map covers; auto: the scene's, or fitted tightly.",
+      choice("map.fit", {"scene", "tight"},
+             "Where extent, near and far are auto: the scene's own (fitted where it has none, and where the light is "
+             "another than the scene's), or fitted tightly around the scene.",
+             MEMBER(map.fit)),
+      real("map.extent_m", "m", 1e-6, 1e9, "directional: whole width of what the map covers; auto: by map.fit.",
            MEMBER(map.extent_m)),
       real("map.extent_scale", "", 1e-3, 1e3, "Multiplies the extent, however it came about.",
            MEMBER(map.extent_scale)),
+      real("map.fov_deg", "deg", 1, 175, "spot: whole angle that the map covers; auto: the light's cone.",
+           MEMBER(map.fov_deg)),
+      flag(
+          "map.snap",
+          "directional: moves the map by less than a texel, so that its grid stays fixed in the world when the light's "
+          "position or target moves without turning it.",
+          MEMBER(map.snap)),
       real("map.shift_u_texels", "texels", -1, 1,
            "Moves the map and its grid to the light's right: another alignment of texels and edges.",
            MEMBER(map.shift_u_texels)),
       real("map.shift_v_texels", "texels", -1, 1, "Moves the map and its grid up, as the light sees it.",
            MEMBER(map.shift_v_texels)),
       real("map.near_m", "m", -1e9, 1e9,
-           "Near plane along the light's axis from its position; auto: the scene's, or fitted.", MEMBER(map.near_m)),
+           "Near plane along the light's axis from its position (a point light: along each face's axis); auto: by "
+           "map.fit.",
+           MEMBER(map.near_m)),
       real("map.far_m", "m", -1e9, 1e9,
-           "Far plane along the light's axis from its position; auto: the scene's, or fitted.", MEMBER(map.far_m)),
+           "Far plane along the light's axis from its position; a point light's depth is distance / far; auto: by "
+           "map.fit.",
+           MEMBER(map.far_m)),
       choice("map.wrap", {"repeat", "clamp_to_edge", "clamp_to_border"},
              "What a lookup outside the map finds; the border is lit.", MEMBER(map.wrap)),
       flag("map.lit_beyond_far", "Receivers beyond the far plane are lit without a comparison.",
            MEMBER(map.lit_beyond_far)),
       choice("map.cull", {"none", "back", "front"}, "Faces left out of the shadow map.", MEMBER(map.cull)),
-      choice("bias.form", {"none", "constant", "slope", "normal_offset"},
-             "none; constant; slope: max(bias.slope * (1 - N.L), bias.floor); normal_offset: the receiver is looked up "
-             "bias.normal_offset along its normal.",
-             MEMBER(bias.form)),
+      choice(
+          "bias.form",
+          {"none", "constant", "slope", "tan", "polygon_offset", "normal_offset", "receiver_plane", "tangent_plane"},
+          "none; constant; slope: max(bias.slope * (1 - N.L), bias.floor); tan: bias.tan_scale * tan(theta) between "
+          "bias.floor and bias.cap; polygon_offset: glPolygonOffset(bias.factor, bias.units) on the map; "
+          "normal_offset: the receiver is looked up bias.normal_offset along its normal; receiver_plane: each tap is "
+          "compared with the receiver's plane at the tap; tangent_plane: at the centre of the tap's texel; these two "
+          "with bias.constant on top.",
+          MEMBER(bias.form)),
       choice("bias.unit", {"depth", "m", "texel"},
-             "Unit of bias.constant, bias.slope and bias.floor: window depth, metres along the light's axis, or texels "
-             "of the map.",
+             "Unit of bias.constant, slope, tan_scale, floor and cap: window depth, metres of the map's depth, or "
+             "texels of the map at the receiver.",
              MEMBER(bias.unit)),
-      real("bias.constant", "bias.unit", 0, 1e6, "The constant form's bias.", MEMBER(bias.constant)),
+      real("bias.constant", "bias.unit", 0, 1e6, "The bias of the constant, receiver_plane and tangent_plane forms.",
+           MEMBER(bias.constant)),
       real("bias.slope", "bias.unit", 0, 1e6, "The slope form's factor of (1 - N.L).", MEMBER(bias.slope)),
-      real("bias.floor", "bias.unit", 0, 1e6, "The slope form's least bias.", MEMBER(bias.floor)),
+      real("bias.floor", "bias.unit", 0, 1e6, "The slope and tan forms' least bias.", MEMBER(bias.floor)),
+      real("bias.tan_scale", "bias.unit", 0, 1e6, "The tan form's factor of tan(theta).", MEMBER(bias.tan_scale)),
+      real("bias.cap", "bias.unit", 0, 1e6, "The tan form's greatest bias.", MEMBER(bias.cap)),
+      real("bias.factor", "", 0, 1e4, "polygon_offset: multiplies the steepest depth slope of each triangle in texels.",
+           MEMBER(bias.factor)),
+      real("bias.units", "", 0, 1e8, "polygon_offset: multiplies the smallest depth difference of the format.",
+           MEMBER(bias.units)),
       real("bias.normal_offset", "texels", 0, 1e6,
            "How far the normal_offset form moves a receiver along its normal before it is looked up; times texel_m, in "
            "metres. It has no one-pass bias curve: sweep it.",
            MEMBER(bias.normal_offset)),
-      choice("filter.kind", {"none", "box"}, "none: one nearest tap; box: the mean of N x N nearest taps.",
+      choice("filter.kind", {"none", "box", "hardware", "gaussian", "poisson", "cube_grid", "cube_disk"},
+             "none: one nearest tap; box: the mean of N x N nearest taps; hardware: one linear tap of a comparison "
+             "sampler (2 x 2 texels); gaussian: N x N such taps; poisson: 16 nearest taps in a disk. For cube maps: "
+             "cube_grid: 4 x 4 x 4 taps around the receiver; cube_disk: 20 directions.",
              MEMBER(filter.kind)),
-      integer("filter.size", "texels", 1, 31, "box: taps on a side, odd.", MEMBER(filter.size)),
+      integer("filter.size", "taps", 1, 31, "box, gaussian: taps on a side, odd.", MEMBER(filter.size)),
+      real("filter.step_texels", "texels", 0, 64, "box: from tap to tap.", MEMBER(filter.step_texels)),
+      real("filter.sigma_texels", "texels", 0.1, 64, "gaussian: standard deviation of the weights.",
+           MEMBER(filter.sigma_texels)),
+      real("filter.radius_texels", "texels", 0, 256, "poisson: radius of the disk.", MEMBER(filter.radius_texels)),
+      flag("filter.rotate", "poisson: the disk is turned by another angle at each pixel.", MEMBER(filter.rotate)),
+      real("filter.offset_m", "m", 0, 1e3,
+           "cube_grid: taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world.",
+           MEMBER(filter.offset_m)),
+      choice("filter.disk", {"fixed", "view_distance"},
+             "cube_disk: how far its taps reach: filter.radius_m, or (1 + distance to the camera / far) / 25 metres.",
+             MEMBER(filter.disk)),
+      real("filter.radius_m", "m", 0, 1e3, "cube_disk: multiplies the 20 directions (1,1,1), (1,1,0) and their kin.",
+           MEMBER(filter.radius_m)),
       real("truth.standard_error", "", 1e-3, 0.5,
            "Largest standard error of R0 at a receiver, for a light with a size.", MEMBER(truth.standard_error)),
   };
@@ -237,8 +294,6 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
-
-int kernel_size(const FilterSettings& filter) { return filter.kind == FilterKind::box ? filter.size : 1; }
 
 std::string Setting::range_text() const { return may_be_auto ? bare_range() + " or auto" : bare_range(); }
 
@@ -284,12 +339,41 @@ const Setting& find_setting(std::string_view name) {
 void validate(const Settings& s) {
   if (s.filter.size % 2 == 0)
     throw Error(ErrorKind::usage,
-                fmt::format("filter.size = {} is even; a box has an odd number of taps on a side, so that "
-                            "one is at the receiver",
+                fmt::format("filter.size = {} is even; a box and a Gaussian have an odd number of taps on a side, so "
+                            "that one is at the receiver",
                             s.filter.size));
+  if (s.bias.form == BiasForm::tan && s.bias.floor > s.bias.cap)
+    throw Error(ErrorKind::usage, fmt::format("bias.floor = {} is more than bias.cap = {}", s.bias.floor, s.bias.cap));
   if (s.map.near_m && s.map.far_m && *s.map.near_m >= *s.map.far_m)
     throw Error(ErrorKind::usage,
                 fmt::format("map.near_m = {} is not less than map.far_m = {}", *s.map.near_m, *s.map.far_m));
+}
+
+void validate_for(LightKind kind, const Settings& s) {
+  const auto value = [&](std::string_view name) { return find_setting(name).get(s); };
+  const auto refuse_pair = [&](std::string_view name, std::string_view why) {
+    throw Error(ErrorKind::usage, fmt::format("{} = {} {}", name, value(name), why));
+  };
+  const bool cube_filter = s.filter.kind == FilterKind::cube_grid || s.filter.kind == FilterKind::cube_disk;
+  const bool plane_bias = s.bias.form == BiasForm::receiver_plane || s.bias.form == BiasForm::tangent_plane;
+  const bool linear_taps = s.filter.kind == FilterKind::hardware || s.filter.kind == FilterKind::gaussian;
+  if (kind == LightKind::point) {
+    if (!cube_filter && s.filter.kind != FilterKind::none)
+      refuse_pair("filter.kind", "needs a flat map; a point light's cube map takes none, cube_grid and cube_disk");
+    if (plane_bias)
+      refuse_pair("bias.form",
+                  "needs a flat map; for a point light's cube map take another form, or another light.kind");
+    if (s.map.shift_u_texels != 0 || s.map.shift_v_texels != 0)
+      throw Error(ErrorKind::usage, "map.shift_*_texels needs a flat map; move the point light instead");
+  } else if (cube_filter) {
+    refuse_pair("filter.kind", "needs a cube map; set light.kind = point, or take another filter");
+  }
+  if (plane_bias && linear_taps)
+    refuse_pair("bias.form",
+                "gives each texel a depth of its own, and a hardware comparison has one for the four texels that it "
+                "reads; take filter.kind none, box or poisson");
+  if (s.map.snap && kind != LightKind::directional)
+    throw Error(ErrorKind::usage, "map.snap needs a directional light: only its texels have one size everywhere");
 }
 
 std::string nearest_name(std::string_view wrong, std::span<const std::string_view> names) {

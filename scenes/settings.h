@@ -14,15 +14,30 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/scene.h"
+
 namespace noonmark {
 
 enum class MeshForm { as_built, one_mesh, split, reversed, doubled };  // scenes/remesh.h
 enum class DepthFormat { d16, d24, d32f };
 enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
 enum class CulledFaces { none, back, front };
-enum class BiasForm { none, constant, slope, normal_offset };
+enum class MapFit { scene, tight };
+enum class CubePass { layered, six_passes };
+enum class BiasForm {
+  none,
+  constant,
+  slope,
+  tan,
+  polygon_offset,
+  normal_offset,
+  receiver_plane,
+  tangent_plane,
+};
 enum class BiasUnit { depth, m, texel };
-enum class FilterKind { none, box };
+enum class FilterKind { none, box, hardware, gaussian, poisson, cube_grid, cube_disk };
+enum class DiskRadius { fixed, view_distance };
+enum class LightChoice { automatic, directional, spot, point };
 
 struct SceneSettings {
   std::string name = "cube-room";  // a built-in scene, or the path of a .gltf or .glb file
@@ -42,17 +57,24 @@ struct ViewSettings {
   std::optional<double> fov_deg;       // whole vertical angle; empty: the scene's
 };
 
-struct LightSettings {
-  std::optional<glm::dvec3> position_m;        // empty: the scene's
-  std::optional<glm::dvec3> target_m;          // empty: the scene's
-  std::optional<double> angular_diameter_deg;  // empty: the scene's
+struct LightSettings {  // automatic and empty: the scene's
+  LightChoice kind = LightChoice::automatic;
+  std::optional<glm::dvec3> position_m;
+  std::optional<glm::dvec3> target_m;
+  std::optional<double> angular_diameter_deg;
+  std::optional<double> radius_m;
+  LightShape shape = LightShape::sphere;
+  std::optional<double> cone_deg;
 };
 
 struct MapSettings {
   int resolution = 1024;  // texels on a side
   DepthFormat format = DepthFormat::d24;
-  std::optional<double> extent_m;  // whole width; empty: the scene's, or fitted tightly where it has none
+  MapFit fit = MapFit::scene;      // where extent, near and far are empty: the scene's own, or fitted tightly
+  std::optional<double> extent_m;  // directional: whole width; empty: by `fit`
   double extent_scale = 1;         // multiplies the extent, however it came about
+  std::optional<double> fov_deg;   // spot: whole angle of the map; empty: the light's cone
+  bool snap = false;               // directional: the grid stays fixed in the world when the light's position moves
   double shift_u_texels = 0;       // moves the whole grid in the light's plane, along its right ...
   double shift_v_texels = 0;       // ... and its up
   std::optional<double> near_m;    // along the light's axis from its position; empty: the scene's, or fitted
@@ -60,21 +82,34 @@ struct MapSettings {
   Wrap wrap = Wrap::clamp_to_border;  // the border's depth is 1: lit
   bool lit_beyond_far = true;
   CulledFaces cull = CulledFaces::none;
+  bool depth_clamp = false;  // geometry before near or beyond far is kept, at depth 0 or 1, instead of clipped
+  CubePass cube_pass = CubePass::layered;  // point: how the six faces are drawn; the map is the same
 };
 
 struct BiasSettings {
   BiasForm form = BiasForm::constant;
-  BiasUnit unit = BiasUnit::depth;  // of constant, slope and floor
-  double constant = 0.005;
-  double slope = 0.05;  // slope form: max(slope * (1 - N.L), floor)
-  double floor = 0.005;
+  BiasUnit unit = BiasUnit::depth;  // of constant, slope, tan_scale, floor and cap
+  double constant = 0.005;          // constant, receiver_plane and tangent_plane forms
+  double slope = 0.05;              // slope form: max(slope * (1 - N.L), floor)
+  double floor = 0.005;             // slope and tan forms
+  double tan_scale = 0.005;         // tan form: clamp(tan_scale * tan(theta), floor, cap)
+  double cap = 0.05;
+  double factor = 1;  // polygon_offset form: glPolygonOffset(factor, units) while the map is drawn
+  double units = 1;
   // Along the receiver's normal, so that no depth can be its unit: in texels whatever `unit` says, as engines have it.
   double normal_offset = 1;
 };
 
 struct FilterSettings {
   FilterKind kind = FilterKind::none;
-  int size = 3;  // box: taps on a side, odd
+  int size = 3;              // box, gaussian: taps on a side, odd
+  double step_texels = 1;    // box: from tap to tap
+  double sigma_texels = 1;   // gaussian: standard deviation
+  double radius_texels = 2;  // poisson: of the disk
+  bool rotate = false;       // poisson: another rotation of the disk at each pixel
+  double offset_m = 0.1;     // cube_grid: taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world
+  DiskRadius disk = DiskRadius::fixed;  // cube_disk: radius_m, or (1 + view distance / far) / 25 metres
+  double radius_m = 0.05;
 };
 
 struct TruthSettings {
@@ -90,9 +125,6 @@ struct Settings {
   FilterSettings filter;
   TruthSettings truth;
 };
-
-// Taps on a side of the lookup's square kernel: 1 without a filter.
-int kernel_size(const FilterSettings& filter);
 
 enum class ValueType { integer, real, flag, choice, text, point };
 
@@ -123,6 +155,9 @@ const Setting& find_setting(std::string_view name);
 
 // What no single row can see: near < far, kernel odd and the like. Throws Error(usage).
 void validate(const Settings& settings);
+
+// What only the kind of light can tell: filters and biases that need a flat map, or a cube. Throws Error(usage).
+void validate_for(LightKind kind, const Settings& settings);
 
 // The name in `names` nearest to `wrong` by edit distance, or empty when nothing is near enough to be meant.
 std::string nearest_name(std::string_view wrong, std::span<const std::string_view> names);
