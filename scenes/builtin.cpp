@@ -159,7 +159,7 @@ Scene fence(const SceneSettings&) {
 Scene spot_room(const SceneSettings&) {
   Scene scene;
   add_floor(scene, 9, 0);
-  add_box(scene, "wall", {-2, 0, -4.2}, {7, 2.4, -4});
+  add_box(scene, "wall", {0.5, 0, -4.2}, {7, 2.4, -4});
   const auto place = [](glm::dvec3 at, double turn_deg, glm::dvec3 about) {
     return glm::rotate(glm::translate(glm::dmat4(1), at), radians(turn_deg), glm::normalize(about));
   };
