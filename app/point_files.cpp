@@ -20,12 +20,12 @@ Image<float> channel_of(const Image<T>& source, const Get& get) {
   return values;
 }
 
-// The depth that the lookup's middle tap reads; NaN where there is no receiver.
+// The depth that the lookup's middle tap (of a box the one at P) reads; NaN where there is no receiver.
 Image<float> depth_read(const Measurement& m, const Image<float>& map) {
   Image<float> values(m.receivers.width(), m.receivers.height(), std::numeric_limits<float>::quiet_NaN());
   for (size_t i = 0; i < values.size(); ++i) {
     if (m.receivers.primitive[i] == no_primitive) continue;
-    const glm::ivec2 read = wrapped(m.probe.texel[i], map.width, m.settings.map.wrap);
+    const glm::ivec2 read = wrapped(m.probe.texel(i, m.probe.taps() / 2), {map.width, map.height}, m.settings.map.wrap);
     values[i] = read.x < 0 ? border_depth : map.at(read.x, read.y);
   }
   return values;
@@ -84,6 +84,53 @@ nlohmann::json curve_json(const BiasCurve& c) {
           {"flat_min_depth", number(c.flat_min_depth)},
           {"flat_max_depth", number(c.flat_max_depth)},
           {"breakpoints", c.breakpoints}};
+}
+
+nlohmann::ordered_json light_json(const Measurement& m) {
+  const LightFrame& f = m.frame;
+  const Light light = effective_light(m.scene, m.settings);
+  nlohmann::ordered_json json = {{"kind", find_setting("light.kind").choices[1 + static_cast<size_t>(f.kind)]},
+                                 {"origin_m", vector_json(f.origin_m)},
+                                 {"right", vector_json(f.right)},
+                                 {"up", vector_json(f.up)},
+                                 {"forward", vector_json(f.forward)}};
+  if (f.parallel()) {
+    json["ray_direction"] = vector_json(f.ray_direction);
+    json["angular_diameter_deg"] = light.angular_diameter_deg;
+    json["extent_m"] = f.extent_m;
+    json["texel_m"] = f.texel_m();
+  } else {
+    json["radius_m"] = light.radius_m;
+    json["shape"] = find_setting("light.shape").get(m.settings);
+  }
+  if (f.kind == LightKind::spot) {
+    json["cone_deg"] = light.cone_deg;
+    json["cos_half_cone"] = f.cos_half_cone;
+    json["tan_half_fov"] = f.tan_half_fov;
+    json["shift_texels"] = {f.shift_texels.x, f.shift_texels.y};
+  }
+  json["near_m"] = f.near_m;
+  json["far_m"] = f.far_m;
+  json["depth"] = f.kind == LightKind::point  ? "distance / far_m"
+                  : f.kind == LightKind::spot ? "far_m * (z - near_m) / (z * (far_m - near_m)), z along forward"
+                                              : "(z - near_m) / (far_m - near_m), z along forward";
+  json["resolution"] = f.resolution;
+  json["faces"] = f.faces();
+  json["map"] = {{"width", f.map_size().x},
+                 {"height", f.map_size().y},
+                 {"rows", f.faces() == 1 ? "map.exr has the map's highest v on top"
+                                         : "map.exr has the faces +X -X +Y -Y +Z -Z from the bottom up, each with its "
+                                           "highest t on top: row y of map.exr is row height - 1 - y of the map, and "
+                                           "row j of face f is the map's row f * resolution + j"}};
+  if (f.faces() == 1) {
+    json["clip_from_world_rows"] = matrix_rows(f.clip_from_world());
+    return json;
+  }
+  nlohmann::ordered_json faces = nlohmann::ordered_json::array();
+  for (int face = 0; face < f.faces(); ++face)
+    faces.push_back(nlohmann::ordered_json(matrix_rows(f.clip_from_world(face))));
+  json["clip_from_world_rows_of_faces"] = faces;
+  return json;
 }
 
 }  // namespace
@@ -147,20 +194,7 @@ std::string point_json(const Measurement& m, const std::string& command) {
                     {"near_m", m.camera.near_m},
                     {"far_m", m.camera.far_m},
                     {"clip_from_world_rows", matrix_rows(camera.clip_from_world())}};
-  const LightFrame& f = m.frame;
-  json["light"] = {{"kind", "directional"},
-                   {"origin_m", vector_json(f.origin_m)},
-                   {"right", vector_json(f.right)},
-                   {"up", vector_json(f.up)},
-                   {"forward", vector_json(f.forward)},
-                   {"ray_direction", vector_json(f.ray_direction)},
-                   {"extent_m", f.extent_m},
-                   {"near_m", f.near_m},
-                   {"far_m", f.far_m},
-                   {"resolution", f.resolution},
-                   {"texel_m", f.texel_m()},
-                   {"angular_diameter_deg", effective_light(m.scene, m.settings).angular_diameter_deg},
-                   {"clip_from_world_rows", matrix_rows(f.clip_from_world())}};
+  json["light"] = light_json(m);
   for (int c = 0; c < cause_count; ++c) json["causes"].push_back(cause_name(static_cast<Cause>(c)));
   json["flags"] = {{"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);

@@ -29,6 +29,7 @@
 #include "raytrace/tracer.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
+#include "scenes/tap_pattern.h"
 
 namespace noonmark {
 namespace {
@@ -280,7 +281,7 @@ void write_report(const Results& results, const std::string& out) {
 void print_plan(const Experiment& experiment) {
   const std::vector<Settings> planned = points(experiment);
   const auto taps = [](const Settings& s) {
-    return static_cast<double>(s.view.width_px) * s.view.height_px * kernel_size(s.filter) * kernel_size(s.filter);
+    return static_cast<double>(s.view.width_px) * s.view.height_px * tap_pattern(s.filter).taps;
   };
   double all_taps = 0;
   for (size_t i = 0; i < planned.size(); ++i) {

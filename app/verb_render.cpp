@@ -53,9 +53,16 @@ void print_ladder(const Measurement& m) {
   else
     fmt::print("\n  no {} keeps acne within {:g} and Peter Panning within {:g}\n", c.parameter, c.acne_bound,
                c.peter_panning_bound);
-  if (c.acne_free_bias_depth && c.parameter == "bias.constant")
-    fmt::print("  free of acne from: {:.6g} depth = {:.4g} m; no receiver in the picture asks for more than {:.4g} m\n",
-               *c.acne_free_bias_depth, *c.acne_free_bias_depth * c.m_per_depth, value("acne_free_bias_law_m"));
+  if (c.acne_free_bias_depth && c.parameter == "bias.constant") {
+    fmt::print("  free of acne from: {:.6g} depth = {:.4g} m", *c.acne_free_bias_depth,
+               *c.acne_free_bias_depth * c.m_per_depth);
+    // The law in the parameter's own unit, which each receiver turns into depth for itself.
+    if (m.frame.parallel() || m.settings.bias.unit == BiasUnit::m)
+      fmt::print("; no receiver in the picture asks for more than {:.4g} m", value("acne_free_bias_law_m"));
+    else if (m.settings.bias.unit == BiasUnit::depth)
+      fmt::print("; no receiver in the picture asks for more than {:.4g} depth", value("acne_free_bias_law_depth"));
+    fmt::print("\n");
+  }
   fmt::print("  best {}: {:.6g} depth (error {:.5f}%)\n", c.parameter, c.best_bias_depth, 100 * c.best_error);
 }
 

@@ -87,6 +87,23 @@ struct Lookup {
   gl::ShadowMap exact_map;
 };
 
+// The settings that change what the probe and the truth of the taps are, beside scene, view, light and map: a form
+// that only subtracts another number shares them with the others. A polygon offset is in the map, exact and drawn.
+std::string offset_key(const Settings& settings) {
+  return settings.bias.form == BiasForm::polygon_offset
+             ? key_of(settings, {"bias.form", "bias.factor", "bias.units", "map.format"})
+             : "";
+}
+std::string lookup_key_of(const Settings& settings, const DepthBias& bias) {
+  std::string key = key_of(settings, {"scene.", "view.", "light.", "map.", "filter.", "bias.unit"},
+                           {"map.lit_beyond_far", "map.format", "map.cube_pass"}) +
+                    offset_key(settings);
+  // What the probe has for these forms alone.
+  if (bias.moves_lookup() || bias.form == BiasForm::tan || bias.tap_reference() != TapReference::own_depth)
+    key += key_of(settings, {"bias.form"});
+  return key + fmt::format("{}", bias.normal_offset_texels);
+}
+
 Camera chosen_camera(const Scene& scene, const ViewSettings& view) {
   Camera camera = scene.camera;
   if (view.eye_m) camera.eye_m = *view.eye_m;
@@ -147,32 +164,32 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   });
   const Truth& truth = b.truth.get(key_of(settings, {"scene.", "view.", "light.", "truth."}), [&] {
     Truth made;
-    made.receivers = loaded.tracer->receiver_truth(
-        view.receivers, frame, {light.angular_diameter_deg, settings.truth.standard_error}, &made.hard, &made.soft);
+    made.receivers = loaded.tracer->receiver_truth(view.receivers, frame, {light, settings.truth.standard_error},
+                                                   &made.hard, &made.soft);
     return made;
   });
-  const std::string on_device = key_of(settings, {"scene.", "view.", "light."});
+  const std::string on_device = key_of(settings, {"scene.", "view."});
   if (b.receivers_on_device != on_device) {
-    b.renderer.load_receivers(view.receivers, frame.direction_to_light());
+    b.renderer.load_receivers(view.receivers, view.camera.eye_m);
     b.receivers_on_device = on_device;
   }
 
-  const RenderedMap& map = b.map.get(key_of(settings, {"scene.", "light.", "map."}, {"map.lit_beyond_far"}), [&] {
+  const std::string map_key =
+      key_of(settings, {"scene.", "light.", "map."}, {"map.lit_beyond_far"}) + offset_key(settings);
+  const RenderedMap& map = b.map.get(map_key, [&] {
     std::optional<gl::ShadowMap> rendered;
-    const double time =
-        median_time([&](double* ms) { rendered.emplace(b.renderer.render_map(frame, settings.map, ms)); });
+    const double time = median_time([&](double* ms) { rendered.emplace(b.renderer.render_map(frame, settings, ms)); });
     Image<float> depth = b.renderer.read_map(*rendered);
     return RenderedMap{std::move(*rendered), std::move(depth), time};
   });
-  const int kernel = kernel_size(settings.filter);
-  const DepthBias bias = depth_bias(frame, settings.bias);
-  const std::string lookup_key =
-      key_of(settings, {"scene.", "view.", "light.", "map."}, {"map.lit_beyond_far", "map.format"}) +
-      fmt::format("{} {}", kernel, bias.normal_offset_m);
+  const DepthBias bias = depth_bias(settings.bias);
+  const std::string lookup_key = lookup_key_of(settings, bias);
   Lookup& lookup = b.lookup.get(lookup_key, [&] {
-    LookupProbe probe = b.renderer.probe(frame, bias);
+    LookupProbe probe = b.renderer.probe(frame, settings);
+    const double offset_unit =
+        bias.form == BiasForm::polygon_offset ? b.renderer.polygon_offset_unit(settings.map.format) : 0;
     raytrace::LookupTruth taps =
-        loaded.tracer->lookup_truth(view.receivers, truth.receivers, probe, frame, settings.map, kernel, bias);
+        loaded.tracer->lookup_truth(view.receivers, truth.receivers, probe, frame, settings.map, bias, offset_unit);
     gl::ShadowMap exact = b.renderer.upload_map(taps.exact_map, settings.map);
     return Lookup{std::move(probe), std::move(taps), std::move(exact)};
   });
@@ -187,13 +204,14 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
                 scene, view.receivers, lookup.probe,    map.depth, lookup.truth.exact_map};
 
   const Image<float> occluders = loaded.tracer->occluder_distance(view.receivers, frame, peter_panning_mask(m.ladder));
-  m.record.metrics = measure_ladder({m.ladder, view.receivers.primitive, lookup.truth.edge_distance_m, occluders,
-                                     lookup.probe.n_dot_l, frame.texel_m(), frame.far_m - frame.near_m, bias, kernel});
+  m.record.metrics = measure_ladder(
+      {m.ladder, view.receivers, frame, lookup.probe, bias, lookup.truth.edge_distance_texels, occluders});
   m.record.metrics.merge(
-      measure_laws({m.ladder, scene, view.receivers, view.camera, frame, settings.map.format, kernel}));
+      measure_laws({m.ladder, scene, view.receivers, view.camera, frame, settings.map.format, lookup.probe}));
   const Image<float> ties = tie_map(evidence);
   const Image<float> tie_lookup = b.renderer.lookup(b.renderer.upload_map(ties, settings.map), frame, settings);
-  m.record.metrics.merge(measure_soundness({evidence, map.depth, ties, tie_lookup, view.receivers, frame}));
+  m.record.metrics.merge(
+      measure_soundness({evidence, map.depth, ties, tie_lookup, view.receivers, frame, view.camera.eye_m}));
   m.record.metrics["map_ms"] = map.time_ms;
   m.record.metrics["lookup_ms"] = lookup_ms;
   m.record.metrics["shadow_ms"] = map.time_ms + lookup_ms;
@@ -208,15 +226,18 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
                     {"tap_ms", lookup.truth.tap_stage.milliseconds},
                     {"tap_rays", static_cast<double>(lookup.truth.tap_stage.rays)}};
 
-  // A form that moves the lookup has no threshold for each tap: its every value asks other texels.
-  if (curve_options && settings.bias.form != BiasForm::normal_offset) {
-    const bool slope = settings.bias.form == BiasForm::slope;
-    const CurveParameter parameter = slope ? CurveParameter::slope : CurveParameter::constant;
-    // The floor stays in the key: the slope's curve is made over it.
-    const std::string key = lookup_key + key_of(settings, {"map.", "bias.form"}) +
-                            (slope ? key_of(settings, {"bias.unit", "bias.floor"}) : "") + key_of(settings, {"truth."});
+  // A form that moves the lookup or draws another map has no threshold for each tap.
+  if (const std::optional<CurveParameter> parameter = curve_parameter(settings.bias.form); curve_options && parameter) {
+    // What the form holds while its parameter runs stays in the key.
+    std::string key = lookup_key + key_of(settings, {"map.", "truth.", "bias.form"}) +
+                      fmt::format("{} {} {}", curve_options->acne_bound, curve_options->peter_panning_bound,
+                                  fmt::join(curve_options->bias_depth, " "));
+    if (*parameter != CurveParameter::constant) key += key_of(settings, {"bias.floor"});
+    if (*parameter == CurveParameter::tan_scale) key += key_of(settings, {"bias.cap"});
     m.record.curve = b.curve.get(key, [&] {
-      return std::optional(summarise(BiasCounts(evidence, map.depth, parameter), parameter, frame, *curve_options));
+      return std::optional(summarise(BiasCounts(evidence, map.depth, *parameter),
+                                     bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit),
+                                     *curve_options));
     });
   }
   return m;

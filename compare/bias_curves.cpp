@@ -16,106 +16,196 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
+struct Taps {
+  std::vector<float> thresholds;
+  std::vector<double> weights;  // empty where each weighs 1
+};
+
 struct Lists {
-  std::vector<float> error_dark, error_light, wrong_dark, wrong_light;
-  std::array<std::vector<float>, cause_count> by_cause;
+  Taps error_dark, error_light, wrong_dark, wrong_light;
+  std::array<Taps, cause_count> by_cause;
   uint64_t receivers = 0;
   float stored_acne = 0;  // the largest threshold
 };
 
-// Empties `from`: with large kernels these lists are gigabytes, and two copies of all of them would not do.
-void append(std::vector<float>& to, std::vector<float>& from) {
+// Empties `from`: with many taps these lists are gigabytes, and two copies of all of them would not do.
+template <class T>
+void append(std::vector<T>& to, std::vector<T>& from) {
   if (to.empty()) to.swap(from);
   to.insert(to.end(), from.begin(), from.end());
-  std::vector<float>().swap(from);
+  std::vector<T>().swap(from);
+}
+
+// The least value of the parameter from which a tap of receiver i is lit. All of the form's float steps are monotone in
+// the one before, so that the thresholds of the steps are followed back one by one.
+class Threshold {
+ public:
+  Threshold(const LookupEvidence& e, CurveParameter parameter, size_t i)
+      : bias_(e.bias), parameter_(parameter), unit_(e.probe.bias_unit[i]) {
+    if (parameter == CurveParameter::slope) factor_ = 1.0f - e.probe.n_dot_l[i];  // the shader's own
+    if (parameter == CurveParameter::tan_scale) factor_ = e.probe.tan_theta[i];
+  }
+  float operator()(const Tap& tap) const {
+    if (tap.always_lit) return 0;
+    const float needed = lit_threshold(tap.reference, tap.depth);
+    const float in_units = unit_ == 1 ? needed : factor_threshold(needed, unit_);
+    if (parameter_ == CurveParameter::constant) return in_units;
+    if (parameter_ == CurveParameter::tan_scale && !(bias_.cap >= in_units)) return infinity;
+    return bias_.floor >= in_units ? 0.0f : factor_threshold(in_units, factor_);
+  }
+
+ private:
+  const DepthBias& bias_;
+  CurveParameter parameter_;
+  float unit_, factor_ = 1;
+};
+
+void receiver(const LookupEvidence& e, const Image<float>& stored_map, CurveParameter parameter, size_t i,
+              Lists& lists) {
+  const bool blended = e.probe.pattern.bilinear();
+  const Threshold threshold(e, parameter, i);
+  const auto list = [&](Taps& to, float at, double weight) {
+    to.thresholds.push_back(at);
+    if (blended) to.weights.push_back(weight);
+  };
+  ++lists.receivers;
+  float least = infinity, most = 0;
+  for (int t = 0; t < e.taps.taps_per_receiver; ++t) {
+    const Tap exact = tap_of(e.probe, e.taps, e.map, e.exact_map, i, t);
+    if (exact.weight == 0) continue;  // P is right on a texel's centre: the sampler reads no other
+    const float at_r4 = threshold(exact);
+    // Wrong on one side of its threshold only: when dark if it should be lit, when lit if it should be dark.
+    if (!exact.moved_lit || at_r4 > 0)
+      list(lists.by_cause[static_cast<size_t>(tap_cause(exact, !exact.moved_lit))], at_r4, exact.weight);
+    const float at_r5 = threshold(tap_of(e.probe, e.taps, e.map, stored_map, i, t));
+    if (exact.covered && exact.moved_lit && exact.texel_lit) lists.stored_acne = std::max(lists.stored_acne, at_r5);
+    least = std::min(least, at_r5);
+    most = std::max(most, at_r5);
+    if (!e.truth.lit[i])
+      list(lists.error_light, at_r5, exact.weight);
+    else if (at_r5 > 0)
+      list(lists.error_dark, at_r5, exact.weight);
+  }
+  if (!e.truth.lit[i])
+    lists.wrong_light.thresholds.push_back(least);
+  else if (most > 0)
+    lists.wrong_dark.thresholds.push_back(most);
+}
+
+double share_of(double part, double whole) {
+  return whole == 0 ? std::numeric_limits<double>::quiet_NaN() : part / whole;
 }
 
 }  // namespace
 
-BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, CurveParameter parameter) {
-  const int taps = e.taps.taps_per_receiver, kernel = kernel_of(e.taps);
-  taps_per_receiver_ = taps;
+std::optional<CurveParameter> curve_parameter(BiasForm form) {
+  switch (form) {
+    case BiasForm::none:
+    case BiasForm::constant:
+    case BiasForm::receiver_plane:
+    case BiasForm::tangent_plane:
+      return CurveParameter::constant;
+    case BiasForm::slope:
+      return CurveParameter::slope;
+    case BiasForm::tan:
+      return CurveParameter::tan_scale;
+    case BiasForm::polygon_offset:
+    case BiasForm::normal_offset:
+      break;
+  }
+  return std::nullopt;
+}
+
+void ThresholdSums::add(std::vector<float>& thresholds, std::vector<double>& weights) {
+  append(at_, thresholds);
+  append(weights_, weights);
+}
+
+void ThresholdSums::sort() {
+  if (weights_.empty()) {
+    tbb::parallel_sort(at_);
+    return;
+  }
+  // By weight too, so that sums do not depend on the order in which the cores came to them.
+  std::vector<std::pair<float, double>> pairs(at_.size());
+  for (size_t i = 0; i < pairs.size(); ++i) pairs[i] = {at_[i], weights_[i]};
+  std::vector<double>().swap(weights_);
+  tbb::parallel_sort(pairs);
+  sums_.resize(pairs.size() + 1);
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    at_[i] = pairs[i].first;
+    sums_[i + 1] = sums_[i] + pairs[i].second;
+  }
+}
+
+size_t ThresholdSums::after(float x) const {
+  return static_cast<size_t>(std::upper_bound(at_.begin(), at_.end(), x) - at_.begin());
+}
+
+BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, CurveParameter parameter)
+    : parameter_(parameter), blended_(e.probe.pattern.bilinear()), whole_(whole_weight(e.probe)) {
   tbb::combinable<Lists> parts;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, e.truth.facing.size(), 8192),
                     [&](const tbb::blocked_range<size_t>& range) {
                       Lists& lists = parts.local();
-                      for (size_t i = range.begin(); i != range.end(); ++i) {
-                        if (!e.truth.facing[i] || is_ambiguous(e.truth, e.taps, i)) continue;
-                        ++lists.receivers;
-                        const float factor = 1.0f - e.probe.n_dot_l[i];  // the shader's own
-                        const auto threshold = [&](const Tap& tap) {
-                          if (tap.always_lit) return 0.0f;
-                          const float bias = lit_threshold(e.probe.reference[i], tap.depth);
-                          if (parameter == CurveParameter::constant) return bias;
-                          return e.bias.floor >= bias ? 0.0f : slope_threshold(bias, factor);
-                        };
-                        float least = infinity, most = 0;
-                        for (int t = 0; t < taps; ++t) {
-                          const Tap exact = tap_of(e.probe, e.taps, e.map, e.exact_map, i, kernel, t);
-                          const float at_r4 = threshold(exact);
-                          // Wrong on one side of its threshold only: when dark if it should be lit, when lit if it
-                          // should be dark.
-                          if (!exact.moved_lit || at_r4 > 0)
-                            lists.by_cause[static_cast<size_t>(tap_cause(exact, !exact.moved_lit))].push_back(at_r4);
-                          const float at_r5 = threshold(tap_of(e.probe, e.taps, e.map, stored_map, i, kernel, t));
-                          if (exact.covered && exact.moved_lit && exact.texel_lit)
-                            lists.stored_acne = std::max(lists.stored_acne, at_r5);
-                          least = std::min(least, at_r5);
-                          most = std::max(most, at_r5);
-                          if (!e.truth.lit[i])
-                            lists.error_light.push_back(at_r5);
-                          else if (at_r5 > 0)
-                            lists.error_dark.push_back(at_r5);
-                        }
-                        if (!e.truth.lit[i])
-                          lists.wrong_light.push_back(least);
-                        else if (most > 0)
-                          lists.wrong_dark.push_back(most);
-                      }
+                      for (size_t i = range.begin(); i != range.end(); ++i)
+                        if (e.truth.facing[i] && !is_ambiguous(e.truth, e.taps, i))
+                          receiver(e, stored_map, parameter, i, lists);
                     });
+  const auto add = [](ThresholdSums& to, Taps& from) { to.add(from.thresholds, from.weights); };
   parts.combine_each([&](Lists& part) {
     receivers_ += part.receivers;
     stored_acne_free_from_ = std::max(stored_acne_free_from_, part.stored_acne);
-    append(error_dark_, part.error_dark);
-    append(error_light_, part.error_light);
-    append(wrong_dark_, part.wrong_dark);
-    append(wrong_light_, part.wrong_light);
-    for (int c = 0; c < cause_count; ++c) append(by_cause_[c], part.by_cause[c]);
+    add(error_dark_, part.error_dark);
+    add(error_light_, part.error_light);
+    add(wrong_dark_, part.wrong_dark);
+    add(wrong_light_, part.wrong_light);
+    for (int c = 0; c < cause_count; ++c) add(by_cause_[c], part.by_cause[c]);
   });
-  for (Thresholds* list : {&error_dark_, &error_light_, &wrong_dark_, &wrong_light_}) tbb::parallel_sort(*list);
-  for (Thresholds& list : by_cause_) tbb::parallel_sort(list);
+  for (ThresholdSums* list : {&error_dark_, &error_light_, &wrong_dark_, &wrong_light_}) list->sort();
+  for (ThresholdSums& list : by_cause_) list.sort();
 }
 
-uint64_t BiasCounts::dark(const Thresholds& t, float x) {
-  return static_cast<uint64_t>(t.end() - std::upper_bound(t.begin(), t.end(), x));
-}
-
-uint64_t BiasCounts::lit(const Thresholds& t, float x) {
-  return static_cast<uint64_t>(std::upper_bound(t.begin(), t.end(), x) - t.begin());
-}
-
-uint64_t BiasCounts::caused(Cause cause, float x) const {
-  const Thresholds& list = by_cause_[static_cast<size_t>(cause)];
+double BiasCounts::caused(Cause cause, float x) const {
+  const ThresholdSums& list = by_cause_[static_cast<size_t>(cause)];
   const bool darkens = cause == Cause::acne || cause == Cause::aliasing_dark || cause == Cause::coverage_dark;
-  return darkens ? dark(list, x) : lit(list, x);
+  return darkens ? list.above(x) : list.up_to(x);
 }
 
-float BiasCounts::acne_free_from(uint64_t allowed) const {
-  const Thresholds& t = by_cause_[static_cast<size_t>(Cause::acne)];
-  return t.size() <= allowed ? 0.0f : t[t.size() - 1 - allowed];
+float BiasCounts::acne_free_from(double share) const {
+  const ThresholdSums& t = by_cause_[static_cast<size_t>(Cause::acne)];
+  // The fewest of the lowest thresholds that must be reached. The last one ends all acne, whatever rounding the sums
+  // have.
+  size_t reached = 0, all = t.size();
+  while (reached < all) {
+    const size_t middle = reached + (all - reached) / 2;
+    if (t.total() - t.before(middle) <= 0 || share_of(t.total() - t.before(middle), taps()) <= share)
+      all = middle;
+    else
+      reached = middle + 1;
+  }
+  return reached == 0 ? 0.0f : t[reached - 1];
 }
 
-float BiasCounts::peter_panning_free_to(uint64_t allowed) const {
-  const Thresholds& t = by_cause_[static_cast<size_t>(Cause::peter_panning)];
-  if (t.size() <= allowed || t[allowed] == infinity) return infinity;  // infinity: a slope that no bias reaches
-  return std::nextafter(t[allowed], -infinity);
+float BiasCounts::peter_panning_free_to(double share) const {
+  const ThresholdSums& t = by_cause_[static_cast<size_t>(Cause::peter_panning)];
+  size_t within = 0, beyond = t.size() + 1;  // how many of the lowest thresholds may be reached
+  while (beyond - within > 1) {
+    const size_t middle = within + (beyond - within) / 2;
+    if (share_of(t.before(middle), taps()) <= share)
+      within = middle;
+    else
+      beyond = middle;
+  }
+  if (within == t.size() || t[within] == infinity) return infinity;  // infinity: what no bias reaches
+  return std::nextafter(t[within], -infinity);
 }
 
-BiasCounts::Best BiasCounts::best() const {
+BiasCounts::Best BiasCounts::best(float most) const {
   // The error is constant from each breakpoint to the next; 0 starts the first stretch.
   struct Stretch {
     float from;
-    uint64_t wrong;
+    double wrong;
   };
   std::vector<Stretch> stretches;
   size_t d = 0, l = 0;
@@ -123,22 +213,45 @@ BiasCounts::Best BiasCounts::best() const {
   for (;;) {
     while (d < error_dark_.size() && error_dark_[d] <= x) ++d;
     while (l < error_light_.size() && error_light_[l] <= x) ++l;
-    stretches.push_back({x, error_dark_.size() - d + l});
+    stretches.push_back({x, error_dark_.total() - error_dark_.before(d) + error_light_.before(l)});
     const float next = std::min(d < error_dark_.size() ? error_dark_[d] : infinity,
                                 l < error_light_.size() ? error_light_[l] : infinity);
-    if (next > 1) break;  // a bias of 1 spans the whole map; nothing above it means anything
+    if (next > most || next == infinity) break;
     x = next;
   }
   const auto least = std::min_element(stretches.begin(), stretches.end(),
                                       [](const Stretch& a, const Stretch& b) { return a.wrong < b.wrong; });
   const auto end_of = [&](auto stretch) {
-    return stretch + 1 == stretches.end() ? 1.0f : std::nextafter((stretch + 1)->from, -infinity);
+    return stretch + 1 == stretches.end() ? most : std::nextafter((stretch + 1)->from, -infinity);
   };
-  const double limit = 1.1 * static_cast<double>(least->wrong);
+  const double limit = 1.1 * least->wrong;
   auto first = least, last = least;
-  while (first != stretches.begin() && static_cast<double>((first - 1)->wrong) <= limit) --first;
-  while (last + 1 != stretches.end() && static_cast<double>((last + 1)->wrong) <= limit) ++last;
+  while (first != stretches.begin() && (first - 1)->wrong <= limit) --first;
+  while (last + 1 != stretches.end() && (last + 1)->wrong <= limit) ++last;
   return {least->from, end_of(least), least->wrong, first->from, end_of(last), stretches.size() - 1};
+}
+
+BiasScale bias_scale(const LightFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,
+                     BiasUnit unit) {
+  if (frame.parallel()) {
+    const double range = frame.far_m - frame.near_m;
+    return {frame.depth_per_bias_unit(unit, {}), range, range / frame.texel_m()};
+  }
+  std::vector<double> metres, texels;
+  for (size_t i = 0; i < truth.facing.size(); ++i) {
+    if (!truth.facing[i]) continue;
+    const glm::dvec3 light = frame.to_light(receivers.position[i]);
+    metres.push_back(frame.depth_per_bias_unit(BiasUnit::m, light));
+    texels.push_back(frame.depth_per_bias_unit(BiasUnit::texel, light));
+  }
+  const auto median = [](std::vector<double>& values) {
+    if (values.empty()) return 1.0;  // then there is no curve to scale
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  const double metre = median(metres), texel = median(texels);
+  return {unit == BiasUnit::m ? metre : unit == BiasUnit::texel ? texel : 1, 1 / metre, 1 / texel};
 }
 
 std::vector<double> default_bias_grid() {
@@ -147,61 +260,55 @@ std::vector<double> default_bias_grid() {
   return grid;
 }
 
-BiasCurve summarise(const BiasCounts& counts, CurveParameter parameter, const LightFrame& frame,
-                    const CurveOptions& options) {
+BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const CurveOptions& options) {
   BiasCurve curve;
-  curve.parameter = parameter == CurveParameter::constant ? "bias.constant" : "bias.slope";
-  curve.made = "one pass";
+  curve.parameter = counts.parameter() == CurveParameter::constant ? "bias.constant"
+                    : counts.parameter() == CurveParameter::slope  ? "bias.slope"
+                                                                   : "bias.tan_scale";
+  curve.made = counts.blended() ? "one pass, but for the sampler's weights" : "one pass";
   curve.bias_depth = options.bias_depth.empty() ? default_bias_grid() : options.bias_depth;
-  const auto per = [](uint64_t count, uint64_t base) {
-    return base == 0 ? std::numeric_limits<double>::quiet_NaN()
-                     : static_cast<double>(count) / static_cast<double>(base);
-  };
+  const auto in_depth = [&](float x) { return x * scale.depth_per_unit; };
   for (double bias : curve.bias_depth) {
-    const float x = static_cast<float>(bias);
-    const auto share = [&](Cause cause) { return per(counts.caused(cause, x), counts.taps()); };
-    curve.error.push_back(per(counts.wrong_taps(x), counts.taps()));
-    curve.wrong.push_back(per(counts.wrong_receivers(x), counts.receivers()));
+    const float x = static_cast<float>(bias / scale.depth_per_unit);
+    const auto share = [&](Cause cause) { return share_of(counts.caused(cause, x), counts.taps()); };
+    curve.error.push_back(share_of(counts.wrong_taps(x), counts.taps()));
+    curve.wrong.push_back(
+        share_of(static_cast<double>(counts.wrong_receivers(x)), static_cast<double>(counts.receivers())));
     curve.acne.push_back(share(Cause::acne));
     curve.peter_panning.push_back(share(Cause::peter_panning));
     curve.aliasing_dark.push_back(share(Cause::aliasing_dark));
     curve.aliasing_light.push_back(share(Cause::aliasing_light));
     curve.coverage.push_back(share(Cause::coverage_dark) + share(Cause::coverage_light));
   }
-  curve.m_per_depth = frame.far_m - frame.near_m;
-  curve.texels_per_depth = curve.m_per_depth / frame.texel_m();
+  curve.m_per_depth = scale.m_per_depth;
+  curve.texels_per_depth = scale.texels_per_depth;
 
   curve.acne_bound = options.acne_bound;
   curve.peter_panning_bound = options.peter_panning_bound;
-  // The most taps whose share, as the metrics divide it, is within the bound; the product may round to either side.
-  const auto allowed = [&](double bound) {
-    auto count = static_cast<uint64_t>(bound * static_cast<double>(counts.taps()));
-    if (per(count + 1, counts.taps()) <= bound) ++count;
-    if (count > 0 && per(count, counts.taps()) > bound) --count;
-    return count;
-  };
-  const float from = counts.acne_free_from(allowed(options.acne_bound));
-  const float to = counts.peter_panning_free_to(allowed(options.peter_panning_bound));
-  if (counts.receivers() > 0 && from <= to && from <= 1) {
-    curve.window_min_depth = from;
-    curve.window_max_depth = std::min(static_cast<double>(to), 1.0);
-  }
-  if (counts.receivers() > 0) {
-    const BiasCounts::Best best = counts.best();
-    // Where nothing limits the bias from above, the middle would be half the map's depth; twice the need is advice
-    // enough.
-    const double start = best.from, end = best.to;
-    curve.best_bias_depth = end >= 1 ? std::min(2 * start, 1.0) : (start + end) / 2;
-    curve.best_error = per(best.wrong_taps, counts.taps());
-    curve.flat_min_depth = best.flat_from;
-    curve.flat_max_depth = best.flat_to;
-    curve.breakpoints = best.breakpoints;
-    const auto if_any = [](float x) { return x < infinity ? std::optional<double>(x) : std::nullopt; };
-    curve.acne_free_bias_depth = if_any(counts.acne_free_from(0));
-    curve.acne_free_bias_stored_depth = if_any(counts.stored_acne_free_from());
-  } else {
+  if (counts.receivers() == 0) {
     curve.best_error = std::numeric_limits<double>::quiet_NaN();
+    return curve;
   }
+  // A bias of 1 in depth spans the whole map; nothing above it means anything.
+  const auto most = static_cast<float>(1 / scale.depth_per_unit);
+  const float from = counts.acne_free_from(options.acne_bound);
+  const float to = counts.peter_panning_free_to(options.peter_panning_bound);
+  if (from <= to && from <= most) {
+    curve.window_min_depth = in_depth(from);
+    curve.window_max_depth = to >= most ? 1.0 : in_depth(to);
+  }
+  const BiasCounts::Best best = counts.best(most);
+  // Where nothing limits the bias from above, the middle would be half the map's depth; twice the need is advice
+  // enough.
+  const double start = in_depth(best.from), end = best.to >= most ? 1.0 : in_depth(best.to);
+  curve.best_bias_depth = end >= 1 ? std::min(2 * start, 1.0) : (start + end) / 2;
+  curve.best_error = share_of(best.wrong_taps, counts.taps());
+  curve.flat_min_depth = in_depth(best.flat_from);
+  curve.flat_max_depth = best.flat_to >= most ? 1.0 : in_depth(best.flat_to);
+  curve.breakpoints = best.breakpoints;
+  const auto if_any = [&](float x) { return x < infinity ? std::optional<double>(in_depth(x)) : std::nullopt; };
+  curve.acne_free_bias_depth = if_any(counts.acne_free_from(0));
+  curve.acne_free_bias_stored_depth = if_any(counts.stored_acne_free_from());
   return curve;
 }
 

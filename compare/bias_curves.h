@@ -1,26 +1,56 @@
 // The error at every bias from one lookup pass (design: all biases for the price of one). A tap of a comparing lookup
 // is lit exactly when the bias reaches the tap's threshold; (F, V) names the cause it has on either side. Thresholds
-// are sorted once, and every count is read off exactly.
+// are sorted once, and every sum is read off exactly.
 //
-//   BiasCounts curves(evidence, stored_map, CurveParameter::constant);
+//   BiasCounts curves(evidence, stored_map, *curve_parameter(settings.bias.form));
 //   curves.caused(Cause::acne, 0.005f);                   // taps, exactly as rendering with that bias would book
-//   BiasCurve curve = summarise(curves, CurveParameter::constant, frame, options);
+//   BiasCurve curve = summarise(curves, bias_scale(...), options);
 //
 // Exact for filters that are means of comparisons and for forms that only change the number subtracted: none, constant,
-// slope. Thresholds are float because the shader's comparison is.
+// slope, tan, receiver plane, tangent plane. Of a filter whose taps a sampler blends (hardware, gaussian) it is exact
+// but for the sampler's rounding of weights. Thresholds are float because the shader's comparison is, and in the
+// parameter's own unit: what one of it is in depth differs from receiver to receiver (LookupProbe::bias_unit).
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "compare/ladder.h"
 #include "compare/records.h"
 #include "scenes/light_frame.h"
+#include "scenes/receivers.h"
 
 namespace noonmark {
 
 enum class CurveParameter {
-  constant,  // bias = x
-  slope,     // bias = max(x * (1 - N.L), evidence.bias.floor)
+  constant,   // bias = x; of the plane forms, over each tap's own reference
+  slope,      // bias = max(x * (1 - N.L), evidence.bias.floor)
+  tan_scale,  // bias = clamp(x * tan theta, evidence.bias.floor, evidence.bias.cap)
+};
+
+// None for forms that no one pass can read off: those that move the lookup or draw another map.
+std::optional<CurveParameter> curve_parameter(BiasForm form);
+
+// Thresholds in ascending order, each with a weight; sums of weights over a stretch of them.
+class ThresholdSums {
+ public:
+  // weights: one for each threshold, or empty where each weighs 1.
+  void add(std::vector<float>& thresholds, std::vector<double>& weights);  // empties both
+  void sort();
+
+  double above(float x) const { return total() - before(after(x)); }
+  double up_to(float x) const { return before(after(x)); }
+  double total() const { return before(at_.size()); }
+
+  size_t size() const { return at_.size(); }
+  float operator[](size_t i) const { return at_[i]; }
+  double before(size_t i) const { return sums_.empty() ? static_cast<double>(i) : sums_[i]; }
+
+ private:
+  size_t after(float x) const;  // how many are at most x
+  std::vector<float> at_;
+  std::vector<double> weights_;  // until sort()
+  std::vector<double> sums_;     // [i]: weights of the first i; empty where each weighs 1
 };
 
 class BiasCounts {
@@ -29,44 +59,57 @@ class BiasCounts {
   // (facing, not ambiguous) take part.
   BiasCounts(const LookupEvidence& evidence, const Image<float>& stored_map, CurveParameter parameter);
 
+  CurveParameter parameter() const { return parameter_; }
+  bool blended() const { return blended_; }  // by a sampler
   uint64_t receivers() const { return receivers_; }
-  uint64_t taps() const { return receivers_ * static_cast<uint64_t>(taps_per_receiver_); }
+  // Every sum of taps below is in these: whole numbers of taps, or where a sampler blends them, weights of which each
+  // receiver has 1.
+  double taps() const { return static_cast<double>(receivers_) * whole_; }
 
   // Taps of R5 that differ from R1; divided by taps() it is the mean |R5 - R1|.
-  uint64_t wrong_taps(float x) const { return dark(error_dark_, x) + lit(error_light_, x); }
+  double wrong_taps(float x) const { return error_dark_.above(x) + error_light_.up_to(x); }
   // Receivers with R5 != R1.
-  uint64_t wrong_receivers(float x) const { return dark(wrong_dark_, x) + lit(wrong_light_, x); }
+  uint64_t wrong_receivers(float x) const {
+    return static_cast<uint64_t>(wrong_dark_.above(x) + wrong_light_.up_to(x));
+  }
   // Taps at R4, by cause. cause: one of the six that are booked tap by tap.
-  uint64_t caused(Cause cause, float x) const;
+  double caused(Cause cause, float x) const;
 
-  // The least x with at most `allowed` acne taps; the greatest with at most `allowed` Peter Panning taps (infinity when
-  // no bias makes more).
-  float acne_free_from(uint64_t allowed) const;
-  float peter_panning_free_to(uint64_t allowed) const;
+  // The least x at which acne is at most this share of taps(); the greatest at which Peter Panning is (infinity when it
+  // never is more).
+  float acne_free_from(double share) const;
+  float peter_panning_free_to(double share) const;
   // The least x from which the stored map darkens no covered tap that is lit at its exact place and at its texel's
   // centre: what acne_free_from(0) is on the exact map.
   float stored_acne_free_from() const { return stored_acne_free_from_; }
 
   struct Best {
-    float from = 0, to = 0;  // the stretch of least error in [0, 1]; the lowest where several are equal
-    uint64_t wrong_taps = 0;
+    float from = 0, to = 0;  // the stretch of least error in [0, most]; the lowest where several are equal
+    double wrong_taps = 0;
     float flat_from = 0, flat_to = 0;  // around it, as far as the error stays within 10% of the least
-    uint64_t breakpoints = 0;          // of the error as a function of the bias, in (0, 1]
+    uint64_t breakpoints = 0;          // of the error as a function of the bias, in (0, most]
   };
-  Best best() const;
+  Best best(float most = 1) const;
 
  private:
-  // Taps that should be lit are wrong below their threshold; taps that should be dark are wrong from it on. Sorted.
-  using Thresholds = std::vector<float>;
-  static uint64_t dark(const Thresholds& t, float x);
-  static uint64_t lit(const Thresholds& t, float x);
-
+  // Taps that should be lit are wrong below their threshold; taps that should be dark are wrong from it on.
   uint64_t receivers_ = 0;
-  int taps_per_receiver_ = 1;
+  CurveParameter parameter_;
+  bool blended_ = false;
+  double whole_ = 1;
   float stored_acne_free_from_ = 0;
-  Thresholds error_dark_, error_light_, wrong_dark_, wrong_light_;
-  std::array<Thresholds, cause_count> by_cause_;
+  ThresholdSums error_dark_, error_light_, wrong_dark_, wrong_light_;
+  std::array<ThresholdSums, cause_count> by_cause_;
 };
+
+// What one of the curve's units is in the others, at the place that BiasCurve::m_per_depth names.
+struct BiasScale {
+  double depth_per_unit = 1;  // of the parameter's own unit
+  double m_per_depth = 1;
+  double texels_per_depth = 1;
+};
+BiasScale bias_scale(const LightFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,
+                     BiasUnit unit);
 
 struct CurveOptions {
   double acne_bound = 0.001, peter_panning_bound = 0.001;  // fractions of counted receivers
@@ -76,7 +119,6 @@ struct CurveOptions {
 // 0, then 20 steps a decade from 1e-7 (about one quantum of 24 bits) to 1.
 std::vector<double> default_bias_grid();
 
-BiasCurve summarise(const BiasCounts& counts, CurveParameter parameter, const LightFrame& frame,
-                    const CurveOptions& options);
+BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const CurveOptions& options);
 
 }  // namespace noonmark

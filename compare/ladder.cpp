@@ -37,6 +37,11 @@ Cause pixel_cause(const Ladder& ladder, size_t i, bool filtered) {
   return largest;
 }
 
+// Whether P itself falls into the map; a cube has no outside.
+bool inside(const LookupProbe& probe, size_t i, const Image<float>& map) {
+  return probe.cube_resolution > 0 || inside_map(LookupProbe::floored(probe.map_texels[i]), {map.width, map.height});
+}
+
 }  // namespace
 
 std::string_view cause_name(Cause cause) {
@@ -46,15 +51,12 @@ std::string_view cause_name(Cause cause) {
   return names[static_cast<size_t>(cause)];
 }
 
-int kernel_of(const TapTruth& taps) {
-  const int kernel = static_cast<int>(std::lround(std::sqrt(taps.taps_per_receiver)));
-  if (kernel * kernel != taps.taps_per_receiver) throw std::logic_error("taps are not a square kernel");
-  return kernel;
-}
-
 Ladder climb(const LookupEvidence& e) {
   const int width = e.truth.facing.width, height = e.truth.facing.height;
-  const int taps = e.taps.taps_per_receiver, kernel = kernel_of(e.taps);
+  const int taps = e.taps.taps_per_receiver;
+  if (taps != e.probe.taps()) throw std::logic_error("the truth's taps are not the probe's");
+  const bool blended = e.probe.pattern.bilinear();
+  const double whole = whole_weight(e.probe);
   Ladder ladder;
   for (Image<float>& image : ladder.rung) image = Image<float>(width, height, 0);
   for (Image<float>& image : ladder.step) image = Image<float>(width, height, 0);
@@ -65,24 +67,24 @@ Ladder climb(const LookupEvidence& e) {
     ladder.flags[i] = static_cast<uint8_t>((e.truth.facing[i] ? flag_facing : 0) |
                                            (is_ambiguous(e.truth, e.taps, i) ? flag_ambiguous : 0));
     if (!e.truth.facing[i]) return;
-    const bool outside = !inside_map(e.probe.texel[i], e.exact_map.width) || e.probe.reference[i] > 1.0f;
-    if (outside) ladder.flags[i] |= flag_outside;
+    if (e.probe.reference[i] > 1.0f || !inside(e.probe, i, e.exact_map)) ladder.flags[i] |= flag_outside;
 
-    const float bias = e.bias.at(e.probe.n_dot_l[i]);
-    int exact_lit = 0, moved_lit = 0, texel_lit = 0;
-    std::array<int, cause_count> booked{};
+    const float bias = e.bias.at(e.probe, i);
+    double exact_lit = 0, moved_lit = 0, texel_lit = 0, all_lit = 0;
+    std::array<double, cause_count> booked{};
     for (int t = 0; t < taps; ++t) {
-      const Tap tap = tap_of(e.probe, e.taps, e.map, e.exact_map, i, kernel, t);
-      const bool lit = tap.always_lit || !(e.probe.reference[i] - bias > tap.depth);
-      exact_lit += tap.exact_lit;
-      moved_lit += tap.moved_lit;
-      texel_lit += tap.texel_lit;
-      ++booked[static_cast<size_t>(tap_cause(tap, lit))];
+      const Tap tap = tap_of(e.probe, e.taps, e.map, e.exact_map, i, t);
+      const bool lit = tap.lit(bias);
+      if (tap.exact_lit) exact_lit += tap.weight;
+      if (tap.moved_lit) moved_lit += tap.weight;
+      if (tap.texel_lit) texel_lit += tap.weight;
+      if (lit) all_lit += tap.weight;
+      booked[static_cast<size_t>(tap_cause(tap, lit))] += tap.weight;
     }
-    // Double, rounded once to float: the shader's own count / N^2 is that quotient in float.
-    const auto share = [&](int count) { return static_cast<float>(static_cast<double>(count) / taps); };
-    const float r[6] = {
-        e.truth.soft[i], static_cast<float>(e.truth.lit[i]), share(exact_lit), share(texel_lit), e.r4[i], e.r5[i]};
+    // Double, rounded once to float: the shader's own count / N is that quotient in float.
+    const auto share = [&](double weight) { return static_cast<float>(weight / whole); };
+    const float r[6] = {e.truth.soft[i],  static_cast<float>(e.truth.lit[i]), share(exact_lit),
+                        share(texel_lit), blended ? share(all_lit) : e.r4[i], e.r5[i]};
     for (int n = 0; n < 6; ++n) ladder.rung[n][i] = r[n];
 
     const auto set = [&](Cause cause, float value) { ladder.step[static_cast<size_t>(cause)][i] = value; };

@@ -16,6 +16,11 @@
 //   its centre lies outside the map, its receiver beyond far, or its true blocker before near; else aliasing where V =
 //   L (the grid asked elsewhere and was answered truly); else acne (L dark) or Peter Panning (L lit).
 // So the classes sum to R4 - R2, and without displacement steps never cancel on pixels that are right.
+//
+// Taps have weights (LookupProbe::weight). Where all count the same, every sum here is a whole number of taps, divided
+// once: what the lookup itself gives, bit for bit. Where a sampler blends them (hardware, gaussian), the technique is
+// the sum of exact weights times verdicts, and that is R4; R5, made by a sampler that keeps some 8 bits of a weight,
+// differs from it by that too, so the sampler's rounding is part of precision.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -50,11 +55,11 @@ std::string_view cause_name(Cause cause);
 struct LookupEvidence {
   const ReceiverTruth& truth;
   const LookupProbe& probe;
-  const TapTruth& taps;  // equal weights: 1 / taps_per_receiver
+  const TapTruth& taps;
   const Image<float>& exact_map;
   const MapSettings& map;
   DepthBias bias;
-  const Image<float>& r4;
+  const Image<float>& r4;  // as OpenGL gave it on the exact map; where a sampler blends the taps, not read by climb()
   const Image<float>& r5;
 };
 
@@ -78,25 +83,39 @@ struct Tap {
   bool moved_lit = false;   // D
   bool texel_lit = false;   // V
   bool covered = true;      // inside the map, before far, blocker not clipped
-  bool always_lit = false;  // beyond far, and the lookup says lit without comparing
+  bool always_lit = false;  // whatever the bias: beyond far, and the lookup says lit without comparing
+  float reference = 0;      // window depth that it compares
   float depth = 1;          // of the map that it reads
+  double weight = 1;        // a share of whole_weight()
+
+  // The shader's comparison, in its own float arithmetic.
+  bool lit(float bias) const { return always_lit || !(reference - bias > depth); }
 };
+
+// What a receiver's tap weights sum to: the number of taps, of weight 1 each, or 1 where a sampler weighs them.
+inline double whole_weight(const LookupProbe& probe) { return probe.pattern.bilinear() ? 1.0 : probe.taps(); }
 
 // Tap number `tap` of pixel i, reading `map_depth` (the exact map, or the GPU's as its sampler returns it).
 inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSettings& map, const Image<float>& map_depth,
-                  size_t i, int kernel, int tap) {
+                  size_t i, int tap) {
   const uint8_t bits = taps.taps[i * static_cast<size_t>(taps.taps_per_receiver) + static_cast<size_t>(tap)];
-  const int r = kernel / 2;
-  const glm::ivec2 texel = probe.texel[i] + glm::ivec2(tap % kernel - r, tap / kernel - r);
-  const glm::ivec2 read = wrapped(texel, map_depth.width, map.wrap);
+  const bool sampler_compares = probe.pattern.bilinear();
+  const glm::ivec2 size(map_depth.width, map_depth.height);
+  const glm::ivec2 texel = probe.texel(i, tap);
+  const glm::ivec2 read = wrapped(texel, size, map.wrap);
   const bool beyond_far = probe.reference[i] > 1.0f;
   Tap result;
   result.exact_lit = bits & tap_exact_lit;
   result.moved_lit = result.exact_lit != ((bits & tap_displaced) != 0);
   result.texel_lit = bits & tap_texel_lit;
-  result.covered = inside_map(texel, map_depth.width) && !beyond_far && !(bits & tap_near_clipped);
-  result.always_lit = beyond_far && map.lit_beyond_far;
+  result.covered = inside_map(texel, size) && !beyond_far && !(bits & tap_near_clipped);
+  result.reference = probe.tap_depth(i, tap);
   result.depth = read.x < 0 ? border_depth : map_depth.at(read.x, read.y);
+  // A comparison sampler clamps what it compares to [0,1] where the format is fixed-point (OpenGL 4.5 core, 8.23.1), so
+  // that nothing is darker than depth 1.
+  const bool clamped = sampler_compares && map.format != DepthFormat::d32f && result.depth >= 1;
+  result.always_lit = (beyond_far && map.lit_beyond_far) || clamped;
+  if (sampler_compares) result.weight = probe.weight(i, tap);
   return result;
 }
 
@@ -114,8 +133,5 @@ inline Cause tap_cause(const Tap& tap, bool lit) {
   if (lit == tap.texel_lit) return lit ? Cause::aliasing_light : Cause::aliasing_dark;
   return lit ? Cause::peter_panning : Cause::acne;
 }
-
-// Taps on a side of the square kernel.
-int kernel_of(const TapTruth& taps);
 
 }  // namespace noonmark

@@ -1,7 +1,7 @@
 // Metrics in which the laws of shadow maps are closed forms: lengths of the map, the bias that law 1 asks for, and
 // errors summed over the light's plane, which do not depend on where the camera stands.
 //
-//   m.merge(measure_laws({ladder, scene, receivers, camera, frame, settings.map.format, kernel}));
+//   m.merge(measure_laws({ladder, scene, receivers, camera, frame, settings.map.format, probe}));
 #pragma once
 #include <map>
 #include <string>
@@ -20,17 +20,15 @@ struct LawInput {
   const Camera& camera;
   const LightFrame& frame;
   DepthFormat format = DepthFormat::d24;
-  int kernel = 1;  // taps on a side
+  const LookupProbe& probe;
 };
 
-// One step of the map's format in metres along the light; of 32-bit float the largest step in [0,1].
-double depth_quantum_m(DepthFormat format, double range_m);
-
-// The size of the depth's gradient along the texel axes, |dz/du| + |dz/dv|, of a plane with this normal.
-double gradient_1(const LightFrame& frame, glm::dvec3 normal);
+// One step of the map's format in window depth; of 32-bit float the largest step in [0,1].
+double depth_quantum(DepthFormat format);
 
 // How much of the light's plane the surface behind each pixel covers, in m2: the pixel's solid angle, carried to the
-// receiver's distance and turned from the view to the surface and from the surface to the light. Exact to the first
+// receiver's distance and turned from the view to the surface and from the surface to the light. Under a spot or point
+// light, whose rays have no plane in common: the area across the light's ray there. Exact to the first
 // order of the pixel's size; the whole pixel is taken to be the surface at its centre. 0 for background.
 Image<double> light_plane_areas(const Camera& camera, const LightFrame& frame, const ReceiverImage& receivers);
 

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "compare/distance.h"
-#include "scenes/receivers.h"
 
 namespace noonmark {
 namespace {
@@ -48,7 +47,44 @@ double edge_displacement_pixels(const Ladder& ladder) {
   return largest;
 }
 
+// A bias in window depth, in metres of what the map measures before `depth_m`. A spot light's depth is no linear
+// function of metres: with s its slope at z, the depth less by b lies at z / (1 + b / (s z)).
+double bias_m(const LightFrame& frame, double bias, double depth_m) {
+  const double first_order = bias / frame.window_depth_slope(depth_m);
+  return frame.kind == LightKind::spot ? first_order / (1 + first_order / depth_m) : first_order;
+}
+
 }  // namespace
+
+double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
+  if (in.bias.form == BiasForm::polygon_offset) return std::numeric_limits<double>::infinity();
+  const LightFrame& frame = in.frame;
+  const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
+  const double sine = std::sqrt(1 - cosine * cosine);
+  const double w = frame.texel_m(light);
+  // How far from P, across its ray, the centre of a tap's texel can lie: texels of a flat map along both axes; of a
+  // cube metres of the world, and half a texel's diagonal.
+  double across = in.probe.pattern.reach_texels() * w * std::numbers::sqrt2;
+  if (in.probe.pattern.in_world) {
+    across = w * std::numbers::sqrt2 / 2;
+    double longest = 0;
+    for (int t = 0; t < in.probe.taps(); ++t)
+      longest = std::max(longest, static_cast<double>(glm::length(in.probe.offset(i, t))));
+    across += longest;
+  }
+  // Along the normal; along the light it reaches offset / cosine.
+  const double offset = in.bias.normal_offset_m(frame, in.receivers.position[i]);
+  const double bias = bias_m(frame, in.bias.at(in.probe, i), frame.depth_m(light));
+  if (frame.parallel()) return bias + (across * sine + offset) / cosine;
+  // Rays spread: one at an angle to P's meets P's plane, which stands at the angle theta to P's ray, at the distance
+  // |P| cos(theta) / cos(theta + angle); never where they are parallel.
+  const double distance = glm::length(light), theta = std::acos(cosine);
+  const double turned = theta + std::asin(std::min(1.0, across / distance));
+  const double slope = turned < std::numbers::pi / 2 ? distance * (cosine / std::cos(turned) - 1)
+                                                     : std::numeric_limits<double>::infinity();
+  const double along_ray = frame.kind == LightKind::spot ? distance / light.z : 1;
+  return bias * along_ray + slope + offset / cosine;
+}
 
 Image<uint8_t> peter_panning_mask(const Ladder& ladder) {
   Image<uint8_t> mask(ladder.flags.width, ladder.flags.height);
@@ -62,7 +98,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   double error = 0, error_soft = 0, panning_lit = 0, gap = 0, edge_max = 0, edge_sum = 0;
   std::array<double, cause_count> size{};
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
-    receivers += in.primitive[i] != no_primitive;
+    receivers += in.receivers.primitive[i] != no_primitive;
     if (!(ladder.flags[i] & flag_facing)) continue;
     ++facing;
     if (ladder.flags[i] & flag_ambiguous) continue;
@@ -78,21 +114,18 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     if (in_gap(ladder, i)) {
       // The gap along the receiver: the light's way from P to the occluder, seen along the surface. What stands further
       // off than the bias can reach casts no gap: there a steep receiver at the edge of a distant shadow is lit because
-      // its depth changes by as much as `reach` within the kernel (law 1).
-      const double cosine = std::clamp(static_cast<double>(in.n_dot_l[i]), 0.0, 1.0),
-                   sine = std::sqrt(1 - cosine * cosine);
-      const double offset = in.bias.normal_offset_m;  // along the normal; along the light it reaches offset / cosine
-      const double reach = (in.kernel * std::numbers::sqrt2 / 2 * in.texel_m * sine + offset) / cosine;
+      // its depth changes by as much within the taps (law 1).
+      const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
+      const double reach = panning_reach_m(in, i, in.frame.to_light(in.receivers.position[i]));
       const double distance = in.occluder_distance_m[i];
       // A dark receiver without an occluder is a contradiction, and shows.
-      if (!(distance > in.bias.at(in.n_dot_l[i]) * in.m_per_depth + reach) || !std::isfinite(distance))
-        raise(gap, distance * sine);
+      if (!(distance > reach) || !std::isfinite(distance)) raise(gap, distance * std::sqrt(1 - cosine * cosine));
     }
     if (ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i] != 0 ||
         ladder.step[static_cast<size_t>(Cause::aliasing_light)][i] != 0) {
       ++aliased;
-      raise(edge_max, in.edge_distance_m[i] / in.texel_m);
-      edge_sum += in.edge_distance_m[i] / in.texel_m;
+      raise(edge_max, in.edge_distance_texels[i]);
+      edge_sum += in.edge_distance_texels[i];
     }
   }
 

@@ -5,20 +5,25 @@
 
 #include "compare/ladder.h"
 #include "compare/records.h"
+#include "scenes/light_frame.h"
+#include "scenes/receivers.h"
 
 namespace noonmark {
 
 struct MeasureInput {
   const Ladder& ladder;
-  const Image<uint32_t>& primitive;         // ReceiverImage::primitive
-  const Image<float>& edge_distance_m;      // raytrace::LookupTruth
-  const Image<float>& occluder_distance_m;  // of the pixels in peter_panning_mask; others are not read
-  const Image<float>& n_dot_l;
-  double texel_m = 1;
-  double m_per_depth = 1;  // far - near
-  DepthBias bias{};
-  int kernel = 1;  // taps on a side
+  const ReceiverImage& receivers;
+  const LightFrame& frame;
+  const LookupProbe& probe;
+  const DepthBias& bias;
+  const Image<float>& edge_distance_texels;  // raytrace::LookupTruth
+  const Image<float>& occluder_distance_m;   // of the pixels in peter_panning_mask; others are not read
 };
+
+// How far before a receiver, in metres along its light ray, Peter Panning can reach: the bias there, plus the most that
+// the receiver's own depth changes within the lookup's taps. Of a polygon offset, which is the occluder's, infinity.
+// light: P in the light's frame.
+double panning_reach_m(const MeasureInput& input, size_t i, glm::dvec3 light);
 
 // Every metric of the table but the times and those of compare/law_metrics.h. A value that is not finite in the images
 // makes the metrics that it enters not finite; nothing is skipped. Without a counted receiver every fraction, gap and

@@ -38,9 +38,9 @@ constexpr Metric table[] = {
      "wall).",
      true},
     {"edge_displacement_texels", "texels",
-     "Largest distance in the light's plane from an aliased tap to the true edge.", true},
-    {"edge_displacement_mean_texels", "texels",
-     "Mean distance in the light's plane from an aliased tap to the true edge.", true},
+     "Largest distance across the light's rays, in texels there, from an aliased tap to the true edge.", true},
+    {"edge_displacement_mean_texels", "texels", "Mean over receivers of that distance, each with its farthest tap's.",
+     true},
     {"edge_displacement_pixels", "pixels",
      "Largest distance in the picture from an aliased pixel to where its verdict is true; with a normal offset its "
      "displacement is in it.",
@@ -60,15 +60,28 @@ constexpr Metric table[] = {
      "Largest |(R4 - R2) - displacement - sum of tap classes| over all facing receivers; a defect "
      "above 1e-6.",
      false},
-    {"texel_m", "m", "w: the width of one texel.", false},
+    {"texel_m", "m",
+     "w: the width of one texel; under a spot or point light, where it grows with the distance, at the median counted "
+     "receiver.",
+     false},
     {"map_range_m", "m", "From the map's near plane to its far plane, along the light.", false},
     {"depth_quantum_m", "m",
-     "q: one step of the map's format, along the light; of 32f, the largest step in [0,1], 2^-24 of the range.", false},
+     "q: one step of the map's format, along the light; of 32f, the largest step in [0,1], 2^-24 of the range. Under a "
+     "spot light, whose steps grow with the distance, at the counted receiver where it is largest.",
+     false},
+    {"acne_free_bias_law_depth", "depth",
+     "What the law asks for, whatever the grid's alignment: the largest need of a lit counted receiver (flat maps: k "
+     "|depth gradient per texel|_1), plus half a quantum.",
+     true},
     {"acne_free_bias_law_m", "m",
-     "What the law asks for: the largest k w |gradient|_1 of a lit counted receiver, plus half a quantum.", true},
-    {"acne_free_bias_scene_law_m", "m",
-     "The same over every face of the scene that is turned to the light: no receiver needs more.", true},
-    {"counted_area_m2", "m2", "The light's plane as far as counted receivers cover it.", false},
+     "The same in metres of depth, of the receiver that asks for most metres (directional: k w |gradient|_1).", true},
+    {"acne_free_bias_scene_law_depth", "depth",
+     "The law over every face of the scene that is turned to the light: no receiver needs more.", true},
+    {"acne_free_bias_scene_law_m", "m", "The same in metres of depth.", true},
+    {"counted_area_m2", "m2",
+     "The light's plane as far as counted receivers cover it; under a spot or point light, the sum of their areas "
+     "across their rays.",
+     false},
     {"filter_area_m2", "m2", "The filter's blur, over the light's plane instead of the picture.", true},
     {"displacement_area_m2", "m2", "Displacement, over the light's plane instead of the picture.", true},
     {"aliasing_area_m2", "m2", "Aliasing, dark and light, over the light's plane instead of the picture.", true},
@@ -76,11 +89,11 @@ constexpr Metric table[] = {
     {"peter_panning_area_m2", "m2", "Peter Panning over the light's plane instead of the picture.", true},
     {"contract", "fraction",
      "Share of facing receivers whose R4, R5 or lookup on a map of ties is not, bit for bit, what the technique makes "
-     "of the numbers read back; a defect above 0.",
+     "of the numbers read back (where a sampler blends taps: not within its rounding); a defect above 0.",
      false},
     {"rounding_excess", "",
-     "Largest error of the lookup's address, reference depth or N.L against the light's frame in double, as a multiple "
-     "of what float arithmetic can make; a defect above 1.",
+     "Largest error of the lookup's own numbers (address, reference depth, N.L and what bias and filter need) against "
+     "the light's frame in double, as a multiple of what float arithmetic can make; a defect above 1.",
      false},
     {"address_error_texels", "texels",
      "Largest distance in the map from the exact place where a receiver is looked up to the texel that the lookup says "

@@ -85,9 +85,14 @@ QuantityInfo find_quantity(std::string_view name) {
 
 std::string_view why_no_curve(const PointRecord& point) {
   const auto form = point.settings.find("bias.form");
-  if (point.curve || form == point.settings.end() || form->second != "normal_offset") return "";
-  return "bias.form normal_offset moves the lookup, so that no one pass knows its every value: sweep "
-         "bias.normal_offset instead";
+  if (point.curve || form == point.settings.end()) return "";
+  if (form->second == "normal_offset")
+    return "bias.form normal_offset moves the lookup, so that no one pass knows its every value: sweep "
+           "bias.normal_offset instead";
+  if (form->second == "polygon_offset")
+    return "bias.form polygon_offset is in the map as it is drawn, so that no one pass knows its every value: sweep "
+           "bias.factor and bias.units instead";
+  return "";
 }
 
 std::optional<double> quantity(const PointRecord& point, std::string_view name) {

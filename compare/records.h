@@ -10,17 +10,25 @@
 namespace noonmark {
 
 // Error as a function of the bias, from one lookup pass (design: all biases for the price of one), for the swept
-// parameter of the point's bias form: `bias.constant`, or `bias.slope` with the point's floor held.
+// parameter of the point's bias form: `bias.constant`; `bias.slope` with the point's floor held; `bias.tan_scale` with
+// the point's floor and cap held. Forms that draw another map or move the lookup (polygon_offset, normal_offset) have
+// no curve.
 // Every series has one value per entry of bias_depth: a fraction of the counted receivers (facing and not ambiguous).
+//
+// The axis is window depth, and m_per_depth and texels_per_depth turn it into metres and texels. Under a spot light,
+// and a point light's texels, what a metre or a texel is in depth differs from receiver to receiver: then the two are
+// those of the median facing receiver (of each by itself), and where bias.unit is such a unit, the axis is the
+// parameter itself times that receiver's depth per unit. So metres and texels are always the parameter's own where that
+// is its unit, and a value read off the axis and set again gives what the curve says.
 struct BiasCurve {
-  std::string parameter;           // "bias.constant" or "bias.slope"
-  std::string made;                // "one pass": read off thresholds; "point by point": rendered at each bias
+  std::string parameter;  // "bias.constant", "bias.slope" or "bias.tan_scale"
+  std::string made;       // "one pass": read off thresholds, exactly; "one pass, but for the sampler's weights"
   std::vector<double> bias_depth;  // ascending, window depth; the first is 0
   std::vector<double> error;       // mean |R5 - R1|
   std::vector<double> wrong;       // share of receivers with R5 != R1
   std::vector<double> acne, peter_panning, aliasing_dark, aliasing_light, coverage;  // at R4, booked tap by tap
-  double m_per_depth = 1;       // far - near: multiply a bias in depth by it to have metres
-  double texels_per_depth = 1;  // (far - near) / w
+  double m_per_depth = 1;       // multiply a bias in depth by it to have metres; directional: far - near
+  double texels_per_depth = 1;  // directional: (far - near) / w
   // The usable window at the bounds below: every bias in [window_min, window_max] keeps both causes within them.
   double acne_bound = 0, peter_panning_bound = 0;  // fractions of counted receivers
   std::optional<double> window_min_depth,

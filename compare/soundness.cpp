@@ -8,79 +8,25 @@
 #include <limits>
 #include <vector>
 
+#include "compare/probe_errors.h"
+
 namespace noonmark {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double farthest_texel = 1048576;  // the shader clamps texels there (gl/shaders/receiver.glsl)
-constexpr double u = 0x1p-24;               // the relative error of one float operation
-
-// std::max that takes a NaN for an error without bound.
-void raise(double& value, double candidate) {
-  if (!(candidate <= value)) value = std::isnan(candidate) ? infinity : candidate;
-}
 
 struct Found {
   uint64_t facing = 0, broken = 0;
-  double excess = 0, address_texels = 0, reference = 0;
+  ProbeErrors probe;
 };
 
 Found join(Found a, const Found& b) {
   a.facing += b.facing;
   a.broken += b.broken;
-  raise(a.excess, b.excess);
-  raise(a.address_texels, b.address_texels);
-  raise(a.reference, b.reference);
+  raise_error(a.probe.excess, b.probe.excess);
+  raise_error(a.probe.address_texels, b.probe.address_texels);
+  raise_error(a.probe.reference_m, b.probe.reference_m);
   return a;
-}
-
-// The probe's numbers at one receiver against the frame. What float arithmetic may be off by, for a row of the matrix
-// with S = sum |m_j p_j|: rounding the row u S, four products and three sums 4 u S, the division by w (2.5 ulp in GLSL)
-// 3 u S, halving and adding one half 2 u (S/2 + 1/2), times the resolution u more; halved on the way from clip space to
-// the window that is less than u (6 S + 2). Where the lookup is moved by d N, p is P + d N, each part of which is a
-// rounded product in a rounded sum: u (|d N_j| + |p_j|) times |m_j|, halved too. No factor is added for comfort.
-void compare_probe(const SoundnessInput& in, const glm::dmat4& clip, size_t i, Found& found) {
-  const DepthBias& bias = in.evidence.bias;
-  const glm::dvec3 at(in.receivers.position[i]);
-  const glm::dvec4 p(bias.looked_up(at, in.receivers.normal[i]), 1);
-  const auto most = [&](int row) {
-    double sum = 0, moved = 0;
-    for (int j = 0; j < 4; ++j) {
-      sum += std::abs(clip[j][row] * p[j]);
-      if (bias.moves_lookup() && j < 3) moved += std::abs(clip[j][row]) * (std::abs(p[j] - at[j]) + std::abs(p[j]));
-    }
-    return u * (6 * sum + 2 + moved / 2);
-  };
-  const LookupProbe& probe = in.evidence.probe;
-  const glm::dvec3 light = in.frame.to_light(glm::dvec3(p));
-  const double reference = std::abs(probe.reference[i] - in.frame.window_depth(light.z));
-  raise(found.reference, reference);
-  raise(found.excess, reference / most(2));
-
-  for (int axis = 0; axis < 2; ++axis) {
-    const double place = (light[axis] / in.frame.extent_m + 0.5) * in.frame.resolution;
-    const double beside = std::abs(std::clamp(place, -farthest_texel, farthest_texel) - (probe.texel[i][axis] + 0.5));
-    const double outside = std::max(0.0, beside - 0.5);
-    raise(found.address_texels, outside);
-    raise(found.excess, outside / (in.frame.resolution * most(axis)));
-  }
-
-  // Three products of which the light's component is rounded, and two sums.
-  const glm::dvec3 products = glm::dvec3(in.receivers.normal[i]) * in.frame.direction_to_light();
-  const double n_dot_l = products.x + products.y + products.z;
-  const double sum = std::abs(products.x) + std::abs(products.y) + std::abs(products.z);
-  raise(found.excess, std::abs(probe.n_dot_l[i] - n_dot_l) / (5 * u * sum));
-}
-
-float technique(const LookupEvidence& e, const Image<float>& map, int kernel, size_t i) {
-  const int taps = e.taps.taps_per_receiver;
-  const float biased = e.probe.reference[i] - e.bias.at(e.probe.n_dot_l[i]);
-  int lit = 0;
-  for (int t = 0; t < taps; ++t) {
-    const Tap tap = tap_of(e.probe, e.taps, e.map, map, i, kernel, t);
-    lit += tap.always_lit || !(biased > tap.depth);
-  }
-  return static_cast<float>(lit) / static_cast<float>(taps);
 }
 
 double quantum(DepthFormat format, float depth) {
@@ -95,12 +41,45 @@ double quantum(DepthFormat format, float depth) {
   return static_cast<double>(std::nextafter(depth, 2.0f)) - depth;
 }
 
+// Whether `visibility` is what the technique's definition makes of the probe and a map whose depths are of `format`.
+// Taps that count alike: their number, divided, bit for bit.
+bool holds(const LookupEvidence& e, const Image<float>& map, DepthFormat format, size_t i, float visibility) {
+  MapSettings settings = e.map;
+  settings.format = format;
+  const int taps = e.taps.taps_per_receiver;
+  const float bias = e.bias.at(e.probe, i);
+  if (!e.probe.pattern.bilinear()) {
+    int lit = 0;
+    for (int t = 0; t < taps; ++t) lit += tap_of(e.probe, e.taps, settings, map, i, t).lit(bias);
+    return visibility == static_cast<float>(lit) / static_cast<float>(taps);
+  }
+  // A sampler's comparison may round what it compares to the map's fixed-point format: within one step of the depth
+  // either verdict is right.
+  double least = 0, most = 0;
+  for (int t = 0; t < taps; ++t) {
+    const Tap tap = tap_of(e.probe, e.taps, settings, map, i, t);
+    const bool lit = tap.lit(bias);
+    const bool tie = format != DepthFormat::d32f && !tap.always_lit &&
+                     std::abs(static_cast<double>(tap.reference - bias) - tap.depth) <= quantum(format, tap.depth);
+    if (lit && !tie) least += tap.weight;
+    if (lit || tie) most += tap.weight;
+  }
+  // Its weights have 8 bits, and the address that they come from is a rounded division, taken back to texels: 8 u of
+  // it. Visibility changes by at most 1 per texel along each of two axes.
+  const glm::dvec2 at = glm::abs(glm::dvec2(e.probe.map_texels[i]));
+  const double weights = 2 * (0x1p-8 + 8 * 0x1p-24 * std::max({at.x, at.y, static_cast<double>(map.width)}));
+  return visibility >= least - weights && visibility <= most + weights;
+}
+
 // Whether the float is what n bits read as: k / (2^n - 1), or a float beside it, where the driver's conversion rounds.
 bool held_by(int bits, float depth) {
   const double steps = std::exp2(bits) - 1;
   const float nearest = static_cast<float>(std::round(depth * steps) / steps);
   return std::abs(nearest - depth) <= std::nextafter(depth, 2.0f) - depth;
 }
+
+// A box's is the one at P.
+int middle_tap(const LookupProbe& probe) { return probe.taps() / 2; }
 
 struct MapFound {
   double error_quanta = 0;
@@ -111,8 +90,9 @@ MapFound compare_maps(const SoundnessInput& in) {
   const Image<float>& exact = in.evidence.exact_map;
   Image<uint8_t> asked(exact.width, exact.height);
   for (size_t i = 0; i < in.evidence.truth.facing.size(); ++i) {
-    const glm::ivec2 texel = in.evidence.probe.texel[i];
-    if (in.evidence.truth.facing[i] && inside_map(texel, exact.width)) asked.at(texel.x, texel.y) = 1;
+    if (!in.evidence.truth.facing[i]) continue;
+    const glm::ivec2 texel = in.evidence.probe.texel(i, middle_tap(in.evidence.probe));
+    if (inside_map(texel, {exact.width, exact.height})) asked.at(texel.x, texel.y) = 1;
   }
   std::vector<double> errors;
   MapFound found;
@@ -135,9 +115,11 @@ MapFound compare_maps(const SoundnessInput& in) {
 Image<float> tie_map(const LookupEvidence& e) {
   Image<float> map(e.exact_map.width, e.exact_map.height, 1.0f);
   for (size_t i = 0; i < e.truth.facing.size(); ++i) {
-    const glm::ivec2 read = wrapped(e.probe.texel[i], map.width, e.map.wrap);
-    if (!e.truth.facing[i] || read.x < 0) continue;
-    const float biased = e.probe.reference[i] - e.bias.at(e.probe.n_dot_l[i]);
+    if (!e.truth.facing[i]) continue;
+    const int tap = middle_tap(e.probe);
+    const glm::ivec2 read = wrapped(e.probe.texel(i, tap), {map.width, map.height}, e.map.wrap);
+    if (read.x < 0) continue;
+    const float biased = e.probe.tap_depth(i, tap) - e.bias.at(e.probe, i);
     const float depth = (read.x + read.y) % 2 ? std::nextafter(biased, -1.0f) : biased;
     if (depth > 0 && depth <= 1) map.at(read.x, read.y) = depth;
   }
@@ -146,19 +128,18 @@ Image<float> tie_map(const LookupEvidence& e) {
 
 std::map<std::string, double> measure_soundness(const SoundnessInput& in) {
   const LookupEvidence& e = in.evidence;
-  const int kernel = kernel_of(e.taps);
-  const glm::dmat4 clip = in.frame.clip_from_world();
+  const ProbeCheck check(e, in.receivers, in.frame, in.eye_m);
   const Found found = tbb::parallel_reduce(
       tbb::blocked_range<size_t>(0, e.truth.facing.size(), 8192), Found{},
       [&](const tbb::blocked_range<size_t>& range, Found so_far) {
         for (size_t i = range.begin(); i != range.end(); ++i) {
           if (!e.truth.facing[i]) continue;
           ++so_far.facing;
-          // Written so that a NaN is broken.
-          so_far.broken +=
-              !(e.r4[i] == technique(e, e.exact_map, kernel, i) && e.r5[i] == technique(e, in.stored_map, kernel, i) &&
-                in.tie_lookup[i] == technique(e, in.ties, kernel, i));
-          compare_probe(in, clip, i, so_far);
+          // Maps that are uploaded are 32-bit float whatever the settings say.
+          so_far.broken += !(holds(e, e.exact_map, DepthFormat::d32f, i, e.r4[i]) &&
+                             holds(e, in.stored_map, e.map.format, i, e.r5[i]) &&
+                             holds(e, in.ties, DepthFormat::d32f, i, in.tie_lookup[i]));
+          check.compare(i, so_far.probe);
         }
         return so_far;
       },
@@ -169,9 +150,9 @@ std::map<std::string, double> measure_soundness(const SoundnessInput& in) {
   };
   return {
       {"contract", measured(static_cast<double>(found.broken) / static_cast<double>(found.facing))},
-      {"rounding_excess", measured(found.excess)},
-      {"address_error_texels", measured(found.address_texels)},
-      {"reference_error_m", measured(found.reference * (in.frame.far_m - in.frame.near_m))},
+      {"rounding_excess", measured(found.probe.excess)},
+      {"address_error_texels", measured(found.probe.address_texels)},
+      {"reference_error_m", measured(found.probe.reference_m)},
       {"map_error_quanta", measured(map.error_quanta)},
       {"map_bits", measured(map.bits)},
   };

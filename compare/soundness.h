@@ -15,9 +15,9 @@
 
 namespace noonmark {
 
-// A map on which the lookup is decided by the last bit: each texel that a facing receiver falls into holds that
-// receiver's biased reference itself (a tie, and a tie is lit) or, every second one, the next float below it (dark).
-// Where that is no depth, and elsewhere: 1. Scenes hardly ever show a tie; without it `>=` for `>` would go unseen.
+// A map on which the lookup is decided by the last bit: each texel that a facing receiver's middle tap reads holds that
+// tap's biased reference itself (a tie, and a tie is lit) or, every second one, the next float below it (dark). Where
+// that is no depth, and elsewhere: 1. Scenes hardly ever show a tie; without it `>=` for `>` would go unseen.
 Image<float> tie_map(const LookupEvidence& evidence);
 
 struct SoundnessInput {
@@ -27,19 +27,22 @@ struct SoundnessInput {
   const Image<float>& tie_lookup;  // the technique on it
   const ReceiverImage& receivers;
   const LightFrame& frame;
+  glm::dvec3 eye_m;  // the camera's
 };
 
 // Over the facing receivers, ambiguous ones included (that is a matter of the truth, not of the lookup):
 //   contract              share whose visibility at R4, at R5 or on the tie map is not, bit for bit, what the
-//                         technique's definition makes of the probe's numbers and that map's. Sound: 0.
-//   rounding_excess       largest error of the probe's texel, reference depth and N.L against the frame in double, as a
-//                         multiple of the most that float arithmetic can make. Sound: at most 1.
-//   address_error_texels  largest distance of the exact place where P is looked up from the texel that the probe names;
-//                         0 inside it.
+//                         technique's definition makes of the probe's numbers and that map's. Where a sampler blends
+//                         the taps: is not within what the sampler may round. Sound: 0.
+//   rounding_excess       largest error of the probe's numbers against the frame in double, as a multiple of the most
+//                         that float arithmetic can make (compare/probe_errors.h). Sound: at most 1.
+//   address_error_texels  largest distance of the exact place where P (of a cube: each tap) is looked up from the texel
+//                         that the probe names; 0 inside it.
 //   reference_error_m     largest error of the reference depth.
-//   map_error_quanta      median |stored - exact| over the texels that receivers fall into, in steps of the format that
+//   map_error_quanta      median |stored - exact| over the texels that middle taps read, in steps of the format that
 //                         the settings claim (32f: the spacing of floats at that depth).
-//   map_bits              16, 24 or 32: the coarsest format that could have stored the depths of those texels. More than
+//   map_bits              16, 24 or 32: the coarsest format that could have stored the depths of those texels. More
+//   than
 //                         the settings claim: the driver stored another one. Fewer: so it did, or all depths lie beyond
 //                         one half, where floats are no finer than 24 bits, or are few.
 // Values that are not finite are broken contracts and errors without bound. Without a facing receiver: NaN.

@@ -29,13 +29,13 @@ float lit_threshold(float reference, float stored) {
   return smallest(static_cast<float>(reference - midpoint), [&](float bias) { return !(reference - bias > stored); });
 }
 
-float slope_threshold(float bias, float factor) {
-  if (bias <= 0) return 0;
-  if (!(factor > 0)) return infinity;
-  const double midpoint = (static_cast<double>(bias) + std::nextafter(bias, 0.0f)) / 2;
+float factor_threshold(float product, float factor) {
+  if (product <= 0) return 0;
+  if (!(factor > 0) || product == infinity) return infinity;
+  const double midpoint = (static_cast<double>(product) + std::nextafter(product, 0.0f)) / 2;
   const double guess = midpoint / factor;
   if (guess > std::numeric_limits<float>::max()) return infinity;
-  return smallest(static_cast<float>(guess), [&](float slope) { return slope * factor >= bias; });
+  return smallest(static_cast<float>(guess), [&](float x) { return x * factor >= product; });
 }
 
 }  // namespace noonmark

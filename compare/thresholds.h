@@ -8,9 +8,9 @@ namespace noonmark {
 // step away; walking from reference - stored can take millions.
 float lit_threshold(float reference, float stored);
 
-// The smallest float slope s >= 0 for which s * factor >= bias in float arithmetic; infinity when there is none.
-// factor: the shader's 1 - N.L, not NaN; bias: a lit_threshold. Found as above, from the midpoint below bias: where
-// bias is denormal, walking from bias / factor can take millions of steps too.
-float slope_threshold(float bias, float factor);
+// The smallest float x >= 0 for which x * factor >= product in float arithmetic; infinity when there is none. factor:
+// not NaN; product: not NaN, for instance a lit_threshold. Found as above, from the midpoint below product: where
+// product is denormal, walking from product / factor can take millions of steps too.
+float factor_threshold(float product, float factor);
 
 }  // namespace noonmark
