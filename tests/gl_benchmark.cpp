@@ -52,7 +52,7 @@ void render_map(benchmark::State& state) {
   b.settings.map.resolution = static_cast<int>(state.range(0));
   double ms = 0, sum = 0;
   for (auto _ : state) {
-    b.renderer.render_map(make_light_frame(b.scene, b.settings), b.settings.map, &ms);
+    b.renderer.render_map(make_light_frame(b.scene, b.settings), b.settings, &ms);
     sum += ms;
   }
   state.counters["pass_ms"] = sum / static_cast<double>(state.iterations());
@@ -61,7 +61,7 @@ void render_map(benchmark::State& state) {
 void read_map(benchmark::State& state) {
   Bench b(100);
   b.settings.map.resolution = static_cast<int>(state.range(0));
-  const ShadowMap map = b.renderer.render_map(make_light_frame(b.scene, b.settings), b.settings.map);
+  const ShadowMap map = b.renderer.render_map(make_light_frame(b.scene, b.settings), b.settings);
   for (auto _ : state) benchmark::DoNotOptimize(b.renderer.read_map(map).pixels.data());
 }
 
@@ -78,7 +78,7 @@ void lookup(benchmark::State& state) {
   if (state.range(0) == 1) b.settings.filter.kind = FilterKind::none;
   b.load_receivers();
   const LightFrame frame = make_light_frame(b.scene, b.settings);
-  const ShadowMap map = b.renderer.render_map(frame, b.settings.map);
+  const ShadowMap map = b.renderer.render_map(frame, b.settings);
   double ms = 0, sum = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(b.renderer.lookup(map, frame, b.settings, &ms).pixels.data());
