@@ -20,18 +20,22 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
   start_m_ =
       low.z - 0.01 * size - 4 * ray_error_m_;  // a margin for the rounding of the start, so that nothing is behind it
 
-  ranges_.reserve(scene.triangles.size());
+  planes_.reserve(scene.triangles.size());
   for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
-    const glm::dvec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
+    const glm::dvec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2), e = b - a, f = c - a;
+    const glm::dvec3 n = glm::cross(e, f);
+    Plane& plane = planes_.emplace_back();
+    plane.normal = (parallel_ ? n.z : glm::dot(n, a)) < 0 ? -n : n;
+    plane.gradient = glm::dvec2(e.z * f.y - f.z * e.y, f.z * e.x - e.z * f.x) / (e.x * f.y - e.y * f.x);
+    plane.slope = glm::length(plane.gradient);
     const double depths[3] = {frame.depth_m(a), frame.depth_m(b), frame.depth_m(c)};
-    Range range{*std::min_element(depths, depths + 3), *std::max_element(depths, depths + 3)};
-    if (frame.kind == LightKind::point) {  // no nearer than its plane, nor than a corner less the longest side
-      const glm::dvec3 n = glm::cross(b - a, c - a);
-      const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
-      const double length = glm::length(n);
-      range.low = std::max(range.low - longest, length > 0 ? std::abs(glm::dot(n, a)) / length : 0.0);
-    }
-    ranges_.push_back(range);
+    plane.low = *std::min_element(depths, depths + 3);
+    plane.high = *std::max_element(depths, depths + 3);
+    if (frame.kind != LightKind::point) continue;
+    // No nearer than its plane, nor than a corner less the longest side.
+    const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+    const double length = glm::length(n);
+    plane.low = std::max(plane.low - longest, length > 0 ? std::abs(glm::dot(n, a)) / length : 0.0);
   }
 }
 
@@ -47,18 +51,6 @@ glm::dvec3 LightView::normal_place(glm::dvec3 place) const {
   return place;
 }
 
-glm::dvec3 LightView::normal_away(uint32_t triangle) const {
-  const glm::dvec3 a = corner(triangle, 0);
-  const glm::dvec3 n = glm::cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
-  return (parallel_ ? n.z : glm::dot(n, a)) < 0 ? -n : n;
-}
-
-double LightView::slope(uint32_t triangle, glm::dvec3 x) const {
-  const glm::dvec3 n = normal_away(triangle);
-  if (parallel_) return glm::length(glm::dvec2(n)) / std::abs(n.z);
-  return glm::length(glm::cross(n, x)) / std::abs(glm::dot(n, x));
-}
-
 double LightView::width(uint32_t triangle) const {
   const double area = std::abs(orientation(triangle));
   double longest = 0;
@@ -67,23 +59,6 @@ double LightView::width(uint32_t triangle) const {
     longest = std::max(longest, parallel_ ? glm::length(glm::dvec2(b - a)) : glm::length(glm::cross(a, b - a)));
   }
   return area / longest;
-}
-
-double LightView::plane_depth(uint32_t triangle, glm::dvec3 x) const {
-  const glm::dvec3 a = corner(triangle, 0), e = corner(triangle, 1) - a, f = corner(triangle, 2) - a;
-  if (parallel_) {
-    const glm::dvec2 gradient = glm::dvec2(e.z * f.y - f.z * e.y, f.z * e.x - e.z * f.x) / (e.x * f.y - e.y * f.x);
-    return a.z + glm::dot(gradient, glm::dvec2(x) - glm::dvec2(a));
-  }
-  const glm::dvec3 n = glm::cross(e, f);
-  const double along = glm::dot(n, a) / glm::dot(n, x);  // x is normal: its own depth is 1
-  return along < 0 ? std::numeric_limits<double>::infinity() : along;
-}
-
-double LightView::hit_depth(uint32_t triangle, glm::dvec3 x) const {
-  const Range& range = ranges_[triangle];
-  const double depth = plane_depth(triangle, x);
-  return std::isnan(depth) ? range.low : std::clamp(depth, range.low, range.high);
 }
 
 glm::dvec3 LightView::at_depth(glm::dvec3 x, double depth) const {
@@ -95,8 +70,6 @@ LightRay LightView::ray_from(glm::dvec3 x, double depth) const {
   if (parallel_) return {origin, frame_.ray_direction};
   return {origin, glm::vec3(glm::normalize(frame_.to_world(x) - frame_.origin_m))};
 }
-
-LightRay LightView::ray(glm::dvec3 x) const { return ray_from(x, parallel_ ? start_m_ : 0); }
 
 double LightView::near_depth(glm::dvec3 x) const {
   if (frame_.kind != LightKind::point) return frame_.near_m;

@@ -5,6 +5,7 @@
 // Places here are normal: of a directional light (u, v, 1), of a spot light (x / z, y / z, 1), of a point light a unit
 // vector. The straight way from one place to another is what the light sees between them: a line, or an arc.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -47,23 +48,36 @@ class LightView {
   }
 
   // The triangle's normal in the light's frame, away from the light; not of unit length.
-  glm::dvec3 normal_away(uint32_t triangle) const;
+  glm::dvec3 normal_away(uint32_t triangle) const { return planes_[triangle].normal; }
 
   // How much deeper its plane becomes for a metre across the light's ray through x; not finite when it is edge-on.
-  double slope(uint32_t triangle, glm::dvec3 x) const;
+  double slope(uint32_t triangle, glm::dvec3 x) const {
+    const Plane& plane = planes_[triangle];
+    return parallel_ ? plane.slope : glm::length(glm::cross(plane.normal, x)) / std::abs(glm::dot(plane.normal, x));
+  }
 
   // How wide the triangle is at its narrowest as the light sees it, in metres.
   double width(uint32_t triangle) const;
 
   // Depth of the triangle's plane at x, also beyond the triangle; infinity where the ray never comes to it.
-  double plane_depth(uint32_t triangle, glm::dvec3 x) const;
+  double plane_depth(uint32_t triangle, glm::dvec3 x) const {
+    const Plane& plane = planes_[triangle];
+    const glm::dvec3 a = corner(triangle, 0);
+    if (parallel_) return a.z + glm::dot(plane.gradient, glm::dvec2(x) - glm::dvec2(a));
+    const double along = glm::dot(plane.normal, a) / glm::dot(plane.normal, x);  // x is normal: its own depth is 1
+    return along < 0 ? std::numeric_limits<double>::infinity() : along;
+  }
 
   // Depth where the light ray through x meets the triangle. A ray that Embree says hits it may pass it by by a float's
   // rounding; the depth never leaves the triangle's own range.
-  double hit_depth(uint32_t triangle, glm::dvec3 x) const;
+  double hit_depth(uint32_t triangle, glm::dvec3 x) const {
+    const Plane& plane = planes_[triangle];
+    const double depth = plane_depth(triangle, x);
+    return std::isnan(depth) ? plane.low : std::clamp(depth, plane.low, plane.high);
+  }
 
   // The light-side ray through x: from before everything in the scene, or from the light itself.
-  LightRay ray(glm::dvec3 x) const;
+  LightRay ray(glm::dvec3 x) const { return ray_from(x, parallel_ ? start_m_ : 0); }
   LightRay ray_from(glm::dvec3 x, double depth) const;
 
   // Depth at which the map's near plane cuts the ray through x.
@@ -83,10 +97,13 @@ class LightView {
   LightFrame frame_;
   bool parallel_;
   std::vector<glm::dvec3> vertices_;
-  struct Range {
-    double low, high;
+  struct Plane {  // of each triangle
+    glm::dvec3 normal{0};
+    double low = 0, high = 0;  // the triangle's range of depths
+    glm::dvec2 gradient{0};    // directional: dz/d(u, v); not finite when it is edge-on
+    double slope = 0;          // and its length
   };
-  std::vector<Range> ranges_;  // of each triangle's depth
+  std::vector<Plane> planes_;
   double start_m_ = 0;
   double ray_error_m_ = 0;
 };

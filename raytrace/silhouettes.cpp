@@ -54,16 +54,6 @@ bool clip_to_face(glm::dvec3& a, glm::dvec3& b) {
 
 }  // namespace
 
-bool Silhouettes::Grid::holds(glm::dvec2 x) const {
-  const glm::dvec2 at = (x - low) * cells_per_unit;
-  return at.x >= 0 && at.y >= 0 && at.x < size && at.y < size;
-}
-
-size_t Silhouettes::Grid::cell_of(glm::dvec2 x) const {
-  const glm::dvec2 at = glm::clamp((x - low) * cells_per_unit, glm::dvec2(0), glm::dvec2(size - 1.0));
-  return static_cast<size_t>(at.y) * static_cast<size_t>(size) + static_cast<size_t>(at.x);
-}
-
 // Every cell that the segment, widened by the reach, touches: row by row, from the segment's part over that row.
 void Silhouettes::Grid::each_cell(glm::dvec2 from, glm::dvec2 to, double reach_units, const auto& visit) const {
   const glm::dvec2 a = (from - low) * cells_per_unit, b = (to - low) * cells_per_unit;
@@ -133,11 +123,7 @@ void Silhouettes::fill(Grid& grid, const std::vector<Piece>& pieces) {
     grid.each_cell(p.a, p.b, p.reach, [&](size_t cell) { grid.listed[next[cell]++] = p.edge; });
 }
 
-const Silhouettes::Grid& Silhouettes::grid_of(glm::dvec3 x, glm::dvec2& at) const {
-  if (view_.parallel()) {
-    at = glm::dvec2(x);
-    return grids_[0];
-  }
+const Silhouettes::Grid& Silhouettes::face_of(glm::dvec3 x, glm::dvec2& at) const {
   const int face = cube_face_of(x);
   const glm::dvec3 p = in_face(face, x);
   at = glm::dvec2(p) / p.z;

@@ -19,7 +19,11 @@ class Silhouettes {
 
   // Is x within reach of such an edge, or nearer than that?
   bool near(glm::dvec3 x) const { return near(x, reach_m_); }
-  bool near(glm::dvec3 x, double within_m) const { return near_listed(x, within_m, nullptr); }
+  bool near(glm::dvec3 x, double within_m) const {
+    glm::dvec2 at;
+    const Grid& grid = grid_of(x, at);
+    return grid.holds(at) && !grid.empty(grid.cell_of(at)) && near_listed(x, within_m, nullptr);
+  }
   // The same, and the triangles that have those edges.
   void near(glm::dvec3 x, std::vector<uint32_t>& triangles) const { near_listed(x, reach_m_, &triangles); }
 
@@ -45,8 +49,14 @@ class Silhouettes {
     std::vector<uint32_t> begin;  // [cell] into listed
     std::vector<uint32_t> listed;
 
-    bool holds(glm::dvec2 x) const;
-    size_t cell_of(glm::dvec2 x) const;  // of the nearest place in the grid, where x lies outside
+    bool holds(glm::dvec2 x) const {
+      const glm::dvec2 at = (x - low) * cells_per_unit;
+      return at.x >= 0 && at.y >= 0 && at.x < size && at.y < size;
+    }
+    size_t cell_of(glm::dvec2 x) const {  // of the nearest place in the grid, where x lies outside
+      const glm::dvec2 at = glm::clamp((x - low) * cells_per_unit, glm::dvec2(0), glm::dvec2(size - 1.0));
+      return static_cast<size_t>(at.y) * static_cast<size_t>(size) + static_cast<size_t>(at.x);
+    }
     void each_cell(glm::dvec2 a, glm::dvec2 b, double reach, const auto& visit) const;
     bool empty(size_t cell) const { return begin[cell] == begin[cell + 1]; }
   };
@@ -58,7 +68,13 @@ class Silhouettes {
   };
 
   void fill(Grid& grid, const std::vector<Piece>& pieces);
-  const Grid& grid_of(glm::dvec3 x, glm::dvec2& at) const;
+  // The grid that x lies in, and where.
+  const Grid& grid_of(glm::dvec3 x, glm::dvec2& at) const {
+    if (!view_.parallel()) return face_of(x, at);
+    at = glm::dvec2(x);
+    return grids_[0];
+  }
+  const Grid& face_of(glm::dvec3 x, glm::dvec2& at) const;
   bool near_listed(glm::dvec3 x, double within_m, std::vector<uint32_t>* triangles) const;
   void cross(uint32_t edge, glm::dvec3 from, glm::dvec3 to, std::vector<Crossing>& at) const;
 
