@@ -95,6 +95,33 @@ TEST_F(GlLookupTest, AllLitIsOneAndAllDarkIsNought) {
   EXPECT_EQ(filters, (5 + 5 + 3) * 4);
 }
 
+// Every filter's comparison is strict: what lies at the stored depth is lit, and a float nearer to the light it is not.
+TEST_F(GlLookupTest, ATieIsLit) {
+  std::mt19937 random(3);
+  for (const LightKind kind : kinds) {
+    const Scene scene = random_scene(random, kind);
+    for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f) {
+      Settings settings;
+      settings.map.resolution = 8;
+      settings.map.wrap = Wrap::clamp_to_edge;
+      settings.map.far_m = 40;
+      settings.bias.form = BiasForm::none;
+      settings.filter.kind = static_cast<FilterKind>(f);
+      if (kind_thrown([&] { validate_for(kind, settings); })) continue;
+      load(scene, 1, 1);
+      const LightFrame frame = make_light_frame(scene, settings);
+      const float reference = renderer.probe(frame, settings).reference[0];
+      ASSERT_GT(reference, 0);
+      const auto seen_with = [&](float depth) {
+        return renderer.lookup(renderer.upload_map(Image<float>(8, frame.map_size().y, depth), settings.map), frame,
+                               settings)[0];
+      };
+      EXPECT_EQ(seen_with(reference), 1) << describe(settings);
+      EXPECT_EQ(seen_with(std::nextafter(reference, 0.0f)), 0) << describe(settings);
+    }
+  }
+}
+
 // A map whose left half is dark, looked up across its middle: what each filter makes of an edge, from its definition.
 TEST_F(GlLookupTest, AnEdgeThroughEachFilter) {
   Scene scene;
