@@ -13,6 +13,10 @@
 namespace noonmark::gl {
 namespace {
 
+// As shaders/light/view.glsl has them.
+static_assert(static_cast<int>(BiasUnit::depth) == 0 && static_cast<int>(BiasUnit::m) == 1 &&
+              static_cast<int>(BiasUnit::texel) == 2);
+
 bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 }  // namespace

@@ -70,6 +70,8 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
     glClearBufferfv(GL_DEPTH, 0, &far_depth);
     r.draw_scene(program);
   };
+  // The same map as by layers. llvmpipe rounds vertices from a geometry shader otherwise on their way to the viewport,
+  // so that it is the same to the last bit only where the side is a power of two.
   const auto draw_faces = [&] {
     for (int face = 0; face < 6; ++face) {
       glNamedFramebufferTextureLayer(r.framebuffer.id(), GL_DEPTH_ATTACHMENT, depth.id(), 0, face);

@@ -9,10 +9,10 @@ namespace {
 constexpr LightKind kinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
 constexpr const char* kind_names[] = {"directional", "spot", "point"};
 
-// How far a sampler's blended verdict may be from the exact weights: OpenGL lets it place a fetch to some fraction of a
-// texel (SUBPIXEL bits). llvmpipe works in floats: places of up to a few thousand texels are off by 2^-12 at most, and
-// so are both weights. GPUs take 8 bits: half of 2^-8 along each axis.
-double sampler_error(const DeviceInfo& info) { return info.software ? 2 * 0x1p-12 : 2 * 0x1p-9 + 2 * 0x1p-12; }
+// How far a sampler's blended verdict may be from the exact weights. llvmpipe blends in floats: a place among up to
+// 1024 texels is rounded three times, each by 2^-15 of a texel at most, along both axes (seen: 1e-5). GPUs keep 8 bits
+// of a texel's fraction: half of 2^-8 more along each axis.
+double sampler_error(const DeviceInfo& info) { return 6 * 0x1p-15 + (info.software ? 0 : 2 * 0x1p-9); }
 
 TEST_F(GlLookupTest, EqualsTheHost) {
   std::mt19937 random(1978);
@@ -59,6 +59,168 @@ TEST_F(GlLookupTest, EqualsTheHost) {
   for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f)
     EXPECT_TRUE(
         std::any_of(pairs.begin(), pairs.end(), [&](auto p) { return p.second == static_cast<FilterKind>(f); }));
+}
+
+// Lit and dark are exactly 1 and 0 whatever the filter, its size and its weights.
+TEST_F(GlLookupTest, AllLitIsOneAndAllDarkIsNought) {
+  std::mt19937 random(1);
+  int filters = 0;
+  for (const LightKind kind : kinds) {
+    const Scene scene = random_scene(random, kind);
+    const ReceiverImage receivers = load(scene, 40, 30);
+    for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f)
+      for (const int size : {3, 5, 9, 31}) {
+        Settings settings;
+        settings.map.resolution = 64;
+        settings.map.wrap = Wrap::clamp_to_edge;
+        settings.map.far_m = 30;
+        settings.bias.form = BiasForm::none;
+        settings.filter.kind = static_cast<FilterKind>(f);
+        settings.filter.size = size;
+        settings.filter.sigma_texels = 0.3 * size;
+        if (kind_thrown([&] { validate_for(kind, settings); })) continue;
+        ++filters;
+        const LightFrame frame = make_light_frame(scene, settings);
+        const LookupProbe probe = renderer.probe(frame, settings);
+        for (const float depth : {0.0f, 1.0f}) {
+          const ShadowMap map = renderer.upload_map(Image<float>(64, frame.map_size().y, depth), settings.map);
+          const Image<float> seen = renderer.lookup(map, frame, settings);
+          for (size_t i = 0; i < seen.size(); ++i) {
+            if (probe.bias_unit[i] == 0 || probe.reference[i] <= 0) continue;
+            ASSERT_EQ(seen[i], depth) << describe(settings);
+          }
+        }
+      }
+  }
+  EXPECT_EQ(filters, (5 + 5 + 3) * 4);
+}
+
+// Every filter's comparison is strict: what lies at the stored depth is lit, and a float nearer to the light it is not.
+TEST_F(GlLookupTest, ATieIsLit) {
+  std::mt19937 random(3);
+  for (const LightKind kind : kinds) {
+    const Scene scene = random_scene(random, kind);
+    for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f) {
+      Settings settings;
+      settings.map.resolution = 8;
+      settings.map.wrap = Wrap::clamp_to_edge;
+      settings.map.far_m = 40;
+      settings.bias.form = BiasForm::none;
+      settings.filter.kind = static_cast<FilterKind>(f);
+      if (kind_thrown([&] { validate_for(kind, settings); })) continue;
+      load(scene, 1, 1);
+      const LightFrame frame = make_light_frame(scene, settings);
+      const float reference = renderer.probe(frame, settings).reference[0];
+      ASSERT_GT(reference, 0);
+      const auto seen_with = [&](float depth) {
+        return renderer.lookup(renderer.upload_map(Image<float>(8, frame.map_size().y, depth), settings.map), frame,
+                               settings)[0];
+      };
+      EXPECT_EQ(seen_with(reference), 1) << describe(settings);
+      EXPECT_EQ(seen_with(std::nextafter(reference, 0.0f)), 0) << describe(settings);
+    }
+  }
+}
+
+// A map whose left half is dark, looked up across its middle: what each filter makes of an edge, from its definition.
+TEST_F(GlLookupTest, AnEdgeThroughEachFilter) {
+  Scene scene;
+  scene.light = light_from_above();
+  scene.camera = camera_from_above(4);
+  add_floor(scene, 0, 4);
+  load(scene, 128, 128);  // 8 pixels to a texel, whose centres lie at odd sixteenths
+  Settings settings;
+  settings.map.resolution = 16;
+  settings.map.extent_m = 4;
+  settings.map.near_m = 0;
+  settings.map.far_m = 20;
+  settings.map.wrap = Wrap::clamp_to_edge;
+  settings.bias.form = BiasForm::none;
+  Image<float> half(16, 16, 1.0f);
+  const LightFrame frame = make_light_frame(scene, settings);
+  const bool right_is_plus_x = frame.right.x > 0;
+  for (int j = 0; j < 16; ++j)
+    for (int i = 0; i < 8; ++i) half.at(i, j) = 0.25f;
+  const ShadowMap map = renderer.upload_map(half, settings.map);
+  const auto row = [&](FilterSettings filter) {
+    settings.filter = filter;
+    return renderer.lookup(map, frame, settings);
+  };
+  // Of one axis: P at `at` texels is lit by the share of its taps that lie in texels 8 and up.
+  const auto expect_edge = [&](FilterSettings filter, auto&& lit_at) {
+    const Image<float> seen = row(filter);
+    int fractions = 0;
+    for (int x = 0; x < 128; ++x) {
+      const double at = right_is_plus_x ? (x + 0.5) / 8 : 16 - (x + 0.5) / 8;
+      ASSERT_NEAR(seen.at(x, 64), lit_at(at), sampler_error(renderer.info()))
+          << find_setting("filter.kind").get(settings) << " at " << at;
+      fractions += seen.at(x, 64) > 0 && seen.at(x, 64) < 1;
+    }
+    EXPECT_EQ(fractions > 0, filter.kind != FilterKind::none);
+  };
+  const auto nearest = [](double at) { return std::floor(at) >= 8 ? 1.0 : 0.0; };
+  const auto ramp = [](double at) { return std::clamp(at - 7.5, 0.0, 1.0); };
+  expect_edge({.kind = FilterKind::none}, nearest);
+  expect_edge({.kind = FilterKind::box, .size = 3},
+              [&](double at) { return (nearest(at - 1) + nearest(at) + nearest(at + 1)) / 3; });
+  expect_edge({.kind = FilterKind::box, .size = 3, .step_texels = 2.5},
+              [&](double at) { return (nearest(at - 2.5) + nearest(at) + nearest(at + 2.5)) / 3; });
+  expect_edge({.kind = FilterKind::hardware}, ramp);
+  const double g = std::exp(-1 / (2 * 0.8 * 0.8)), sum = 1 + 2 * g;
+  expect_edge({.kind = FilterKind::gaussian, .size = 3, .sigma_texels = 0.8},
+              [&](double at) { return (g * ramp(at - 1) + ramp(at) + g * ramp(at + 1)) / sum; });
+}
+
+// A lone tilted plane. Its own map shadows it but where the comparison follows the plane: at the tap (which leaves what
+// the grid rounds the tap to), or at the texel's centre, where the map holds that very depth.
+TEST_F(GlLookupTest, PlaneFormsFreeAPlaneOfAcne) {
+  for (const LightKind kind : {LightKind::directional, LightKind::spot}) {
+    Scene scene;
+    scene.light = light_from_above();
+    scene.light.kind = kind;
+    scene.light.cone_deg = 40;
+    scene.camera = camera_from_above(3);
+    const double rise = 1.5;
+    const glm::dvec3 u(8, 8 * rise, 0), v(0, 2, -8);
+    add_quad(scene, "plane", -0.5 * (u + v), u, v);
+    const ReceiverImage receivers = load(scene, 64, 64);
+    Settings settings;
+    settings.map.resolution = 64;
+    settings.map.format = DepthFormat::d32f;
+    settings.map.extent_m = 8;
+    settings.map.near_m = 1;
+    settings.map.far_m = 30;
+    settings.filter.kind = FilterKind::box;
+    settings.filter.size = 5;
+    const LightFrame frame = make_light_frame(scene, settings);
+    const ShadowMap map = renderer.render_map(frame, settings);
+    const auto dark_share = [&](BiasForm form, double constant) {
+      settings.bias.form = form;
+      settings.bias.constant = constant;
+      const Image<float> seen = renderer.lookup(map, frame, settings);
+      double dark = 0;
+      for (float s : seen.pixels) dark += 1 - static_cast<double>(s);
+      return dark / static_cast<double>(seen.size());
+    };
+    // Half a texel of the steepest depth gradient that any receiver has, along both axes.
+    settings.bias.form = BiasForm::receiver_plane;
+    const LookupProbe probe = renderer.probe(frame, settings);
+    double half_texel = 0;
+    for (size_t i = 0; i < probe.gradient.size(); ++i) {
+      ASSERT_NE(receivers.primitive[i], no_primitive);
+      half_texel = std::max(half_texel, 0.5 * (std::abs(probe.gradient[i].x) + std::abs(probe.gradient[i].y)));
+    }
+    // The rasteriser's 2 places and a handful of the shader's (2^-24 each), times the kernel's reach.
+    constexpr double float_error = 32 * 0x1p-24;
+    EXPECT_GT(half_texel, 100 * float_error);
+    EXPECT_GT(dark_share(BiasForm::constant, 0), 0.3) << "two fifths of the taps lie uphill";
+    EXPECT_GT(dark_share(BiasForm::constant, 4 * half_texel), 0.01) << "its kernel wants five times as much";
+    EXPECT_EQ(dark_share(BiasForm::constant, 5 * half_texel + float_error), 0);
+    EXPECT_GT(dark_share(BiasForm::receiver_plane, 0), 0.3);
+    EXPECT_GT(dark_share(BiasForm::receiver_plane, 0.7 * half_texel), 0.001);
+    EXPECT_EQ(dark_share(BiasForm::receiver_plane, half_texel + float_error), 0);
+    EXPECT_EQ(dark_share(BiasForm::tangent_plane, float_error), 0);
+  }
 }
 
 // At the very float where a pixel's verdict turns: the comparison is strict, and one float less bias is dark.

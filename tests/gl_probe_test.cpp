@@ -138,5 +138,81 @@ TEST_F(GlProbeTest, IsNearTheExactPlaces) {
     }
 }
 
+// The gradient is that of the plane through P in the frame's double: two steps along the plane, seen by the light.
+// Under a perspective too window depth is affine in texels.
+TEST_F(GlProbeTest, GradientIsThePlanes) {
+  std::mt19937 random(2006);
+  for (const LightKind kind : {LightKind::directional, LightKind::spot}) {
+    const Scene scene = random_scene(random, kind);
+    const ReceiverImage receivers = load(scene, 96, 64);
+    Settings settings;
+    settings.map.resolution = 300;
+    settings.bias.form = BiasForm::tangent_plane;
+    const LightFrame frame = make_light_frame(scene, settings);
+    const LookupProbe probe = renderer.probe(frame, settings);
+    ASSERT_EQ(probe.gradient.size(), receivers.primitive.size());
+    EXPECT_EQ(probe.tap_reference, TapReference::plane_at_texel);
+    size_t seen = 0, tilted = 0;
+    for (size_t i = 0; i < receivers.primitive.size(); ++i) {
+      const glm::dvec3 P = receivers.position[i], N = receivers.normal[i];
+      if (probe.bias_unit[i] == 0 || std::abs(probe.n_dot_l[i]) < 0.05) continue;  // 1 / 0.05 is in the tolerance
+      const glm::dvec3 side =
+          glm::normalize(glm::cross(N, std::abs(N.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+      const auto seen_at = [&](glm::dvec3 world) {
+        const glm::dvec3 p = frame.to_light(world);
+        return glm::dvec3(frame.map_texels(frame.place(p)), frame.window_depth(frame.depth_m(p)));
+      };
+      constexpr double step_m = 1e-3;
+      const glm::dvec3 o = seen_at(P), a = seen_at(P + step_m * side) - o,
+                       b = seen_at(P + step_m * glm::cross(N, side)) - o;
+      const double area = a.x * b.y - a.y * b.x;
+      const glm::dvec2 expected((a.z * b.y - b.z * a.y) / area, (a.x * b.z - b.x * a.z) / area);
+      // A float's places of N and of the matrix, magnified by 1 / N.L.
+      const double float_error = 1e-6 / 0.05 * glm::length(expected) + 1e-9;
+      ASSERT_NEAR(probe.gradient[i].x, expected.x, float_error);
+      ASSERT_NEAR(probe.gradient[i].y, expected.y, float_error);
+      ++seen;
+      tilted += std::abs(expected.x) > 1e-3 && std::abs(expected.y) > 1e-3;
+    }
+    EXPECT_GT(seen, 1000u);
+    EXPECT_GT(tilted, 300u);
+  }
+}
+
+// The texel of a cube's tap is the one that the frame's double finds, but for taps within float error of a side.
+TEST_F(GlProbeTest, CubeTapsFallWhereTheFrameSays) {
+  std::mt19937 random(64);
+  for (const FilterKind filter : {FilterKind::none, FilterKind::cube_grid, FilterKind::cube_disk})
+    for (const DiskRadius disk : {DiskRadius::fixed, DiskRadius::view_distance}) {
+      const Scene scene = random_scene(random, LightKind::point);
+      const ReceiverImage receivers = load(scene, 64, 48);
+      Settings settings;
+      settings.map.resolution = 100;
+      settings.filter.kind = filter;
+      settings.filter.disk = disk;
+      const LightFrame frame = make_light_frame(scene, settings);
+      const LookupProbe probe = renderer.probe(frame, settings);
+      size_t taps = 0, elsewhere = 0, moved = 0;
+      std::array<size_t, 6> faces{};
+      for (size_t i = 0; i < receivers.primitive.size(); ++i) {
+        if (receivers.primitive[i] == no_primitive) continue;
+        const glm::dvec3 p = frame.to_light(receivers.position[i]);
+        for (int tap = 0; tap < probe.taps(); ++tap) {
+          const glm::dvec2 exact = frame.map_texels(frame.tap_place(p, probe.offset(i, tap)));
+          const glm::ivec2 texel = probe.texel(i, tap);
+          ++taps;
+          elsewhere += texel != glm::ivec2(glm::floor(exact));
+          moved += texel != probe.texel(i, 0);
+          ++faces[static_cast<size_t>(texel.y / 100)];
+        }
+      }
+      EXPECT_GT(taps, 1000u);
+      // 100 texels of a float's places: one tap in some thousands lies so near a side.
+      EXPECT_LE(elsewhere, taps / 1000 + 2);
+      EXPECT_EQ(moved > taps / 4, filter != FilterKind::none);
+      EXPECT_GE(std::count_if(faces.begin(), faces.end(), [](size_t n) { return n > 20; }), 4);
+    }
+}
+
 }  // namespace
 }  // namespace noonmark::gl

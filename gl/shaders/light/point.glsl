@@ -7,7 +7,7 @@ float major_axis(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 LightView seen_by_light(vec3 place_m) {
   precise vec3 from_light = place_m - light_position;
   precise float depth = length(from_light) / light_far_m;
-  return LightView(is_finite(vec3(depth)), depth, vec2(0.0), from_light, major_axis(from_light));
+  return LightView(depth > 0.0 && is_finite(vec3(depth)), depth, vec2(0.0), from_light, major_axis(from_light));
 }
 
 vec3 to_light(vec3 place_m) {

@@ -5,7 +5,7 @@
 //   float bias_unit_at(LightView view)             one unit of bias, in window depth
 //   vec2 plane_gradient(vec3 normal, LightView view)  window depth per texel of the plane through the place
 struct LightView {
-  bool valid;       // false where the light's matrix carries the place out of the floats, or behind the light
+  bool valid;       // false at the light, behind a spot light, and where the place leaves the floats
   float depth;      // window depth; not clamped
   vec2 map_texels;  // flat maps: where in the map, in texels
   vec3 from_light;  // metres
