@@ -30,12 +30,12 @@
 //   [[law]]                          # a number that must follow from others (compare/laws.h)
 //   name = "1 acne-free bias"
 //   says = "one sentence"
-//   measured = "acne_free_bias_m"
-//   equals = "k * texel_m * tan_deg(scene.theta_deg)"       # or at_most, at_least; a formula or a number
-//   within = 0.05                    # of it; and slack = a formula or a number, in the measured number's unit
-//   join = "each"                    # each | mean | slope (with over = a setting)
-//   where = {}                       # as a bound's
-//   against = {"filter.kind" = "none"}    # read `equals` at the point that differs from the measured one in this alone
+//   found = "{100 * acne} % of the pixels are acne, {against: 100 * acne} % without a filter."   # said with its
+//   figures measured = "acne_free_bias_m" equals = "k * texel_m * tan_deg(scene.theta_deg)"       # or at_most,
+//   at_least; a formula or a number within = 0.05                    # of it; and slack = a formula or a number, in the
+//   measured number's unit join = "each"                    # each | mean | slope (with over = a setting) where = {} #
+//   as a bound's against = {"filter.kind" = "none"}    # read `equals` at the point that differs from the measured one
+//   in this alone
 //
 // Several experiments in one file: [[part]] tables, each with a name and any of scene, settings, sweep, curve, bound,
 // let and law. What stands outside them are their defaults; sweeps, bounds and laws stand inside.

@@ -305,6 +305,8 @@ class Reader : private SettingsReader {
         law.name = string(*item.node, "name");
       else if (item.key == "says")
         law.says = string(*item.node, "says");
+      else if (item.key == "found")
+        law.found = string(*item.node, "found");
       else if (item.key == "measured")
         law.measured = formula(*item.node, "measured");
       else if (item.key == "equals")
@@ -327,7 +329,7 @@ class Reader : private SettingsReader {
         law.against = read_conditions(*item.node, "against");
       else
         unknown(item, "key",
-                {"name", "says", "measured", "equals", "at_most", "at_least", "within", "slack", "join", "over",
+                {"name", "says", "found", "measured", "equals", "at_most", "at_least", "within", "slack", "join", "over",
                  "where", "against"},
                 "law.");
     }

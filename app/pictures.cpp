@@ -6,23 +6,14 @@
 #include <cmath>
 #include <functional>
 
-#include "compare/cause_colors.h"
-#include "scenes/map_address.h"
+#include "app/view_colors.h"
+#include "app/view_frustum.h"
+#include "app/view_map.h"
+#include "app/view_shading.h"
+#include "compare/image_difference.h"
 
 namespace noonmark {
 namespace {
-
-Color named_color(std::string_view name) {
-  const CauseColor* color = find_color(name);
-  if (!color) throw std::logic_error("no colour for " + std::string(name));
-  return {color->r, color->g, color->b};
-}
-
-// The sRGB transfer function (IEC 61966-2-1), so that linear shading looks linear.
-uint8_t encoded(double linear) {
-  const double v = linear > 0 ? std::min(linear, 1.0) : 0;  // NaN is black
-  return static_cast<uint8_t>(std::lround(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055)));
-}
 
 // The receivers as a grey clay under the light: ambient 0.15, the rest by the cosine and the visibility.
 double clay(const Measurement& m, size_t i, double visibility) {
@@ -72,27 +63,32 @@ Image<Color> difference(const Measurement& m) {
   });
 }
 
-// The map as a picture: near is bright, cleared texels black. Shrunk to at most 1024 on a side by keeping the nearest
-// depth of each block; row 0 of the picture is the highest v.
-Image<Color> map_picture(const Image<float>& depth) {
-  const int block = (depth.width + 1023) / 1024, size = depth.width / std::max(block, 1);
-  float least = 1, most = 0;
-  for (float d : depth.pixels) {
-    if (d >= 1) continue;
-    least = std::min(least, d);
-    most = std::max(most, d);
-  }
-  const float span = most > least ? most - least : 1;
-  Image<Color> picture(size, size, named_color("background"));
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      float nearest = 1;
-      for (int j = 0; j < block; ++j)
-        for (int i = 0; i < block; ++i) nearest = std::min(nearest, depth.at(x * block + i, y * block + j));
-      if (nearest < 1) picture.at(x, size - 1 - y) = Color(encoded(0.95 - 0.85 * (nearest - least) / span));
-    }
-  }
+// The truth in light greys, so that lines show on it.
+Image<Color> frustum(const Measurement& m, const CameraFrame& camera) {
+  Image<Color> picture = paint(m, [&](size_t i) {
+    const bool facing = m.ladder.flags[i] & flag_facing;
+    return grey(0.35 + 0.5 * clay(m, i, facing ? m.ladder.rung[1][i] : 0));
+  });
+  draw_frustum(picture, m.frame, camera, m.receivers);
   return picture;
+}
+
+Image<Color> greys(const Measurement& m, const Image<float>& frame) {
+  return paint(m, [&](size_t i) { return grey(frame[i]); });
+}
+
+std::string frustum_caption(LightKind kind) {
+  const std::string ends = "green is near, orange-red is far, blue joins them";
+  const std::string hidden = "dashed where the scene is before it.";
+  switch (kind) {
+    case LightKind::directional:
+      return "What the map can see: " + ends + ", " + hidden;
+    case LightKind::spot:
+      return "What the map can see: " + ends + ", yellow is the light's cone, pink the light, " + hidden;
+    case LightKind::point:
+      return "What the cube map can see: " + ends + " along the faces' edges, pink is the light, " + hidden;
+  }
+  throw std::logic_error("a kind of light without a frustum");
 }
 
 }  // namespace
@@ -105,14 +101,38 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
     write_png(folder + "/" + file, picture);
     records.push_back({name, relative + "/" + file, caption});
   };
-  const bool sized = effective_light(m.scene, m.settings).angular_diameter_deg > 0;
+  const Light light = effective_light(m.scene, m.settings);
+  const bool sized = (light.kind == LightKind::directional ? light.angular_diameter_deg : light.radius_m) > 0;
+  const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
+  const auto shaded_with = [&](int rung) {
+    return shaded_frame(m.receivers, m.frame, camera, m.ladder.rung[static_cast<size_t>(rung)]);
+  };
   add("truth", "The truth: one exact shadow ray for each pixel (R1).", shaded(m, 1));
   if (sized) add("soft-truth", "The truth of the light with its size (R0).", shaded(m, 0));
   add("map", "What the shadow map showed (R5).", shaded(m, 5));
   add("classes", "Why each wrong pixel is wrong.", classes(m));
   add("difference", "Map minus truth: too dark is orange, too light is blue.", difference(m));
-  add("depth", "The shadow map itself as the light sees it: bright is near, black is empty.",
-      map_picture(m.stored_map));
+  add("depth",
+      light.kind == LightKind::point
+          ? "The cube map unfolded, as it looks from outside: bright is near in metres, black is empty."
+          : "The shadow map itself as the light sees it: bright is near in metres, black is empty.",
+      map_picture(m.stored_map, m.frame));
+  add("frustum", frustum_caption(light.kind), frustum(m, camera));
+  const Image<float> truth = shaded_with(1), map = shaded_with(5);
+  add("shaded-truth", "The clay as a renderer shows it, Blinn-Phong, with the true shadow (R1).", greys(m, truth));
+  if (sized)
+    add("shaded-soft-truth", "The clay with the true shadow of the light with its size (R0).",
+        greys(m, shaded_with(0)));
+  add("shaded-map", "The clay as a renderer shows it, with the map's shadow (R5).", greys(m, map));
+  const Image<float> seen = flip_difference(truth, map);
+  Image<Color> colors(seen.width, seen.height);
+  for (size_t i = 0; i < seen.size(); ++i) colors[i] = difference_color(seen[i]);
+  add("shaded-difference",
+      fmt::format(
+          "Where an eye sees the two shaded pictures differ (FLIP, dark 0 to bright 1): mean {:.4g}, and RMSE {:.4g} "
+          "in linear light.",
+          mean_of(seen), root_mean_square_difference(truth, map)),
+      colors);
   return records;
 }
 

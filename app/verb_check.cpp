@@ -74,6 +74,8 @@ int check_one(const std::string& path, const ExperimentArguments& arguments, con
   }
   for (const LawResult& law : results.laws) laws_held += law.held;
   if (!results.laws.empty()) fmt::print("{}{}", results.bounds.empty() ? "" : "\n", law_table(results.laws));
+  for (const LawResult& law : results.laws)
+    if (!law.found.empty()) fmt::print("found: {}\n", law.found);
   std::string verdict;
   if (!results.bounds.empty()) verdict = fmt::format("{} of {} bounds held", bounds_held, results.bounds.size());
   if (!results.laws.empty())

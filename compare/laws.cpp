@@ -58,6 +58,7 @@ double number_of(const PointRecord& point, const std::string& name) {
     for (size_t before = 0; before < axis; ++before) text.remove_prefix(std::min(text.find(','), text.size() - 1) + 1);
     return number(text.substr(0, text.find(',')));
   }
+  if (const auto time = point.times.find(name); time != point.times.end()) return time->second;
   return quantity(point, name).value_or(not_a_number);
 }
 
@@ -73,6 +74,7 @@ class Reader {
         predicted_(read(law, law.predicted)),
         slack_(read(law, law.slack.empty() ? "0" : law.slack)) {
     for (const auto& [name, text] : law.let) definitions_.emplace_back(name, read(law, text));
+    read_sentence(law);
     check_names(law);
   }
 
@@ -80,7 +82,37 @@ class Reader {
   double predicted(const PointRecord& point) const { return value(predicted_, point); }
   double slack(const PointRecord& point) const { return value(slack_, point); }
 
+  // other: the point that `point` is compared with.
+  std::string found(const PointRecord& point, const PointRecord& other) const {
+    std::string text = end_of_sentence_;
+    for (auto figure = figures_.rbegin(); figure != figures_.rend(); ++figure)
+      text = fmt::format("{}{:.3g}{}", figure->before, value(figure->formula, figure->against ? other : point), text);
+    return text;
+  }
+
  private:
+  struct Figure {
+    std::string before;  // the text up to it
+    Formula formula;
+    bool against;
+  };
+
+  void read_sentence(const Law& law) {
+    constexpr std::string_view prefix = "against:";
+    std::string_view rest = law.found;
+    for (size_t open; (open = rest.find('{')) != rest.npos;) {
+      const size_t close = rest.find('}', open);
+      if (close == rest.npos) refuse(law, "found has a '{' without its '}'");
+      std::string_view text = rest.substr(open + 1, close - open - 1);
+      const bool against = text.starts_with(prefix);
+      if (against) text.remove_prefix(prefix.size());
+      if (against && law.against.empty()) refuse(law, "found speaks of `against`, and the law has none");
+      figures_.push_back({std::string(rest.substr(0, open)), read(law, std::string(text)), against});
+      rest.remove_prefix(close + 1);
+    }
+    end_of_sentence_ = rest;
+  }
+
   static Formula read(const Law& law, const std::string& text) {
     try {
       return Formula(text);
@@ -109,6 +141,8 @@ class Reader {
       known.push_back(name);
     }
     for (const Formula* formula : {&measured_, &predicted_, &slack_}) check(*formula);
+    for (std::string_view time : {"map_ms", "lookup_ms"}) known.emplace_back(time);
+    for (const Figure& figure : figures_) check(figure.formula);
   }
 
   double value(const Formula& formula, const PointRecord& point) const {
@@ -123,6 +157,8 @@ class Reader {
 
   Formula measured_, predicted_, slack_;
   std::vector<std::pair<std::string, Formula>> definitions_;
+  std::vector<Figure> figures_;
+  std::string end_of_sentence_;
 };
 
 double mean(const std::vector<double>& values) {
@@ -264,7 +300,8 @@ std::vector<LawResult> evaluate_laws(std::span<const PointRecord> points, std::s
     if (!law.slack.empty())
       result.tolerance += fmt::format("{}{}", result.tolerance.empty() ? "give or take " : " + ", law.slack);
     result.join = law.join == "slope" ? "slope over " + law.over : law.join;
-    result.samples = samples_of(law, Reader(law), points);
+    const Reader reader(law);
+    result.samples = samples_of(law, reader, points);
     result.held = !result.samples.empty();
     for (size_t i = 0; i < result.samples.size(); ++i) {
       result.held = result.held && holds(law.relation, result.samples[i]);
@@ -275,7 +312,11 @@ std::vector<LawResult> evaluate_laws(std::span<const PointRecord> points, std::s
     if (result.worst >= 0) {
       const int64_t id = result.samples[static_cast<size_t>(result.worst)].point;
       const auto point = std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.id == id; });
-      if (point != points.end()) result.reproduce = reproduce(*point);
+      if (point != points.end()) {
+        result.reproduce = reproduce(*point);
+        const PointRecord* other = law.against.empty() ? &*point : partner(*point, law.against, points);
+        if (other) result.found = reader.found(*point, *other);
+      }
     }
     results.push_back(std::move(result));
   }

@@ -24,7 +24,10 @@ namespace noonmark {
 
 struct Law {
   std::string name;  // "1 acne-free bias"
-  std::string says;  // one sentence
+  std::string says;  // one sentence: the law itself
+  // One sentence of what was found, with {formula} for its figures: read at the sample furthest off, or, as {against:
+  // formula}, at the point that it is compared with. Times (map_ms, lookup_ms) may stand here and nowhere else.
+  std::string found;
   std::string measured, predicted;
   LawRelation relation = LawRelation::equal;
   double within = 0;  // tolerance as a fraction of |predicted|

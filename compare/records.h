@@ -82,6 +82,7 @@ enum class LawRelation { equal, at_most, at_least };
 // A law and what became of it (compare/laws.h).
 struct LawResult {
   std::string part, name, says;
+  std::string found;                // a sentence with its figures in it; empty where the law has none
   std::string measured, predicted;  // the formulas
   LawRelation relation = LawRelation::equal;
   std::string tolerance;  // "within 5%", "within 5% + depth_quantum_m"; empty: none

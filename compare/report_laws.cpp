@@ -37,6 +37,10 @@ std::string broken_rows(const LawResult& law) {
   return fmt::format("<tr class=\"command\"><td></td><td colspan=\"5\">{}</td></tr>\n", what);
 }
 
+std::string sentence(const std::string& text) {
+  return text.empty() ? "" : fmt::format("<br><span class=\"says\">{}</span>", html(text));
+}
+
 }  // namespace
 
 std::string laws_table(const Results& results) {
@@ -48,9 +52,8 @@ std::string laws_table(const Results& results) {
         "<tr class=\"{}\"><td>{}</td><th scope=\"row\">{}{}<br><code>{}</code></th><td>{}</td><td>{}</td><td>{}</td>"
         "<td>{}</td></tr>\n{}",
         law.held ? "held" : "broken", law.held ? "✓ holds" : "✗ broken", html(law.name),
-        law.says.empty() ? "" : fmt::format("<br><span class=\"says\">{}</span>", html(law.says)), html(law_text(law)),
-        law.samples.size(), html(predicted_text(law)), worst ? number(worst->measured) : "–", html(ratio_text(law)),
-        broken_rows(law));
+        sentence(law.says) + sentence(law.found), html(law_text(law)), law.samples.size(), html(predicted_text(law)),
+        worst ? number(worst->measured) : "–", html(ratio_text(law)), broken_rows(law));
   }
   std::string out = "<h3 id=\"laws\">Laws</h3>\n";
   if (std::any_of(results.laws.begin(), results.laws.end(), charted))

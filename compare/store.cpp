@@ -244,7 +244,7 @@ std::vector<LawResult> load_laws(Database& db) {
   std::vector<LawResult> laws;
   for (Statement rows(
            db,
-           "SELECT part, name, says, measured, relation, predicted, tolerance, join_by, held, worst, reproduce "
+           "SELECT part, name, says, measured, relation, predicted, tolerance, join_by, held, worst, reproduce, found "
            "FROM laws ORDER BY i");
        rows.step();) {
     LawResult law;
@@ -260,6 +260,7 @@ std::vector<LawResult> load_laws(Database& db) {
     law.held = rows.integer(8) != 0;
     law.worst = static_cast<int>(rows.integer(9));
     law.reproduce = rows.text(10);
+    law.found = rows.text(11);
     laws.push_back(std::move(law));
   }
   for (Statement rows(db, "SELECT law, point, predicted, measured, allowed FROM law_samples ORDER BY law, i");
@@ -368,7 +369,7 @@ void ResultStore::set_bounds(const std::vector<BoundResult>& bounds) {
 void ResultStore::set_laws(const std::vector<LawResult>& laws) {
   Transaction transaction(*db_);
   db_->execute("DELETE FROM laws; DELETE FROM law_samples");
-  Statement insert(*db_, "INSERT INTO laws VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement insert(*db_, "INSERT INTO laws VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   Statement insert_sample(*db_, "INSERT INTO law_samples VALUES (?, ?, ?, ?, ?, ?)");
   for (size_t i = 0; i < laws.size(); ++i) {
     const LawResult& law = laws[i];
@@ -376,7 +377,7 @@ void ResultStore::set_laws(const std::vector<LawResult>& laws) {
     for (const auto& [relation, text] : relations)
       if (relation == law.relation) sign = text;
     insert.run(static_cast<int64_t>(i), law.part, law.name, law.says, law.measured, sign, law.predicted, law.tolerance,
-               law.join, law.held ? 1 : 0, law.worst, law.reproduce);
+               law.join, law.held ? 1 : 0, law.worst, law.reproduce, law.found);
     for (size_t j = 0; j < law.samples.size(); ++j) {
       const LawResult::Sample& sample = law.samples[j];
       insert_sample.run(static_cast<int64_t>(i), static_cast<int64_t>(j), sample.point, sample.predicted,

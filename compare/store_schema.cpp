@@ -35,7 +35,7 @@ CREATE TABLE bounds (
   point INTEGER, points INTEGER, reproduce TEXT);
 CREATE TABLE laws (
   i INTEGER PRIMARY KEY, part TEXT, name TEXT, says TEXT, measured TEXT, relation TEXT, predicted TEXT, tolerance TEXT,
-  join_by TEXT, held INTEGER, worst INTEGER, reproduce TEXT);
+  join_by TEXT, held INTEGER, worst INTEGER, reproduce TEXT, found TEXT);
 CREATE TABLE law_samples (
   law INTEGER, i INTEGER, point INTEGER, predicted REAL, measured REAL, allowed REAL, PRIMARY KEY (law, i)) WITHOUT ROWID;
 CREATE TABLE columns (name TEXT PRIMARY KEY, kind TEXT, unit TEXT, help TEXT);

@@ -98,6 +98,12 @@ std::string laws_table(const Results& results) {
   }
   for (const LawResult& law : results.laws)
     if (!law.held) text += "\n" + indented(law_table({&law, 1}));
+  bool any = false;
+  for (const LawResult& law : results.laws) {
+    if (law.found.empty()) continue;
+    text += fmt::format("{}- {}\n", any ? "" : "\n### Found\n\n", law.found);
+    any = true;
+  }
   return text;
 }
 

@@ -38,6 +38,9 @@ struct FramebufferKind {
 struct VertexArrayKind {
   static void destroy(GLuint id) { glDeleteVertexArrays(1, &id); }
 };
+struct SamplerKind {
+  static void destroy(GLuint id) { glDeleteSamplers(1, &id); }
+};
 struct QueryKind {
   static void destroy(GLuint id) { glDeleteQueries(1, &id); }
 };
@@ -52,15 +55,29 @@ using Texture = Owned<TextureKind>;
 using Buffer = Owned<BufferKind>;
 using Framebuffer = Owned<FramebufferKind>;
 using VertexArray = Owned<VertexArrayKind>;
+using Sampler = Owned<SamplerKind>;
 using Query = Owned<QueryKind>;
 using Shader = Owned<ShaderKind>;
 using ProgramObject = Owned<ProgramKind>;
 
-// A 2D texture with one level and nearest filtering, its contents undefined. Check for GL_OUT_OF_MEMORY afterwards.
-inline Texture make_texture(GLenum format, int width, int height) {
+// A 2D texture or a cube map with one level and nearest filtering, its contents undefined. Check for GL_OUT_OF_MEMORY
+// afterwards.
+inline Texture make_texture(GLenum format, int width, int height, GLenum target = GL_TEXTURE_2D) {
   GLuint id = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &id);
+  glCreateTextures(target, 1, &id);
   glTextureStorage2D(id, 1, format, width, height);
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return Texture(id);
+}
+
+// One face of a cube map as a 2D texture with nearest filtering; it shares the texels.
+inline Texture make_face_view(const Texture& cube, int face) {
+  GLint format = 0;
+  glGetTextureLevelParameteriv(cube.id(), 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
+  GLuint id = 0;
+  glGenTextures(1, &id);  // glTextureView wants a name that has no target yet
+  glTextureView(id, GL_TEXTURE_2D, cube.id(), static_cast<GLenum>(format), 0, 1, static_cast<GLuint>(face), 1);
   glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return Texture(id);
@@ -84,6 +101,12 @@ inline VertexArray make_vertex_array() {
   GLuint id = 0;
   glCreateVertexArrays(1, &id);
   return VertexArray(id);
+}
+
+inline Sampler make_sampler() {
+  GLuint id = 0;
+  glCreateSamplers(1, &id);
+  return Sampler(id);
 }
 
 inline Query make_query(GLenum target) {

@@ -5,6 +5,16 @@
 namespace noonmark::gl {
 namespace {
 
+struct LightRow {
+  LightKind kind;
+  const char* file;
+};
+constexpr LightRow light_rows[] = {
+    {LightKind::directional, "shaders/light/directional.glsl"},
+    {LightKind::spot, "shaders/light/spot.glsl"},
+    {LightKind::point, "shaders/light/point.glsl"},
+};
+
 struct BiasRow {
   BiasForm form;
   const char* file;
@@ -13,7 +23,11 @@ constexpr BiasRow bias_rows[] = {
     {BiasForm::none, "shaders/bias/none.glsl"},
     {BiasForm::constant, "shaders/bias/constant.glsl"},
     {BiasForm::slope, "shaders/bias/slope.glsl"},
+    {BiasForm::tan, "shaders/bias/tan.glsl"},
+    {BiasForm::polygon_offset, "shaders/bias/polygon_offset.glsl"},
     {BiasForm::normal_offset, "shaders/bias/normal_offset.glsl"},
+    {BiasForm::receiver_plane, "shaders/bias/receiver_plane.glsl"},
+    {BiasForm::tangent_plane, "shaders/bias/tangent_plane.glsl"},
 };
 
 struct FilterRow {
@@ -21,11 +35,19 @@ struct FilterRow {
   const char* file;
 };
 constexpr FilterRow filter_rows[] = {
-    {FilterKind::none, "shaders/filter/none.glsl"},
-    {FilterKind::box, "shaders/filter/box.glsl"},
+    {FilterKind::none, "shaders/filter/none.glsl"},         {FilterKind::box, "shaders/filter/mean.glsl"},
+    {FilterKind::hardware, "shaders/filter/bilinear.glsl"}, {FilterKind::gaussian, "shaders/filter/bilinear.glsl"},
+    {FilterKind::poisson, "shaders/filter/mean.glsl"},      {FilterKind::cube_grid, "shaders/filter/mean.glsl"},
+    {FilterKind::cube_disk, "shaders/filter/mean.glsl"},
 };
 
 }  // namespace
+
+const char* light_file(LightKind kind) {
+  for (const LightRow& row : light_rows)
+    if (row.kind == kind) return row.file;
+  throw std::logic_error("a kind of light without a row in gl/lookup_parts.cpp");
+}
 
 const char* bias_file(BiasForm form) {
   for (const BiasRow& row : bias_rows)

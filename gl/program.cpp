@@ -28,16 +28,16 @@ Shader compile(GLenum stage, const ShaderText& source) {
 
 }  // namespace
 
-Program::Program(const std::string& vertex, const std::string& fragment, const ShaderSlots& slots,
-                 const ShaderFiles& files) {
-  const Shader vertex_shader = compile(GL_VERTEX_SHADER, expand_includes(vertex, slots, files));
-  const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, expand_includes(fragment, slots, files));
+Program::Program(const ShaderStages& stages, const ShaderSlots& slots, const ShaderFiles& files) {
   object_ = ProgramObject(glCreateProgram());
-  glAttachShader(id(), vertex_shader.id());
-  glAttachShader(id(), fragment_shader.id());
+  const std::pair<GLenum, const std::string&> parts[] = {
+      {GL_VERTEX_SHADER, stages.vertex}, {GL_GEOMETRY_SHADER, stages.geometry}, {GL_FRAGMENT_SHADER, stages.fragment}};
+  std::vector<Shader> shaders;
+  for (const auto& [stage, file] : parts)
+    if (!file.empty()) shaders.push_back(compile(stage, expand_includes(file, slots, files)));
+  for (const Shader& shader : shaders) glAttachShader(id(), shader.id());
   glLinkProgram(id());
-  glDetachShader(id(), vertex_shader.id());
-  glDetachShader(id(), fragment_shader.id());
+  for (const Shader& shader : shaders) glDetachShader(id(), shader.id());
   GLint ok = 0, length = 0;
   glGetProgramiv(id(), GL_LINK_STATUS, &ok);
   if (ok) return;
@@ -45,7 +45,7 @@ Program::Program(const std::string& vertex, const std::string& fragment, const S
   std::string log(static_cast<size_t>(length) + 1, '\0');
   glGetProgramInfoLog(id(), length + 1, nullptr, log.data());
   throw Error(ErrorKind::device,
-              fmt::format("the OpenGL driver cannot link {} with {}: {}", vertex, fragment, log.c_str()));
+              fmt::format("the OpenGL driver cannot link {} with {}: {}", stages.vertex, stages.fragment, log.c_str()));
 }
 
 int Program::location(const char* uniform) const {
@@ -55,8 +55,11 @@ int Program::location(const char* uniform) const {
 }
 
 void Program::set(const char* uniform, int value) { glProgramUniform1i(id(), location(uniform), value); }
-void Program::set(const char* uniform, const glm::mat4& value) {
-  glProgramUniformMatrix4fv(id(), location(uniform), 1, GL_FALSE, &value[0][0]);
+void Program::set(const char* uniform, float value) { glProgramUniform1f(id(), location(uniform), value); }
+void Program::set(const char* uniform, glm::vec3 value) { glProgramUniform3fv(id(), location(uniform), 1, &value.x); }
+void Program::set(const char* uniform, const glm::mat4& value) { set(uniform, std::span(&value, 1)); }
+void Program::set(const char* uniform, std::span<const glm::mat4> values) {
+  glProgramUniformMatrix4fv(id(), location(uniform), static_cast<GLsizei>(values.size()), GL_FALSE, &values[0][0][0]);
 }
 // OpenGL ignores location -1.
 void Program::set_if_used(const char* uniform, float value) {
@@ -67,6 +70,9 @@ void Program::set_if_used(const char* uniform, int value) {
 }
 void Program::set_if_used(const char* uniform, glm::vec3 value) {
   glProgramUniform3fv(id(), glGetUniformLocation(id(), uniform), 1, &value.x);
+}
+void Program::set_if_used(const char* uniform, const glm::mat4& value) {
+  glProgramUniformMatrix4fv(id(), glGetUniformLocation(id(), uniform), 1, GL_FALSE, &value[0][0]);
 }
 
 std::string shader_file(const std::string& name) {
@@ -81,8 +87,8 @@ ProgramCache::ProgramCache(std::map<std::string, std::string> replaced) : replac
   for (const auto& [name, text] : replaced_) shader_file(name);
 }
 
-Program& ProgramCache::get(const std::string& vertex, const std::string& fragment, const ShaderSlots& slots) {
-  std::string key = vertex + '\n' + fragment;
+Program& ProgramCache::get(const ShaderStages& stages, const ShaderSlots& slots) {
+  std::string key = stages.vertex + '\n' + stages.geometry + '\n' + stages.fragment;
   for (const auto& [slot, file] : slots) key += '\n' + slot + '=' + file;
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second;
@@ -90,7 +96,7 @@ Program& ProgramCache::get(const std::string& vertex, const std::string& fragmen
     const auto replacement = replaced_.find(std::string(name));
     return replacement == replaced_.end() ? shaders::embedded(name) : std::string_view(replacement->second);
   };
-  return programs_.emplace(key, Program(vertex, fragment, slots, files)).first->second;
+  return programs_.emplace(key, Program(stages, slots, files)).first->second;
 }
 
 }  // namespace noonmark::gl

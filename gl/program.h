@@ -1,10 +1,11 @@
 // OpenGL programs made of the embedded GLSL files (gl/shaders), each built once per context.
 //
-//   Program& lookup = programs.get("shaders/screen.vert", "shaders/lookup.frag", {{"bias",
+//   Program& lookup = programs.get({"shaders/screen.vert", "shaders/lookup.frag"}, {{"bias",
 //   "shaders/bias/slope.glsl"}}); lookup.set("resolution", 1024); glUseProgram(lookup.id());
 #pragma once
 #include <glm/glm.hpp>
 #include <map>
+#include <span>
 #include <string>
 
 #include "gl/gl_objects.h"
@@ -12,20 +13,29 @@
 
 namespace noonmark::gl {
 
+struct ShaderStages {
+  std::string vertex, fragment;
+  std::string geometry = {};  // empty: none
+};
+
 class Program {
  public:
   // Throws Error(device) with the shader's file and line.
-  Program(const std::string& vertex, const std::string& fragment, const ShaderSlots& slots, const ShaderFiles& files);
+  Program(const ShaderStages& stages, const ShaderSlots& slots, const ShaderFiles& files);
 
   GLuint id() const { return object_.id(); }
 
   // Throws std::logic_error when the program has no such uniform in use.
   void set(const char* uniform, int value);
+  void set(const char* uniform, float value);
+  void set(const char* uniform, glm::vec3 value);
   void set(const char* uniform, const glm::mat4& value);
+  void set(const char* uniform, std::span<const glm::mat4> values);
   // For what only some slots' files use.
   void set_if_used(const char* uniform, float value);
   void set_if_used(const char* uniform, int value);
   void set_if_used(const char* uniform, glm::vec3 value);
+  void set_if_used(const char* uniform, const glm::mat4& value);
 
  private:
   int location(const char* uniform) const;
@@ -37,7 +47,7 @@ class ProgramCache {
   // replaced: texts that stand in for embedded files. Throws Error(usage) when one of them is not embedded.
   explicit ProgramCache(std::map<std::string, std::string> replaced = {});
 
-  Program& get(const std::string& vertex, const std::string& fragment, const ShaderSlots& slots = {});
+  Program& get(const ShaderStages& stages, const ShaderSlots& slots = {});
 
  private:
   std::map<std::string, std::string> replaced_;

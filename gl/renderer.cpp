@@ -57,6 +57,12 @@ Renderer::Impl::Impl(DebugMode debug, ShaderReplacements shaders)
   scene_vertices = make_vertex_array();
   no_vertices = make_vertex_array();
   framebuffer = make_framebuffer();
+  comparing = make_sampler();
+  glSamplerParameteri(comparing.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glSamplerParameteri(comparing.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glSamplerParameteri(comparing.id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glSamplerParameteri(comparing.id(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);  // a tie is lit
+  glSamplerParameterfv(comparing.id(), GL_TEXTURE_BORDER_COLOR, lit_border);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glDisable(GL_DITHER);
@@ -119,8 +125,14 @@ void Renderer::Impl::draw_scene(const Program& program) {
   glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, nullptr);
 }
 
-void Renderer::Impl::draw_screen(const Program& program) {
-  glDisable(GL_DEPTH_TEST);
+void Renderer::Impl::draw_screen(const Program& program, GLenum depth_test) {
+  if (depth_test == GL_NONE) {
+    glDisable(GL_DEPTH_TEST);
+  } else {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(depth_test);
+    glDepthMask(GL_TRUE);
+  }
   glDisable(GL_CULL_FACE);
   glUseProgram(program.id());
   glBindVertexArray(no_vertices.id());

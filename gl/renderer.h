@@ -96,7 +96,9 @@ class Renderer {
   // whose unit depends on the primitive's depth, NaN.
   double polygon_offset_unit(DepthFormat format);
 
-  // The technique: for every receiver its visibility in [0,1]. Background pixels: 0.
+  // The technique: for every receiver its visibility in [0,1]. Background pixels, and those at or behind the light: 0.
+  // Of filters that compare in hardware OpenGL clamps the biased reference to [0,1] where the map's format is a fixed-
+  // point one: with lit_beyond_far off, what lies beyond far is still lit where the map is empty.
   Image<float> lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings,
                       double* time_ms = nullptr);
 

@@ -1,6 +1,8 @@
 // What a Renderer holds, for its own source files: renderer.cpp (life, scene), renderer_receivers.cpp,
-// renderer_map.cpp and renderer_lookup.cpp.
+// renderer_map.cpp (maps as engines draw them), renderer_map_data.cpp (uploaded and read back), renderer_lookup.cpp and
+// renderer_probe.cpp.
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -14,14 +16,20 @@
 
 namespace noonmark::gl {
 
+inline constexpr GLfloat lit_border[4] = {1, 1, 1, 1};
+
+GLint gl_wrap(Wrap wrap);
+
 struct ShadowMap::Impl {
   // Keeps the context, whose texture this is; a map may outlive its Renderer.
   std::shared_ptr<EglContext> context;
   Texture depth;
   int resolution = 0;
+  bool cube = false;
+  Wrap wrap = Wrap::clamp_to_border;
 
-  Impl(std::shared_ptr<EglContext> owner, Texture texture, int side)
-      : context(std::move(owner)), depth(std::move(texture)), resolution(side) {}
+  Impl(std::shared_ptr<EglContext> owner, Texture texture, int side, bool is_cube, Wrap mode)
+      : context(std::move(owner)), depth(std::move(texture)), resolution(side), cube(is_cube), wrap(mode) {}
   ~Impl();
 };
 
@@ -46,8 +54,14 @@ struct Renderer::Impl {
   Framebuffer framebuffer;
   Target primitive_colour, primitive_depth;
   Target position_image, normal_image;
-  Target lit_taps, reference, texel, n_dot_l, map_strip;
-  glm::vec3 direction_to_light{0, 1, 0};
+  glm::vec3 eye_m{0};
+  Target lit, map_strip;
+  Target probe_scalars, probe_texels, probe_radius, probe_cube_texel;
+  Buffer tap_rows;
+  Sampler comparing;   // of hardware comparison
+  Texture cube_index;  // each texel's own place in the map's image, for cubes of ...
+  int cube_index_resolution = 0;
+  std::map<DepthFormat, double> polygon_offset_units;
 
   Impl(DebugMode debug, ShaderReplacements shaders);
   ~Impl();
@@ -62,14 +76,21 @@ struct Renderer::Impl {
   void detach(size_t colours);
 
   void draw_scene(const Program& program);
-  void draw_screen(const Program& program);
+  // depth_test: GL_NONE for none.
+  void draw_screen(const Program& program, GLenum depth_test = GL_NONE);
 
   // Runs the pass; when time_ms is given, its time goes there, after one untimed run if `key` is not warm.
   void run(const std::string& key, double* time_ms, const std::function<void()>& pass);
 
-  void check_resolution(int resolution) const;
-  Texture make_map_texture(GLenum format, int resolution, Wrap wrap);
-  void set_receiver_uniforms(Program& program, const LightFrame& frame, int resolution);
+  // Throw Error(usage) when the device, or its memory, has no such map.
+  void check_resolution(int resolution, bool cube) const;
+  Texture make_map_texture(GLenum format, int resolution, bool cube, Wrap wrap);
+
+  // What light, bias and receiver need of a program that includes shaders/receiver.glsl; binds the receivers.
+  void set_receiver_uniforms(Program& program, const LightFrame& frame, const Settings& settings);
+  // Uploads and binds the pattern of a program that includes shaders/pattern.glsl.
+  void set_pattern(Program& program, const TapPattern& pattern);
+  void read_cube_texels(LookupProbe& probe, const LightFrame& frame, const Settings& settings);
 };
 
 // The whole of level 0, row 0 first.

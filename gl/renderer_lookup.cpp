@@ -1,21 +1,27 @@
-// The technique over the receivers, and what it computes on the way.
+// The technique over the receivers.
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
+#include "gl/tap_table.h"
 #include "scenes/depth_bias.h"
 #include "scenes/error.h"
 
 namespace noonmark::gl {
 namespace {
 
+// As shaders/light/view.glsl has them.
+static_assert(static_cast<int>(BiasUnit::depth) == 0 && static_cast<int>(BiasUnit::m) == 1 &&
+              static_cast<int>(BiasUnit::texel) == 2);
+
 bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 }  // namespace
 
-void Renderer::load_receivers(const ReceiverImage& receivers, glm::dvec3 direction_to_light) {
+void Renderer::load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m) {
   Impl& r = *impl_;
   r.context->make_current();
   const int width = receivers.width(), height = receivers.height();
@@ -34,76 +40,98 @@ void Renderer::load_receivers(const ReceiverImage& receivers, glm::dvec3 directi
   glTextureSubImage2D(r.position_image.texture.id(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, texels.data());
   for (size_t i = 0; i < count; ++i) texels[i] = texels[i].w != 0 ? glm::vec4(receivers.normal[i], 0) : glm::vec4(0);
   glTextureSubImage2D(r.normal_image.texture.id(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, texels.data());
-  r.direction_to_light = glm::vec3(direction_to_light);
+  r.eye_m = glm::vec3(eye_m);
   r.context->check("load_receivers");
 }
 
-void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& frame, int resolution) {
+void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& frame, const Settings& settings) {
   if (!position_image.texture) throw std::logic_error("load_receivers comes before lookup and probe");
-  program.set("clip_from_world", glm::mat4(frame.clip_from_world()));
-  program.set_if_used("direction_to_light", direction_to_light);
-  program.set("resolution", resolution);
+  const glm::vec3 light_position(frame.origin_m);
+  const auto set = [&](const char* name, double value) { program.set_if_used(name, static_cast<float>(value)); };
+  // The light: shaders/light/view.glsl and the files beside it. At one metre along the axis, in the light's frame:
+  const glm::dvec3 one_metre(0, 0, 1);
+  program.set_if_used("light_position", light_position);
+  set("light_texel_m", frame.texel_m(one_metre));
+  program.set_if_used("bias_unit", static_cast<int>(settings.bias.unit));
+  set("light_bias_unit", frame.depth_per_bias_unit(settings.bias.unit, one_metre));
+  set("light_far_m", frame.far_m);
+  if (frame.kind != LightKind::point) {
+    const glm::dmat4 clip_from_world = frame.clip_from_world();
+    // Relative to the light, so that a plane's offset is small.
+    const glm::dmat4 clip_from_light = glm::translate(clip_from_world, glm::dvec3(light_position));
+    program.set("clip_from_world", glm::mat4(clip_from_world));
+    program.set_if_used("clip_from_world_planes", glm::mat4(glm::transpose(glm::inverse(clip_from_light))));
+    program.set("resolution", frame.resolution);
+    if (frame.parallel()) program.set_if_used("direction_to_light", glm::vec3(frame.direction_to_light()));
+    program.set_if_used("light_axis", glm::vec3(frame.forward));
+  }
+  // The bias: what a form does not use stays 0.
+  const DepthBias bias = depth_bias(settings.bias);
+  set("bias_constant", bias.constant);
+  set("bias_slope", bias.slope);
+  set("bias_tan_scale", bias.tan_scale);
+  set("bias_floor", bias.floor);
+  set("bias_cap", bias.cap);
+  set("normal_offset_texels", bias.normal_offset_texels);
+  // The receivers.
+  program.set_if_used("eye_m", eye_m);
   glBindTextureUnit(0, position_image.texture.id());
   glBindTextureUnit(1, normal_image.texture.id());
+}
+
+void Renderer::Impl::set_pattern(Program& program, const TapPattern& pattern) {
+  const std::vector<glm::vec4> rows = tap_table(pattern);
+  tap_rows = {};
+  tap_rows = make_buffer(rows.data(), rows.size() * sizeof(glm::vec4));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, tap_rows.id());
+  program.set_if_used("taps", static_cast<int>(rows.size()) / pattern.variants);
+  program.set_if_used("variants", pattern.variants);
+  program.set_if_used("scaled_by_view", pattern.scaled_by_view ? 1 : 0);
 }
 
 Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings,
                               double* time_ms) {
   Impl& r = *impl_;
   r.context->make_current();
-  const int side = map.resolution();
-  if (frame.resolution != side)
+  validate_for(frame.kind, settings);
+  if (frame.resolution != map.resolution() || (frame.kind == LightKind::point) != map.impl_->cube)
     throw Error(ErrorKind::defect,
-                fmt::format("lookup: the light's frame is for {} texels, the map has {}", frame.resolution, side));
-  const DepthBias bias = depth_bias(frame, settings.bias);
-  const int kernel = kernel_size(settings.filter);
-  const ShaderSlots slots = {{"bias", bias_file(bias.form)}, {"filter", filter_file(settings.filter.kind)}};
-  Program& program = r.programs.get("shaders/screen.vert", "shaders/lookup.frag", slots);
-  r.set_receiver_uniforms(program, frame, side);
-  program.set_if_used("bias_constant", bias.constant);
-  program.set_if_used("bias_slope", bias.slope);
-  program.set_if_used("bias_floor", bias.floor);
-  program.set_if_used("normal_offset_m", bias.normal_offset_m);
-  program.set_if_used("kernel_radius_texels", (kernel - 1) / 2);
+                fmt::format("lookup: the light's frame is for {} face(s) of {} texels, the map has "
+                            "{} of {}",
+                            frame.faces(), frame.resolution, map.impl_->cube ? 6 : 1, map.resolution()));
+  const TapPattern pattern = tap_pattern(settings.filter);
+  const ShaderSlots slots = {{"light", light_file(frame.kind)},
+                             {"bias", bias_file(settings.bias.form)},
+                             {"filter", filter_file(settings.filter.kind)}};
+  Program& program = r.programs.get({"shaders/screen.vert", "shaders/lookup.frag"}, slots);
+  r.set_receiver_uniforms(program, frame, settings);
+  r.set_pattern(program, pattern);
   program.set("lit_beyond_far", settings.map.lit_beyond_far ? 1 : 0);
   glBindTextureUnit(2, map.impl_->depth.id());
+  if (pattern.bilinear()) {
+    glSamplerParameteri(r.comparing.id(), GL_TEXTURE_WRAP_S, gl_wrap(map.impl_->wrap));
+    glSamplerParameteri(r.comparing.id(), GL_TEXTURE_WRAP_T, gl_wrap(map.impl_->wrap));
+    glBindTextureUnit(3, map.impl_->depth.id());
+    glBindSampler(3, r.comparing.id());
+  }
 
   const int width = r.position_image.width, height = r.position_image.height;
-  r.require(r.lit_taps, GL_R32F, width, height);
-  r.draw_into({r.lit_taps.texture.id()}, 0, width, height);
-  r.run(fmt::format("lookup {} {}", slots.at("bias"), slots.at("filter")), time_ms, [&] { r.draw_screen(program); });
+  r.require(r.lit, GL_R32F, width, height);
+  r.draw_into({r.lit.texture.id()}, 0, width, height);
+  const std::string key = fmt::format("lookup {} {} {}", slots.at("light"), slots.at("bias"), slots.at("filter"));
+  r.run(key, time_ms, [&] { r.draw_screen(program); });
   r.detach(1);
   glBindTextureUnit(2, 0);
+  glBindTextureUnit(3, 0);
+  glBindSampler(3, 0);
 
-  Image<float> visibility = read_back<float>(r.lit_taps, GL_RED, GL_FLOAT);
+  Image<float> visibility = read_back<float>(r.lit, GL_RED, GL_FLOAT);
   r.context->check("lookup");
-  if (kernel > 1) {
-    const float taps = static_cast<float>(kernel * kernel);
+  if (!pattern.bilinear() && pattern.taps > 1) {
+    const float taps = static_cast<float>(pattern.taps);
     for (float& v : visibility.pixels) v /= taps;
   }
   return visibility;
-}
-
-LookupProbe Renderer::probe(const LightFrame& frame, const DepthBias& bias) {
-  Impl& r = *impl_;
-  r.context->make_current();
-  r.check_resolution(frame.resolution);
-  Program& program = r.programs.get("shaders/screen.vert", "shaders/probe.frag", {{"bias", bias_file(bias.form)}});
-  r.set_receiver_uniforms(program, frame, frame.resolution);
-  program.set_if_used("normal_offset_m", bias.normal_offset_m);
-  const int width = r.position_image.width, height = r.position_image.height;
-  r.require(r.reference, GL_R32F, width, height);
-  r.require(r.texel, GL_RG32I, width, height);
-  r.require(r.n_dot_l, GL_R32F, width, height);
-  r.draw_into({r.reference.texture.id(), r.texel.texture.id(), r.n_dot_l.texture.id()}, 0, width, height);
-  r.draw_screen(program);
-  r.detach(3);
-  LookupProbe probe;
-  probe.reference = read_back<float>(r.reference, GL_RED, GL_FLOAT);
-  probe.texel = read_back<glm::ivec2>(r.texel, GL_RG_INTEGER, GL_INT);
-  probe.n_dot_l = read_back<float>(r.n_dot_l, GL_RED, GL_FLOAT);
-  r.context->check("probe");
-  return probe;
 }
 
 }  // namespace noonmark::gl

@@ -1,9 +1,12 @@
-// Shadow maps: rendered, uploaded, read back.
+// Shadow maps as engines draw them.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
 
 #include "gl/renderer_impl.h"
+#include "scenes/depth_bias.h"
 #include "scenes/error.h"
 
 namespace noonmark::gl {
@@ -21,18 +24,6 @@ GLenum gl_format(DepthFormat format) {
   throw std::logic_error("a depth format without an OpenGL format");
 }
 
-GLint gl_wrap(Wrap wrap) {
-  switch (wrap) {
-    case Wrap::repeat:
-      return GL_REPEAT;
-    case Wrap::clamp_to_edge:
-      return GL_CLAMP_TO_EDGE;
-    case Wrap::clamp_to_border:
-      return GL_CLAMP_TO_BORDER;
-  }
-  throw std::logic_error("a wrap mode without an OpenGL mode");
-}
-
 void set_culling(CulledFaces cull) {
   if (cull == CulledFaces::none) {
     glDisable(GL_CULL_FACE);
@@ -43,98 +34,108 @@ void set_culling(CulledFaces cull) {
   glCullFace(cull == CulledFaces::back ? GL_BACK : GL_FRONT);
 }
 
+void set_enabled(GLenum what, bool on) {
+  if (on)
+    glEnable(what);
+  else
+    glDisable(what);
+}
+
+constexpr GLfloat far_depth = 1;
+
 }  // namespace
 
-void Renderer::Impl::check_resolution(int resolution) const {
-  if (resolution < 1 || resolution > info.max_map_resolution)
-    throw Error(ErrorKind::usage,
-                fmt::format("a shadow map of {0} x {0} texels cannot be made; map.resolution goes from 1 to "
-                            "{1} on this OpenGL device ({2})",
-                            resolution, info.max_map_resolution, info.renderer));
-}
-
-Texture Renderer::Impl::make_map_texture(GLenum format, int resolution, Wrap wrap) {
-  check_resolution(resolution);
-  Texture texture = make_texture(format, resolution, resolution);
-  check_memory("a shadow map", resolution, resolution);
-  const GLfloat lit[4] = {1, 1, 1, 1};
-  glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, gl_wrap(wrap));
-  glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, gl_wrap(wrap));
-  glTextureParameterfv(texture.id(), GL_TEXTURE_BORDER_COLOR, lit);
-  glTextureParameteri(texture.id(), GL_TEXTURE_COMPARE_MODE, GL_NONE);
-  return texture;
-}
-
-ShadowMap Renderer::render_map(const LightFrame& frame, const MapSettings& settings, double* time_ms) {
+ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings, double* time_ms) {
   Impl& r = *impl_;
   r.context->make_current();
-  if (frame.resolution != settings.resolution)
+  const int side = settings.map.resolution;
+  if (frame.resolution != side)
     throw Error(ErrorKind::defect, fmt::format("render_map: the light's frame is for {} texels, the settings for {}",
-                                               frame.resolution, settings.resolution));
-  const int side = settings.resolution;
-  Texture depth = r.make_map_texture(gl_format(settings.format), side, settings.wrap);
-  Program& program = r.programs.get("shaders/scene.vert", "shaders/depth.frag");
-  program.set("clip_from_world", glm::mat4(frame.clip_from_world()));
+                                               frame.resolution, side));
+  const bool cube = frame.kind == LightKind::point;
+  const bool layered = cube && settings.map.cube_pass == CubePass::layered;
+  Texture depth = r.make_map_texture(gl_format(settings.map.format), side, cube, settings.map.wrap);
+  Program& program = r.programs.get(
+      !cube     ? ShaderStages{"shaders/scene.vert", "shaders/depth.frag"}
+      : layered ? ShaderStages{"shaders/cube_layers.vert", "shaders/distance.frag", "shaders/cube_layers.geom"}
+                : ShaderStages{"shaders/cube_face.vert", "shaders/distance.frag"});
+  std::array<glm::mat4, 6> clip_from_world;
+  for (int face = 0; face < frame.faces(); ++face)
+    clip_from_world[static_cast<size_t>(face)] = glm::mat4(frame.clip_from_world(face));
+  if (cube) {
+    program.set("light_position", glm::vec3(frame.origin_m));
+    program.set("light_far_m", static_cast<float>(frame.far_m));
+  }
+  const auto draw_once = [&] {
+    glClearBufferfv(GL_DEPTH, 0, &far_depth);
+    r.draw_scene(program);
+  };
+  // The same map as by layers. llvmpipe rounds vertices from a geometry shader otherwise on their way to the viewport,
+  // so that it is the same to the last bit only where the side is a power of two.
+  const auto draw_faces = [&] {
+    for (int face = 0; face < 6; ++face) {
+      glNamedFramebufferTextureLayer(r.framebuffer.id(), GL_DEPTH_ATTACHMENT, depth.id(), 0, face);
+      program.set("clip_from_world", clip_from_world[static_cast<size_t>(face)]);
+      draw_once();
+    }
+  };
+  if (layered)
+    program.set("clip_from_world", std::span<const glm::mat4>(clip_from_world));
+  else
+    program.set("clip_from_world", clip_from_world[0]);
 
-  r.draw_into({}, depth.id(), side, side);
+  r.draw_into({}, depth.id(), side, side);  // of a cube all layers
+  const DepthBias bias = depth_bias(settings.bias);
   glDepthMask(GL_TRUE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
-  set_culling(settings.cull);
-  const GLfloat far_depth = 1;
+  set_culling(settings.map.cull);
+  set_enabled(GL_DEPTH_CLAMP, settings.map.depth_clamp);
+  // Where the shader writes its depth, as a cube's does, OpenGL has no use for the offset.
+  set_enabled(GL_POLYGON_OFFSET_FILL, bias.form == BiasForm::polygon_offset);
+  glPolygonOffset(bias.factor, bias.units);
   // An engine's map has been written before; the first touch of fresh memory is not the pass's cost.
   if (time_ms) glClearBufferfv(GL_DEPTH, 0, &far_depth);
-  r.run(fmt::format("map {} {}", static_cast<int>(settings.format), static_cast<int>(settings.cull)), time_ms, [&] {
-    glClearBufferfv(GL_DEPTH, 0, &far_depth);
-    r.draw_scene(program);
-  });
+  const std::string key = fmt::format("map {} {} {} {}", static_cast<int>(settings.map.format),
+                                      static_cast<int>(settings.map.cull), cube, layered);
+  r.run(key, time_ms, cube && !layered ? std::function<void()>(draw_faces) : draw_once);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_DEPTH_CLAMP);
   r.detach(0);
   r.context->check("render_map");
-  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(depth), side));
+  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(depth), side, cube, settings.map.wrap));
 }
 
-ShadowMap Renderer::upload_map(const Image<float>& depth, const MapSettings& settings) {
+double Renderer::polygon_offset_unit(DepthFormat format) {
   Impl& r = *impl_;
   r.context->make_current();
-  if (depth.width != depth.height || depth.width != settings.resolution)
-    throw Error(ErrorKind::defect, fmt::format("upload_map: the image is {} x {}, the settings ask for {} texels",
-                                               depth.width, depth.height, settings.resolution));
-  // OpenGL may clamp what lies outside, so it would not come back as it went.
-  const auto outside =
-      std::find_if(depth.pixels.begin(), depth.pixels.end(), [](float d) { return !(d >= 0 && d <= 1); });
-  if (outside != depth.pixels.end())
-    throw Error(ErrorKind::defect, fmt::format("upload_map: depth {} at texel index {} is outside [0,1]", *outside,
-                                               outside - depth.pixels.begin()));
-  Texture texture = r.make_map_texture(GL_DEPTH_COMPONENT32F, depth.width, settings.wrap);
-  glTextureSubImage2D(texture.id(), 0, 0, 0, depth.width, depth.height, GL_DEPTH_COMPONENT, GL_FLOAT,
-                      depth.pixels.data());
-  r.context->check("upload_map");
-  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), depth.width));
-}
-
-Image<float> Renderer::read_map(const ShadowMap& map) {
-  Impl& r = *impl_;
-  r.context->make_current();
-  const int side = map.resolution();
-  // In strips of at most 64 MiB, so that a large map does not need its own size again on the device.
-  const int rows = std::clamp((1 << 24) / side, 1, side);
-  r.require(r.map_strip, GL_R32F, side, rows);
-  Program& program = r.programs.get("shaders/screen.vert", "shaders/read_map.frag");
-  Image<float> image(side, side);
-  glBindTextureUnit(2, map.impl_->depth.id());
-  r.draw_into({r.map_strip.texture.id()}, 0, side, rows);
-  for (int first = 0; first < side; first += rows) {
-    const int count = std::min(rows, side - first);
-    program.set("first_row", first);
-    r.draw_screen(program);
-    const size_t texels = static_cast<size_t>(side) * static_cast<size_t>(count);
-    glGetTextureSubImage(r.map_strip.texture.id(), 0, 0, 0, 0, side, count, 1, GL_RED, GL_FLOAT,
-                         static_cast<GLsizei>(texels * sizeof(float)), &image.at(0, first));
-  }
-  r.detach(1);
-  glBindTextureUnit(2, 0);
-  r.context->check("read_map");
-  return image;
+  if (format == DepthFormat::d32f) return std::nan("");
+  const auto known = r.polygon_offset_units.find(format);
+  if (known != r.polygon_offset_units.end()) return known->second;
+  // As many units as are an eighth of the range, so that neither the map's rounding nor a float's shows in one of them.
+  const double units = std::ldexp(1.0, (format == DepthFormat::d16 ? 16 : 24) - 3);
+  Program& program = r.programs.get({"shaders/screen.vert", "shaders/depth.frag"});
+  const auto depth_with = [&](double offset) {  // of a face across the view, half way
+    ShadowMap map(std::make_unique<ShadowMap::Impl>(
+        r.context, r.make_map_texture(gl_format(format), 1, false, Wrap::clamp_to_edge), 1, false,
+        Wrap::clamp_to_edge));
+    r.draw_into({}, map.impl_->depth.id(), 1, 1);
+    glClearBufferfv(GL_DEPTH, 0, &far_depth);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(0, static_cast<float>(offset));
+    r.draw_screen(program, GL_ALWAYS);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    r.detach(0);
+    return static_cast<double>(read_map(map).pixels.front());
+  };
+  const double unit = (depth_with(units) - depth_with(0)) / units;
+  r.context->check("polygon_offset_unit");
+  if (!(unit > 0))
+    throw Error(ErrorKind::device, fmt::format("glPolygonOffset moves no depth of a map of {} bits on this OpenGL "
+                                               "device ({}); take another bias.form",
+                                               format == DepthFormat::d16 ? 16 : 24, r.info.renderer));
+  r.polygon_offset_units[format] = unit;
+  return unit;
 }
 
 }  // namespace noonmark::gl

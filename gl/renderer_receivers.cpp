@@ -18,7 +18,7 @@ Image<uint32_t> Renderer::render_primitives(const Camera& camera, int width, int
                 fmt::format("a picture of {} x {} pixels cannot be drawn; this OpenGL device goes up to {}; "
                             "set view.width_px and view.height_px",
                             width, height, limit));
-  Program& program = r.programs.get("shaders/scene.vert", "shaders/primitive.frag");
+  Program& program = r.programs.get({"shaders/scene.vert", "shaders/primitive.frag"});
   program.set("clip_from_world", glm::mat4(make_camera_frame(camera, width, height).clip_from_world()));
   r.require(r.primitive_colour, GL_R32UI, width, height);
   r.require(r.primitive_depth, GL_DEPTH_COMPONENT32F, width, height);

@@ -9,18 +9,11 @@
 #include <numbers>
 
 #include "raytrace/shadow_start.h"
+#include "scenes/camera_frame.h"
+#include "scenes/tap_pattern.h"
 
 namespace noonmark {
 namespace {
-
-// A 32-bit integer hash (Wellons' lowbias32 constants), to give every pixel its own shift of the sequence.
-uint32_t hash(uint32_t x) {
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  return x ^ x >> 16;
-}
 
 // Point n of the additive recurrence of the plastic number (Roberts 2018, "R2"), shifted: even in every prefix.
 glm::dvec2 sequence_point(uint32_t n, glm::dvec2 shift) {
@@ -29,31 +22,82 @@ glm::dvec2 sequence_point(uint32_t n, glm::dvec2 shift) {
   return p - glm::floor(p);
 }
 
+// Places on the light as a receiver sees it.
+class LightSampler {
+ public:
+  LightSampler(const LightFrame& frame, const Light& light) : frame_(frame), light_(light) {
+    if (frame.parallel()) radius_ = std::tan(light.angular_diameter_deg * std::numbers::pi / 360);
+  }
+
+  // The way to the place that u (in the unit square) stands for.
+  WayToLight way(glm::dvec3 p, glm::dvec2 u) const {
+    const double phi = 2 * std::numbers::pi * u.y;
+    if (frame_.parallel()) {
+      const double r = radius_ * std::sqrt(u.x);
+      return {glm::vec3(frame_.direction_to_light() + r * (std::cos(phi) * frame_.right + std::sin(phi) * frame_.up)),
+              std::numeric_limits<float>::infinity()};
+    }
+    const glm::dvec3 centre = frame_.origin_m - p;
+    const double distance = glm::length(centre);
+    const glm::dvec3 axis = centre / distance;
+    glm::dvec3 right = frame_.right, up = frame_.up;
+    if (!(light_.shape == LightShape::disc && light_.kind == LightKind::spot)) upright_axes(axis, {0, 1, 0}, right, up);
+    const glm::dvec3 around = std::cos(phi) * right + std::sin(phi) * up;
+    if (light_.shape == LightShape::disc) {
+      const glm::dvec3 way = centre + light_.radius_m * std::sqrt(u.x) * around;
+      return {glm::vec3(glm::normalize(way)), static_cast<float>(glm::length(way))};
+    }
+    // The sphere's cone, evenly in solid angle: even in the cosine. 1 - cos without cancellation, for small lights.
+    const double sine = light_.radius_m / distance;
+    const double rest = u.x * (sine * sine / (1 + std::sqrt(1 - sine * sine)));  // 1 - cosine
+    const double off = std::sqrt(rest * (2 - rest)), along = distance * (1 - rest);
+    const double to_surface =
+        along - std::sqrt(std::max(0.0, light_.radius_m * light_.radius_m - distance * off * distance * off));
+    return {glm::vec3((1 - rest) * axis + off * around), static_cast<float>(to_surface)};
+  }
+
+  bool surrounds(glm::dvec3 p) const {
+    return !frame_.parallel() && light_.shape == LightShape::sphere &&
+           glm::length(frame_.origin_m - p) <= light_.radius_m;
+  }
+
+ private:
+  const LightFrame& frame_;
+  const Light& light_;
+  double radius_ = 0;
+};
+
 }  // namespace
 
-Image<float> sample_sun(const Scene& scene, const EmbreeScene& embree, const ReceiverImage& receivers,
-                        const std::vector<uint32_t>& facing, const LightFrame& frame, double angular_diameter_deg,
-                        double standard_error, uint64_t& rays) {
-  const double radius = std::tan(angular_diameter_deg * std::numbers::pi / 360);
-  const ShadowStart start(scene, receivers, frame.ray_direction);
+bool has_size(const Light& light) {
+  return (light.kind == LightKind::directional ? light.angular_diameter_deg : light.radius_m) > 0;
+}
+
+Image<float> sample_light(const Scene& scene, const EmbreeScene& embree, const ReceiverImage& receivers,
+                          const std::vector<uint32_t>& facing, const LightFrame& frame, const Light& light,
+                          double standard_error, uint64_t& rays) {
+  const LightSampler sampler(frame, light);
+  const ShadowStart start(scene, receivers, frame);
   Image<float> seen(receivers.width(), receivers.height(), 0);
   std::atomic<uint64_t> all_rays = 0;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, facing.size(), 256), [&](const tbb::blocked_range<size_t>& range) {
     uint64_t cast = 0;
     for (size_t index = range.begin(); index != range.end(); ++index) {
       const uint32_t pixel = facing[index];
-      const glm::dvec2 shift(hash(pixel) * 0x1p-32, hash(pixel ^ 0x9e3779b9u) * 0x1p-32);
-      const glm::dvec3 normal = receivers.normal[pixel];
+      const glm::dvec2 shift(hash_pixel(pixel) * 0x1p-32, hash_pixel(pixel ^ 0x9e3779b9u) * 0x1p-32);
+      const glm::dvec3 normal = receivers.normal[pixel], position = receivers.position[pixel];
+      if (sampler.surrounds(position)) {
+        seen[pixel] = 1;
+        continue;
+      }
       uint32_t n = 0, lit = 0;
       for (;;) {
         ShadowRay packet[packet_size];
         int above = 0;
         for (int i = 0; i < packet_size; ++i) {
           const glm::dvec2 u = sequence_point(n + static_cast<uint32_t>(i), shift);
-          const double r = radius * std::sqrt(u.x), phi = 2 * std::numbers::pi * u.y;
-          const glm::dvec3 direction =
-              frame.direction_to_light() + r * (std::cos(phi) * frame.right + std::sin(phi) * frame.up);
-          if (glm::dot(direction, normal) > 0) packet[above++] = start.towards(pixel, glm::vec3(direction));
+          const WayToLight way = sampler.way(position, u);
+          if (glm::dot(glm::dvec3(way.direction), normal) > 0) packet[above++] = start.towards(pixel, way);
         }
         if (above > 0) lit += static_cast<uint32_t>(above - std::popcount(embree.occluded(above, packet)));
         cast += static_cast<uint64_t>(above);

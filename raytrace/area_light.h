@@ -1,4 +1,4 @@
-// R0: how much of a sun's disc each receiver sees.
+// R0: how much of a light with a size each receiver sees.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -9,12 +9,16 @@
 
 namespace noonmark {
 
-// Samples the disc, 16 rays at a time, until the standard error of each receiver's fraction is at most standard_error.
-// The error is judged as sqrt(p (1 - p) / n) with p = (k + 1) / (n + 2), so that n rays that all agree are not taken
-// for certainty. What of the disc lies below the receiver's own horizon is not seen. Deterministic: the samples of a
-// pixel depend on its index alone. Pixels not in `facing`: 0.
-Image<float> sample_sun(const Scene& scene, const EmbreeScene& embree, const ReceiverImage& receivers,
-                        const std::vector<uint32_t>& facing, const LightFrame& frame, double angular_diameter_deg,
-                        double standard_error, uint64_t& rays);
+bool has_size(const Light& light);
+
+// Samples the light, 16 rays at a time, until the standard error of each receiver's fraction is at most standard_error.
+// A sun is a disc of directions; a sphere is sampled evenly over the solid angle that it fills at the receiver; a disc
+// evenly over its area. The error is judged as sqrt(p (1 - p) / n) with p = (k + 1) / (n + 2), so that n rays that all
+// agree are not taken for certainty. What of the light lies below the receiver's own horizon is not seen; a receiver
+// inside the sphere sees all of it. Deterministic: the samples of a pixel depend on its index alone. Pixels not in
+// `facing`: 0.
+Image<float> sample_light(const Scene& scene, const EmbreeScene& embree, const ReceiverImage& receivers,
+                          const std::vector<uint32_t>& facing, const LightFrame& frame, const Light& light,
+                          double standard_error, uint64_t& rays);
 
 }  // namespace noonmark

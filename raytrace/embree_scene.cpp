@@ -84,18 +84,18 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::ve
   near_distance_ = largest_coordinate(scene) * 0x1p-12f;
 }
 
-void EmbreeScene::first_hits(int count, const glm::vec3* origins, glm::vec3 direction, uint32_t* primitives) const {
+void EmbreeScene::first_hits(int count, const LightRay* starts, uint32_t* primitives) const {
   alignas(64) RTCRayHit16 rays;
   alignas(64) int valid[packet_size];
   for (int i = 0; i < packet_size; ++i) {
     valid[i] = i < count ? -1 : 0;
-    const glm::vec3 origin = origins[i < count ? i : 0];
-    rays.ray.org_x[i] = origin.x;
-    rays.ray.org_y[i] = origin.y;
-    rays.ray.org_z[i] = origin.z;
-    rays.ray.dir_x[i] = direction.x;
-    rays.ray.dir_y[i] = direction.y;
-    rays.ray.dir_z[i] = direction.z;
+    const LightRay& start = starts[i < count ? i : 0];
+    rays.ray.org_x[i] = start.origin.x;
+    rays.ray.org_y[i] = start.origin.y;
+    rays.ray.org_z[i] = start.origin.z;
+    rays.ray.dir_x[i] = start.direction.x;
+    rays.ray.dir_y[i] = start.direction.y;
+    rays.ray.dir_z[i] = start.direction.z;
     rays.ray.tnear[i] = 0;
     rays.ray.tfar[i] = std::numeric_limits<float>::infinity();
     rays.ray.time[i] = 0;
@@ -128,16 +128,16 @@ RTCRayHit single_ray(glm::vec3 origin, glm::vec3 direction, float tnear) {
 
 }  // namespace
 
-uint32_t EmbreeScene::first_hit(glm::vec3 origin, glm::vec3 direction) const {
-  RTCRayHit ray = single_ray(origin, direction, 0);
+uint32_t EmbreeScene::first_hit(const LightRay& start) const {
+  RTCRayHit ray = single_ray(start.origin, start.direction, 0);
   embree::Context context;
   embree::intersect(embree_.get(), context, ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return no_primitive;
   return kept_.empty() ? ray.hit.primID : kept_[ray.hit.primID];
 }
 
-void EmbreeScene::all_hits(glm::vec3 origin, glm::vec3 direction, std::vector<uint32_t>& primitives) const {
-  RTCRay ray = single_ray(origin, direction, 0).ray;
+void EmbreeScene::all_hits(const LightRay& start, std::vector<uint32_t>& primitives) const {
+  RTCRay ray = single_ray(start.origin, start.direction, 0).ray;
   ShadowContext context;
   context.scene = this;
   context.all = &primitives;  // the filter lets none of them stop the ray
@@ -157,7 +157,7 @@ uint32_t EmbreeScene::occluded(int count, const ShadowRay* starts) const {
     rays.dir_y[i] = start.direction.y;
     rays.dir_z[i] = start.direction.z;
     rays.tnear[i] = 0;
-    rays.tfar[i] = std::numeric_limits<float>::infinity();
+    rays.tfar[i] = start.reach;
     rays.time[i] = 0;
     rays.mask[i] = ~0u;
     rays.id[i] = static_cast<unsigned>(i);
@@ -178,7 +178,8 @@ double EmbreeScene::occluder_distance(const ShadowRay& start) const {
     RTCRayHit ray = single_ray(start.origin, start.direction, tnear);
     embree::Context context;
     embree::intersect(embree_.get(), context, ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::numeric_limits<double>::infinity();
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID || ray.ray.tfar > start.reach)
+      return std::numeric_limits<double>::infinity();
     const uint32_t primitive = kept_.empty() ? ray.hit.primID : kept_[ray.hit.primID];
     if (is_occluder(start, primitive, ray.ray.tfar)) return ray.ray.tfar;
     // On by the rounding of the scene's size: at t = 0 the next float above is no step at all.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,11 +38,18 @@ class EmbreeDevice {
   std::string isa_;
 };
 
+// A ray from the light's side.
+struct LightRay {
+  glm::vec3 origin{0};
+  glm::vec3 direction{0, 0, -1};  // unit, to float's rounding
+};
+
 // A shadow ray that starts on a triangle of the scene. own_distance: where along the ray (in units of its direction's
 // length) the plane of `own` lies, in double: the receiver's float position is up to half a float's last place off it.
 struct ShadowRay {
   glm::vec3 origin{0};
   glm::vec3 direction{0};
+  float reach = std::numeric_limits<float>::infinity();  // to the light, in units of the direction's length
   uint32_t own = no_primitive;
   double own_distance = 0;
   bool through_own_plane = false;  // sees through faces that lie in own's plane but for float's rounding of corners
@@ -52,14 +60,14 @@ class EmbreeScene {
   // kept: indices of the triangles that take part; empty: all of them.
   EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::vector<uint32_t> kept = {});
 
-  // First hits of rays that all go one way. count: 1 ... 16.
-  void first_hits(int count, const glm::vec3* origins, glm::vec3 direction, uint32_t* primitives) const;
-  uint32_t first_hit(glm::vec3 origin, glm::vec3 direction) const;
+  // count: 1 ... 16.
+  void first_hits(int count, const LightRay* rays, uint32_t* primitives) const;
+  uint32_t first_hit(const LightRay& ray) const;
 
   // Every triangle that the ray meets, in no order.
-  void all_hits(glm::vec3 origin, glm::vec3 direction, std::vector<uint32_t>& primitives) const;
+  void all_hits(const LightRay& ray, std::vector<uint32_t>& primitives) const;
 
-  // Bit i: ray i meets another triangle than its own, beyond its own plane. count: 1 ... 16.
+  // Bit i: ray i meets another triangle than its own, beyond its own plane and before the light. count: 1 ... 16.
   uint32_t occluded(int count, const ShadowRay* rays) const;
 
   // May the two triangles have been parts of one plane before their corners were rounded to float? Which of such faces

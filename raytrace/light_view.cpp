@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "raytrace/embree_scene.h"
-
 namespace noonmark {
 
-LightView::LightView(const Scene& scene, const LightFrame& frame) : scene_(&scene), frame_(frame) {
+LightView::LightView(const Scene& scene, const LightFrame& frame)
+    : scene_(&scene), frame_(frame), parallel_(frame.parallel()) {
   vertices_.reserve(scene.positions.size());
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+  if (!parallel_) low = high = glm::dvec3(0);  // the light is part of what its rays' rounding spans
   for (const glm::vec3& position : scene.positions) {
     const glm::dvec3 p = frame.to_light(position);
     vertices_.push_back(p);
@@ -19,24 +19,62 @@ LightView::LightView(const Scene& scene, const LightFrame& frame) : scene_(&scen
   ray_error_m_ = 0x1p-24 * (std::sqrt(3.0) * largest_coordinate(scene) + 4 * size);
   start_m_ =
       low.z - 0.01 * size - 4 * ray_error_m_;  // a margin for the rounding of the start, so that nothing is behind it
+
+  planes_.reserve(scene.triangles.size());
+  for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const glm::dvec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2), e = b - a, f = c - a;
+    const glm::dvec3 n = glm::cross(e, f);
+    Plane& plane = planes_.emplace_back();
+    plane.normal = (parallel_ ? n.z : glm::dot(n, a)) < 0 ? -n : n;
+    plane.gradient = glm::dvec2(e.z * f.y - f.z * e.y, f.z * e.x - e.z * f.x) / (e.x * f.y - e.y * f.x);
+    plane.slope = glm::length(plane.gradient);
+    const double depths[3] = {frame.depth_m(a), frame.depth_m(b), frame.depth_m(c)};
+    plane.low = *std::min_element(depths, depths + 3);
+    plane.high = *std::max_element(depths, depths + 3);
+    if (frame.kind != LightKind::point) continue;
+    // No nearer than its plane, nor than a corner less the longest side.
+    const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+    const double length = glm::length(n);
+    plane.low = std::max(plane.low - longest, length > 0 ? std::abs(glm::dot(n, a)) / length : 0.0);
+  }
 }
 
-glm::dvec2 LightView::gradient(uint32_t triangle) const {
-  const glm::dvec3 a = corner(triangle, 0), e = corner(triangle, 1) - a, f = corner(triangle, 2) - a;
-  const double determinant = e.x * f.y - e.y * f.x;
-  return glm::dvec2(e.z * f.y - f.z * e.y, f.z * e.x - e.z * f.x) / determinant;
+glm::dvec3 LightView::normal_place(glm::dvec3 place) const {
+  switch (frame_.kind) {
+    case LightKind::directional:
+      return place;
+    case LightKind::spot:
+      return {place.x / place.z, place.y / place.z, 1};
+    case LightKind::point:
+      return glm::normalize(place);
+  }
+  return place;
 }
 
-double LightView::plane_depth(uint32_t triangle, glm::dvec2 x) const {
-  const glm::dvec3 a = corner(triangle, 0);
-  return a.z + glm::dot(gradient(triangle), x - glm::dvec2(a));
+double LightView::width(uint32_t triangle) const {
+  const double area = std::abs(orientation(triangle));
+  double longest = 0;
+  for (int e = 0; e < 3; ++e) {
+    const glm::dvec3 a = corner(triangle, e), b = corner(triangle, (e + 1) % 3);
+    longest = std::max(longest, parallel_ ? glm::length(glm::dvec2(b - a)) : glm::length(glm::cross(a, b - a)));
+  }
+  return area / longest;
 }
 
-double LightView::hit_depth(uint32_t triangle, glm::dvec2 x) const {
-  const double a = corner(triangle, 0).z, b = corner(triangle, 1).z, c = corner(triangle, 2).z;
-  const double low = std::min({a, b, c}), high = std::max({a, b, c});
-  const double depth = plane_depth(triangle, x);
-  return std::isnan(depth) ? low : std::clamp(depth, low, high);
+glm::dvec3 LightView::at_depth(glm::dvec3 x, double depth) const {
+  return parallel_ ? glm::dvec3(x.x, x.y, depth) : x * depth;
+}
+
+LightRay LightView::ray_from(glm::dvec3 x, double depth) const {
+  const glm::vec3 origin(frame_.to_world(at_depth(x, depth)));
+  if (parallel_) return {origin, frame_.ray_direction};
+  return {origin, glm::vec3(glm::normalize(frame_.to_world(x) - frame_.origin_m))};
+}
+
+double LightView::near_depth(glm::dvec3 x) const {
+  if (frame_.kind != LightKind::point) return frame_.near_m;
+  const glm::dvec3 a = glm::abs(x);
+  return frame_.near_m / std::max({a.x, a.y, a.z});
 }
 
 }  // namespace noonmark

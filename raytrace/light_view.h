@@ -1,62 +1,109 @@
 // A scene as its light sees it: every vertex in the light's frame, in double, and the plane of every triangle as a
-// function of the light-plane position. Depths here are metres along the light's axis from LightFrame::origin_m.
+// function of the place (scenes/light_frame.h) that a light-side ray goes to. Depths are LightFrame::depth_m: metres
+// along the axis, or the distance from a point light.
+//
+// Places here are normal: of a directional light (u, v, 1), of a spot light (x / z, y / z, 1), of a point light a unit
+// vector. The straight way from one place to another is what the light sees between them: a line, or an arc.
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
 #include <vector>
 
+#include "raytrace/embree_scene.h"
 #include "scenes/light_frame.h"
 #include "scenes/scene.h"
 
 namespace noonmark {
-
-// Twice the signed area of the triangle p, a, b; positive when they run counter-clockwise.
-inline double orientation(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
-  return (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x);
-}
 
 class LightView {
  public:
   LightView(const Scene& scene, const LightFrame& frame);
 
   glm::dvec3 corner(uint32_t triangle, int i) const { return vertices_[scene_->triangles[triangle][i]]; }
-  glm::dvec2 corner2(uint32_t triangle, int i) const { return glm::dvec2(corner(triangle, i)); }
-  double projected_area2(uint32_t triangle) const {
-    return orientation(corner2(triangle, 0), corner2(triangle, 1), corner2(triangle, 2));
+
+  glm::dvec3 normal_place(glm::dvec3 place) const;
+  glm::dvec3 place_of(glm::dvec3 light) const { return normal_place(frame_.place(light)); }
+  glm::dvec3 texel_place(glm::ivec2 texel) const { return normal_place(frame_.texel_place(texel)); }
+
+  // Positive when three points of the light's frame, or places, run counter-clockwise as the light sees them, in the
+  // map's u and v: twice the area of their triangle, or the determinant of their directions. Only the sign means the
+  // same for both.
+  double orientation(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b) const {
+    const glm::dvec3 e = a - p, f = b - p;
+    return parallel_ ? e.x * f.y - e.y * f.x : glm::dot(p, glm::cross(e, f));
+  }
+  double orientation(uint32_t triangle) const {
+    return orientation(corner(triangle, 0), corner(triangle, 1), corner(triangle, 2));
   }
 
   // Seen from the side, to within double's rounding of a direction and of corners (2^-53 each, and a large margin: what
   // is so thin has no inside that double can tell). Such a triangle covers nothing, and no surface goes on over it.
   bool edge_on(uint32_t triangle) const {
     const glm::dvec3 a = corner(triangle, 0), n = glm::cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
-    return !(std::abs(n.z) > 0x1p-30 * glm::length(n));
+    return parallel_ ? !(std::abs(n.z) > 0x1p-30 * glm::length(n))
+                     : !(std::abs(glm::dot(n, a)) > 0x1p-30 * glm::length(n) * glm::length(a));
   }
 
-  // dz/d(u, v) of the triangle's plane; not finite when it is edge-on to the light.
-  glm::dvec2 gradient(uint32_t triangle) const;
+  // The triangle's normal in the light's frame, away from the light; not of unit length.
+  glm::dvec3 normal_away(uint32_t triangle) const { return planes_[triangle].normal; }
 
-  // Depth of the triangle's plane at x, also beyond the triangle.
-  double plane_depth(uint32_t triangle, glm::dvec2 x) const;
+  // How much deeper its plane becomes for a metre across the light's ray through x; not finite when it is edge-on.
+  double slope(uint32_t triangle, glm::dvec3 x) const {
+    const Plane& plane = planes_[triangle];
+    return parallel_ ? plane.slope : glm::length(glm::cross(plane.normal, x)) / std::abs(glm::dot(plane.normal, x));
+  }
+
+  // How wide the triangle is at its narrowest as the light sees it, in metres.
+  double width(uint32_t triangle) const;
+
+  // Depth of the triangle's plane at x, also beyond the triangle; infinity where the ray never comes to it.
+  double plane_depth(uint32_t triangle, glm::dvec3 x) const {
+    const Plane& plane = planes_[triangle];
+    const glm::dvec3 a = corner(triangle, 0);
+    if (parallel_) return a.z + glm::dot(plane.gradient, glm::dvec2(x) - glm::dvec2(a));
+    const double along = glm::dot(plane.normal, a) / glm::dot(plane.normal, x);  // x is normal: its own depth is 1
+    return along < 0 ? std::numeric_limits<double>::infinity() : along;
+  }
 
   // Depth where the light ray through x meets the triangle. A ray that Embree says hits it may pass it by by a float's
   // rounding; the depth never leaves the triangle's own range.
-  double hit_depth(uint32_t triangle, glm::dvec2 x) const;
+  double hit_depth(uint32_t triangle, glm::dvec3 x) const {
+    const Plane& plane = planes_[triangle];
+    const double depth = plane_depth(triangle, x);
+    return std::isnan(depth) ? plane.low : std::clamp(depth, plane.low, plane.high);
+  }
 
-  // Start of the light-side ray through x, before everything in the scene.
-  glm::vec3 ray_origin(glm::dvec2 x) const { return glm::vec3(frame_.to_world({x.x, x.y, start_m_})); }
+  // The light-side ray through x: from before everything in the scene, or from the light itself.
+  LightRay ray(glm::dvec3 x) const { return ray_from(x, parallel_ ? start_m_ : 0); }
+  LightRay ray_from(glm::dvec3 x, double depth) const;
+
+  // Depth at which the map's near plane cuts the ray through x.
+  double near_depth(glm::dvec3 x) const;
 
   // How far a light-side ray may pass beside the exact place it was meant for, in metres: the rounding of its float
-  // origin, and of Embree's edge tests over the scene's size (4 roundings of 2^-24).
+  // origin and direction, and of Embree's edge tests over the scene's size (4 roundings of 2^-24).
   double ray_error_m() const { return ray_error_m_; }
 
   const LightFrame& frame() const { return frame_; }
+  bool parallel() const { return parallel_; }
 
  private:
+  glm::dvec3 at_depth(glm::dvec3 x, double depth) const;  // in the light's frame
+
   const Scene* scene_;
   LightFrame frame_;
+  bool parallel_;
   std::vector<glm::dvec3> vertices_;
+  struct Plane {  // of each triangle
+    glm::dvec3 normal{0};
+    double low = 0, high = 0;  // the triangle's range of depths
+    glm::dvec2 gradient{0};    // directional: dz/d(u, v); not finite when it is edge-on
+    double slope = 0;          // and its length
+  };
+  std::vector<Plane> planes_;
   double start_m_ = 0;
   double ray_error_m_ = 0;
 };

@@ -12,7 +12,7 @@ constexpr double rounding_share = 0x1p-24;
 
 }  // namespace
 
-OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec2 x) const {
+OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec3 x) const {
   uint32_t triangle = p.primitive;
   uint32_t from = no_primitive;  // the triangle that the walk came from
   const auto ends_at = [&](double depth) {
@@ -20,10 +20,10 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec2 x) const {
   };
   // A straight walk over a sheet without folds meets no triangle twice, but a broken mesh may hold anything.
   for (int steps = 0; steps < 100000; ++steps) {
-    const double sign = view_.projected_area2(triangle) < 0 ? -1 : 1;
+    const double sign = view_.orientation(triangle) < 0 ? -1 : 1;
     double inside[3];  // of x, against each edge
     for (int e = 0; e < 3; ++e)
-      inside[e] = sign * orientation(view_.corner2(triangle, e), view_.corner2(triangle, (e + 1) % 3), x);
+      inside[e] = sign * view_.orientation(view_.corner(triangle, e), view_.corner(triangle, (e + 1) % 3), x);
     if (inside[0] >= 0 && inside[1] >= 0 && inside[2] >= 0) return {view_.plane_depth(triangle, x), triangle};
 
     // The way out: an edge with x beyond it, whose ends lie on either side of the line from P to x. Rounding can leave
@@ -32,23 +32,23 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec2 x) const {
     bool out_crossed = false;
     for (int e = 0; e < 3; ++e) {
       if (inside[e] >= 0) continue;
-      const bool crossed = sign * orientation(p.at, x, view_.corner2(triangle, e)) <= 0 &&
-                           sign * orientation(p.at, x, view_.corner2(triangle, (e + 1) % 3)) >= 0;
+      const bool crossed = sign * view_.orientation(p.at, x, view_.corner(triangle, e)) <= 0 &&
+                           sign * view_.orientation(p.at, x, view_.corner(triangle, (e + 1) % 3)) >= 0;
       if (out < 0 || (crossed && !out_crossed) || (crossed == out_crossed && inside[e] < inside[out])) {
         out = e;
         out_crossed = crossed;
       }
     }
     const glm::dvec3 a = view_.corner(triangle, out), b = view_.corner(triangle, (out + 1) % 3);
-    const double side_a = orientation(p.at, x, glm::dvec2(a)), side_b = orientation(p.at, x, glm::dvec2(b));
+    const double side_a = view_.orientation(p.at, x, a), side_b = view_.orientation(p.at, x, b);
     const double along = side_a == side_b ? 0.5 : std::clamp(side_a / (side_a - side_b), 0.0, 1.0);
-    const double edge_depth = a.z + along * (b.z - a.z);
+    const double edge_depth = view_.frame().depth_m(a + along * (b - a));
 
     // The sheet goes on in a triangle that lies on the other side of the edge as the light sees it. Where several do,
     // the flattest continuation is P's surface.
     uint32_t next = no_primitive;
     double flattest = -2;
-    const glm::dvec2 slope = view_.gradient(triangle);
+    const glm::dvec3 n1 = view_.normal_away(triangle);
     for (uint32_t candidate : adjacency_.across(triangle, out)) {
       if (candidate == from || view_.edge_on(candidate)) continue;
       int apex = 0;  // the corner of the candidate that is not on the edge
@@ -56,9 +56,9 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec2 x) const {
         const uint32_t v = adjacency_.welded(candidate)[i];
         if (v != adjacency_.welded(triangle)[out] && v != adjacency_.welded(triangle)[(out + 1) % 3]) apex = i;
       }
-      const double side = sign * orientation(glm::dvec2(a), glm::dvec2(b), view_.corner2(candidate, apex));
+      const double side = sign * view_.orientation(a, b, view_.corner(candidate, apex));
       if (!(side < 0)) continue;  // folded back, or edge-on to the light
-      const glm::dvec3 n1(-slope, 1), n2(-view_.gradient(candidate), 1);
+      const glm::dvec3 n2 = view_.normal_away(candidate);
       const double flatness = glm::dot(n1, n2) / (glm::length(n1) * glm::length(n2));
       if (flatness > flattest) {
         flattest = flatness;
@@ -72,37 +72,39 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec2 x) const {
   return ends_at(view_.plane_depth(p.primitive, x));
 }
 
-uint32_t OwnSurface::first_hit(glm::dvec2 x, uint64_t& rays) const {
+uint32_t OwnSurface::first_hit(glm::dvec3 x, uint64_t& rays) const {
   ++rays;
-  return embree_.first_hit(view_.ray_origin(x), view_.frame().ray_direction);
+  return embree_.first_hit(view_.ray(x));
 }
 
-bool OwnSurface::clipped(uint32_t hit, glm::dvec2 x) const {
-  return hit != no_primitive && view_.hit_depth(hit, x) < view_.frame().near_m;
+bool OwnSurface::clipped(uint32_t hit, glm::dvec3 x) const {
+  return hit != no_primitive && view_.hit_depth(hit, x) < view_.near_depth(x);
 }
 
-bool OwnSurface::covers(uint32_t triangle, glm::dvec2 x) const {
+bool OwnSurface::covers(uint32_t triangle, glm::dvec3 x) const {
   if (triangle == no_primitive) return false;
   double least = 0, most = 0;
   for (int e = 0; e < 3; ++e) {
-    const double side = orientation(view_.corner2(triangle, e), view_.corner2(triangle, (e + 1) % 3), x);
+    const double side = view_.orientation(view_.corner(triangle, e), view_.corner(triangle, (e + 1) % 3), x);
     least = std::min(least, side);
     most = std::max(most, side);
   }
-  return (least >= 0) != (most <= 0) && !view_.edge_on(triangle);  // on one side of all edges
+  if ((least >= 0) == (most <= 0) || view_.edge_on(triangle)) return false;
+  // On one side of all edges; of a light in the scene also behind it, where all sides are the other way about.
+  return view_.parallel() || (least >= 0) == (view_.orientation(triangle) > 0);
 }
 
-uint32_t OwnSurface::exact_first(glm::dvec2 x, uint64_t& rays) const {
+uint32_t OwnSurface::exact_first(glm::dvec3 x, uint64_t& rays) const {
   std::vector<uint32_t> found;
   ++rays;
-  embree_.all_hits(view_.ray_origin(x), view_.frame().ray_direction, found);
+  embree_.all_hits(view_.ray(x), found);
   silhouettes_.near(x, found);
   uint32_t first = no_primitive;
   for (uint32_t triangle : found) {
     if (!covers(triangle, x)) {  // the sheet may go on below x
-      const glm::dvec2 centre =
-          (view_.corner2(triangle, 0) + view_.corner2(triangle, 1) + view_.corner2(triangle, 2)) / 3.0;
-      triangle = walk({centre, triangle}, x).triangle;
+      const glm::dvec3 centre =
+          (view_.corner(triangle, 0) + view_.corner(triangle, 1) + view_.corner(triangle, 2)) / 3.0;
+      triangle = walk({view_.frame().place(centre), triangle}, x).triangle;
       if (!covers(triangle, x)) continue;
     }
     if (first == no_primitive || view_.hit_depth(triangle, x) < view_.hit_depth(first, x)) first = triangle;
@@ -110,7 +112,7 @@ uint32_t OwnSurface::exact_first(glm::dvec2 x, uint64_t& rays) const {
   return first;
 }
 
-OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const {
+OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, uint64_t& rays) const {
   // What the light meets first is asked exactly where the ray may have met another surface than that: beside a
   // silhouette, and where two surfaces run into one another. The latter can change a verdict only where P's own sheet
   // is one of the two: a dark receiver's comes out from under another surface, or a lit one's goes under.
@@ -134,22 +136,22 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec2 x, uint
   return v;
 }
 
-bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec2 x, uint32_t hit) const {
+bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const {
   if (hit == no_primitive || hit == p.primitive) return true;
   const Sheet sheet = walk(p, x);
   if (sheet.triangle == hit) return true;
-  const double error = depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle);
+  const double error = depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle, x);
   return view_.hit_depth(hit, x) >= sheet.depth_m - error;
 }
 
-OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec2 x, uint32_t hit,
+OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
                                         const std::vector<Silhouettes::Crossing>& crossed, uint64_t& rays) const {
   if (hit == no_primitive || hit == p.primitive) return {true, true};
   const Sheet sheet = walk(p, x);
   if (sheet.triangle == hit) return {true, true};
   // Where P's own rounding put it beside its surface or onto its edge, the way crosses an edge that the exact P's does
   // not, or the other way about, and may leave the sheet elsewhere.
-  const bool on_edge = !crossed.empty() && crossed.front().t * glm::length(x - p.at) <= rounding_share * beside_m();
+  const bool on_edge = !crossed.empty() && crossed.front().t * length_m(p, x) <= rounding_share * beside_m();
   const bool on_surface = !on_edge && walk(p, p.at).triangle != no_primitive;
   const double behind = sheet.depth_m - view_.hit_depth(hit, x);
   if (behind <= rounding_of_sheet(p, x, sheet, hit)) return {true, on_surface || sheet.triangle != no_primitive};
@@ -163,45 +165,50 @@ OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec2 x, uin
 }
 
 // A plane that is carried on from a small triangle has its rounding grow with the way.
-double OwnSurface::rounding_of_sheet(const SurfacePoint& p, glm::dvec2 x, const Sheet& sheet, uint32_t hit) const {
-  if (sheet.triangle != no_primitive) return rounding_share * depth_error(hit, sheet.triangle);
-  double longest = 0;
-  for (int e = 0; e < 3; ++e)
-    longest = std::max(longest, glm::length(view_.corner2(p.primitive, (e + 1) % 3) - view_.corner2(p.primitive, e)));
-  const double width = std::abs(view_.projected_area2(p.primitive)) / longest;
-  const double growth = glm::length(x - p.at) / width;
-  return rounding_share * depth_error(hit, p.primitive) * (1 + (std::isfinite(growth) ? growth : 0));
+double OwnSurface::rounding_of_sheet(const SurfacePoint& p, glm::dvec3 x, const Sheet& sheet, uint32_t hit) const {
+  if (sheet.triangle != no_primitive) return rounding_share * depth_error(hit, sheet.triangle, x);
+  const double growth = length_m(p, x) / view_.width(p.primitive);
+  return rounding_share * depth_error(hit, p.primitive, x) * (1 + (std::isfinite(growth) ? growth : 0));
 }
 
-double OwnSurface::edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from,
-                                 uint64_t& rays) const {
+double OwnSurface::edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from,
+                                        uint64_t& rays) const {
   double same = 0, other = 1;
   for (int halving = 0; halving < 8; ++halving) {
     const double middle = (same + other) / 2;
-    const glm::dvec2 x = from + middle * (to - from);
+    const glm::dvec3 x = view_.normal_place(from + middle * (to - from));
     const std::vector<Silhouettes::Crossing> crossed =
         p.lit ? silhouettes_.crossings(p.at, x) : std::vector<Silhouettes::Crossing>();
     (verdict(p, x, first_hit(x, rays), crossed, rays).lit == lit_from ? same : other) = middle;
   }
-  return other * glm::length(to - from);
+  // A normal place is a point of the light's frame at depth 1, or of its plane.
+  return other * glm::length(to - from) / view_.frame().texel_m(from);
 }
 
-double OwnSurface::depth_error(uint32_t a, uint32_t b) const {
+double OwnSurface::length_m(const SurfacePoint& p, glm::dvec3 x) const {
+  const double length = glm::length(x - p.at);
+  return view_.parallel() ? length : length * view_.plane_depth(p.primitive, p.at);
+}
+
+double OwnSurface::depth_error(uint32_t a, uint32_t b, glm::dvec3 x) const {
   const auto slope = [&](uint32_t triangle) {
-    const double length = glm::length(view_.gradient(triangle));
-    return std::isfinite(length) ? length : 0.0;
+    const double s = view_.slope(triangle, x);
+    return std::isfinite(s) ? s : 0.0;
   };
   return view_.ray_error_m() * (1 + slope(a) + slope(b));
 }
 
-OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec2 x, uint32_t hit,
+OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
                                            const std::vector<Silhouettes::Crossing>& at, uint64_t& rays) const {
   bool sure = true;
-  const glm::dvec2 way = x - p.at;
-  const double length = glm::length(way);
-  const double aside = rounding_share * beside_m() / length;
-  const auto begin_of = [&](size_t i) { return at[i].t - aside / at[i].sine; };
-  const auto end_of = [&](size_t i) { return at[i].t + aside / at[i].sine; };
+  const glm::dvec3 way = x - p.at;
+  const auto place = [&](double t) { return view_.normal_place(p.at + t * way); };
+  const auto aside = [&](size_t i) {  // as a fraction of the way, which is longer the deeper the edge lies
+    const double length = glm::length(way) * (view_.parallel() ? 1 : at[i].depth_m);
+    return rounding_share * beside_m() / (length * at[i].sine);
+  };
+  const auto begin_of = [&](size_t i) { return at[i].t - aside(i); };
+  const auto end_of = [&](size_t i) { return at[i].t + aside(i); };
   for (size_t first = 0, last; first < at.size(); first = last + 1) {
     last = first;  // silhouettes that double cannot tell apart are crossed together
     double begin = begin_of(first), end = end_of(first);
@@ -210,16 +217,16 @@ OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec2 x, 
       begin = std::min(begin, begin_of(last));
       end = std::max(end, end_of(last));
     }
-    const uint32_t before = begin > 0 ? exact_first(p.at + begin * way, rays) : p.primitive;
-    const uint32_t after = end < 1 ? exact_first(p.at + end * way, rays) : hit;
+    const uint32_t before = begin > 0 ? exact_first(place(begin), rays) : p.primitive;
+    const uint32_t after = end < 1 ? exact_first(place(end), rays) : hit;
     if (before == after) continue;
     if (before == no_primitive || after == no_primitive) return {false, true};
     double step = std::numeric_limits<double>::infinity();
     for (size_t i = first; i <= last; ++i) {
-      const glm::dvec2 y = p.at + at[i].t * way;
+      const glm::dvec3 y = place(at[i].t);
       step = std::min(step, std::abs(view_.hit_depth(before, y) - view_.hit_depth(after, y)));
     }
-    if (step <= rounding_share * depth_error(before, after)) continue;
+    if (step <= rounding_share * depth_error(before, after, place(at[first].t))) continue;
     if (!embree_.one_plane(before, after)) return {false, true};
     sure = false;
   }

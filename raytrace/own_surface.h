@@ -18,7 +18,7 @@
 namespace noonmark {
 
 struct SurfacePoint {
-  glm::dvec2 at{0};        // P in the light's plane, metres
+  glm::dvec3 at{0};        // the place of P as the light sees it (raytrace/light_view.h)
   uint32_t primitive = 0;  // the triangle it lies on
   bool lit = false;        // R1
 };
@@ -35,46 +35,48 @@ class OwnSurface {
   };
 
   // hit: the triangle of the first hit on the light ray through x, or no_primitive. rays: counts those cast here.
-  Verdict lit_at(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, uint64_t& rays) const;
+  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, uint64_t& rays) const;
 
   // Where V changes between two places with different verdicts, to 2^-8 of the way: the distance from `from` to there,
-  // metres in the light's plane.
-  double edge_distance(const SurfacePoint& p, glm::dvec2 from, glm::dvec2 to, bool lit_from, uint64_t& rays) const;
+  // in texels.
+  double edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from,
+                              uint64_t& rays) const;
 
   // Does the light ray through x pass the triangle, in double?
-  bool covers(uint32_t triangle, glm::dvec2 x) const;
+  bool covers(uint32_t triangle, glm::dvec3 x) const;
 
   // Is what the light meets first at x before the map's near plane?
-  bool clipped(uint32_t hit, glm::dvec2 x) const;
+  bool clipped(uint32_t hit, glm::dvec3 x) const;
 
   struct Sheet {
     double depth_m = 0;                // S
     uint32_t triangle = no_primitive;  // where the walk arrived, or no_primitive when it ended early
   };
-  Sheet walk(const SurfacePoint& p, glm::dvec2 x) const;
+  Sheet walk(const SurfacePoint& p, glm::dvec3 x) const;
 
  private:
-  uint32_t first_hit(glm::dvec2 x, uint64_t& rays) const;
+  uint32_t first_hit(glm::dvec3 x, uint64_t& rays) const;
   // The same, exactly: of all that the ray through x meets, and of the sheets that end so near that it may have passed
   // them by, the first that covers x in double.
-  uint32_t exact_first(glm::dvec2 x, uint64_t& rays) const;
+  uint32_t exact_first(glm::dvec3 x, uint64_t& rays) const;
 
   // The verdict at this one hit, crossed: the silhouettes between P and x.
-  Verdict verdict(const SurfacePoint& p, glm::dvec2 x, uint32_t hit, const std::vector<Silhouettes::Crossing>& crossed,
+  Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const std::vector<Silhouettes::Crossing>& crossed,
                   uint64_t& rays) const;
   // Silhouettes within this distance of x may part the ray that was cast from the exact one, or from one as far away.
   double beside_m() const { return 2 * view_.ray_error_m(); }
   // Has the first-hit depth no jump between P, lit, and x? It can have one only where the way crosses a silhouette.
   // Unsure where the only jumps are between faces that may have been one plane before their corners were rounded.
-  Verdict continuous(const SurfacePoint& p, glm::dvec2 x, uint32_t hit,
+  Verdict continuous(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
                      const std::vector<Silhouettes::Crossing>& crossed, uint64_t& rays) const;
   // Is this hit P's own sheet, or behind it, but for the ray's error?
-  bool may_be_lit(const SurfacePoint& p, glm::dvec2 x, uint32_t hit) const;
-  double rounding_of_sheet(const SurfacePoint& p, glm::dvec2 x, const Sheet& sheet, uint32_t hit) const;
+  bool may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const;
+  double length_m(const SurfacePoint& p, glm::dvec3 x) const;  // of the way, across the light's rays at P
+  double rounding_of_sheet(const SurfacePoint& p, glm::dvec3 x, const Sheet& sheet, uint32_t hit) const;
   // By how much two depths that are one may differ: a ray that passes beside x by its float error may meet the sheet's
   // next triangle, whose plane differs there by the error times the slopes. Edge-on triangles have no slope to speak
   // of.
-  double depth_error(uint32_t a, uint32_t b) const;
+  double depth_error(uint32_t a, uint32_t b, glm::dvec3 x) const;
 
   const EmbreeScene& embree_;
   const Adjacency& adjacency_;

@@ -6,43 +6,71 @@
 #include <glm/glm.hpp>
 
 #include "raytrace/embree_scene.h"
+#include "scenes/light_frame.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
 
 namespace noonmark {
 
+// From a receiver to the light, or to a place on it.
+struct WayToLight {
+  glm::vec3 direction{0, 1, 0};  // unit, to float's rounding
+  float reach = std::numeric_limits<float>::infinity();
+};
+
 class ShadowStart {
  public:
-  // light_travel: the exact float direction of the light's rays (LightFrame::ray_direction).
-  ShadowStart(const Scene& scene, const ReceiverImage& receivers, glm::vec3 light_travel)
-      : scene_(scene), receivers_(receivers), to_light_(-light_travel) {}
+  ShadowStart(const Scene& scene, const ReceiverImage& receivers, const LightFrame& frame)
+      : scene_(scene), receivers_(receivers), frame_(frame) {}
 
-  ShadowRay at(size_t pixel) const { return towards(pixel, to_light_); }
+  ShadowRay at(size_t pixel) const { return towards(pixel, way_from(receivers_.position[pixel])); }
 
-  ShadowRay towards(size_t pixel, glm::vec3 direction) const {
-    return from(receivers_.position[pixel], receivers_.primitive[pixel], direction);
+  ShadowRay towards(size_t pixel, const WayToLight& way) const {
+    return from(receivers_.position[pixel], receivers_.primitive[pixel], way);
   }
 
   // The same for R1: where P's rounding put it beyond its own plane, as a grazing ray sees it, from behind the plane.
   ShadowRay whole(size_t pixel) const {
     const ShadowRay ray = at(pixel);
-    return ray.own_distance < 0 ? beside(pixel, glm::dvec3(0)) : ray;
+    return ray.own_distance < 0 ? beside(pixel, glm::dvec2(0)) : ray;
   }
 
-  // From P moved by offset (metres, across the light) and carried along its own plane to as far behind the plane as P's
-  // rounding reaches along a grazing ray, so that the ray meets all that is before the plane.
-  ShadowRay beside(size_t pixel, glm::dvec3 offset) const {
+  // From P moved by offset (metres, along two axes across the ray) and carried along its own plane to as far behind the
+  // plane as P's rounding reaches along a grazing ray, so that the ray meets all that is before the plane.
+  ShadowRay beside(size_t pixel, glm::dvec2 offset) const {
     const uint32_t own = receivers_.primitive[pixel];
-    const glm::dvec3 moved = glm::dvec3(receivers_.position[pixel]) + offset;
-    const double to_plane = own_distance(moved, own, to_light_);
-    const double cosine = std::abs(glm::dot(glm::dvec3(receivers_.normal[pixel]), glm::dvec3(to_light_)));
+    glm::dvec3 moved = receivers_.position[pixel];
+    if (offset != glm::dvec2(0)) {
+      glm::dvec3 right = frame_.right, up = frame_.up;
+      if (!frame_.parallel()) across(frame_.direction_to_light(moved), right, up);
+      moved += offset.x * right + offset.y * up;
+    }
+    const WayToLight way = way_from(moved);
+    const double to_plane = own_distance(moved, own, way.direction);
+    const double cosine = std::abs(glm::dot(glm::dvec3(receivers_.normal[pixel]), glm::dvec3(way.direction)));
     const double behind = 0x1p-23 * (glm::length(moved) + std::abs(to_plane)) / std::max(cosine, 0x1p-23);
-    return from(glm::vec3(moved + (to_plane - behind) * glm::dvec3(to_light_)), own, to_light_);
+    return from(glm::vec3(moved + (to_plane - behind) * glm::dvec3(way.direction)), own, way);
   }
 
  private:
-  ShadowRay from(glm::vec3 origin, uint32_t own, glm::vec3 direction) const {
-    return {origin, direction, own, own_distance(origin, own, direction)};
+  WayToLight way_from(glm::dvec3 p) const {
+    if (frame_.parallel()) return {-frame_.ray_direction, std::numeric_limits<float>::infinity()};
+    const glm::dvec3 way = frame_.origin_m - p;
+    return {glm::vec3(glm::normalize(way)), static_cast<float>(glm::length(way))};
+  }
+
+  // Two unit vectors across a unit vector.
+  static void across(glm::dvec3 d, glm::dvec3& right, glm::dvec3& up) {
+    const glm::dvec3 a = glm::abs(d);
+    const glm::dvec3 hint = a.x <= a.y && a.x <= a.z ? glm::dvec3(1, 0, 0)
+                            : a.y <= a.z             ? glm::dvec3(0, 1, 0)
+                                                     : glm::dvec3(0, 0, 1);
+    right = glm::normalize(glm::cross(d, hint));
+    up = glm::cross(right, d);
+  }
+
+  ShadowRay from(glm::vec3 origin, uint32_t own, const WayToLight& way) const {
+    return {origin, way.direction, way.reach, own, own_distance(origin, own, way.direction)};
   }
 
   double own_distance(glm::dvec3 origin, uint32_t own, glm::dvec3 direction) const {
@@ -55,7 +83,7 @@ class ShadowStart {
 
   const Scene& scene_;
   const ReceiverImage& receivers_;
-  glm::vec3 to_light_;
+  const LightFrame& frame_;
 };
 
 }  // namespace noonmark

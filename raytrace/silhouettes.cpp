@@ -9,30 +9,56 @@ namespace noonmark {
 namespace {
 
 constexpr int least_cells = 256, most_cells = 2048;  // on a side: from 0.25 to 16 MiB of offsets
+constexpr double face_margin = 1e-3;                 // how far the grid of a cube's face reaches into its neighbours
 
 // Does another triangle go on across this edge, on its other side as the light sees it?
 bool goes_on(const Adjacency& adjacency, const LightView& view, uint32_t triangle, int edge) {
-  const glm::dvec2 a = view.corner2(triangle, edge), b = view.corner2(triangle, (edge + 1) % 3);
-  const double own = orientation(a, b, view.corner2(triangle, (edge + 2) % 3));
+  const glm::dvec3 a = view.corner(triangle, edge), b = view.corner(triangle, (edge + 1) % 3);
+  const double own = view.orientation(a, b, view.corner(triangle, (edge + 2) % 3));
   for (uint32_t other : adjacency.across(triangle, edge)) {
     if (view.edge_on(other)) continue;
     for (int i = 0; i < 3; ++i) {
       const uint32_t v = adjacency.welded(other)[i];
       if (v == adjacency.welded(triangle)[edge] || v == adjacency.welded(triangle)[(edge + 1) % 3]) continue;
-      const double side = orientation(a, b, view.corner2(other, i));
+      const double side = view.orientation(a, b, view.corner(other, i));
       if ((own > 0 && side < 0) || (own < 0 && side > 0)) return true;
     }
   }
   return false;
 }
 
+// A direction, or a point, in the axes of a face: s, t and the way out.
+glm::dvec3 in_face(int face, glm::dvec3 p) {
+  const CubeFace& f = cube_face(face);
+  return {glm::dot(p, f.right), glm::dot(p, f.up), glm::dot(p, f.forward)};
+}
+
+// The part of the segment that the face sees, margin included; false where there is none. It ends before the light.
+bool clip_to_face(glm::dvec3& a, glm::dvec3& b) {
+  double begin = 0, end = 1;
+  for (int side = 0; side < 4; ++side) {
+    const auto inside = [&](glm::dvec3 p) {
+      return (1 + face_margin) * p.z + (side % 2 ? -1.0 : 1.0) * (side < 2 ? p.x : p.y);
+    };
+    const double at_a = inside(a), at_b = inside(b);
+    if (at_a < 0 && at_b < 0) return false;
+    if (at_a < 0) begin = std::max(begin, at_a / (at_a - at_b));
+    if (at_b < 0) end = std::min(end, at_a / (at_a - at_b));
+  }
+  if (!(begin <= end)) return false;
+  const glm::dvec3 way = b - a;
+  b = a + end * way;
+  a = a + begin * way;
+  return a.z > 0 && b.z > 0;
+}
+
 }  // namespace
 
-// Every cell that the edge, widened by the reach, touches: row by row, from the edge's part over that row.
-void Silhouettes::each_cell(const Edge& edge, double reach_m, const auto& visit) const {
-  const glm::dvec2 a = (glm::dvec2(edge.a) - low_) * cells_per_m_, b = (glm::dvec2(edge.b) - low_) * cells_per_m_;
-  const double reach = reach_m * cells_per_m_ + 1e-6;
-  const auto cell = [&](double at) { return static_cast<int>(std::clamp(at, 0.0, size_ - 1.0)); };
+// Every cell that the segment, widened by the reach, touches: row by row, from the segment's part over that row.
+void Silhouettes::Grid::each_cell(glm::dvec2 from, glm::dvec2 to, double reach_units, const auto& visit) const {
+  const glm::dvec2 a = (from - low) * cells_per_unit, b = (to - low) * cells_per_unit;
+  const double reach = reach_units * cells_per_unit + 1e-6;
+  const auto cell = [&](double at) { return static_cast<int>(std::clamp(at, 0.0, size - 1.0)); };
   for (int row = cell(std::min(a.y, b.y) - reach); row <= cell(std::max(a.y, b.y) + reach); ++row) {
     double left = std::min(a.x, b.x), right = std::max(a.x, b.x);
     if (a.y != b.y) {
@@ -42,81 +68,134 @@ void Silhouettes::each_cell(const Edge& edge, double reach_m, const auto& visit)
       right = std::max(x0, x1);
     }
     for (int column = cell(left - reach); column <= cell(right + reach); ++column)
-      visit(static_cast<size_t>(row) * static_cast<size_t>(size_) + static_cast<size_t>(column));
+      visit(static_cast<size_t>(row) * static_cast<size_t>(size) + static_cast<size_t>(column));
   }
 }
 
-Silhouettes::Silhouettes(const Adjacency& adjacency, const LightView& view, double reach_m) : reach_m_(reach_m) {
-  glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
-  for (uint32_t t = 0; t < adjacency.triangles(); ++t) {
-    for (int e = 0; e < 3; ++e) {
-      if (goes_on(adjacency, view, t, e)) continue;
-      const Edge edge{view.corner(t, e), view.corner(t, (e + 1) % 3), t};
-      edges_.push_back(edge);
-      low = glm::min(low, glm::dvec2(glm::min(edge.a, edge.b)));
-      high = glm::max(high, glm::dvec2(glm::max(edge.a, edge.b)));
+Silhouettes::Silhouettes(const Adjacency& adjacency, const LightView& view, double reach_m)
+    : view_(view), reach_m_(reach_m) {
+  for (uint32_t t = 0; t < adjacency.triangles(); ++t)
+    for (int e = 0; e < 3; ++e)
+      if (!goes_on(adjacency, view, t, e)) edges_.push_back({view.corner(t, e), view.corner(t, (e + 1) % 3), t});
+
+  std::vector<Piece> pieces;
+  const uint32_t count = static_cast<uint32_t>(edges_.size());
+  if (view.parallel()) {
+    glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (uint32_t i = 0; i < count; ++i) {
+      pieces.push_back({glm::dvec2(edges_[i].a), glm::dvec2(edges_[i].b), reach_m, i});
+      low = glm::min(low, glm::min(pieces.back().a, pieces.back().b));
+      high = glm::max(high, glm::max(pieces.back().a, pieces.back().b));
     }
+    Grid& grid = grids_.emplace_back();
+    grid.low = low - reach_m;
+    grid.cells_per_unit = 1 / ((std::max(high.x - low.x, high.y - low.y) + 2 * reach_m) * (1 + 1e-9));
+    fill(grid, pieces);
+    return;
   }
-  if (edges_.empty()) return;
-  size_ = std::clamp(static_cast<int>(4 * std::sqrt(static_cast<double>(edges_.size()))), least_cells, most_cells);
-  low_ = low - reach_m;
-  const double width = std::max(high.x - low.x, high.y - low.y) + 2 * reach_m;
-  cells_per_m_ = size_ / (width * (1 + 1e-9));
-
-  begin_.assign(static_cast<size_t>(size_) * static_cast<size_t>(size_) + 1, 0);
-  for (const Edge& edge : edges_) each_cell(edge, reach_m, [&](size_t cell) { ++begin_[cell + 1]; });
-  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-  listed_.resize(begin_.back());
-  std::vector<uint32_t> fill(begin_.begin(), begin_.end() - 1);
-  for (uint32_t e = 0; e < edges_.size(); ++e)
-    each_cell(edges_[e], reach_m, [&](size_t cell) { listed_[fill[cell]++] = e; });
+  for (int face = 0; face < 6; ++face) {
+    pieces.clear();
+    for (uint32_t i = 0; i < count; ++i) {
+      glm::dvec3 a = in_face(face, edges_[i].a), b = in_face(face, edges_[i].b);
+      if (!clip_to_face(a, b)) continue;
+      // A metre across the ray moves its place in the face by at most sqrt(3) / z; past the whole face says no more.
+      const double reach = std::min(2 * reach_m / std::min(a.z, b.z), 4.0);
+      pieces.push_back({glm::dvec2(a) / a.z, glm::dvec2(b) / b.z, reach, i});
+    }
+    Grid& grid = grids_.emplace_back();
+    grid.low = glm::dvec2(-1 - 2 * face_margin);
+    grid.cells_per_unit = 1 / (2 + 4 * face_margin);
+    fill(grid, pieces);
+  }
 }
 
-size_t Silhouettes::cell_of(glm::dvec2 x) const {
-  const glm::dvec2 at = glm::clamp((x - low_) * cells_per_m_, glm::dvec2(0), glm::dvec2(size_ - 1.0));
-  return static_cast<size_t>(at.y) * static_cast<size_t>(size_) + static_cast<size_t>(at.x);
+// cells_per_unit comes as grids per unit.
+void Silhouettes::fill(Grid& grid, const std::vector<Piece>& pieces) {
+  if (pieces.empty()) return;
+  grid.size = std::clamp(static_cast<int>(4 * std::sqrt(static_cast<double>(pieces.size()))), least_cells, most_cells);
+  grid.cells_per_unit *= grid.size;
+  grid.begin.assign(static_cast<size_t>(grid.size) * static_cast<size_t>(grid.size) + 1, 0);
+  for (const Piece& p : pieces) grid.each_cell(p.a, p.b, p.reach, [&](size_t cell) { ++grid.begin[cell + 1]; });
+  std::partial_sum(grid.begin.begin(), grid.begin.end(), grid.begin.begin());
+  grid.listed.resize(grid.begin.back());
+  std::vector<uint32_t> next(grid.begin.begin(), grid.begin.end() - 1);
+  for (const Piece& p : pieces)
+    grid.each_cell(p.a, p.b, p.reach, [&](size_t cell) { grid.listed[next[cell]++] = p.edge; });
 }
 
-std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec2 from, glm::dvec2 to) const {
+const Silhouettes::Grid& Silhouettes::face_of(glm::dvec3 x, glm::dvec2& at) const {
+  const int face = cube_face_of(x);
+  const glm::dvec3 p = in_face(face, x);
+  at = glm::dvec2(p) / p.z;
+  return grids_[static_cast<size_t>(face)];
+}
+
+std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec3 from, glm::dvec3 to) const {
   std::vector<Crossing> at;
-  if (edges_.empty()) return at;
-  // Most taps stay within a cell that lists no edge: an edge is listed wherever it comes within reach of the cell.
-  const size_t begin = cell_of(from), end = cell_of(to);
-  if (begin == end && begin_[begin] == begin_[begin + 1]) return at;
-  const glm::dvec2 way = to - from;
-  const double length2 = glm::dot(way, way);
-  each_cell({glm::dvec3(from, 0), glm::dvec3(to, 0), 0}, 0, [&](size_t cell) {
-    for (uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
-      const Edge& edge = edges_[listed_[i]];
-      const glm::dvec2 start(edge.a), along = glm::dvec2(edge.b) - start;
-      const double a = orientation(from, to, start), b = orientation(from, to, glm::dvec2(edge.b));
-      if ((a > 0 && b > 0) || (a < 0 && b < 0) || a == b) continue;
-      const double part = a / (a - b), t = glm::dot(start + part * along - from, way) / length2;
-      const double sine = std::abs(a - b) / std::sqrt(length2 * glm::dot(along, along));
-      if (t > 0 && t < 1) at.push_back({t, sine, edge.a.z + part * (edge.b.z - edge.a.z)});
+  glm::dvec2 begin, end;
+  const Grid& grid = grid_of(from, begin);
+  const auto each_edge = [&](const Grid& g, glm::dvec2 a, glm::dvec2 b) {
+    g.each_cell(a, b, 0, [&](size_t cell) {
+      for (uint32_t i = g.begin[cell]; i < g.begin[cell + 1]; ++i) cross(g.listed[i], from, to, at);
+    });
+  };
+  if (&grid == &grid_of(to, end)) {
+    if (grid.size == 0) return at;
+    // Most taps stay within a cell that lists no edge: an edge is listed wherever it comes within reach of the cell.
+    const size_t first = grid.cell_of(begin);
+    if (first == grid.cell_of(end) && grid.empty(first)) return at;
+    each_edge(grid, begin, end);
+  } else {
+    for (int face = 0; face < 6; ++face) {
+      glm::dvec3 a = in_face(face, from), b = in_face(face, to);
+      if (grids_[static_cast<size_t>(face)].size > 0 && clip_to_face(a, b))
+        each_edge(grids_[static_cast<size_t>(face)], glm::dvec2(a) / a.z, glm::dvec2(b) / b.z);
     }
-  });
+  }
   std::sort(at.begin(), at.end(), [](const Crossing& x, const Crossing& y) { return x.t < y.t; });
   at.erase(std::unique(at.begin(), at.end()), at.end());  // an edge is listed in many cells
   return at;
 }
 
-void Silhouettes::near(glm::dvec2 x, std::vector<uint32_t>& triangles) const {
-  const glm::dvec2 at = (x - low_) * cells_per_m_;
-  if (!(at.x >= 0 && at.y >= 0 && at.x < size_ && at.y < size_)) return;
-  near_listed(x, static_cast<size_t>(at.y) * static_cast<size_t>(size_) + static_cast<size_t>(at.x), reach_m_,
-              &triangles);
+void Silhouettes::cross(uint32_t index, glm::dvec3 from, glm::dvec3 to, std::vector<Crossing>& at) const {
+  const Edge& edge = edges_[index];
+  const double a = view_.orientation(from, to, edge.a), b = view_.orientation(from, to, edge.b);
+  if ((a > 0 && b > 0) || (a < 0 && b < 0) || a == b) return;
+  const double part = a / (a - b);
+  const glm::dvec3 where = edge.a + part * (edge.b - edge.a), way = to - from;
+  double t, sine;
+  if (view_.parallel()) {
+    const glm::dvec2 along = glm::dvec2(edge.b) - glm::dvec2(edge.a);
+    const double length2 = glm::dot(glm::dvec2(way), glm::dvec2(way));
+    t = glm::dot(glm::dvec2(where) - glm::dvec2(from), glm::dvec2(way)) / length2;
+    sine = std::abs(a - b) / std::sqrt(length2 * glm::dot(along, along));
+  } else {
+    const glm::dvec3 edge_plane = glm::cross(edge.a, edge.b - edge.a), way_plane = glm::cross(from, way);
+    t = glm::dot(edge_plane, from) / -glm::dot(edge_plane, way);
+    sine = glm::length(glm::cross(edge_plane, way_plane)) / (glm::length(edge_plane) * glm::length(way_plane));
+    if (!(glm::dot(where, from + t * way) > 0)) return;  // the edge's other side of the light
+  }
+  if (t > 0 && t < 1) at.push_back({t, sine, view_.frame().depth_m(where)});
 }
 
-bool Silhouettes::near_listed(glm::dvec2 x, size_t cell, double within_m, std::vector<uint32_t>* triangles) const {
+bool Silhouettes::near_listed(glm::dvec3 x, double within_m, std::vector<uint32_t>* triangles) const {
+  glm::dvec2 place;
+  const Grid& grid = grid_of(x, place);
+  if (!grid.holds(place)) return false;
+  const size_t cell = grid.cell_of(place);
+  // Across the light's rays: what of a vector is left without its part along the ray.
+  const glm::dvec3 along_ray = view_.parallel() ? glm::dvec3(0, 0, 1) : glm::normalize(x);
+  const glm::dvec3 origin = view_.parallel() ? x : glm::dvec3(0);
+  const auto across = [&](glm::dvec3 v) { return v - glm::dot(v, along_ray) * along_ray; };
   bool any = false;
-  for (uint32_t i = begin_[cell]; i < begin_[cell + 1]; ++i) {
-    const Edge& edge = edges_[listed_[i]];
-    const glm::dvec2 start(edge.a), way = glm::dvec2(edge.b) - start;
+  for (uint32_t i = grid.begin[cell]; i < grid.begin[cell + 1]; ++i) {
+    const Edge& edge = edges_[grid.listed[i]];
+    const glm::dvec3 start = across(edge.a - origin), way = across(edge.b - edge.a);
     const double length2 = glm::dot(way, way);
-    const double along = length2 > 0 ? std::clamp(glm::dot(x - start, way) / length2, 0.0, 1.0) : 0;
-    const glm::dvec2 beside = x - start - along * way;
+    const double along = length2 > 0 ? std::clamp(-glm::dot(start, way) / length2, 0.0, 1.0) : 0;
+    const glm::dvec3 beside = start + along * way;
     if (glm::dot(beside, beside) > within_m * within_m) continue;
+    if (!view_.parallel() && !(glm::dot(edge.a + along * (edge.b - edge.a), along_ray) > 0)) continue;
     if (!triangles) return true;
     triangles->push_back(edge.triangle);
     any = true;

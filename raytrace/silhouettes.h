@@ -1,6 +1,7 @@
 // Where the light-side depth may jump: the edges at which a surface, as the light sees it, does not go on (folds and
-// boundaries), in a grid over the light's plane. A ray that keeps its distance from all of them meets what the exact
-// ray meets; the few that do not are asked again beside their places. Built once for a light.
+// boundaries), in grids over what the light sees: its plane, or the six faces of a cube around it. A ray that keeps its
+// distance from all of them meets what the exact ray meets; the few that do not are asked again beside their places.
+// Built once for a light.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -13,19 +14,18 @@ namespace noonmark {
 
 class Silhouettes {
  public:
-  // reach_m: how near is near, in metres of the light's plane.
+  // reach_m: how near is near, in metres across the light's rays.
   Silhouettes(const Adjacency& adjacency, const LightView& view, double reach_m);
 
   // Is x within reach of such an edge, or nearer than that?
-  bool near(glm::dvec2 x) const { return near(x, reach_m_); }
-  bool near(glm::dvec2 x, double within_m) const {
-    const glm::dvec2 at = (x - low_) * cells_per_m_;
-    if (!(at.x >= 0 && at.y >= 0 && at.x < size_ && at.y < size_)) return false;
-    const size_t cell = static_cast<size_t>(at.y) * static_cast<size_t>(size_) + static_cast<size_t>(at.x);
-    return begin_[cell] != begin_[cell + 1] && near_listed(x, cell, within_m, nullptr);
+  bool near(glm::dvec3 x) const { return near(x, reach_m_); }
+  bool near(glm::dvec3 x, double within_m) const {
+    glm::dvec2 at;
+    const Grid& grid = grid_of(x, at);
+    return grid.holds(at) && !grid.empty(grid.cell_of(at)) && near_listed(x, within_m, nullptr);
   }
   // The same, and the triangles that have those edges.
-  void near(glm::dvec2 x, std::vector<uint32_t>& triangles) const;
+  void near(glm::dvec3 x, std::vector<uint32_t>& triangles) const { near_listed(x, reach_m_, &triangles); }
 
   struct Crossing {
     double t = 0;        // fraction of the way
@@ -34,24 +34,54 @@ class Silhouettes {
     bool operator==(const Crossing&) const = default;
   };
   // Where the straight way crosses such edges, in order.
-  std::vector<Crossing> crossings(glm::dvec2 from, glm::dvec2 to) const;
+  std::vector<Crossing> crossings(glm::dvec3 from, glm::dvec3 to) const;
 
  private:
   struct Edge {
-    glm::dvec3 a, b;
+    glm::dvec3 a, b;  // in the light's frame
     uint32_t triangle = 0;
   };
-  void each_cell(const Edge& edge, double reach_m, const auto& visit) const;
-  size_t cell_of(glm::dvec2 x) const;  // of the grid's nearest place, where x lies outside
-  bool near_listed(glm::dvec2 x, size_t cell, double within_m, std::vector<uint32_t>* triangles) const;
+  // A square of the light's plane, or one face of the cube (its s and t from -1 to 1, and a little more).
+  struct Grid {
+    glm::dvec2 low{0};
+    double cells_per_unit = 0;
+    int size = 0;                 // cells on a side; 0: no edge is in it
+    std::vector<uint32_t> begin;  // [cell] into listed
+    std::vector<uint32_t> listed;
 
+    bool holds(glm::dvec2 x) const {
+      const glm::dvec2 at = (x - low) * cells_per_unit;
+      return at.x >= 0 && at.y >= 0 && at.x < size && at.y < size;
+    }
+    size_t cell_of(glm::dvec2 x) const {  // of the nearest place in the grid, where x lies outside
+      const glm::dvec2 at = glm::clamp((x - low) * cells_per_unit, glm::dvec2(0), glm::dvec2(size - 1.0));
+      return static_cast<size_t>(at.y) * static_cast<size_t>(size) + static_cast<size_t>(at.x);
+    }
+    void each_cell(glm::dvec2 a, glm::dvec2 b, double reach, const auto& visit) const;
+    bool empty(size_t cell) const { return begin[cell] == begin[cell + 1]; }
+  };
+  // A part of an edge in one grid.
+  struct Piece {
+    glm::dvec2 a, b;
+    double reach;
+    uint32_t edge;
+  };
+
+  void fill(Grid& grid, const std::vector<Piece>& pieces);
+  // The grid that x lies in, and where.
+  const Grid& grid_of(glm::dvec3 x, glm::dvec2& at) const {
+    if (!view_.parallel()) return face_of(x, at);
+    at = glm::dvec2(x);
+    return grids_[0];
+  }
+  const Grid& face_of(glm::dvec3 x, glm::dvec2& at) const;
+  bool near_listed(glm::dvec3 x, double within_m, std::vector<uint32_t>* triangles) const;
+  void cross(uint32_t edge, glm::dvec3 from, glm::dvec3 to, std::vector<Crossing>& at) const;
+
+  const LightView& view_;
   double reach_m_;
-  glm::dvec2 low_{0};
-  double cells_per_m_ = 0;
-  int size_ = 0;                 // cells on a side
-  std::vector<uint32_t> begin_;  // [cell] into listed_
-  std::vector<uint32_t> listed_;
   std::vector<Edge> edges_;
+  std::vector<Grid> grids_;  // one, or six
 };
 
 }  // namespace noonmark

@@ -26,10 +26,10 @@ glm::ivec2 texel_of(uint64_t key) {
 
 void trace(const EmbreeScene& embree, const LightView& view, size_t count, const auto& texel_at, const auto& store) {
   for_each_packet(count, [&](size_t first, int n) {
-    glm::vec3 origins[packet_size];
+    LightRay rays[packet_size];
     uint32_t hits[packet_size];
-    for (int i = 0; i < n; ++i) origins[i] = view.ray_origin(view.frame().texel_centre(texel_at(first + i)));
-    embree.first_hits(n, origins, view.frame().ray_direction, hits);
+    for (int i = 0; i < n; ++i) rays[i] = view.ray(view.texel_place(texel_at(first + i)));
+    embree.first_hits(n, rays, hits);
     for (int i = 0; i < n; ++i) store(first + i, hits[i]);
   });
 }
@@ -37,9 +37,9 @@ void trace(const EmbreeScene& embree, const LightView& view, size_t count, const
 }  // namespace
 
 TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Image<uint8_t>& facing,
-                     const LookupProbe& probe, Wrap wrap, int kernel) {
-  const int resolution = view.frame().resolution, r = kernel / 2;
-  Image<uint8_t> wanted(resolution, resolution, 0);
+                     const LookupProbe& probe, Wrap wrap) {
+  const glm::ivec2 size = view.frame().map_size();
+  Image<uint8_t> wanted(size.x, size.y, 0);
   struct Outside {
     std::vector<uint64_t> keys;
     size_t limit = outside_buffer;
@@ -49,14 +49,11 @@ TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Ima
     Outside& outside = outside_keys.local();
     for (size_t i = range.begin(); i != range.end(); ++i) {
       if (!facing[i]) continue;
-      const glm::ivec2 base = probe.texel[i];
-      for (int dy = -r; dy <= r; ++dy) {
-        for (int dx = -r; dx <= r; ++dx) {
-          const glm::ivec2 texel = base + glm::ivec2(dx, dy);
-          const glm::ivec2 read = wrapped(texel, resolution, wrap);
-          if (read.x >= 0) std::atomic_ref(wanted.at(read.x, read.y)).store(1, std::memory_order_relaxed);
-          if (!inside_map(texel, resolution)) outside.keys.push_back(texel_key(texel));
-        }
+      for (int tap = 0; tap < probe.taps(); ++tap) {
+        const glm::ivec2 texel = probe.texel(i, tap);
+        const glm::ivec2 read = wrapped(texel, size, wrap);
+        if (read.x >= 0) std::atomic_ref(wanted.at(read.x, read.y)).store(1, std::memory_order_relaxed);
+        if (!inside_map(texel, size)) outside.keys.push_back(texel_key(texel));
       }
       // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills the memory. The
       // limit doubles with what is truly different, so that the sorting stays a small share of the work.
@@ -68,10 +65,10 @@ TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Ima
     }
   });
 
-  for (int y = 0; y < resolution; ++y)
-    for (int x = 0; x < resolution; ++x)
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x)
       if (wanted.at(x, y)) inside_texels_.push_back({x, y});
-  inside_ = Image<uint32_t>(resolution, resolution, no_primitive);
+  inside_ = Image<uint32_t>(size.x, size.y, no_primitive);
   trace(
       embree, view, inside_texels_.size(), [&](size_t i) { return inside_texels_[i]; },
       [&](size_t i, uint32_t hit) { inside_.at(inside_texels_[i].x, inside_texels_[i].y) = hit; });

@@ -13,14 +13,14 @@ namespace noonmark {
 
 class TexelRays {
  public:
-  // Every texel within kernel/2 of the texel of a receiver with facing != 0, at its place in the unbounded grid; and,
-  // where that is outside the map, the texel that `wrap` reads in its stead.
+  // The texel of every tap of a receiver with facing != 0, at its place in the unbounded grid; and, where that is
+  // outside the map, the texel that `wrap` reads in its stead.
   TexelRays(const EmbreeScene& embree, const LightView& view, const Image<uint8_t>& facing, const LookupProbe& probe,
-            Wrap wrap, int kernel);
+            Wrap wrap);
 
   // The triangle first met through the centre of a texel that was asked for, or no_primitive.
   uint32_t hit(glm::ivec2 texel) const {
-    return inside_map(texel, inside_.width) ? inside_.at(texel.x, texel.y) : outside_hit(texel);
+    return inside_map(texel, {inside_.width, inside_.height}) ? inside_.at(texel.x, texel.y) : outside_hit(texel);
   }
   // The texels inside the map that were asked for.
   const std::vector<glm::ivec2>& inside_texels() const { return inside_texels_; }

@@ -36,11 +36,11 @@ struct SoftTruth {
 struct LookupTruth {
   TapTruth taps;
   Image<float> exact_map;  // window depth at the centres of the texels looked up; 1 elsewhere. LightFrame::map_size()
-  Image<float> edge_distance_texels;  // per receiver: the largest distance, across the light's rays and in texels there,
-                                      // from a tap's exact place (of the lookup as it is made, moved or not) to the
-                                      // shadow edge before the texel centre it snaps to; 0 where D = V at every tap
-  StageTime texel_stage;         // light-side rays through texel centres
-  StageTime tap_stage;           // V at every tap
+  Image<float> edge_distance_texels;  // per receiver: the largest distance, across the light's rays and in texels
+                                      // there, from a tap's exact place (of the lookup as it is made, moved or not) to
+                                      // the shadow edge before the texel centre it snaps to; 0 where D = V at every tap
+  StageTime texel_stage;              // light-side rays through texel centres
+  StageTime tap_stage;                // V at every tap
 };
 
 class Tracer {

@@ -152,6 +152,51 @@ Scene fence(const SceneSettings&) {
   return scene;
 }
 
+// A spot light low over a long floor. Its texels widen with distance, and a step of window depth is worth more and more
+// metres (z^2 (far - near) / (far near) to one): a bias that is acne near the light is Peter Panning at the far end,
+// where the same edge is also stepped five times as coarsely. Boxes stand on the floor and against the wall, and one
+// leans over: contacts at every distance.
+Scene spot_room(const SceneSettings&) {
+  Scene scene;
+  add_floor(scene, 9, 0);
+  add_box(scene, "wall", {0.5, 0, -4.2}, {7, 2.4, -4});
+  const auto place = [](glm::dvec3 at, double turn_deg, glm::dvec3 about) {
+    return glm::rotate(glm::translate(glm::dmat4(1), at), radians(turn_deg), glm::normalize(about));
+  };
+  add_box(scene, "near box", glm::dvec3(0.4), place({-3, 0.4, 0.4}, 30, {0, 1, 0}));
+  add_box(scene, "post", {-0.6, 0, 0.8}, {-0.4, 1.8, 1});
+  add_box(scene, "leaning box", glm::dvec3(0.5, 0.2, 0.5), place({1, 0.6, -1}, 35, {0.4, 0, 1}));
+  add_box(scene, "box at the wall", {2, 0, -4}, {3.2, 0.9, -3});
+  add_box(scene, "far box", glm::dvec3(0.6), place({5.4, 0.6, -0.6}, 20, {0, 1, 0}));
+  scene.camera = {.eye_m = {1.5, 4.6, 9.5}, .target_m = {1, 0.2, -0.8}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 60};
+  scene.light = {.kind = LightKind::spot, .position_m = {-6, 3.5, 1.5}, .target_m = {0.5, 0.2, -0.8}, .cone_deg = 64};
+  scene.map = MapVolume{.near_m = 1, .far_m = 22};
+  return scene;
+}
+
+// The standard tutorial room for a point light: closed, 10 m wide, seen from inside, with five cubes around a light in
+// the middle. Every wall takes shadows, across the seams of the cube map; one texel is twelve times as wide on a wall's
+// corner as at near.
+Scene point_room(const SceneSettings&) {
+  Scene scene;
+  add_box(scene, "room", glm::dvec3(5), glm::dmat4(1));
+  for (glm::uvec3& t : scene.triangles) std::swap(t.y, t.z);  // its faces look inward
+  const auto cube = [&](glm::dvec3 at, double half_m, double turn_deg) {
+    const glm::dmat4 placed = glm::translate(glm::dmat4(1), at);
+    add_box(scene, "cube", glm::dvec3(half_m),
+            glm::rotate(placed, radians(turn_deg), glm::normalize(glm::dvec3(1, 0, 1))));
+  };
+  cube({4, -3.5, 0}, 0.5, 0);
+  cube({2, 3, 1}, 0.75, 0);
+  cube({-3, -1, 0}, 0.5, 0);
+  cube({-1.5, 1, 1.5}, 0.5, 0);
+  cube({-1.5, 2, -3}, 0.75, 60);
+  scene.camera = {.eye_m = {4.4, 1.6, 4.6}, .target_m = {-0.6, -0.3, -1}, .fov_y_deg = 70, .near_m = 0.1, .far_m = 30};
+  scene.light = {.kind = LightKind::point, .position_m = {0, 0, 0}, .target_m = {0, -1, 0}};
+  scene.map = MapVolume{.near_m = 1, .far_m = 25};
+  return scene;
+}
+
 constexpr BuiltinScene scenes[] = {
     {"cube-room", "the standard tutorial scene: acne stripes, Peter Panning, a map smaller than the floor", cube_room},
     {"plane", "acne alone, on a plane of any slope (scene.theta_deg, scene.phi_deg)", plane},
@@ -161,6 +206,10 @@ constexpr BuiltinScene scenes[] = {
     {"sphere", "every slope up to grazing, no occluder", sphere},
     {"bowl", "a concave receiver that does not shade itself", bowl},
     {"fence", "wires thinner than a texel", fence},
+    {"spot-room", "spot light: one bias is acne near it and Peter Panning far away; coarser texels; contacts",
+     spot_room},
+    {"point-room", "point light in a closed room with five cubes: shadows on every wall, over the map's seams",
+     point_room},
 };
 
 }  // namespace

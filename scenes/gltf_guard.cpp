@@ -83,7 +83,9 @@ constexpr Field orthographic[] = {{"xmag", Kind::number, required},
 constexpr Field camera[] = {{"type", Kind::text, required},
                             {"perspective", Kind::object, false, 0, perspective},
                             {"orthographic", Kind::object, false, 0, orthographic}};
-constexpr Field light[] = {{"name", Kind::text}, {"type", Kind::text, required}, {"spot", Kind::object}};
+constexpr Field spot[] = {{"innerConeAngle", Kind::number}, {"outerConeAngle", Kind::number}};
+constexpr Field light[] = {
+    {"name", Kind::text}, {"type", Kind::text, required}, {"spot", Kind::object, false, 0, spot}};
 constexpr Field root_lights[] = {{"lights", Kind::objects, required, 0, light}};
 constexpr Field root_extensions[] = {{"KHR_lights_punctual", Kind::object, false, 0, root_lights}};
 constexpr Field asset[] = {{"version", Kind::text, required}, {"minVersion", Kind::text}};

@@ -3,6 +3,8 @@
 // by division.
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "scenes/gltf_document.h"
 #include "scenes/gltf_error.h"
 
@@ -197,6 +199,14 @@ class Checker {
     if (l.type != "directional" && l.type != "point" && l.type != "spot") {
       fail(place + ".type", fmt::format("'{}' is none of directional, point, spot", printable(l.type)));
     }
+    if (l.type != "spot") return;
+    const double inner = l.spot.innerConeAngle, outer = l.spot.outerConeAngle;
+    // Exporters write a right angle as a float, which is more than pi / 2 by 4e-8, or with five digits.
+    constexpr double right_angle = std::numbers::pi / 2 + 1e-5;
+    if (!(outer > 0 && outer <= right_angle))
+      fail(place + ".spot.outerConeAngle", fmt::format("{} is not from 0 to pi / 2 radians, without 0", outer));
+    if (!(inner >= 0 && inner < outer))
+      fail(place + ".spot.innerConeAngle", fmt::format("{} is not from 0 to below outerConeAngle, {}", inner, outer));
   }
 
   void node(const tinygltf::Node& n, const std::string& place) const {

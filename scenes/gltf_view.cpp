@@ -22,6 +22,12 @@ const tinygltf::Light* light_of(const Document& document, const PlacedNode& plac
   return &document.model.lights[static_cast<size_t>(found->second.Get("light").GetNumberAsInt())];
 }
 
+// glTF counts from the axis. The default is pi / 4, of which tinygltf keeps ten digits.
+double cone_deg(const tinygltf::SpotLight& spot) {
+  const bool by_default = spot.outerConeAngle == tinygltf::SpotLight().outerConeAngle;
+  return by_default ? 90 : 2 * glm::degrees(spot.outerConeAngle);
+}
+
 }  // namespace
 
 std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes, const Scene& scene) {
@@ -58,21 +64,35 @@ std::optional<Camera> find_camera(const Document& document, const std::vector<Pl
 }
 
 std::optional<Light> find_light(const Document& document, const std::vector<PlacedNode>& nodes, const Scene& scene) {
+  const auto found =
+      std::find_if(nodes.begin(), nodes.end(), [&](const PlacedNode& n) { return light_of(document, n) != nullptr; });
+  if (found == nodes.end()) return std::nullopt;
+  const tinygltf::Light& from = *light_of(document, *found);
   const Sphere sphere = bounding_sphere(scene);
-  std::optional<Light> stand_in;
-  for (const PlacedNode& placed : nodes) {
-    const tinygltf::Light* light = light_of(document, placed);
-    if (light == nullptr) continue;
-    if (light->type == "directional") return directional_light(sphere, forward_of(placed));
-    if (stand_in) continue;
-    if (light->type == "spot") stand_in = directional_light(sphere, forward_of(placed));
-    constexpr double inner_radii = 0.1;
-    const glm::dvec3 to_centre = sphere.centre_m - origin_of(placed);
-    if (light->type == "point" && glm::length(to_centre) > inner_radii * sphere.radius_m) {
-      stand_in = directional_light(sphere, to_centre);
-    }
+  const glm::dvec3 forward = forward_of(*found);
+  if (from.type == "directional") return directional_light(sphere, forward);
+
+  Light light;
+  light.position_m = origin_of(*found);
+  const glm::dvec3 to_middle = sphere.centre_m - light.position_m;
+  if (from.type == "point") {
+    light.kind = LightKind::point;
+    // Means nothing, until somebody makes a spot of it (light.kind).
+    light.target_m = light.position_m + (glm::length(to_middle) > 0 ? to_middle : glm::dvec3(0, -1, 0));
+    return light;
   }
-  return stand_in;
+  light.kind = LightKind::spot;
+  light.target_m = light.position_m + forward * std::max(glm::dot(to_middle, forward), 1.0);
+  light.cone_deg = cone_deg(from.spot);
+  // The same range as the setting light.cone_deg.
+  constexpr double least_cone_deg = 1, largest_cone_deg = 170;
+  if (!(light.cone_deg >= least_cone_deg && light.cone_deg <= largest_cone_deg)) {
+    refuse(document.file, fmt::format("nodes[{}].extensions.KHR_lights_punctual.light", found->node),
+           fmt::format("a spot whose cone is {:.6g} degrees wide; a shadow map can serve {} to {}", light.cone_deg,
+                       least_cone_deg, largest_cone_deg),
+           "change its outerConeAngle, or make it a point light");
+  }
+  return light;
 }
 
 }  // namespace noonmark::gltf

@@ -13,9 +13,10 @@ namespace noonmark::gltf {
 // camera's up along its view.
 std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes, const Scene& scene);
 
-// The first directional light of the placed nodes. Where there is none, a directional light that stands in for the
-// first spot (along its axis) or point light (from it to the scene's centre), which cannot be rendered yet; for a point
-// light within the scene's inner tenth that direction means nothing, and there is nothing either.
+// The first light of the placed nodes, of any kind; none: nothing. Others are not used: one light at a time is measured.
+// innerConeAngle, range, colour and intensity are not read: lights do not fall off, only what they can see is measured.
+// A directional light stands outside the scene; a spot light's target is level with the scene's middle, or 1 m ahead.
+// Throws Error(scene) where a spot's cone is wider or narrower than a shadow map can serve.
 std::optional<Light> find_light(const Document& document, const std::vector<PlacedNode>& nodes, const Scene& scene);
 
 }  // namespace noonmark::gltf

@@ -56,6 +56,18 @@ double LightFrame::window_depth(double depth) const {
   throw std::logic_error("a kind of light without a depth");
 }
 
+double LightFrame::depth_of_window(double window) const {
+  switch (kind) {
+    case LightKind::directional:
+      return near_m + window * (far_m - near_m);
+    case LightKind::spot:
+      return far_m * near_m / (far_m - window * (far_m - near_m));
+    case LightKind::point:
+      return window * far_m;
+  }
+  throw std::logic_error("a kind of light without a depth");
+}
+
 double LightFrame::window_depth_slope(double depth) const {
   switch (kind) {
     case LightKind::directional:

@@ -52,7 +52,8 @@ struct LightFrame {
   // What the map's depth measures, of a point in the light's frame: metres along the axis, or the distance.
   double depth_m(glm::dvec3 light) const;
   double window_depth(double depth_m) const;
-  double window_depth_slope(double depth_m) const;  // its derivative, per metre
+  double depth_of_window(double window_depth) const;  // its inverse
+  double window_depth_slope(double depth_m) const;    // its derivative, per metre
 
   // The world size of one texel at a point in the light's frame. texel_m(): of a directional light, everywhere.
   double texel_m(glm::dvec3 light) const;

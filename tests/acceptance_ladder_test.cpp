@@ -59,7 +59,7 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
     SCOPED_TRACE(testing::PrintToString(technique));
     const Measurement m = bench.measure(settings, std::nullopt);
     const Ladder& ladder = m.ladder;
-    const bool filtered = kernel_size(settings.filter) > 1;
+    const bool filtered = tap_pattern(settings.filter).taps > 1;
     uint64_t facing = 0, broken_steps = 0, broken_taps = 0, unclassed = 0, classed_though_right = 0, several = 0;
     for (size_t i = 0; i < ladder.flags.size(); ++i) {
       if (!(ladder.flags[i] & flag_facing)) continue;
@@ -137,9 +137,9 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
       scene, scene.camera, renderer.render_primitives(scene.camera, base.view.width_px, base.view.height_px));
   const raytrace::Tracer tracer(scene);
   const LightFrame frame = make_light_frame(scene, base);
-  renderer.load_receivers(receivers, frame.direction_to_light());
+  renderer.load_receivers(receivers, scene.camera.eye_m);
   const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {});
-  const gl::ShadowMap map = renderer.render_map(frame, base.map);
+  const gl::ShadowMap map = renderer.render_map(frame, base);
   const Image<float> stored = renderer.read_map(map);
   std::mt19937 random(20260301);
 
@@ -147,13 +147,12 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
     for (const char* form : {"constant", "slope"}) {
       SCOPED_TRACE(std::string(kind) + " " + form);
       Settings settings = with({{"filter.kind", kind}, {"bias.form", form}, {"bias.floor", "0.0007"}}, base);
-      const LookupProbe probe = renderer.probe(frame);
-      const raytrace::LookupTruth taps =
-          tracer.lookup_truth(receivers, truth, probe, frame, settings.map, kernel_size(settings.filter));
+      const LookupProbe probe = renderer.probe(frame, settings);
+      const raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, probe, frame, settings.map);
       const gl::ShadowMap exact = renderer.upload_map(taps.exact_map, settings.map);
       const Image<float> nothing;
       const LookupEvidence evidence{
-          truth, probe, taps.taps, taps.exact_map, settings.map, depth_bias(frame, settings.bias), nothing, nothing};
+          truth, probe, taps.taps, taps.exact_map, settings.map, depth_bias(settings.bias), nothing, nothing};
       const bool slope = settings.bias.form == BiasForm::slope;
       const BiasCounts counts(evidence, stored, slope ? CurveParameter::slope : CurveParameter::constant);
       ASSERT_GT(counts.receivers(), 10000u);
@@ -165,7 +164,7 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
         const Image<float> r5 = renderer.lookup(map, frame, settings);
         const Image<float> r4 = renderer.lookup(exact, frame, settings);
         const Ladder ladder =
-            climb({truth, probe, taps.taps, taps.exact_map, settings.map, depth_bias(frame, settings.bias), r4, r5});
+            climb({truth, probe, taps.taps, taps.exact_map, settings.map, depth_bias(settings.bias), r4, r5});
         uint64_t wrong_receivers = 0;
         double wrong_taps = 0;
         std::array<double, cause_count> booked{};

@@ -104,8 +104,8 @@ struct Verdict {
 void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage& receivers, int kernel, Tally& tally) {
   const Tracer tracer(model.scene);
   const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {});
-  const LookupProbe probe = probe_of(receivers, frame);
-  const LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe, frame, {}, kernel);
+  const LookupProbe probe = probe_of(receivers, frame, box(kernel));
+  const LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe, frame, {});
   const ClosedForm inner(model.inner, frame), outer(model.outer, frame);
   const double error = ray_error_m(model.scene), reach = ambiguous_reach * error;
   double round_step = 0;  // how much deeper a sphere is at its inner form's outline than the outer form there, and back
@@ -134,7 +134,7 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
     if (on_sphere) return;
     const glm::dvec2 p = inner.in_plane(place.p);
     for (int tap = 0; tap < kernel * kernel; ++tap) {
-      const glm::ivec2 offset(tap % kernel - kernel / 2, tap / kernel - kernel / 2), texel = probe.texel[i] + offset;
+      const glm::ivec2 offset(tap % kernel - kernel / 2, tap / kernel - kernel / 2), texel = probe.texel(i, tap);
       const uint8_t bits = lookup.taps.taps[i * static_cast<size_t>(kernel * kernel) + static_cast<size_t>(tap)];
       const bool exact_lit = bits & tap_exact_lit, texel_lit = bits & tap_texel_lit;
       const glm::dvec2 x = p + glm::dvec2(offset) * frame.texel_m(), c = frame.texel_centre(texel);
@@ -164,7 +164,7 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
                         std::to_string(exact_lit) + std::to_string(texel_lit);
       if (!depth_known) continue;
       v.clipped += (first < frame.near_m) != ((bits & tap_near_clipped) != 0);
-      if (!inside_map(texel, frame.resolution)) continue;
+      if (!inside_map(texel, frame.map_size())) continue;
       const double expected = cut <= frame.far_m ? frame.window_depth(cut) : 1;
       const double found = lookup.exact_map.at(texel.x, texel.y);
       if (std::abs(found - expected) <= depth_step) continue;
@@ -332,9 +332,7 @@ TEST(ClosedForm, SunsOfAnySize) {
     const double diameter_deg = 0.5 * (1 << seed % 6);
     const ReceiverImage receivers =
         points_on_faces(model.scene, frame.direction_to_light(), true, 300, static_cast<uint32_t>(seed));
-    const ReceiverTruth truth =
-        Tracer(model.scene)
-            .receiver_truth(receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
+    const ReceiverTruth truth = Tracer(model.scene).receiver_truth(receivers, frame, sun(diameter_deg, standard_error));
     const ClosedForm inner(model.inner, frame), outer(model.outer, frame);
     for (size_t i = 0; i < receivers.primitive.size(); ++i) {
       const auto [shape, face] = model.owner[receivers.primitive[i]];

@@ -90,14 +90,11 @@ struct Judged {
            glm::dvec2(tap % kernel - r, tap / kernel - r) * frame.texel_m();
   }
   glm::dvec2 texel_centre(size_t i, int tap) const {  // that it snaps to
-    const int r = kernel / 2;
-    return frame.texel_centre(probe.texel[i] + glm::ivec2(tap % kernel - r, tap / kernel - r));
+    return frame.texel_centre(probe.texel(i, tap));
   }
   // How far from a receiver its taps' texel centres may lie.
   double reach() const { return frame.texel_m() * std::sqrt(2.0) * (kernel / 2 + 0.5); }
-  Tap tap(size_t i, int number) const {
-    return tap_of(probe, lookup.taps, MapSettings{}, lookup.exact_map, i, kernel, number);
-  }
+  Tap tap(size_t i, int number) const { return tap_of(probe, lookup.taps, MapSettings{}, lookup.exact_map, i, number); }
 
   using Causes = std::array<uint64_t, cause_count>;
   // Taps of the chosen counted receivers by the cause that they have at this bias.
@@ -117,10 +114,15 @@ struct Judged {
 
 inline Judged judge(const raytrace::Tracer& tracer, const ReceiverImage& receivers, const LightFrame& frame,
                     int kernel) {
-  Judged j{frame, receivers, tracer.receiver_truth(receivers, frame, {}), test::probe_of(receivers, frame), {}, kernel};
+  Judged j{frame,
+           receivers,
+           tracer.receiver_truth(receivers, frame, {}),
+           test::probe_of(receivers, frame, test::box(kernel)),
+           {},
+           kernel};
   MapSettings map;
   map.resolution = frame.resolution;
-  j.lookup = tracer.lookup_truth(receivers, j.truth, j.probe, frame, map, kernel);
+  j.lookup = tracer.lookup_truth(receivers, j.truth, j.probe, frame, map);
   return j;
 }
 

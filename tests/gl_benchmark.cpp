@@ -30,8 +30,7 @@ struct Bench {
   explicit Bench(int n) : scene(sheet(n)) { renderer.load_scene(scene); }
   void load_receivers() {
     const auto primitives = renderer.render_primitives(scene.camera, 1280, 720);
-    renderer.load_receivers(resolve_receivers(scene, scene.camera, primitives),
-                            make_light_frame(scene, settings).direction_to_light());
+    renderer.load_receivers(resolve_receivers(scene, scene.camera, primitives), scene.camera.eye_m);
   }
 };
 
@@ -44,7 +43,7 @@ void load_receivers(benchmark::State& state) {
   Bench b(100);
   const auto image =
       resolve_receivers(b.scene, b.scene.camera, b.renderer.render_primitives(b.scene.camera, 1280, 720));
-  for (auto _ : state) b.renderer.load_receivers(image, {0, 1, 0});
+  for (auto _ : state) b.renderer.load_receivers(image, b.scene.camera.eye_m);
 }
 
 void render_map(benchmark::State& state) {
@@ -52,7 +51,7 @@ void render_map(benchmark::State& state) {
   b.settings.map.resolution = static_cast<int>(state.range(0));
   double ms = 0, sum = 0;
   for (auto _ : state) {
-    b.renderer.render_map(make_light_frame(b.scene, b.settings), b.settings.map, &ms);
+    b.renderer.render_map(make_light_frame(b.scene, b.settings), b.settings, &ms);
     sum += ms;
   }
   state.counters["pass_ms"] = sum / static_cast<double>(state.iterations());
@@ -61,7 +60,7 @@ void render_map(benchmark::State& state) {
 void read_map(benchmark::State& state) {
   Bench b(100);
   b.settings.map.resolution = static_cast<int>(state.range(0));
-  const ShadowMap map = b.renderer.render_map(make_light_frame(b.scene, b.settings), b.settings.map);
+  const ShadowMap map = b.renderer.render_map(make_light_frame(b.scene, b.settings), b.settings);
   for (auto _ : state) benchmark::DoNotOptimize(b.renderer.read_map(map).pixels.data());
 }
 
@@ -78,7 +77,7 @@ void lookup(benchmark::State& state) {
   if (state.range(0) == 1) b.settings.filter.kind = FilterKind::none;
   b.load_receivers();
   const LightFrame frame = make_light_frame(b.scene, b.settings);
-  const ShadowMap map = b.renderer.render_map(frame, b.settings.map);
+  const ShadowMap map = b.renderer.render_map(frame, b.settings);
   double ms = 0, sum = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(b.renderer.lookup(map, frame, b.settings, &ms).pixels.data());
@@ -91,7 +90,31 @@ void probe(benchmark::State& state) {
   Bench b(100);
   b.load_receivers();
   const LightFrame frame = make_light_frame(b.scene, b.settings);
-  for (auto _ : state) benchmark::DoNotOptimize(b.renderer.probe(frame).reference.pixels.data());
+  for (auto _ : state) benchmark::DoNotOptimize(b.renderer.probe(frame, b.settings).reference.pixels.data());
+}
+
+// A cube: all six faces, by one pass and by six.
+void render_cube(benchmark::State& state) {
+  Bench b(static_cast<int>(state.range(1)));
+  b.scene.light.kind = LightKind::point;
+  b.settings.map.resolution = 1024;
+  b.settings.map.cube_pass = static_cast<CubePass>(state.range(0));
+  double ms = 0, sum = 0;
+  for (auto _ : state) {
+    b.renderer.render_map(make_light_frame(b.scene, b.settings), b.settings, &ms);
+    sum += ms;
+  }
+  state.counters["pass_ms"] = sum / static_cast<double>(state.iterations());
+}
+
+// Of a cube the texel of every tap comes back.
+void probe_cube(benchmark::State& state) {
+  Bench b(100);
+  b.scene.light.kind = LightKind::point;
+  b.settings.filter.kind = static_cast<FilterKind>(state.range(0));
+  b.load_receivers();
+  const LightFrame frame = make_light_frame(b.scene, b.settings);
+  for (auto _ : state) benchmark::DoNotOptimize(b.renderer.probe(frame, b.settings).cube_texel.data());
 }
 
 BENCHMARK(primitives)
@@ -107,6 +130,11 @@ BENCHMARK(render_map)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
+BENCHMARK(render_cube)
+    ->ArgsProduct({{static_cast<int>(CubePass::layered), static_cast<int>(CubePass::six_passes)}, {22, 224}})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 BENCHMARK(read_map)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(upload_map)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(lookup)
@@ -114,6 +142,13 @@ BENCHMARK(lookup)
     ->Arg(3)
     ->Arg(7)
     ->Arg(31)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(probe_cube)
+    ->Arg(static_cast<int>(FilterKind::none))
+    ->Arg(static_cast<int>(FilterKind::cube_disk))
+    ->Arg(static_cast<int>(FilterKind::cube_grid))
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();

@@ -1,157 +1,226 @@
 // The lookup against a second implementation on the host that starts from what the probe and the map say.
-#include <algorithm>
-#include <cmath>
+#include <set>
 
-#include "gl_fixture.h"
-#include "scenes/depth_bias.h"
-#include "scenes/receivers.h"
+#include "gl_lookup_host.h"
 
 namespace noonmark::gl {
 namespace {
 
-// Counts of what a comparison met, so that none of it passes for want of cases.
-struct Met {
-  size_t lit = 0, dark = 0, fractions = 0, outside = 0, beyond_far = 0, background = 0;
-};
+constexpr LightKind kinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
+constexpr const char* kind_names[] = {"directional", "spot", "point"};
 
-float wrapped(const Image<float>& map, Wrap wrap, int x, int y) {
-  const int n = map.width;
-  const auto repeat = [n](int t) { return ((t % n) + n) % n; };
-  switch (wrap) {
-    case Wrap::repeat:
-      return map.at(repeat(x), repeat(y));
-    case Wrap::clamp_to_edge:
-      return map.at(std::clamp(x, 0, n - 1), std::clamp(y, 0, n - 1));
-    case Wrap::clamp_to_border:
-      break;
-  }
-  return x < 0 || y < 0 || x >= n || y >= n ? 1.0f : map.at(x, y);
-}
+// How far a sampler's blended verdict may be from the exact weights. llvmpipe blends in floats: a place among up to
+// 1024 texels is rounded three times, each by 2^-15 of a texel at most, along both axes (seen: 1e-5). GPUs keep 8 bits
+// of a texel's fraction: half of 2^-8 more along each axis.
+double sampler_error(const DeviceInfo& info) { return 6 * 0x1p-15 + (info.software ? 0 : 2 * 0x1p-9); }
 
-Image<float> lookup_on_host(const LookupProbe& probe, const ReceiverImage& receivers, const Image<float>& map,
-                            const DepthBias& bias, const Settings& s, Met& met) {
-  const int radius = (kernel_size(s.filter) - 1) / 2, taps = kernel_size(s.filter) * kernel_size(s.filter);
-  Image<float> visibility(receivers.width(), receivers.height());
-  for (size_t i = 0; i < visibility.size(); ++i) {
-    if (receivers.primitive[i] == no_primitive) {
-      ++met.background;
-      continue;
-    }
-    const float reference = probe.reference[i];
-    float depth_bias = 0;
-    if (bias.form == BiasForm::constant) depth_bias = bias.constant;
-    if (bias.form == BiasForm::slope) {
-      const float turned = 1.0f - probe.n_dot_l[i];
-      const float scaled = bias.slope * turned;
-      depth_bias = std::max(scaled, bias.floor);
-    }
-    const float biased = reference - depth_bias;
-    int lit = 0;
-    for (int y = -radius; y <= radius; ++y)
-      for (int x = -radius; x <= radius; ++x)
-        lit += !(biased > wrapped(map, s.map.wrap, probe.texel[i].x + x, probe.texel[i].y + y));
-    if (reference > 1) ++met.beyond_far;
-    if (s.map.lit_beyond_far && reference > 1) lit = taps;
-    const glm::ivec2 t = probe.texel[i];
-    met.outside += t.x < 0 || t.y < 0 || t.x >= map.width || t.y >= map.width;
-    met.lit += lit == taps;
-    met.dark += lit == 0;
-    met.fractions += lit > 0 && lit < taps;
-    visibility[i] = static_cast<float>(lit) / static_cast<float>(taps);
-  }
-  return visibility;
-}
-
-Scene random_scene(std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(-1, 1);
-  Scene scene;
-  add_floor(scene, 0, 6);
-  for (int k = 0; k < 8; ++k) {
-    const glm::dvec3 low(4 * unit(random), unit(random) * 0.5, 4 * unit(random));
-    add_box(scene, "box", low,
-            low + glm::dvec3(0.7 + 0.5 * unit(random), 1.2 + unit(random), 0.7 + 0.5 * unit(random)));
-  }
-  scene.light.position_m = {6 * unit(random), 6 + 2 * unit(random), 6 * unit(random)};
-  scene.camera.eye_m = {5 * unit(random), 4, 8};
-  return scene;
-}
-
-template <class T>
-T one_of(std::mt19937& random, std::initializer_list<T> choices) {
-  return *(choices.begin() + random() % choices.size());
-}
-
-Settings random_settings(std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(0, 1);
-  Settings s;
-  s.map.resolution = one_of(random, {1, 7, 32, 64, 100, 257, 1024});
-  s.map.format = one_of(random, {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f});
-  s.map.wrap = one_of(random, {Wrap::repeat, Wrap::clamp_to_edge, Wrap::clamp_to_border});
-  s.map.cull = one_of(random, {CulledFaces::none, CulledFaces::back, CulledFaces::front});
-  s.map.extent_scale = one_of(random, {0.05, 0.4, 1.0, 3.0});
-  s.map.lit_beyond_far = random() % 2;
-  s.map.near_m = 1 + unit(random);
-  s.map.far_m = one_of(random, {6.0, 9.0, 30.0});
-  s.bias.form = one_of(random, {BiasForm::none, BiasForm::constant, BiasForm::slope, BiasForm::normal_offset});
-  s.bias.unit = one_of(random, {BiasUnit::depth, BiasUnit::m, BiasUnit::texel});
-  s.bias.constant = 0.02 * unit(random);
-  s.bias.slope = 0.1 * unit(random);
-  s.bias.floor = 0.01 * unit(random);
-  s.bias.normal_offset = 3 * unit(random);
-  s.filter.kind = one_of(random, {FilterKind::none, FilterKind::box});
-  s.filter.size = one_of(random, {1, 3, 5, 7, 31});
-  return s;
-}
-
-void expect_same(const Image<float>& gpu, const Image<float>& host, const std::string& where) {
-  ASSERT_EQ(gpu.size(), host.size());
-  size_t different = 0, first = 0;
-  for (size_t i = gpu.size(); i-- > 0;)
-    if (!same_bits(gpu[i], host[i])) ++different, first = i;
-  EXPECT_EQ(different, 0u) << where << ": first at index " << first << ", shader " << gpu[first] << ", host "
-                           << host[first];
-}
-
-std::string describe(const Settings& s) {
-  std::string text;
-  for (const Setting& row : settings_table())
-    if (!row.name.starts_with("scene") && !row.name.starts_with("view"))
-      text += std::string(row.name) + "=" + row.get(s) + " ";
-  return text;
-}
-
-class GlLookupTest : public GlTest {
- protected:
-  ReceiverImage load(const Scene& scene, int width, int height) {
-    renderer.load_scene(scene);
-    return resolve_receivers(scene, scene.camera, renderer.render_primitives(scene.camera, width, height));
-  }
-};
-
-TEST_F(GlLookupTest, EqualsTheHostBitForBit) {
+TEST_F(GlLookupTest, EqualsTheHost) {
   std::mt19937 random(1978);
-  Met met;
-  for (int k = 0; k < 8; ++k) {
-    const Scene scene = random_scene(random);
-    const ReceiverImage receivers = load(scene, 113, 67);
-    for (int j = 0; j < 25; ++j) {
-      const Settings settings = random_settings(random);
+  double worst_blend = 0;
+  std::set<std::pair<BiasForm, FilterKind>> pairs;
+  for (const LightKind kind : kinds) {
+    Met met;
+    for (int k = 0; k < 4; ++k) {
+      const Scene scene = random_scene(random, kind);
+      const ReceiverImage receivers = load(scene, 113, 67);
+      for (int j = 0; j < 40; ++j) {
+        const Settings settings = random_settings(random, kind);
+        const LightFrame frame = make_light_frame(scene, settings);
+        const ShadowMap map = renderer.render_map(frame, settings);
+        const LookupProbe probe = renderer.probe(frame, settings);
+        const Image<double> host = lookup_on_host(probe, receivers, renderer.read_map(map), settings, met);
+        const Image<float> gpu = renderer.lookup(map, frame, settings);
+        const double allowed = probe.pattern.bilinear() ? sampler_error(renderer.info()) : 0;
+        pairs.emplace(settings.bias.form, settings.filter.kind);
+        ASSERT_EQ(gpu.size(), host.size());
+        size_t different = 0, first = 0;
+        for (size_t i = gpu.size(); i-- > 0;) {
+          const double off = std::abs(gpu[i] - host[i]);
+          if (probe.pattern.bilinear()) worst_blend = std::max(worst_blend, off);
+          if (!(off <= allowed)) ++different, first = i;
+          ASSERT_TRUE(gpu[i] >= 0 && gpu[i] <= 1) << gpu[i];
+        }
+        EXPECT_EQ(different, 0u) << kind_names[static_cast<int>(kind)] << " " << describe(settings)
+                                 << ": first at index " << first << ", shader " << gpu[first] << ", host "
+                                 << host[first];
+      }
+    }
+    constexpr size_t enough = 1000;
+    EXPECT_GT(met.lit, enough);
+    EXPECT_GT(met.dark, enough);
+    EXPECT_GT(met.fractions, enough);
+    EXPECT_GT(met.outside + (kind == LightKind::point ? enough + 1 : 0), enough);
+    EXPECT_GT(met.beyond_far, enough);
+    EXPECT_GT(met.background, enough);
+  }
+  RecordProperty("worst_blend", std::to_string(worst_blend));
+  for (size_t b = 0; b < find_setting("bias.form").choices.size(); ++b)
+    EXPECT_TRUE(std::any_of(pairs.begin(), pairs.end(), [&](auto p) { return p.first == static_cast<BiasForm>(b); }));
+  for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f)
+    EXPECT_TRUE(
+        std::any_of(pairs.begin(), pairs.end(), [&](auto p) { return p.second == static_cast<FilterKind>(f); }));
+}
+
+// Lit and dark are exactly 1 and 0 whatever the filter, its size and its weights.
+TEST_F(GlLookupTest, AllLitIsOneAndAllDarkIsNought) {
+  std::mt19937 random(1);
+  int filters = 0;
+  for (const LightKind kind : kinds) {
+    const Scene scene = random_scene(random, kind);
+    const ReceiverImage receivers = load(scene, 40, 30);
+    for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f)
+      for (const int size : {3, 5, 9, 31}) {
+        Settings settings;
+        settings.map.resolution = 64;
+        settings.map.wrap = Wrap::clamp_to_edge;
+        settings.map.far_m = 30;
+        settings.bias.form = BiasForm::none;
+        settings.filter.kind = static_cast<FilterKind>(f);
+        settings.filter.size = size;
+        settings.filter.sigma_texels = 0.3 * size;
+        if (kind_thrown([&] { validate_for(kind, settings); })) continue;
+        ++filters;
+        const LightFrame frame = make_light_frame(scene, settings);
+        const LookupProbe probe = renderer.probe(frame, settings);
+        for (const float depth : {0.0f, 1.0f}) {
+          const ShadowMap map = renderer.upload_map(Image<float>(64, frame.map_size().y, depth), settings.map);
+          const Image<float> seen = renderer.lookup(map, frame, settings);
+          for (size_t i = 0; i < seen.size(); ++i) {
+            if (probe.bias_unit[i] == 0 || probe.reference[i] <= 0) continue;
+            ASSERT_EQ(seen[i], depth) << describe(settings);
+          }
+        }
+      }
+  }
+  EXPECT_EQ(filters, (5 + 5 + 3) * 4);
+}
+
+// Every filter's comparison is strict: what lies at the stored depth is lit, and a float nearer to the light it is not.
+TEST_F(GlLookupTest, ATieIsLit) {
+  std::mt19937 random(3);
+  for (const LightKind kind : kinds) {
+    const Scene scene = random_scene(random, kind);
+    for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f) {
+      Settings settings;
+      settings.map.resolution = 8;
+      settings.map.wrap = Wrap::clamp_to_edge;
+      settings.map.far_m = 40;
+      settings.bias.form = BiasForm::none;
+      settings.filter.kind = static_cast<FilterKind>(f);
+      if (kind_thrown([&] { validate_for(kind, settings); })) continue;
+      load(scene, 1, 1);
       const LightFrame frame = make_light_frame(scene, settings);
-      renderer.load_receivers(receivers, frame.direction_to_light());
-      const ShadowMap map = renderer.render_map(frame, settings.map);
-      const DepthBias bias = depth_bias(frame, settings.bias);
-      const LookupProbe probe = renderer.probe(frame, bias);
-      const Image<float> host = lookup_on_host(probe, receivers, renderer.read_map(map), bias, settings, met);
-      expect_same(renderer.lookup(map, frame, settings), host, describe(settings));
+      const float reference = renderer.probe(frame, settings).reference[0];
+      ASSERT_GT(reference, 0);
+      const auto seen_with = [&](float depth) {
+        return renderer.lookup(renderer.upload_map(Image<float>(8, frame.map_size().y, depth), settings.map), frame,
+                               settings)[0];
+      };
+      EXPECT_EQ(seen_with(reference), 1) << describe(settings);
+      EXPECT_EQ(seen_with(std::nextafter(reference, 0.0f)), 0) << describe(settings);
     }
   }
-  constexpr size_t enough = 1000;
-  EXPECT_GT(met.lit, enough);
-  EXPECT_GT(met.dark, enough);
-  EXPECT_GT(met.fractions, enough);
-  EXPECT_GT(met.outside, enough);
-  EXPECT_GT(met.beyond_far, enough);
-  EXPECT_GT(met.background, enough);
+}
+
+// A map whose left half is dark, looked up across its middle: what each filter makes of an edge, from its definition.
+TEST_F(GlLookupTest, AnEdgeThroughEachFilter) {
+  Scene scene;
+  scene.light = light_from_above();
+  scene.camera = camera_from_above(4);
+  add_floor(scene, 0, 4);
+  load(scene, 128, 128);  // 8 pixels to a texel, whose centres lie at odd sixteenths
+  Settings settings;
+  settings.map.resolution = 16;
+  settings.map.extent_m = 4;
+  settings.map.near_m = 0;
+  settings.map.far_m = 20;
+  settings.map.wrap = Wrap::clamp_to_edge;
+  settings.bias.form = BiasForm::none;
+  Image<float> half(16, 16, 1.0f);
+  const LightFrame frame = make_light_frame(scene, settings);
+  const bool right_is_plus_x = frame.right.x > 0;
+  for (int j = 0; j < 16; ++j)
+    for (int i = 0; i < 8; ++i) half.at(i, j) = 0.25f;
+  const ShadowMap map = renderer.upload_map(half, settings.map);
+  const auto row = [&](FilterSettings filter) {
+    settings.filter = filter;
+    return renderer.lookup(map, frame, settings);
+  };
+  // Of one axis: P at `at` texels is lit by the share of its taps that lie in texels 8 and up.
+  const auto expect_edge = [&](FilterSettings filter, auto&& lit_at) {
+    const Image<float> seen = row(filter);
+    int fractions = 0;
+    for (int x = 0; x < 128; ++x) {
+      const double at = right_is_plus_x ? (x + 0.5) / 8 : 16 - (x + 0.5) / 8;
+      ASSERT_NEAR(seen.at(x, 64), lit_at(at), sampler_error(renderer.info()))
+          << find_setting("filter.kind").get(settings) << " at " << at;
+      fractions += seen.at(x, 64) > 0 && seen.at(x, 64) < 1;
+    }
+    EXPECT_EQ(fractions > 0, filter.kind != FilterKind::none);
+  };
+  const auto nearest = [](double at) { return std::floor(at) >= 8 ? 1.0 : 0.0; };
+  const auto ramp = [](double at) { return std::clamp(at - 7.5, 0.0, 1.0); };
+  expect_edge({.kind = FilterKind::none}, nearest);
+  expect_edge({.kind = FilterKind::box, .size = 3},
+              [&](double at) { return (nearest(at - 1) + nearest(at) + nearest(at + 1)) / 3; });
+  expect_edge({.kind = FilterKind::box, .size = 3, .step_texels = 2.5},
+              [&](double at) { return (nearest(at - 2.5) + nearest(at) + nearest(at + 2.5)) / 3; });
+  expect_edge({.kind = FilterKind::hardware}, ramp);
+  const double g = std::exp(-1 / (2 * 0.8 * 0.8)), sum = 1 + 2 * g;
+  expect_edge({.kind = FilterKind::gaussian, .size = 3, .sigma_texels = 0.8},
+              [&](double at) { return (g * ramp(at - 1) + ramp(at) + g * ramp(at + 1)) / sum; });
+}
+
+// A lone tilted plane. Its own map shadows it but where the comparison follows the plane: at the tap (which leaves what
+// the grid rounds the tap to), or at the texel's centre, where the map holds that very depth.
+TEST_F(GlLookupTest, PlaneFormsFreeAPlaneOfAcne) {
+  for (const LightKind kind : {LightKind::directional, LightKind::spot}) {
+    Scene scene;
+    scene.light = light_from_above();
+    scene.light.kind = kind;
+    scene.light.cone_deg = 40;
+    scene.camera = camera_from_above(3);
+    const double rise = 1.5;
+    const glm::dvec3 u(8, 8 * rise, 0), v(0, 2, -8);
+    add_quad(scene, "plane", -0.5 * (u + v), u, v);
+    const ReceiverImage receivers = load(scene, 64, 64);
+    Settings settings;
+    settings.map.resolution = 64;
+    settings.map.format = DepthFormat::d32f;
+    settings.map.extent_m = 8;
+    settings.map.near_m = 1;
+    settings.map.far_m = 30;
+    settings.filter.kind = FilterKind::box;
+    settings.filter.size = 5;
+    const LightFrame frame = make_light_frame(scene, settings);
+    const ShadowMap map = renderer.render_map(frame, settings);
+    const auto dark_share = [&](BiasForm form, double constant) {
+      settings.bias.form = form;
+      settings.bias.constant = constant;
+      const Image<float> seen = renderer.lookup(map, frame, settings);
+      double dark = 0;
+      for (float s : seen.pixels) dark += 1 - static_cast<double>(s);
+      return dark / static_cast<double>(seen.size());
+    };
+    // Half a texel of the steepest depth gradient that any receiver has, along both axes.
+    settings.bias.form = BiasForm::receiver_plane;
+    const LookupProbe probe = renderer.probe(frame, settings);
+    double half_texel = 0;
+    for (size_t i = 0; i < probe.gradient.size(); ++i) {
+      ASSERT_NE(receivers.primitive[i], no_primitive);
+      half_texel = std::max(half_texel, 0.5 * (std::abs(probe.gradient[i].x) + std::abs(probe.gradient[i].y)));
+    }
+    // The rasteriser's 2 places and a handful of the shader's (2^-24 each), times the kernel's reach.
+    constexpr double float_error = 32 * 0x1p-24;
+    EXPECT_GT(half_texel, 100 * float_error);
+    EXPECT_GT(dark_share(BiasForm::constant, 0), 0.3) << "two fifths of the taps lie uphill";
+    EXPECT_GT(dark_share(BiasForm::constant, 4 * half_texel), 0.01) << "its kernel wants five times as much";
+    EXPECT_EQ(dark_share(BiasForm::constant, 5 * half_texel + float_error), 0);
+    EXPECT_GT(dark_share(BiasForm::receiver_plane, 0), 0.3);
+    EXPECT_GT(dark_share(BiasForm::receiver_plane, 0.7 * half_texel), 0.001);
+    EXPECT_EQ(dark_share(BiasForm::receiver_plane, half_texel + float_error), 0);
+    EXPECT_EQ(dark_share(BiasForm::tangent_plane, float_error), 0);
+  }
 }
 
 // At the very float where a pixel's verdict turns: the comparison is strict, and one float less bias is dark.
@@ -164,15 +233,13 @@ TEST_F(GlLookupTest, TurnsAtTheExactFloat) {
   settings.map.near_m = 0;
   settings.map.far_m = 30;
   const LightFrame frame = make_light_frame(scene, settings);
-  renderer.load_receivers(receivers, frame.direction_to_light());
-  const ShadowMap map = renderer.render_map(frame, settings.map);
-  const LookupProbe probe = renderer.probe(frame);
+  const ShadowMap map = renderer.render_map(frame, settings);
+  const LookupProbe probe = renderer.probe(frame, settings);
   const Image<float> stored = renderer.read_map(map);
   int turned = 0;
   for (size_t i = 0; i < receivers.primitive.size() && turned < 40; i += 17) {
     if (receivers.primitive[i] == no_primitive) continue;
-    const float reference = probe.reference[i],
-                z = wrapped(stored, settings.map.wrap, probe.texel[i].x, probe.texel[i].y);
+    const float reference = probe.reference[i], z = stored_at(stored, settings.map.wrap, probe.texel(i, 0));
     if (!(reference > z)) continue;
     float bias = reference - z;  // near the least one that lights the pixel; then walk to it
     while (reference - bias > z) bias = std::nextafter(bias, 1.0f);
@@ -186,80 +253,13 @@ TEST_F(GlLookupTest, TurnsAtTheExactFloat) {
   EXPECT_EQ(turned, 40);
 }
 
-// The probe of a moved lookup is that of receivers which lie there; and no other form moves it, not even by a bit.
-TEST_F(GlLookupTest, ProbeMovesWithTheNormalOffsetAlone) {
-  std::mt19937 random(2011);
-  const Scene scene = random_scene(random);
-  const ReceiverImage receivers = load(scene, 96, 64);
-  Settings settings;
-  settings.map.resolution = 64;
-  const LightFrame frame = make_light_frame(scene, settings);
-  renderer.load_receivers(receivers, frame.direction_to_light());
-  const LookupProbe unmoved = renderer.probe(frame);
-  const auto expect_equal = [&](const LookupProbe& probe, const char* form) {
-    for (size_t i = 0; i < receivers.primitive.size(); ++i) {
-      ASSERT_TRUE(same_bits(probe.reference[i], unmoved.reference[i])) << form;
-      ASSERT_EQ(probe.texel[i], unmoved.texel[i]) << form;
-      ASSERT_TRUE(same_bits(probe.n_dot_l[i], unmoved.n_dot_l[i])) << form;
-    }
-  };
-  expect_equal(renderer.probe(frame, {.form = BiasForm::constant, .constant = 0.1f}), "constant");
-  expect_equal(renderer.probe(frame, {.form = BiasForm::slope, .slope = 0.1f, .floor = 0.1f}), "slope");
-  expect_equal(renderer.probe(frame, {.form = BiasForm::normal_offset}), "normal_offset of 0");
-
-  const float offset_m = 0.37f;
-  const LookupProbe moved = renderer.probe(frame, {.form = BiasForm::normal_offset, .normal_offset_m = offset_m});
-  // The shader's own float arithmetic: the host is built without contraction.
-  ReceiverImage there = receivers;
-  for (size_t i = 0; i < there.position.size(); ++i) there.position[i] += offset_m * there.normal[i];
-  renderer.load_receivers(there, frame.direction_to_light());
-  const LookupProbe expected = renderer.probe(frame);
-  size_t elsewhere = 0;
-  for (size_t i = 0; i < receivers.primitive.size(); ++i) {
-    ASSERT_TRUE(same_bits(moved.reference[i], expected.reference[i]));
-    ASSERT_EQ(moved.texel[i], expected.texel[i]);
-    ASSERT_TRUE(same_bits(moved.n_dot_l[i], unmoved.n_dot_l[i])) << "the normal stays";
-    elsewhere += moved.texel[i] != unmoved.texel[i];
-  }
-  EXPECT_GT(elsewhere, 1000u);
-}
-
-TEST_F(GlLookupTest, ProbeIsNearTheExactPlaces) {
-  std::mt19937 random(3);
-  const Scene scene = random_scene(random);
-  const ReceiverImage receivers = load(scene, 96, 64);
-  Settings settings;
-  settings.map.resolution = 512;
-  settings.map.extent_scale = 0.3;  // so that there are receivers on all sides of the map, at negative texels too
-  const LightFrame frame = make_light_frame(scene, settings);
-  renderer.load_receivers(receivers, frame.direction_to_light());
-  const LookupProbe probe = renderer.probe(frame);
-  // Four products and sums of magnitude below 4 in float: a few times 2^-22.
-  constexpr double float_error = 2e-6;
-  for (size_t i = 0; i < receivers.primitive.size(); ++i) {
-    if (receivers.primitive[i] == no_primitive) {
-      EXPECT_EQ(probe.reference[i], 0.0f);
-      EXPECT_EQ(probe.texel[i], glm::ivec2(0));
-      continue;
-    }
-    const glm::dvec3 p = frame.to_light(receivers.position[i]);
-    ASSERT_NEAR(probe.reference[i], frame.window_depth(p.z), float_error);
-    ASSERT_NEAR(probe.n_dot_l[i], glm::dot(glm::dvec3(receivers.normal[i]), frame.direction_to_light()), float_error);
-    const glm::dvec2 place = (glm::dvec2(p) / frame.extent_m + 0.5) * 512.0;
-    for (int k = 0; k < 2; ++k) {
-      ASSERT_GE(place[k], probe.texel[i][k] - 512 * float_error);
-      ASSERT_LE(place[k], probe.texel[i][k] + 1 + 512 * float_error);
-    }
-  }
-}
-
 // One floor that reaches far beyond a map whose every texel is darkened by a lid: what does the outside say?
 TEST_F(GlLookupTest, OutsideTheMap) {
   Scene scene;
   scene.light = light_from_above();
   scene.camera = camera_from_above(8);
   add_floor(scene, 0, 4);
-  const ReceiverImage receivers = load(scene, 16, 16);
+  load(scene, 16, 16);
   Settings settings;
   settings.map.resolution = 8;
   settings.map.extent_m = 2;  // the middle 4 x 4 pixels
@@ -268,7 +268,6 @@ TEST_F(GlLookupTest, OutsideTheMap) {
   const auto at_rim = [&](Wrap wrap) {
     settings.map.wrap = wrap;
     const LightFrame frame = make_light_frame(scene, settings);
-    renderer.load_receivers(receivers, frame.direction_to_light());
     const ShadowMap map = renderer.upload_map(Image<float>(8, 8, 0.25f), settings.map);
     const Image<float> visibility = renderer.lookup(map, frame, settings);
     EXPECT_EQ(visibility.at(8, 8), settings.map.far_m == 20 ? 0.0f : 1.0f) << "inside: dark, or beyond far";
@@ -293,8 +292,7 @@ TEST_F(GlLookupTest, BeyondFarIsLitOnlyWhenAsked) {
   settings.map.near_m = 0;
   settings.map.far_m = 5;
   const LightFrame frame = make_light_frame(scene, settings);
-  renderer.load_receivers(receivers, frame.direction_to_light());
-  const ShadowMap map = renderer.render_map(frame, settings.map);  // empty: all 1, and the reference is 2
+  const ShadowMap map = renderer.render_map(frame, settings);  // empty: all 1, and the reference is 2
   EXPECT_EQ(renderer.lookup(map, frame, settings).at(4, 4), 1.0f);
   settings.map.lit_beyond_far = false;
   EXPECT_EQ(renderer.lookup(map, frame, settings).at(4, 4), 0.0f);
@@ -316,35 +314,11 @@ TEST_F(GlLookupTest, ReceiversThatAreNotFiniteAreDark) {
   receivers.position[4] = glm::vec3(3e38f);  // finite, but not after the matrix
   receivers.primitive[5] = no_primitive;
   const LightFrame frame = make_light_frame(scene, settings);
-  renderer.load_receivers(receivers, frame.direction_to_light());
+  renderer.load_receivers(receivers, {0, 5, 5});
   const ShadowMap map = renderer.upload_map(Image<float>(2, 2, 1.0f), settings.map);
   EXPECT_EQ(renderer.lookup(map, frame, settings).pixels, (std::vector<float>{1, 0, 0, 0, 0, 0}));
-  const LookupProbe probe = renderer.probe(frame);
+  const LookupProbe probe = renderer.probe(frame, settings);
   for (size_t i = 1; i < 6; ++i) EXPECT_EQ(probe.reference[i], 0.0f) << i;
-}
-
-TEST(DepthBiasTest, IsInWindowDepth) {
-  LightFrame frame;
-  frame.near_m = 2;
-  frame.far_m = 12;
-  frame.extent_m = 20;
-  frame.resolution = 100;
-  BiasSettings bias;
-  bias.constant = 0.5;
-  EXPECT_EQ(depth_bias(frame, bias).constant, 0.5f);
-  bias.unit = BiasUnit::m;
-  EXPECT_EQ(depth_bias(frame, bias).constant, 0.05f);
-  bias.unit = BiasUnit::texel;
-  EXPECT_EQ(depth_bias(frame, bias).constant, 0.01f);
-  bias.form = BiasForm::slope;
-  bias.slope = 3;
-  bias.floor = 1;
-  const DepthBias slope = depth_bias(frame, bias);
-  EXPECT_FLOAT_EQ(slope.slope, 0.06f);
-  EXPECT_FLOAT_EQ(slope.floor, 0.02f);
-  EXPECT_EQ(slope.constant, 0.0f);
-  bias.form = BiasForm::none;
-  EXPECT_EQ(depth_bias(frame, bias).constant, 0.0f);
 }
 
 TEST_F(GlLookupTest, TimesArePositiveAndDifferentSizesFollowEachOther) {
@@ -355,10 +329,9 @@ TEST_F(GlLookupTest, TimesArePositiveAndDifferentSizesFollowEachOther) {
   settings.filter = {FilterKind::box, 5};
   const LightFrame frame = make_light_frame(scene, settings);
   for (const int width : {32, 200, 32}) {
-    const ReceiverImage receivers = load(scene, width, 24);
-    renderer.load_receivers(receivers, frame.direction_to_light());
+    load(scene, width, 24);
     double ms = -1;
-    const Image<float> seen = renderer.lookup(renderer.render_map(frame, settings.map), frame, settings, &ms);
+    const Image<float> seen = renderer.lookup(renderer.render_map(frame, settings), frame, settings, &ms);
     EXPECT_EQ(seen.width, width);
     EXPECT_GT(ms, 0);
   }
@@ -371,8 +344,8 @@ TEST_F(GlLookupTest, TimesIncludeTheWork) {
   Settings settings;
   settings.map.resolution = 64;
   const LightFrame frame = make_light_frame(scene, settings);
-  renderer.load_receivers(load(scene, 320, 180), frame.direction_to_light());
-  const ShadowMap map = renderer.render_map(frame, settings.map);
+  load(scene, 320, 180);
+  const ShadowMap map = renderer.render_map(frame, settings);
   const auto fastest = [&](FilterSettings filter) {
     settings.filter = filter;
     double best = INFINITY;
@@ -391,7 +364,7 @@ TEST_F(GlLookupTest, TimesIncludeTheWork) {
 TEST_F(GlLookupTest, AMapOfAnotherResolutionIsADefect) {
   Scene scene;
   add_floor(scene, 0, 4);
-  renderer.load_receivers(load(scene, 8, 8), {0, 1, 0});
+  load(scene, 8, 8);
   Settings settings;
   settings.map.resolution = 8;
   const ShadowMap map = renderer.upload_map(Image<float>(8, 8, 1.0f), settings.map);

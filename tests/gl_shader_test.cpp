@@ -66,7 +66,11 @@ TEST(ShaderErrors, NameFileAndLine) {
   EglContext context(DebugMode::fatal);
   const auto message = [](const char* fragment, const ShaderSlots& slots) {
     std::string text;
-    EXPECT_EQ(kind_thrown([&] { Program("ok.vert", fragment, slots, files_of(planted)); }, &text),
+    EXPECT_EQ(kind_thrown(
+                  [&] {
+                    Program({"ok.vert", fragment}, slots, files_of(planted));
+                  },
+                  &text),
               static_cast<int>(ErrorKind::device));
     return text;
   };
@@ -74,21 +78,37 @@ TEST(ShaderErrors, NameFileAndLine) {
       << message("main.frag", {{"slot", "bad.glsl"}});
   EXPECT_NE(message("tail.frag", {}).find("tail.frag:5: "), std::string::npos) << "after an include the count goes on";
   context.forget_errors();  // drivers may report a failed compilation through the debug callback too
-  EXPECT_EQ(kind_thrown([&] { Program("ok.vert", "main.frag", {{"slot", "good.glsl"}}, files_of(planted)); }), 0);
+  EXPECT_EQ(kind_thrown([&] { Program({"ok.vert", "main.frag"}, {{"slot", "good.glsl"}}, files_of(planted)); }), 0);
   EXPECT_EQ(kind_thrown([&] { context.check("compiling"); }), 0);
 }
 
-TEST(LookupParts, EveryBiasAndFilterBuilds) {
+TEST(LookupParts, EveryLightBiasAndFilterBuilds) {
   EglContext context(DebugMode::fatal);
   ProgramCache programs;
-  // One enumerator for each choice in the table of settings.
-  for (size_t b = 0; b < find_setting("bias.form").choices.size(); ++b)
-    for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f) {
-      const ShaderSlots slots = {{"bias", bias_file(static_cast<BiasForm>(b))},
-                                 {"filter", filter_file(static_cast<FilterKind>(f))}};
-      const Program& first = programs.get("shaders/screen.vert", "shaders/lookup.frag", slots);
-      EXPECT_EQ(&first, &programs.get("shaders/screen.vert", "shaders/lookup.frag", slots)) << "built once";
-    }
+  int built = 0, refused = 0;
+  // One enumerator for each choice in the table of settings; light.kind's first is `auto`.
+  for (size_t l = 0; l + 1 < find_setting("light.kind").choices.size(); ++l)
+    for (size_t b = 0; b < find_setting("bias.form").choices.size(); ++b)
+      for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f) {
+        Settings settings;
+        settings.bias.form = static_cast<BiasForm>(b);
+        settings.filter.kind = static_cast<FilterKind>(f);
+        if (kind_thrown([&] { validate_for(static_cast<LightKind>(l), settings); })) {
+          ++refused;
+          continue;
+        }
+        const ShaderSlots slots = {{"light", light_file(static_cast<LightKind>(l))},
+                                   {"bias", bias_file(settings.bias.form)},
+                                   {"filter", filter_file(settings.filter.kind)}};
+        const ShaderStages stages{"shaders/screen.vert", "shaders/lookup.frag"};
+        const Program& first = programs.get(stages, slots);
+        EXPECT_EQ(&first, &programs.get(stages, slots)) << "built once";
+        ++built;
+      }
+  // Of 3 lights, 8 bias forms and 7 filters; flat maps refuse 2 filters, and 2 forms with 2 others; cubes refuse 4
+  // filters, and 2 forms with the rest.
+  EXPECT_EQ(built, 2 * (8 * 5 - 4) + 6 * 3);
+  EXPECT_EQ(refused, 3 * 8 * 7 - built);
   EXPECT_EQ(kind_thrown([&] { context.check("building"); }), 0);
 }
 

@@ -53,7 +53,6 @@ const std::map<std::string, std::string> tolerated = {
     {"NODE_SKIN_WITH_NON_SKINNED_MESH", "skins are not read"},
     {"UNEXPECTED_EXTENSION_OBJECT", "extensions that are not supported are not read"},
     {"NODE_MATRIX_NON_TRS", "a matrix that shears is as good as another"},
-    {"KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES", "only the axis of a spot is read"},
 };
 
 // Files with codes that elsewhere must be refused.

@@ -41,6 +41,10 @@ void add_camera(json& d, const json& camera) {
   d["cameras"] = {camera};
   d["nodes"][0]["camera"] = 0;
 }
+void add_spot(json& d, const json& spot) {
+  d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"spot", spot}}};
+  d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+}
 
 // One case a line, as far as it goes.
 // clang-format off
@@ -147,6 +151,15 @@ const Case cases[] = {
      }},
     {"DanglingLight", "nodes[0].extensions.KHR_lights_punctual.light: 0 refers", [](json& d) { d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0; }},
     {"SpotWithoutData", "extensions.KHR_lights_punctual.lights[0].spot: is missing", [](json& d) { d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}}; }},
+    {"SpotInnerBeyondOuter", "extensions.KHR_lights_punctual.lights[0].spot.innerConeAngle: 0.2 is", [](json& d) { add_spot(d, {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.1}}); }},
+    {"SpotInnerIsOuter", "extensions.KHR_lights_punctual.lights[0].spot.innerConeAngle: 0.5 is", [](json& d) { add_spot(d, {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}); }},
+    {"SpotInnerNegative", "extensions.KHR_lights_punctual.lights[0].spot.innerConeAngle: -0.1 is", [](json& d) { add_spot(d, {{"innerConeAngle", -0.1}}); }},
+    {"SpotOuterIsZero", "extensions.KHR_lights_punctual.lights[0].spot.outerConeAngle: 0 is", [](json& d) { add_spot(d, {{"outerConeAngle", 0}}); }},
+    {"SpotOuterBeyondARightAngle", "extensions.KHR_lights_punctual.lights[0].spot.outerConeAngle: 1.6 is", [](json& d) { add_spot(d, {{"outerConeAngle", 1.6}}); }},
+    {"SpotAngleIsText", "extensions.KHR_lights_punctual.lights[0].spot.outerConeAngle: should be a finite number", [](json& d) { add_spot(d, {{"outerConeAngle", "wide"}}); }},
+    {"SpotIsNumber", "extensions.KHR_lights_punctual.lights[0].spot: should be an object", [](json& d) { add_spot(d, 3); }},
+    {"SpotTooWideForAMap", "nodes[0].extensions.KHR_lights_punctual.light: a spot whose cone is 171.887", [](json& d) { add_spot(d, {{"outerConeAngle", 1.5}}); }},
+    {"SpotTooNarrowForAMap", "nodes[0].extensions.KHR_lights_punctual.light: a spot whose cone is 0.114", [](json& d) { add_spot(d, {{"outerConeAngle", 0.001}}); }},
     {"UnknownLight", "extensions.KHR_lights_punctual.lights[0].type", [](json& d) { d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "ambient"}}}; }},
     // The document.
     {"RequiredDraco", "extensionsRequired[0]: 'KHR_draco_mesh_compression'", [](json& d) { d["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }},

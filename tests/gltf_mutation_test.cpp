@@ -12,8 +12,10 @@ namespace {
 json rich() {
   json d = square();
   d["extensionsUsed"] = {"KHR_lights_punctual", "KHR_mesh_quantization"};
-  d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}},
-                                                      {{"type", "spot"}, {"spot", json::object()}}};
+  d["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "directional"}},
+      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.7}}}},
+      {{"type", "point"}, {"range", 8}}};
   d["cameras"] = {
       {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}, {"zfar", 100}}}},
       {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 2}, {"znear", 0.1}, {"zfar", 9}}}}};
@@ -32,6 +34,7 @@ json rich() {
       {"indices", {{"bufferView", d["accessors"][moved]["bufferView"]}, {"componentType", 5123}}},
       {"values", {{"bufferView", d["accessors"][values]["bufferView"]}}}};
   d["nodes"][0]["children"] = {1, 2};
+  d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 1;
   d["nodes"].push_back({{"mesh", 1}, {"rotation", {0, 0, 0, 1}}, {"scale", {2, -2, 2}}, {"translation", {1, 2, 3}}});
   d["nodes"].push_back({{"camera", 0},
                         {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}},

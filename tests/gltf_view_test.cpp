@@ -3,6 +3,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scenes/fit.h"
+#include "scenes/light_frame.h"
 #include "tests/gltf_expect.h"
 #include "tests/gltf_files.h"
 
@@ -83,20 +84,57 @@ TEST_F(GltfView, DirectionalLightTravelsAlongItsNode) {
   EXPECT_EQ(s.light.angular_diameter_deg, 0);
 }
 
-TEST_F(GltfView, ADirectionalLightComesBeforeOthers) {
+TEST_F(GltfView, TheFirstLightInTheScenesOrderIsTaken) {
   json d = with_lights({{{"type", "point"}}, {{"type", "directional"}}}, {{"translation", {5, 5, 5}}});
   d["scenes"][0]["nodes"].push_back(2);
   d["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
-  expect_near(travels(load(d).light), {0, 0, -1});
+  EXPECT_EQ(load(d).light.kind, LightKind::point);
+  d["scenes"][0]["nodes"] = {0, 2, 1};
+  EXPECT_EQ(load(d).light.kind, LightKind::directional);
+  // One that is not used may be more than a map can serve.
+  d["extensions"]["KHR_lights_punctual"]["lights"][0] = {{"type", "spot"}, {"spot", {{"outerConeAngle", 1.57}}}};
+  EXPECT_EQ(load(d).light.kind, LightKind::directional);
 }
 
-TEST_F(GltfView, SpotAndPointLightsGiveTheirDirection) {
-  const json node = {{"translation", {0.5, 4.5, 0}}, {"rotation", {0, 0, 0, 1}}};
-  expect_near(travels(load(with_lights({{{"type", "spot"}, {"spot", json::object()}}}, node)).light), {0, 0, -1});
-  expect_near(travels(load(with_lights({{{"type", "point"}}}, node)).light), {0, -1, 0});
-  // A point light in the middle of the scene has no direction to it: the fitted light.
+TEST_F(GltfView, SpotStandsAndLooksAsItsNode) {
+  // The parent's move and turn, and its scale, which is no part of a light.
+  json d = with_lights({{{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}, {"range", 2}}},
+                       {{"translation", {1, 2, 3}}, {"scale", {2, 2, 2}}, {"rotation", looks_down}});
+  d["nodes"][1]["children"] = {2};
+  d["nodes"].push_back({{"translation", {0, 0, 4}}});
+  std::swap(d["nodes"][1]["extensions"], d["nodes"][2]["extensions"]);
+  d["nodes"][1].erase("extensions");
+  const Scene s = load(d);
+  EXPECT_EQ(s.light.kind, LightKind::spot);
+  expect_near(s.light.position_m, {1, 2 + 2 * 4, 3});  // the child's +Z is the world's +Y
+  expect_near(travels(s.light), {0, -1, 0});
+  expect_near(s.light.target_m, {1, 0.5, 3});  // level with the square's middle
+  EXPECT_NEAR(s.light.cone_deg, glm::degrees(1.0), rounding);
+  EXPECT_FALSE(s.map);
+  // A map that is fitted holds the scene, whatever `range` says: lights do not fall off.
+  const LightFrame frame = make_light_frame(s, {});
+  EXPECT_GT(frame.near_m, 0);
+  for (const glm::vec3& p : s.positions) EXPECT_LT(frame.depth_m(frame.to_light(p)), frame.far_m);
+}
+
+TEST_F(GltfView, SpotsAreNinetyDegreesWideWhenTheyDoNotSay) {
+  const Scene s = load(with_lights({{{"type", "spot"}, {"spot", json::object()}}}, {{"translation", {0.5, 0.5, 3}}}));
+  EXPECT_EQ(s.light.cone_deg, 90);
+  expect_near(travels(s.light), {0, 0, -1});
+  // Turned away from the scene: still a direction.
+  const json away = {{"translation", {0.5, 0.5, -3}}};
+  expect_near(load(with_lights({{{"type", "spot"}, {"spot", json::object()}}}, away)).light.target_m, {0.5, 0.5, -4});
+}
+
+TEST_F(GltfView, PointLightStandsAtItsNode) {
+  const Scene s = load(with_lights({{{"type", "point"}, {"range", 1}}}, {{"translation", {0.5, 4.5, 0}}}));
+  EXPECT_EQ(s.light.kind, LightKind::point);
+  EXPECT_EQ(s.light.position_m, glm::dvec3(0.5, 4.5, 0));
+  EXPECT_EQ(s.light.radius_m, 0);
+  EXPECT_GT(make_light_frame(s, {}).far_m, glm::length(glm::dvec2(0.5, 4.5)));
+  // In the very middle of the scene there is no way to the middle; the light has a target all the same.
   const Scene inside = load(with_lights({{{"type", "point"}}}, {{"translation", {0.5, 0.5, 0}}}));
-  expect_near(inside.light.position_m, fit_light(inside).position_m);
+  EXPECT_EQ(inside.light.position_m, glm::dvec3(0.5, 0.5, 0));
 }
 
 TEST_F(GltfView, FittedWhereTheFileHasNone) {

@@ -83,19 +83,21 @@ void add_acne(const Valley& v, double offset_m, std::mt19937& random, Acne& foun
     points.push_back({p, v.holds(first, p) ? first : first + 1});
   }
   const ReceiverImage receivers = test::receivers_at(v.scene, points, {0, 1, 0}, true);
-  const DepthBias bias{.form = BiasForm::normal_offset, .normal_offset_m = static_cast<float>(offset_m)};
+  DepthBias bias;
+  bias.form = BiasForm::normal_offset;
+  bias.normal_offset_texels = static_cast<float>(offset_m / v.frame.texel_m());
   ReceiverImage moved = receivers;
   for (size_t i = 0; i < moved.position.size(); ++i)
-    moved.position[i] = glm::vec3(bias.looked_up(receivers.position[i], receivers.normal[i]));
+    moved.position[i] = glm::vec3(bias.looked_up(v.frame, receivers.position[i], receivers.normal[i]));
   const LookupProbe probe = test::probe_of(moved, v.frame);
   const raytrace::Tracer tracer(v.scene);
   const ReceiverTruth truth = tracer.receiver_truth(receivers, v.frame, {});
-  const raytrace::LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe, v.frame, {}, 1, bias);
+  const raytrace::LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe, v.frame, {}, bias);
   uint64_t ambiguous = 0;
   for (size_t i = 0; i < receivers.position.size(); ++i) {
     ambiguous += is_ambiguous(truth, lookup.taps, i);
     if (is_ambiguous(truth, lookup.taps, i)) continue;
-    const Tap tap = tap_of(probe, lookup.taps, {}, lookup.exact_map, i, 1, 0);
+    const Tap tap = tap_of(probe, lookup.taps, {}, lookup.exact_map, i, 0);
     const Cause cause = tap_cause(tap, !(probe.reference[i] > tap.depth));
     EXPECT_TRUE(cause == Cause::none || cause == Cause::acne) << cause_name(cause) << ": a valley has no shadow";
     EXPECT_FALSE(tap.exact_lit != tap.moved_lit);

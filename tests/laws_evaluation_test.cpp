@@ -174,6 +174,30 @@ TEST(Laws, MeansAndSlopes) {
   EXPECT_FALSE(judge(slope, points).held);
 }
 
+TEST(Laws, SayWhatWasFoundWithItsFigures) {
+  std::vector<PointRecord> points = {point(0, 512, "none", 0.5), point(1, 512, "box", 0.125)};
+  points[1].times["map_ms"] = 2.5;
+  Law l = law("error", "error", LawRelation::at_most);
+  l.where = {{"filter.kind", {"box"}}};
+  l.against = {{"filter.kind", {"none"}}};
+  l.let = {{"percent", "100"}};
+  l.found = "{percent * error} % with a filter, {against:percent * error} % without; {map_ms} ms.";
+  EXPECT_EQ(judge(l, points).found, "12.5 % with a filter, 50 % without; 2.5 ms.");
+  l.found = "no figures";
+  EXPECT_EQ(judge(l, points).found, "no figures");
+  l.found = "";
+  EXPECT_EQ(judge(l, points).found, "");
+  for (const char* bad : {"{error", "{}", "{none_such}", "{against: none_such}"}) {
+    l.found = bad;
+    EXPECT_THROW(check_law(l), Error) << bad;
+  }
+  l = law("map_ms", "1");
+  EXPECT_THROW(check_law(l), Error) << "a time is no law";
+  l = law("error", "1");
+  l.found = "{against: error}";
+  EXPECT_THROW(check_law(l), Error) << "there is nothing to be against";
+}
+
 TEST(Laws, TheTableTellsLawPredictedMeasuredAndVerdict) {
   Law good = law("error", "1"), bad = law("acne", "0.5");
   good.name = "good law";

@@ -56,21 +56,20 @@ inline Figures measure(const Settings& settings, const Defect& defect = {}) {
   Scene drawn_scene = scene;
   if (defect.drawn_scene) defect.drawn_scene(drawn_scene);
   renderer.load_scene(drawn_scene);
-  renderer.load_receivers(receivers, frame.direction_to_light());
+  renderer.load_receivers(receivers, scene.camera.eye_m);
   LightFrame drawn_frame = frame;
-  MapSettings drawn_map = settings.map;
-  if (defect.drawn_map) defect.drawn_map(drawn_frame, drawn_map);
-  gl::ShadowMap map = renderer.render_map(drawn_frame, drawn_map);
+  Settings drawn = settings;
+  if (defect.drawn_map) defect.drawn_map(drawn_frame, drawn.map);
+  gl::ShadowMap map = renderer.render_map(drawn_frame, drawn);
   if (defect.edited_map) map = renderer.upload_map(defect.edited_map(renderer.read_map(map)), settings.map);
   const Image<float> stored = renderer.read_map(map);
 
-  const int kernel = kernel_size(settings.filter);
-  DepthBias bias = depth_bias(frame, settings.bias);
-  const LookupProbe probe = renderer.probe(frame, bias);
-  const raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, probe, frame, settings.map, kernel, bias);
+  DepthBias bias = depth_bias(settings.bias);
+  const LookupProbe probe = renderer.probe(frame, settings);
+  const raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, probe, frame, settings.map, bias);
   Settings asked = settings;
   if (defect.asked) defect.asked(asked);
-  const MapSettings& uploaded = defect.every_map ? drawn_map : settings.map;
+  const MapSettings& uploaded = defect.every_map ? drawn.map : settings.map;
   const Image<float> r5 = renderer.lookup(map, frame, asked);
   const Image<float> r4 = renderer.lookup(renderer.upload_map(taps.exact_map, uploaded), frame, asked);
 

@@ -37,7 +37,7 @@ struct Bench {
     const LookupProbe probe = test::probe_of(receivers, frame);
     std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
       const auto key = [&](size_t i) {
-        const glm::ivec2 t = probe.texel[i];
+        const glm::ivec2 t = probe.texel(i, 0);
         return std::tuple(t.y >> 4, t.x >> 2, t.y, t.x, i);
       };
       return key(a) < key(b);
@@ -81,7 +81,7 @@ void soft_truth(benchmark::State& state) {
   uint64_t rays = 0;
   for (auto _ : state) {
     StageTime hard, soft;
-    const SoftTruth sun{.angular_diameter_deg = 0.53, .standard_error = 0.05};
+    const SoftTruth sun = test::sun(0.53, 0.05);
     benchmark::DoNotOptimize(b.tracer.receiver_truth(b.receivers, b.frame, sun, &hard, &soft).soft.pixels.data());
     ms += soft.milliseconds;
     rays += soft.rays;
@@ -92,12 +92,11 @@ void soft_truth(benchmark::State& state) {
 void lookups(benchmark::State& state, bool taps) {
   const Bench b(static_cast<int>(state.range(0)));
   const ReceiverTruth truth = b.tracer.receiver_truth(b.receivers, b.frame, {});
-  const LookupProbe probe = test::probe_of(b.receivers, b.frame);
+  const LookupProbe probe = test::probe_of(b.receivers, b.frame, test::box(static_cast<int>(state.range(1))));
   double ms = 0;
   uint64_t rays = 0;
   for (auto _ : state) {
-    const LookupTruth lookup =
-        b.tracer.lookup_truth(b.receivers, truth, probe, b.frame, {}, static_cast<int>(state.range(1)));
+    const LookupTruth lookup = b.tracer.lookup_truth(b.receivers, truth, probe, b.frame, {});
     const StageTime& stage = taps ? lookup.tap_stage : lookup.texel_stage;
     ms += stage.milliseconds;
     rays += stage.rays;

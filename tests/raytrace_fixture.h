@@ -181,18 +181,57 @@ inline ReceiverImage random_receivers(const Scene& scene, glm::dvec3 to_light, b
 }
 
 // What the lookup shader would ask for, in double.
-inline LookupProbe probe_of(const ReceiverImage& receivers, const LightFrame& frame) {
-  LookupProbe probe{Image<float>(receivers.width(), receivers.height()),
-                    Image<glm::ivec2>(receivers.width(), receivers.height(), glm::ivec2(0)),
-                    Image<float>(receivers.width(), receivers.height())};
+inline LookupProbe probe_of(const ReceiverImage& receivers, const LightFrame& frame,
+                            const FilterSettings& filter = {}) {
+  const int width = receivers.width(), height = receivers.height();
+  LookupProbe probe;
+  probe.reference = Image<float>(width, height);
+  probe.map_texels = Image<glm::vec2>(width, height, glm::vec2(0));
+  probe.n_dot_l = Image<float>(width, height);
+  probe.bias_unit = Image<float>(width, height, 1);
+  probe.pattern = tap_pattern(filter);
+  const size_t taps = static_cast<size_t>(probe.taps());
+  if (frame.kind == LightKind::point) {
+    probe.cube_resolution = frame.resolution;
+    probe.cube_texel.resize(receivers.primitive.size() * taps);
+  }
   for (size_t i = 0; i < receivers.primitive.size(); ++i) {
     const glm::dvec3 p = frame.to_light(receivers.position[i]);
-    probe.reference[i] = static_cast<float>(frame.window_depth(p.z));
-    probe.texel[i] =
-        glm::ivec2(glm::floor((glm::dvec2(p) / frame.extent_m + 0.5) * static_cast<double>(frame.resolution)));
-    probe.n_dot_l[i] = static_cast<float>(glm::dot(glm::dvec3(receivers.normal[i]), frame.direction_to_light()));
+    probe.reference[i] = static_cast<float>(frame.window_depth(frame.depth_m(p)));
+    probe.n_dot_l[i] =
+        static_cast<float>(glm::dot(glm::dvec3(receivers.normal[i]), frame.direction_to_light(receivers.position[i])));
+    if (frame.kind != LightKind::point) {
+      // The float beside it that lies in the same texel, so that no test is about that rounding.
+      const glm::dvec2 at = frame.map_texels(frame.place(p));
+      for (int axis = 0; axis < 2; ++axis) {
+        float& rounded = probe.map_texels[i][axis] = static_cast<float>(at[axis]);
+        const float lowest = static_cast<float>(std::floor(at[axis]));
+        rounded = std::clamp(rounded, lowest, std::nextafter(lowest + 1, lowest));
+      }
+      continue;
+    }
+    for (size_t t = 0; t < taps; ++t) {
+      const glm::ivec2 at(glm::floor(frame.map_texels(frame.tap_place(p, probe.offset(i, static_cast<int>(t))))));
+      probe.cube_texel[i * taps + t] = static_cast<uint32_t>(at.y * frame.resolution + at.x);
+    }
   }
   return probe;
+}
+
+// A sun with a size, for R0.
+inline raytrace::SoftTruth sun(double diameter_deg, double standard_error = 0.01) {
+  raytrace::SoftTruth soft;
+  soft.light.angular_diameter_deg = diameter_deg;
+  soft.standard_error = standard_error;
+  return soft;
+}
+
+// A box of size x size nearest taps.
+inline FilterSettings box(int size) {
+  FilterSettings filter;
+  filter.kind = FilterKind::box;
+  filter.size = size;
+  return filter;
 }
 
 inline Scene builtin(const std::string& name) {

@@ -13,13 +13,13 @@ LookupTruth look_up(const Scene& scene, const LightFrame& frame, const std::vect
                     const MapSettings& map, int kernel = 1) {
   const std::vector<Placed> points(texels.size(), points_on(scene, frame.direction_to_light(), true, 1, 1)[0]);
   const ReceiverImage receivers = receivers_at(scene, points, frame.direction_to_light(), true);
-  LookupProbe probe = probe_of(receivers, frame);
-  probe.texel.pixels = texels;
+  LookupProbe probe = probe_of(receivers, frame, box(kernel));
+  for (size_t i = 0; i < texels.size(); ++i) probe.map_texels[i] = glm::vec2(texels[i]) + 0.5f;
   ReceiverTruth truth{Image<uint8_t>(receivers.width(), 1, 1),
                       Image<uint8_t>(receivers.width(), 1, 1),
                       Image<uint8_t>(receivers.width(), 1),
                       {}};
-  return Tracer(scene).lookup_truth(receivers, truth, probe, frame, map, kernel);
+  return Tracer(scene).lookup_truth(receivers, truth, probe, frame, map);
 }
 
 Image<float> whole_map(const Scene& scene, const LightFrame& frame, const MapSettings& map = {}) {

@@ -1,7 +1,6 @@
 // How far receivers are from what shades them, in closed form; and that contacts do not hold the search up.
 #include <gtest/gtest.h>
 
-
 #include "raytrace_fixture.h"
 
 namespace noonmark::raytrace {

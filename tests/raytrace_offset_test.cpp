@@ -9,8 +9,18 @@ namespace {
 
 using namespace test;
 
-DepthBias offset_by(double metres) {
-  return {.form = BiasForm::normal_offset, .normal_offset_m = static_cast<float>(metres)};
+DepthBias offset_by(const LightFrame& frame, double metres) {
+  DepthBias bias;
+  bias.form = BiasForm::normal_offset;
+  bias.normal_offset_texels = static_cast<float>(metres / frame.texel_m());
+  return bias;
+}
+
+DepthBias constant_of(float depth) {
+  DepthBias bias;
+  bias.form = BiasForm::constant;
+  bias.constant = depth;
+  return bias;
 }
 
 struct Looked {
@@ -30,9 +40,9 @@ Looked look_up(const Scene& scene, const LightFrame& frame, const ReceiverImage&
   const Tracer tracer(scene);
   ReceiverImage moved = receivers;
   for (size_t i = 0; i < moved.position.size(); ++i)
-    moved.position[i] = glm::vec3(bias.looked_up(receivers.position[i], receivers.normal[i]));
+    moved.position[i] = glm::vec3(bias.looked_up(frame, receivers.position[i], receivers.normal[i]));
   Looked looked{tracer.receiver_truth(receivers, frame, {}), {}};
-  looked.lookup = tracer.lookup_truth(receivers, looked.truth, probe_of(moved, frame), frame, {}, kernel, bias);
+  looked.lookup = tracer.lookup_truth(receivers, looked.truth, probe_of(moved, frame, box(kernel)), frame, {}, bias);
   return looked;
 }
 
@@ -44,7 +54,7 @@ TEST(MovedTaps, AreLitWhereNothingShades) {
     const ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), false, 3000, 7);
     for (double offset_m : {0.003, 0.1, 1.0, 30.0}) {
       for (int kernel : {1, 3}) {
-        const Looked looked = look_up(scene, frame, receivers, kernel, offset_by(offset_m));
+        const Looked looked = look_up(scene, frame, receivers, kernel, offset_by(frame, offset_m));
         int sure = 0, wrong = 0;
         for (size_t i = 0; i < receivers.position.size(); ++i) {
           if (!looked.truth.facing[i] || looked.truth.ambiguous[i]) continue;
@@ -65,8 +75,8 @@ TEST(MovedTaps, CostARayEachAndOnlyWhereTheyAreMoved) {
   const ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), false, 5000, 3);
   for (int kernel : {1, 3}) {
     const Looked none = look_up(scene, frame, receivers, kernel, {});
-    const Looked constant = look_up(scene, frame, receivers, kernel, {.form = BiasForm::constant, .constant = 0.1f});
-    const Looked moved = look_up(scene, frame, receivers, kernel, offset_by(0.1));
+    const Looked constant = look_up(scene, frame, receivers, kernel, constant_of(0.1f));
+    const Looked moved = look_up(scene, frame, receivers, kernel, offset_by(frame, 0.1));
     EXPECT_EQ(none.lookup.tap_stage.rays, constant.lookup.tap_stage.rays);
     EXPECT_EQ(none.lookup.taps.taps, constant.lookup.taps.taps);
     EXPECT_GE(moved.lookup.tap_stage.rays, none.lookup.tap_stage.rays + 5000u * static_cast<unsigned>(kernel * kernel));
@@ -126,11 +136,11 @@ TEST_F(PlateOnFloor, MovedTapsAreThoseOfTheClosedForm) {
   for (int i = 0; i < 4000; ++i) points.push_back({x(random), 0, z(random)});
   const ReceiverImage receivers = on_floor(points);
   for (double offset_m : {0.05, 0.3}) {
-    const DepthBias bias = offset_by(offset_m);
+    const DepthBias bias = offset_by(frame, offset_m);
     const Looked looked = look_up(scene, frame, receivers, 3, bias);
     int checked = 0, displaced = 0;
     for (size_t i = 0; i < points.size(); ++i) {
-      const glm::dvec3 p = receivers.position[i], moved = bias.looked_up(p, {0, 1, 0});
+      const glm::dvec3 p = receivers.position[i], moved = bias.looked_up(frame, p, {0, 1, 0});
       for (int tap = 0; tap < 9; ++tap) {
         const glm::dvec2 o = glm::dvec2(tap % 3 - 1, tap / 3 - 1) * frame.texel_m();
         const glm::dvec3 exact = on_floor(glm::dvec2(frame.to_light(p)) + o),
@@ -157,7 +167,7 @@ TEST_F(PlateOnFloor, MovedTapsOnAnEdgeAreDecidedInDouble) {
   const double edge = 0.8 + 0.5 * 0.75, before = edge - offset_m * 0.75;
   std::vector<glm::dvec3> points;
   for (int i = 0; i < 600; ++i) points.push_back({before + (i % 3 - 1) * 1e-3, 0, -0.3 + 0.001 * i});
-  const Looked looked = look_up(scene, frame, on_floor(points), 1, offset_by(offset_m));
+  const Looked looked = look_up(scene, frame, on_floor(points), 1, offset_by(frame, offset_m));
   const Looked unmoved = look_up(scene, frame, on_floor(points), 1, {});
   // The edge as the light sees it, from the floats that hold the plate.
   const glm::dvec2 a(frame.to_light({0.8f, 0.5f, -0.6f})), b(frame.to_light({0.8f, 0.5f, 0.6f}));

@@ -71,8 +71,7 @@ TEST(Sun, HalfPlaneEdgeIsTheDiscsSegment) {
   const ReceiverImage receivers = on_floor(scene, frame.direction_to_light(), 4000, 1);
   const double diameter_deg = 5, radius = std::tan(diameter_deg * std::numbers::pi / 360);
   for (double standard_error : {0.05, 0.01}) {
-    const ReceiverTruth truth = Tracer(scene).receiver_truth(
-        receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
+    const ReceiverTruth truth = Tracer(scene).receiver_truth(receivers, frame, sun(diameter_deg, standard_error));
     expect_within(
         errors(truth.soft, receivers, standard_error, [&](glm::dvec3 p) { return disc_beyond(-p.x / radius); }),
         standard_error);
@@ -93,8 +92,7 @@ TEST(Sun, StripUnderAnObliqueLightTakesWhatIsBetweenItsEdges) {
            80.0 * along);
   const ReceiverImage receivers = on_floor(scene, frame.direction_to_light(), 4000, 2);
   const double diameter_deg = 3, radius = std::tan(diameter_deg * std::numbers::pi / 360), standard_error = 0.01;
-  const ReceiverTruth truth = Tracer(scene).receiver_truth(
-      receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
+  const ReceiverTruth truth = Tracer(scene).receiver_truth(receivers, frame, sun(diameter_deg, standard_error));
   const Errors e = errors(truth.soft, receivers, standard_error, [&](glm::dvec3 p) {
     const double x = glm::dot(p, across);
     return 1 - (disc_beyond((-0.015 - x) / (2 * radius)) - disc_beyond((0.015 - x) / (2 * radius)));
@@ -110,8 +108,7 @@ TEST(Sun, OwnHorizonCutsTheDisc) {
     const LightFrame frame = frame_of(scene);
     const ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), true, 2000, 3);
     const double diameter_deg = 4, radius = std::tan(diameter_deg * std::numbers::pi / 360), standard_error = 0.02;
-    const ReceiverTruth truth = Tracer(scene).receiver_truth(
-        receivers, frame, {.angular_diameter_deg = diameter_deg, .standard_error = standard_error});
+    const ReceiverTruth truth = Tracer(scene).receiver_truth(receivers, frame, sun(diameter_deg, standard_error));
     const double seen = disc_beyond(-std::tan(elevation_deg * std::numbers::pi / 180) / radius);
     double mean = 0;
     for (float soft : truth.soft.pixels) {
@@ -136,8 +133,7 @@ TEST(Sun, TendsToR1AsItShrinks) {
   const Scene scene = builtin("cube-room");
   const LightFrame frame = frame_of(scene);
   const ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), false, 5000, 5);
-  const ReceiverTruth truth =
-      Tracer(scene).receiver_truth(receivers, frame, {.angular_diameter_deg = 1e-4, .standard_error = 0.05});
+  const ReceiverTruth truth = Tracer(scene).receiver_truth(receivers, frame, sun(1e-4, 0.05));
   int different = 0;
   for (size_t i = 0; i < truth.soft.size(); ++i) different += truth.soft[i] != truth.lit[i];
   EXPECT_LE(different, 1);  // penumbrae some micrometres wide
@@ -151,8 +147,7 @@ TEST(Sun, SamplesAreTheSameInEveryRunAndWithEveryNumberOfThreads) {
   const auto soft = [&](const Tracer& t, size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     StageTime hard, time;
-    auto image =
-        t.receiver_truth(receivers, frame, {.angular_diameter_deg = 5, .standard_error = 0.02}, &hard, &time).soft;
+    auto image = t.receiver_truth(receivers, frame, sun(5, 0.02), &hard, &time).soft;
     return std::pair(image.pixels, time.rays);
   };
   const auto first = soft(tracer, 1);
@@ -167,8 +162,8 @@ TEST(Sun, CastsWhatTheErrorNeeds) {
   const ReceiverImage receivers = receivers_at(scene, {{{0, 0, 0.3}, 0}}, frame.direction_to_light(), true);
   StageTime hard, rough, fine;
   const Tracer tracer(scene);
-  tracer.receiver_truth(receivers, frame, {.angular_diameter_deg = 5, .standard_error = 0.05}, &hard, &rough);
-  tracer.receiver_truth(receivers, frame, {.angular_diameter_deg = 5, .standard_error = 0.005}, &hard, &fine);
+  tracer.receiver_truth(receivers, frame, sun(5, 0.05), &hard, &rough);
+  tracer.receiver_truth(receivers, frame, sun(5, 0.005), &hard, &fine);
   EXPECT_NEAR(static_cast<double>(rough.rays), 0.25 / (0.05 * 0.05), 16);
   EXPECT_NEAR(static_cast<double>(fine.rays), 0.25 / (0.005 * 0.005), 32);
 }

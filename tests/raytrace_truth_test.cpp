@@ -186,7 +186,7 @@ TEST(HardTruthLaws, BackgroundAndAttachedReceiversAreNotFacing) {
   const LightFrame frame = frame_of(sphere);
   ReceiverImage receivers = random_receivers(sphere, -frame.direction_to_light(), false, 100, 5);  // the far side
   receivers.primitive[7] = no_primitive;
-  const ReceiverTruth truth = Tracer(sphere).receiver_truth(receivers, frame, {.angular_diameter_deg = 0.5});
+  const ReceiverTruth truth = Tracer(sphere).receiver_truth(receivers, frame, sun(0.5));
   for (size_t i = 0; i < 100; ++i) {
     EXPECT_EQ(truth.facing[i], 0);
     EXPECT_EQ(truth.lit[i], 0);
@@ -242,7 +242,7 @@ TEST(HardTruthLaws, RaysDoNotLeakThroughVerticesAndEdges) {
         const glm::dvec2 b(frame.to_light(scene.positions[other]));
         ++rays;
         (other == v ? at_vertices : at_edges) +=
-            embree.first_hit(view.ray_origin((a + b) / 2.0), frame.ray_direction) == no_primitive;
+            embree.first_hit(view.ray(glm::dvec3((a + b) / 2.0, 1))) == no_primitive;
       }
     }
   }
@@ -260,7 +260,7 @@ TEST(HardTruthLaws, DoesNotDependOnTheNumberOfThreads) {
   const Tracer tracer(scene);
   const auto with_threads = [&](size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return tracer.receiver_truth(receivers, frame, {.angular_diameter_deg = 2, .standard_error = 0.05});
+    return tracer.receiver_truth(receivers, frame, sun(2, 0.05));
   };
   const ReceiverTruth one = with_threads(1), two = with_threads(2);
   EXPECT_EQ(one.lit.pixels, two.lit.pixels);
@@ -294,7 +294,7 @@ TEST(HardTruthLaws, EmptyAndOneTriangleScenesAndNoReceivers) {
   const LightFrame empty_frame = frame_of(empty);
   const ReceiverTruth none = nothing.receiver_truth(sky, empty_frame, {});
   EXPECT_EQ(none.facing[0], 0);
-  const LookupTruth lookup = nothing.lookup_truth(sky, none, probe_of(sky, empty_frame), empty_frame, {}, 3);
+  const LookupTruth lookup = nothing.lookup_truth(sky, none, probe_of(sky, empty_frame, box(3)), empty_frame, {});
   for (float depth : lookup.exact_map.pixels) EXPECT_EQ(depth, 1);
 }
 

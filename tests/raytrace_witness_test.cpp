@@ -79,7 +79,7 @@ ReceiverImage picture_of(const Scene& scene, int width, int height) {
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const Ray ray = camera.pixel_ray(x, y, width, height);
-      primitives.at(x, y) = embree.first_hit(glm::vec3(ray.origin), glm::vec3(ray.direction));
+      primitives.at(x, y) = embree.first_hit({glm::vec3(ray.origin), glm::vec3(ray.direction)});
     }
   });
   return resolve_receivers(scene, scene.camera, primitives);
@@ -198,7 +198,8 @@ void expect_few_ambiguous(const Scene& scene) {
   testing::Test::RecordProperty(scene.name + ".ambiguous_r1", by_receiver);
   EXPECT_GT(facing, 10000);
   for (int kernel : {1, 3}) {
-    const LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe_of(receivers, frame), frame, {}, kernel);
+    const LookupTruth lookup =
+        tracer.lookup_truth(receivers, truth, probe_of(receivers, frame, box(kernel)), frame, {});
     int ambiguous = 0;
     const size_t taps = static_cast<size_t>(kernel * kernel);
     for (size_t i = 0; i < truth.facing.size(); ++i) {

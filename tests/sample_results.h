@@ -82,6 +82,7 @@ inline LawResult sample_law() {
   law.part = "law 1";
   law.name = "1: acne-free bias";
   law.says = "Free of acne from k w A tan(theta) on.";
+  law.found = "The least bias is 0.3 m.";
   law.measured = "acne_free_bias_m";
   law.predicted = "0.5 * texel_m";
   law.relation = LawRelation::at_most;
@@ -155,7 +156,7 @@ inline bool same(const PointRecord& a, const PointRecord& b) {
 }
 
 inline bool same(const LawResult& a, const LawResult& b) {
-  return a.part == b.part && a.name == b.name && a.says == b.says && a.measured == b.measured &&
+  return a.part == b.part && a.name == b.name && a.says == b.says && a.found == b.found && a.measured == b.measured &&
          a.predicted == b.predicted && a.relation == b.relation && a.tolerance == b.tolerance && a.join == b.join &&
          a.worst == b.worst && a.held == b.held && a.reproduce == b.reproduce &&
          std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),

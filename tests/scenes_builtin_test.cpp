@@ -53,7 +53,7 @@ bool closed(const Scene& scene, const Part& part) {
 }
 
 TEST(BuiltinScenes, AreFiniteAndInRange) {
-  EXPECT_EQ(builtin_scenes().size(), 8u);
+  EXPECT_EQ(builtin_scenes().size(), 10u);
   for (const Scene& scene : all_scenes()) {
     EXPECT_FALSE(scene.triangles.empty()) << scene.name;
     for (const glm::vec3& p : scene.positions) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << scene.name;
@@ -81,22 +81,24 @@ TEST(BuiltinScenes, SolidsAreClosedAndTurnedOutward) {
     for (const Part& part : scene.parts) {
       EXPECT_EQ(closed(scene, part), !open.contains(part.name)) << scene.name << ' ' << part.name;
       if (open.contains(part.name)) continue;
-      EXPECT_GT(signed_volume(scene, part), 0) << scene.name << ' ' << part.name;
+      // A room is seen from inside.
+      const double outward = part.name == "room" ? -1 : 1;
+      EXPECT_GT(outward * signed_volume(scene, part), 0) << scene.name << ' ' << part.name;
       ++solids;
     }
   }
-  EXPECT_EQ(solids, 3 + 2 + 1 + 25 + 1 + 65);
+  EXPECT_EQ(solids, 3 + 2 + 1 + 25 + 1 + 65 + 6 + 6);
 }
 
 TEST(BuiltinScenes, OpenSurfacesFaceTheLight) {
   for (const Scene& scene : all_scenes()) {
-    const glm::dvec3 to_light = glm::normalize(scene.light.position_m - scene.light.target_m);
+    const LightFrame frame = make_light_frame(scene, {});
     for (const Part& part : scene.parts) {
-      if (part.name != "floor" && part.name != "plane" && part.name != "bowl") continue;
+      if (part.name != "floor" && part.name != "plane" && part.name != "bowl" && part.name != "room") continue;
       for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
         const glm::dvec3 n =
             glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0));
-        EXPECT_GT(glm::dot(n, to_light), 0) << scene.name << ' ' << part.name;
+        EXPECT_GT(glm::dot(n, frame.direction_to_light(corner(scene, t, 0))), 0) << scene.name << ' ' << part.name;
       }
     }
   }
@@ -142,6 +144,12 @@ TEST(BuiltinScenes, TheCameraSeesThem) {
 
 bool inside(const LightFrame& f, glm::dvec3 world, bool depth_too = true) {
   const glm::dvec3 p = f.to_light(world);
+  if (!f.parallel()) {
+    const glm::dvec3 a = glm::abs(p);
+    const double z = f.kind == LightKind::spot ? p.z : std::max({a.x, a.y, a.z});  // what the face's planes clip
+    const bool across = f.kind == LightKind::point || std::max(a.x, a.y) <= z * f.tan_half_fov;
+    return across && z > 0 && (!depth_too || (z >= f.near_m && f.depth_m(p) <= f.far_m));
+  }
   return std::abs(p.x) <= f.extent_m / 2 && std::abs(p.y) <= f.extent_m / 2 &&
          (!depth_too || (p.z >= f.near_m && p.z <= f.far_m));
 }
@@ -162,7 +170,7 @@ TEST(BuiltinScenes, TheLightsVolumeHoldsWhatThrowsAndTakesShadows) {
       EXPECT_TRUE(part_inside(scene, f, part)) << scene.name << ' ' << part.name;
       const auto floor =
           std::find_if(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.name == "floor"; });
-      if (floor == scene.parts.end() || scene.name == "cube-room") continue;
+      if (floor == scene.parts.end() || scene.name == "cube-room" || !f.parallel()) continue;
       const double floor_y = corner(scene, floor->first_triangle, 0).y;
       for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
         for (int i = 0; i < 3; ++i) {  // where this corner's shadow falls on the floor
@@ -207,6 +215,68 @@ TEST(BuiltinScenes, CubeRoomIsTheTutorialsScene) {
   EXPECT_EQ(f.near_m, 1);
   EXPECT_EQ(f.far_m, 7.5);
   EXPECT_FALSE(part_inside(room, f, room.parts[0], false));  // the map is smaller than the floor
+}
+
+// What light.kind may make of every scene, at the scene's own light position: what is in the picture's middle is in the
+// map, and something is lit.
+TEST(BuiltinScenes, EveryKindOfLightHasSomethingToDoInEveryScene) {
+  for (const Scene& scene : all_scenes()) {
+    for (const LightChoice kind : {LightChoice::directional, LightChoice::spot, LightChoice::point}) {
+      if (scene.name == "point-room" && kind != LightChoice::point) continue;  // closed: nothing lights it from outside
+      Settings settings;
+      settings.light.kind = kind;
+      const LightFrame f = make_light_frame(scene, settings);
+      const std::string what = scene.name + " under kind " + std::to_string(static_cast<int>(f.kind));
+      EXPECT_TRUE(inside(f, scene.camera.target_m, scene.name != "fence")) << what;
+      size_t facing = 0;
+      double nearest = 1e9;
+      for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        const glm::dvec3 middle = (corner(scene, t, 0) + corner(scene, t, 1) + corner(scene, t, 2)) / 3.0;
+        const glm::dvec3 n =
+            glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0));
+        facing += f.in_cone(middle) && glm::dot(n, f.direction_to_light(middle)) > 0;
+        nearest = std::min(nearest, glm::length(middle - f.origin_m));
+      }
+      EXPECT_GT(facing, 0u) << what;
+      if (f.parallel()) continue;
+      EXPECT_GT(nearest, 0.5) << what << ": the light is in the way";
+      EXPECT_GT(f.near_m, f.far_m / 200) << what << ": depth is spent before the scene";
+    }
+  }
+}
+
+TEST(BuiltinScenes, TheSpotRoomsTexelsAndDepthStepsGrowWithDistance) {
+  const Scene scene = make_scene({.name = "spot-room"});
+  const LightFrame f = make_light_frame(scene, {});
+  EXPECT_EQ(f.kind, LightKind::spot);
+  double near_z = 1e9, far_z = 0;  // of the boxes' corners
+  for (const Part& part : scene.parts) {
+    if (part.name == "floor" || part.name == "wall") continue;
+    for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+      for (int i = 0; i < 3; ++i) {
+        const double z = f.to_light(corner(scene, t, i)).z;
+        near_z = std::min(near_z, z);
+        far_z = std::max(far_z, z);
+      }
+  }
+  EXPECT_GT(f.texel_m({0, 0, far_z}) / f.texel_m({0, 0, near_z}), 3);
+  // One step of window depth in metres, as a bias in depth is: with the square of the distance.
+  EXPECT_GT(f.window_depth_slope(near_z) / f.window_depth_slope(far_z), 9);
+}
+
+TEST(BuiltinScenes, ThePointRoomIsTheTutorialsRoom) {
+  const Scene scene = make_scene({.name = "point-room"});
+  const LightFrame f = make_light_frame(scene, {});
+  ASSERT_EQ(scene.parts.size(), 6u);
+  EXPECT_EQ(f.kind, LightKind::point);
+  EXPECT_EQ(f.near_m, 1);
+  EXPECT_EQ(f.far_m, 25);
+  EXPECT_EQ(scene.light.position_m, glm::dvec3(0));
+  EXPECT_NEAR(signed_volume(scene, scene.parts[0]), -1000, 1e-9);
+  const double sides[] = {1, 1.5, 1, 1, 1.5};
+  for (size_t i = 0; i < 5; ++i)
+    EXPECT_NEAR(signed_volume(scene, scene.parts[i + 1]), std::pow(sides[i], 3), 1e-5) << i;
+  EXPECT_TRUE(glm::all(glm::lessThan(glm::abs(scene.camera.eye_m), glm::dvec3(5)))) << "the camera is inside";
 }
 
 TEST(BuiltinScenes, PillarsNeedTheWideMap) {

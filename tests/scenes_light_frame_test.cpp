@@ -109,9 +109,9 @@ TEST(LightFrame, BiasUnitsAreOneLengthInThreeNames) {
   const LightFrame f = make_light_frame(scene_lit_from({-2, 4, -1}, {0, 0, 0}), {});
   const double metres = 0.25;
   const double moved = f.window_depth(3 + metres) - f.window_depth(3);
-  EXPECT_NEAR(metres * f.depth_per_bias_unit(BiasUnit::m), moved, 1e-15);
-  EXPECT_NEAR(metres / f.texel_m() * f.depth_per_bias_unit(BiasUnit::texel), moved, 1e-15);
-  EXPECT_EQ(f.depth_per_bias_unit(BiasUnit::depth), 1);
+  EXPECT_NEAR(metres * f.depth_per_bias_unit(BiasUnit::m, glm::dvec3(0)), moved, 1e-15);
+  EXPECT_NEAR(metres / f.texel_m() * f.depth_per_bias_unit(BiasUnit::texel, glm::dvec3(0)), moved, 1e-15);
+  EXPECT_EQ(f.depth_per_bias_unit(BiasUnit::depth, glm::dvec3(0)), 1);
 }
 
 TEST(LightFrame, SettingsChangeTheVolume) {
@@ -187,6 +187,7 @@ TEST(LightFrame, FittedVolumeHoldsEveryVertexInTheFloatMatrixToo) {
     for (int i = 0; i < 20; ++i) {
       Scene scene = make_scene({.name = std::string(builtin.name)});
       scene.map.reset();
+      scene.light.kind = LightKind::directional;
       scene.light.position_m = random_point(random, 30);
       scene.light.target_m = random_point(random, 3);
       const LightFrame f = make_light_frame(scene, {});

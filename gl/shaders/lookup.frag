@@ -1,20 +1,19 @@
 #version 450 core
-// The technique: how many of a receiver's taps are lit. The host divides by their number, because OpenGL's own
-// division need not be correctly rounded.
+// The technique: how lit a receiver is. Where taps count alike it is their number that comes out: the host divides,
+// because OpenGL's own division need not be correctly rounded.
 #include "shaders/receiver.glsl"
-#include "shaders/map.glsl"
 #include "shaders/compare.glsl"
 #include <filter>
 
 uniform int lit_beyond_far;               // 1: a receiver beyond the far plane is lit without a comparison
-layout(location = 0) out float lit_taps_out;
+layout(location = 0) out float lit_out;
 
 void main() {
   Receiver receiver = receiver_at(ivec2(gl_FragCoord.xy));
   if (!receiver.present)
-    lit_taps_out = 0.0;
+    lit_out = 0.0;
   else if (lit_beyond_far != 0 && receiver.reference > 1.0)
-    lit_taps_out = all_taps();
+    lit_out = all_lit();
   else
-    lit_taps_out = lit_taps(receiver, bias_depth(receiver.n_dot_l));
+    lit_out = lit(receiver, bias_depth(receiver));
 }

@@ -2,13 +2,13 @@
 // What the lookup computes before it compares.
 #include "shaders/receiver.glsl"
 
-layout(location = 0) out float reference;
-layout(location = 1) out ivec2 texel;
-layout(location = 2) out float n_dot_l;
+layout(location = 0) out vec4 scalars;  // reference, n_dot_l, bias_unit, tan_theta
+layout(location = 1) out vec4 texels;   // map_texels, gradient
+layout(location = 2) out float radius;
 
 void main() {
   Receiver receiver = receiver_at(ivec2(gl_FragCoord.xy));
-  reference = receiver.reference;
-  texel = receiver.texel;
-  n_dot_l = receiver.n_dot_l;
+  scalars = vec4(receiver.reference, receiver.n_dot_l, receiver.bias_unit, receiver.tan_theta);
+  texels = vec4(receiver.map_texels, receiver.gradient);
+  radius = receiver.radius;
 }

@@ -1,6 +1,6 @@
 #version 450 core
 // The map as the lookup's sampler returns it, a strip of rows at a time.
-#include "shaders/map.glsl"
+#include "shaders/map/flat.glsl"
 
 uniform int first_row;
 layout(location = 0) out float depth;

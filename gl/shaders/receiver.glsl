@@ -1,35 +1,42 @@
 // The receiver at a pixel and its place in the light's map. The lookup and the probe share it, and all of it is
 // precise, so that the probe's numbers are the lookup's to the last bit in whatever program they are computed.
-#include <bias>
+#include <light>
 
 layout(binding = 0) uniform sampler2D position_image;  // P, world, metres; w: 1 where there is a receiver, else 0
 layout(binding = 1) uniform sampler2D normal_image;    // N, unit
-uniform mat4 clip_from_world;
-uniform vec3 direction_to_light;
-uniform int resolution;
+uniform vec3 eye_m;
 
+// What is "of P" is of where P is looked up; n_dot_l, tan_theta and radius are of P itself.
 struct Receiver {
-  bool present;     // false for background, and where the matrix carries P out of the floats
-  float reference;  // window depth of where P is looked up
-  ivec2 texel;      // the texel that this falls into; may be outside the map
+  bool present;     // false for background, and where the light's view of P is not valid
+  float reference;  // window depth of P
+  vec2 map_texels;  // flat maps: where P lies in the map, in texels
+  vec3 from_light;  // of P, metres
   float n_dot_l;
+  float tan_theta;
+  float bias_unit;     // window depth of one unit of bias at P
+  vec2 gradient;       // window depth per texel of the receiver's plane
+  float radius;        // metres; of patterns that grow with the view distance
+  uint pixel;          // its index, row 0 on top
 };
 
-// Texels are clamped here. Up to here (t + 0.5) / resolution, taken back to texels by the sampler, is off by less than
-// a fifth of a texel, so that every wrap mode finds texel t.
-const float farthest_texel = 1048576.0;
+#include <bias>
 
-bool is_finite(vec3 v) { return !any(isnan(v)) && !any(isinf(v)); }
+// Where N is across L, tan(theta) ends here and stays a number.
+const float least_cosine = 1e-6;
 
 Receiver receiver_at(ivec2 pixel) {
   vec4 position = texelFetch(position_image, pixel, 0);
   vec3 normal = texelFetch(normal_image, pixel, 0).xyz;
-  vec3 place_m = looked_up(position.xyz, normal);
-  precise vec4 clip = clip_from_world * vec4(place_m, 1.0);
-  precise vec3 ndc = clip.xyz / clip.w;
-  precise vec3 window = ndc * 0.5 + 0.5;
-  precise vec2 place = floor(window.xy * float(resolution));
-  precise float n_dot_l = dot(normal, direction_to_light);
-  if (position.w == 0.0 || !is_finite(window)) return Receiver(false, 0.0, ivec2(0), 0.0);
-  return Receiver(true, window.z, ivec2(clamp(place, -farthest_texel, farthest_texel)), n_dot_l);
+  uint index = uint(pixel.y * textureSize(position_image, 0).x + pixel.x);
+  LightView view = seen_by_light(looked_up(position.xyz, normal));
+  if (position.w == 0.0 || !view.valid)
+    return Receiver(false, 0.0, vec2(0.0), vec3(0.0), 0.0, 0.0, 0.0, vec2(0.0), 0.0, index);
+  precise float n_dot_l = dot(normal, to_light(position.xyz));
+  precise float cosine = clamp(n_dot_l, least_cosine, 1.0);
+  precise float tan_theta = sqrt(1.0 - cosine * cosine) / cosine;
+  // The tutorials' radius for soft point shadows.
+  precise float radius = (1.0 + distance(eye_m, position.xyz) / light_far_m) / 25.0;
+  return Receiver(true, view.depth, view.map_texels, view.from_light, n_dot_l, tan_theta, bias_unit_at(view),
+                  plane_gradient(normal, view), radius, index);
 }

@@ -1,5 +1,3 @@
+#include "shaders/bias/constant_value.glsl"
 #include "shaders/bias/in_place.glsl"
-
-uniform float bias_constant;  // window depth
-
-float bias_depth(float n_dot_l) { return bias_constant; }
+#include "shaders/bias/own_depth.glsl"

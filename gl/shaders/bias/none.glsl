@@ -1,3 +1,4 @@
 #include "shaders/bias/in_place.glsl"
+#include "shaders/bias/own_depth.glsl"
 
-float bias_depth(float n_dot_l) { return 0.0; }
+float bias_depth(Receiver receiver) { return 0.0; }

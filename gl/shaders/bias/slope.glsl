@@ -1,11 +1,13 @@
 // The tutorials' form: grows as the surface turns from the light, and never falls below a floor.
 #include "shaders/bias/in_place.glsl"
+#include "shaders/bias/own_depth.glsl"
 
-uniform float bias_slope;  // window depth
-uniform float bias_floor;  // window depth
+uniform float bias_slope;  // in units of bias.unit
+uniform float bias_floor;  // in units of bias.unit
 
-float bias_depth(float n_dot_l) {
-  precise float turned = 1.0 - n_dot_l;
+float bias_depth(Receiver receiver) {
+  precise float turned = 1.0 - receiver.n_dot_l;
   precise float scaled = bias_slope * turned;
-  return max(scaled, bias_floor);
+  precise float bias = max(scaled, bias_floor) * receiver.bias_unit;
+  return bias;
 }

@@ -1,5 +1,6 @@
-float all_taps() { return 1.0; }
+float all_lit() { return 1.0; }
 
-float lit_taps(Receiver receiver, float bias) {
-  return tap_lit(receiver.reference, bias, receiver.texel) ? 1.0 : 0.0;
+float lit(Receiver receiver, float bias) {
+  MapAddress at = tap_address(receiver.map_texels, receiver.from_light, vec3(0.0));
+  return tap_lit(tap_depth(receiver, vec3(0.0), at), bias, at) ? 1.0 : 0.0;
 }

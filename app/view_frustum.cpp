@@ -1,0 +1,214 @@
+#include "app/view_frustum.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "app/view_colors.h"
+
+namespace noonmark {
+namespace {
+
+constexpr double half_width_px = 1.1;
+constexpr double dash_px = 5;  // on and off
+constexpr double hidden_strength = 0.5;
+constexpr double mark_radius_px = 7;
+// A line in a surface is not hidden by it: the receiver's depth at the pixel's centre and the line's differ by what the
+// surface's slope makes of a pixel.
+constexpr double in_front = 5e-3;
+
+using Corners = std::array<glm::dvec3, 4>;
+
+WorldLine loop(const Corners& c, Color color) { return {{c[0], c[1], c[2], c[3], c[0]}, color}; }
+
+// The corners of a directional or spot light's map at a depth.
+Corners corners_at(const LightFrame& light, double z) {
+  const double half = light.parallel() ? light.extent_m / 2 : z * light.tan_half_fov;
+  const glm::dvec2 shift =
+      light.parallel() ? glm::dvec2(0) : 2.0 * light.shift_texels / double(light.resolution) * half;
+  Corners c;
+  for (size_t k = 0; k < 4; ++k)
+    c[k] = light.to_world({(k == 1 || k == 2 ? half : -half) + shift.x, (k >= 2 ? half : -half) + shift.y, z});
+  return c;
+}
+
+WorldLine rim(const LightFrame& light, double z, Color color) {
+  constexpr int steps = 96;
+  const double sine = std::sqrt(1 - light.cos_half_cone * light.cos_half_cone);
+  const double radius = z * sine / light.cos_half_cone;
+  WorldLine line{{}, color};
+  for (int i = 0; i <= steps; ++i) {
+    const double a = 2 * std::numbers::pi * (i % steps) / steps;
+    line.points.push_back(light.to_world({radius * std::cos(a), radius * std::sin(a), z}));
+  }
+  return line;
+}
+
+// 0: nothing of the line's colour, 1: all of it, for what is seen and what is hidden.
+struct Coverage {
+  Image<float> seen, hidden;
+};
+
+double receiver_depth(const CameraFrame& camera, const ReceiverImage& receivers, size_t i) {
+  if (receivers.primitive[i] == no_primitive) return std::numeric_limits<double>::infinity();
+  return glm::dot(glm::dvec3(receivers.position[i]) - camera.eye_m, camera.forward);
+}
+
+// along_px: where on the whole line the segment begins, for dashes that run on.
+void cover(const ScreenSegment& s, double along_px, const CameraFrame& camera, const ReceiverImage& receivers,
+           Coverage& out) {
+  const glm::dvec2 way = s.to - s.from;
+  const double length = glm::length(way);
+  const glm::dvec2 unit = length > 0 ? way / length : glm::dvec2(1, 0);
+  const bool wide = std::abs(way.x) >= std::abs(way.y);
+  const int main = wide ? 0 : 1, side = 1 - main;
+  const int size[2] = {out.seen.width, out.seen.height};
+  const double reach = half_width_px + 1, across = reach * std::numbers::sqrt2;
+  const int first = std::max(0, static_cast<int>(std::floor(std::min(s.from[main], s.to[main]) - reach)));
+  const int last = std::min(size[main] - 1, static_cast<int>(std::ceil(std::max(s.from[main], s.to[main]) + reach)));
+  const bool perspective = camera.camera.projection == Projection::perspective;
+  for (int m = first; m <= last; ++m) {
+    const double t_main = way[main] != 0 ? std::clamp((m + 0.5 - s.from[main]) / way[main], 0.0, 1.0) : 0;
+    const double centre = s.from[side] + t_main * way[side];
+    const int low = std::max(0, static_cast<int>(std::floor(centre - across)));
+    const int high = std::min(size[side] - 1, static_cast<int>(std::ceil(centre + across)));
+    for (int n = low; n <= high; ++n) {
+      const int x = wide ? m : n, y = wide ? n : m;
+      const glm::dvec2 pixel(x + 0.5, y + 0.5);
+      const double along = std::clamp(glm::dot(pixel - s.from, unit), 0.0, length);
+      const double covered = half_width_px + 0.5 - glm::length(pixel - s.from - along * unit);
+      if (!(covered > 0)) continue;
+      const double t = length > 0 ? along / length : 0;
+      // 1 / depth is linear in the picture of a perspective camera.
+      const double depth =
+          perspective ? 1 / ((1 - t) / s.from_depth + t / s.to_depth) : (1 - t) * s.from_depth + t * s.to_depth;
+      const size_t i = out.seen.index(x, y);
+      const double nearest = receiver_depth(camera, receivers, i);
+      const bool hidden = depth > nearest + in_front * std::abs(nearest);
+      if (hidden && std::fmod(along_px + along, 2 * dash_px) >= dash_px) continue;
+      float& value = hidden ? out.hidden[i] : out.seen[i];
+      value = std::max(value, static_cast<float>(std::min(covered, 1.0)));
+    }
+  }
+}
+
+void blend(Image<Color>& picture, const Image<float>& coverage, Color color, double strength) {
+  for (size_t i = 0; i < picture.size(); ++i) {
+    if (coverage[i] == 0) continue;
+    picture[i] =
+        Color(glm::mix(glm::vec3(picture[i]), glm::vec3(color), coverage[i] * static_cast<float>(strength)) + 0.5f);
+  }
+}
+
+void mark(Image<Color>& picture, glm::dvec2 at, Color color) {
+  const double reach = mark_radius_px + 2;
+  const auto low = glm::max(glm::ivec2(glm::floor(at - reach)), glm::ivec2(0));
+  const auto high = glm::min(glm::ivec2(glm::ceil(at + reach)), glm::ivec2(picture.width - 1, picture.height - 1));
+  for (int y = low.y; y <= high.y; ++y)
+    for (int x = low.x; x <= high.x; ++x) {
+      const double from_centre = glm::length(glm::dvec2(x + 0.5, y + 0.5) - at);
+      const auto disc = [&](double radius) {
+        return static_cast<float>(std::clamp(radius + 0.5 - from_centre, 0.0, 1.0));
+      };
+      glm::vec3 c(picture.at(x, y));
+      c = glm::mix(c, glm::vec3(255), disc(mark_radius_px + 1.5));
+      c = glm::mix(c, glm::vec3(color), disc(mark_radius_px));
+      picture.at(x, y) = Color(c + 0.5f);
+    }
+}
+
+}  // namespace
+
+std::vector<WorldLine> frustum_lines(const LightFrame& light) {
+  std::vector<WorldLine> lines;
+  if (light.kind == LightKind::point) {
+    const auto corner = [&](int k, double half) {
+      return light.origin_m + half * glm::dvec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+    };
+    for (int k = 0; k < 8; ++k) lines.push_back({{corner(k, light.near_m), corner(k, light.far_m)}, side_line});
+    for (const auto& [half, color] : {std::pair{light.near_m, near_line}, {light.far_m, far_line}})
+      for (int k = 0; k < 8; ++k)
+        for (int bit : {1, 2, 4})
+          if (!(k & bit)) lines.push_back({{corner(k, half), corner(k | bit, half)}, color});
+    return lines;
+  }
+  const Corners nearest = corners_at(light, light.near_m), farthest = corners_at(light, light.far_m);
+  for (size_t k = 0; k < 4; ++k) lines.push_back({{nearest[k], farthest[k]}, side_line});
+  if (light.kind == LightKind::spot) {
+    lines.push_back(rim(light, light.far_m, cone_line));
+    lines.push_back(rim(light, light.near_m, cone_line));
+  }
+  lines.push_back(loop(farthest, far_line));
+  lines.push_back(loop(nearest, near_line));
+  return lines;
+}
+
+bool project_segment(const CameraFrame& camera, int width, int height, glm::dvec3 a, glm::dvec3 b, double margin_px,
+                     ScreenSegment& out) {
+  const bool perspective = camera.camera.projection == Projection::perspective;
+  // x and y in units of the picture's half sides times w; w is the depth, or 1.
+  const auto seen = [&](glm::dvec3 p) {
+    const glm::dvec3 d = p - camera.eye_m;
+    const double depth = glm::dot(d, camera.forward);
+    return glm::dvec4(glm::dot(d, camera.right) / camera.half_width, glm::dot(d, camera.up) / camera.half_height, depth,
+                      perspective ? depth : 1);
+  };
+  const glm::dvec4 p = seen(a), q = seen(b);
+  const double wide = 1 + 2 * margin_px / width, high = 1 + 2 * margin_px / height;
+  const double least_depth = perspective ? 1e-3 * camera.camera.near_m : camera.camera.near_m;
+  // Liang and Barsky 1984, in homogeneous places: each plane keeps where its function is not negative.
+  double first = 0, last = 1;
+  const auto keep = [&](auto side) {
+    const double from = side(p), to = side(q);
+    if (from < 0 && to < 0) return false;
+    if (from < 0) first = std::max(first, from / (from - to));
+    if (to < 0) last = std::min(last, from / (from - to));
+    return first < last || (first == last && from >= 0 && to >= 0);
+  };
+  if (!keep([&](glm::dvec4 v) { return v.z - least_depth; }) || !keep([&](glm::dvec4 v) { return wide * v.w - v.x; }) ||
+      !keep([&](glm::dvec4 v) { return wide * v.w + v.x; }) || !keep([&](glm::dvec4 v) { return high * v.w - v.y; }) ||
+      !keep([&](glm::dvec4 v) { return high * v.w + v.y; }))
+    return false;
+  const auto place = [&](double t, glm::dvec2& at, double& depth) {
+    const glm::dvec4 v = p + t * (q - p);
+    at = {(v.x / v.w + 1) / 2 * width, (1 - v.y / v.w) / 2 * height};
+    depth = v.z;
+  };
+  place(first, out.from, out.from_depth);
+  place(last, out.to, out.to_depth);
+  return true;
+}
+
+void draw_frustum(Image<Color>& picture, const LightFrame& light, const CameraFrame& camera,
+                  const ReceiverImage& receivers) {
+  const int width = picture.width, height = picture.height;
+  const std::vector<WorldLine> lines = frustum_lines(light);
+  for (size_t begin = 0;
+       begin < lines.size();) {  // runs of one colour are covered as one, so that joints are not twice as strong
+    Coverage coverage{Image<float>(width, height, 0), Image<float>(width, height, 0)};
+    size_t end = begin;
+    for (; end < lines.size() && lines[end].color == lines[begin].color; ++end) {
+      double along_px = 0;
+      for (size_t k = 1; k < lines[end].points.size(); ++k) {
+        ScreenSegment segment;
+        if (!project_segment(camera, width, height, lines[end].points[k - 1], lines[end].points[k], 4 * half_width_px,
+                             segment))
+          continue;
+        cover(segment, along_px, camera, receivers, coverage);
+        along_px += glm::length(segment.to - segment.from);
+      }
+    }
+    blend(picture, coverage.hidden, lines[begin].color, hidden_strength);
+    blend(picture, coverage.seen, lines[begin].color, 1);
+    begin = end;
+  }
+  ScreenSegment light_itself;
+  if (!light.parallel() &&
+      project_segment(camera, width, height, light.origin_m, light.origin_m, mark_radius_px, light_itself))
+    mark(picture, light_itself.from, light_mark);
+}
+
+}  // namespace noonmark

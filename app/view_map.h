@@ -1,0 +1,25 @@
+// A shadow map as a picture: near is bright, by metres rather than by window depth, which a perspective map crowds
+// against 1.
+#pragma once
+#include "app/image_file.h"
+#include "scenes/image.h"
+#include "scenes/light_frame.h"
+
+namespace noonmark {
+
+// A cube map's image (six faces one above the other) unfolded into a horizontal cross of 4 x 3 cells, as the cube looks
+// from outside:
+//
+//          +Y
+//      -X  +Z  +X  -Z
+//          -Y
+//
+// Cells have `cell` pixels a side, at most the map's resolution; each pixel is the least of the texels that it covers.
+// Row 0 is the top; what is outside the cross is `outside`.
+Image<float> cube_cross(const Image<float>& map, int resolution, int cell, float outside);
+
+// stored: window depths as the lookup's sampler returns them, LightFrame::map_size(). Cleared texels are the
+// background's colour.
+Image<Color> map_picture(const Image<float>& stored, const LightFrame& frame);
+
+}  // namespace noonmark

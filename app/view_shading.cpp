@@ -1,0 +1,38 @@
+#include "app/view_shading.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace noonmark {
+
+double clay_response(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye) {
+  const double cosine = glm::dot(normal, to_light);
+  if (!(cosine > 0)) return 0;
+  const glm::dvec3 sum = to_light + to_eye;
+  const double length = glm::length(sum);  // 0: the eye looks straight into the light, from behind the surface
+  const double highlight = length > 0 ? std::max(glm::dot(normal, sum) / length, 0.0) : 0;
+  return Clay::albedo * cosine + Clay::specular_strength * std::pow(highlight, Clay::specular_exponent);
+}
+
+Image<float> shaded_frame(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera,
+                          const Image<float>& visibility) {
+  Image<float> frame(receivers.width(), receivers.height(), 0);
+  const bool perspective = camera.camera.projection == Projection::perspective;
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, frame.size(), 8192), [&](const tbb::blocked_range<size_t>& range) {
+    for (size_t i = range.begin(); i < range.end(); ++i) {
+      if (receivers.primitive[i] == no_primitive) continue;
+      const glm::dvec3 p(receivers.position[i]);
+      const glm::dvec3 to_eye = perspective ? glm::normalize(camera.eye_m - p) : -camera.forward;
+      double color = Clay::ambient * Clay::albedo;
+      if (visibility[i] != 0)  // NaN goes on
+        color += static_cast<double>(visibility[i]) *
+                 clay_response(glm::dvec3(receivers.normal[i]), light.direction_to_light(p), to_eye);
+      frame[i] = static_cast<float>(color);
+    }
+  });
+  return frame;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,31 @@
+// The receivers as a lit grey clay, which is how people judge a shadow: Blinn-Phong (Blinn 1977), as the usual
+// shadow-mapping tutorials shade,
+//
+//   colour = ambient + visibility * (diffuse + specular),
+//   ambient = 0.15 albedo, diffuse = albedo max(N.L, 0), specular = strength max(N.H, 0)^64,
+//
+// in linear light. With albedo 0.7 and strength 0.195 the brightest that can be is 1: nothing is cut off.
+#pragma once
+#include "scenes/camera_frame.h"
+#include "scenes/image.h"
+#include "scenes/light_frame.h"
+#include "scenes/receivers.h"
+
+namespace noonmark {
+
+struct Clay {
+  static constexpr double albedo = 0.7;
+  static constexpr double ambient = 0.15;
+  static constexpr double specular_strength = 0.195;
+  static constexpr int specular_exponent = 64;
+};
+
+// What of the light a receiver would send to the eye if nothing stood between: diffuse + specular. L and the way to the
+// eye are unit and lead away from the surface, N is unit. 0 where N.L <= 0.
+double clay_response(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye);
+
+// visibility: a rung of the ladder, 0 where not facing. Pixels without a surface are 0.
+Image<float> shaded_frame(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera,
+                          const Image<float>& visibility);
+
+}  // namespace noonmark

@@ -1,0 +1,102 @@
+// What the lookup computes before it compares, read back from it.
+#include <algorithm>
+
+#include "gl/lookup_parts.h"
+#include "gl/renderer_impl.h"
+#include "scenes/depth_bias.h"
+
+namespace noonmark::gl {
+namespace {
+
+// Each texel's place in the map's image as LightFrame::map_size() lays it out: j * resolution + i.
+Texture make_cube_index(int side) {
+  Texture texture = make_texture(GL_R32UI, side, side, GL_TEXTURE_CUBE_MAP);
+  glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  std::vector<uint32_t> row(static_cast<size_t>(side));
+  uint32_t next = 0;
+  for (int face = 0; face < 6; ++face)
+    for (int j = 0; j < side; ++j) {
+      for (uint32_t& texel : row) texel = next++;
+      glTextureSubImage3D(texture.id(), 0, 0, j, face, side, 1, 1, GL_RED_INTEGER, GL_UNSIGNED_INT, row.data());
+    }
+  return texture;
+}
+
+template <class T, class F>
+Image<T> each(const Image<glm::vec4>& image, F&& part) {
+  Image<T> out(image.width, image.height);
+  for (size_t i = 0; i < image.size(); ++i) out[i] = part(image[i]);
+  return out;
+}
+
+}  // namespace
+
+LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings) {
+  Impl& r = *impl_;
+  r.context->make_current();
+  validate_for(frame.kind, settings);
+  const bool cube = frame.kind == LightKind::point;
+  r.check_resolution(frame.resolution, cube);
+  const DepthBias bias = depth_bias(settings.bias);
+  Program& program = r.programs.get({"shaders/screen.vert", "shaders/probe.frag"},
+                                    {{"light", light_file(frame.kind)}, {"bias", bias_file(bias.form)}});
+  r.set_receiver_uniforms(program, frame, settings);
+  const int width = r.position_image.width, height = r.position_image.height;
+  r.require(r.probe_scalars, GL_RGBA32F, width, height);
+  r.require(r.probe_texels, GL_RGBA32F, width, height);
+  r.require(r.probe_radius, GL_R32F, width, height);
+  r.draw_into({r.probe_scalars.texture.id(), r.probe_texels.texture.id(), r.probe_radius.texture.id()}, 0, width,
+              height);
+  r.draw_screen(program);
+  r.detach(3);
+
+  LookupProbe probe;
+  probe.pattern = tap_pattern(settings.filter);
+  probe.tap_reference = bias.tap_reference();
+  const auto scalars = read_back<glm::vec4>(r.probe_scalars, GL_RGBA, GL_FLOAT);
+  probe.reference = each<float>(scalars, [](glm::vec4 s) { return s.x; });
+  probe.n_dot_l = each<float>(scalars, [](glm::vec4 s) { return s.y; });
+  probe.bias_unit = each<float>(scalars, [](glm::vec4 s) { return s.z; });
+  if (bias.form == BiasForm::tan) probe.tan_theta = each<float>(scalars, [](glm::vec4 s) { return s.w; });
+  if (!cube) {
+    const auto texels = read_back<glm::vec4>(r.probe_texels, GL_RGBA, GL_FLOAT);
+    probe.map_texels = each<glm::vec2>(texels, [](glm::vec4 t) { return glm::vec2(t.x, t.y); });
+    if (probe.tap_reference != TapReference::own_depth)
+      probe.gradient = each<glm::vec2>(texels, [](glm::vec4 t) { return glm::vec2(t.z, t.w); });
+  }
+  if (probe.pattern.scaled_by_view) probe.radius = read_back<float>(r.probe_radius, GL_RED, GL_FLOAT);
+  if (cube) r.read_cube_texels(probe, frame, settings);
+  r.context->check("probe");
+  return probe;
+}
+
+void Renderer::Impl::read_cube_texels(LookupProbe& probe, const LightFrame& frame, const Settings& settings) {
+  if (cube_index_resolution != frame.resolution) {
+    cube_index_resolution = 0;
+    cube_index = {};  // first, so that both are never held at once
+    cube_index = make_cube_index(frame.resolution);
+    check_memory("a cube map's index", frame.resolution, 6 * frame.resolution);
+    cube_index_resolution = frame.resolution;
+  }
+  Program& program = programs.get({"shaders/screen.vert", "shaders/probe_cube.frag"},
+                                  {{"light", light_file(frame.kind)}, {"bias", bias_file(settings.bias.form)}});
+  set_receiver_uniforms(program, frame, settings);
+  set_pattern(program, probe.pattern);
+  glBindTextureUnit(3, cube_index.id());
+  require(probe_cube_texel, GL_R32UI, position_image.width, position_image.height);
+  draw_into({probe_cube_texel.texture.id()}, 0, probe_cube_texel.width, probe_cube_texel.height);
+  probe.cube_resolution = frame.resolution;
+  const size_t taps = static_cast<size_t>(probe.taps());
+  probe.cube_texel.resize(probe.reference.size() * taps);
+  for (size_t tap = 0; tap < taps; ++tap) {
+    program.set("tap", static_cast<int>(tap));
+    draw_screen(program);
+    const auto texels = read_back<uint32_t>(probe_cube_texel, GL_RED_INTEGER, GL_UNSIGNED_INT);
+    for (size_t i = 0; i < texels.size(); ++i) probe.cube_texel[i * taps + tap] = texels[i];
+  }
+  detach(1);
+  glBindTextureUnit(3, 0);
+}
+
+}  // namespace noonmark::gl

@@ -1,0 +1,14 @@
+// Percentage-closer filtering (Reeves, Salesin, Cook 1987): how many of a pattern's taps are lit.
+#include "shaders/pattern.glsl"
+
+float all_lit() { return float(taps); }
+
+float lit(Receiver receiver, float bias) {
+  int first = first_tap(receiver), count = 0;
+  for (int tap = first; tap < first + taps; ++tap) {
+    vec3 offset = tap_offset(receiver, tap);
+    MapAddress at = tap_address(receiver.map_texels, receiver.from_light, offset);
+    if (tap_lit(tap_depth(receiver, offset, at), bias, at)) ++count;
+  }
+  return float(count);
+}

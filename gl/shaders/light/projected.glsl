@@ -1,0 +1,23 @@
+// Lights with one flat map, which a matrix projects onto.
+#include "shaders/light/view.glsl"
+#include "shaders/map/flat.glsl"
+
+uniform mat4 clip_from_world;
+uniform mat4 clip_from_world_planes;  // carries planes, (normal, offset from light_position), to clip space
+uniform int resolution;
+
+LightView seen_by_light(vec3 place_m) {
+  precise vec4 clip = clip_from_world * vec4(place_m, 1.0);
+  precise vec3 ndc = clip.xyz / clip.w;
+  precise vec3 window = ndc * 0.5 + 0.5;
+  precise vec2 map_texels = window.xy * float(resolution);
+  precise vec3 from_light = place_m - light_position;
+  return LightView(clip.w > 0.0 && is_finite(window), window.z, map_texels, from_light, clip.w);
+}
+
+// 0 for a plane that the light sees edge on: no depth is its depth.
+vec2 plane_gradient(vec3 normal, LightView view) {
+  precise vec4 plane = clip_from_world_planes * vec4(normal, -dot(normal, view.from_light));
+  precise vec2 gradient = (-plane.xy / plane.z) / float(resolution);
+  return is_finite(vec3(gradient, 0.0)) ? gradient : vec2(0.0);
+}

@@ -1,0 +1,20 @@
+#include "shaders/light/projected.glsl"
+
+uniform vec3 light_axis;  // unit, away from the light
+
+vec3 to_light(vec3 place_m) {
+  precise vec3 direction = normalize(light_position - place_m);
+  return direction;
+}
+
+float texel_m_at(vec3 place_m) {
+  precise float size_m = light_texel_m * dot(place_m - light_position, light_axis);
+  return size_m;
+}
+
+// A perspective map's depth changes with the inverse square of the distance along the axis.
+float bias_unit_at(LightView view) {
+  precise float per_m = light_bias_unit / (view.axis_m * view.axis_m);
+  precise float per_texel = light_bias_unit / view.axis_m;
+  return bias_unit == 0 ? light_bias_unit : bias_unit == 1 ? per_m : per_texel;
+}

@@ -1,0 +1,25 @@
+// A flat shadow map, through OpenGL's own wrap modes.
+#define MapAddress ivec2
+
+layout(binding = 2) uniform sampler2D shadow_map;  // nearest, no comparison
+
+float stored_depth(ivec2 texel) {
+  vec2 centre = (vec2(texel) + 0.5) / vec2(textureSize(shadow_map, 0));
+  return textureLod(shadow_map, centre, 0.0).r;
+}
+
+// Texels are clamped here. Up to here (t + 0.5) / resolution, taken back to texels by the sampler, is off by less than
+// a fifth of a texel, so that every wrap mode finds texel t.
+const float farthest_texel = 1048576.0;
+
+// The texel that a tap falls into; may be outside the map. offset: texels.
+ivec2 tap_address(vec2 map_texels, vec3 from_light, vec3 offset) {
+  precise vec2 at = map_texels + offset.xy;
+  return ivec2(clamp(floor(at), -farthest_texel, farthest_texel));
+}
+
+// From the middle of a lookup to the centre of a tap's texel, in texels.
+vec2 way_to_centre(ivec2 texel, vec2 map_texels) {
+  precise vec2 way = (vec2(texel) + 0.5) - map_texels;
+  return way;
+}

@@ -1,0 +1,26 @@
+// Where the taps lie: the table of scenes/tap_pattern.h.
+layout(std430, binding = 0) readonly buffer TapPattern {
+  vec4 tap_offsets[];  // [variant * taps + tap]; w: the tap's weight, where taps do not count alike
+};
+uniform int taps;
+uniform int variants;
+uniform int scaled_by_view;
+
+uint hash_pixel(uint x) {
+  x ^= x >> 16;
+  x *= 0x7feb352du;
+  x ^= x >> 15;
+  x *= 0x846ca68bu;
+  return x ^ x >> 16;
+}
+
+// Index of the first tap of the receiver's variant.
+int first_tap(Receiver receiver) {
+  return variants == 1 ? 0 : taps * int(hash_pixel(receiver.pixel) % uint(variants));
+}
+
+vec3 tap_offset(Receiver receiver, int index) {
+  vec3 offset = tap_offsets[index].xyz;
+  precise vec3 scaled = receiver.radius * offset;
+  return scaled_by_view != 0 ? scaled : offset;
+}

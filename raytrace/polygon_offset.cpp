@@ -1,0 +1,50 @@
+#include "raytrace/polygon_offset.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace noonmark {
+
+double PolygonOffset::of(const LightView& view, uint32_t triangle) const {
+  const LightFrame& frame = view.frame();
+  const glm::dvec3 n = view.normal_away(triangle), a = view.corner(triangle, 0);
+  glm::dvec2 per_texel;
+  if (view.parallel()) {
+    per_texel = glm::dvec2(n) / n.z * frame.texel_m() / (frame.far_m - frame.near_m);
+  } else {
+    // On the plane n.q = n.a, 1 / z is n.(x, y, 1) / n.a at the place (x, y, 1), and window depth is far / (far - near)
+    // (1 - near / z).
+    const double per_place = frame.far_m * frame.near_m / (frame.far_m - frame.near_m) / glm::dot(n, a);
+    per_texel = glm::dvec2(n) * per_place * (2 * frame.tan_half_fov / frame.resolution);
+  }
+  const double steepest = std::max(std::abs(per_texel.x), std::abs(per_texel.y));
+  double r = unit;
+  if (r == 0) {
+    double largest = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double depth = frame.depth_m(view.corner(triangle, i));
+      if (view.parallel() || depth > 0) largest = std::max(largest, std::clamp(frame.window_depth(depth), 0.0, 1.0));
+    }
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    r = std::ldexp(1.0, exponent - 1 - 23);
+  }
+  const double offset = factor * steepest + units * r;
+  return std::isfinite(offset) ? offset : 1;  // edge-on: it covers nothing
+}
+
+double least_offset_depth(const EmbreeScene& seen, const LightView& view, const PolygonOffset& offset, glm::dvec3 x,
+                          bool clamped) {
+  const LightFrame& frame = view.frame();
+  std::vector<uint32_t> hits;
+  seen.all_hits(view.ray(x), hits);
+  double least = 1;
+  for (uint32_t triangle : hits) {
+    const double depth = view.hit_depth(triangle, x);
+    if (!clamped && (depth < frame.near_m || depth > frame.far_m)) continue;
+    least = std::min(least, frame.window_depth(depth) + offset.of(view, triangle));
+  }
+  return std::clamp(least, 0.0, 1.0);
+}
+
+}  // namespace noonmark

@@ -1,0 +1,25 @@
+// glPolygonOffset on the exact map: each triangle's window depth moved by factor * m + units * r, where m is its
+// steepest depth slope in texels and r the format's smallest difference (OpenGL 4.5 core, 14.6.5). The offset changes
+// which triangle is first, so that every one on the ray is asked.
+#pragma once
+#include <cstdint>
+
+#include "raytrace/embree_scene.h"
+#include "raytrace/light_view.h"
+
+namespace noonmark {
+
+struct PolygonOffset {
+  double factor = 0, units = 0;
+  double unit = 0;  // r in window depth; 0: of 32-bit float, 2^(e - 23) with e the exponent of the triangle's largest
+                    // depth
+
+  double of(const LightView& view, uint32_t triangle) const;
+};
+
+// The least offset window depth on the ray through x, of what the near and far planes leave; 1 without any. clamped:
+// they leave all (GL_DEPTH_CLAMP).
+double least_offset_depth(const EmbreeScene& seen, const LightView& view, const PolygonOffset& offset, glm::dvec3 x,
+                          bool clamped);
+
+}  // namespace noonmark
