@@ -224,6 +224,12 @@ std::vector<Setting> make_table() {
       flag("map.lit_beyond_far", "Receivers beyond the far plane are lit without a comparison.",
            MEMBER(map.lit_beyond_far)),
       choice("map.cull", {"none", "back", "front"}, "Faces left out of the shadow map.", MEMBER(map.cull)),
+      flag("map.depth_clamp",
+           "Geometry before the near plane or beyond the far plane is kept, at depth 0 or 1, instead of clipped.",
+           MEMBER(map.depth_clamp)),
+      choice("map.cube_pass", {"layered", "six_passes"},
+             "point: the six faces drawn by one pass with a geometry shader, or by six; the map is the same.",
+             MEMBER(map.cube_pass)),
       choice(
           "bias.form",
           {"none", "constant", "slope", "tan", "polygon_offset", "normal_offset", "receiver_plane", "tangent_plane"},

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "scenes/depth_bias.h"
@@ -45,8 +47,8 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 
 TEST(SettingsTable, HasAWholeRowForEverySetting) {
   // Numbers that count nothing and measure nothing.
-  const std::set<std::string_view> pure = {"map.extent_scale", "truth.standard_error"};
-  const std::set<std::string_view> units = {"px", "m", "deg", "texels", "bias.unit"};
+  const std::set<std::string_view> pure = {"map.extent_scale", "truth.standard_error", "bias.factor", "bias.units"};
+  const std::set<std::string_view> units = {"px", "m", "deg", "texels", "taps", "bias.unit"};
   std::set<std::string_view> names;
   for (const Setting& row : settings_table()) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name << " twice";
@@ -70,6 +72,24 @@ TEST(SettingsTable, HasAWholeRowForEverySetting) {
     EXPECT_EQ(row.type == ValueType::choice, row.choices.size() > 1) << row.name;
     EXPECT_EQ(row.range_text().ends_with(" or auto"), row.may_be_auto) << row.name;
   }
+}
+
+// A member without a row could not be set, and would be in no key. The members of each struct, counted.
+TEST(SettingsTable, HasARowForEveryMember) {
+  std::map<std::string, int> rows;
+  for (const Setting& row : settings_table()) ++rows[std::string(row.name.substr(0, row.name.find('.')))];
+  // An aggregate binds to exactly as many names as it has members.
+  const Settings s;
+  [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6] = s.scene;
+  [[maybe_unused]] const auto& [b1, b2, b3, b4, b5] = s.view;
+  [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7] = s.light;
+  [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16] = s.map;
+  [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7, e8, e9, e10] = s.bias;
+  [[maybe_unused]] const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9] = s.filter;
+  [[maybe_unused]] const auto& [g1] = s.truth;
+  EXPECT_EQ(rows,
+            (std::map<std::string, int>{
+                {"scene", 6}, {"view", 5}, {"light", 7}, {"map", 16}, {"bias", 10}, {"filter", 9}, {"truth", 1}}));
 }
 
 TEST(SettingsTable, TakesItsOwnTextsBack) {
@@ -162,7 +182,8 @@ TEST(SettingsTable, RefusesWhatIsNoValue) {
     if (row.type != ValueType::real) refusal(row, "0.5");
     if (row.type != ValueType::flag) refusal(row, "true");
     if (row.type != ValueType::point) refusal(row, "1,2,3");
-    if (!row.may_be_auto) refusal(row, "auto");
+    const bool may_be_auto = row.may_be_auto || std::count(row.choices.begin(), row.choices.end(), "auto") > 0;
+    if (!may_be_auto) refusal(row, "auto");
   }
   refusal("map.resolution", "1024.0");
   refusal("map.resolution", "1e3");
@@ -350,7 +371,8 @@ TEST(MapAddress, WrapsAsOpenGLSays) {
       const glm::ivec2 read = wrapped({far, far}, {n, n}, Wrap::repeat);
       ASSERT_TRUE(inside_map(read, {n, n}));
       ASSERT_EQ((far - read.x) % n, 0);
-      ASSERT_EQ(wrapped({far, -far}, {n, n}, Wrap::clamp_to_edge), glm::ivec2(far < 0 ? 0 : n - 1, far < 0 ? n - 1 : 0));
+      ASSERT_EQ(wrapped({far, -far}, {n, n}, Wrap::clamp_to_edge),
+                glm::ivec2(far < 0 ? 0 : n - 1, far < 0 ? n - 1 : 0));
     }
   }
   // A map that is not square: each side by its own size.
