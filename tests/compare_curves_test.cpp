@@ -174,7 +174,7 @@ uint64_t stored_acne(const Synthetic& s, CurveParameter parameter, float x) {
     if (!s.truth.facing[i] || naive::ambiguous(s, i)) continue;
     for (const naive::Tap& tap : naive::taps_of(s, s.stored, i))
       count += tap.weight > 0 &&  // a tap of none is not read
-          tap.covered && tap.moved_lit && tap.texel_lit && !naive::verdict(s, tap, swept_bias(s, parameter, i, x));
+               tap.covered && tap.moved_lit && tap.texel_lit && !naive::verdict(s, tap, swept_bias(s, parameter, i, x));
   }
   return count;
 }
@@ -246,8 +246,7 @@ INSTANTIATE_TEST_SUITE_P(All, Curves, testing::ValuesIn(cases()), case_name);
 
 // Every form that has a curve, with units that differ from receiver to receiver, at 100 biases of any size.
 RC_GTEST_PROP(BiasCounts, AreDirectEvaluationBitForBit, ()) {
-  const auto parameter =
-      *rc::gen::element(CurveParameter::constant, CurveParameter::slope, CurveParameter::tan_scale);
+  const auto parameter = *rc::gen::element(CurveParameter::constant, CurveParameter::slope, CurveParameter::tan_scale);
   const auto lookup = *rc::gen::element(Lookup::box, Lookup::linear, Lookup::cube);
   const Synthetic s = evidence_for(parameter, *rc::gen::arbitrary<uint64_t>(),
                                    {7, 5, 6, *rc::gen::element(1, 3), *rc::gen::arbitrary<bool>(), lookup});
@@ -271,7 +270,8 @@ TEST(CurveParameterOf, IsWhatTheFormTurnsIntoABias) {
 
 TEST(BiasCounts, AreTheSameOverManyBlocks) {
   for (CurveParameter parameter : {CurveParameter::constant, CurveParameter::slope, CurveParameter::tan_scale}) {
-    const Synthetic s = evidence_for(parameter, 5, {220, 170, 64, 1, false, Lookup::linear});  // several of the loop's blocks of 8192
+    const Synthetic s =
+        evidence_for(parameter, 5, {220, 170, 64, 1, false, Lookup::linear});  // several of the loop's blocks of 8192
     const BiasCounts counts(s.evidence(), s.stored, parameter);
     for (int i = 0; i <= 40; ++i)
       ASSERT_EQ(read_off(counts, static_cast<float>(i) / 32), counted_at(s, parameter, static_cast<float>(i) / 32));
@@ -280,14 +280,14 @@ TEST(BiasCounts, AreTheSameOverManyBlocks) {
 
 TEST(BiasCounts, AreWhatTheLadderBooksAtThatBias) {
   for (uint64_t seed = 60; seed < 120; ++seed) {
-    Synthetic s = random_evidence(
-        seed, {12, 9, 6, static_cast<int>(seed % 3) * 2 + 1, true, static_cast<Lookup>(seed / 3 % 3)});
+    Synthetic s =
+        random_evidence(seed, {12, 9, 6, static_cast<int>(seed % 3) * 2 + 1, true, static_cast<Lookup>(seed / 3 % 3)});
     const std::optional<CurveParameter> parameter = curve_parameter(s.bias.form);
     if (s.bias.form == BiasForm::none || !parameter) continue;
     set_verdicts(s);
     const Ladder ladder = climb(s.evidence());
     const BiasCounts counts(s.evidence(), s.stored, *parameter);
-    const float x = *parameter == CurveParameter::slope      ? s.bias.slope
+    const float x = *parameter == CurveParameter::slope       ? s.bias.slope
                     : *parameter == CurveParameter::tan_scale ? s.bias.tan_scale
                                                               : s.bias.constant;
     const double whole = s.lookup == Lookup::linear ? 1 : s.taps.taps_per_receiver;
@@ -415,13 +415,9 @@ TEST(Summarise, AllowsWhatTheMetricCallsWithinTheBound) {
       for (int i = 0; i < n; ++i) make_acne(s, static_cast<size_t>(i), 0x1p-4f);
       const double share = static_cast<double>(n) / of;
       const BiasCounts counts(s.evidence(), s.stored, CurveParameter::constant);
-      EXPECT_EQ(summarise(counts, test_scale(), {share, 0, {}}).window_min_depth, 0)
-          << n << " of " << of;
+      EXPECT_EQ(summarise(counts, test_scale(), {share, 0, {}}).window_min_depth, 0) << n << " of " << of;
       if (n > 0) {
-        EXPECT_GT(summarise(counts, test_scale(), {std::nextafter(share, 0), 0, {}})
-                      .window_min_depth,
-                  0)
-            << n;
+        EXPECT_GT(summarise(counts, test_scale(), {std::nextafter(share, 0), 0, {}}).window_min_depth, 0) << n;
       }
     }
   }

@@ -131,7 +131,8 @@ TEST_P(Climb, FlagsFacingAmbiguousAndOutside) {
     const Ladder ladder = climb(s.evidence());
     for (size_t i = 0; i < s.r4.size(); ++i) {
       const glm::vec2 t = s.probe.map_texels[i];
-      const bool off = s.lookup != Lookup::cube && (t.x < 0 || t.y < 0 || t.x >= 6 || t.y >= 6), far = s.probe.reference[i] > 1;
+      const bool off = s.lookup != Lookup::cube && (t.x < 0 || t.y < 0 || t.x >= 6 || t.y >= 6),
+                 far = s.probe.reference[i] > 1;
       const int expected = !s.truth.facing[i] ? 0 : 1 + (off || far ? 2 : 0) + (naive::ambiguous(s, i) ? 4 : 0);
       ASSERT_EQ(ladder.flags[i], expected);
       outside += s.truth.facing[i] && off && !far;
@@ -164,9 +165,10 @@ TEST_P(Climb, NamesEveryWrongPixelAndOnlyThose) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Patterns, Climb,
-                         testing::Values(std::pair(Lookup::box, 1), std::pair(Lookup::box, 3), std::pair(Lookup::box, 5),
-                                         std::pair(Lookup::linear, 1), std::pair(Lookup::linear, 3),
-                                         std::pair(Lookup::cube, 1), std::pair(Lookup::cube, 4)));
+                         testing::Values(std::pair(Lookup::box, 1), std::pair(Lookup::box, 3),
+                                         std::pair(Lookup::box, 5), std::pair(Lookup::linear, 1),
+                                         std::pair(Lookup::linear, 3), std::pair(Lookup::cube, 1),
+                                         std::pair(Lookup::cube, 4)));
 
 TEST(ClimbUnfiltered, NamesTheRungFromWhichThePixelStaysWrong) {
   std::set<Cause> seen;

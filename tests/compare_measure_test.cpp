@@ -52,7 +52,7 @@ struct Picture {
   ReceiverImage receivers;
   LookupProbe probe;
   Image<float> edge, occluder;
-  LightFrame frame;  // texels of 0.5 m
+  LightFrame frame;                                           // texels of 0.5 m
   DepthBias bias{.form = BiasForm::constant, .constant = 1};  // of 10 m: nearly every occluder is within its reach
 };
 
@@ -157,7 +157,7 @@ TEST(Measure, GapEndsWhereTheBiasCannotReach) {
   p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
   p.step(0, 0, Cause::peter_panning, 1);
   p.probe.n_dot_l.at(0, 0) = std::sqrt(0.5f);  // 45 degrees: a texel of 0.5 m adds at most 0.5 / sqrt(2) m of depth
-  p.bias.constant = 0.1f;                        // 1 m
+  p.bias.constant = 0.1f;                      // 1 m
   p.occluder.at(0, 0) = 1.3f;
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), 1.3 * std::sqrt(0.5), 1e-6);
   p.occluder.at(0, 0) = 1.4f;  // a steep receiver at the edge of a distant shadow
@@ -226,7 +226,7 @@ TEST(Measure, GapUnderAPointLightEndsWhereTheTapsDo) {
   const double met = 4 * 0.6 / std::cos(turned);
   EXPECT_NEAR(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0, {0, 0, -4}),
               0.2 + met - 4, 1e-5);  // float cosines
-  p.probe.n_dot_l[0] = 0.05f;  // 87 degrees: a ray turned by 7 misses the plane
+  p.probe.n_dot_l[0] = 0.05f;        // 87 degrees: a ray turned by 7 misses the plane
   EXPECT_EQ(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0, {0, 0, -4}),
             std::numeric_limits<double>::infinity());
 }
