@@ -297,8 +297,11 @@ TEST(LawMetrics, UnderASpotLightAreTheWorstReceivers) {
       << "metres are more at the farther receiver";
   EXPECT_NEAR(metrics.at("depth_quantum_m"), q * 19.5 / 10 * 16, 1e-12);
   EXPECT_NEAR(metrics.at("texel_m"), 0.04, 1e-12);  // of two, the upper
-  const Image<double> areas = light_plane_areas(camera, f, apart);
-  EXPECT_NEAR(areas[1] / areas[0], 25.0 / 9, 1e-6);  // seen from 5 m and from 3 m, as steep
+  // Seen by parallel rays, equal pixels: their areas are as the cosines to each receiver's own light ray.
+  apart.position[1] = {1, 0, -4};
+  const Camera parallel{.projection = Projection::orthographic, .eye_m = {0, 0, 1}, .target_m = {0, 0, -1}};
+  const Image<double> areas = light_plane_areas(parallel, f, apart);
+  EXPECT_NEAR(areas[1] / areas[0], (4 * 0.8 - 0.6) / std::sqrt(17.0) / 0.8, float_normal);
 }
 
 }  // namespace
