@@ -39,8 +39,15 @@ struct Picture {
     ladder.cause.at(x, y) = static_cast<uint8_t>(cause);
   }
   std::map<std::string, double> metrics() const {
-    return measure_ladder(
-        {ladder, primitive, edge, occluder, n_dot_l, texel_m, 10, {BiasForm::constant, bias, 0, 0, normal_offset_m}, 1});
+    return measure_ladder({ladder,
+                           primitive,
+                           edge,
+                           occluder,
+                           n_dot_l,
+                           texel_m,
+                           10,
+                           {BiasForm::constant, bias, 0, 0, normal_offset_m},
+                           1});
   }
   double metric(const char* name) const { return metrics().at(name); }
 
@@ -303,6 +310,7 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
     EXPECT_EQ(&find_metric(metric.name), &metric);
   }
   std::set<std::string> measured = times;
+  measured.insert("shaded_rmse");  // likewise
   const Picture picture(1, 1);
   for (const auto& [name, value] : picture.metrics()) measured.insert(name);
   const ReceiverImage receivers{Image<glm::vec3>(1, 1), Image<glm::vec3>(1, 1, glm::vec3(0, 1, 0)), picture.primitive};
