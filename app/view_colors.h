@@ -23,6 +23,12 @@ inline uint8_t encoded(double linear) {
 }
 inline Color grey(double linear) { return Color(encoded(linear)); }
 
+// Of a depth from 0, the nearest, to 1. In even steps of sRGB, which look even. NaN is black.
+inline Color depth_grey(double depth) {
+  return depth == depth ? Color(static_cast<uint8_t>(std::lround(255 * (0.97 - 0.8 * std::clamp(depth, 0.0, 1.0)))))
+                        : Color(0);
+}
+
 inline constexpr Color paper{12, 12, 14};  // around an unfolded cube
 
 // Lines of the light's frustum: Okabe and Ito's hues, as the causes' colours are.

@@ -97,7 +97,7 @@ Image<Color> map_picture(const Image<float>& stored, const LightFrame& frame) {
     if (depth[i] == outside_cross)
       picture[i] = paper;
     else if (!(depth[i] >= 1))
-      picture[i] = grey(0.95 - 0.85 * (metres(depth[i]) - nearest) / span);
+      picture[i] = depth_grey((metres(depth[i]) - nearest) / span);
   }
   return picture;
 }

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "app/experiment.h"
+#include "app/view_shading.h"
 #include "compare/law_metrics.h"
 #include "compare/measure.h"
 #include "compare/soundness.h"
@@ -212,6 +213,9 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const Image<float> tie_lookup = b.renderer.lookup(b.renderer.upload_map(ties, settings.map), frame, settings);
   m.record.metrics.merge(
       measure_soundness({evidence, map.depth, ties, tie_lookup, view.receivers, frame, view.camera.eye_m}));
+  m.record.metrics["shaded_rmse"] = shaded_rmse(
+      view.receivers, frame, make_camera_frame(view.camera, view.receivers.width(), view.receivers.height()),
+      m.ladder.rung[1], m.ladder.rung[5]);
   m.record.metrics["map_ms"] = map.time_ms;
   m.record.metrics["lookup_ms"] = lookup_ms;
   m.record.metrics["shadow_ms"] = map.time_ms + lookup_ms;

@@ -104,6 +104,11 @@ constexpr Metric table[] = {
      "Median |stored - exact| depth of the texels that receivers fall into, in steps of the map's format.", true},
     {"map_bits", "", "Bits of the coarsest depth format that could have stored what receivers look up: 16, 24 or 32.",
      false},
+    {"shaded_rmse", "",
+     "Root mean square difference of the shaded frames (Blinn-Phong clay, linear light, 1 is white) with the map's "
+     "shadow "
+     "and with the true one (R5, R1), over the receivers.",
+     true},
     {"map_ms", "ms", "Time of the shadow map pass.", true},
     {"lookup_ms", "ms", "Time of the lookup pass over the picture.", true},
     {"shadow_ms", "ms", "Shadow map pass and lookup together: the price of the technique.", true},

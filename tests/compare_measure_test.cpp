@@ -44,7 +44,19 @@ struct Picture {
     ladder.cause.at(x, y) = static_cast<uint8_t>(cause);
   }
   std::map<std::string, double> metrics() const {
+<<<<<<< HEAD
     return measure_ladder({ladder, receivers, frame, probe, bias, edge, occluder});
+=======
+    return measure_ladder({ladder,
+                           primitive,
+                           edge,
+                           occluder,
+                           n_dot_l,
+                           texel_m,
+                           10,
+                           {BiasForm::constant, bias, 0, 0, normal_offset_m},
+                           1});
+>>>>>>> h-views
   }
   double metric(const char* name) const { return metrics().at(name); }
 
@@ -369,6 +381,7 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
     EXPECT_EQ(&find_metric(metric.name), &metric);
   }
   std::set<std::string> measured = times;
+  measured.insert("shaded_rmse");  // likewise
   const Picture picture(1, 1);
   for (const auto& [name, value] : picture.metrics()) measured.insert(name);
   const Scene nothing;

@@ -10,6 +10,7 @@
 #include "app/view_frustum.h"
 #include "app/view_map.h"
 #include "app/view_shading.h"
+#include "compare/image_difference.h"
 #include "scenes/library.h"
 
 namespace noonmark {
@@ -114,10 +115,10 @@ TEST(MapPicture, IsLinearInMetresAndStandsUpright) {
     map.at(3, 3) = nan;
     const Image<Color> picture = map_picture(map, f);
     ASSERT_EQ(picture.width, 4);
-    EXPECT_EQ(picture.at(0, 3), grey(0.95));
-    EXPECT_NEAR(picture.at(1, 3).r, grey(0.525).r, 1) << scene;  // halfway in metres
-    EXPECT_EQ(picture.at(2, 3), grey(0.1));
-    EXPECT_EQ(picture.at(3, 0), grey(0)) << "NaN is black";
+    EXPECT_EQ(picture.at(0, 3), depth_grey(0));
+    EXPECT_NEAR(picture.at(1, 3).r, (depth_grey(0).r + depth_grey(1).r) / 2, 1) << scene;  // halfway in metres
+    EXPECT_EQ(picture.at(2, 3), depth_grey(1));
+    EXPECT_EQ(picture.at(3, 0), Color(0)) << "NaN is black";
     EXPECT_EQ(picture.at(1, 1), named_color("background"));
   }
 }
@@ -129,9 +130,9 @@ TEST(MapPicture, OfALargeMapIsShrunkWithoutLosingAnything) {
   map.at(700, 700) = 0.25f;
   const Image<Color> picture = map_picture(map, f);
   EXPECT_EQ(picture.width, 1024);
-  EXPECT_EQ(picture.at(1023, 1023), grey(0.1));
+  EXPECT_EQ(picture.at(1023, 1023), depth_grey(1));
   int bright = 0;
-  for (const Color& c : picture.pixels) bright += c == grey(0.95);
+  for (const Color& c : picture.pixels) bright += c == depth_grey(0);
   EXPECT_EQ(bright, 1);
 }
 
@@ -140,7 +141,7 @@ TEST(MapPicture, OfAPointLightIsTheCross) {
   const Image<Color> picture = map_picture(Image<float>(16, 96, 0.25f), f);
   EXPECT_EQ(picture.width, 64);
   EXPECT_EQ(picture.height, 48);
-  EXPECT_EQ(picture.at(20, 20), grey(0.95));
+  EXPECT_EQ(picture.at(20, 20), depth_grey(0));
   EXPECT_EQ(picture.at(0, 0), paper);
 }
 
@@ -206,6 +207,35 @@ TEST(ShadedFrame, DarkensDiffuseAndSpecularOnly) {
     EXPECT_NEAR(frame.at(2, 4), 0.105 + 0.25 * full, 1e-6);
     EXPECT_TRUE(std::isnan(frame.at(3, 4)));
   }
+}
+
+TEST(ShadedRmse, IsThatOfTheTwoFramesWhereThereIsASurface) {
+  const Scene scene = make_scene({.name = "plane"});
+  const LightFrame light = make_light_frame(scene, {});
+  const CameraFrame camera = make_camera_frame({.eye_m = {0, 5, 5}, .target_m = {0, 0, 0}}, 16, 12);
+  ReceiverImage floor = floor_receivers(16, 12, camera, 0);
+  std::mt19937 random(5);
+  Image<float> a(16, 12, 0), b(16, 12, 0);
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (i % 3 == 0) continue;
+    a[i] = static_cast<float>(random() % 5) / 4;
+    b[i] = static_cast<float>(random() % 5) / 4;
+  }
+  const double whole = shaded_rmse(floor, light, camera, a, b);
+  // The frames are floats near 1.
+  EXPECT_NEAR(whole,
+              root_mean_square_difference(shaded_frame(floor, light, camera, a), shaded_frame(floor, light, camera, b)),
+              1e-6);
+  EXPECT_GT(whole, 0.05);
+  EXPECT_EQ(shaded_rmse(floor, light, camera, a, a), 0);
+  // Background does not thin it out.
+  for (size_t i = 0; i < a.size(); i += 3) floor.primitive[i] = no_primitive;
+  EXPECT_NEAR(shaded_rmse(floor, light, camera, a, b), whole * std::sqrt(1.5), 1e-6);
+  a[1] = nan;
+  EXPECT_TRUE(std::isnan(shaded_rmse(floor, light, camera, a, b)));
+  EXPECT_TRUE(std::isnan(shaded_rmse(floor, light, camera, a, a)));
+  for (uint32_t& p : floor.primitive.pixels) p = no_primitive;
+  EXPECT_EQ(shaded_rmse(floor, light, camera, a, b), 0);
 }
 
 // --- the frustum ---
