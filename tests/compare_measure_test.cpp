@@ -44,19 +44,7 @@ struct Picture {
     ladder.cause.at(x, y) = static_cast<uint8_t>(cause);
   }
   std::map<std::string, double> metrics() const {
-<<<<<<< HEAD
     return measure_ladder({ladder, receivers, frame, probe, bias, edge, occluder});
-=======
-    return measure_ladder({ladder,
-                           primitive,
-                           edge,
-                           occluder,
-                           n_dot_l,
-                           texel_m,
-                           10,
-                           {BiasForm::constant, bias, 0, 0, normal_offset_m},
-                           1});
->>>>>>> h-views
   }
   double metric(const char* name) const { return metrics().at(name); }
 
