@@ -49,7 +49,9 @@ class ShadowStart {
     const double to_plane = own_distance(moved, own, way.direction);
     const double cosine = std::abs(glm::dot(glm::dvec3(receivers_.normal[pixel]), glm::dvec3(way.direction)));
     const double behind = 0x1p-23 * (glm::length(moved) + std::abs(to_plane)) / std::max(cosine, 0x1p-23);
-    return from(glm::vec3(moved + (to_plane - behind) * glm::dvec3(way.direction)), own, way);
+    const double carried = to_plane - behind;  // towards the light, which is as much nearer
+    return from(glm::vec3(moved + carried * glm::dvec3(way.direction)), own,
+                {way.direction, static_cast<float>(way.reach - carried)});
   }
 
  private:
