@@ -32,6 +32,7 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
       range.low = std::max(range.low - longest, length > 0 ? std::abs(glm::dot(n, a)) / length : 0.0);
     }
     ranges_.push_back(range);
+    in_a_face_ |= !parallel_ && edge_on(t);
   }
 }
 
@@ -97,6 +98,22 @@ LightRay LightView::ray_from(glm::dvec3 x, double depth) const {
 }
 
 LightRay LightView::ray(glm::dvec3 x) const { return ray_from(x, parallel_ ? start_m_ : 0); }
+
+void LightView::first_hits(const EmbreeScene& embree, int count, const glm::dvec3* x, uint32_t* hits) const {
+  LightRay rays[packet_size];
+  for (int i = 0; i < count; ++i) rays[i] = ray(x[i]);
+  embree.first_hits(count, rays, hits);
+  if (!in_a_face_) return;
+  std::vector<uint32_t> met;
+  for (int i = 0; i < count; ++i) {
+    if (hits[i] == no_primitive || !edge_on(hits[i])) continue;
+    met.clear();
+    embree.all_hits(rays[i], met);
+    hits[i] = no_primitive;
+    for (uint32_t t : met)
+      if (!edge_on(t) && (hits[i] == no_primitive || hit_depth(t, x[i]) < hit_depth(hits[i], x[i]))) hits[i] = t;
+  }
+}
 
 double LightView::near_depth(glm::dvec3 x) const {
   if (frame_.kind != LightKind::point) return frame_.near_m;
