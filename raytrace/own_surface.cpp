@@ -121,8 +121,10 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   const bool beside = silhouettes_.near(x);
   std::vector<Silhouettes::Crossing> crossed;
   if (p.lit) crossed = silhouettes_.crossings(p.at, x);
-  // A lit P on a silhouette, its own surface's border for one: whether the way crosses it, rounding says.
-  bool sure = !(p.lit && silhouettes_.near(p.at, rounding_share * beside_m()));
+  // A lit P on a silhouette, its own surface's border for one: whether the way crosses it, rounding says. And an x on
+  // one: whether the ray through it meets the surface that ends there.
+  const double tie_m = rounding_share * beside_m();
+  bool sure = !(p.lit && silhouettes_.near(p.at, tie_m)) && !(beside && silhouettes_.near(x, tie_m));
   const auto exact = [&] {
     const uint32_t first = exact_first(x, rays);
     sure &= clipped(first, x) == clipped(hit, x);

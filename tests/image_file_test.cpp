@@ -251,8 +251,9 @@ class Pictures : public ImageFile {
     fill(probe.reference, 3, 2, numbered(0.125f));
     fill(probe.n_dot_l, 3, 2, [](size_t) { return 0.5f; });
     // Inside, on the repeat of (1, 1), at two corners, outside, and none.
-    probe.texel = Image<glm::ivec2>(3, 2);
-    probe.texel.pixels = {{0, 0}, {-1, 3}, {1, 0}, {0, 1}, {2, 0}, {0, 0}};
+    probe.map_texels = Image<glm::vec2>(3, 2);
+    probe.map_texels.pixels = {{0.5f, 0}, {-1, 3.5f}, {1, 0.9f}, {0, 1}, {2, 0}, {0, 0}};
+    probe.pattern = tap_pattern({});
     fill(stored, 2, 2, numbered(0.1f));
     fill(exact, 2, 2, numbered(0.2f));
     for (size_t n = 0; n < 6; ++n)
