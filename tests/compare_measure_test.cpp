@@ -78,6 +78,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
   p.step(0, 1, Cause::displacement, 0.125f);
   p.step(0, 1, Cause::acne, -0.75f);
   p.step(0, 1, Cause::aliasing_light, 0.25f);
+  p.step(0, 1, Cause::aliasing_dark, -0.125f);
   p.edge.at(0, 1) = 1.5f;
   p.step(0, 1, Cause::precision, 0.25f);
   p.step(2, 2, Cause::peter_panning, 0.25f);  // of a lit receiver
@@ -103,9 +104,10 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"light_size", 0.5 / base},
       {"filter", 0.25 / base},
       {"displacement", 0.125 / base},
-      {"aliasing", 1.25 / base},
-      {"aliasing_dark", 1 / base},
+      {"aliasing", 1.375 / base},
+      {"aliasing_dark", 1.125 / base},
       {"aliasing_light", 0.25 / base},
+      {"aliasing_net", 1.125 / base},
       {"acne", 0.75 / base},
       {"peter_panning", 0.5 / base},
       {"peter_panning_lit", 0.25 / base},
