@@ -85,9 +85,9 @@ void Renderer::Impl::read_cube_texels(LookupProbe& probe, const LightFrame& fram
   set_pattern(program, probe.pattern);
   const int width = position_image.width, height = position_image.height;
   const size_t row_texels = static_cast<size_t>(width) * static_cast<size_t>(probe.taps());
-  // In strips of at most 64 MiB: OpenGL promises 128 MiB for a shader's buffer.
+  // In strips of at most 16 MiB, so that the device does not hold the whole; OpenGL promises a shader's buffer 128 MiB.
   const int rows = static_cast<int>(
-      std::clamp<size_t>((size_t{1} << 26) / (row_texels * sizeof(uint32_t)), 1, static_cast<size_t>(height)));
+      std::clamp<size_t>((size_t{1} << 24) / (row_texels * sizeof(uint32_t)), 1, static_cast<size_t>(height)));
   const Buffer buffer = make_buffer(nullptr, row_texels * static_cast<size_t>(rows) * sizeof(uint32_t));
   check_memory("the texels of a cube map's taps", width, rows);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.id());
