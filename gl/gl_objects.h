@@ -83,7 +83,7 @@ inline Texture make_face_view(const Texture& cube, int face) {
   return Texture(id);
 }
 
-// size 0 is allowed here, though not in OpenGL.
+// data: may be null, for contents undefined. Size 0 is allowed here, though not in OpenGL.
 inline Buffer make_buffer(const void* data, size_t bytes) {
   GLuint id = 0;
   glCreateBuffers(1, &id);

@@ -35,7 +35,7 @@ struct FilterRow {
   const char* file;
 };
 constexpr FilterRow filter_rows[] = {
-    {FilterKind::none, "shaders/filter/none.glsl"},         {FilterKind::box, "shaders/filter/mean.glsl"},
+    {FilterKind::none, "shaders/filter/none.glsl"},         {FilterKind::box, "shaders/filter/box.glsl"},
     {FilterKind::hardware, "shaders/filter/bilinear.glsl"}, {FilterKind::gaussian, "shaders/filter/bilinear.glsl"},
     {FilterKind::poisson, "shaders/filter/mean.glsl"},      {FilterKind::cube_grid, "shaders/filter/mean.glsl"},
     {FilterKind::cube_disk, "shaders/filter/mean.glsl"},

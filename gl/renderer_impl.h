@@ -56,7 +56,7 @@ struct Renderer::Impl {
   Target position_image, normal_image;
   glm::vec3 eye_m{0};
   Target lit, map_strip;
-  Target probe_scalars, probe_texels, probe_radius, probe_cube_texel;
+  Target probe_scalars, probe_texels, probe_radius;
   Buffer tap_rows;
   Sampler comparing;   // of hardware comparison
   Texture cube_index;  // each texel's own place in the map's image, for cubes of ...

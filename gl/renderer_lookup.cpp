@@ -80,11 +80,16 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
 }
 
 void Renderer::Impl::set_pattern(Program& program, const TapPattern& pattern) {
-  const std::vector<glm::vec4> rows = tap_table(pattern);
+  std::vector<glm::vec4> rows = tap_table(pattern);
+  const int taps = static_cast<int>(rows.size()) / pattern.variants;
+  // A uniform block of 16 KiB is what every OpenGL has.
+  constexpr size_t block_rows = 1024;
+  if (rows.size() > block_rows) throw std::logic_error("a pattern of more taps than shaders/pattern.glsl holds");
+  rows.resize(block_rows, glm::vec4(0));
   tap_rows = {};
   tap_rows = make_buffer(rows.data(), rows.size() * sizeof(glm::vec4));
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, tap_rows.id());
-  program.set_if_used("taps", static_cast<int>(rows.size()) / pattern.variants);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, tap_rows.id());
+  program.set_if_used("taps", taps);
   program.set_if_used("variants", pattern.variants);
   program.set_if_used("scaled_by_view", pattern.scaled_by_view ? 1 : 0);
 }
@@ -106,6 +111,8 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/lookup.frag"}, slots);
   r.set_receiver_uniforms(program, frame, settings);
   r.set_pattern(program, pattern);
+  program.set_if_used("box_radius", settings.filter.size / 2);
+  program.set_if_used("box_step", static_cast<float>(settings.filter.step_texels));
   program.set("lit_beyond_far", settings.map.lit_beyond_far ? 1 : 0);
   glBindTextureUnit(2, map.impl_->depth.id());
   if (pattern.bilinear()) {

@@ -83,20 +83,31 @@ void Renderer::Impl::read_cube_texels(LookupProbe& probe, const LightFrame& fram
                                   {{"light", light_file(frame.kind)}, {"bias", bias_file(settings.bias.form)}});
   set_receiver_uniforms(program, frame, settings);
   set_pattern(program, probe.pattern);
+  const int width = position_image.width, height = position_image.height;
+  const size_t row_texels = static_cast<size_t>(width) * static_cast<size_t>(probe.taps());
+  // In strips of at most 16 MiB, so that the device does not hold the whole; OpenGL promises a shader's buffer 128 MiB.
+  const int rows = static_cast<int>(
+      std::clamp<size_t>((size_t{1} << 24) / (row_texels * sizeof(uint32_t)), 1, static_cast<size_t>(height)));
+  const Buffer buffer = make_buffer(nullptr, row_texels * static_cast<size_t>(rows) * sizeof(uint32_t));
+  check_memory("the texels of a cube map's taps", width, rows);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.id());
   glBindTextureUnit(3, cube_index.id());
-  require(probe_cube_texel, GL_R32UI, position_image.width, position_image.height);
-  draw_into({probe_cube_texel.texture.id()}, 0, probe_cube_texel.width, probe_cube_texel.height);
+  draw_into({probe_radius.texture.id()}, 0, width, height);  // for its size: the shader writes to the buffer
   probe.cube_resolution = frame.resolution;
-  const size_t taps = static_cast<size_t>(probe.taps());
-  probe.cube_texel.resize(probe.reference.size() * taps);
-  for (size_t tap = 0; tap < taps; ++tap) {
-    program.set("tap", static_cast<int>(tap));
+  probe.cube_texel.resize(row_texels * static_cast<size_t>(height));
+  for (int first = 0; first < height; first += rows) {
+    const int count = std::min(rows, height - first);
+    glViewport(0, first, width, count);
+    program.set("first_pixel", first * width);
     draw_screen(program);
-    const auto texels = read_back<uint32_t>(probe_cube_texel, GL_RED_INTEGER, GL_UNSIGNED_INT);
-    for (size_t i = 0; i < texels.size(); ++i) probe.cube_texel[i * taps + tap] = texels[i];
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glGetNamedBufferSubData(buffer.id(), 0,
+                            static_cast<GLsizeiptr>(row_texels * static_cast<size_t>(count) * sizeof(uint32_t)),
+                            probe.cube_texel.data() + row_texels * static_cast<size_t>(first));
   }
   detach(1);
   glBindTextureUnit(3, 0);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, 0);
 }
 
 }  // namespace noonmark::gl

@@ -10,12 +10,13 @@
 namespace noonmark {
 namespace {
 
-// Rows from the lowest v, as the shader's loops run.
-std::vector<glm::vec3> square(int side, double step) {
+// Rows from the lowest v, as the shader's loops run. With a float's step the offsets are the shader's own products.
+std::vector<glm::vec3> square(int side, float step) {
   std::vector<glm::vec3> offsets;
-  const double middle = (side - 1) / 2.0;
+  const float middle = static_cast<float>(side - 1) / 2;
   for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) offsets.emplace_back((x - middle) * step, (y - middle) * step, 0);
+    for (int x = 0; x < side; ++x)
+      offsets.emplace_back((static_cast<float>(x) - middle) * step, (static_cast<float>(y) - middle) * step, 0);
   return offsets;
 }
 
@@ -134,7 +135,7 @@ TapPattern tap_pattern(const FilterSettings& f) {
     case FilterKind::box: {
       TapPattern pattern;
       pattern.taps = f.size * f.size;
-      pattern.offsets = square(f.size, f.step_texels);
+      pattern.offsets = square(f.size, static_cast<float>(f.step_texels));
       return pattern;
     }
     case FilterKind::hardware:

@@ -100,7 +100,7 @@ inline Settings random_settings(std::mt19937& random, LightKind kind) {
   s.bias.factor = 2 * unit(random);
   s.bias.units = 10 * unit(random);
   s.bias.normal_offset = 3 * unit(random);
-  s.filter.size = one_of(random, {1, 3, 5, 7, 31});
+  s.filter.size = one_of(random, {1, 3, 3, 5, 5, 7, 31});
   s.filter.step_texels = one_of(random, {0.5, 1.0, 1.7, 3.0});
   s.filter.sigma_texels = one_of(random, {0.5, 1.0, 4.0});
   s.filter.radius_texels = 0.5 + 5 * unit(random);

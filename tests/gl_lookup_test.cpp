@@ -22,8 +22,8 @@ TEST_F(GlLookupTest, EqualsTheHost) {
     Met met;
     for (int k = 0; k < 4; ++k) {
       const Scene scene = random_scene(random, kind);
-      const ReceiverImage receivers = load(scene, 113, 67);
-      for (int j = 0; j < 40; ++j) {
+      const ReceiverImage receivers = load(scene, 83, 61);
+      for (int j = 0; j < 36; ++j) {
         const Settings settings = random_settings(random, kind);
         const LightFrame frame = make_light_frame(scene, settings);
         const ShadowMap map = renderer.render_map(frame, settings);
@@ -319,6 +319,31 @@ TEST_F(GlLookupTest, ReceiversThatAreNotFiniteAreDark) {
   EXPECT_EQ(renderer.lookup(map, frame, settings).pixels, (std::vector<float>{1, 0, 0, 0, 0, 0}));
   const LookupProbe probe = renderer.probe(frame, settings);
   for (size_t i = 1; i < 6; ++i) EXPECT_EQ(probe.reference[i], 0.0f) << i;
+}
+
+// Behind a spot light, and where a point light is, there is no direction from which to look a receiver up.
+TEST_F(GlLookupTest, ReceiversWithoutAPlaceInTheMapAreDark) {
+  Scene scene;
+  scene.light.position_m = {0, 2, 0};
+  scene.light.target_m = {0, 2, -1};
+  ReceiverImage receivers{Image<glm::vec3>(4, 1), Image<glm::vec3>(4, 1, glm::vec3(0, 1, 0)),
+                          Image<uint32_t>(4, 1, 0u)};
+  receivers.position.pixels = {{0.1f, 1.9f, -3}, {0.1f, 1.9f, 3}, {0.5f, 2, 0}, {0, 2, 0}};
+  renderer.load_receivers(receivers, {0, 5, 5});
+  Settings settings;
+  settings.map.resolution = 4;
+  settings.map.near_m = 1;
+  settings.map.far_m = 20;
+  const auto seen_by = [&](LightKind kind) {
+    scene.light.kind = kind;
+    const LightFrame frame = make_light_frame(scene, settings);
+    const LookupProbe probe = renderer.probe(frame, settings);
+    for (size_t i = 0; i < 4; ++i) EXPECT_TRUE(std::isfinite(probe.n_dot_l[i]) && std::isfinite(probe.reference[i]));
+    const Image<float> open(4, frame.map_size().y, 1.0f);
+    return renderer.lookup(renderer.upload_map(open, settings.map), frame, settings).pixels;
+  };
+  EXPECT_EQ(seen_by(LightKind::spot), (std::vector<float>{1, 0, 0, 0}));
+  EXPECT_EQ(seen_by(LightKind::point), (std::vector<float>{1, 1, 1, 0}));
 }
 
 TEST_F(GlLookupTest, TimesArePositiveAndDifferentSizesFollowEachOther) {

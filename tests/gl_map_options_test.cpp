@@ -60,6 +60,26 @@ TEST_F(GlTest, DepthClampOfACubeKeepsTheDistance) {
   EXPECT_NEAR(below(), 0.25f, 1e-6f);  // a few float places
 }
 
+// The receiver pass after a map's: with its own clipping, and its own depths.
+TEST_F(GlTest, AMapsOptionsEndWithItsPass) {
+  Scene scene;
+  scene.light = light_from_above();
+  add_floor(scene, 9.5, 1);                                           // before the camera's near plane
+  add_quad(scene, "tilted", {-1, 0.01, 1}, {2, 1.9, 0}, {0, 0, -2});  // over the floor
+  add_floor(scene, 0, 1);
+  renderer.load_scene(scene);
+  const auto before = renderer.render_primitives(camera_from_above(2), 8, 8).pixels;
+  Settings settings;
+  settings.map.resolution = 4;
+  settings.map.depth_clamp = true;
+  settings.bias.form = BiasForm::polygon_offset;
+  settings.bias.factor = 1000;
+  renderer.render_map(make_light_frame(scene, settings), settings);
+  EXPECT_TRUE(renderer.render_primitives(camera_from_above(2), 8, 8).pixels == before);
+  EXPECT_EQ(std::count(before.begin(), before.end(), 2u) + std::count(before.begin(), before.end(), 3u), 64)
+      << "all tilted";
+}
+
 TEST_F(GlTest, PolygonOffsetUnitIsNearAQuantum) {
   // OpenGL asks for the smallest resolvable difference: one quantum, or a little more where a driver is cautious.
   for (const auto& [format, quantum] : {std::pair(DepthFormat::d16, 1.0 / 65535), {DepthFormat::d24, 0x1p-24}}) {

@@ -185,7 +185,9 @@ TEST_F(GlProbeTest, CubeTapsFallWhereTheFrameSays) {
   for (const FilterKind filter : {FilterKind::none, FilterKind::cube_grid, FilterKind::cube_disk})
     for (const DiskRadius disk : {DiskRadius::fixed, DiskRadius::view_distance}) {
       const Scene scene = random_scene(random, LightKind::point);
-      const ReceiverImage receivers = load(scene, 64, 48);
+      // 64 taps of so many pixels come back in two strips.
+      const bool large = filter == FilterKind::cube_grid && disk == DiskRadius::fixed;
+      const ReceiverImage receivers = large ? load(scene, 320, 240) : load(scene, 64, 48);
       Settings settings;
       settings.map.resolution = 100;
       settings.filter.kind = filter;

@@ -1,6 +1,6 @@
 // Where the taps lie: the table of scenes/tap_pattern.h.
-layout(std430, binding = 0) readonly buffer TapPattern {
-  vec4 tap_offsets[];  // [variant * taps + tap]; w: the tap's weight, where taps do not count alike
+layout(std140, binding = 0) uniform TapPattern {
+  vec4 tap_offsets[1024];  // [variant * taps + tap]; w: the tap's weight, where taps do not count alike
 };
 uniform int taps;
 uniform int variants;
@@ -20,7 +20,6 @@ int first_tap(Receiver receiver) {
 }
 
 vec3 tap_offset(Receiver receiver, int index) {
-  vec3 offset = tap_offsets[index].xyz;
-  precise vec3 scaled = receiver.radius * offset;
-  return scaled_by_view != 0 ? scaled : offset;
+  precise vec3 offset = (scaled_by_view != 0 ? receiver.radius : 1.0) * tap_offsets[index].xyz;
+  return offset;
 }

@@ -1,15 +1,20 @@
 #version 450 core
-// The texel that one tap of a lookup in a cube map reads, as the sampler itself chooses it.
+// The texels that a receiver's taps read in a cube map, as the sampler itself chooses them; some rows of the picture at
+// a time.
 #include "shaders/receiver.glsl"
 #include "shaders/pattern.glsl"
 
 layout(binding = 3) uniform usamplerCube index_map;  // nearest; each texel's own index
-uniform int tap;
-layout(location = 0) out uint texel;
+layout(std430, binding = 0) writeonly buffer CubeTexels {
+  uint cube_texels[];  // [pixel * taps + tap], from the first pixel of these rows on
+};
+uniform int first_pixel;
 
 void main() {
   Receiver receiver = receiver_at(ivec2(gl_FragCoord.xy));
-  vec3 offset = tap_offset(receiver, first_tap(receiver) + tap);
-  vec3 at = tap_address(receiver.map_texels, receiver.from_light, offset);
-  texel = receiver.present ? textureLod(index_map, at, 0.0).r : 0u;
+  int first = first_tap(receiver), to = (int(receiver.pixel) - first_pixel) * taps;
+  for (int tap = 0; tap < taps; ++tap) {
+    vec3 at = tap_address(receiver.map_texels, receiver.from_light, tap_offset(receiver, first + tap));
+    cube_texels[to + tap] = receiver.present ? textureLod(index_map, at, 0.0).r : 0u;
+  }
 }

@@ -1,4 +1,4 @@
-// Percentage-closer filtering (Reeves, Salesin, Cook 1987): how many of a pattern's taps are lit.
+// How many of a pattern's taps are lit: percentage-closer filtering over any of them.
 #include "shaders/pattern.glsl"
 
 float all_lit() { return float(taps); }
