@@ -52,7 +52,7 @@ class LightView {
   // How much deeper its plane becomes for a metre across the light's ray through x; not finite when it is edge-on.
   double slope(uint32_t triangle, glm::dvec3 x) const;
 
-  // How wide the triangle is at its narrowest as the light sees it, in metres.
+  // How wide the triangle is at its narrowest, in metres.
   double width(uint32_t triangle) const;
 
   // Depth of the triangle's plane at x, also beyond the triangle; infinity where the ray never comes to it.
@@ -80,9 +80,9 @@ class LightView {
   const LightFrame& frame() const { return frame_; }
   bool parallel() const { return parallel_; }
 
- private:
   glm::dvec3 at_depth(glm::dvec3 x, double depth) const;  // in the light's frame
 
+ private:
   const Scene* scene_;
   LightFrame frame_;
   bool parallel_;
