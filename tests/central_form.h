@@ -45,7 +45,7 @@ class CentralForm {
   // V(P, x); flat shapes only. p_lit: what lit(place) says.
   struct Answer {
     bool lit = true;
-    bool by_jumps = false;  // the first-hit depth's jumps between P and x decided
+    bool by_jumps = false;    // the first-hit depth's jumps between P and x decided
     bool walked_off = false;  // the walk ended before x
   };
   Answer answer_at(const Place& place, glm::dvec3 way, bool p_lit) const;
@@ -70,7 +70,7 @@ class CentralForm {
     std::array<glm::dvec3, 4> corner;  // round: the centre first
     double radius;
     glm::dvec3 n{0};
-    double height = 0;                // n . corner: 0 when the light lies in its plane
+    double height = 0;                 // n . corner: 0 when the light lies in its plane
     std::array<glm::dvec3, 4> wall{};  // planes through the light and an outline edge; ways over the piece are inside
     bool edge_on = false;
     bool front = true;  // a box's face: its outside is towards the light

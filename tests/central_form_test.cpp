@@ -185,9 +185,10 @@ class Comparison {
     const glm::dvec2 mine = inner_.texels_of(inner_.way_of_tap(p, offset)),
                      its = frame_.map_texels(frame_.tap_place(frame_.to_light(p), offset));
     const glm::dvec2 off = glm::abs(mine - its);
-    return std::max(off.x, off.y) <= texel_rounding || glm::any(glm::lessThan(
-        glm::abs(mine - glm::round(mine / static_cast<double>(frame_.resolution)) * static_cast<double>(frame_.resolution)),
-        glm::dvec2(texel_rounding)));
+    return std::max(off.x, off.y) <= texel_rounding ||
+           glm::any(glm::lessThan(glm::abs(mine - glm::round(mine / static_cast<double>(frame_.resolution)) *
+                                                      static_cast<double>(frame_.resolution)),
+                                  glm::dvec2(texel_rounding)));
   }
 
   Verdict ask(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
@@ -214,8 +215,8 @@ class Comparison {
     return v;
   }
 
-  void ask_tap(const Place& place, bool lit, glm::dvec3 offset, glm::ivec2 texel, uint8_t bits,
-               const Image<float>& map, int tap, Verdict& v) const {
+  void ask_tap(const Place& place, bool lit, glm::dvec3 offset, glm::ivec2 texel, uint8_t bits, const Image<float>& map,
+               int tap, Verdict& v) const {
     const glm::dvec3 x = inner_.way_of_tap(place.p, offset), c = inner_.way_of_texel(texel);
     const bool at_p = offset == glm::dvec3(0);
     const CentralForm::Answer f = at_p ? CentralForm::Answer{lit} : inner_.answer_at(place, x, lit),
@@ -227,9 +228,9 @@ class Comparison {
     t.dark_taps += !f.lit, t.differ += f.lit != at_texel.lit;
     t.by_jumps += at_texel.by_jumps, t.jumped += at_texel.by_jumps && !at_texel.lit;
     t.walked_off += at_texel.walked_off;
-    t.other_face += frame_.kind == LightKind::point &&
-                    texel.y / frame_.resolution !=
-                        static_cast<int>(inner_.texels_of(inner_.way_to(place.p)).y) / frame_.resolution;
+    t.other_face +=
+        frame_.kind == LightKind::point &&
+        texel.y / frame_.resolution != static_cast<int>(inner_.texels_of(inner_.way_to(place.p)).y) / frame_.resolution;
     t.texel += !frame_agrees(place.p, offset);
     t.r2 += f.lit != exact_lit, t.r3 += at_texel.lit != texel_lit;
     if (f.lit != exact_lit || at_texel.lit != texel_lit)
@@ -294,8 +295,8 @@ class Comparison {
   void log(const ReceiverImage& receivers, const ReceiverTruth& truth, size_t i, const Verdict& v) const {
     const glm::vec3 p = receivers.position[i];
     const auto [shape, face] = model_.owner[receivers.primitive[i]];
-    RC_LOG() << "receiver " << i << " (" << p.x << ' ' << p.y << ' ' << p.z << ") on shape " << shape << " face " << face
-             << ", R1 " << static_cast<int>(truth.lit[i]) << (v.far ? ", ambiguous far from edges" : "")
+    RC_LOG() << "receiver " << i << " (" << p.x << ' ' << p.y << ' ' << p.z << ") on shape " << shape << " face "
+             << face << ", R1 " << static_cast<int>(truth.lit[i]) << (v.far ? ", ambiguous far from edges" : "")
              << ": wrong facing " << v.faces << " R1 " << v.r1 << " R2 " << v.taps.r2 << " R3 " << v.taps.r3
              << " clipped " << v.taps.clipped << " depth " << v.taps.depth << " texel " << v.taps.texel << v.taps_wrong
              << '\n';
@@ -339,7 +340,7 @@ rc::detail::TestParams parameters(int scenes) {
   rc::detail::TestParams given;
   const char *seed = std::getenv("NOONMARK_SEED"), *more = std::getenv("NOONMARK_SCENES");
   given.seed = seed ? std::strtoull(seed, nullptr, 10) : 20240229;
-  given.disableShrinking = std::getenv("NOONMARK_AS_FOUND") != nullptr;
+  given.disableShrinking = true;  // a smaller scene has its light elsewhere, and is another case
   given.maxSuccess = more ? std::atoi(more) : scenes;
   return given;
 }
@@ -348,7 +349,7 @@ struct Sweep {
   const char* name;
   bool point;
   int kinds, segments, scenes;
-  double ambiguous_share;
+  double ambiguous, edge_on;  // shares of the facing
 };
 
 class CentralFormSweep : public testing::TestWithParam<Sweep> {};
@@ -372,15 +373,32 @@ TEST_P(CentralFormSweep, TracerAgrees) {
     ADD_FAILURE() << text.str();
   }
   all.record();
-  if (std::getenv("NOONMARK_VERBOSE"))
-    for (const auto& [name, n] : all.columns()) std::cout << name << ' ' << all.*n << '\n';
+  // Points on faces of all sizes and pictures from anywhere are harsher than a person's, and so are lights some
+  // micrometres from a face: the bounds are some times what was seen.
+  EXPECT_EQ(all.wrong(), 0);
+  EXPECT_EQ(all.far_from_edges, 0);
+  EXPECT_GT(all.facing, 100 * sweep.scenes);
+  EXPECT_LT(static_cast<double>(all.ambiguous + all.taps_ambiguous), sweep.ambiguous * static_cast<double>(all.facing));
+  EXPECT_LT(static_cast<double>(all.edge_on), sweep.edge_on * static_cast<double>(all.facing));
+  EXPECT_LT(static_cast<double>(all.depth_either), 1e-4 * static_cast<double>(all.taps));
+  if (sweep.kinds > 2) return;
+  EXPECT_GT(all.taps, 1000 * sweep.scenes);
+  EXPECT_GT(all.dark_taps, all.taps / 20);
+  EXPECT_GT(all.differ, 10 * sweep.scenes);
+  EXPECT_GT(all.jumped, 5 * sweep.scenes);
+  EXPECT_GT(all.walked_off, all.taps / 20);
+  EXPECT_GT(all.near, all.taps / 20);
+  if (sweep.point) {
+    EXPECT_GT(all.other_face, all.taps / 200);
+  }
 }
 
+// Seen in 1500 scenes each: 0.24%, 0.22%, 0.6% and 0.47% ambiguous, up to 0.7% in a plane through the light.
 INSTANTIATE_TEST_SUITE_P(Random, CentralFormSweep,
-                         testing::Values(Sweep{"FlatSpot", false, 2, 8, 120, 0.02},
-                                         Sweep{"FlatPoint", true, 2, 8, 120, 0.02},
-                                         Sweep{"RoundSpot", false, 4, 48, 40, 0.02},
-                                         Sweep{"RoundPoint", true, 4, 48, 40, 0.02}),
+                         testing::Values(Sweep{"FlatSpot", false, 2, 8, 120, 0.01, 0.05},
+                                         Sweep{"FlatPoint", true, 2, 8, 120, 0.01, 0.05},
+                                         Sweep{"RoundSpot", false, 4, 48, 40, 0.02, 0.05},
+                                         Sweep{"RoundPoint", true, 4, 48, 40, 0.02, 0.05}),
                          [](const auto& given) { return given.param.name; });
 
 }  // namespace

@@ -1,4 +1,5 @@
-// R0 of spot and point lights with a size against areas and solid angles, and polygon offset against finite differences.
+// R0 of spot and point lights with a size against areas and solid angles, and polygon offset against finite
+// differences.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -23,7 +24,8 @@ double sphere_seen(glm::dvec3 centre, double radius, const std::function<bool(gl
   constexpr int rings = 128, around = 128;
   const double distance = glm::length(centre);
   const glm::dvec3 axis = centre / distance;
-  const glm::dvec3 right = glm::normalize(glm::cross(axis, std::abs(axis.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
+  const glm::dvec3 right =
+      glm::normalize(glm::cross(axis, std::abs(axis.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
   const glm::dvec3 up = glm::cross(right, axis);
   const double least = std::sqrt(1 - radius / distance * radius / distance);
   int seen = 0;
@@ -71,8 +73,7 @@ constexpr double most_errors = 5, standard_error = 0.02;
 
 Errors errors_of(const Scene& scene, const ReceiverImage& receivers, double formula_error,
                  const std::function<double(glm::dvec3)>& expected) {
-  const ReceiverTruth truth =
-      Tracer(scene).receiver_truth(receivers, frame_of(scene), {scene.light, standard_error});
+  const ReceiverTruth truth = Tracer(scene).receiver_truth(receivers, frame_of(scene), {scene.light, standard_error});
   Errors e;
   for (size_t i = 0; i < receivers.primitive.size(); ++i) {
     if (!truth.facing[i]) continue;
@@ -104,7 +105,8 @@ TEST(LightSize, ASpotsDiscBehindAnEdgeIsASegment) {
   const Scene scene = half_plane(LightKind::spot, LightShape::disc, radius);
   const ReceiverImage receivers = on_floor(scene, 0.6, 3000, 1);
   const Errors e = errors_of(scene, receivers, 0, [&](glm::dvec3 p) {
-    const double line = p.x + (0 - p.x) * light_m / edge_m;  // where a ray from P over the edge reaches the disc's height
+    const double line =
+        p.x + (0 - p.x) * light_m / edge_m;  // where a ray from P over the edge reaches the disc's height
     return disc_beyond(line / radius);
   });
   expect_sound(e, 0);
@@ -134,7 +136,8 @@ TEST(LightSize, ASphereBehindAnEdgeIsItsSolidAngle) {
       const Errors e = errors_of(scene, receivers, lattice_error, [&](glm::dvec3 p) {
         return sphere_seen(glm::dvec3(0, light_m, 0) - p, radius, [&](glm::dvec3 d) {
           const double to_light = glm::dot(d, glm::dvec3(0, light_m, 0) - p);
-          const double beside2 = glm::dot(glm::dvec3(0, light_m, 0) - p, glm::dvec3(0, light_m, 0) - p) - to_light * to_light;
+          const double beside2 =
+              glm::dot(glm::dvec3(0, light_m, 0) - p, glm::dvec3(0, light_m, 0) - p) - to_light * to_light;
           const double reach = to_light - std::sqrt(std::max(0.0, radius * radius - beside2));
           const double at_edge = edge_m / d.y;  // where the ray is as high as the half-plane
           return at_edge > reach || p.x + at_edge * d.x > 0;
@@ -210,7 +213,8 @@ TiltedPlane tilted(LightKind kind, double tilt_deg, double turn_deg, int resolut
   TiltedPlane plane;
   const double tilt = tilt_deg * std::numbers::pi / 180, turn = turn_deg * std::numbers::pi / 180;
   plane.normal = {std::sin(tilt) * std::cos(turn), std::cos(tilt), std::sin(tilt) * std::sin(turn)};
-  const glm::dvec3 u = glm::normalize(glm::cross(plane.normal, glm::dvec3(0.3, 0.2, 1))), v = glm::cross(plane.normal, u);
+  const glm::dvec3 u = glm::normalize(glm::cross(plane.normal, glm::dvec3(0.3, 0.2, 1))),
+                   v = glm::cross(plane.normal, u);
   add_quad(plane.scene, "plane", -3.0 * u - 3.0 * v, 6.0 * u, 6.0 * v);
   plane.scene.light = {.kind = kind, .position_m = {0.5, 5, 0.25}, .target_m = {0, 0, 0}};
   plane.scene.light.cone_deg = 40;
