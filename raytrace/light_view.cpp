@@ -53,13 +53,9 @@ glm::dvec3 LightView::normal_place(glm::dvec3 place) const {
 }
 
 double LightView::width(uint32_t triangle) const {
-  const double area = std::abs(orientation(triangle));
-  double longest = 0;
-  for (int e = 0; e < 3; ++e) {
-    const glm::dvec3 a = corner(triangle, e), b = corner(triangle, (e + 1) % 3);
-    longest = std::max(longest, parallel_ ? glm::length(glm::dvec2(b - a)) : glm::length(glm::cross(a, b - a)));
-  }
-  return area / longest;
+  const glm::dvec3 a = corner(triangle, 0), b = corner(triangle, 1), c = corner(triangle, 2);
+  const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+  return glm::length(glm::cross(b - a, c - a)) / longest;
 }
 
 glm::dvec3 LightView::at_depth(glm::dvec3 x, double depth) const {

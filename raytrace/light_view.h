@@ -56,7 +56,7 @@ class LightView {
     return parallel_ ? plane.slope : glm::length(glm::cross(plane.normal, x)) / std::abs(glm::dot(plane.normal, x));
   }
 
-  // How wide the triangle is at its narrowest as the light sees it, in metres.
+  // How wide the triangle is at its narrowest, in metres.
   double width(uint32_t triangle) const;
 
   // Depth of the triangle's plane at x, also beyond the triangle; infinity where the ray never comes to it.
@@ -94,9 +94,9 @@ class LightView {
   const LightFrame& frame() const { return frame_; }
   bool parallel() const { return parallel_; }
 
- private:
   glm::dvec3 at_depth(glm::dvec3 x, double depth) const;  // in the light's frame
 
+ private:
   const Scene* scene_;
   LightFrame frame_;
   bool parallel_;

@@ -168,10 +168,13 @@ OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uin
   return v;
 }
 
-// A plane that is carried on from a small triangle has its rounding grow with the way.
+// A plane that is carried on from a small triangle has its rounding grow with the way that it is carried, in the plane.
 double OwnSurface::rounding_of_sheet(const SurfacePoint& p, glm::dvec3 x, const Sheet& sheet, uint32_t hit) const {
   if (sheet.triangle != no_primitive) return rounding_share * depth_error(hit, sheet.triangle, x);
-  const double growth = length_m(p, x) / view_.width(p.primitive);
+  const double carried = view_.plane_depth(p.primitive, x);
+  if (!(carried <= sheet.depth_m)) return rounding_share * depth_error(hit, hit, x);  // the walk's end is nearer
+  const glm::dvec3 way = view_.at_depth(x, carried) - view_.at_depth(p.at, view_.plane_depth(p.primitive, p.at));
+  const double growth = glm::length(way) / view_.width(p.primitive);
   return rounding_share * depth_error(hit, p.primitive, x) * (1 + (std::isfinite(growth) ? growth : 0));
 }
 
