@@ -47,11 +47,9 @@ double edge_displacement_pixels(const Ladder& ladder) {
   return largest;
 }
 
-// A bias in window depth, in metres of what the map measures before `depth_m`. A spot light's depth is no linear
-// function of metres: with s its slope at z, the depth less by b lies at z / (1 + b / (s z)).
+// A bias in window depth, in metres of what the map measures before `depth_m`.
 double bias_m(const LightFrame& frame, double bias, double depth_m) {
-  const double first_order = bias / frame.window_depth_slope(depth_m);
-  return frame.kind == LightKind::spot ? first_order / (1 + first_order / depth_m) : first_order;
+  return depth_m - frame.depth_of_window(frame.window_depth(depth_m) - bias);
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ class LightSampler {
     if (frame_.parallel()) {
       const double r = radius_ * std::sqrt(u.x);
       return {glm::vec3(frame_.direction_to_light() + r * (std::cos(phi) * frame_.right + std::sin(phi) * frame_.up)),
-              std::numeric_limits<float>::infinity()};
+              std::numeric_limits<float>::infinity(),
+              {}};
     }
     const glm::dvec3 centre = frame_.origin_m - p;
     const double distance = glm::length(centre);
@@ -45,7 +46,7 @@ class LightSampler {
     const glm::dvec3 around = std::cos(phi) * right + std::sin(phi) * up;
     if (light_.shape == LightShape::disc) {
       const glm::dvec3 way = centre + light_.radius_m * std::sqrt(u.x) * around;
-      return {glm::vec3(glm::normalize(way)), static_cast<float>(glm::length(way))};
+      return {glm::vec3(glm::normalize(way)), static_cast<float>(glm::length(way)), p + way};
     }
     // The sphere's cone, evenly in solid angle: even in the cosine. 1 - cos without cancellation, for small lights.
     const double sine = light_.radius_m / distance;
@@ -53,7 +54,8 @@ class LightSampler {
     const double off = std::sqrt(rest * (2 - rest)), along = distance * (1 - rest);
     const double to_surface =
         along - std::sqrt(std::max(0.0, light_.radius_m * light_.radius_m - distance * off * distance * off));
-    return {glm::vec3((1 - rest) * axis + off * around), static_cast<float>(to_surface)};
+    const glm::dvec3 direction = (1 - rest) * axis + off * around;
+    return {glm::vec3(direction), static_cast<float>(to_surface), p + to_surface * direction};
   }
 
   bool surrounds(glm::dvec3 p) const {

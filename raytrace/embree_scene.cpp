@@ -157,7 +157,7 @@ uint32_t EmbreeScene::occluded(int count, const ShadowRay* starts) const {
     rays.dir_y[i] = start.direction.y;
     rays.dir_z[i] = start.direction.z;
     rays.tnear[i] = 0;
-    rays.tfar[i] = start.reach;
+    rays.tfar[i] = start.reach + near_distance_;  // is_occluder() looks closer
     rays.time[i] = 0;
     rays.mask[i] = ~0u;
     rays.id[i] = static_cast<unsigned>(i);
@@ -178,7 +178,7 @@ double EmbreeScene::occluder_distance(const ShadowRay& start) const {
     RTCRayHit ray = single_ray(start.origin, start.direction, tnear);
     embree::Context context;
     embree::intersect(embree_.get(), context, ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID || ray.ray.tfar > start.reach)
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID || ray.ray.tfar > start.reach + near_distance_)
       return std::numeric_limits<double>::infinity();
     const uint32_t primitive = kept_.empty() ? ray.hit.primID : kept_[ray.hit.primID];
     if (is_occluder(start, primitive, ray.ray.tfar)) return ray.ray.tfar;
@@ -190,19 +190,26 @@ double EmbreeScene::occluder_distance(const ShadowRay& start) const {
 
 bool EmbreeScene::is_occluder(const ShadowRay& ray, uint32_t primitive, float distance) const {
   if (primitive == ray.own) return false;
-  if (distance > near_distance_ && distance > 2 * ray.own_distance) return true;
-  // Near hits in double: where does the ray meet the other triangle's plane, against where it leaves its own?
+  const bool near_start = !(distance > near_distance_ && distance > 2 * ray.own_distance),
+             near_end = !(distance < ray.reach - near_distance_);
+  if (!near_start && !near_end) return true;
+  // Near hits in double: where does the ray meet the other triangle's plane, against where it leaves its own, and where
+  // the light is? A lamp that is fixed exactly to a ceiling is not behind it.
   const glm::uvec3 t = scene_.triangles[primitive];
   const glm::dvec3 a = scene_.positions[t.x], b = scene_.positions[t.y], c = scene_.positions[t.z];
   const glm::dvec3 cross = glm::cross(b - a, c - a);
   const double slope = glm::dot(cross, glm::dvec3(ray.direction));
   if (slope == 0) return false;
-  const double exact = glm::dot(cross, a - glm::dvec3(ray.origin)) / slope;
   // Both distances carry double's rounding, amplified where a plane is edge-on: 2^-48 of the coordinates over the
   // cosine is 16 times that rounding.
-  const double scale = glm::length(glm::dvec3(ray.origin)) + glm::length(a);
-  const double rounding = 0x1p-48 * scale * glm::length(cross) / std::abs(slope);
-  return exact > ray.own_distance + rounding && !(ray.through_own_plane && one_plane(primitive, ray.own));
+  const auto rounding = [&](glm::dvec3 from) {
+    return 0x1p-48 * (glm::length(from) + glm::length(a)) * glm::length(cross) / std::abs(slope);
+  };
+  if (near_end && !(glm::dot(cross, a - ray.end) / slope < -rounding(ray.end))) return false;
+  if (!near_start) return true;
+  const glm::dvec3 origin(ray.origin);
+  const double exact = glm::dot(cross, a - origin) / slope;
+  return exact > ray.own_distance + rounding(origin) && !(ray.through_own_plane && one_plane(primitive, ray.own));
 }
 
 // The corners of one of the two must be as near to the other's plane as rounding leaves what was one plane: half a

@@ -50,6 +50,7 @@ struct ShadowRay {
   glm::vec3 origin{0};
   glm::vec3 direction{0};
   float reach = std::numeric_limits<float>::infinity();  // to the light, in units of the direction's length
+  glm::dvec3 end{0};                                     // finite reach: the place on the light, exactly
   uint32_t own = no_primitive;
   double own_distance = 0;
   bool through_own_plane = false;  // sees through faces that lie in own's plane but for float's rounding of corners
@@ -87,7 +88,7 @@ class EmbreeScene {
   const Scene& scene_;
   std::vector<uint32_t> kept_;
   std::unique_ptr<RTCSceneTy, Release> embree_;
-  float near_distance_ = 0;  // hits nearer than this are decided in double
+  float near_distance_ = 0;  // hits nearer than this to either end are decided in double
 };
 
 }  // namespace noonmark

@@ -31,6 +31,7 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
     const double depths[3] = {frame.depth_m(a), frame.depth_m(b), frame.depth_m(c)};
     plane.low = *std::min_element(depths, depths + 3);
     plane.high = *std::max_element(depths, depths + 3);
+    in_a_face_ |= !parallel_ && edge_on(t);
     if (frame.kind != LightKind::point) continue;
     // No nearer than its plane, nor than a corner less the longest side.
     const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
@@ -69,6 +70,22 @@ LightRay LightView::ray_from(glm::dvec3 x, double depth) const {
   const glm::vec3 origin(frame_.to_world(at_depth(x, depth)));
   if (parallel_) return {origin, frame_.ray_direction};
   return {origin, glm::vec3(glm::normalize(frame_.to_world(x) - frame_.origin_m))};
+}
+
+void LightView::first_hits(const EmbreeScene& embree, int count, const glm::dvec3* x, uint32_t* hits) const {
+  LightRay rays[packet_size];
+  for (int i = 0; i < count; ++i) rays[i] = ray(x[i]);
+  embree.first_hits(count, rays, hits);
+  if (!in_a_face_) return;
+  std::vector<uint32_t> met;
+  for (int i = 0; i < count; ++i) {
+    if (hits[i] == no_primitive || !edge_on(hits[i])) continue;
+    met.clear();
+    embree.all_hits(rays[i], met);
+    hits[i] = no_primitive;
+    for (uint32_t t : met)
+      if (!edge_on(t) && (hits[i] == no_primitive || hit_depth(t, x[i]) < hit_depth(hits[i], x[i]))) hits[i] = t;
+  }
 }
 
 double LightView::near_depth(glm::dvec3 x) const {

@@ -80,6 +80,10 @@ class LightView {
   LightRay ray(glm::dvec3 x) const { return ray_from(x, parallel_ ? start_m_ : 0); }
   LightRay ray_from(glm::dvec3 x, double depth) const;
 
+  // The triangles that the rays through these places meet first, or no_primitive; count: 1 ... 16. A face that the
+  // light itself stands in (a lamp on a ceiling) is edge-on: every ray starts in it, and none meets it.
+  void first_hits(const EmbreeScene& embree, int count, const glm::dvec3* x, uint32_t* hits) const;
+
   // Depth at which the map's near plane cuts the ray through x.
   double near_depth(glm::dvec3 x) const;
 
@@ -104,6 +108,7 @@ class LightView {
     double slope = 0;          // and its length
   };
   std::vector<Plane> planes_;
+  bool in_a_face_ = false;  // the light stands in the plane of a triangle
   double start_m_ = 0;
   double ray_error_m_ = 0;
 };

@@ -74,7 +74,9 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec3 x) const {
 
 uint32_t OwnSurface::first_hit(glm::dvec3 x, uint64_t& rays) const {
   ++rays;
-  return embree_.first_hit(view_.ray(x));
+  uint32_t hit = no_primitive;
+  view_.first_hits(embree_, 1, &x, &hit);
+  return hit;
 }
 
 bool OwnSurface::clipped(uint32_t hit, glm::dvec3 x) const {

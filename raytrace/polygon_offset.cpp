@@ -40,6 +40,7 @@ double least_offset_depth(const EmbreeScene& seen, const LightView& view, const 
   seen.all_hits(view.ray(x), hits);
   double least = 1;
   for (uint32_t triangle : hits) {
+    if (!view.parallel() && view.edge_on(triangle)) continue;
     const double depth = view.hit_depth(triangle, x);
     if (!clamped && (depth < frame.near_m || depth > frame.far_m)) continue;
     least = std::min(least, frame.window_depth(depth) + offset.of(view, triangle));

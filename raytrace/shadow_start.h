@@ -16,6 +16,7 @@ namespace noonmark {
 struct WayToLight {
   glm::vec3 direction{0, 1, 0};  // unit, to float's rounding
   float reach = std::numeric_limits<float>::infinity();
+  glm::dvec3 end{0};  // finite reach: the place
 };
 
 class ShadowStart {
@@ -49,14 +50,16 @@ class ShadowStart {
     const double to_plane = own_distance(moved, own, way.direction);
     const double cosine = std::abs(glm::dot(glm::dvec3(receivers_.normal[pixel]), glm::dvec3(way.direction)));
     const double behind = 0x1p-23 * (glm::length(moved) + std::abs(to_plane)) / std::max(cosine, 0x1p-23);
-    return from(glm::vec3(moved + (to_plane - behind) * glm::dvec3(way.direction)), own, way);
+    const double carried = to_plane - behind;  // towards the light, which is as much nearer
+    return from(glm::vec3(moved + carried * glm::dvec3(way.direction)), own,
+                {way.direction, static_cast<float>(way.reach - carried), way.end});
   }
 
  private:
   WayToLight way_from(glm::dvec3 p) const {
-    if (frame_.parallel()) return {-frame_.ray_direction, std::numeric_limits<float>::infinity()};
+    if (frame_.parallel()) return {-frame_.ray_direction, std::numeric_limits<float>::infinity(), {}};
     const glm::dvec3 way = frame_.origin_m - p;
-    return {glm::vec3(glm::normalize(way)), static_cast<float>(glm::length(way))};
+    return {glm::vec3(glm::normalize(way)), static_cast<float>(glm::length(way)), frame_.origin_m};
   }
 
   // Two unit vectors across a unit vector.
@@ -70,7 +73,7 @@ class ShadowStart {
   }
 
   ShadowRay from(glm::vec3 origin, uint32_t own, const WayToLight& way) const {
-    return {origin, way.direction, way.reach, own, own_distance(origin, own, way.direction)};
+    return {origin, way.direction, way.reach, way.end, own, own_distance(origin, own, way.direction)};
   }
 
   double own_distance(glm::dvec3 origin, uint32_t own, glm::dvec3 direction) const {

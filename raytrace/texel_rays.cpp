@@ -26,10 +26,10 @@ glm::ivec2 texel_of(uint64_t key) {
 
 void trace(const EmbreeScene& embree, const LightView& view, size_t count, const auto& texel_at, const auto& store) {
   for_each_packet(count, [&](size_t first, int n) {
-    LightRay rays[packet_size];
+    glm::dvec3 places[packet_size];
     uint32_t hits[packet_size];
-    for (int i = 0; i < n; ++i) rays[i] = view.ray(view.texel_place(texel_at(first + i)));
-    embree.first_hits(n, rays, hits);
+    for (int i = 0; i < n; ++i) places[i] = view.texel_place(texel_at(first + i));
+    view.first_hits(embree, n, places, hits);
     for (int i = 0; i < n; ++i) store(first + i, hits[i]);
   });
 }

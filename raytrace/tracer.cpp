@@ -152,10 +152,10 @@ Image<float> Tracer::Impl::exact_map(const LightView& view, const TexelRays& tex
   for_each_packet(list.size(), [&](size_t first, int n) {
     uint64_t extra_here = 0;
     uint32_t hits[packet_size];
-    LightRay starts[packet_size];
+    glm::dvec3 places[packet_size];
     if (uncut) {
-      for (int i = 0; i < n; ++i) starts[i] = view.ray(view.texel_place(list[first + i]));
-      seen.first_hits(n, starts, hits);
+      for (int i = 0; i < n; ++i) places[i] = view.texel_place(list[first + i]);
+      view.first_hits(seen, n, places, hits);
       extra_here += static_cast<uint64_t>(n);
     } else {
       for (int i = 0; i < n; ++i) hits[i] = texels.hit(list[first + i]);
@@ -226,14 +226,10 @@ LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverT
       for (int k = 0; k < active; ++k) offsets[k] = probe.offset(first + static_cast<size_t>(lanes[k]), tap);
       OwnSurface::Verdict exact[packet_size], moved[packet_size];  // F and D
       const auto at_offset = [&](const glm::dvec3* from, OwnSurface::Verdict* verdicts) {
-        LightRay starts[packet_size];
         glm::dvec3 x[packet_size];
         uint32_t hits[packet_size];
-        for (int k = 0; k < active; ++k) {
-          x[k] = view.normal_place(frame.tap_place(from[k], offsets[k]));
-          starts[k] = view.ray(x[k]);
-        }
-        impl_->embree.first_hits(active, starts, hits);
+        for (int k = 0; k < active; ++k) x[k] = view.normal_place(frame.tap_place(from[k], offsets[k]));
+        view.first_hits(impl_->embree, active, x, hits);
         rays += static_cast<uint64_t>(active);
         for (int k = 0; k < active; ++k) verdicts[k] = surface.lit_at(points[k], x[k], hits[k], rays);
       };

@@ -177,10 +177,10 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
         }
         EXPECT_EQ(counts.wrong_receivers(x), wrong_receivers) << x;
         // Ninths are not exact in float; their sum over the picture is within half a tap of a whole number.
-        EXPECT_EQ(counts.wrong_taps(x), static_cast<uint64_t>(std::llround(wrong_taps))) << x;
+        EXPECT_EQ(counts.wrong_taps(x), static_cast<double>(std::llround(wrong_taps))) << x;
         for (Cause cause : {Cause::acne, Cause::peter_panning, Cause::aliasing_dark, Cause::aliasing_light,
                             Cause::coverage_dark, Cause::coverage_light})
-          EXPECT_EQ(counts.caused(cause, x), static_cast<uint64_t>(std::llround(booked[static_cast<size_t>(cause)])))
+          EXPECT_EQ(counts.caused(cause, x), static_cast<double>(std::llround(booked[static_cast<size_t>(cause)])))
               << cause_name(cause) << " at " << x;
         different_counts += wrong_receivers != counts.wrong_receivers(0);
       }

@@ -18,20 +18,27 @@ constexpr Cause booked[] = {Cause::aliasing_dark, Cause::aliasing_light, Cause::
                             Cause::peter_panning, Cause::coverage_dark,  Cause::coverage_light};
 
 struct Counts {
-  uint64_t receivers = 0, wrong_taps = 0, wrong_receivers = 0;
-  std::array<uint64_t, cause_count> caused{};
+  uint64_t receivers = 0, wrong_receivers = 0;
+  double wrong_taps = 0;  // taps, or weights that are binary fractions: sums are exact
+  std::array<double, cause_count> caused{};
   bool operator==(const Counts&) const = default;
 };
 
 std::ostream& operator<<(std::ostream& out, const Counts& c) {
   out << c.receivers << " receivers, " << c.wrong_taps << " wrong taps, " << c.wrong_receivers << " wrong receivers;";
-  for (uint64_t n : c.caused) out << ' ' << n;
+  for (double n : c.caused) out << ' ' << n;
   return out;
 }
 
 // What a tap's bias is at the swept parameter's value x.
 float swept_bias(const Synthetic& s, CurveParameter parameter, size_t receiver, float x) {
-  return parameter == CurveParameter::constant ? x : naive::slope_bias(x, s.probe.n_dot_l[receiver], s.bias.floor);
+  float units = x;
+  if (parameter == CurveParameter::slope) units = naive::turned(x, 1.0f - s.probe.n_dot_l[receiver], s.bias.floor);
+  if (parameter == CurveParameter::tan_scale) {
+    units = naive::turned(x, s.probe.tan_theta[receiver], s.bias.floor);
+    if (units > s.bias.cap) units = s.bias.cap;
+  }
+  return units * s.probe.bias_unit[receiver];
 }
 
 Counts counted_at(const Synthetic& s, CurveParameter parameter, float x) {
@@ -41,11 +48,11 @@ Counts counted_at(const Synthetic& s, CurveParameter parameter, float x) {
     ++c.receivers;
     const float bias = swept_bias(s, parameter, i, x);
     for (const naive::Tap& tap : naive::taps_of(s, s.exact, i))
-      ++c.caused[static_cast<size_t>(naive::cause_of(tap, naive::verdict(s, tap, i, bias)))];
-    int wrong = 0;
+      c.caused[static_cast<size_t>(naive::cause_of(tap, naive::verdict(s, tap, bias)))] += tap.weight;
+    double wrong = 0;
     for (const naive::Tap& tap : naive::taps_of(s, s.stored, i))
-      wrong += naive::verdict(s, tap, i, bias) != (s.truth.lit[i] != 0);
-    c.wrong_taps += static_cast<uint64_t>(wrong);
+      wrong += (naive::verdict(s, tap, bias) != (s.truth.lit[i] != 0)) * tap.weight;
+    c.wrong_taps += wrong;
     c.wrong_receivers += wrong > 0;
   }
   c.caused[0] = 0;  // none: not asked
@@ -53,7 +60,7 @@ Counts counted_at(const Synthetic& s, CurveParameter parameter, float x) {
 }
 
 Counts read_off(const BiasCounts& counts, float x) {
-  Counts c{counts.receivers(), counts.wrong_taps(x), counts.wrong_receivers(x), {}};
+  Counts c{counts.receivers(), counts.wrong_receivers(x), counts.wrong_taps(x), {}};
   for (Cause cause : booked) c.caused[static_cast<size_t>(cause)] = counts.caused(cause, x);
   return c;
 }
@@ -65,7 +72,8 @@ std::set<float> breakpoints(const Synthetic& s, CurveParameter parameter, bool e
     for (size_t i = 0; i < s.truth.facing.size(); ++i) {
       if (!s.truth.facing[i] || naive::ambiguous(s, i)) continue;
       for (const naive::Tap& tap : naive::taps_of(s, map, i)) {
-        const auto lit = [&](float x) { return naive::verdict(s, tap, i, swept_bias(s, parameter, i, x)); };
+        if (tap.weight == 0) continue;
+        const auto lit = [&](float x) { return naive::verdict(s, tap, swept_bias(s, parameter, i, x)); };
         uint32_t dark = 0, at = std::bit_cast<uint32_t>(infinity);
         if (lit(0)) continue;
         while (at - dark > 1) {
@@ -84,21 +92,26 @@ std::set<float> breakpoints(const Synthetic& s, CurveParameter parameter, bool e
 
 // The settings' form goes with the curve's parameter, as the program has it.
 Synthetic evidence_for(CurveParameter parameter, uint64_t seed, const Shape& shape) {
-  Synthetic s = random_evidence(seed, shape);
-  std::mt19937_64 random(seed);
-  s.bias = {.form = BiasForm::constant, .constant = 0.01f};
-  if (parameter == CurveParameter::slope)
-    s.bias = {
-        .form = BiasForm::slope, .slope = 0.05f, .floor = seed % 2 ? 0.0f : static_cast<float>(random() % 5) / 16};
-  return s;
+  Synthetic s;
+  for (uint64_t other = seed;; other += 1000) {  // until the form is one that moves and draws nothing
+    s = random_evidence(other, shape);
+    if (curve_parameter(s.bias.form) == parameter) return s;
+  }
 }
 
-class Curves : public testing::TestWithParam<std::tuple<CurveParameter, int, bool>> {
+struct Case {
+  CurveParameter parameter;
+  Lookup lookup;
+  int kernel;
+  bool lattice;
+};
+
+class Curves : public testing::TestWithParam<Case> {
  protected:
-  const CurveParameter parameter = std::get<0>(GetParam());
-  const int kernel = std::get<1>(GetParam());
-  const bool lattice = std::get<2>(GetParam());
-  const Shape shape{lattice ? 12 : 5, lattice ? 9 : 4, 6, kernel, lattice};
+  const CurveParameter parameter = GetParam().parameter;
+  const int kernel = GetParam().kernel;
+  const bool lattice = GetParam().lattice;
+  const Shape shape{lattice ? 12 : 5, lattice ? 9 : 4, 6, kernel, lattice, GetParam().lookup};
 };
 
 TEST_P(Curves, CountWhatRenderingWouldAtEveryBreakpointAndBetween) {
@@ -118,7 +131,8 @@ TEST_P(Curves, CountWhatRenderingWouldAtEveryBreakpointAndBetween) {
                    std::uniform_real_distribution<float>(0, 2)(random));
     for (float x : tried)
       ASSERT_EQ(read_off(counts, x), counted_at(s, parameter, x)) << "seed " << seed << " at " << std::hexfloat << x;
-    EXPECT_EQ(counts.taps(), counts.receivers() * static_cast<uint64_t>(kernel * kernel));
+    EXPECT_EQ(counts.taps(),
+              static_cast<double>(counts.receivers()) * (shape.lookup == Lookup::linear ? 1 : kernel * kernel));
   }
 }
 
@@ -129,8 +143,8 @@ TEST_P(Curves, NameTheExactEndsOfTheWindow) {
     const auto caused = [&](Cause cause, float x) {
       return counted_at(s, parameter, x).caused[static_cast<size_t>(cause)];
     };
-    for (uint64_t allowed : {0, 1, 2, 3, 5, 10, 40, 1000000}) {
-      const float from = counts.acne_free_from(allowed);
+    for (double allowed : {0, 1, 2, 3, 5, 10, 40, 1000000}) {
+      const float from = counts.acne_free_from(allowed / counts.taps());
       if (from < infinity) {
         EXPECT_LE(caused(Cause::acne, from), allowed);
       }
@@ -140,7 +154,7 @@ TEST_P(Curves, NameTheExactEndsOfTheWindow) {
       if (from > 0) {
         EXPECT_GT(caused(Cause::acne, std::nextafter(from, 0.0f)), allowed) << allowed << " from " << from;
       }
-      const float to = counts.peter_panning_free_to(allowed);
+      const float to = counts.peter_panning_free_to(allowed / counts.taps());
       if (to < 0) {  // not even without a bias
         EXPECT_GT(caused(Cause::peter_panning, 0), allowed);
       } else if (to < infinity) {
@@ -159,8 +173,8 @@ uint64_t stored_acne(const Synthetic& s, CurveParameter parameter, float x) {
   for (size_t i = 0; i < s.truth.facing.size(); ++i) {
     if (!s.truth.facing[i] || naive::ambiguous(s, i)) continue;
     for (const naive::Tap& tap : naive::taps_of(s, s.stored, i))
-      count +=
-          tap.covered && tap.moved_lit && tap.texel_lit && !naive::verdict(s, tap, i, swept_bias(s, parameter, i, x));
+      count += tap.weight > 0 &&  // a tap of none is not read
+               tap.covered && tap.moved_lit && tap.texel_lit && !naive::verdict(s, tap, swept_bias(s, parameter, i, x));
   }
   return count;
 }
@@ -179,7 +193,7 @@ TEST_P(Curves, NameTheExactEndOfTheStoredMapsAcne) {
       EXPECT_GT(stored_acne(s, parameter, std::nextafter(from, 0.0f)), 0) << seed << " from " << from;
     }
     // The record has both ends whatever its bounds are, and none where no bias is enough.
-    const BiasCurve curve = summarise(counts, parameter, LightFrame{}, {1, 1, {}});
+    const BiasCurve curve = summarise(counts, {}, {1, 1, {}});
     const auto expected = [](float x) { return x < infinity ? std::optional<double>(x) : std::nullopt; };
     EXPECT_EQ(curve.acne_free_bias_depth, expected(counts.acne_free_from(0)));
     EXPECT_EQ(curve.acne_free_bias_stored_depth, expected(from));
@@ -193,7 +207,7 @@ TEST_P(Curves, FindTheBestBiasByTryingAll) {
     std::vector<float> starts = {0};
     for (float x : breakpoints(s, parameter, false, true))
       if (x <= 1) starts.push_back(x);
-    std::vector<uint64_t> wrong;
+    std::vector<double> wrong;
     for (float x : starts) wrong.push_back(counted_at(s, parameter, x).wrong_taps);
     const size_t at = static_cast<size_t>(std::min_element(wrong.begin(), wrong.end()) - wrong.begin());
     const auto end_of = [&](size_t i) { return i + 1 < starts.size() ? std::nextafter(starts[i + 1], 0.0f) : 1.0f; };
@@ -209,19 +223,55 @@ TEST_P(Curves, FindTheBestBiasByTryingAll) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Curves,
-                         testing::Combine(testing::Values(CurveParameter::constant, CurveParameter::slope),
-                                          testing::Values(1, 3, 5), testing::Bool()),
-                         [](const auto& named) {
-                           return std::string(std::get<0>(named.param) == CurveParameter::constant ? "Constant"
-                                                                                                   : "Slope") +
-                                  std::to_string(std::get<1>(named.param)) +
-                                  (std::get<2>(named.param) ? "Lattice" : "");
-                         });
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (CurveParameter parameter : {CurveParameter::constant, CurveParameter::slope, CurveParameter::tan_scale})
+    for (bool lattice : {true, false}) {
+      for (int kernel : {1, 3, 5}) all.push_back({parameter, Lookup::box, kernel, lattice});
+      for (int kernel : {1, 3}) all.push_back({parameter, Lookup::linear, kernel, lattice});
+      all.push_back({parameter, Lookup::cube, 3, lattice});
+    }
+  return all;
+}
+
+std::string case_name(const testing::TestParamInfo<Case>& named) {
+  constexpr const char* parameters[] = {"Constant", "Slope", "Tan"};
+  constexpr const char* lookups[] = {"Box", "Linear", "Cube"};
+  const Case& c = named.param;
+  return parameters[static_cast<int>(c.parameter)] + std::string(lookups[static_cast<int>(c.lookup)]) +
+         std::to_string(c.kernel) + (c.lattice ? "Lattice" : "");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Curves, testing::ValuesIn(cases()), case_name);
+
+// Every form that has a curve, with units that differ from receiver to receiver, at 100 biases of any size.
+RC_GTEST_PROP(BiasCounts, AreDirectEvaluationBitForBit, ()) {
+  const auto parameter = *rc::gen::element(CurveParameter::constant, CurveParameter::slope, CurveParameter::tan_scale);
+  const auto lookup = *rc::gen::element(Lookup::box, Lookup::linear, Lookup::cube);
+  const Synthetic s = evidence_for(parameter, *rc::gen::arbitrary<uint64_t>(),
+                                   {7, 5, 6, *rc::gen::element(1, 3), *rc::gen::arbitrary<bool>(), lookup});
+  const BiasCounts counts(s.evidence(), s.stored, parameter);
+  for (int i = 0; i < 100; ++i) {
+    const float x = std::bit_cast<float>(*rc::gen::inRange<uint32_t>(0, std::bit_cast<uint32_t>(64.0f)));
+    RC_ASSERT(read_off(counts, x) == counted_at(s, parameter, x));
+  }
+}
+
+TEST(CurveParameterOf, IsWhatTheFormTurnsIntoABias) {
+  EXPECT_EQ(curve_parameter(BiasForm::none), CurveParameter::constant);
+  EXPECT_EQ(curve_parameter(BiasForm::constant), CurveParameter::constant);
+  EXPECT_EQ(curve_parameter(BiasForm::slope), CurveParameter::slope);
+  EXPECT_EQ(curve_parameter(BiasForm::tan), CurveParameter::tan_scale);
+  EXPECT_EQ(curve_parameter(BiasForm::receiver_plane), CurveParameter::constant);
+  EXPECT_EQ(curve_parameter(BiasForm::tangent_plane), CurveParameter::constant);
+  EXPECT_EQ(curve_parameter(BiasForm::normal_offset), std::nullopt);
+  EXPECT_EQ(curve_parameter(BiasForm::polygon_offset), std::nullopt);
+}
 
 TEST(BiasCounts, AreTheSameOverManyBlocks) {
-  for (CurveParameter parameter : {CurveParameter::constant, CurveParameter::slope}) {
-    const Synthetic s = evidence_for(parameter, 5, {220, 170, 64, 1, false});  // several of the loop's blocks of 8192
+  for (CurveParameter parameter : {CurveParameter::constant, CurveParameter::slope, CurveParameter::tan_scale}) {
+    const Synthetic s =
+        evidence_for(parameter, 5, {220, 170, 64, 1, false, Lookup::linear});  // several of the loop's blocks of 8192
     const BiasCounts counts(s.evidence(), s.stored, parameter);
     for (int i = 0; i <= 40; ++i)
       ASSERT_EQ(read_off(counts, static_cast<float>(i) / 32), counted_at(s, parameter, static_cast<float>(i) / 32));
@@ -229,21 +279,24 @@ TEST(BiasCounts, AreTheSameOverManyBlocks) {
 }
 
 TEST(BiasCounts, AreWhatTheLadderBooksAtThatBias) {
-  for (uint64_t seed = 60; seed < 80; ++seed) {
-    Synthetic s = random_evidence(seed, {12, 9, 6, static_cast<int>(seed % 3) * 2 + 1, true});
-    if (s.bias.form == BiasForm::none || s.bias.form == BiasForm::normal_offset) continue;
-    const bool slope = s.bias.form == BiasForm::slope;
+  for (uint64_t seed = 60; seed < 120; ++seed) {
+    Synthetic s =
+        random_evidence(seed, {12, 9, 6, static_cast<int>(seed % 3) * 2 + 1, true, static_cast<Lookup>(seed / 3 % 3)});
+    const std::optional<CurveParameter> parameter = curve_parameter(s.bias.form);
+    if (s.bias.form == BiasForm::none || !parameter) continue;
     set_verdicts(s);
     const Ladder ladder = climb(s.evidence());
-    const BiasCounts counts(s.evidence(), s.stored, slope ? CurveParameter::slope : CurveParameter::constant);
-    const float x = slope ? s.bias.slope : s.bias.constant;
+    const BiasCounts counts(s.evidence(), s.stored, *parameter);
+    const float x = *parameter == CurveParameter::slope       ? s.bias.slope
+                    : *parameter == CurveParameter::tan_scale ? s.bias.tan_scale
+                                                              : s.bias.constant;
+    const double whole = s.lookup == Lookup::linear ? 1 : s.taps.taps_per_receiver;
     for (Cause cause : booked) {
       double sum = 0;
       for (size_t i = 0; i < s.r4.size(); ++i)
         if (s.truth.facing[i] && !naive::ambiguous(s, i))
           sum += std::abs(static_cast<double>(ladder.step[static_cast<size_t>(cause)][i]));
-      EXPECT_NEAR(sum * s.taps.taps_per_receiver, static_cast<double>(counts.caused(cause, x)), 1e-3)
-          << cause_name(cause);
+      EXPECT_NEAR(sum * whole, counts.caused(cause, x), 1e-3) << cause_name(cause);
     }
   }
 }
@@ -256,8 +309,10 @@ Synthetic row_of(int count) {
   s.truth.facing = s.truth.lit = Image<uint8_t>(count, 1, 1);
   s.truth.ambiguous = Image<uint8_t>(count, 1, 0);
   s.truth.soft = s.probe.reference = s.probe.n_dot_l = Image<float>(count, 1, 0.5f);
-  s.probe.texel = Image<glm::ivec2>(count, 1);
-  for (int i = 0; i < count; ++i) s.probe.texel[static_cast<size_t>(i)] = {i, 0};
+  s.probe.bias_unit = Image<float>(count, 1, 1);
+  s.probe.pattern.offsets = {glm::vec3(0)};
+  s.probe.map_texels = Image<glm::vec2>(count, 1);
+  for (int i = 0; i < count; ++i) s.probe.map_texels[static_cast<size_t>(i)] = {static_cast<float>(i) + 0.5f, 0.5f};
   s.taps.taps.assign(static_cast<size_t>(count), tap_exact_lit | tap_texel_lit);
   s.bias.form = BiasForm::constant;
   s.stored = s.exact;
@@ -281,6 +336,7 @@ LightFrame test_frame() {
   frame.far_m = 7.5;
   return frame;
 }
+BiasScale test_scale(BiasUnit unit = BiasUnit::depth) { return bias_scale(test_frame(), {}, {}, unit); }
 
 TEST(Summarise, GivesSharesUnitsAndTheWindow) {
   Synthetic s = row_of(10);
@@ -289,7 +345,7 @@ TEST(Summarise, GivesSharesUnitsAndTheWindow) {
   make_shadow(s, 2, 0x1p-3f);
   make_shadow(s, 3, 0x1p-2f);
   const BiasCounts counts(s.evidence(), s.stored, CurveParameter::constant);
-  BiasCurve c = summarise(counts, CurveParameter::constant, test_frame(), {0, 0, {0, 0x1p-6, 0x1p-4, 0x1p-3, 1}});
+  BiasCurve c = summarise(counts, test_scale(), {0, 0, {0, 0x1p-6, 0x1p-4, 0x1p-3, 1}});
   EXPECT_EQ(c.parameter, "bias.constant");
   EXPECT_EQ(c.made, "one pass");
   EXPECT_EQ(c.bias_depth, (std::vector<double>{0, 0x1p-6, 0x1p-4, 0x1p-3, 1}));
@@ -305,7 +361,7 @@ TEST(Summarise, GivesSharesUnitsAndTheWindow) {
   // reference - bias > stored lights a tie, so acne ends at the bias and Peter Panning starts at it; the float
   // subtraction rounds to even, so both a little earlier than the difference itself.
   const auto window = [&](double acne, double panning) {
-    c = summarise(counts, CurveParameter::constant, test_frame(), {acne, panning, {}});
+    c = summarise(counts, test_scale(), {acne, panning, {}});
     return std::pair(c.window_min_depth.value_or(-1), c.window_max_depth.value_or(-1));
   };
   constexpr double rounding = 0x1p-24;  // half a float's last place at the depths, 1/2
@@ -332,8 +388,7 @@ TEST(Summarise, HasNoWindowWhereTheCausesOverlap) {
   Synthetic s = row_of(4);
   make_acne(s, 0, 0x1p-3f);
   make_shadow(s, 1, 0x1p-4f);
-  const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored, CurveParameter::constant), CurveParameter::constant,
-                                test_frame(), {0, 0, {}});
+  const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored, CurveParameter::constant), test_scale(), {0, 0, {}});
   EXPECT_FALSE(c.window_min_depth);
   EXPECT_FALSE(c.window_max_depth);
   EXPECT_EQ(c.best_error, 0.25);
@@ -346,8 +401,8 @@ TEST(Summarise, HasNoWindowWhereNoSlopeReaches) {
   s.bias.form = BiasForm::slope;
   const BiasCounts counts(s.evidence(), s.stored, CurveParameter::slope);
   EXPECT_EQ(counts.acne_free_from(0), infinity);
-  EXPECT_FALSE(summarise(counts, CurveParameter::slope, test_frame(), {0, 0, {}}).window_min_depth);
-  EXPECT_TRUE(summarise(counts, CurveParameter::slope, test_frame(), {0.25, 0, {}}).window_min_depth);
+  EXPECT_FALSE(summarise(counts, test_scale(), {0, 0, {}}).window_min_depth);
+  EXPECT_TRUE(summarise(counts, test_scale(), {0.25, 0, {}}).window_min_depth);
   make_shadow(s, 0, 0x1p-3f);
   EXPECT_EQ(BiasCounts(s.evidence(), s.stored, CurveParameter::slope).peter_panning_free_to(0), infinity);
 }
@@ -360,13 +415,9 @@ TEST(Summarise, AllowsWhatTheMetricCallsWithinTheBound) {
       for (int i = 0; i < n; ++i) make_acne(s, static_cast<size_t>(i), 0x1p-4f);
       const double share = static_cast<double>(n) / of;
       const BiasCounts counts(s.evidence(), s.stored, CurveParameter::constant);
-      EXPECT_EQ(summarise(counts, CurveParameter::constant, test_frame(), {share, 0, {}}).window_min_depth, 0)
-          << n << " of " << of;
+      EXPECT_EQ(summarise(counts, test_scale(), {share, 0, {}}).window_min_depth, 0) << n << " of " << of;
       if (n > 0) {
-        EXPECT_GT(summarise(counts, CurveParameter::constant, test_frame(), {std::nextafter(share, 0), 0, {}})
-                      .window_min_depth,
-                  0)
-            << n;
+        EXPECT_GT(summarise(counts, test_scale(), {std::nextafter(share, 0), 0, {}}).window_min_depth, 0) << n;
       }
     }
   }
@@ -383,7 +434,7 @@ TEST(Summarise, SaysNaNWhereThereAreNoReceivers) {
     EXPECT_EQ(counts.receivers(), 0);
     EXPECT_EQ(counts.wrong_taps(0.5f), 0);
     EXPECT_EQ(counts.best().wrong_taps, 0);
-    const BiasCurve c = summarise(counts, CurveParameter::constant, test_frame(), {0.001, 0.001, {0, 0.5}});
+    const BiasCurve c = summarise(counts, test_scale(), {0.001, 0.001, {0, 0.5}});
     for (const auto& series :
          {c.error, c.wrong, c.acne, c.peter_panning, c.aliasing_dark, c.aliasing_light, c.coverage}) {
       ASSERT_EQ(series.size(), 2);
@@ -392,6 +443,68 @@ TEST(Summarise, SaysNaNWhereThereAreNoReceivers) {
     EXPECT_TRUE(std::isnan(c.best_error));
     EXPECT_FALSE(c.window_min_depth || c.window_max_depth);
   }
+}
+
+// A parameter in another unit: the axis stays depth, and says of every bias what setting the parameter to it gives.
+TEST(Summarise, TurnsTheParametersUnitIntoDepth) {
+  Synthetic s = row_of(4);
+  make_acne(s, 0, 0x1p-5f);
+  make_shadow(s, 1, 0x1p-3f);
+  const auto curve = [&](BiasUnit unit) {
+    const BiasScale scale = test_scale(unit);
+    for (float& of_receiver : s.probe.bias_unit.pixels) of_receiver = static_cast<float>(scale.depth_per_unit);
+    return summarise(BiasCounts(s.evidence(), s.stored, CurveParameter::constant), scale, {0, 0, {0, 0x1p-4, 0.2}});
+  };
+  const BiasCurve depth = curve(BiasUnit::depth);
+  for (const BiasUnit unit : {BiasUnit::m, BiasUnit::texel}) {
+    const BiasCurve c = curve(unit);
+    constexpr double rounding = 4 * 0x1p-24;  // of the parameter, of the unit, and of their product
+    EXPECT_EQ(c.bias_depth, depth.bias_depth);
+    EXPECT_EQ(c.error, depth.error);
+    EXPECT_EQ(c.acne, (std::vector<double>{0.25, 0, 0}));
+    EXPECT_NEAR(*c.window_min_depth / *depth.window_min_depth, 1, rounding);
+    EXPECT_NEAR(*c.window_max_depth / *depth.window_max_depth, 1, rounding);
+    EXPECT_NEAR(*c.acne_free_bias_depth / *depth.acne_free_bias_depth, 1, rounding);
+    EXPECT_EQ(c.m_per_depth, depth.m_per_depth);
+  }
+  s.probe.bias_unit[0] /= 2;  // a receiver that needs the double of the parameter
+  const BiasCurve apart =
+      summarise(BiasCounts(s.evidence(), s.stored, CurveParameter::constant), test_scale(BiasUnit::texel), {0, 0, {}});
+  EXPECT_NEAR(*apart.acne_free_bias_depth / (2 * *depth.acne_free_bias_depth), 1, 0x1p-22);
+}
+
+TEST(Summarise, SaysWhenASamplerWeighsTheTaps) {
+  const Synthetic s = evidence_for(CurveParameter::tan_scale, 3, {12, 9, 6, 1, true, Lookup::linear});
+  const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored, CurveParameter::tan_scale), {}, {});
+  EXPECT_EQ(c.parameter, "bias.tan_scale");
+  EXPECT_EQ(c.made, "one pass, but for the sampler's weights");
+}
+
+// Under a spot light a metre at z is (far - near) z^2 / (far near) of them deep; under a point light 1 / far.
+TEST(BiasScaleOf, IsThatOfTheMedianFacingReceiver) {
+  LightFrame frame;
+  frame.kind = LightKind::spot;
+  frame.near_m = 0.5;
+  frame.far_m = 8;
+  frame.tan_half_fov = 0.25;
+  frame.resolution = 100;
+  ReceiverImage receivers{Image<glm::vec3>(4, 1), {}, {}};
+  ReceiverTruth truth;
+  truth.facing = Image<uint8_t>(4, 1, 1);
+  truth.facing[3] = 0;
+  for (int i = 0; i < 4; ++i) receivers.position[static_cast<size_t>(i)] = {0.1f, 0, -1.0f - static_cast<float>(i)};
+  const BiasScale spot = bias_scale(frame, receivers, truth, BiasUnit::texel);
+  EXPECT_DOUBLE_EQ(spot.m_per_depth, 7.5 * 4 / 4);
+  EXPECT_DOUBLE_EQ(1 / spot.texels_per_depth, 2 * 2 * 0.25 / 100 / 7.5);
+  EXPECT_DOUBLE_EQ(spot.depth_per_unit, 1 / spot.texels_per_depth);
+  EXPECT_DOUBLE_EQ(bias_scale(frame, receivers, truth, BiasUnit::m).depth_per_unit, 1 / 7.5);
+  EXPECT_EQ(bias_scale(frame, receivers, truth, BiasUnit::depth).depth_per_unit, 1);
+  frame.kind = LightKind::point;
+  frame.tan_half_fov = 1;
+  const BiasScale point = bias_scale(frame, receivers, truth, BiasUnit::m);
+  EXPECT_DOUBLE_EQ(point.m_per_depth, 8);
+  EXPECT_DOUBLE_EQ(point.depth_per_unit, 0.125);
+  EXPECT_DOUBLE_EQ(point.texels_per_depth, 8 / (2 * 2 / 100.0));
 }
 
 TEST(DefaultBiasGrid, AscendsFromNothingToTheWholeMap) {

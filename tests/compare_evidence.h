@@ -2,12 +2,16 @@
 // they are held to. Nothing here calls the code under test.
 #pragma once
 #include <array>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
 #include "compare/ladder.h"
 
 namespace noonmark {
+
+enum class Lookup { box, linear, cube };  // the kinds of patterns that texels are found by
 
 struct Synthetic {
   ReceiverTruth truth;
@@ -17,18 +21,42 @@ struct Synthetic {
   MapSettings map;
   DepthBias bias;
   Image<float> r4, r5;  // as set_verdicts() reads them off the maps
-  int kernel = 1;
+  Lookup lookup = Lookup::box;
+  int kernel = 1;  // box, cube: taps on a side; linear: fetches of 2 x 2 texels on a side
 
+  int side() const { return lookup == Lookup::linear ? kernel + 1 : kernel; }
   LookupEvidence evidence() const { return {truth, probe, taps, exact, map, bias, r4, r5}; }
 };
 
 struct Shape {
   int width = 12, height = 9, resolution = 6, kernel = 1;
   bool lattice = true;  // depths and biases of a few values, so that many are equal
+  Lookup lookup = Lookup::box;
 };
 
+// Weights of a linear pattern's fetches, in binary fractions: with those of 1/64 between texels every sum is exact.
+inline std::vector<double> fetch_weights(int kernel) {
+  if (kernel == 1) return {1};
+  if (kernel == 3) return {0.25, 0.5, 0.25};
+  return {0.125, 0.25, 0.25, 0.25, 0.125};
+}
+
+inline TapPattern pattern_of(const Shape& shape) {
+  TapPattern pattern;
+  const int side = shape.lookup == Lookup::linear ? shape.kernel + 1 : shape.kernel;
+  pattern.taps = side * side;
+  pattern.in_world = shape.lookup == Lookup::cube;
+  if (shape.lookup == Lookup::linear) pattern.kernel = fetch_weights(shape.kernel);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      pattern.offsets.emplace_back(static_cast<float>(2 * x + 1 - side) / 2, static_cast<float>(2 * y + 1 - side) / 2,
+                                   0);
+  return pattern;
+}
+
 // Any evidence that gl and raytrace could hand over, and more: receivers in and outside the map, at and beyond far,
-// ambiguous ones, ones that face away (whose numbers are rubbish), every wrap mode.
+// ambiguous ones, ones that face away (whose numbers are rubbish), every wrap mode, every form of bias that the lookup
+// takes, units that differ from receiver to receiver.
 inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
   std::mt19937_64 random(seed);
   const auto chance = [&](int percent) { return static_cast<int>(random() % 100) < percent; };
@@ -37,27 +65,41 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
   };
   Synthetic s;
   s.kernel = shape.kernel;
-  const int w = shape.width, h = shape.height, n = shape.resolution, taps = shape.kernel * shape.kernel;
-  s.exact = s.stored = Image<float>(n, n);
+  s.lookup = shape.lookup;
+  s.probe.pattern = pattern_of(shape);
+  const int w = shape.width, h = shape.height, n = shape.resolution, taps = s.probe.pattern.taps;
+  const bool cube = shape.lookup == Lookup::cube;
+  s.exact = s.stored = Image<float>(n, cube ? 6 * n : n);
   for (float& d : s.exact.pixels) d = depth();
   for (size_t i = 0; i < s.stored.size(); ++i) s.stored[i] = chance(70) ? s.exact[i] : depth();
   s.map.resolution = n;
+  s.map.format = chance(50) ? DepthFormat::d24 : DepthFormat::d32f;
   s.map.wrap = static_cast<Wrap>(random() % 3);
   s.map.lit_beyond_far = chance(50);
-  s.bias.form = static_cast<BiasForm>(random() % 4);
-  if (s.bias.form == BiasForm::constant) s.bias.constant = depth() / 4;
-  if (s.bias.form == BiasForm::slope) {
-    s.bias.slope = depth();
-    s.bias.floor = chance(50) ? 0 : depth() / 4;
-  }
-  if (s.bias.form == BiasForm::normal_offset) s.bias.normal_offset_m = 0.25f;
+  s.bias.form = static_cast<BiasForm>(random() % (shape.lookup == Lookup::box ? 8 : 6));
+  s.bias.constant = depth() / 4;
+  s.bias.slope = depth();
+  s.bias.floor = chance(50) ? 0 : depth() / 4;
+  s.bias.tan_scale = depth();
+  s.bias.cap = s.bias.floor + depth() / 2;
+  if (s.bias.form == BiasForm::normal_offset) s.bias.normal_offset_texels = 0.25f;
+  if (s.bias.form == BiasForm::receiver_plane) s.probe.tap_reference = TapReference::plane_at_tap;
+  if (s.bias.form == BiasForm::tangent_plane) s.probe.tap_reference = TapReference::plane_at_texel;
   s.truth.facing = s.truth.lit = s.truth.ambiguous = Image<uint8_t>(w, h, 0);
-  s.truth.soft = s.probe.reference = s.probe.n_dot_l = Image<float>(w, h, 0);
-  s.probe.texel = Image<glm::ivec2>(w, h);
+  s.truth.soft = s.probe.reference = s.probe.n_dot_l = s.probe.tan_theta = Image<float>(w, h, 0);
+  s.probe.bias_unit = Image<float>(w, h, 1);
+  s.probe.gradient = Image<glm::vec2>(w, h, glm::vec2(0));
+  s.probe.map_texels = Image<glm::vec2>(w, h);
   s.taps.taps_per_receiver = taps;
   s.taps.taps.assign(static_cast<size_t>(w) * h * taps, 0);
+  if (cube) {
+    s.probe.cube_resolution = n;
+    s.probe.cube_texel.resize(s.taps.taps.size());
+    for (uint32_t& texel : s.probe.cube_texel) texel = static_cast<uint32_t>(random() % (6 * n * n));
+  }
   for (size_t i = 0; i < s.truth.facing.size(); ++i) {
-    s.probe.texel[i] = {static_cast<int>(random() % (3 * n)) - n, static_cast<int>(random() % (3 * n)) - n};
+    const auto place = [&] { return static_cast<float>(static_cast<int>(random() % (3 * n * 64)) - n * 64) / 64; };
+    s.probe.map_texels[i] = {place(), place()};
     if (!chance(85)) {
       s.probe.reference[i] = chance(50) ? std::numeric_limits<float>::quiet_NaN() : depth();
       s.probe.n_dot_l[i] = -depth();
@@ -69,6 +111,9 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
     s.truth.soft[i] = chance(60) ? static_cast<float>(s.truth.lit[i]) : depth();
     s.probe.reference[i] = chance(10) ? 1 + depth() : depth();
     s.probe.n_dot_l[i] = chance(5) ? 1 + 0x1p-23f : chance(10) ? 1.0f : depth();
+    s.probe.tan_theta[i] = chance(10) ? 0 : 4 * depth();
+    if (chance(60)) s.probe.bias_unit[i] = shape.lattice ? std::exp2(static_cast<float>(random() % 5) - 3) : depth();
+    s.probe.gradient[i] = (glm::vec2(depth(), depth()) - 0.5f) / 8.0f;
     for (int t = 0; t < taps; ++t) {
       uint8_t bits = 0;
       // Unfiltered, the tap's exact place is the receiver itself.
@@ -89,7 +134,8 @@ namespace naive {
 // texel's centre), whether the map covers it, and the depth that OpenGL finds for it.
 struct Tap {
   bool exact_lit, moved_lit, texel_lit, covered, beyond_far;
-  float depth;
+  float reference, depth;
+  double weight;  // 1, but where a sampler blends
 };
 
 inline int folded(int i, int n, Wrap wrap, bool& border) {
@@ -107,19 +153,44 @@ inline int folded(int i, int n, Wrap wrap, bool& border) {
 
 inline std::vector<Tap> taps_of(const Synthetic& s, const Image<float>& map, size_t receiver) {
   std::vector<Tap> result;
-  const int n = map.width, r = (s.kernel - 1) / 2;
-  size_t bits_at = receiver * static_cast<size_t>(s.kernel) * static_cast<size_t>(s.kernel);
-  for (int dy = -r; dy <= r; ++dy) {
-    for (int dx = -r; dx <= r; ++dx) {
+  const int n = map.width, side = s.side();
+  size_t bits_at = receiver * static_cast<size_t>(side) * static_cast<size_t>(side);
+  const float u = s.probe.map_texels[receiver].x, v = s.probe.map_texels[receiver].y;
+  // The texel of the lowest row's first tap: of a box around P's own, of fetches around the four that P lies between.
+  const float back = s.lookup == Lookup::linear ? 0.5f : 0;
+  const int first_x = static_cast<int>(std::floor(u - back)) - (s.kernel - 1) / 2;
+  const int first_y = static_cast<int>(std::floor(v - back)) - (s.kernel - 1) / 2;
+  const auto weight = [&](int index, float at) {
+    if (s.lookup != Lookup::linear) return 1.0;
+    const std::vector<double> fetches = fetch_weights(s.kernel);
+    const double right = (at - 0.5f) - std::floor(at - 0.5f);
+    double sum = 0;
+    for (int f = 0; f < s.kernel; ++f)
+      sum += fetches[static_cast<size_t>(f)] * (index == f ? 1 - right : index == f + 1 ? right : 0);
+    return sum;
+  };
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      int x = first_x + i, y = first_y + j;
+      if (s.lookup == Lookup::cube) {
+        x = static_cast<int>(s.probe.cube_texel[bits_at]) % n;
+        y = static_cast<int>(s.probe.cube_texel[bits_at]) / n;
+      }
       const uint8_t bits = s.taps.taps[bits_at++];
-      const int x = s.probe.texel[receiver].x + dx, y = s.probe.texel[receiver].y + dy;
       const bool beyond = s.probe.reference[receiver] > 1;
       bool border = false;
-      const int column = folded(x, n, s.map.wrap, border), row = folded(y, n, s.map.wrap, border);
+      const int column = folded(x, n, s.map.wrap, border), row = folded(y, map.height, s.map.wrap, border);
       const float depth = border ? 1.0f : map.pixels[static_cast<size_t>(row * n + column)];
-      const bool inside = 0 <= x && x < n && 0 <= y && y < n;
+      const bool inside = 0 <= x && x < n && 0 <= y && y < map.height;
       const bool exact = (bits & 1) != 0, moved = (bits & 16) != 0 ? !exact : exact;
-      result.push_back({exact, moved, (bits & 2) != 0, inside && !beyond && (bits & 4) == 0, beyond, depth});
+      float reference = s.probe.reference[receiver];
+      const glm::vec2 slope = s.probe.gradient[receiver];
+      if (s.bias.form == BiasForm::receiver_plane)
+        reference += slope.x * static_cast<float>(i - s.kernel / 2) + slope.y * static_cast<float>(j - s.kernel / 2);
+      if (s.bias.form == BiasForm::tangent_plane)
+        reference += slope.x * (static_cast<float>(x) + 0.5f - u) + slope.y * (static_cast<float>(y) + 0.5f - v);
+      result.push_back({exact, moved, (bits & 2) != 0, inside && !beyond && (bits & 4) == 0, beyond, reference, depth,
+                        weight(i, u) * weight(j, v)});
     }
   }
   return result;
@@ -128,28 +199,37 @@ inline std::vector<Tap> taps_of(const Synthetic& s, const Image<float>& map, siz
 // The receiver's own verdict, or that of any of its taps, may be another one.
 inline bool ambiguous(const Synthetic& s, size_t receiver) {
   bool result = s.truth.ambiguous[receiver] != 0;
-  const size_t taps = static_cast<size_t>(s.kernel) * static_cast<size_t>(s.kernel);
+  const size_t taps = static_cast<size_t>(s.side()) * static_cast<size_t>(s.side());
   for (size_t t = 0; t < taps; ++t) result |= (s.taps.taps[receiver * taps + t] & 8) != 0;
   return result;
 }
 
-// The shader: lit_beyond_far first, else one float comparison.
-inline bool verdict(const Synthetic& s, const Tap& tap, size_t receiver, float bias) {
+// The shader: lit_beyond_far first, else one float comparison. A sampler that compares, on fixed-point depths, clamps
+// what it compares: nothing is beyond 1.
+inline bool verdict(const Synthetic& s, const Tap& tap, float bias, DepthFormat format) {
   if (tap.beyond_far && s.map.lit_beyond_far) return true;
-  const float biased = s.probe.reference[receiver] - bias;
+  float biased = tap.reference - bias;
+  if (s.lookup == Lookup::linear && format != DepthFormat::d32f && biased > 1) biased = 1;
   return !(biased > tap.depth);
 }
+inline bool verdict(const Synthetic& s, const Tap& tap, float bias) { return verdict(s, tap, bias, s.map.format); }
 
-inline float slope_bias(float slope, float n_dot_l, float floor) {
-  const float turned = 1.0f - n_dot_l;
-  const float scaled = slope * turned;
+inline float turned(float scale, float by, float floor) {
+  const float scaled = scale * by;
   return scaled > floor ? scaled : floor;
 }
 
-inline float bias_at(const DepthBias& bias, float n_dot_l) {
-  if (bias.form == BiasForm::constant) return bias.constant;
-  if (bias.form == BiasForm::slope) return slope_bias(bias.slope, n_dot_l, bias.floor);
-  return 0;
+inline float bias_at(const Synthetic& s, size_t i) {
+  const DepthBias& b = s.bias;
+  float units = 0;
+  if (b.form == BiasForm::constant || b.form == BiasForm::receiver_plane || b.form == BiasForm::tangent_plane)
+    units = b.constant;
+  if (b.form == BiasForm::slope) units = turned(b.slope, 1.0f - s.probe.n_dot_l[i], b.floor);
+  if (b.form == BiasForm::tan) {
+    units = turned(b.tan_scale, s.probe.tan_theta[i], b.floor);
+    if (units > b.cap) units = b.cap;
+  }
+  return units * s.probe.bias_unit[i];
 }
 
 // The design's table, all of it: [covered][D][V][L].
@@ -162,21 +242,21 @@ inline constexpr Cause causes[2][2][2][2] = {
 
 inline Cause cause_of(const Tap& tap, bool lit) { return causes[tap.covered][tap.moved_lit][tap.texel_lit][lit]; }
 
-inline float visibility(const Synthetic& s, const Image<float>& map, size_t receiver) {
-  int lit = 0;
-  for (const Tap& tap : taps_of(s, map, receiver))
-    lit += verdict(s, tap, receiver, bias_at(s.bias, s.probe.n_dot_l[receiver]));
+inline float visibility(const Synthetic& s, const Image<float>& map, size_t receiver, DepthFormat format) {
+  double lit = 0;
+  for (const Tap& tap : taps_of(s, map, receiver)) lit += verdict(s, tap, bias_at(s, receiver), format) * tap.weight;
+  if (s.lookup == Lookup::linear) return static_cast<float>(lit);
   return static_cast<float>(lit) / static_cast<float>(s.kernel * s.kernel);
 }
 
 }  // namespace naive
 
-// R4 and R5 as OpenGL would give them for these maps.
+// R4 and R5 as OpenGL would give them for these maps; the exact one is uploaded as floats.
 inline void set_verdicts(Synthetic& s) {
   s.r4 = s.r5 = Image<float>(s.truth.facing.width, s.truth.facing.height, 0);
   for (size_t i = 0; i < s.r4.size(); ++i) {
-    s.r4[i] = naive::visibility(s, s.exact, i);
-    s.r5[i] = naive::visibility(s, s.stored, i);
+    s.r4[i] = naive::visibility(s, s.exact, i, DepthFormat::d32f);
+    s.r5[i] = naive::visibility(s, s.stored, i, s.map.format);
   }
 }
 

@@ -44,7 +44,13 @@ struct Sight {
     return origin - glm::dot(origin, normal) / glm::dot(way, normal) * way;
   }
   std::map<std::string, double> metrics(DepthFormat format = DepthFormat::d24, int kernel = 1) const {
-    return measure_laws({ladder, scene, receivers, camera, frame, format, kernel});
+    LookupProbe probe;
+    FilterSettings box;
+    box.kind = FilterKind::box;
+    box.size = kernel;
+    probe.pattern = tap_pattern(box);
+    probe.tap_reference = reference;
+    return measure_laws({ladder, scene, receivers, camera, frame, format, probe});
   }
 
   Camera camera;
@@ -53,6 +59,7 @@ struct Sight {
   Scene scene;
   ReceiverImage receivers;
   LightFrame frame;
+  TapReference reference = TapReference::own_depth;
 };
 
 const Camera perspective = {.eye_m = {3, 4, 5}, .target_m = {0.2, 0, -0.1}, .fov_y_deg = 30};
@@ -133,6 +140,12 @@ TEST(LawMetrics, GiveTheBiasThatTheSteepestLitReceiverNeeds) {
   EXPECT_NEAR(law(1), 0.5 * 0.125 * 0.7 + q / 2, float_normal);
   EXPECT_NEAR(law(3), 1.5 * 0.125 * 0.7 + q / 2, float_normal);
   EXPECT_NEAR(law(5), 2.5 * 0.125 * 0.7 + q / 2, float_normal);
+  EXPECT_NEAR(10 * s.metrics(DepthFormat::d24, 5).at("acne_free_bias_law_depth"), law(5), float_normal);
+  s.reference = TapReference::plane_at_tap;  // whatever the pattern's reach
+  EXPECT_NEAR(law(5), 0.5 * 0.125 * 0.7 + q / 2, float_normal);
+  s.reference = TapReference::plane_at_texel;
+  EXPECT_NEAR(law(5), q / 2, 1e-15);
+  s.reference = TapReference::own_depth;
   s.receivers.normal.at(1, 1) = glm::vec3(glm::normalize(glm::dvec3(-1, 1, 2)));
   EXPECT_NEAR(law(1), 0.5 * 0.125 * 3 + q / 2, float_normal);
   s.ladder.rung[1].at(1, 1) = 0;  // dark: needs no bias
@@ -167,7 +180,7 @@ TEST(LawMetrics, SayNaNWhereNothingWasCountedOrIsNoNumber) {
     EXPECT_TRUE(std::isnan(s.metrics().at(name))) << name;
   for (uint8_t& flags : s.ladder.flags.pixels) flags = 0;
   for (const auto& [name, value] : s.metrics())
-    EXPECT_EQ(std::isnan(value), name.ends_with("_m2") || name == "acne_free_bias_law_m") << name;
+    EXPECT_EQ(std::isnan(value), name.ends_with("_m2") || name.starts_with("acne_free_bias_law_")) << name;
 }
 
 }  // namespace

@@ -27,9 +27,14 @@ struct Picture {
     for (Image<float>& step : ladder.step) step = Image<float>(width, height, 0);
     ladder.cause = Image<uint8_t>(width, height, 0);
     ladder.flags = Image<uint8_t>(width, height, flag_facing);
-    primitive = Image<uint32_t>(width, height, 0);
+    receivers = {Image<glm::vec3>(width, height, glm::vec3(0, 0, -2)), Image<glm::vec3>(width, height),
+                 Image<uint32_t>(width, height, 0)};
     edge = occluder = Image<float>(width, height, nan_float);  // not to be read where nothing is wrong
-    n_dot_l = Image<float>(width, height, 1);
+    probe.n_dot_l = probe.bias_unit = Image<float>(width, height, 1);
+    probe.pattern.offsets = {glm::vec3(0)};
+    frame.extent_m = 5;
+    frame.resolution = 10;
+    frame.far_m = 10;
   }
   void rungs(int x, int y, std::array<float, 6> r) {
     for (size_t n = 0; n < 6; ++n) ladder.rung[n].at(x, y) = r[n];
@@ -39,24 +44,16 @@ struct Picture {
     ladder.cause.at(x, y) = static_cast<uint8_t>(cause);
   }
   std::map<std::string, double> metrics() const {
-    return measure_ladder({ladder,
-                           primitive,
-                           edge,
-                           occluder,
-                           n_dot_l,
-                           texel_m,
-                           10,
-                           {BiasForm::constant, bias, 0, 0, normal_offset_m},
-                           1});
+    return measure_ladder({ladder, receivers, frame, probe, bias, edge, occluder});
   }
   double metric(const char* name) const { return metrics().at(name); }
 
   Ladder ladder;
-  Image<uint32_t> primitive;
-  Image<float> edge, occluder, n_dot_l;
-  double texel_m = 0.5;
-  float normal_offset_m = 0;
-  float bias = 1;  // of 10 m: nearly every occluder is within its reach
+  ReceiverImage receivers;
+  LookupProbe probe;
+  Image<float> edge, occluder;
+  LightFrame frame;                                           // texels of 0.5 m
+  DepthBias bias{.form = BiasForm::constant, .constant = 1};  // of 10 m: nearly every occluder is within its reach
 };
 
 void attach(Picture& p, int x, int y) {
@@ -66,7 +63,7 @@ void attach(Picture& p, int x, int y) {
 
 TEST(Measure, GivesSharesOfTheCountedReceivers) {
   Picture p(4, 3);
-  p.primitive.at(0, 0) = no_primitive;  // background
+  p.receivers.primitive.at(0, 0) = no_primitive;  // background
   attach(p, 0, 0);
   attach(p, 1, 0);  // a receiver that faces away
   p.ladder.flags.at(2, 0) |= flag_ambiguous;
@@ -81,7 +78,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
   p.step(0, 1, Cause::displacement, 0.125f);
   p.step(0, 1, Cause::acne, -0.75f);
   p.step(0, 1, Cause::aliasing_light, 0.25f);
-  p.edge.at(0, 1) = 0.75f;
+  p.edge.at(0, 1) = 1.5f;
   p.step(0, 1, Cause::precision, 0.25f);
   p.step(2, 2, Cause::peter_panning, 0.25f);  // of a lit receiver
   p.step(1, 1, Cause::peter_panning, 0.25f);  // of a dark one
@@ -91,7 +88,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
   p.ladder.flags.at(1, 1) |= flag_outside;
   p.rungs(2, 1, {1, 1, 1, 0, 0, 0});
   p.step(2, 1, Cause::aliasing_dark, -1);
-  p.edge.at(2, 1) = 0.25f;
+  p.edge.at(2, 1) = 0.5f;
   p.rungs(3, 1, {1, 1, 1, 1, 0, 0});
   p.step(3, 1, Cause::coverage_dark, -1);
   p.ladder.flags.at(3, 1) |= flag_outside;
@@ -141,17 +138,17 @@ TEST(Measure, GapIsTheLightsWayAlongTheReceiver) {
   // theta = 30 and 60 degrees: 2 m and 1 m of light's way are a gap of 1 m and 0.866 m.
   p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
   p.step(0, 0, Cause::peter_panning, 1);
-  p.n_dot_l.at(0, 0) = std::sqrt(0.75f);
+  p.probe.n_dot_l.at(0, 0) = std::sqrt(0.75f);
   p.occluder.at(0, 0) = 2;
   p.rungs(1, 0, {0, 0, 0, 0, 1, 1});
   p.step(1, 0, Cause::peter_panning, 1);
-  p.n_dot_l.at(1, 0) = 0.5f;
+  p.probe.n_dot_l.at(1, 0) = 0.5f;
   p.occluder.at(1, 0) = 1;
   constexpr double cosine_rounding = 1e-6;  // of the float cosine, through the sine
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), 1, cosine_rounding);
   p.occluder.at(0, 0) = 0.5f;
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), std::sqrt(0.75), cosine_rounding);
-  p.n_dot_l.at(1, 0) = 1 + 0x1p-23f;  // a cosine above 1 by rounding is no NaN
+  p.probe.n_dot_l.at(1, 0) = 1 + 0x1p-23f;  // a cosine above 1 by rounding is no NaN
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), 0.25, cosine_rounding);
 }
 
@@ -159,8 +156,8 @@ TEST(Measure, GapEndsWhereTheBiasCannotReach) {
   Picture p(1, 1);
   p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
   p.step(0, 0, Cause::peter_panning, 1);
-  p.n_dot_l.at(0, 0) = std::sqrt(0.5f);  // 45 degrees: a texel of 0.5 m adds at most 0.5 / sqrt(2) m of depth
-  p.bias = 0.1f;                         // 1 m
+  p.probe.n_dot_l.at(0, 0) = std::sqrt(0.5f);  // 45 degrees: a texel of 0.5 m adds at most 0.5 / sqrt(2) m of depth
+  p.bias.constant = 0.1f;                      // 1 m
   p.occluder.at(0, 0) = 1.3f;
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), 1.3 * std::sqrt(0.5), 1e-6);
   p.occluder.at(0, 0) = 1.4f;  // a steep receiver at the edge of a distant shadow
@@ -172,14 +169,76 @@ TEST(Measure, GapEndsWhereTheNormalOffsetCannotReach) {
   Picture p(1, 1);
   p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
   p.step(0, 0, Cause::peter_panning, 1);
-  p.n_dot_l.at(0, 0) = 0.5f;  // 60 degrees: a texel of 0.5 m adds at most 0.5 / sqrt(2) m times tan(theta)
-  p.bias = 0;
-  p.normal_offset_m = 0.75f;
+  p.probe.n_dot_l.at(0, 0) = 0.5f;  // 60 degrees: a texel of 0.5 m adds at most 0.5 / sqrt(2) m times tan(theta)
+  p.bias = {.form = BiasForm::normal_offset, .normal_offset_texels = 1.5f};
   const float reach = 0.75f / 0.5f + static_cast<float>(0.5 * std::sqrt(0.5) * std::sqrt(3.0));
   p.occluder.at(0, 0) = reach - 0.01f;
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), (reach - 0.01) * std::sqrt(0.75), 1e-6);
   p.occluder.at(0, 0) = reach + 0.01f;
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
+}
+
+// The reach of a bias under a spot light: where the map's depth is less by the bias, on the same ray.
+TEST(Measure, GapUnderASpotLightEndsWhereTheDepthDoes) {
+  Picture p(1, 1);
+  p.frame = LightFrame{};
+  p.frame.kind = LightKind::spot;
+  p.frame.near_m = 0.5;
+  p.frame.far_m = 20;
+  p.frame.tan_half_fov = 0.5;
+  p.frame.resolution = 1000;
+  p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
+  p.step(0, 0, Cause::peter_panning, 1);
+  p.receivers.position[0] = {3, 0, -6};
+  const double bias = 0.02, z = 6;
+  p.bias.constant = static_cast<float>(bias);
+  // A receiver across its ray: within a texel its depth hardly changes.
+  double low = p.frame.near_m, high = z;  // the depth that is bias before, by halving
+  while (high - low > 1e-12)
+    (p.frame.window_depth((low + high) / 2) > p.frame.window_depth(z) - bias ? high : low) = (low + high) / 2;
+  const double reach = (z - low) * std::sqrt(45.0) / z;
+  EXPECT_NEAR(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0,
+                              p.frame.to_light(p.receivers.position[0])),
+              reach, 1e-5);  // the bias' rounding to float; half a texel aside, the plane is 1e-7 of 6.7 m nearer
+  EXPECT_GT(z * std::sqrt(45.0) / z - reach, 1) << "far from linear";
+  p.probe.n_dot_l[0] = 0.8f;
+  p.occluder[0] = static_cast<float>(reach) + 0.001f;  // a texel of 6 mm, at 37 degrees, adds 3 mm
+  EXPECT_GT(p.metric("peter_panning_gap_m"), 0);
+  p.occluder[0] = static_cast<float>(reach) + 0.004f;
+  EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
+}
+
+// Under a point light the taps' offsets are metres, and rays spread: the reach is that of the plane met by a ray turned
+// by as much, found here by meeting it.
+TEST(Measure, GapUnderAPointLightEndsWhereTheTapsDo) {
+  Picture p(1, 1);
+  p.frame = LightFrame{};
+  p.frame.kind = LightKind::point;
+  p.frame.far_m = 20;
+  p.frame.resolution = 1 << 14;
+  p.probe.pattern.offsets = {glm::vec3(0.3f, 0, 0.4f)};
+  p.probe.pattern.in_world = true;
+  p.bias.constant = 0.01f;  // 0.2 m
+  p.receivers.position[0] = {0, 0, -4};
+  p.probe.n_dot_l[0] = 0.6f;
+  const double theta = std::acos(0.6f), turned = theta + std::asin((0.5 + 0.5 * std::sqrt(2.0) * 8 / (1 << 14)) / 4);
+  // P = (0, 0, -4), the plane's normal (0.8, 0, 0.6); the ray turned towards where the plane is further off.
+  const double met = 4 * 0.6 / std::cos(turned);
+  EXPECT_NEAR(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0, {0, 0, -4}),
+              0.2 + met - 4, 1e-5);  // float cosines
+  p.probe.n_dot_l[0] = 0.05f;        // 87 degrees: a ray turned by 7 misses the plane
+  EXPECT_EQ(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0, {0, 0, -4}),
+            std::numeric_limits<double>::infinity());
+}
+
+TEST(Measure, APolygonOffsetReachesAnywhere) {
+  Picture p(1, 1);
+  p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
+  p.step(0, 0, Cause::peter_panning, 1);
+  p.bias = {.form = BiasForm::polygon_offset, .factor = 1, .units = 1};
+  p.probe.n_dot_l[0] = 0.6f;
+  p.occluder[0] = 100;
+  EXPECT_NEAR(p.metric("peter_panning_gap_m"), 80, 1e-4);
 }
 
 TEST(Measure, GapIsOverReceiversInShadow) {
@@ -188,21 +247,21 @@ TEST(Measure, GapIsOverReceiversInShadow) {
   p.rungs(0, 0, {1, 1, 0.5f, 0.5f, 0.75f, 0.75f});
   p.step(0, 0, Cause::peter_panning, 0.25f);
   p.occluder.at(0, 0) = infinity;
-  p.n_dot_l.at(0, 0) = 0.5f;
+  p.probe.n_dot_l.at(0, 0) = 0.5f;
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
-  p.n_dot_l.at(0, 0) = 1;  // 0 * infinity
+  p.probe.n_dot_l.at(0, 0) = 1;  // 0 * infinity
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
   EXPECT_EQ(p.metric("peter_panning"), 0.0625);  // but it is Peter Panning
   p.rungs(1, 0, {0, 0, 0.5f, 0.5f, 0.75f, 0.75f});
   p.step(1, 0, Cause::peter_panning, 0.25f);
   p.occluder.at(1, 0) = 2;
-  p.n_dot_l.at(1, 0) = 0;
+  p.probe.n_dot_l.at(1, 0) = 0;
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 2);
   p.rungs(2, 0, {0, 0, 0, 0, 1, 1});  // ambiguous: left out
   p.step(2, 0, Cause::peter_panning, 1);
   p.ladder.flags.at(2, 0) |= flag_ambiguous;
   p.occluder.at(2, 0) = 100;
-  p.n_dot_l.at(2, 0) = 0;
+  p.probe.n_dot_l.at(2, 0) = 0;
   p.rungs(3, 0, {0, 0, 0, 0, 0, 0});  // in shadow, rightly
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 2);
   EXPECT_EQ(peter_panning_mask(p.ladder).pixels, (std::vector<uint8_t>{0, 1, 0, 0}));
@@ -220,11 +279,11 @@ TEST(Measure, EdgeDisplacementIsFromAliasedPixelsOnly) {
     for (int x = 0; x < 2; ++x) p.rungs(x, y, {0, 0, 0, 0, 0, 0});
   p.rungs(0, 0, {0, 0, 0, 1, 1, 1});
   p.step(0, 0, Cause::aliasing_light, 1);
-  p.edge.at(0, 0) = 0.25f;
+  p.edge.at(0, 0) = 0.5f;
   EXPECT_EQ(p.metric("edge_displacement_pixels"), 2);  // to (2, 0)
   p.rungs(4, 3, {1, 1, 1, 0, 0, 0});
   p.step(4, 3, Cause::aliasing_dark, -1);
-  p.edge.at(4, 3) = 1;
+  p.edge.at(4, 3) = 2;
   EXPECT_EQ(p.metric("edge_displacement_pixels"), 3);  // to (1, 3)
   EXPECT_EQ(p.metric("edge_displacement_texels"), 2);
   EXPECT_EQ(p.metric("edge_displacement_mean_texels"), 1.25);
@@ -243,7 +302,7 @@ TEST(Measure, LeavesOutPixelsWhoseTruthThePictureDoesNotShow) {
   Picture p(3, 2);  // all lit, one falsely dark: no dark receiver in sight
   p.rungs(1, 1, {1, 1, 1, 0, 0, 0});
   p.step(1, 1, Cause::aliasing_dark, -1);
-  p.edge.at(1, 1) = 0.5f;
+  p.edge.at(1, 1) = 1;
   EXPECT_EQ(p.metric("edge_displacement_pixels"), 0);
   EXPECT_EQ(p.metric("edge_displacement_texels"), 1);
 }
@@ -300,7 +359,7 @@ TEST(WorstPixel, IsTheFirstOfTheLargestErrors) {
 
 TEST(MetricsTable, NamesWhatIsMeasured) {
   const std::set<std::string> times = {"map_ms", "lookup_ms", "shadow_ms"};  // the workbench's own
-  const std::set<std::string_view> units = {"fraction", "m", "m2", "texels", "pixels", "count", "ms", ""};
+  const std::set<std::string_view> units = {"fraction", "m", "m2", "depth", "texels", "pixels", "count", "ms", ""};
   std::set<std::string> names;
   for (const Metric& metric : metrics_table()) {
     EXPECT_TRUE(names.insert(std::string(metric.name)).second) << metric.name << " twice";
@@ -313,8 +372,10 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
   measured.insert("shaded_rmse");  // likewise
   const Picture picture(1, 1);
   for (const auto& [name, value] : picture.metrics()) measured.insert(name);
-  const ReceiverImage receivers{Image<glm::vec3>(1, 1), Image<glm::vec3>(1, 1, glm::vec3(0, 1, 0)), picture.primitive};
-  for (const auto& [name, value] : measure_laws({picture.ladder, Scene{}, receivers, Camera{}, LightFrame{}}))
+  const Scene nothing;
+  const Camera camera;
+  for (const auto& [name, value] : measure_laws(
+           {picture.ladder, nothing, picture.receivers, camera, picture.frame, DepthFormat::d24, picture.probe}))
     measured.insert(name);
   // compare/soundness.h's; its own test holds it to them.
   for (const char* name :

@@ -150,7 +150,7 @@ void expect_slope_thresholds(int count, const MakePair& make) {
   std::mt19937_64 random(42);
   for (int i = 0; i < count; ++i) {
     const auto [bias, factor] = make(random);
-    const float s = slope_threshold(bias, factor);
+    const float s = factor_threshold(bias, factor);
     const auto enough = [&, b = bias, f = factor](float slope) { return slope * f >= b; };
     ASSERT_TRUE(is_least(s, enough)) << std::hexfloat << bias << " by " << factor << ": " << s;
     if (i % 8 == 0) {
@@ -172,7 +172,7 @@ TEST(SlopeThreshold, IsTheLeastSlopeForFloatsOfAnySize) {
 TEST(SlopeThreshold, IsTheLeastSlopeWhereProductsAreDenormal) {
   std::mt19937_64 random(3);
   expect_never_nan([&](int i) {
-    return slope_threshold(std::bit_cast<float>(static_cast<uint32_t>(1 + i % 5)), 1e-10f * static_cast<float>(1 + i));
+    return factor_threshold(std::bit_cast<float>(static_cast<uint32_t>(1 + i % 5)), 1e-10f * static_cast<float>(1 + i));
   });
   expect_slope_thresholds(200'000, [](std::mt19937_64& r) {
     return Pair{std::bit_cast<float>(static_cast<uint32_t>(r() % 64)),
@@ -182,29 +182,29 @@ TEST(SlopeThreshold, IsTheLeastSlopeWhereProductsAreDenormal) {
 
 TEST(SlopeThreshold, OfNoBiasIsZeroAndOfNoFactorInfinite) {
   for (float factor : {0.0f, -0.0f, -1e-7f, -infinity, 0.5f, 1.0f, 2.0f, least, infinity}) {
-    EXPECT_EQ(slope_threshold(0, factor), 0) << factor;
-    EXPECT_EQ(slope_threshold(-0.0f, factor), 0) << factor;
-    EXPECT_EQ(slope_threshold(-1, factor), 0) << factor;
+    EXPECT_EQ(factor_threshold(0, factor), 0) << factor;
+    EXPECT_EQ(factor_threshold(-0.0f, factor), 0) << factor;
+    EXPECT_EQ(factor_threshold(-1, factor), 0) << factor;
     if (!(factor > 0)) {
-      EXPECT_EQ(slope_threshold(least, factor), infinity) << factor;
+      EXPECT_EQ(factor_threshold(least, factor), infinity) << factor;
     }
     if (!(factor > 0)) {
-      EXPECT_EQ(slope_threshold(1, factor), infinity) << factor;
+      EXPECT_EQ(factor_threshold(1, factor), infinity) << factor;
     }
     if (factor <= 1) {
-      EXPECT_EQ(slope_threshold(infinity, factor), infinity) << factor;
+      EXPECT_EQ(factor_threshold(infinity, factor), infinity) << factor;
     }
   }
-  EXPECT_EQ(slope_threshold(1, least), infinity);
-  EXPECT_EQ(slope_threshold(least, 1), least);
-  EXPECT_EQ(slope_threshold(0.005f, 1), 0.005f);
+  EXPECT_EQ(factor_threshold(1, least), infinity);
+  EXPECT_EQ(factor_threshold(least, 1), least);
+  EXPECT_EQ(factor_threshold(0.005f, 1), 0.005f);
 }
 
 RC_GTEST_PROP(Thresholds, LightATapExactlyFromTheBiasThatTheyName, ()) {
   const auto parts = [] { return static_cast<float>(*rc::gen::inRange(0, 4097)) / 4096; };
   const float reference = parts() * 1.25f, stored = parts(), factor = parts(), floor = parts() / 64;
   const float bias = lit_threshold(reference, stored);
-  const float slope = floor >= bias ? 0 : slope_threshold(bias, factor);
+  const float slope = floor >= bias ? 0 : factor_threshold(bias, factor);
   const auto shader = [&](float s) { return lit(reference, stored, std::max(s * factor, floor)); };
   if (slope < infinity) RC_ASSERT(shader(slope));
   if (slope > 0) RC_ASSERT(!shader(std::nextafter(slope, 0.0f)));

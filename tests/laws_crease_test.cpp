@@ -54,7 +54,8 @@ struct Valley {
     const glm::uvec3 t = scene.triangles[triangle];
     const auto at = [](glm::dvec3 q) { return glm::dvec2(q.z, q.x); };
     const auto side = [&](uint32_t i, uint32_t j) {
-      return orientation(at(p), at(scene.positions[i]), at(scene.positions[j]));
+      const glm::dvec2 a = at(scene.positions[i]) - at(p), b = at(scene.positions[j]) - at(p);
+      return a.x * b.y - a.y * b.x;
     };
     const double a = side(t.x, t.y), b = side(t.y, t.z), c = side(t.z, t.x);
     return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);

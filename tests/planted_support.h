@@ -77,11 +77,11 @@ inline Figures measure(const Settings& settings, const Defect& defect = {}) {
   const LookupEvidence evidence{truth, probe, taps.taps, taps.exact_map, settings.map, bias, r4, r5};
   const Ladder ladder = climb(evidence);
   const Image<float> occluders = tracer.occluder_distance(receivers, frame, peter_panning_mask(ladder));
-  Figures figures = measure_ladder({ladder, receivers.primitive, taps.edge_distance_m, occluders, probe.n_dot_l,
-                                    frame.texel_m(), frame.far_m - frame.near_m, bias, kernel});
+  Figures figures =
+      measure_ladder({ladder, receivers, frame, probe, bias, taps.edge_distance_texels, occluders});
   const Image<float> ties = tie_map(evidence);
   const Image<float> tie_lookup = renderer.lookup(renderer.upload_map(ties, uploaded), frame, asked);
-  figures.merge(measure_soundness({evidence, stored, ties, tie_lookup, receivers, frame}));
+  figures.merge(measure_soundness({evidence, stored, ties, tie_lookup, receivers, frame, scene.camera.eye_m}));
   return figures;
 }
 

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "scenes/depth_bias.h"
@@ -45,8 +47,8 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 
 TEST(SettingsTable, HasAWholeRowForEverySetting) {
   // Numbers that count nothing and measure nothing.
-  const std::set<std::string_view> pure = {"map.extent_scale", "truth.standard_error"};
-  const std::set<std::string_view> units = {"px", "m", "deg", "texels", "bias.unit"};
+  const std::set<std::string_view> pure = {"map.extent_scale", "truth.standard_error", "bias.factor", "bias.units"};
+  const std::set<std::string_view> units = {"px", "m", "deg", "texels", "taps", "bias.unit"};
   std::set<std::string_view> names;
   for (const Setting& row : settings_table()) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name << " twice";
@@ -70,6 +72,24 @@ TEST(SettingsTable, HasAWholeRowForEverySetting) {
     EXPECT_EQ(row.type == ValueType::choice, row.choices.size() > 1) << row.name;
     EXPECT_EQ(row.range_text().ends_with(" or auto"), row.may_be_auto) << row.name;
   }
+}
+
+// A member without a row could not be set, and would be in no key. The members of each struct, counted.
+TEST(SettingsTable, HasARowForEveryMember) {
+  std::map<std::string, int> rows;
+  for (const Setting& row : settings_table()) ++rows[std::string(row.name.substr(0, row.name.find('.')))];
+  // An aggregate binds to exactly as many names as it has members.
+  const Settings s;
+  [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6] = s.scene;
+  [[maybe_unused]] const auto& [b1, b2, b3, b4, b5] = s.view;
+  [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7] = s.light;
+  [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16] = s.map;
+  [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7, e8, e9, e10] = s.bias;
+  [[maybe_unused]] const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9] = s.filter;
+  [[maybe_unused]] const auto& [g1] = s.truth;
+  EXPECT_EQ(rows,
+            (std::map<std::string, int>{
+                {"scene", 6}, {"view", 5}, {"light", 7}, {"map", 16}, {"bias", 10}, {"filter", 9}, {"truth", 1}}));
 }
 
 TEST(SettingsTable, TakesItsOwnTextsBack) {
@@ -162,7 +182,8 @@ TEST(SettingsTable, RefusesWhatIsNoValue) {
     if (row.type != ValueType::real) refusal(row, "0.5");
     if (row.type != ValueType::flag) refusal(row, "true");
     if (row.type != ValueType::point) refusal(row, "1,2,3");
-    if (!row.may_be_auto) refusal(row, "auto");
+    const bool may_be_auto = row.may_be_auto || std::count(row.choices.begin(), row.choices.end(), "auto") > 0;
+    if (!may_be_auto) refusal(row, "auto");
   }
   refusal("map.resolution", "1024.0");
   refusal("map.resolution", "1e3");
@@ -281,9 +302,50 @@ TEST(Validate, FindsWhatNoRowCanSee) {
   EXPECT_THROW(validate(s), Error);
 }
 
-TEST(KernelSize, IsOneWithoutAFilter) {
-  EXPECT_EQ(kernel_size({FilterKind::none, 5}), 1);
-  EXPECT_EQ(kernel_size({FilterKind::box, 5}), 5);
+Settings with(std::initializer_list<std::pair<const char*, const char*>> values) {
+  Settings s;
+  for (const auto& [name, value] : values) find_setting(name).set(s, value);
+  return s;
+}
+
+// What a kind of light refuses, and that the message names the setting and what to do.
+TEST(ValidateFor, RefusesWhatTheLightsMapCannotDo) {
+  const auto refused = [](LightKind kind, const Settings& s, const std::string& name) {
+    try {
+      validate_for(kind, s);
+      return false;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+      return true;
+    }
+  };
+  constexpr LightKind kinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
+  for (const LightKind kind : kinds) {
+    const bool cube = kind == LightKind::point;
+    EXPECT_FALSE(refused(kind, {}, ""));
+    for (const char* filter : {"box", "hardware", "gaussian", "poisson"})
+      EXPECT_EQ(refused(kind, with({{"filter.kind", filter}}), "filter.kind"), cube) << filter;
+    for (const char* filter : {"cube_grid", "cube_disk"})
+      EXPECT_EQ(refused(kind, with({{"filter.kind", filter}}), "filter.kind"), !cube) << filter;
+    for (const char* form : {"none", "constant", "slope", "tan", "polygon_offset", "normal_offset"})
+      EXPECT_FALSE(refused(kind, with({{"bias.form", form}}), "bias.form")) << form;
+    for (const char* form : {"receiver_plane", "tangent_plane"}) {
+      EXPECT_EQ(refused(kind, with({{"bias.form", form}}), "bias.form"), cube) << form;
+      // One reference for four texels: no plane can be compared.
+      for (const char* filter : {"hardware", "gaussian"})
+        EXPECT_TRUE(refused(kind, with({{"bias.form", form}, {"filter.kind", filter}}), cube ? "" : "bias.form"));
+      EXPECT_EQ(refused(kind, with({{"bias.form", form}, {"filter.kind", "poisson"}}), ""), cube);
+    }
+    EXPECT_EQ(refused(kind, with({{"map.shift_v_texels", "0.5"}}), "map.shift"), cube);
+    EXPECT_EQ(refused(kind, with({{"map.snap", "true"}}), "map.snap"), kind != LightKind::directional);
+  }
+}
+
+TEST(Validate, OfATanFormNeedsItsFloorBelowItsCap) {
+  EXPECT_THROW(validate(with({{"bias.form", "tan"}, {"bias.floor", "0.02"}, {"bias.cap", "0.01"}})), Error);
+  EXPECT_NO_THROW(validate(with({{"bias.form", "tan"}, {"bias.floor", "0.01"}, {"bias.cap", "0.01"}})));
+  EXPECT_NO_THROW(validate(with({{"bias.form", "slope"}, {"bias.floor", "0.02"}, {"bias.cap", "0.01"}})));
 }
 
 TEST(MapAddress, WrapsAsOpenGLSays) {
@@ -294,84 +356,132 @@ TEST(MapAddress, WrapsAsOpenGLSays) {
       const int remainder = i - n * static_cast<int>(std::floor(static_cast<double>(i) / n));
       const int edge = i < 0 ? 0 : i >= n ? n - 1 : i;
       for (int j : {0, n / 2, n - 1}) {  // the other axis, inside
-        ASSERT_EQ(inside_map({i, j}, n), inside);
-        ASSERT_EQ(inside_map({j, i}, n), inside);
-        ASSERT_EQ(wrapped({i, j}, n, Wrap::repeat), glm::ivec2(remainder, j));
-        ASSERT_EQ(wrapped({j, i}, n, Wrap::repeat), glm::ivec2(j, remainder));
-        ASSERT_EQ(wrapped({i, j}, n, Wrap::clamp_to_edge), glm::ivec2(edge, j));
-        ASSERT_EQ(wrapped({j, i}, n, Wrap::clamp_to_edge), glm::ivec2(j, edge));
-        ASSERT_EQ(wrapped({i, j}, n, Wrap::clamp_to_border), inside ? glm::ivec2(i, j) : glm::ivec2(-1));
-        ASSERT_EQ(wrapped({j, i}, n, Wrap::clamp_to_border), inside ? glm::ivec2(j, i) : glm::ivec2(-1));
+        ASSERT_EQ(inside_map({i, j}, {n, n}), inside);
+        ASSERT_EQ(inside_map({j, i}, {n, n}), inside);
+        ASSERT_EQ(wrapped({i, j}, {n, n}, Wrap::repeat), glm::ivec2(remainder, j));
+        ASSERT_EQ(wrapped({j, i}, {n, n}, Wrap::repeat), glm::ivec2(j, remainder));
+        ASSERT_EQ(wrapped({i, j}, {n, n}, Wrap::clamp_to_edge), glm::ivec2(edge, j));
+        ASSERT_EQ(wrapped({j, i}, {n, n}, Wrap::clamp_to_edge), glm::ivec2(j, edge));
+        ASSERT_EQ(wrapped({i, j}, {n, n}, Wrap::clamp_to_border), inside ? glm::ivec2(i, j) : glm::ivec2(-1));
+        ASSERT_EQ(wrapped({j, i}, {n, n}, Wrap::clamp_to_border), inside ? glm::ivec2(j, i) : glm::ivec2(-1));
       }
     }
     // The farthest texels that a lookup names, and a kernel beyond.
     for (int far : {-(1 << 20) - 15, (1 << 20) + 15}) {
-      const glm::ivec2 read = wrapped({far, far}, n, Wrap::repeat);
-      ASSERT_TRUE(inside_map(read, n));
+      const glm::ivec2 read = wrapped({far, far}, {n, n}, Wrap::repeat);
+      ASSERT_TRUE(inside_map(read, {n, n}));
       ASSERT_EQ((far - read.x) % n, 0);
-      ASSERT_EQ(wrapped({far, -far}, n, Wrap::clamp_to_edge), glm::ivec2(far < 0 ? 0 : n - 1, far < 0 ? n - 1 : 0));
+      ASSERT_EQ(wrapped({far, -far}, {n, n}, Wrap::clamp_to_edge),
+                glm::ivec2(far < 0 ? 0 : n - 1, far < 0 ? n - 1 : 0));
     }
   }
+  // A map that is not square: each side by its own size.
+  EXPECT_EQ(wrapped({7, 7}, {3, 18}, Wrap::repeat), glm::ivec2(1, 7));
+  EXPECT_EQ(wrapped({7, 19}, {3, 18}, Wrap::clamp_to_edge), glm::ivec2(2, 17));
+  EXPECT_TRUE(inside_map({2, 17}, {3, 18}));
+  EXPECT_FALSE(inside_map({17, 2}, {3, 18}));
   EXPECT_EQ(border_depth, 1);
 }
 
-LightFrame frame_of(double near_m, double far_m, double extent_m, int resolution) {
-  LightFrame frame;
-  frame.near_m = near_m;
-  frame.far_m = far_m;
-  frame.extent_m = extent_m;
-  frame.resolution = resolution;
-  return frame;
+// A probe of one receiver.
+LookupProbe probe_of(float n_dot_l, float bias_unit, float tan_theta = 0) {
+  LookupProbe probe;
+  probe.n_dot_l = Image<float>(1, 1, n_dot_l);
+  probe.bias_unit = Image<float>(1, 1, bias_unit);
+  probe.tan_theta = Image<float>(1, 1, tan_theta);
+  return probe;
 }
 
-TEST(DepthBias, TurnsEveryUnitIntoWindowDepth) {
-  const LightFrame frame = frame_of(1, 7.5, 20, 1000);
-  const auto constant = [&](BiasUnit unit) { return depth_bias(frame, {BiasForm::constant, unit, 0.3, 0.7, 0.9}); };
-  EXPECT_EQ(constant(BiasUnit::depth).constant, 0.3f);
-  EXPECT_EQ(constant(BiasUnit::m).constant, static_cast<float>(0.3 / 6.5));
-  EXPECT_FLOAT_EQ(constant(BiasUnit::texel).constant, static_cast<float>(0.3 * 0.02 / 6.5));
-  const DepthBias slope = depth_bias(frame, {BiasForm::slope, BiasUnit::m, 0.3, 0.7, 0.9});
-  EXPECT_FLOAT_EQ(slope.slope, static_cast<float>(0.7 / 6.5));
-  EXPECT_FLOAT_EQ(slope.floor, static_cast<float>(0.9 / 6.5));
+BiasSettings every_value(BiasForm form) {
+  BiasSettings s;
+  s.form = form;
+  s.constant = 0.3;
+  s.slope = 0.7;
+  s.floor = 0.9;
+  s.tan_scale = 1.1;
+  s.cap = 1.3;
+  s.factor = 1.5;
+  s.units = 1.7;
+  s.normal_offset = 1.9;
+  return s;
 }
 
 TEST(DepthBias, LeavesWhatItsFormDoesNotUse) {
-  const LightFrame frame = frame_of(0, 1, 1, 1);
-  const DepthBias none = depth_bias(frame, {BiasForm::none, BiasUnit::depth, 0.3, 0.7, 0.9});
-  const DepthBias constant = depth_bias(frame, {BiasForm::constant, BiasUnit::depth, 0.3, 0.7, 0.9});
-  const DepthBias slope = depth_bias(frame, {BiasForm::slope, BiasUnit::depth, 0.3, 0.7, 0.9});
-  EXPECT_EQ(none.constant + none.slope + none.floor, 0);
-  EXPECT_EQ(constant.slope + constant.floor, 0);
-  EXPECT_EQ(slope.constant, 0);
-  EXPECT_EQ(none.normal_offset_m + constant.normal_offset_m + slope.normal_offset_m, 0);
-  for (float n_dot_l : {0.0f, 0.25f, 1.0f}) {
-    EXPECT_EQ(none.at(n_dot_l), 0);
-    EXPECT_EQ(constant.at(n_dot_l), 0.3f);
+  struct Row {
+    BiasForm form;
+    std::vector<float> used;  // in the order of the members
+  };
+  const float c = 0.3f, s = 0.7f, f = 0.9f, t = 1.1f, cap = 1.3f, factor = 1.5f, units = 1.7f, offset = 1.9f;
+  for (const Row& row : std::vector<Row>{{BiasForm::none, {0, 0, 0, 0, 0, 0, 0, 0}},
+                                         {BiasForm::constant, {c, 0, 0, 0, 0, 0, 0, 0}},
+                                         {BiasForm::slope, {0, s, f, 0, 0, 0, 0, 0}},
+                                         {BiasForm::tan, {0, 0, f, t, cap, 0, 0, 0}},
+                                         {BiasForm::polygon_offset, {0, 0, 0, 0, 0, factor, units, 0}},
+                                         {BiasForm::normal_offset, {0, 0, 0, 0, 0, 0, 0, offset}},
+                                         {BiasForm::receiver_plane, {c, 0, 0, 0, 0, 0, 0, 0}},
+                                         {BiasForm::tangent_plane, {c, 0, 0, 0, 0, 0, 0, 0}}}) {
+    const DepthBias b = depth_bias(every_value(row.form));
+    EXPECT_EQ(b.form, row.form);
+    EXPECT_EQ((std::vector<float>{b.constant, b.slope, b.floor, b.tan_scale, b.cap, b.factor, b.units,
+                                  b.normal_offset_texels}),
+              row.used)
+        << static_cast<int>(row.form);
+    EXPECT_EQ(b.moves_lookup(), row.form == BiasForm::normal_offset);
+    EXPECT_EQ(b.tap_reference(), row.form == BiasForm::receiver_plane  ? TapReference::plane_at_tap
+                                 : row.form == BiasForm::tangent_plane ? TapReference::plane_at_texel
+                                                                       : TapReference::own_depth);
   }
 }
 
+TEST(DepthBias, IsInTheReceiversOwnUnit) {
+  for (const BiasForm form : {BiasForm::constant, BiasForm::receiver_plane, BiasForm::tangent_plane})
+    EXPECT_EQ(depth_bias(every_value(form)).at(probe_of(0.5f, 0.125f), 0), 0.3f * 0.125f);
+  for (const BiasForm form : {BiasForm::none, BiasForm::polygon_offset, BiasForm::normal_offset})
+    EXPECT_EQ(depth_bias(every_value(form)).at(probe_of(0.5f, 0.125f), 0), 0);
+}
+
 TEST(DepthBias, OfANormalOffsetIsALengthAndNoDepth) {
+  LightFrame frame;
+  frame.extent_m = 20;
+  frame.resolution = 1000;
+  BiasSettings settings = every_value(BiasForm::normal_offset);
+  settings.normal_offset = 1.5;
   for (const BiasUnit unit : {BiasUnit::depth, BiasUnit::m, BiasUnit::texel}) {
-    const DepthBias bias = depth_bias(frame_of(1, 7.5, 20, 1000), {BiasForm::normal_offset, unit, 0.3, 0.7, 0.9, 1.5});
-    EXPECT_EQ(bias.normal_offset_m, 0.03f) << "1.5 texels of 20 mm, whatever the unit of the others";
-    EXPECT_EQ(bias.constant + bias.slope + bias.floor, 0);
-    EXPECT_EQ(bias.at(0.5f), 0);
-    EXPECT_TRUE(bias.moves_lookup());
-    EXPECT_EQ(bias.looked_up({1, 2, 3}, {0, -1, 0}), glm::dvec3(1, 2 - static_cast<double>(0.03f), 3));
+    settings.unit = unit;
+    const DepthBias bias = depth_bias(settings);
+    // 1.5 texels of 20 mm, whatever the unit of the others.
+    EXPECT_DOUBLE_EQ(bias.normal_offset_m(frame, {1, 2, 3}), 0.03);
+    EXPECT_LT(glm::length(bias.looked_up(frame, {1, 2, 3}, {0, -1, 0}) - glm::dvec3(1, 1.97, 3)), 1e-15);
   }
-  EXPECT_FALSE(depth_bias(frame_of(0, 1, 1, 1), {BiasForm::normal_offset, BiasUnit::depth, 1, 1, 1, 0}).moves_lookup());
+  // Of a point light, of a texel at the receiver: 2 z / resolution with z along the face's axis.
+  frame.kind = LightKind::point;
+  EXPECT_DOUBLE_EQ(depth_bias(settings).normal_offset_m(frame, {1, 2, -3}), 1.5 * 2 * 3 / 1000);
+  settings.normal_offset = 0;
+  EXPECT_FALSE(depth_bias(settings).moves_lookup());
 }
 
 TEST(DepthBias, OfASlopeIsTheShadersFloatArithmetic) {
   const DepthBias bias{.form = BiasForm::slope, .slope = 0.05f, .floor = 0.005f};
-  EXPECT_EQ(bias.at(1), 0.005f);
-  EXPECT_EQ(bias.at(1 + 0x1p-23f), 0.005f);  // a cosine above 1 by rounding
-  EXPECT_EQ(bias.at(0), 0.05f);
-  EXPECT_EQ(bias.at(0.5f), 0.025f);
+  const auto at = [&](float n_dot_l) { return bias.at(probe_of(n_dot_l, 1), 0); };
+  EXPECT_EQ(at(1), 0.005f);
+  EXPECT_EQ(at(1 + 0x1p-23f), 0.005f);  // a cosine above 1 by rounding
+  EXPECT_EQ(at(0), 0.05f);
+  EXPECT_EQ(at(0.5f), 0.025f);
   for (int i = 0; i <= 1000; ++i) {
     const float n_dot_l = static_cast<float>(i) / 1000;
     const volatile float turned = 1.0f - n_dot_l, scaled = 0.05f * turned;  // rounded at each step
-    EXPECT_EQ(bias.at(n_dot_l), scaled > 0.005f ? scaled : 0.005f);
+    EXPECT_EQ(at(n_dot_l), scaled > 0.005f ? scaled : 0.005f);
+  }
+}
+
+TEST(DepthBias, OfATanIsHeldBetweenItsFloorAndItsCap) {
+  const DepthBias bias{.form = BiasForm::tan, .floor = 0.005f, .tan_scale = 0.01f, .cap = 0.05f};
+  for (int i = 0; i <= 1000; ++i) {
+    const float tan = static_cast<float>(i) / 100;
+    const volatile float scaled = 0.01f * tan;
+    const float held = scaled < 0.005f ? 0.005f : scaled > 0.05f ? 0.05f : scaled;
+    const volatile float in_depth = held * 0.3f;
+    EXPECT_EQ(bias.at(probe_of(0.5f, 0.3f, tan), 0), in_depth);
   }
 }
 
