@@ -131,7 +131,12 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
     return first;
   };
   if (p.lit && crossed.empty()) {  // no jump: lit, whatever is first
-    if (beside) exact();
+    if (beside) {
+      exact();
+      // A ray through a silhouette itself: the way ends there without crossing, and the ray may meet what stands
+      // before.
+      sure &= !silhouettes_.near(x, rounding_share * beside_m()) || may_be_lit(p, x, hit);
+    }
     return {true, sure};
   }
   const uint32_t first = beside || may_be_lit(p, x, hit) ? exact() : hit;

@@ -176,8 +176,8 @@ Scene spot_room(const SceneSettings&) {
 
 // The standard tutorial room for a point light: closed, 10 m wide, seen from inside, with five cubes around a light in
 // the middle. Every wall takes shadows, across the seams of the cube map; one texel is twelve times as wide on a wall's
-// corner as at near. One cube stands 10 cm beside its place there, where two of its edges lie in planes that hold the
-// light and the diagonals of a face: their shadows then run along texels' centres, and every verdict there is a tie.
+// corner as at near. The light is a centimetre beside the middle: from the very middle the cubes' edges lie in planes
+// through texels' centres (x/z = 5/7 and the like), and all that those texels say of a shadow's edge is a tie.
 Scene point_room(const SceneSettings&) {
   Scene scene;
   add_box(scene, "room", glm::dvec3(5), glm::dmat4(1));
@@ -189,11 +189,11 @@ Scene point_room(const SceneSettings&) {
   };
   cube({4, -3.5, 0}, 0.5, 0);
   cube({2, 3, 1}, 0.75, 0);
-  cube({-3, -1, 0.1}, 0.5, 0);
+  cube({-3, -1, 0}, 0.5, 0);
   cube({-1.5, 1, 1.5}, 0.5, 0);
   cube({-1.5, 2, -3}, 0.75, 60);
   scene.camera = {.eye_m = {-4.3, -2.5, 4.4}, .target_m = {1, 0.5, -1.5}, .fov_y_deg = 75, .near_m = 0.1, .far_m = 30};
-  scene.light = {.kind = LightKind::point, .position_m = {0, 0, 0}, .target_m = {0, -1, 0}};
+  scene.light = {.kind = LightKind::point, .position_m = {0.013, 0.007, -0.011}, .target_m = {0, -1, 0}};
   scene.map = MapVolume{.near_m = 1, .far_m = 25};
   return scene;
 }

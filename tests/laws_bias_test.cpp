@@ -109,6 +109,7 @@ TEST(Law1, BoundsWhatAWholeSceneNeeds) {
   Workbench bench(gl::DebugMode::fatal);
   bool hidden_face_needed = false;
   for (const BuiltinScene& builtin : builtin_scenes()) {
+    if (builtin.make({}).light.kind != LightKind::directional) continue;  // metres along the light's one axis
     for (int size : {1, 3}) {
       for (int resolution : {128, 512}) {
         const Measurement m = bench.measure(with({{"filter.kind", "box"},

@@ -12,7 +12,9 @@ namespace {
 
 std::vector<std::string> every_scene() {
   std::vector<std::string> names;
-  for (const BuiltinScene& scene : builtin_scenes()) names.emplace_back(scene.name);
+  // These laws speak of the light's plane: scenes of parallel light.
+  for (const BuiltinScene& scene : builtin_scenes())
+    if (scene.make({}).light.kind == LightKind::directional) names.emplace_back(scene.name);
   for (const char* name : {"FlightHelmet", "Lantern"})
     if (std::filesystem::exists(model(name))) names.push_back(model(name));
   return names;

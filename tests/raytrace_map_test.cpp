@@ -121,7 +121,8 @@ TEST(ExactMap, BuiltinScenesAgreeWithBruteForce) {
         Settings settings;
         settings.map.resolution = 97;
         settings.map.cull = cull;
-        if (cut) settings.map.near_m = frame_of(scene).to_light({0, 0.2, 0}).z;
+        settings.light.kind = LightChoice::directional;  // LightBins knows parallel light
+        if (cut) settings.map.near_m = make_light_frame(scene, settings).to_light({0, 0.2, 0}).z;
         const LightFrame frame = make_light_frame(scene, settings);
         const LightBins brute(scene, frame);
         SCOPED_TRACE(std::string(given.name) + " culled " + std::to_string(static_cast<int>(cull)) +
