@@ -124,24 +124,20 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   // A lit P on a silhouette, its own surface's border for one: whether the way crosses it, rounding says. And an x on
   // one: whether the ray through it meets the surface that ends there.
   const double tie_m = rounding_share * beside_m();
-  bool sure = !(p.lit && silhouettes_.near(p.at, tie_m)) && !(beside && silhouettes_.near(x, tie_m));
+  bool sure = !(p.lit && silhouettes_.near(p.at, tie_m));
+  const bool tie = beside && silhouettes_.near(x, tie_m);
   const auto exact = [&] {
     const uint32_t first = exact_first(x, rays);
     sure &= clipped(first, x) == clipped(hit, x);
     return first;
   };
   if (p.lit && crossed.empty()) {  // no jump: lit, whatever is first
-    if (beside) {
-      exact();
-      // A ray through a silhouette itself: the way ends there without crossing, and the ray may meet what stands
-      // before.
-      sure &= !silhouettes_.near(x, rounding_share * beside_m()) || may_be_lit(p, x, hit);
-    }
-    return {true, sure};
+    if (beside) exact();
+    return {true, sure && (!tie || may_be_lit(p, x, hit))};
   }
   const uint32_t first = beside || may_be_lit(p, x, hit) ? exact() : hit;
   Verdict v = verdict(p, x, first, crossed, rays);
-  v.sure &= sure;
+  v.sure &= sure && !tie;
   return v;
 }
 
