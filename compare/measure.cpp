@@ -93,7 +93,7 @@ Image<uint8_t> peter_panning_mask(const Ladder& ladder) {
 std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   const Ladder& ladder = in.ladder;
   uint64_t receivers = 0, facing = 0, base = 0, outside = 0, wrong = 0, aliased = 0;
-  double error = 0, error_soft = 0, aliasing_net = 0, panning_lit = 0, gap = 0, edge_max = 0, edge_sum = 0;
+  double error = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0, edge_sum = 0;
   std::array<double, cause_count> size{};
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
     receivers += in.receivers.primitive[i] != no_primitive;
@@ -107,8 +107,9 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     error_soft += std::abs(static_cast<double>(ladder.rung[5][i]) - ladder.rung[0][i]);
     wrong += hard != 0;
     for (int c = 0; c < cause_count; ++c) size[c] += std::abs(static_cast<double>(ladder.step[c][i]));
-    aliasing_net += std::abs(static_cast<double>(ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i]) +
-                             ladder.step[static_cast<size_t>(Cause::aliasing_light)][i]);
+    const double aliasing = static_cast<double>(ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i]) +
+                            ladder.step[static_cast<size_t>(Cause::aliasing_light)][i];
+    aliasing_squares += aliasing * aliasing;
     if (ladder.rung[1][i] != 0)
       panning_lit += std::abs(static_cast<double>(ladder.step[static_cast<size_t>(Cause::peter_panning)][i]));
     if (in_gap(ladder, i)) {
@@ -143,7 +144,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"aliasing", caused(Cause::aliasing_dark) + caused(Cause::aliasing_light)},
       {"aliasing_dark", caused(Cause::aliasing_dark)},
       {"aliasing_light", caused(Cause::aliasing_light)},
-      {"aliasing_net", share(aliasing_net)},
+      {"aliasing_rms", std::sqrt(share(aliasing_squares))},
       {"acne", caused(Cause::acne)},
       {"peter_panning", caused(Cause::peter_panning)},
       {"peter_panning_lit", share(panning_lit)},

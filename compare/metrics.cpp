@@ -24,8 +24,9 @@ constexpr Metric table[] = {
      true},
     {"aliasing_dark", "fraction", "Aliasing that darkens.", true},
     {"aliasing_light", "fraction", "Aliasing that lights.", true},
-    {"aliasing_net", "fraction",
-     "What of aliasing is left in a pixel where its taps err both ways and even out; without a filter, aliasing itself.",
+    {"aliasing_rms", "fraction",
+     "Root mean square of aliasing: jagged edges weigh more than as much of it spread over more pixels by a filter, "
+     "which leaves the mean as it is.",
      true},
     {"acne", "fraction", "Taps falsely dark without a shadow edge between the pixel and the texel.", true},
     {"peter_panning", "fraction", "Taps falsely lit because the bias reaches past the occluder.", true},

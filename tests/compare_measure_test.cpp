@@ -107,7 +107,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"aliasing", 1.375 / base},
       {"aliasing_dark", 1.125 / base},
       {"aliasing_light", 0.25 / base},
-      {"aliasing_net", 1.125 / base},
+      {"aliasing_rms", std::sqrt((0.125 * 0.125 + 1) / base)},
       {"acne", 0.75 / base},
       {"peter_panning", 0.5 / base},
       {"peter_panning_lit", 0.25 / base},
