@@ -58,7 +58,6 @@ double number_of(const PointRecord& point, const std::string& name) {
     for (size_t before = 0; before < axis; ++before) text.remove_prefix(std::min(text.find(','), text.size() - 1) + 1);
     return number(text.substr(0, text.find(',')));
   }
-  if (const auto time = point.times.find(name); time != point.times.end()) return time->second;
   return quantity(point, name).value_or(not_a_number);
 }
 
@@ -141,7 +140,6 @@ class Reader {
       known.push_back(name);
     }
     for (const Formula* formula : {&measured_, &predicted_, &slack_}) check(*formula);
-    for (std::string_view time : {"map_ms", "lookup_ms"}) known.emplace_back(time);
     for (const Figure& figure : figures_) check(figure.formula);
   }
 

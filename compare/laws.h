@@ -26,7 +26,7 @@ struct Law {
   std::string name;  // "1 acne-free bias"
   std::string says;  // one sentence: the law itself
   // One sentence of what was found, with {formula} for its figures: read at the sample furthest off, or, as {against:
-  // formula}, at the point that it is compared with. Times (map_ms, lookup_ms) may stand here and nowhere else.
+  // formula}, at the point that it is compared with.
   std::string found;
   std::string measured, predicted;
   LawRelation relation = LawRelation::equal;
