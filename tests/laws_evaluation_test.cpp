@@ -176,7 +176,7 @@ TEST(Laws, MeansAndSlopes) {
 
 TEST(Laws, SayWhatWasFoundWithItsFigures) {
   std::vector<PointRecord> points = {point(0, 512, "none", 0.5), point(1, 512, "box", 0.125)};
-  points[1].times["map_ms"] = 2.5;
+  points[1].metrics["map_ms"] = 2.5;
   Law l = law("error", "error", LawRelation::at_most);
   l.where = {{"filter.kind", {"box"}}};
   l.against = {{"filter.kind", {"none"}}};
