@@ -76,6 +76,7 @@ void drop_part(Scene& scene, const std::string& name) {
 }
 
 const char* const receiver = "shaders/receiver.glsl";
+const char* const projected = "shaders/light/projected.glsl";
 const char* const box = "shaders/filter/box.glsl";
 
 std::vector<Planted> defects() {
@@ -114,14 +115,14 @@ std::vector<Planted> defects() {
   // The loop ends a tap early in x: six taps of nine, moved by half a texel; what is lit is 2/3 lit.
   all.push_back({"EvenKernel",
                  cubes_3x3(),
-                 {.shaders = patched(box, "x <= kernel_radius_texels", "x < kernel_radius_texels")},
+                 {.shaders = patched(box, "x <= box_radius", "x < box_radius")},
                  {{"contract", 0, 0.7}, {"tap_residual", 1e-6, 0.333}, {"error", 0.011, 0.8 / 3}}});
   // The middle tap alone is compared without its bias: half of them fall to acne.
-  all.push_back(
-      {"ReferenceNotBiasedInOneBranch",
-       cubes_3x3(),
-       {.shaders = patched(box, "receiver.reference, bias,", "receiver.reference, x == 0 && y == 0 ? 0.0 : bias,")},
-       {{"contract", 0, 0.3}, {"tap_residual", 1e-6, 0.111}}});
+  all.push_back({"ReferenceNotBiasedInOneBranch",
+                 cubes_3x3(),
+                 {.shaders = patched(box, "tap_depth(receiver, offset, at), bias,",
+                                     "tap_depth(receiver, offset, at), x == 0 && y == 0 ? 0.0 : bias,")},
+                 {{"contract", 0, 0.3}, {"tap_residual", 1e-6, 0.111}}});
   // 0.005 m on the axis is 0.0008 of depth; taken for depth it is six times too much.
   all.push_back({"BiasInMetresTakenForDepth",
                  cubes({{"bias.constant", "0.005"}, {"bias.unit", "m"}}),
@@ -143,7 +144,7 @@ std::vector<Planted> defects() {
                  {"rounding_excess"}});
   all.push_back({"BorderOfDepthZero",
                  narrow(),
-                 {.shaders = patched("shaders/map.glsl", "  return textureLod",
+                 {.shaders = patched("shaders/map/flat.glsl", "  return textureLod",
                                      "  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, "
                                      "textureSize(shadow_map, 0)))) return 0.0;\n  return textureLod")},
                  {{"contract", 0, 0.15}, {"tap_residual", 1e-6, 1}, {"error", 0.005, 0.15}}});
@@ -151,7 +152,7 @@ std::vector<Planted> defects() {
   // has the same fault; R4's map is known from where it came.
   all.push_back({"HalfTexelOffsetInTheSampler",
                  cubes(),
-                 {.shaders = patched("shaders/map.glsl", "vec2(texel) + 0.5", "vec2(texel) + 1.25")},
+                 {.shaders = patched("shaders/map/flat.glsl", "vec2(texel) + 0.5", "vec2(texel) + 1.25")},
                  {{"contract", 0, 0.01}, {"tap_residual", 1e-6, 1}}});
   all.push_back({"BeyondFarForgotten",
                  cubes(),
@@ -167,7 +168,7 @@ std::vector<Planted> defects() {
 
   // --- What the probe shares with the lookup. The truth follows its texels, and the contract is kept. ---------------
 
-  const auto half_texel = patched(receiver, "window.xy * float(resolution)", "window.xy * float(resolution) - 0.5");
+  const auto half_texel = patched(projected, "window.xy * float(resolution)", "window.xy * float(resolution) - 0.5");
   // The texel named is off by half its width in both axes, so true edges lie up to sqrt(2) texels off, not sqrt(1/2).
   all.push_back({"HalfTexelOffset",
                  cubes(),
@@ -177,15 +178,15 @@ std::vector<Planted> defects() {
                   {"edge_displacement_texels", std::sqrt(0.5) + 0.01, 1},
                   {"acne", 0.01, 0.05}},
                  {"contract", "tap_residual"}});
+  // It also leaves receivers behind the light, which the lookup has for background.
   all.push_back({"TransposedMatrix",
                  cubes(),
-                 {.shaders = patched(receiver, "clip_from_world * vec4", "transpose(clip_from_world) * vec4")},
-                 {{"address_error_texels", 1e-4, 50}, {"reference_error_m", 1e-5, 0.5}, {"rounding_excess", 1, 1000}},
-                 {"contract"}});
+                 {.shaders = patched(projected, "clip_from_world * vec4", "transpose(clip_from_world) * vec4")},
+                 {{"address_error_texels", 1e-4, 50}, {"reference_error_m", 1e-5, 0.5}, {"rounding_excess", 1, 1000}}});
   all.push_back({"FlippedYInTheAddress",
                  cubes(),
-                 {.shaders = patched(receiver, "precise vec2 place = floor(window.xy",
-                                     "precise vec2 place = floor(vec2(window.x, 1.0 - window.y)")},
+                 {.shaders = patched(projected, "precise vec2 map_texels = window.xy",
+                                     "precise vec2 map_texels = vec2(window.x, 1.0 - window.y)")},
                  {{"address_error_texels", 1e-4, 100}, {"rounding_excess", 1, 1000}},
                  {"contract", "reference_error_m"}});
   // The receiver beside, in the lookup and in the probe.
@@ -196,22 +197,23 @@ std::vector<Planted> defects() {
                  {{"address_error_texels", 1e-4, 5}, {"rounding_excess", 1, 1000}}});
   // 1 - N.L becomes 1 + N.L: on the floor 15 times the bias, 0.6 m along the light, and at the foot of the
   // standing cubes a gap of 0.3 m.
-  all.push_back({"LightNegatedInNDotL",
-                 cubes({{"bias.form", "slope"}, {"bias.slope", "0.05"}, {"bias.floor", "0"}}),
-                 {.shaders = patched(receiver, "dot(normal, direction_to_light)", "dot(normal, -direction_to_light)")},
-                 {{"rounding_excess", 1, 1000}, {"peter_panning", 1e-4, 1e-3}},
-                 {"contract", "address_error_texels", "reference_error_m"}});
-  // What lies beyond far is taken for what lies at far.
   all.push_back(
-      {"ReferenceClamped",
-       cubes(),
-       {.shaders = patched(receiver, "return Receiver(true, window.z,", "return Receiver(true, min(window.z, 1.0),")},
-       {{"reference_error_m", 1e-5, 0.05}, {"rounding_excess", 1, 1000}},
-       {"contract", "address_error_texels"}});
+      {"LightNegatedInNDotL",
+       cubes({{"bias.form", "slope"}, {"bias.slope", "0.05"}, {"bias.floor", "0"}}),
+       {.shaders = patched(receiver, "dot(normal, to_light(position.xyz))", "-dot(normal, to_light(position.xyz))")},
+       {{"rounding_excess", 1, 1000}, {"peter_panning", 1e-4, 1e-3}},
+       {"contract", "address_error_texels", "reference_error_m"}});
+  // What lies beyond far is taken for what lies at far.
+  all.push_back({"ReferenceClamped",
+                 cubes(),
+                 {.shaders = patched(receiver, "return Receiver(true, view.depth,",
+                                     "return Receiver(true, min(view.depth, 1.0),")},
+                 {{"reference_error_m", 1e-5, 0.05}, {"rounding_excess", 1, 1000}},
+                 {"contract", "address_error_texels"}});
   // Depth in clip space, [-1, 1], against a map that holds [0, 1].
   all.push_back({"ReferenceInClipSpace",
                  cubes(),
-                 {.shaders = patched(receiver, "return Receiver(true, window.z,", "return Receiver(true, ndc.z,")},
+                 {.shaders = patched(projected, "is_finite(window), window.z,", "is_finite(window), ndc.z,")},
                  {{"reference_error_m", 1e-5, 1}, {"rounding_excess", 1, 1000}, {"peter_panning", 1e-4, 0.01}},
                  {"contract", "address_error_texels"}});
 
@@ -226,18 +228,16 @@ std::vector<Planted> defects() {
   // Half of what was asked.
   all.push_back({"NormalOffsetHalved",
                  offset_cubes(),
-                 {.shaders = patched(offset, "normal_offset_m * normal", "0.5 * normal_offset_m * normal")},
+                 {.shaders = patched(offset, "offset_m * normal", "0.5 * offset_m * normal")},
                  {{"rounding_excess", 1, 1000}},
                  {"contract"}});
   // The depth of the moved place at the texel of the unmoved one: what "offset the depth only" does.
-  all.push_back(
-      {"NormalOffsetOfTheDepthAlone",
-       offset_cubes(),
-       {.shaders = patched(receiver, "precise vec2 place = floor(window.xy",
-                           "precise vec4 unmoved = clip_from_world * vec4(position.xyz, 1.0);\n  precise vec2 "
-                           "place = floor((unmoved.xy / unmoved.w * 0.5 + 0.5)")},
-       {{"rounding_excess", 1, 1000}, {"address_error_texels", 1e-4, 0.3}},
-       {"contract", "reference_error_m"}});
+  all.push_back({"NormalOffsetOfTheDepthAlone",
+                 offset_cubes(),
+                 {.shaders = patched(receiver, "view.depth, view.map_texels,",
+                                     "view.depth, seen_by_light(position.xyz).map_texels,")},
+                 {{"rounding_excess", 1, 1000}, {"address_error_texels", 1e-4, 0.3}},
+                 {"contract", "reference_error_m"}});
   // The truth believes in an offset that the lookup was never given.
   all.push_back({"NormalOffsetForgotten",
                  offset_cubes(),
@@ -388,7 +388,7 @@ TEST(Workbench, HoldsAVariantToItsContract) {
   };
   EXPECT_EQ(kind(patched("shaders/compare.glsl", "biased > stored_depth", "biased >= stored_depth")),
             ErrorKind::defect);
-  EXPECT_EQ(kind(patched(receiver, "ndc * 0.5 + 0.5", "ndc * 0.5 + 0.50001")), ErrorKind::defect);
+  EXPECT_EQ(kind(patched(projected, "ndc * 0.5 + 0.5", "ndc * 0.5 + 0.50001")), ErrorKind::defect);
 }
 
 TEST(RequireSound, NamesEachLimit) {

@@ -66,7 +66,9 @@ inline Figures measure(const Settings& settings, const Defect& defect = {}) {
 
   DepthBias bias = depth_bias(settings.bias);
   const LookupProbe probe = renderer.probe(frame, settings);
-  const raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, probe, frame, settings.map, bias);
+  const double offset_unit = bias.form == BiasForm::polygon_offset ? sound.polygon_offset_unit(settings.map.format) : 0;
+  const raytrace::LookupTruth taps =
+      tracer.lookup_truth(receivers, truth, probe, frame, settings.map, bias, offset_unit);
   Settings asked = settings;
   if (defect.asked) defect.asked(asked);
   const MapSettings& uploaded = defect.every_map ? drawn.map : settings.map;
@@ -77,8 +79,7 @@ inline Figures measure(const Settings& settings, const Defect& defect = {}) {
   const LookupEvidence evidence{truth, probe, taps.taps, taps.exact_map, settings.map, bias, r4, r5};
   const Ladder ladder = climb(evidence);
   const Image<float> occluders = tracer.occluder_distance(receivers, frame, peter_panning_mask(ladder));
-  Figures figures =
-      measure_ladder({ladder, receivers, frame, probe, bias, taps.edge_distance_texels, occluders});
+  Figures figures = measure_ladder({ladder, receivers, frame, probe, bias, taps.edge_distance_texels, occluders});
   const Image<float> ties = tie_map(evidence);
   const Image<float> tie_lookup = renderer.lookup(renderer.upload_map(ties, uploaded), frame, asked);
   figures.merge(measure_soundness({evidence, stored, ties, tie_lookup, receivers, frame, scene.camera.eye_m}));
