@@ -293,6 +293,11 @@ std::vector<LawResult> evaluate_laws(std::span<const PointRecord> points, std::s
     result.says = law.says;
     result.measured = law.measured;
     result.predicted = law.predicted;
+    std::string_view separator = " at";
+    for (const auto& [name, texts] : law.against) {
+      result.predicted += fmt::format("{} {} = {}", separator, name, texts.front());
+      separator = ",";
+    }
     result.relation = law.relation;
     if (law.within > 0) result.tolerance = fmt::format("within {:g}%", 100 * law.within);
     if (!law.slack.empty())

@@ -182,6 +182,7 @@ TEST(Laws, SayWhatWasFoundWithItsFigures) {
   l.against = {{"filter.kind", {"none"}}};
   l.let = {{"percent", "100"}};
   l.found = "{percent * error} % with a filter, {against:percent * error} % without; {map_ms} ms.";
+  EXPECT_EQ(law_text(judge(l, points)), "error <= error at filter.kind = none");
   EXPECT_EQ(judge(l, points).found, "12.5 % with a filter, 50 % without; 2.5 ms.");
   l.found = "no figures";
   EXPECT_EQ(judge(l, points).found, "no figures");
