@@ -121,8 +121,9 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   const bool beside = silhouettes_.near(x);
   std::vector<Silhouettes::Crossing> crossed;
   if (p.lit) crossed = silhouettes_.crossings(p.at, x);
-  // A lit P on a silhouette, its own surface's border for one: whether the way crosses it, rounding says. And an x on
-  // one: whether the ray through it meets the surface that ends there.
+  // A lit P on a silhouette, its own surface's border for one: whether the way crosses it, rounding says. And where x
+  // is on one, whether the ray through it meets the surface that ends there: the ray that was cast may say otherwise
+  // than what is first in double, and a map holds what it says.
   const double tie_m = rounding_share * beside_m();
   bool sure = !(p.lit && silhouettes_.near(p.at, tie_m));
   const bool tie = beside && silhouettes_.near(x, tie_m);
@@ -137,7 +138,8 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   }
   const uint32_t first = beside || may_be_lit(p, x, hit) ? exact() : hit;
   Verdict v = verdict(p, x, first, crossed, rays);
-  v.sure &= sure && !tie;
+  if (tie && hit != first) sure &= verdict(p, x, hit, crossed, rays).lit == v.lit;
+  v.sure &= sure;
   return v;
 }
 
