@@ -17,8 +17,8 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
   }
   const double size = glm::length(high - low);
   ray_error_m_ = 0x1p-24 * (std::sqrt(3.0) * largest_coordinate(scene) + 4 * size);
-  start_m_ =
-      low.z - 0.01 * size - 4 * ray_error_m_;  // a margin for the rounding of the start, so that nothing is behind it
+  // A margin for the rounding of the start, so that nothing is behind it.
+  start_ = frame.to_world({0, 0, low.z - 0.01 * size - 4 * ray_error_m_});
 
   planes_.reserve(scene.triangles.size());
   for (uint32_t t = 0; t < scene.triangles.size(); ++t) {

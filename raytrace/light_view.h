@@ -26,14 +26,17 @@ class LightView {
 
   glm::dvec3 normal_place(glm::dvec3 place) const;
   glm::dvec3 place_of(glm::dvec3 light) const { return normal_place(frame_.place(light)); }
-  glm::dvec3 texel_place(glm::ivec2 texel) const { return normal_place(frame_.texel_place(texel)); }
+  glm::dvec3 texel_place(glm::ivec2 texel) const {
+    const glm::dvec3 place = frame_.texel_place(texel);
+    return parallel_ ? place : normal_place(place);
+  }
 
   // Positive when three points of the light's frame, or places, run counter-clockwise as the light sees them, in the
   // map's u and v: twice the area of their triangle, or the determinant of their directions. Only the sign means the
   // same for both.
   double orientation(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b) const {
-    const glm::dvec3 e = a - p, f = b - p;
-    return parallel_ ? e.x * f.y - e.y * f.x : glm::dot(p, glm::cross(e, f));
+    if (parallel_) return (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x);
+    return glm::dot(p, glm::cross(a - p, b - p));
   }
   double orientation(uint32_t triangle) const {
     return orientation(corner(triangle, 0), corner(triangle, 1), corner(triangle, 2));
@@ -77,7 +80,10 @@ class LightView {
   }
 
   // The light-side ray through x: from before everything in the scene, or from the light itself.
-  LightRay ray(glm::dvec3 x) const { return ray_from(x, parallel_ ? start_m_ : 0); }
+  LightRay ray(glm::dvec3 x) const {
+    if (!parallel_) return ray_from(x, 0);
+    return {glm::vec3(start_ + x.x * frame_.right + x.y * frame_.up), frame_.ray_direction};
+  }
   LightRay ray_from(glm::dvec3 x, double depth) const;
 
   // The triangles that the rays through these places meet first, or no_primitive; count: 1 ... 16. A face that the
@@ -109,7 +115,7 @@ class LightView {
   };
   std::vector<Plane> planes_;
   bool in_a_face_ = false;  // the light stands in the plane of a triangle
-  double start_m_ = 0;
+  glm::dvec3 start_{0};     // directional: where the ray through (0, 0) starts, in the world
   double ray_error_m_ = 0;
 };
 

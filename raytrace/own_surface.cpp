@@ -106,12 +106,17 @@ uint32_t OwnSurface::exact_first(glm::dvec3 x, uint64_t& rays) const {
     if (!covers(triangle, x)) {  // the sheet may go on below x
       const glm::dvec3 centre =
           (view_.corner(triangle, 0) + view_.corner(triangle, 1) + view_.corner(triangle, 2)) / 3.0;
-      triangle = walk({view_.frame().place(centre), triangle}, x).triangle;
+      triangle = walk({view_.frame().place(centre), triangle, false, false}, x).triangle;
       if (!covers(triangle, x)) continue;
     }
     if (first == no_primitive || view_.hit_depth(triangle, x) < view_.hit_depth(first, x)) first = triangle;
   }
   return first;
+}
+
+SurfacePoint OwnSurface::point(glm::dvec3 light, uint32_t primitive, bool lit) const {
+  const glm::dvec3 at = view_.place_of(light);
+  return {at, primitive, lit, lit && silhouettes_.near(at, rounding_share * beside_m())};
 }
 
 OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, uint64_t& rays) const {
@@ -121,12 +126,11 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   const bool beside = silhouettes_.near(x);
   std::vector<Silhouettes::Crossing> crossed;
   if (p.lit) crossed = silhouettes_.crossings(p.at, x);
-  // A lit P on a silhouette, its own surface's border for one: whether the way crosses it, rounding says. And where x
-  // is on one, whether the ray through it meets the surface that ends there: the ray that was cast may say otherwise
-  // than what is first in double, and a map holds what it says.
-  const double tie_m = rounding_share * beside_m();
-  bool sure = !(p.lit && silhouettes_.near(p.at, tie_m));
-  const bool tie = beside && silhouettes_.near(x, tie_m);
+  // Whether the way crosses a silhouette that a lit P is on, rounding says. And where x is on one, whether the ray
+  // through it meets the surface that ends there: the ray that was cast may say otherwise than what is first in double,
+  // and a map holds what it says.
+  bool sure = !p.on_silhouette;
+  const bool tie = beside && silhouettes_.near(x, rounding_share * beside_m());
   const auto exact = [&] {
     const uint32_t first = exact_first(x, rays);
     sure &= clipped(first, x) == clipped(hit, x);

@@ -18,15 +18,18 @@
 namespace noonmark {
 
 struct SurfacePoint {
-  glm::dvec3 at{0};        // the place of P as the light sees it (raytrace/light_view.h)
-  uint32_t primitive = 0;  // the triangle it lies on
-  bool lit = false;        // R1
+  glm::dvec3 at{0};            // the place of P as the light sees it (raytrace/light_view.h)
+  uint32_t primitive = 0;      // the triangle it lies on
+  bool lit = false;            // R1
+  bool on_silhouette = false;  // lit, and on one to within double's rounding, its own surface's border for one
 };
 
 class OwnSurface {
  public:
   OwnSurface(const EmbreeScene& embree, const Adjacency& adjacency, const LightView& view)
       : embree_(embree), adjacency_(adjacency), view_(view), silhouettes_(adjacency, view, beside_m()) {}
+
+  SurfacePoint point(glm::dvec3 light, uint32_t primitive, bool lit) const;  // light: P in the light's frame
 
   // sure: float error changes neither the verdict nor on which side of the near plane the light is first met.
   struct Verdict {

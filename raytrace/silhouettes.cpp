@@ -183,22 +183,34 @@ bool Silhouettes::near_listed(glm::dvec3 x, double within_m, std::vector<uint32_
   const Grid& grid = grid_of(x, place);
   if (!grid.holds(place)) return false;
   const size_t cell = grid.cell_of(place);
-  // Across the light's rays: what of a vector is left without its part along the ray.
-  const glm::dvec3 along_ray = view_.parallel() ? glm::dvec3(0, 0, 1) : glm::normalize(x);
-  const glm::dvec3 origin = view_.parallel() ? x : glm::dvec3(0);
-  const auto across = [&](glm::dvec3 v) { return v - glm::dot(v, along_ray) * along_ray; };
   bool any = false;
+  const auto found = [&](const Edge& edge) {
+    if (triangles) triangles->push_back(edge.triangle);
+    any = true;
+    return !triangles;  // one is enough
+  };
+  if (view_.parallel()) {
+    for (uint32_t i = grid.begin[cell]; i < grid.begin[cell + 1]; ++i) {
+      const Edge& edge = edges_[grid.listed[i]];
+      const glm::dvec2 start(edge.a), way = glm::dvec2(edge.b) - start;
+      const double length2 = glm::dot(way, way);
+      const double along = length2 > 0 ? std::clamp(glm::dot(place - start, way) / length2, 0.0, 1.0) : 0;
+      const glm::dvec2 beside = place - start - along * way;
+      if (glm::dot(beside, beside) <= within_m * within_m && found(edge)) break;
+    }
+    return any;
+  }
+  // Across the light's rays: what of a vector is left without its part along the ray.
+  const glm::dvec3 along_ray = glm::normalize(x);
+  const auto across = [&](glm::dvec3 v) { return v - glm::dot(v, along_ray) * along_ray; };
   for (uint32_t i = grid.begin[cell]; i < grid.begin[cell + 1]; ++i) {
     const Edge& edge = edges_[grid.listed[i]];
-    const glm::dvec3 start = across(edge.a - origin), way = across(edge.b - edge.a);
+    const glm::dvec3 start = across(edge.a), way = across(edge.b - edge.a);
     const double length2 = glm::dot(way, way);
     const double along = length2 > 0 ? std::clamp(-glm::dot(start, way) / length2, 0.0, 1.0) : 0;
     const glm::dvec3 beside = start + along * way;
     if (glm::dot(beside, beside) > within_m * within_m) continue;
-    if (!view_.parallel() && !(glm::dot(edge.a + along * (edge.b - edge.a), along_ray) > 0)) continue;
-    if (!triangles) return true;
-    triangles->push_back(edge.triangle);
-    any = true;
+    if (glm::dot(edge.a + along * (edge.b - edge.a), along_ray) > 0 && found(edge)) break;
   }
   return any;
 }

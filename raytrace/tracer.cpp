@@ -201,6 +201,7 @@ LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverT
   const Stopwatch tap_watch;
   const OwnSurface surface(impl_->embree, impl_->adjacency, view);
   const int taps = probe.taps();
+  const bool one_for_all = probe.pattern.variants == 1 && !probe.pattern.scaled_by_view;  // every receiver's offsets
   result.taps.taps_per_receiver = taps;
   result.taps.taps.assign(receivers.primitive.size() * static_cast<size_t>(taps), 0);
   result.edge_distance_texels = Image<float>(receivers.width(), receivers.height(), 0);
@@ -216,14 +217,17 @@ LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverT
       if (!truth.facing[first + i]) continue;
       const glm::dvec3 p = receivers.position[first + i], normal = receivers.normal[first + i];
       at[active] = frame.to_light(p);
-      points[active] = {view.place_of(at[active]), receivers.primitive[first + i], truth.lit[first + i] != 0};
+      points[active] = surface.point(at[active], receivers.primitive[first + i], truth.lit[first + i] != 0);
       looked_up[active] = frame.to_light(bias.looked_up(frame, p, normal));
       lanes[active++] = i;
     }
     if (active == 0) return;
     for (int tap = 0; tap < taps; ++tap) {
       glm::dvec3 offsets[packet_size];
-      for (int k = 0; k < active; ++k) offsets[k] = probe.offset(first + static_cast<size_t>(lanes[k]), tap);
+      if (one_for_all)
+        std::fill_n(offsets, active, glm::dvec3(probe.pattern.offset(0, tap)));
+      else
+        for (int k = 0; k < active; ++k) offsets[k] = probe.offset(first + static_cast<size_t>(lanes[k]), tap);
       OwnSurface::Verdict exact[packet_size], moved[packet_size];  // F and D
       const auto at_offset = [&](const glm::dvec3* from, OwnSurface::Verdict* verdicts) {
         glm::dvec3 x[packet_size];

@@ -75,7 +75,13 @@ struct LookupProbe {
   // sampler, is off by less than a fifth of a texel, so that every wrap mode finds texel t.
   static constexpr float farthest_texel = 1048576;
   static glm::ivec2 floored(glm::vec2 at) {
-    return glm::ivec2(glm::clamp(glm::floor(at), glm::vec2(-farthest_texel), glm::vec2(farthest_texel)));
+    // Not std::floor, a call for every tap: clamped, a float's whole part is an int.
+    const auto along = [](float x) {
+      const float clamped = x < -farthest_texel ? -farthest_texel : x > farthest_texel ? farthest_texel : x;
+      const int whole = static_cast<int>(clamped);
+      return static_cast<float>(whole) > clamped ? whole - 1 : whole;
+    };
+    return {along(at.x), along(at.y)};
   }
 };
 
