@@ -6,43 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include "app/sweep.h"
 #include "app/workbench.h"
 #include "scenes/error.h"
-#include "tests/acceptance_support.h"
-#include "tests/planted_support.h"
+#include "tests/planted_defect.h"
 
 namespace noonmark::planted {
 namespace {
 
-using acceptance::small;
-using acceptance::with;
-
-// A metric of the undamaged run at most (for `falls`: at least) `before`, of the damaged one at least (at most)
-// `after`.
-struct Moves {
-  const char* metric;
-  double before, after;
-  bool falls = false;
-};
-
-struct Planted {
-  const char* name;
-  Settings settings;
-  Defect defect;
-  std::vector<Moves> moves;
-  std::vector<const char*> still{};  // metrics that must not see it, to show why another has to
-};
-
-// One floor, three cubes. At 512 texels a texel is 39 mm, and law 1 asks 2.3e-3 of depth at most for the floor.
-Settings cubes(std::initializer_list<acceptance::Assignment> more = {}) {
-  return with(more, with({{"map.resolution", "512"}, {"bias.constant", "0.0025"}}, small("cube-room", 320, 180)));
-}
-Settings cubes_3x3(std::initializer_list<acceptance::Assignment> more = {}) {
-  return with(more, cubes({{"filter.kind", "box"}, {"bias.constant", "0.008"}}));
-}
 Settings offset_cubes() { return cubes({{"bias.form", "normal_offset"}, {"bias.normal_offset", "0.7"}}); }
 // The map covers two fifths of what it should, so that many receivers fall outside.
 Settings narrow() { return cubes({{"map.extent_scale", "0.4"}}); }
@@ -75,8 +47,6 @@ void drop_part(Scene& scene, const std::string& name) {
   scene.triangles.erase(first, first + part->triangle_count);
 }
 
-const char* const receiver = "shaders/receiver.glsl";
-const char* const projected = "shaders/light/projected.glsl";
 const char* const box = "shaders/filter/box.glsl";
 
 std::vector<Planted> defects() {
@@ -339,34 +309,9 @@ std::vector<Planted> defects() {
   return all;
 }
 
-void PrintTo(const Planted& planted, std::ostream* out) { *out << planted.name; }
-
 class PlantedDefect : public testing::TestWithParam<Planted> {};
-
-TEST_P(PlantedDefect, MovesItsMetric) {
-  const Planted& p = GetParam();
-  const Figures sound = measure(p.settings), broken = measure(p.settings, p.defect);
-  EXPECT_GT(sound.at("counted"), 5000);
-  EXPECT_EQ(sound.at("contract"), 0);
-  EXPECT_LE(sound.at("rounding_excess"), 1);
-  for (const Moves& moves : p.moves) {
-    const double before = sound.at(moves.metric), after = broken.at(moves.metric);
-    std::cout << p.name << ": " << moves.metric << " " << before << " -> " << after << "\n";
-    if (moves.falls) {
-      EXPECT_GE(before, moves.before) << moves.metric;
-      EXPECT_LE(after, moves.after) << moves.metric;
-    } else {
-      EXPECT_LE(before, moves.before) << moves.metric;
-      EXPECT_GE(after, moves.after) << moves.metric;
-    }
-  }
-  for (const char* metric : p.still) {
-    // Rounding of shares that stay 0, and of residuals, at most.
-    EXPECT_NEAR(broken.at(metric), sound.at(metric), 1e-6) << metric << " should not see this";
-  }
-}
-INSTANTIATE_TEST_SUITE_P(Each, PlantedDefect, testing::ValuesIn(defects()),
-                         [](const auto& defect) { return defect.param.name; });
+TEST_P(PlantedDefect, MovesItsMetric) { expect_moves(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(Each, PlantedDefect, testing::ValuesIn(defects()), name_of);
 
 // The program's own wiring sees what a variant of a shader does, and a run ends as a defect.
 TEST(Workbench, HoldsAVariantToItsContract) {

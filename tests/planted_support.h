@@ -22,6 +22,7 @@ struct Defect {
   gl::ShaderReplacements shaders{};                               // of the map's pass, the lookup and the probe
   std::function<void(Scene&)> drawn_scene{};                      // into the map
   std::function<void(LightFrame&, MapSettings&)> drawn_map{};     // the frame and settings it is drawn with
+  std::function<void(BiasSettings&)> drawn_bias{};                // the bias it is drawn with (polygon offset)
   std::function<Image<float>(const Image<float>&)> edited_map{};  // its pixels, before the lookup
   bool every_map = false;                                         // drawn_map's wrap is R4's map's too
   std::function<void(Settings&)> asked{};                         // the settings that the lookup runs with
@@ -60,6 +61,7 @@ inline Figures measure(const Settings& settings, const Defect& defect = {}) {
   LightFrame drawn_frame = frame;
   Settings drawn = settings;
   if (defect.drawn_map) defect.drawn_map(drawn_frame, drawn.map);
+  if (defect.drawn_bias) defect.drawn_bias(drawn.bias);
   gl::ShadowMap map = renderer.render_map(drawn_frame, drawn);
   if (defect.edited_map) map = renderer.upload_map(defect.edited_map(renderer.read_map(map)), settings.map);
   const Image<float> stored = renderer.read_map(map);
