@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -483,6 +485,19 @@ TEST(DepthBias, OfATanIsHeldBetweenItsFloorAndItsCap) {
     const volatile float in_depth = held * 0.3f;
     EXPECT_EQ(bias.at(probe_of(0.5f, 0.3f, tan), 0), in_depth);
   }
+}
+
+// A technique that the README does not name does not exist for its readers.
+TEST(Settings, EveryTechniqueIsInTheReadme) {
+  std::ifstream file(std::string(NOONMARK_SOURCE_DIR) + "/README.md");
+  const std::string readme(std::istreambuf_iterator<char>(file), {});
+  ASSERT_NE(readme.find("## What there is"), std::string::npos);
+  const std::string table = readme.substr(readme.find("## What there is"));
+  for (const char* name : {"bias.form", "filter.kind", "filter.disk", "map.format", "map.wrap", "map.cull", "map.cube_pass"})
+    for (std::string_view choice : find_setting(name).choices)
+      EXPECT_NE(table.find("`" + std::string(choice)), std::string::npos) << name << " = " << choice;
+  for (const char* kind : {"directional", "spot", "point"})
+    EXPECT_NE(table.find("| `" + std::string(kind) + "`"), std::string::npos) << kind;
 }
 
 }  // namespace
