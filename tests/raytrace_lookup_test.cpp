@@ -310,6 +310,25 @@ TEST(Lookup, EdgeDistanceInClosedForm) {
   EXPECT_GT(differ, 100);
 }
 
+// Whether a ray through an edge meets what ends there is nobody's to say: the rasteriser has a rule of its own.
+TEST(Lookup, ATexelsCentreOnAnOutlineIsAmbiguous) {
+  Scene scene;
+  add_quad(scene, "floor", {-3, 0, -3}, {0, 0, 6}, {6, 0, 0});
+  add_quad(scene, "roof", {-3, 1, -3}, {0, 0, 6}, {3.125, 0, 0});  // its edge at x = 0.125, a texel's centre
+  light_from_above(scene);
+  scene.map = MapVolume{.extent_m = 8, .near_m = 2, .far_m = 12};
+  const Looked looked = look_up(scene, 32, 1, 30000);
+  int dark = 0, lit = 0;
+  for (size_t i = 0; i < looked.receivers.primitive.size(); ++i) {
+    const bool on_floor = looked.receivers.position[i].y == 0;
+    if (!on_floor || looked.frame.texel_centre(looked.texel(i)).x != 0.125) continue;
+    ++(looked.exact_lit(i) ? lit : dark);
+    EXPECT_TRUE(looked.bits(i) & tap_ambiguous) << looked.receivers.position[i].x << ' ' << looked.exact_lit(i);
+  }
+  EXPECT_GT(dark, 50);
+  EXPECT_GT(lit, 50);
+}
+
 TEST(Lookup, TheMiddleTapOfAKernelIsTheUnfilteredTap) {
   for (const char* name : {"wall", "fence"}) {
     const Looked one = look_up(builtin(name), 100, 1, 5000), nine = look_up(builtin(name), 100, 3, 5000),

@@ -10,7 +10,7 @@ using namespace test;
 
 // Looks up exactly these texels, one receiver for each.
 LookupTruth look_up(const Scene& scene, const LightFrame& frame, const std::vector<glm::ivec2>& texels,
-                    const MapSettings& map, int kernel = 1) {
+                    const MapSettings& map, int kernel = 1, const DepthBias& bias = {}, double offset_unit = 0) {
   const std::vector<Placed> points(texels.size(), points_on(scene, frame.direction_to_light(), true, 1, 1)[0]);
   const ReceiverImage receivers = receivers_at(scene, points, frame.direction_to_light(), true);
   LookupProbe probe = probe_of(receivers, frame, box(kernel));
@@ -19,14 +19,15 @@ LookupTruth look_up(const Scene& scene, const LightFrame& frame, const std::vect
                       Image<uint8_t>(receivers.width(), 1, 1),
                       Image<uint8_t>(receivers.width(), 1),
                       {}};
-  return Tracer(scene).lookup_truth(receivers, truth, probe, frame, map);
+  return Tracer(scene).lookup_truth(receivers, truth, probe, frame, map, bias, offset_unit);
 }
 
-Image<float> whole_map(const Scene& scene, const LightFrame& frame, const MapSettings& map = {}) {
+Image<float> whole_map(const Scene& scene, const LightFrame& frame, const MapSettings& map = {},
+                       const DepthBias& bias = {}, double offset_unit = 0) {
   std::vector<glm::ivec2> texels;
   for (int y = 0; y < frame.resolution; ++y)
     for (int x = 0; x < frame.resolution; ++x) texels.push_back({x, y});
-  return look_up(scene, frame, texels, map).exact_map;
+  return look_up(scene, frame, texels, map, 1, bias, offset_unit).exact_map;
 }
 
 // Half a float's last place below 1, and the double rounding of a depth of some metres.
@@ -68,6 +69,34 @@ TEST(ExactMap, PlaneIsItsFormula) {
   }
 }
 
+// OpenGL 4.5 core, 14.6.5: factor times the steeper of the two slopes, per texel, and units of the smallest difference.
+TEST(ExactMap, PolygonOffsetOfAPlaneIsItsFormula) {
+  for (double theta : {0.0, 30.0, 75.0}) {
+    for (double phi : {0.0, 33.0, 135.0}) {
+      const Scene scene = make_scene({.name = "plane", .theta_deg = theta, .phi_deg = phi});
+      const LightFrame frame = frame_of(scene, 50);
+      DepthBias bias;
+      bias.form = BiasForm::polygon_offset;
+      bias.factor = 1.5f;
+      bias.units = 8;
+      const double unit = 0x1p-16;
+      const double steepest = std::tan(glm::radians(theta)) *
+                              std::max(std::abs(std::cos(glm::radians(phi))), std::abs(std::sin(glm::radians(phi))));
+      const double offset = 1.5 * steepest * frame.texel_m() / (frame.far_m - frame.near_m) + 8 * unit;
+      const Image<float> plain = whole_map(scene, frame), moved = whole_map(scene, frame, {}, bias, unit);
+      int covered = 0;
+      for (size_t i = 0; i < plain.size(); ++i) {
+        if (plain[i] == 1) continue;
+        ++covered;
+        // Corners of the plane are floats 3 m out, which tilts it by some 2^-24 of its slope; two maps are rounded.
+        EXPECT_NEAR(moved[i], std::min(1.0, plain[i] + offset), 2 * depth_rounding + 1e-6 * offset)
+            << theta << ' ' << phi << " texel " << i;
+      }
+      EXPECT_GT(covered, 100);
+    }
+  }
+}
+
 TEST(ExactMap, BoxOnAFloorInClosedForm) {
   Scene scene;
   add_quad(scene, "floor", {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
@@ -95,6 +124,9 @@ TEST(ExactMap, BoxOnAFloorInClosedForm) {
   expect_map(whole_map(scene, make_light_frame(scene, cut)), make_light_frame(scene, cut), expected(9.5));
   cut.map.near_m = 9.75;  // the whole box is before it
   expect_map(whole_map(scene, make_light_frame(scene, cut)), make_light_frame(scene, cut), expected(10));
+  map = {};
+  map.depth_clamp = true;  // and what is before it stays, at its depth
+  expect_map(whole_map(scene, make_light_frame(scene, cut), map), make_light_frame(scene, cut), expected(9.75));
   cut.map.near_m = 2;
   cut.map.far_m = 9;  // the floor is beyond it
   expect_map(whole_map(scene, make_light_frame(scene, cut)), make_light_frame(scene, cut), expected(8));
