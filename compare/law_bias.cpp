@@ -4,22 +4,36 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 namespace noonmark {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// NaN where the taps are no square, so that it takes each of them.
 double reach(const LookupProbe& probe) {
   switch (probe.tap_reference) {
-    case TapReference::own_depth:
-      return probe.pattern.reach_texels();
+    case TapReference::own_depth: {
+      const double k = probe.pattern.reach_texels();
+      const auto corner = [&](const glm::vec3& o) { return std::abs(o.x) == k - 0.5 && std::abs(o.y) == k - 0.5; };
+      const auto& offsets = probe.pattern.offsets;
+      const bool square = std::count_if(offsets.begin(), offsets.end(), corner) == (k == 0.5 ? 1 : 4);
+      return square ? k : std::numeric_limits<double>::quiet_NaN();
+    }
     case TapReference::plane_at_tap:
       return 0.5;
     case TapReference::plane_at_texel:
       return 0;
   }
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+// What the plane rises towards the light up to the furthest of these taps, and half a texel more.
+double need_of(std::span<const glm::vec3> offsets, glm::dvec2 g) {
+  double rise = 0;
+  for (const glm::vec3& o : offsets) rise = std::max(rise, -glm::dot(glm::dvec2(o), g));
+  return rise + (std::abs(g.x) + std::abs(g.y)) / 2;
 }
 
 // The least distance of the plane n.x = h (h > 0) along the directions of a square on a cube's face.
@@ -74,7 +88,11 @@ double AcneLaw::at(size_t i, glm::dvec3 position, glm::dvec3 normal) const {
   if (frame_.kind == LightKind::point) return cube_need(i, position, normal);
   if (reach_texels_ == 0) return 0;  // also where the light sees the plane edge on
   const glm::dvec2 g = depth_gradient(frame_, position, normal);
-  return reach_texels_ * (std::abs(g.x) + std::abs(g.y));
+  if (!std::isnan(reach_texels_)) return reach_texels_ * (std::abs(g.x) + std::abs(g.y));
+  const TapPattern& pattern = probe_.pattern;
+  const auto taps = static_cast<size_t>(pattern.taps);
+  const auto variant = static_cast<size_t>(tap_variant(static_cast<uint32_t>(i), pattern.variants));
+  return need_of(std::span(pattern.offsets).subspan(variant * taps, taps), g);
 }
 
 double AcneLaw::cube_need(size_t i, glm::dvec3 position, glm::dvec3 normal) const {
@@ -96,7 +114,10 @@ double AcneLaw::cube_need(size_t i, glm::dvec3 position, glm::dvec3 normal) cons
 }
 
 double AcneLaw::of_face(const glm::dvec3 (&corners)[3], glm::dvec3 normal) const {
-  if (frame_.kind != LightKind::point) return at(0, corners[0], normal);
+  if (frame_.kind != LightKind::point) {
+    if (!std::isnan(reach_texels_)) return at(0, corners[0], normal);
+    return need_of(probe_.pattern.offsets, depth_gradient(frame_, corners[0], normal));
+  }
   double farthest = 0;
   for (const glm::dvec3& corner : corners) farthest = std::max(farthest, glm::length(frame_.to_light(corner)));
   const double h = -glm::dot(glm::normalize(normal), frame_.to_light(corners[0]));

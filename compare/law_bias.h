@@ -6,7 +6,9 @@
 //   double depth = law.at(i, P, N);                       // what receiver i needs, whatever the grid's alignment
 //
 // Flat maps. The window depth of a plane is affine in texels (spot: 1/z is, and window depth is affine in 1/z), so with
-// k = TapPattern::reach_texels() the least bias is exactly k (|dd/di| + |dd/dj|) as the supremum over alignments, with
+// o the tap furthest up the plane towards the light the least bias is exactly -o.(dd/di, dd/dj) + (|dd/di| + |dd/dj|) /
+// 2 as the supremum over alignments; for the square of a box or of linear taps that is k (|dd/di| + |dd/dj|) with k =
+// TapPattern::reach_texels(). There
 //   directional  dd/di = -w (n.right / n.forward) / (far - near)
 //   spot         dd/di = -far near / (far - near) * (n.right / n.P) * 2 tan(fov/2) / resolution
 // where n is the plane's normal and P a point of it in the light's axes. Where the reference is the plane's depth at
@@ -46,7 +48,7 @@ class AcneLaw {
 
   const LightFrame& frame_;
   const LookupProbe& probe_;
-  double reach_texels_;          // flat maps: k
+  double reach_texels_;          // flat maps: k; NaN where the taps are no square
   double longest_offset_m_ = 0;  // cube maps
 };
 
