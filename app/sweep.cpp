@@ -29,6 +29,7 @@
 #include "raytrace/tracer.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
+#include "scenes/idle_settings.h"
 #include "scenes/tap_pattern.h"
 
 namespace noonmark {
@@ -82,6 +83,27 @@ class FolderLock {
 
  private:
   int descriptor_;  // the lock goes with it, also when the program is killed
+};
+
+// What was set and changed nothing at any point of its part: a user should not believe that it was measured.
+class IdleNotes {
+ public:
+  void add(const std::string& part, const std::vector<IdleSetting>& idle) {
+    ++points_[part];
+    for (const IdleSetting& setting : idle) ++idle_[{part, setting.name}];
+  }
+  void print() const {
+    for (const auto& [which, count] : idle_) {
+      const auto& [part, name] = which;
+      if (count == points_.at(part))
+        fmt::print(stderr, "note: {} has no effect at any point{}\n", name,
+                   part.empty() ? "" : fmt::format(" of part '{}'", part));
+    }
+  }
+
+ private:
+  std::map<std::string, int> points_;
+  std::map<std::pair<std::string, std::string>, int> idle_;
 };
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
@@ -241,6 +263,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
     const StopOnSignal guard;
     Progress progress(total, static_cast<int64_t>(before.size()));
     auto done = static_cast<int64_t>(before.size());
+    IdleNotes notes;
     for (int64_t id = 0; id < total && !outcome.interrupted; ++id) {
       if (std::binary_search(before.begin(), before.end(), id)) continue;
       const Experiment& part = part_of_point(experiment, id);
@@ -248,12 +271,14 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
                                     part.curve_enabled ? std::optional(part.curve) : std::nullopt);
       m.record.id = id;
       m.record.part = part.part;
+      notes.add(part.part, idle_settings(m.frame.kind, m.settings));
       if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0))
         m.record.pictures = keep_pictures(m, id, options.out);
       store.add(m.record);
       progress.finished(++done, swept_text(part, m.record));
       outcome.interrupted = stop_asked && done < total;
     }
+    notes.print();
   }
 
   outcome.results = store.load();

@@ -10,6 +10,7 @@
 #include "compare/quantities.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
+#include "scenes/idle_settings.h"
 
 namespace noonmark {
 namespace {
@@ -29,6 +30,11 @@ void print_ladder(const Measurement& m) {
   const auto value = [&](const char* name) { return m.record.metrics.at(name); };
   fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted ({:.4f}% ambiguous)\n\n", m.scene.name,
              value("receivers"), value("facing"), value("counted"), 100 * value("ambiguous"));
+  if (value("counted") == 0) {
+    fmt::print(
+        "  no counted receiver, so nothing can be judged; does the camera see a surface that faces the light?\n");
+    return;
+  }
   fmt::print("  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_table())
     if (metric.unit == "fraction" && metric.name != "ambiguous")
@@ -39,28 +45,24 @@ void print_ladder(const Measurement& m) {
     fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);
   if (const std::string_view why = why_no_curve(m.record); !why.empty()) fmt::print("\n  no bias curve: {}\n", why);
   if (!m.record.curve) return;
-  if (value("counted") == 0) {
-    fmt::print(
-        "\n  no counted receiver, so no bias can be judged; does the camera see a surface that faces the light?\n");
-    return;
-  }
   const BiasCurve& c = *m.record.curve;
+  const char* there = m.frame.parallel() ? "" : " (m and texels at the median receiver)";
   if (c.window_min_depth)
-    fmt::print("\n  usable {}: {:.6g} ... {:.6g} depth = {:.4g} ... {:.4g} m = {:.4g} ... {:.4g} texels\n", c.parameter,
-               *c.window_min_depth, *c.window_max_depth, *c.window_min_depth * c.m_per_depth,
+    fmt::print("\n  usable {}: {:.6g} ... {:.6g} depth = {:.4g} ... {:.4g} m = {:.4g} ... {:.4g} texels{}\n",
+               c.parameter, *c.window_min_depth, *c.window_max_depth, *c.window_min_depth * c.m_per_depth,
                *c.window_max_depth * c.m_per_depth, *c.window_min_depth * c.texels_per_depth,
-               *c.window_max_depth * c.texels_per_depth);
+               *c.window_max_depth * c.texels_per_depth, there);
   else
     fmt::print("\n  no {} keeps acne within {:g} and Peter Panning within {:g}\n", c.parameter, c.acne_bound,
                c.peter_panning_bound);
   if (c.acne_free_bias_depth && c.parameter == "bias.constant") {
-    fmt::print("  free of acne from: {:.6g} depth = {:.4g} m", *c.acne_free_bias_depth,
-               *c.acne_free_bias_depth * c.m_per_depth);
+    fmt::print("  free of acne from: {:.6g} depth = {:.4g} m{}", *c.acne_free_bias_depth,
+               *c.acne_free_bias_depth * c.m_per_depth, m.frame.parallel() ? "" : " at the median receiver");
     // The law in the parameter's own unit, which each receiver turns into depth for itself.
     if (m.frame.parallel() || m.settings.bias.unit == BiasUnit::m)
-      fmt::print("; no receiver in the picture asks for more than {:.4g} m", value("acne_free_bias_law_m"));
+      fmt::print("; by law 1 the planes in the picture ask for {:.4g} m", value("acne_free_bias_law_m"));
     else if (m.settings.bias.unit == BiasUnit::depth)
-      fmt::print("; no receiver in the picture asks for more than {:.4g} depth", value("acne_free_bias_law_depth"));
+      fmt::print("; by law 1 the planes in the picture ask for {:.4g} depth", value("acne_free_bias_law_depth"));
     fmt::print("\n");
   }
   fmt::print("  best {}: {:.6g} depth (error {:.5f}%)\n", c.parameter, c.best_bias_depth, 100 * c.best_error);
@@ -84,6 +86,8 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   write_images(m, out + "/");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));
   print_ladder(m);
+  for (const IdleSetting& idle : idle_settings(m.frame.kind, settings))
+    fmt::print("  note: {} has no effect {}\n", idle.name, idle.why);
   fmt::print("\n{0}/point.json, {0}/ladder.exr, {0}/map.exr and {0}/point-*.png are written\n", out);
   return 0;
 }

@@ -74,8 +74,8 @@ constexpr Metric table[] = {
      "spot light, whose steps grow with the distance, at the counted receiver where it is largest.",
      false},
     {"acne_free_bias_law_depth", "depth",
-     "What the law asks for, whatever the grid's alignment: the largest need of a lit counted receiver (flat maps: k "
-     "|depth gradient per texel|_1), plus half a quantum.",
+     "What law 1 asks for, whatever the grid's alignment: the largest need of a lit counted receiver's own plane (flat "
+     "maps: k |depth gradient per texel|_1), plus half a quantum. At creases the neighbouring face may ask for more.",
      true},
     {"acne_free_bias_law_m", "m",
      "The same in metres of depth, of the receiver that asks for most metres (directional: k w |gradient|_1).", true},

@@ -15,6 +15,7 @@
 
 #include "scenes/depth_bias.h"
 #include "scenes/error.h"
+#include "scenes/idle_settings.h"
 #include "scenes/map_address.h"
 
 namespace noonmark {
@@ -487,13 +488,38 @@ TEST(DepthBias, OfATanIsHeldBetweenItsFloorAndItsCap) {
   }
 }
 
+TEST(Settings, ThoseThatChangeNothingAreNamed) {
+  const auto idle = [](LightKind light, std::initializer_list<std::pair<const char*, const char*>> given) {
+    Settings settings;
+    for (const auto& [name, value] : given) find_setting(name).set(settings, value);
+    std::string text;
+    for (const IdleSetting& setting : idle_settings(light, settings)) text += setting.name + " " + setting.why + ";";
+    return text;
+  };
+  for (LightKind light : {LightKind::directional, LightKind::spot, LightKind::point})
+    EXPECT_EQ(idle(light, {}), "") << "defaults are nobody's choice";
+  EXPECT_EQ(idle(LightKind::directional, {{"light.radius_m", "0.5"}}), "light.radius_m on a directional light;");
+  EXPECT_EQ(idle(LightKind::spot, {{"light.radius_m", "0.5"}, {"light.cone_deg", "30"}}), "");
+  EXPECT_EQ(idle(LightKind::point, {{"map.wrap", "repeat"}}), "map.wrap on a point light;");
+  EXPECT_EQ(idle(LightKind::directional, {{"filter.rotate", "true"}}), "filter.rotate with filter.kind = none;");
+  EXPECT_EQ(idle(LightKind::directional, {{"filter.rotate", "true"}, {"filter.kind", "poisson"}}), "");
+  EXPECT_EQ(idle(LightKind::directional, {{"bias.factor", "2"}}), "bias.factor with bias.form = constant;");
+  EXPECT_EQ(idle(LightKind::spot, {{"bias.form", "polygon_offset"}, {"bias.factor", "2"}}), "");
+  EXPECT_EQ(idle(LightKind::point, {{"bias.form", "polygon_offset"}}),
+            "bias.form = polygon_offset on a point light, whose shader writes its depth itself;");
+  EXPECT_EQ(idle(LightKind::point,
+                 {{"filter.kind", "cube_disk"}, {"filter.disk", "view_distance"}, {"filter.radius_m", "0.1"}}),
+            "filter.radius_m with filter.kind = cube_disk;");
+}
+
 // A technique that the README does not name does not exist for its readers.
 TEST(Settings, EveryTechniqueIsInTheReadme) {
   std::ifstream file(std::string(NOONMARK_SOURCE_DIR) + "/README.md");
   const std::string readme(std::istreambuf_iterator<char>(file), {});
   ASSERT_NE(readme.find("## What there is"), std::string::npos);
   const std::string table = readme.substr(readme.find("## What there is"));
-  for (const char* name : {"bias.form", "filter.kind", "filter.disk", "map.format", "map.wrap", "map.cull", "map.cube_pass"})
+  for (const char* name :
+       {"bias.form", "filter.kind", "filter.disk", "map.format", "map.wrap", "map.cull", "map.cube_pass"})
     for (std::string_view choice : find_setting(name).choices)
       EXPECT_NE(table.find("`" + std::string(choice)), std::string::npos) << name << " = " << choice;
   for (const char* kind : {"directional", "spot", "point"})
