@@ -144,6 +144,28 @@ TEST(ExactMap, NearClippedTapsSayTheyAre) {
   EXPECT_FALSE(truth.taps.taps[1] & tap_near_clipped);
 }
 
+// A cube's faces have flat near planes: what is cut off towards a corner lies further away than near.
+TEST(ExactMap, ACubesNearPlaneIsAlongItsAxis) {
+  Scene scene;
+  add_quad(scene, "floor", {-2, -2, -2}, {0, 0, 4}, {4, 0, 0});
+  add_quad(scene, "shelf", {-1, -1, -1}, {0, 0, 2}, {2, 0, 0});  // at most 1.73 m away, 1 m along the axis
+  scene.light.kind = LightKind::point;
+  scene.light.position_m = {0, 0, 0};
+  for (const bool cut : {true, false}) {
+    scene.map = MapVolume{.near_m = cut ? 1.2 : 0.8, .far_m = 10};
+    const LightFrame frame = frame_of(scene, 32);
+    const ReceiverImage receivers = receivers_at(scene, {{{1.6, -2, 0.1}, 0}, {{1.6, -2, 0.1}, 1}}, {0, 1, 0}, true);
+    const Tracer tracer(scene);
+    const LookupProbe probe = probe_of(receivers, frame);
+    const LookupTruth truth =
+        tracer.lookup_truth(receivers, tracer.receiver_truth(receivers, frame, {}), probe, frame, {});
+    const glm::ivec2 texel = probe.texel(0, 0);
+    const glm::dvec3 way = frame.texel_place(texel);
+    EXPECT_EQ((truth.taps.taps[0] & tap_near_clipped) != 0, cut);
+    EXPECT_NEAR(truth.exact_map.at(texel.x, texel.y), (cut ? 2 : 1) * glm::length(way / way.y) / 10, depth_rounding);
+  }
+}
+
 // Every built-in scene as its map has it, and with faces culled, and cut in two by the near plane.
 TEST(ExactMap, BuiltinScenesAgreeWithBruteForce) {
   for (const BuiltinScene& given : builtin_scenes()) {
