@@ -124,6 +124,7 @@ std::vector<Settings> points(const Experiment& experiment) {
     try {
       validate(settings);
     } catch (const Error& error) {
+      if (experiment.path.empty()) throw;  // a point from the command line alone has no name to add
       throw Error(
           ErrorKind::usage,
           fmt::format("{}: {}point {}{}{}{}: {}", experiment.path,
