@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "compare/bias_curves.h"
 #include "compare/ladder.h"
 
 namespace noonmark {
@@ -257,6 +258,15 @@ inline void set_verdicts(Synthetic& s) {
   for (size_t i = 0; i < s.r4.size(); ++i) {
     s.r4[i] = naive::visibility(s, s.exact, i, DepthFormat::d32f);
     s.r5[i] = naive::visibility(s, s.stored, i, s.map.format);
+  }
+}
+
+// The settings' form goes with the curve's parameter, as the program has it.
+inline Synthetic evidence_for(CurveParameter parameter, uint64_t seed, const Shape& shape) {
+  Synthetic s;
+  for (uint64_t other = seed;; other += 1000) {  // until the form is one that moves and draws nothing
+    s = random_evidence(other, shape);
+    if (curve_parameter(s.bias.form) == parameter) return s;
   }
 }
 
