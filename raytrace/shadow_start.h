@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "raytrace/embree_scene.h"
+#include "scenes/camera_frame.h"
 #include "scenes/light_frame.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
@@ -43,7 +44,7 @@ class ShadowStart {
     glm::dvec3 moved = receivers_.position[pixel];
     if (offset != glm::dvec2(0)) {
       glm::dvec3 right = frame_.right, up = frame_.up;
-      if (!frame_.parallel()) across(frame_.direction_to_light(moved), right, up);
+      if (!frame_.parallel()) upright_axes(frame_.direction_to_light(moved), {0, 1, 0}, right, up);
       moved += offset.x * right + offset.y * up;
     }
     const WayToLight way = way_from(moved);
@@ -60,16 +61,6 @@ class ShadowStart {
     if (frame_.parallel()) return {-frame_.ray_direction, std::numeric_limits<float>::infinity(), {}};
     const glm::dvec3 way = frame_.origin_m - p;
     return {glm::vec3(glm::normalize(way)), static_cast<float>(glm::length(way)), frame_.origin_m};
-  }
-
-  // Two unit vectors across a unit vector.
-  static void across(glm::dvec3 d, glm::dvec3& right, glm::dvec3& up) {
-    const glm::dvec3 a = glm::abs(d);
-    const glm::dvec3 hint = a.x <= a.y && a.x <= a.z ? glm::dvec3(1, 0, 0)
-                            : a.y <= a.z             ? glm::dvec3(0, 1, 0)
-                                                     : glm::dvec3(0, 0, 1);
-    right = glm::normalize(glm::cross(d, hint));
-    up = glm::cross(right, d);
   }
 
   ShadowRay from(glm::vec3 origin, uint32_t own, const WayToLight& way) const {
