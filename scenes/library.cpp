@@ -31,6 +31,8 @@ Scene scene_as_built(const SceneSettings& settings) {
 
 }  // namespace
 
-Scene make_scene(const SceneSettings& settings) { return remeshed(scene_as_built(settings), settings.mesh); }
+Scene make_scene(const SceneSettings& settings) {
+  return remeshed(scene_as_built(settings), settings.mesh, {settings.turn_deg, settings.move_m});
+}
 
 }  // namespace noonmark

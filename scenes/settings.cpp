@@ -95,16 +95,23 @@ Setting real(std::string_view name, std::string_view unit, double min, double ma
 
 template <class Member>
 Setting point(std::string_view name, std::string_view help, Member member) {
-  Setting row{name, "m", ValueType::point, 0, 0, true, {}, help, {}, {}};
+  constexpr bool is_optional = std::is_same_v<std::invoke_result_t<Member, Settings&>, std::optional<glm::dvec3>&>;
+  Setting row{name, "m", ValueType::point, 0, 0, is_optional, {}, help, {}, {}};
   row.get = [member](const Settings& s) {
     const auto& value = member(const_cast<Settings&>(s));
-    return value ? point_text(*value) : std::string("auto");
+    if constexpr (is_optional)
+      return value ? point_text(*value) : std::string("auto");
+    else
+      return point_text(value);
   };
   row.set = [member, row](Settings& s, std::string_view text) {
-    if (text == "auto")
-      member(s).reset();
-    else
-      member(s) = parse_point(row, text);
+    if constexpr (is_optional) {
+      if (text == "auto") {
+        member(s).reset();
+        return;
+      }
+    }
+    member(s) = parse_point(row, text);
   };
   return row;
 }
@@ -160,10 +167,17 @@ std::vector<Setting> make_table() {
            MEMBER(scene.phi_deg)),
       real("scene.thickness_m", "m", 1e-4, 10, "wall, plate: thickness.", MEMBER(scene.thickness_m)),
       real("scene.height_m", "m", 0, 100, "plate: height of its lit face above the floor.", MEMBER(scene.height_m)),
-      choice("scene.mesh", {"as_built", "one_mesh", "split", "reversed", "doubled"},
+      choice("scene.mesh", {"as_built", "one_mesh", "split", "reversed", "doubled", "tiles", "t_junctions"},
              "The scene's surface as built, or in other triangles: welded into one mesh, each triangle cut in four, "
-             "triangles and vertices in reverse order, each triangle there twice.",
+             "triangles and vertices in reverse order, each triangle there twice, in tiles that meet to rounding only, "
+             "in strips with corners on their neighbours' edges.",
              MEMBER(scene.mesh)),
+      real("scene.turn_deg", "deg", -360, 360,
+           "Turns the whole scene, its camera and light with it, about the axis (1, 2, 3): then no plane is along an "
+           "axis.",
+           MEMBER(scene.turn_deg)),
+      point("scene.move_m", "Moves the whole scene, its camera and light with it, after the turn.",
+            MEMBER(scene.move_m)),
       integer("view.width_px", "px", 1, 8192, "Width of the picture.", MEMBER(view.width_px)),
       integer("view.height_px", "px", 1, 8192, "Height of the picture.", MEMBER(view.height_px)),
       point("view.eye_m", "Where the camera is; auto: the scene's.", MEMBER(view.eye_m)),

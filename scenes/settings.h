@@ -18,7 +18,7 @@
 
 namespace noonmark {
 
-enum class MeshForm { as_built, one_mesh, split, reversed, doubled };  // scenes/remesh.h
+enum class MeshForm { as_built, one_mesh, split, reversed, doubled, tiles, t_junctions };  // scenes/remesh.h
 enum class DepthFormat { d16, d24, d32f };
 enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
 enum class CulledFaces { none, back, front };
@@ -47,6 +47,8 @@ struct SceneSettings {
   double thickness_m = 0.1;        // wall, plate
   double height_m = 0.5;           // plate: of its lit face above the floor
   MeshForm mesh = MeshForm::as_built;  // the same surface in other triangles
+  double turn_deg = 0;                 // the whole scene, camera and light with it, about the axis (1, 2, 3)
+  glm::dvec3 move_m{0};                // and then moved
 };
 
 struct ViewSettings {
