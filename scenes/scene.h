@@ -82,6 +82,9 @@ struct Scene {
   Camera camera;
   Light light;
   std::optional<MapVolume> map;  // the scene's own choice; without one the map is fitted tightly to the scene
+  // What the scene's file holds and Noonmark does not model, and what was settled where it leaves a choice: a phrase
+  // each, for people.
+  std::vector<std::string> notes;
 };
 
 }  // namespace noonmark

@@ -44,9 +44,9 @@ inline std::string defect_of(const Scene& scene) {
 }
 
 // The message of the Error(scene) that loading throws; fails when it loads, throws another thing, or takes two lines.
-inline std::string refusal(const std::string& path) {
+inline std::string refusal(const std::string& path, const Pose& pose = {}) {
   try {
-    load_gltf(path);
+    load_gltf(path, pose);
   } catch (const Error& e) {
     const std::string message = e.what();
     EXPECT_EQ(e.kind(), ErrorKind::scene) << message;
