@@ -45,6 +45,7 @@ constexpr std::string_view harmless_extensions[] = {
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_node_hoverability",
     "KHR_node_selectability",
+    "KHR_technique_webgl",
     "KHR_techniques_webgl",
     "KHR_texture_basisu",
     "KHR_texture_transform",

@@ -180,7 +180,7 @@ class Checker {
       refuse(d_.file, place + ".componentType", "integer positions without KHR_mesh_quantization",
              "list that extension in extensionsUsed and extensionsRequired, or export floats");
     }
-    if (element_stride(d_, a) % 4 != 0) {
+    if (a.bufferView != -1 && element_stride(d_, a) % 4 != 0) {
       fail(place, "vertices that are no multiple of 4 bytes apart: their view needs a byteStride");
     }
   }
