@@ -1,6 +1,7 @@
 #include "scenes/library.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <vector>
 
@@ -32,6 +33,10 @@ Scene scene_as_built(const SceneSettings& settings) {
 }  // namespace
 
 bool names_file(std::string_view scene_name) { return scene_name.ends_with(".gltf") || scene_name.ends_with(".glb"); }
+
+std::string notes_line(const Scene& scene) {
+  return scene.notes.empty() ? "" : fmt::format("{}: {}", scene.name, fmt::join(scene.notes, "; "));
+}
 
 Scene make_scene(const SceneSettings& settings) { return remeshed(scene_as_built(settings), settings.mesh); }
 
