@@ -11,6 +11,7 @@
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "scenes/idle_settings.h"
+#include "scenes/library.h"
 
 namespace noonmark {
 namespace {
@@ -86,6 +87,7 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   write_images(m, out + "/");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));
   print_ladder(m);
+  if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", note);
   for (const IdleSetting& idle : idle_settings(m.frame.kind, settings))
     fmt::print("  note: {} has no effect {}\n", idle.name, idle.why);
   fmt::print("\n{0}/point.json, {0}/ladder.exr, {0}/map.exr and {0}/point-*.png are written\n", out);

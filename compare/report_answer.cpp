@@ -164,6 +164,8 @@ std::string health_items(const Results& results) {
   if (ambiguous > 0)
     out += item("note", fmt::format("The truth is ambiguous at no more than {} of facing receivers; they are left out.",
                                     quantity(ambiguous, "fraction")));
+  for (const std::string& note : results.info.scene_notes)
+    out += item("note", fmt::format("Of the scene {}.", html(note)));
   return out;
 }
 

@@ -43,14 +43,18 @@ void split(Scene& scene) {
     return entry->second;
   };
   std::vector<glm::uvec3> triangles;
+  std::vector<bool> single_sided;
   std::vector<uint32_t> first;  // of the pieces of each triangle, and one past the last
-  for (const glm::uvec3& t : scene.triangles) {
+  for (size_t i = 0; i < scene.triangles.size(); ++i) {
+    const glm::uvec3& t = scene.triangles[i];
     first.push_back(static_cast<uint32_t>(triangles.size()));
     const uint32_t xy = middle(t.x, t.y), yz = middle(t.y, t.z), zx = middle(t.z, t.x);
     const std::array<glm::uvec3, 4> pieces = {{{t.x, xy, zx}, {xy, t.y, yz}, {zx, yz, t.z}, {xy, yz, zx}}};
     for (const glm::uvec3& piece : pieces) {
       const glm::vec3 &a = scene.positions[piece.x], &b = scene.positions[piece.y], &c = scene.positions[piece.z];
-      if (a != b && b != c && c != a) triangles.push_back(piece);
+      if (a == b || b == c || c == a) continue;
+      triangles.push_back(piece);
+      if (!scene.single_sided.empty()) single_sided.push_back(scene.single_sided[i]);
     }
   }
   first.push_back(static_cast<uint32_t>(triangles.size()));
@@ -60,6 +64,7 @@ void split(Scene& scene) {
     part.triangle_count = end - begin;
   }
   scene.triangles = std::move(triangles);
+  scene.single_sided = std::move(single_sided);
 }
 
 void reverse(Scene& scene) {
@@ -67,6 +72,7 @@ void reverse(Scene& scene) {
   const uint32_t count = static_cast<uint32_t>(scene.triangles.size());
   std::reverse(scene.positions.begin(), scene.positions.end());
   std::reverse(scene.triangles.begin(), scene.triangles.end());
+  std::reverse(scene.single_sided.begin(), scene.single_sided.end());
   std::reverse(scene.parts.begin(), scene.parts.end());
   for (glm::uvec3& t : scene.triangles) t = {last_vertex - t.y, last_vertex - t.z, last_vertex - t.x};
   for (Part& part : scene.parts) part.first_triangle = count - part.first_triangle - part.triangle_count;
@@ -77,6 +83,8 @@ void double_up(Scene& scene) {
   for (size_t i = 0; i < vertices; ++i) scene.positions.push_back(glm::vec3(scene.positions[i]));
   for (size_t i = 0; i < triangles; ++i)
     scene.triangles.push_back(scene.triangles[i] + glm::uvec3(static_cast<uint32_t>(vertices)));
+  const std::vector<bool> sides = scene.single_sided;
+  scene.single_sided.insert(scene.single_sided.end(), sides.begin(), sides.end());
   for (size_t i = 0; i < parts; ++i) {
     Part again = scene.parts[i];
     again.name += " again";
@@ -88,6 +96,7 @@ void double_up(Scene& scene) {
 // Triangles with corners of their own, in double until the scene stands where it is to be.
 struct Soup {
   std::vector<glm::dvec3> corners;  // three for each triangle
+  std::vector<uint32_t> source;     // of each triangle: which of the scene's it was cut from
   std::vector<Part> parts;
 
   void add(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) { corners.insert(corners.end(), {a, b, c}); }
@@ -101,6 +110,7 @@ Soup cut_each(const Scene& scene, const Cut& cut) {
     for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
       const glm::uvec3 v = scene.triangles[t];
       cut(soup, part, scene.positions[v.x], scene.positions[v.y], scene.positions[v.z]);
+      soup.source.resize(soup.triangles(), t);
     }
   }
   return soup;
@@ -108,7 +118,9 @@ Soup cut_each(const Scene& scene, const Cut& cut) {
 
 void add_tiles(Soup& soup, const Part& part, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
   constexpr int n = 8;  // on a side
-  const auto at = [&](int i, int j) { return a + (static_cast<double>(i) * (b - a) + static_cast<double>(j) * (c - a)) / static_cast<double>(n); };
+  const auto at = [&](int i, int j) {
+    return a + static_cast<double>(i) / n * (b - a) + static_cast<double>(j) / n * (c - a);
+  };
   const auto tile = [&](glm::dvec3 p, glm::dvec3 q, glm::dvec3 r) {
     const glm::dvec3 origin = glm::vec3((p + q + r) / 3.0);
     const auto placed = [&](glm::dvec3 corner) { return origin + glm::dvec3(glm::vec3(corner - origin)); };
@@ -143,9 +155,11 @@ void add_strips(Soup& soup, const Part& part, glm::dvec3 a, glm::dvec3 b, glm::d
 
 // The scene with the soup's triangles, each with vertices of its own.
 void replace(Scene& scene, const Soup& soup, const auto& placed) {
+  const std::vector<bool> sides = std::move(scene.single_sided);
   scene.positions.clear();
   scene.triangles.clear();
   scene.parts.clear();
+  scene.single_sided.clear();
   for (Part part : soup.parts) {
     const uint32_t first = static_cast<uint32_t>(scene.triangles.size());
     for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
@@ -155,6 +169,7 @@ void replace(Scene& scene, const Soup& soup, const auto& placed) {
       const uint32_t at = static_cast<uint32_t>(scene.positions.size());
       scene.positions.insert(scene.positions.end(), {a, b, c});
       scene.triangles.emplace_back(at, at + 1, at + 2);
+      if (!sides.empty()) scene.single_sided.push_back(sides[soup.source[t]]);
     }
     part.first_triangle = first;
     part.triangle_count = static_cast<uint32_t>(scene.triangles.size()) - first;
