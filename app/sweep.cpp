@@ -248,6 +248,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
 
   const FolderLock lock(options.out);
   Workbench bench(gl::DebugMode::log);
+  if (experiment.pictures != "none") require_image_files();
   const raytrace::TracerInfo tracer = raytrace::tracer_info();
   const auto facts = provenance(bench, planned, tracer);
   ResultStore store(options.out + "/results.sqlite", fingerprint(experiment, facts),

@@ -80,6 +80,7 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
     throw Error(ErrorKind::usage,
                 fmt::format("cannot make the folder {}: {}; give another --out", out, error.message()));
   Workbench bench(gl::DebugMode::log);
+  require_image_files();
   const Experiment& part = part_of_point(experiment, std::max(point, 0L));
   const Measurement m = bench.measure(settings, part.curve_enabled ? std::optional(part.curve) : std::nullopt);
   write_pictures(m, out, ".", "point");
