@@ -73,6 +73,7 @@ constexpr Field metallic_roughness[] = {{"baseColorFactor", Kind::numbers, false
 constexpr Field material[] = {{"name", Kind::text},
                               {"alphaMode", Kind::text},
                               {"alphaCutoff", Kind::number},
+                              {"doubleSided", Kind::flag},
                               {"pbrMetallicRoughness", Kind::object, false, 0, metallic_roughness}};
 constexpr Field perspective[] = {
     {"yfov", Kind::number, required}, {"znear", Kind::number, required}, {"zfar", Kind::number}};

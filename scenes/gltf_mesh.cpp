@@ -22,11 +22,16 @@ struct Drawable {
   int mode = TINYGLTF_MODE_TRIANGLES;
   uint64_t corners = 0;
   uint64_t triangles = 0;
+  bool single_sided = true;
 };
 
-bool masked_out(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
-  if (primitive.material == -1) return false;
-  const tinygltf::Material& material = model.materials[static_cast<size_t>(primitive.material)];
+// Of a primitive without a material: the default one (glTF 2.0, section 3.9.6).
+const tinygltf::Material& material_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+  static const tinygltf::Material by_default;
+  return primitive.material == -1 ? by_default : model.materials[static_cast<size_t>(primitive.material)];
+}
+
+bool masked_out(const tinygltf::Material& material) {
   const tinygltf::PbrMetallicRoughness& base = material.pbrMetallicRoughness;
   return material.alphaMode == "MASK" && base.baseColorTexture.index == -1 && base.baseColorFactor.size() == 4 &&
          base.baseColorFactor[3] < material.alphaCutoff;
@@ -38,11 +43,13 @@ std::vector<Drawable> drawables(const tinygltf::Model& model, const tinygltf::Me
     const tinygltf::Primitive& primitive = mesh.primitives[i];
     const auto position = primitive.attributes.find("POSITION");
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) continue;
-    if (masked_out(model, primitive)) continue;
+    const tinygltf::Material& material = material_of(model, primitive);
+    if (masked_out(material)) continue;
     Drawable d{i, position->second, primitive.indices, primitive.mode};
     d.corners = model.accessors[static_cast<size_t>(d.indices == -1 ? d.positions : d.indices)].count;
     // What is left over of an incomplete triangle is ignored (glTF 2.0, section 3.7.2.1).
     d.triangles = d.corners < 3 ? 0 : d.mode == TINYGLTF_MODE_TRIANGLES ? d.corners / 3 : d.corners - 2;
+    d.single_sided = !material.doubleSided;
     if (d.triangles > 0) out.push_back(d);
   }
   return out;
@@ -119,6 +126,7 @@ class Appender {
         triangle[k] = place;
       }
       scene_.triangles.push_back(triangle);
+      scene_.single_sided.push_back(drawable.single_sided);
     }
     part.triangle_count = static_cast<uint32_t>(scene_.triangles.size()) - part.first_triangle;
     if (part.triangle_count == 0) return;

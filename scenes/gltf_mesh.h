@@ -20,7 +20,8 @@ inline constexpr uint64_t max_triangles = uint64_t{1} << 26;
 // - only the vertices that some triangle uses;
 // - no degenerate triangle: two equal corners, or corners in a line as far as double arithmetic tells. It has no normal
 //   and hides nothing.
-// A transform that mirrors flips the winding, so that outsides stay outsides.
+// A transform that mirrors flips the winding, so that outsides stay outsides. Triangles of materials that are not
+// doubleSided are marked in scene.single_sided.
 // Throws Error(scene): indices out of range or meaning restart, positions not finite or beyond max_coordinate_m, too
 // many triangles.
 void append_geometry(const Document& document, Buffers& buffers, const std::vector<PlacedNode>& nodes, Scene& scene);

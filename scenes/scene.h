@@ -75,6 +75,9 @@ struct Scene {
   std::string name;
   std::vector<glm::vec3> positions;   // world, metres, all finite
   std::vector<glm::uvec3> triangles;  // indices into positions; counter-clockwise seen from outside
+  // Of each triangle: whether cameras see its front only (glTF's doubleSided = false). Empty: both sides of all. Light
+  // and shadow rays meet both sides whatever it says; what the map's own pass culls is the setting map.cull.
+  std::vector<bool> single_sided;
   std::vector<Part> parts;
   Camera camera;
   Light light;

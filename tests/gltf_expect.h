@@ -24,6 +24,7 @@ inline std::string defect_of(const Scene& scene) {
       if (t[k] >= scene.positions.size()) return "an index is out of range";
     }
   }
+  if (scene.single_sided.size() != scene.triangles.size()) return "sides for another number of triangles";
   uint64_t in_parts = 0;
   for (const Part& part : scene.parts) {
     if (part.first_triangle != in_parts || part.triangle_count == 0) return "parts do not follow one another";
