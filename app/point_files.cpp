@@ -191,8 +191,8 @@ std::string point_json(const Measurement& m, const std::string& command) {
                     {"forward", vector_json(camera.forward)},
                     {"half_width", camera.half_width},
                     {"half_height", camera.half_height},
-                    {"near_m", m.camera.near_m},
-                    {"far_m", m.camera.far_m},
+                    {"near_m", m.camera.near_m.value()},
+                    {"far_m", m.camera.far_m.value()},
                     {"clip_from_world_rows", matrix_rows(camera.clip_from_world())}};
   json["light"] = light_json(m);
   for (int c = 0; c < cause_count; ++c) json["causes"].push_back(cause_name(static_cast<Cause>(c)));

@@ -25,7 +25,8 @@ Scene load_gltf(const std::string& path) {
       gltf::refuse(path, "", "the scene that it shows holds no triangles",
                    "export meshes of triangles, in the default scene and with an area");
     }
-    scene.camera = gltf::find_camera(document, nodes, scene).value_or(fit_camera(scene));
+    const std::optional<Camera> camera = gltf::find_camera(document, nodes, scene);
+    scene.camera = camera ? *camera : fit_camera(scene);
     scene.light = gltf::find_light(document, nodes, scene).value_or(fit_light(scene));
     return scene;
   } catch (const std::bad_alloc&) {

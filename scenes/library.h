@@ -28,7 +28,8 @@ Scene make_scene(const SceneSettings& settings);
 // fitted where the file has none. Throws Error(scene).
 Scene load_gltf(const std::string& path);
 
-// scenes/fit.cpp: a perspective camera that sees the whole scene, and a light from above and aside. For scenes without.
+// scenes/fit.cpp: a perspective camera that sees the whole scene from outside, or stands inside a closed room
+// (scenes/interior.h); and a light from above and aside. For scenes without.
 Camera fit_camera(const Scene& scene);
 Light fit_light(const Scene& scene);
 
