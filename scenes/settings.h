@@ -58,7 +58,10 @@ struct ViewSettings {
   int height_px = 720;
   std::optional<glm::dvec3> eye_m;     // empty: the scene's
   std::optional<glm::dvec3> target_m;  // empty: the scene's
+  std::optional<glm::dvec3> up;        // of the picture, any length but 0; empty: the scene's
   std::optional<double> fov_deg;       // whole vertical angle; empty: the scene's
+  std::optional<double> near_m;        // along the view; empty: the scene's, or fitted (scenes/camera_fit.h)
+  std::optional<double> far_m;
 };
 
 struct LightSettings {  // automatic and empty: the scene's
