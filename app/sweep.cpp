@@ -24,6 +24,7 @@
 #include "compare/csv.h"
 #include "compare/laws.h"
 #include "compare/poor_view.h"
+#include "compare/undecided.h"
 #include "compare/report.h"
 #include "compare/soundness.h"
 #include "compare/store.h"
@@ -299,6 +300,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
   outcome.results = store.load();
   if (const std::string poor = poor_view_note(outcome.results.points); !poor.empty())
     fmt::print(stderr, "note: {}\n", poor);
+  if (const std::string doubt = undecided_note(outcome.results.points); !doubt.empty())
+    fmt::print(stderr, "note: {}\n", doubt);
   if (!outcome.interrupted) {
     for (int64_t id : chosen_late(experiment.pictures, outcome.results.points))
       if (find_point(outcome.results.points, id)->pictures.empty())

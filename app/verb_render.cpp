@@ -8,6 +8,7 @@
 #include "app/workbench.h"
 #include "compare/metrics.h"
 #include "compare/poor_view.h"
+#include "compare/undecided.h"
 #include "compare/quantities.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -41,6 +42,7 @@ void print_ladder(const Measurement& m) {
     if (metric.unit == "fraction" && metric.name != "ambiguous")
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
   fmt::print("\n");
+  if (const std::string doubt = undecided_note({&m.record, 1}); !doubt.empty()) fmt::print("  {}\n\n", doubt);
   for (const char* name : {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "residual",
                            "tap_residual", "rounding_excess", "map_ms", "lookup_ms"})
     fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);

@@ -22,7 +22,7 @@ struct Taps {
 };
 
 struct Lists {
-  Taps error_dark, error_light, wrong_dark, wrong_light;
+  Taps error_dark, error_light, wrong_dark, wrong_light, undecided_dark, undecided_light;
   std::array<Taps, cause_count> by_cause;
   uint64_t receivers = 0;
   float stored_acne = 0;  // the largest threshold
@@ -74,11 +74,17 @@ void receiver(const LookupEvidence& e, const Image<float>& stored_map, CurvePara
     const Tap exact = tap_of(e.probe, e.taps, e.map, e.exact_map, i, t);
     if (exact.weight == 0) continue;  // P is right on a texel's centre: the sampler reads no other
     const float at_r4 = threshold(exact);
-    // Wrong on one side of its threshold only: when dark if it should be lit, when lit if it should be dark.
-    if (!exact.moved_lit || at_r4 > 0)
-      list(lists.by_cause[static_cast<size_t>(tap_cause(exact, !exact.moved_lit))], at_r4, exact.weight);
+    // Wrong on one side of its threshold only: when dark if it should be lit, when lit if it should be dark. What it
+    // should be is F, or where F is unsure the receiver's own truth.
+    const bool right = exact.exact_sure ? exact.moved_lit : e.truth.lit[i] != 0;
+    if (!right || at_r4 > 0) {
+      const Cause cause = exact.exact_sure ? tap_cause(exact, !right) : Cause::undecided;
+      Taps& undecided = right ? lists.undecided_dark : lists.undecided_light;
+      list(cause == Cause::undecided ? undecided : lists.by_cause[static_cast<size_t>(cause)], at_r4, exact.weight);
+    }
     const float at_r5 = threshold(tap_of(e.probe, e.taps, e.map, stored_map, i, t));
-    if (exact.covered && exact.moved_lit && exact.texel_lit) lists.stored_acne = std::max(lists.stored_acne, at_r5);
+    const bool sure = exact.moved_sure && exact.texel_sure;
+    if (exact.covered && sure && exact.moved_lit && exact.texel_lit) lists.stored_acne = std::max(lists.stored_acne, at_r5);
     least = std::min(least, at_r5);
     most = std::max(most, at_r5);
     if (!e.truth.lit[i])
@@ -149,7 +155,7 @@ BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, 
                     [&](const tbb::blocked_range<size_t>& range) {
                       Lists& lists = parts.local();
                       for (size_t i = range.begin(); i != range.end(); ++i)
-                        if (e.truth.facing[i] && !is_ambiguous(e.truth, e.taps, i))
+                        if (e.truth.facing[i] && !e.truth.ambiguous[i])
                           receiver(e, stored_map, parameter, i, lists);
                     });
   const auto add = [](ThresholdSums& to, Taps& from) { to.add(from.thresholds, from.weights); };
@@ -160,13 +166,16 @@ BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, 
     add(error_light_, part.error_light);
     add(wrong_dark_, part.wrong_dark);
     add(wrong_light_, part.wrong_light);
+    add(undecided_dark_, part.undecided_dark);
+    add(undecided_light_, part.undecided_light);
     for (int c = 0; c < cause_count; ++c) add(by_cause_[c], part.by_cause[c]);
   });
-  for (ThresholdSums* list : {&error_dark_, &error_light_, &wrong_dark_, &wrong_light_}) list->sort();
+  for (ThresholdSums* list : {&error_dark_, &error_light_, &wrong_dark_, &wrong_light_, &undecided_dark_, &undecided_light_}) list->sort();
   for (ThresholdSums& list : by_cause_) list.sort();
 }
 
 double BiasCounts::caused(Cause cause, float x) const {
+  if (cause == Cause::undecided) return undecided_dark_.above(x) + undecided_light_.up_to(x);
   const ThresholdSums& list = by_cause_[static_cast<size_t>(cause)];
   const bool darkens = cause == Cause::acne || cause == Cause::aliasing_dark || cause == Cause::coverage_dark;
   return darkens ? list.above(x) : list.up_to(x);

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "compare/poor_view.h"
+#include "compare/undecided.h"
 #include "compare/quantities.h"
 #include "scenes/error.h"
 #include "scenes/settings.h"
@@ -156,7 +157,10 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
     return text + "\n  no finished point matches it; change its where, or the values that are swept\n";
   text += fmt::format("; found {} ({} of {} point{})\n", found_text(bound), bound.join, bound.points,
                       bound.points == 1 ? "" : "s");
-  if (bound.held) return text;
+  if (bound.held) {
+    const std::string doubt = point ? undecided_note(bound, *point) : "";
+    return doubt.empty() ? text : text + fmt::format("  {}\n", doubt);
+  }
 
   if (!std::isfinite(bound.found)) text += "  a value that could not be measured breaks every bound\n";
   if (const std::string poor = point ? why_poor_view(*point) : ""; !poor.empty()) text += fmt::format("  {}\n", poor);

@@ -15,7 +15,7 @@ struct CauseColor {
   std::string_view label;
 };
 
-inline constexpr std::array<CauseColor, 12> cause_colors{{
+inline constexpr std::array<CauseColor, 13> cause_colors{{
     {"acne", 213, 94, 0, "Acne (too dark)"},
     {"peter_panning", 0, 114, 178, "Peter Panning (too light)"},
     {"aliasing_dark", 230, 159, 0, "Aliasing, too dark"},
@@ -25,6 +25,7 @@ inline constexpr std::array<CauseColor, 12> cause_colors{{
     {"filter", 150, 155, 162, "Filter (blur by design)"},
     {"displacement", 136, 84, 56, "Displacement (moved lookup)"},
     {"precision", 204, 121, 167, "Precision"},
+    {"undecided", 240, 228, 66, "Undecided (truth of a tap unsure)"},
     {"light_size", 202, 186, 60, "Light size"},
     {"aliasing", 158, 170, 117, "Aliasing"},  // where dark and light are not told apart
     {"coverage", 0, 158, 115, "Coverage"},    // likewise
@@ -35,7 +36,7 @@ inline constexpr std::array<CauseColor, 5> pixel_state_colors{{
     {"lit", 240, 240, 238, "Right, lit"},
     {"shadowed", 128, 130, 134, "Right, shadowed"},
     {"attached", 74, 76, 82, "Faces away from the light"},
-    {"ambiguous", 240, 228, 66, "Ambiguous truth, left out"},
+    {"ambiguous", 255, 250, 200, "Ambiguous truth, left out"},
     {"background", 30, 32, 38, "No surface"},
 }};
 

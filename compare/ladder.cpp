@@ -47,7 +47,7 @@ bool inside(const LookupProbe& probe, size_t i, const Image<float>& map) {
 std::string_view cause_name(Cause cause) {
   static constexpr std::string_view names[cause_count] = {
       "none", "light_size",    "filter",        "displacement",   "aliasing_dark", "aliasing_light",
-      "acne", "peter_panning", "coverage_dark", "coverage_light", "precision"};
+      "acne", "peter_panning", "coverage_dark", "coverage_light", "undecided",      "precision"};
   return names[static_cast<size_t>(cause)];
 }
 
@@ -62,15 +62,18 @@ Ladder climb(const LookupEvidence& e) {
   for (Image<float>& image : ladder.step) image = Image<float>(width, height, 0);
   ladder.cause = Image<uint8_t>(width, height, 0);
   ladder.flags = Image<uint8_t>(width, height, 0);
+  ladder.doubt = Image<float>(width, height, 0);
 
   const auto receiver = [&](size_t i, Residuals& worst) {
     ladder.flags[i] = static_cast<uint8_t>((e.truth.facing[i] ? flag_facing : 0) |
-                                           (is_ambiguous(e.truth, e.taps, i) ? flag_ambiguous : 0));
+                                           (e.truth.ambiguous[i] ? flag_ambiguous : 0));
     if (!e.truth.facing[i]) return;
     if (e.probe.reference[i] > 1.0f || !inside(e.probe, i, e.exact_map)) ladder.flags[i] |= flag_outside;
 
     const float bias = e.bias.at(e.probe, i);
-    double exact_lit = 0, moved_lit = 0, texel_lit = 0, all_lit = 0;
+    double exact_lit = 0, moved_lit = 0, texel_lit = 0, all_lit = 0, unsure = 0;
+    // What is undecided of the way from R1 to the exact places, from there to the moved ones, and on to R4. Signed.
+    double before_exact = 0, before_moved = 0, before_r4 = 0;
     std::array<double, cause_count> booked{};
     for (int t = 0; t < taps; ++t) {
       const Tap tap = tap_of(e.probe, e.taps, e.map, e.exact_map, i, t);
@@ -79,8 +82,16 @@ Ladder climb(const LookupEvidence& e) {
       if (tap.moved_lit) moved_lit += tap.weight;
       if (tap.texel_lit) texel_lit += tap.weight;
       if (lit) all_lit += tap.weight;
-      booked[static_cast<size_t>(tap_cause(tap, lit))] += tap.weight;
+      const Cause cause = tap_cause(tap, lit);
+      booked[static_cast<size_t>(cause)] += tap.weight;
+      if (tap.exact_sure && tap.moved_sure && tap.texel_sure) continue;
+      unsure += tap.weight;
+      const auto step = [&](bool from, bool to) { return tap.weight * (static_cast<int>(to) - static_cast<int>(from)); };
+      if (!tap.exact_sure) before_exact += step(e.truth.lit[i] != 0, tap.exact_lit);
+      if (!tap.exact_sure || !tap.moved_sure) before_moved += step(tap.exact_lit, tap.moved_lit);
+      if (cause == Cause::undecided) before_r4 += step(tap.moved_lit, lit);
     }
+    if (unsure > 0) ladder.flags[i] |= flag_undecided;
     // Double, rounded once to float: the shader's own count / N is that quotient in float.
     const auto share = [&](double weight) { return static_cast<float>(weight / whole); };
     const float r[6] = {e.truth.soft[i],  static_cast<float>(e.truth.lit[i]), share(exact_lit),
@@ -89,8 +100,10 @@ Ladder climb(const LookupEvidence& e) {
 
     const auto set = [&](Cause cause, float value) { ladder.step[static_cast<size_t>(cause)][i] = value; };
     set(Cause::light_size, r[1] - r[0]);
-    set(Cause::filter, r[2] - r[1]);
-    set(Cause::displacement, share(moved_lit) - r[2]);
+    set(Cause::filter, r[2] - r[1] - share(before_exact));
+    set(Cause::displacement, share(moved_lit) - r[2] - share(before_moved));
+    set(Cause::undecided, share(before_exact + before_moved + before_r4));
+    ladder.doubt[i] = share(unsure);
     set(Cause::precision, r[5] - r[4]);
     for (Cause dark : {Cause::acne, Cause::aliasing_dark, Cause::coverage_dark})
       set(dark, -share(booked[static_cast<size_t>(dark)]));
@@ -101,6 +114,7 @@ Ladder climb(const LookupEvidence& e) {
     for (int c = 0; c < cause_count; ++c) all += ladder.step[c][i];
     for (int c = static_cast<int>(Cause::displacement); c <= static_cast<int>(Cause::coverage_light); ++c)
       classes += ladder.step[c][i];
+    classes += (before_moved + before_r4) / whole;
     worst.steps = larger(worst.steps, std::abs((static_cast<double>(r[5]) - r[0]) - all));
     worst.taps = larger(worst.taps, std::abs((static_cast<double>(r[4]) - r[2]) - classes));
     ladder.cause[i] = static_cast<uint8_t>(pixel_cause(ladder, i, taps > 1));

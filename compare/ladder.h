@@ -17,12 +17,16 @@
 //   L (the grid asked elsewhere and was answered truly); else acne (L dark) or Peter Panning (L lit).
 // So the classes sum to R4 - R2, and without displacement steps never cancel on pixels that are right.
 //
+// Doubt stays where it is. Where float error can change F, D or V of a tap, the steps of that tap on either side of it
+// are booked as undecided instead of under a cause they may not have: R1 to F instead of filter, F to D instead of
+// displacement, D to L instead of a class. The steps of a pixel sum as before, and its error, from R1 to R5, is certain
+// wherever R1 is.
+//
 // Taps have weights (LookupProbe::weight). Where all count the same, every sum here is a whole number of taps, divided
 // once: what the lookup itself gives, bit for bit. Where a sampler blends them (hardware, gaussian), the technique is
 // the sum of exact weights times verdicts, and that is R4; R5, made by a sampler that keeps some 8 bits of a weight,
 // differs from it by that too, so the sampler's rounding is part of precision.
 #pragma once
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -46,9 +50,10 @@ enum class Cause : uint8_t {
   peter_panning,
   coverage_dark,
   coverage_light,
+  undecided,  // of taps whose truth float error can change
   precision,  // R5 - R4
 };
-inline constexpr int cause_count = 11;
+inline constexpr int cause_count = 12;
 std::string_view cause_name(Cause cause);
 
 // What a lookup is judged on. All images have the picture's size, but for the exact map.
@@ -63,15 +68,18 @@ struct LookupEvidence {
   const Image<float>& r5;
 };
 
-enum LadderFlags : uint8_t { flag_facing = 1, flag_outside = 2, flag_ambiguous = 4 };
+// ambiguous: float error can change R1, and the receiver is in no metric. undecided: it can change what some tap's truth
+// is.
+enum LadderFlags : uint8_t { flag_facing = 1, flag_outside = 2, flag_ambiguous = 4, flag_undecided = 8 };
 
 struct Ladder {
   std::array<Image<float>, 6> rung;            // R0 ... R5; 0 where not facing
   std::array<Image<float>, cause_count> step;  // signed change of visibility by cause, in the order of Cause
   Image<uint8_t> cause;                        // the Cause of each wrong pixel (R5 != R1); none where right
   Image<uint8_t> flags;
-  // Largest |(R5 - R0) - sum of steps| and |(R4 - R2) - displacement - sum of tap classes| over the facing receivers;
-  // NaN when any value is. Above 1e-6 the instrument is broken.
+  Image<float> doubt;                          // weight of the taps whose truth is unsure
+  // Largest |(R5 - R0) - sum of steps| and |(R4 - R2) - displacement - sum of tap classes| over the facing receivers,
+  // what is undecided among them included; NaN when any value is. Above 1e-6 the instrument is broken.
   double residual = 0, tap_residual = 0;
 };
 
@@ -82,6 +90,7 @@ struct Tap {
   bool exact_lit = false;   // F
   bool moved_lit = false;   // D
   bool texel_lit = false;   // V
+  bool exact_sure = true, moved_sure = true, texel_sure = true;
   bool covered = true;      // inside the map, before far, blocker not clipped
   bool always_lit = false;  // whatever the bias: beyond far, and the lookup says lit without comparing
   float reference = 0;      // window depth that it compares
@@ -108,6 +117,9 @@ inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSetti
   result.exact_lit = bits & tap_exact_lit;
   result.moved_lit = result.exact_lit != ((bits & tap_displaced) != 0);
   result.texel_lit = bits & tap_texel_lit;
+  result.exact_sure = !(bits & tap_exact_unsure);
+  result.moved_sure = !(bits & tap_moved_unsure);
+  result.texel_sure = !(bits & tap_texel_unsure);
   result.covered = inside_map(texel, size) && !beyond_far && !(bits & tap_near_clipped);
   result.reference = probe.tap_depth(i, tap);
   result.depth = read.x < 0 ? border_depth : map_depth.at(read.x, read.y);
@@ -119,16 +131,10 @@ inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSetti
   return result;
 }
 
-// Could float error change what the rays say of this receiver? Then it is counted, and left out of the errors.
-inline bool is_ambiguous(const ReceiverTruth& truth, const TapTruth& taps, size_t i) {
-  const auto first = taps.taps.begin() + static_cast<std::ptrdiff_t>(i) * taps.taps_per_receiver;
-  return truth.ambiguous[i] ||
-         std::any_of(first, first + taps.taps_per_receiver, [](uint8_t bits) { return (bits & tap_ambiguous) != 0; });
-}
-
 // The cause of a tap whose verdict at R4 is `lit`.
 inline Cause tap_cause(const Tap& tap, bool lit) {
   if (lit == tap.moved_lit) return Cause::none;
+  if (!tap.moved_sure || !tap.texel_sure) return Cause::undecided;
   if (!tap.covered) return lit ? Cause::coverage_light : Cause::coverage_dark;
   if (lit == tap.texel_lit) return lit ? Cause::aliasing_light : Cause::aliasing_dark;
   return lit ? Cause::peter_panning : Cause::acne;

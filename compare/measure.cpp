@@ -92,8 +92,8 @@ Image<uint8_t> peter_panning_mask(const Ladder& ladder) {
 
 std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   const Ladder& ladder = in.ladder;
-  uint64_t receivers = 0, facing = 0, base = 0, lit = 0, outside = 0, wrong = 0, aliased = 0;
-  double error = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0, edge_sum = 0;
+  uint64_t receivers = 0, facing = 0, base = 0, lit = 0, outside = 0, wrong = 0, aliased = 0, undecided = 0;
+  double error = 0, doubt = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0, edge_sum = 0;
   std::array<double, cause_count> size{};
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
     receivers += in.receivers.primitive[i] != no_primitive;
@@ -103,6 +103,8 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     ++base;
     lit += ladder.rung[1][i] != 0;
     outside += (ladder.flags[i] & flag_outside) != 0;
+    undecided += (ladder.flags[i] & flag_undecided) != 0;
+    doubt += ladder.doubt[i];
     const double hard = static_cast<double>(ladder.rung[5][i]) - ladder.rung[1][i];
     error += std::abs(hard);
     error_soft += std::abs(static_cast<double>(ladder.rung[5][i]) - ladder.rung[0][i]);
@@ -153,6 +155,8 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"coverage_dark", caused(Cause::coverage_dark)},
       {"coverage_light", caused(Cause::coverage_light)},
       {"precision", caused(Cause::precision)},
+      {"undecided", caused(Cause::undecided)},
+      {"undecided_taps", share(doubt)},
       {"peter_panning_gap_m", measured(gap)},
       {"edge_displacement_texels", measured(edge_max)},
       {"edge_displacement_mean_texels", measured(aliased == 0 ? 0 : edge_sum / static_cast<double>(aliased))},
@@ -167,6 +171,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"outside", share(static_cast<double>(outside))},
       {"ambiguous_receivers", static_cast<double>(facing - base)},
       {"outside_receivers", static_cast<double>(outside)},
+      {"undecided_receivers", static_cast<double>(undecided)},
       {"residual", ladder.residual},
       {"tap_residual", ladder.tap_residual},
   };

@@ -6,6 +6,7 @@
 
 #include "compare/metrics.h"
 #include "compare/poor_view.h"
+#include "compare/undecided.h"
 #include "compare/quantities.h"
 #include "compare/report_sections.h"
 #include "compare/report_text.h"
@@ -163,6 +164,8 @@ std::string health_items(const Results& results) {
         fmt::format("The steps of the ladder do not add up to the error (residual {}): a defect of the measurement; do "
                     "not rely on these numbers.",
                     number(residual)));
+  if (const std::string doubt = undecided_note(results.points); !doubt.empty())
+    out += item("note", fmt::format("At the point where it matters most, {}.", html(doubt)));
   if (ambiguous > 0)
     out += item("note", fmt::format("The truth is ambiguous at no more than {} of facing receivers; they are left out.",
                                     quantity(ambiguous, "fraction")));

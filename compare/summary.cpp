@@ -11,6 +11,7 @@
 #include "compare/laws.h"
 #include "compare/metrics.h"
 #include "compare/poor_view.h"
+#include "compare/undecided.h"
 #include "compare/quantities.h"
 
 namespace noonmark {
@@ -204,6 +205,8 @@ std::string to_summary(const Results& results) {
   std::string text = fmt::format("# {}\n\n{}", cell(info.title.empty() ? "Noonmark" : info.title), verdict(results));
   if (const std::string poor = poor_view_note(results.points); !poor.empty())
     text += fmt::format("\nNote: {}.\n", poor);
+  if (const std::string doubt = undecided_note(results.points); !doubt.empty())
+    text += fmt::format("\nNote: {}.\n", doubt);
   if (!results.laws.empty()) text += laws_table(results);
   if (!results.bounds.empty()) text += bounds_table(results);
   // Points of different parts are not there to be compared.

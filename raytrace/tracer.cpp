@@ -252,7 +252,8 @@ LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverT
         result.taps.taps[pixel * static_cast<size_t>(taps) + static_cast<size_t>(tap)] =
             static_cast<uint8_t>((exact_lit ? tap_exact_lit : 0) | (moved_lit != exact_lit ? tap_displaced : 0) |
                                  (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
-                                 (exact[k].sure && moved[k].sure && at_texel.sure ? 0 : tap_ambiguous));
+                                 (exact[k].sure ? 0 : tap_exact_unsure) | (moved[k].sure ? 0 : tap_moved_unsure) |
+                                 (at_texel.sure ? 0 : tap_texel_unsure));
         if (moved_lit != texel_lit) {
           const glm::dvec3 from = view.normal_place(frame.tap_place(looked_up[k], offsets[k]));
           const double distance = surface.edge_distance_texels(points[k], from, centre, moved_lit, rays);

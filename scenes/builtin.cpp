@@ -152,6 +152,34 @@ Scene fence(const SceneSettings&) {
   return scene;
 }
 
+// A house front with six windows, as modellers cut it: a grid of wall pieces around the openings, whose reveals are faces
+// of their own. Sills and a canopy cast shadows over the seams. Turned (scene.turn_deg) and cut otherwise (scene.mesh)
+// it is what seams and T-junctions of real meshes are.
+Scene facade(const SceneSettings&) {
+  Scene scene;
+  add_floor(scene, 4, 0);
+  const double x[] = {-2.4, -1.9, -1.0, -0.45, 0.45, 1.0, 1.9, 2.4}, y[] = {0, 0.7, 1.5, 2.1, 2.9, 3.3}, depth = 0.2;
+  for (int i = 0; i < 7; ++i) {
+    for (int j = 0; j < 5; ++j) {
+      const glm::dvec3 corner(x[i], y[j], 0), right(x[i + 1] - x[i], 0, 0), up(0, y[j + 1] - y[j], 0);
+      const bool window = i % 2 == 1 && j % 2 == 1;
+      const glm::dvec3 back(0, 0, window ? -depth : 0);
+      add_quad(scene, window ? "pane" : "wall", corner + back, right, up);
+      if (!window) continue;
+      add_quad(scene, "reveal", corner, -back, up);
+      add_quad(scene, "reveal", corner + right, up, -back);
+      add_quad(scene, "reveal", corner, right, -back);
+      add_quad(scene, "reveal", corner + up, -back, right);
+      add_box(scene, "sill", {x[i] - 0.08, y[j] - 0.06, 0}, {x[i + 1] + 0.08, y[j], 0.12});
+    }
+  }
+  add_box(scene, "canopy", {-0.7, 2.0, 0.4}, {0.7, 2.05, 1.2});
+  scene.camera = {.eye_m = {1.8, 2.2, 6.4}, .target_m = {0, 1.5, 0}, .fov_y_deg = 38, .near_m = 0.1, .far_m = 30};
+  scene.light = {.position_m = {-3, 5, 4}, .target_m = {0, 1.2, 0}};
+  scene.map = MapVolume{.extent_m = 12, .near_m = -1, .far_m = 14};
+  return scene;
+}
+
 // A spot light low over a long floor. Its texels widen with distance, and a step of window depth is worth more and more
 // metres (z^2 (far - near) / (far near) to one): a bias that is acne near the light is Peter Panning at the far end,
 // where the same edge is also stepped five times as coarsely. Boxes stand on the floor and against the wall, and one
@@ -207,6 +235,7 @@ constexpr BuiltinScene scenes[] = {
     {"sphere", "every slope up to grazing, no occluder", sphere},
     {"bowl", "a concave receiver that does not shade itself", bowl},
     {"fence", "wires thinner than a texel", fence},
+    {"facade", "a house front with windows: seams of many pieces, reveals, shadows that cross them", facade},
     {"spot-room", "spot light: one bias is acne near it and Peter Panning far away; coarser texels; contacts",
      spot_room},
     {"point-room", "point light in a closed room with five cubes: shadows on every wall, over the map's seams",

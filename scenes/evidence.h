@@ -90,9 +90,12 @@ enum TapBits : uint8_t {
   tap_exact_lit = 1,     // F: V(P, P + o), the tap at its exact, unsnapped place
   tap_texel_lit = 2,     // V: V(P, c), the tap at the centre of the texel it snaps to
   tap_near_clipped = 4,  // the true blocker at that centre lies before the map's near plane
-  tap_ambiguous = 8,     // F, D, V or what the near plane clips changes within float error
+  tap_exact_unsure = 8,  // F changes within float error
   tap_displaced = 16,  // D, V(P, P' + o) at the exact place that a moved lookup has, is not F; P' = P where none moves
+  tap_moved_unsure = 32,  // D changes within float error
+  tap_texel_unsure = 64,  // V, or what the near plane clips there, changes within float error
 };
+inline constexpr uint8_t tap_unsure = tap_exact_unsure | tap_moved_unsure | tap_texel_unsure;
 
 // The truth of every tap of every facing receiver. Taps run as the pattern's do.
 struct TapTruth {

@@ -49,7 +49,7 @@ struct SceneSettings {
   MeshForm mesh = MeshForm::as_built;  // the same surface in other triangles
   double turn_deg = 0;                 // the whole scene, camera and light with it, about the axis (1, 2, 3)
   glm::dvec3 move_m{0};                // and then moved
-  std::optional<double> time_s;        // of a file's animation: the pose at that time; empty: at rest
+  std::optional<double> time_s = {};      // of a file's animation: the pose at that time; empty: at rest
   int animation = 0;                   // which of the file's animations time_s is a time of
 };
 

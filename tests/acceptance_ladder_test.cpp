@@ -172,7 +172,7 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
         double wrong_taps = 0;
         std::array<double, cause_count> booked{};
         for (size_t i = 0; i < r5.size(); ++i) {
-          if (!truth.facing[i] || is_ambiguous(truth, taps.taps, i)) continue;
+          if (!truth.facing[i] || truth.ambiguous[i]) continue;
           wrong_receivers += r5[i] != static_cast<float>(truth.lit[i]);
           wrong_taps += std::abs(static_cast<double>(r5[i]) - truth.lit[i]) * taps.taps.taps_per_receiver;
           for (int c = 0; c < cause_count; ++c)

@@ -230,7 +230,7 @@ class Comparison {
     const bool exact_lit = bits & tap_exact_lit, texel_lit = bits & tap_texel_lit;
     Tally& t = v.taps;
     ++t.taps;
-    t.taps_ambiguous += (bits & tap_ambiguous) != 0;
+    t.taps_ambiguous += (bits & tap_unsure) != 0;
     t.dark_taps += !f.lit, t.differ += f.lit != at_texel.lit;
     t.by_jumps += at_texel.by_jumps, t.jumped += at_texel.by_jumps && !at_texel.lit;
     t.walked_off += at_texel.walked_off;

@@ -161,7 +161,7 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
       ++v.taps;
       v.dark += !f;
       v.differ += f != at_texel;
-      v.tap_ambiguous += (bits & tap_ambiguous) != 0;
+      v.tap_ambiguous += (bits & tap_unsure) != 0;
       v.r2 += f_known && f != exact_lit;
       v.r3 += at_texel_known && at_texel != texel_lit;
       if ((f_known && f != exact_lit) || (at_texel_known && at_texel != texel_lit))

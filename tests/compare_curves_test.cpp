@@ -15,7 +15,8 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr Cause booked[] = {Cause::aliasing_dark, Cause::aliasing_light, Cause::acne,
-                            Cause::peter_panning, Cause::coverage_dark,  Cause::coverage_light};
+                            Cause::peter_panning, Cause::coverage_dark,  Cause::coverage_light,
+                            Cause::undecided};
 
 struct Counts {
   uint64_t receivers = 0, wrong_receivers = 0;
@@ -48,7 +49,10 @@ Counts counted_at(const Synthetic& s, CurveParameter parameter, float x) {
     ++c.receivers;
     const float bias = swept_bias(s, parameter, i, x);
     for (const naive::Tap& tap : naive::taps_of(s, s.exact, i))
-      c.caused[static_cast<size_t>(naive::cause_of(tap, naive::verdict(s, tap, bias)))] += tap.weight;
+      if (tap.exact_sure)
+        c.caused[static_cast<size_t>(naive::cause_of(tap, naive::verdict(s, tap, bias)))] += tap.weight;
+      else if (naive::verdict(s, tap, bias) != (s.truth.lit[i] != 0))
+        c.caused[static_cast<size_t>(Cause::undecided)] += tap.weight;
     double wrong = 0;
     for (const naive::Tap& tap : naive::taps_of(s, s.stored, i))
       wrong += (naive::verdict(s, tap, bias) != (s.truth.lit[i] != 0)) * tap.weight;
@@ -165,7 +169,7 @@ uint64_t stored_acne(const Synthetic& s, CurveParameter parameter, float x) {
     if (!s.truth.facing[i] || naive::ambiguous(s, i)) continue;
     for (const naive::Tap& tap : naive::taps_of(s, s.stored, i))
       count += tap.weight > 0 &&  // a tap of none is not read
-               tap.covered && tap.moved_lit && tap.texel_lit && !naive::verdict(s, tap, swept_bias(s, parameter, i, x));
+               tap.covered && tap.moved_sure && tap.texel_sure && tap.moved_lit && tap.texel_lit && !naive::verdict(s, tap, swept_bias(s, parameter, i, x));
   }
   return count;
 }

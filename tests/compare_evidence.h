@@ -121,8 +121,11 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
       if (taps == 1 ? s.truth.lit[i] != 0 : chance(s.truth.lit[i] ? 80 : 20)) bits |= tap_exact_lit;
       if (chance(75) ? (bits & tap_exact_lit) != 0 : chance(50)) bits |= tap_texel_lit;
       if (chance(10)) bits |= tap_near_clipped;
-      if (chance(3)) bits |= tap_ambiguous;
-      if (s.bias.form == BiasForm::normal_offset && chance(20)) bits |= tap_displaced;
+      const bool moves = s.bias.form == BiasForm::normal_offset;
+      if (moves && chance(20)) bits |= tap_displaced;
+      if (chance(5)) bits |= tap_texel_unsure;
+      if (taps > 1 && chance(5)) bits |= moves ? tap_exact_unsure : tap_exact_unsure | tap_moved_unsure;
+      if (moves && chance(5)) bits |= tap_moved_unsure;
       s.taps.taps[i * static_cast<size_t>(taps) + static_cast<size_t>(t)] = bits;
     }
   }
@@ -132,9 +135,10 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
 namespace naive {
 
 // One tap in the plainest words: its truths (at its own exact place, at the one where a moved lookup asks, at the
-// texel's centre), whether the map covers it, and the depth that OpenGL finds for it.
+// texel's centre), which of them float error can change, whether the map covers it, and the depth that OpenGL finds for
+// it.
 struct Tap {
-  bool exact_lit, moved_lit, texel_lit, covered, beyond_far;
+  bool exact_lit, moved_lit, texel_lit, exact_sure, moved_sure, texel_sure, covered, beyond_far;
   float reference, depth;
   double weight;  // 1, but where a sampler blends
 };
@@ -190,18 +194,20 @@ inline std::vector<Tap> taps_of(const Synthetic& s, const Image<float>& map, siz
         reference += slope.x * static_cast<float>(i - s.kernel / 2) + slope.y * static_cast<float>(j - s.kernel / 2);
       if (s.bias.form == BiasForm::tangent_plane)
         reference += slope.x * (static_cast<float>(x) + 0.5f - u) + slope.y * (static_cast<float>(y) + 0.5f - v);
-      result.push_back({exact, moved, (bits & 2) != 0, inside && !beyond && (bits & 4) == 0, beyond, reference, depth,
+      result.push_back({exact, moved, (bits & 2) != 0, (bits & 8) == 0, (bits & 32) == 0, (bits & 64) == 0, inside && !beyond && (bits & 4) == 0, beyond, reference, depth,
                         weight(i, u) * weight(j, v)});
     }
   }
   return result;
 }
 
-// The receiver's own verdict, or that of any of its taps, may be another one.
-inline bool ambiguous(const Synthetic& s, size_t receiver) {
-  bool result = s.truth.ambiguous[receiver] != 0;
+// The receiver's own verdict may be another one.
+inline bool ambiguous(const Synthetic& s, size_t receiver) { return s.truth.ambiguous[receiver] != 0; }
+// The verdict of one of its taps may be.
+inline bool undecided(const Synthetic& s, size_t receiver) {
+  bool result = false;
   const size_t taps = static_cast<size_t>(s.side()) * static_cast<size_t>(s.side());
-  for (size_t t = 0; t < taps; ++t) result |= (s.taps.taps[receiver * taps + t] & 8) != 0;
+  for (size_t t = 0; t < taps; ++t) result |= (s.taps.taps[receiver * taps + t] & (8 | 32 | 64)) != 0;
   return result;
 }
 
@@ -241,7 +247,11 @@ inline constexpr Cause causes[2][2][2][2] = {
      {{Cause::aliasing_dark, Cause::none}, {Cause::acne, Cause::none}}},
 };
 
-inline Cause cause_of(const Tap& tap, bool lit) { return causes[tap.covered][tap.moved_lit][tap.texel_lit][lit]; }
+// The cause of a tap whose truths are sure.
+inline Cause cause_of(const Tap& tap, bool lit) {
+  const Cause cause = causes[tap.covered][tap.moved_lit][tap.texel_lit][lit];
+  return cause != Cause::none && !(tap.moved_sure && tap.texel_sure) ? Cause::undecided : cause;
+}
 
 inline float visibility(const Synthetic& s, const Image<float>& map, size_t receiver, DepthFormat format) {
   double lit = 0;

@@ -26,6 +26,7 @@ struct Picture {
     for (Image<float>& step : ladder.step) step = Image<float>(width, height, 0);
     ladder.cause = Image<uint8_t>(width, height, 0);
     ladder.flags = Image<uint8_t>(width, height, flag_facing);
+    ladder.doubt = Image<float>(width, height, 0);
     receivers = {Image<glm::vec3>(width, height, glm::vec3(0, 0, -2)), Image<glm::vec3>(width, height),
                  Image<uint32_t>(width, height, 0)};
     edge = occluder = Image<float>(width, height, nan_float);  // not to be read where nothing is wrong

@@ -83,7 +83,7 @@ struct Judged {
   raytrace::LookupTruth lookup;
   int kernel = 1;
 
-  bool counted(size_t i) const { return truth.facing[i] && !is_ambiguous(truth, lookup.taps, i); }
+  bool counted(size_t i) const { return truth.facing[i] && test::is_sure(truth, lookup.taps, i); }
   glm::dvec2 place(size_t i, int tap) const {  // of the tap, exact
     const int r = kernel / 2;
     return glm::dvec2(frame.to_light(receivers.position[i])) +

@@ -96,8 +96,8 @@ void add_acne(const Valley& v, double offset_m, std::mt19937& random, Acne& foun
   const raytrace::LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe, v.frame, {}, bias);
   uint64_t ambiguous = 0;
   for (size_t i = 0; i < receivers.position.size(); ++i) {
-    ambiguous += is_ambiguous(truth, lookup.taps, i);
-    if (is_ambiguous(truth, lookup.taps, i)) continue;
+    ambiguous += !test::is_sure(truth, lookup.taps, i);
+    if (!test::is_sure(truth, lookup.taps, i)) continue;
     const Tap tap = tap_of(probe, lookup.taps, {}, lookup.exact_map, i, 0);
     const Cause cause = tap_cause(tap, !(probe.reference[i] > tap.depth));
     EXPECT_TRUE(cause == Cause::none || cause == Cause::acne) << cause_name(cause) << ": a valley has no shadow";

@@ -20,6 +20,13 @@
 
 namespace noonmark::test {
 
+// Can float error change neither the receiver's truth nor that of any of its taps?
+inline bool is_sure(const ReceiverTruth& truth, const TapTruth& taps, size_t i) {
+  const auto first = taps.taps.begin() + static_cast<std::ptrdiff_t>(i) * taps.taps_per_receiver;
+  return !truth.ambiguous[i] && std::none_of(first, first + taps.taps_per_receiver,
+                                             [](uint8_t bits) { return (bits & tap_unsure) != 0; });
+}
+
 // Two depths nearer than this (as a fraction of the scene's size) are one: some hundred roundings of 2^-53, for the
 // planes of triangles that are steep but not edge-on.
 inline constexpr double double_rounding = 1e-13;
@@ -88,13 +95,16 @@ class LightBins {
   }
 
   // Is there another triangle between the light and the plane of `own` at p?
-  // tie: a depth that is within rounding of p's own counts as behind it; without, it is compared as it came out.
-  bool occluded(glm::dvec3 p, uint32_t own, bool tie = true) const {
+  // within_m: faces whose plane passes p as near as that do not count (rounding of their vertices may have parted them
+  // from p's own).
+  bool occluded(glm::dvec3 p, uint32_t own, double within_m = 0) const {
     const glm::dvec2 x = glm::dvec2(frame_.to_light(p));
     const double z_own = plane(own, x);
     bool dark = false;
     each_at(x, [&](uint32_t t, double z) {
-      dark |= t != own && z < z_own - (tie ? rounding(t) + rounding(own) : 0.0);
+      const glm::dvec3 n = glm::cross(corners_[t][1] - corners_[t][0], corners_[t][2] - corners_[t][0]);
+      const double near = within_m * glm::length(n) / std::abs(n.z);
+      dark |= t != own && z < z_own - rounding(t) - rounding(own) - near;
     });
     return dark;
   }

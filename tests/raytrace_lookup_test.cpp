@@ -326,7 +326,7 @@ TEST(Lookup, ATexelsCentreOnAnOutlineIsSureOnlyAsTheMapHasIt) {
     const bool on_floor = looked.receivers.position[i].y == 0;
     if (!on_floor || looked.frame.texel_centre(texel).x != 0.125) continue;
     ++(looked.exact_lit(i) ? lit : dark);
-    if (looked.bits(i) & tap_ambiguous) continue;
+    if (looked.bits(i) & tap_unsure) continue;
     const bool floor_in_map = std::abs(looked.lookup.exact_map.at(texel.x, texel.y) - floor) < 1e-6;
     EXPECT_EQ(looked.texel_lit(i), floor_in_map) << looked.receivers.position[i].x << ' ' << looked.exact_lit(i);
   }

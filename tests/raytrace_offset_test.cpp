@@ -32,7 +32,7 @@ struct Looked {
   }
   bool exact_lit(size_t i, int tap = 0) const { return bits(i, tap) & tap_exact_lit; }
   bool displaced(size_t i, int tap = 0) const { return bits(i, tap) & tap_displaced; }
-  bool ambiguous(size_t i, int tap = 0) const { return bits(i, tap) & tap_ambiguous; }
+  bool ambiguous(size_t i, int tap = 0) const { return bits(i, tap) & tap_unsure; }
 };
 
 Looked look_up(const Scene& scene, const LightFrame& frame, const ReceiverImage& receivers, int kernel,

@@ -204,7 +204,7 @@ void expect_few_ambiguous(const Scene& scene) {
     const size_t taps = static_cast<size_t>(kernel * kernel);
     for (size_t i = 0; i < truth.facing.size(); ++i) {
       bool any = truth.ambiguous[i];
-      for (size_t t = 0; t < taps; ++t) any |= (lookup.taps.taps[i * taps + t] & tap_ambiguous) != 0;
+      for (size_t t = 0; t < taps; ++t) any |= (lookup.taps.taps[i * taps + t] & tap_unsure) != 0;
       ambiguous += any;
     }
     testing::Test::RecordProperty(scene.name + ".ambiguous_kernel_" + std::to_string(kernel), ambiguous);

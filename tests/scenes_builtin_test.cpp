@@ -53,7 +53,7 @@ bool closed(const Scene& scene, const Part& part) {
 }
 
 TEST(BuiltinScenes, AreFiniteAndInRange) {
-  EXPECT_EQ(builtin_scenes().size(), 10u);
+  EXPECT_EQ(builtin_scenes().size(), 11u);
   for (const Scene& scene : all_scenes()) {
     EXPECT_FALSE(scene.triangles.empty()) << scene.name;
     for (const glm::vec3& p : scene.positions) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << scene.name;
