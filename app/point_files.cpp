@@ -193,8 +193,8 @@ std::string point_json(const Measurement& m, const std::string& command) {
                     {"forward", vector_json(camera.forward)},
                     {"half_width", camera.half_width},
                     {"half_height", camera.half_height},
-                    {"near_m", m.camera.near_m},
-                    {"far_m", m.camera.far_m},
+                    {"near_m", m.camera.near_m.value()},
+                    {"far_m", m.camera.far_m.value()},
                     {"clip_from_world_rows", matrix_rows(camera.clip_from_world())}};
   json["light"] = light_json(m);
   json["primitive"] =

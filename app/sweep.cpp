@@ -23,6 +23,7 @@
 #include "compare/bounds.h"
 #include "compare/csv.h"
 #include "compare/laws.h"
+#include "compare/poor_view.h"
 #include "compare/report.h"
 #include "compare/soundness.h"
 #include "compare/store.h"
@@ -258,6 +259,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
 
   const FolderLock lock(options.out);
   Workbench bench(gl::DebugMode::log);
+  if (experiment.pictures != "none") require_image_files();
   const raytrace::TracerInfo tracer = raytrace::tracer_info();
   std::vector<std::string> scene_notes;
   const auto facts = provenance(bench, planned, tracer, scene_notes);
@@ -295,6 +297,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
   }
 
   outcome.results = store.load();
+  if (const std::string poor = poor_view_note(outcome.results.points); !poor.empty())
+    fmt::print(stderr, "note: {}\n", poor);
   if (!outcome.interrupted) {
     for (int64_t id : chosen_late(experiment.pictures, outcome.results.points))
       if (find_point(outcome.results.points, id)->pictures.empty())

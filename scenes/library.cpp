@@ -38,6 +38,8 @@ std::string notes_line(const Scene& scene) {
   return scene.notes.empty() ? "" : fmt::format("{}: {}", scene.name, fmt::join(scene.notes, "; "));
 }
 
-Scene make_scene(const SceneSettings& settings) { return remeshed(scene_as_built(settings), settings.mesh); }
+Scene make_scene(const SceneSettings& settings) {
+  return remeshed(scene_as_built(settings), settings.mesh, {settings.turn_deg, settings.move_m});
+}
 
 }  // namespace noonmark
