@@ -45,7 +45,8 @@ bool pack(const draco::PointAttribute& from, uint32_t points, uint8_t* to) {
   const auto components = static_cast<int8_t>(from.num_components());
   std::vector<T> row(static_cast<size_t>(components));
   for (draco::PointIndex p(0); p < points; ++p, to += row.size() * sizeof(T)) {
-    if (!from.ConvertValue(from.mapped_index(p), components, row.data())) return false;
+    const draco::AttributeValueIndex value = from.mapped_index(p);
+    if (value.value() >= from.size() || !from.ConvertValue(value, components, row.data())) return false;
     std::memcpy(to, row.data(), row.size() * sizeof(T));
   }
   return true;
@@ -104,7 +105,12 @@ DracoMesh decode_draco(const Document& document, Buffers& buffers, int mesh, siz
 
   DracoMesh out;
   for (draco::FaceIndex f(0); f < made.num_faces(); ++f) {
-    for (size_t k = 0; k < 3; ++k) out.corners.push_back(made.face(f)[k].value());
+    for (size_t k = 0; k < 3; ++k) {
+      // The decoder does not look: damaged data make it count beyond its own points.
+      const uint32_t corner = made.face(f)[k].value();
+      if (corner >= made.num_points()) fail(fmt::format("corner {} of {} points", corner, made.num_points()));
+      out.corners.push_back(corner);
+    }
   }
   const tinygltf::Value& attributes = from.Get("attributes");
   for (const auto& [name, accessor_index] : primitive.attributes) {

@@ -292,17 +292,17 @@ bool draws(const tinygltf::Node& node, const PlacedNode& placed) {
 
 }  // namespace
 
-void append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene) {
+uint64_t count_triangles(const Document& document, const Placement& placement) {
   const tinygltf::Model& model = document.model;
-  std::vector<std::vector<Drawable>> meshes;
-  for (const tinygltf::Mesh& mesh : model.meshes) meshes.push_back(drawables(model, mesh));
-
+  std::map<int, std::vector<Drawable>> meshes;
   uint64_t triangles = 0;
   for (const PlacedNode& placed : placement.nodes) {
     const tinygltf::Node& node = model.nodes[placed.node];
     if (!draws(node, placed)) continue;
+    const auto [mesh, fresh] = meshes.try_emplace(node.mesh);
+    if (fresh) mesh->second = drawables(model, model.meshes[static_cast<size_t>(node.mesh)]);
     const uint64_t instances = instance_count(document, placed.node);
-    for (const Drawable& drawable : meshes[static_cast<size_t>(node.mesh)]) {
+    for (const Drawable& drawable : mesh->second) {
       // Each count is below 2^53 and the sum at most 2^26 before one is added: no overflow.
       const bool too_many = drawable.triangles > max_triangles || instances > max_triangles;
       triangles += too_many ? max_triangles + 1 : drawable.triangles * instances;
@@ -313,6 +313,14 @@ void append_geometry(const Document& document, Buffers& buffers, const Placement
       }
     }
   }
+  return triangles;
+}
+
+void append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene) {
+  count_triangles(document, placement);
+  const tinygltf::Model& model = document.model;
+  std::vector<std::vector<Drawable>> meshes;
+  for (const tinygltf::Mesh& mesh : model.meshes) meshes.push_back(drawables(model, mesh));
   Appender appender(document, buffers, placement, scene);
   for (const PlacedNode& placed : placement.nodes) {
     const tinygltf::Node& node = model.nodes[placed.node];

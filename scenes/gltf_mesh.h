@@ -8,6 +8,10 @@
 
 namespace noonmark::gltf {
 
+// How many the scene asks for, those without an area included, by its lists alone: no buffer is read. A Draco mesh whose
+// indices have no accessor counts as nothing until it is decoded. Throws Error(scene) beyond max_triangles.
+uint64_t count_triangles(const Document& document, const Placement& placement);
+
 // Appends positions, triangles and parts. What is drawn:
 // - triangles, strips and fans; points and lines cast no shadow worth the name and are left out;
 // - positions with their morph targets (gltf_morph.h), where the node's place or its skin's joints put them

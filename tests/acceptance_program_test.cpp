@@ -171,6 +171,31 @@ TEST_F(Program, RebuildsTheReportFromTheStore) {
   EXPECT_EQ(run({"report", "nowhere"}), 3) << output_;
 }
 
+// A triangle over a floor, of a file that holds more than is measured: said on the terminal, in point.json, in the
+// report and in the report that is rebuilt from the store.
+TEST_F(Program, SaysWhatAFileHoldsAndIsNotModelled) {
+  const std::string note = "busy: 1 primitive of lines left out; 1 animation at rest";
+  write("busy.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}, {"attributes": {"POSITION": 0}, "mode": 1}]}],
+    "animations": [{}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri":
+      "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/"}]})");
+  const std::string experiment =
+      write("busy.toml", "scene = \"busy.gltf\"\n[view]\nwidth_px = 48\nheight_px = 32\n[map]\nresolution = 64\n");
+  ASSERT_EQ(run({"render", experiment, "--out", "one"}), 0) << output_;
+  EXPECT_TRUE(says("note: " + note)) << output_;
+  EXPECT_NE(read_file((folder_ / "one/point.json").string()).find("\"1 primitive of lines left out\""),
+            std::string::npos);
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  EXPECT_TRUE(says("note: " + note)) << output_;
+  EXPECT_NE(read_file((folder_ / "out/report.html").string()).find(note), std::string::npos);
+  fs::remove(folder_ / "out/report.html");
+  ASSERT_EQ(run({"report", "out"}), 0) << output_;
+  EXPECT_NE(read_file((folder_ / "out/report.html").string()).find(note), std::string::npos);
+}
+
 struct Mistake {
   std::vector<std::string> arguments;
   int exit_code;

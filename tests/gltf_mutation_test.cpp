@@ -42,14 +42,52 @@ json rich() {
   return d;
 }
 
+// The same with what moves: a skin, a morph target, instances, a hidden node and an animation of all of them.
+json moving() {
+  json d = rich();
+  auto& primitive = d["meshes"][0]["primitives"][0];
+  primitive["attributes"]["JOINTS_0"] =
+      add_accessor(d, raw(std::vector<uint8_t>{0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), 5121, "VEC4", 4);
+  primitive["attributes"]["WEIGHTS_0"] =
+      add_accessor(d, raw(std::vector<float>{1, 0, 0, 0, 0.5, 0.5, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), 5126, "VEC4", 4);
+  const int target = add_accessor(d, raw(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}), 5126, "VEC3", 4);
+  primitive["targets"] = {{{"POSITION", target}}};
+  d["meshes"][0]["weights"] = {0.5};
+  std::vector<float> bind(32, 0);
+  for (size_t i = 0; i < 32; i += 16) bind[i] = bind[i + 5] = bind[i + 10] = bind[i + 15] = 1;
+  const int matrices = add_accessor(d, raw(bind), 5126, "MAT4", 2);
+  d["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", matrices}}};
+  d["nodes"][0]["skin"] = 0;
+  const int places = add_accessor(d, raw(std::vector<float>{0, 0, 1, 5, 0, 2}), 5126, "VEC3", 2);
+  const int turns = add_accessor(d, raw(std::vector<float>{0, 0, 0, 1, 0, 1, 0, 0}), 5126, "VEC4", 2);
+  d["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", places}, {"ROTATION", turns}, {"SCALE", places}};
+  d["nodes"].push_back({{"mesh", 1}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
+  d["nodes"][0]["children"].push_back(3);
+  const int times = add_accessor(d, raw(std::vector<float>{0, 2}), 5126, "SCALAR", 2);
+  const int weights = add_accessor(d, raw(std::vector<float>{0, 1}), 5126, "SCALAR", 2);
+  const int splines = add_accessor(d, raw(std::vector<float>(18, 0.5)), 5126, "VEC3", 6);
+  d["animations"] = {{{"samplers",
+                       {{{"input", times}, {"output", places}},
+                        {{"input", times}, {"output", turns}, {"interpolation", "STEP"}},
+                        {{"input", times}, {"output", weights}},
+                        {{"input", times}, {"output", splines}, {"interpolation", "CUBICSPLINE"}}}},
+                      {"channels",
+                       {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}},
+                        {{"sampler", 1}, {"target", {{"node", 1}, {"path", "rotation"}}}},
+                        {{"sampler", 2}, {"target", {{"node", 0}, {"path", "weights"}}}},
+                        {{"sampler", 3}, {"target", {{"node", 1}, {"path", "scale"}}}}}}}};
+  return d;
+}
+
 struct Tally {
   int loaded = 0, refused = 0;
 };
 
 // What one file gives, counted; anything but a sound scene or one Error(scene) fails.
-void try_file(const std::string& path, Tally& tally, const std::string& what) {
+void try_file(const std::string& path, Tally& tally, const std::string& what, const Pose& pose = {}) {
   try {
-    const Scene scene = load_gltf(path);
+    const Scene scene = load_gltf(path, pose);
     ++tally.loaded;
     ASSERT_EQ(defect_of(scene), "") << what;
   } catch (const Error& e) {
@@ -158,6 +196,7 @@ class GltfMutation : public ::testing::Test {
 
 TEST_F(GltfMutation, TheSourceIsSound) {
   EXPECT_EQ(defect_of(load_gltf(folder_.write("scene.gltf", rich().dump()))), "");
+  EXPECT_EQ(defect_of(load_gltf(folder_.write("scene.gltf", moving().dump()), {1.0, 0})), "");
 }
 
 TEST_F(GltfMutation, BytesOfABinaryFile) {
@@ -201,6 +240,16 @@ TEST_F(GltfMutation, ValuesOfTheDocument) {
     try_file(folder_.write("scene.gltf", text), tally, "mutant " + std::to_string(i) + " " + text);
   }
   report("values of a .gltf", tally);
+}
+
+TEST_F(GltfMutation, ValuesOfADocumentThatMoves) {
+  const json whole = moving();
+  Tally tally;
+  for (int i = 0; i < 4000 && !HasFatalFailure(); ++i) {
+    const std::string text = damaged(whole, random_).dump();
+    try_file(folder_.write("scene.gltf", text), tally, "mutant " + std::to_string(i) + " " + text, {1.0, 0});
+  }
+  report("values of a .gltf that moves", tally);
 }
 
 }  // namespace

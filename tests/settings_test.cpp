@@ -47,9 +47,9 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 
 TEST(SettingsTable, HasAWholeRowForEverySetting) {
   // Numbers that count nothing and measure nothing.
-  const std::set<std::string_view> pure = {"map.extent_scale", "truth.standard_error", "bias.factor", "bias.units",
-                                           "view.up"};
-  const std::set<std::string_view> units = {"px", "m", "deg", "texels", "taps", "bias.unit"};
+  const std::set<std::string_view> pure = {"scene.animation", "map.extent_scale", "truth.standard_error",
+                                           "bias.factor",     "bias.units",       "view.up"};
+  const std::set<std::string_view> units = {"s", "px", "m", "deg", "texels", "taps", "bias.unit"};
   std::set<std::string_view> names;
   for (const Setting& row : settings_table()) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name << " twice";
@@ -63,7 +63,8 @@ TEST(SettingsTable, HasAWholeRowForEverySetting) {
     else
       EXPECT_EQ(row.unit, "") << row.name;
     // The suffix of a name is its unit.
-    for (const auto& [suffix, unit] : {std::pair("_m", "m"), std::pair("_deg", "deg"), std::pair("_px", "px")})
+    for (const auto& [suffix, unit] :
+         {std::pair("_m", "m"), std::pair("_deg", "deg"), std::pair("_px", "px"), std::pair("_s", "s")})
       if (row.name.ends_with(suffix)) {
         EXPECT_EQ(row.unit, unit) << row.name;
       }
@@ -371,6 +372,10 @@ TEST(Settings, ThoseThatChangeNothingAreNamed) {
   EXPECT_EQ(idle(LightKind::point,
                  {{"filter.kind", "cube_disk"}, {"filter.disk", "view_distance"}, {"filter.radius_m", "0.1"}}),
             "filter.radius_m with filter.kind = cube_disk;");
+  EXPECT_EQ(idle(LightKind::spot, {{"scene.time_s", "2"}}), "scene.time_s in a built-in scene;");
+  EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"scene.animation", "1"}}),
+            "scene.animation without scene.time_s;");
+  EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"scene.animation", "1"}, {"scene.time_s", "2"}}), "");
 }
 
 // A technique that the README does not name does not exist for its readers.
