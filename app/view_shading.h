@@ -28,8 +28,8 @@ double clay_response(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye);
 Image<float> shaded_frame(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera,
                           const Image<float>& visibility);
 
-// Root mean square difference of two such frames over the receivers: the metric shaded_rmse. 0 without receivers; NaN
-// where a visibility is.
+// Root mean square difference of two such frames over the receivers: the metric shaded_rmse. NaN without
+// receivers, and where a visibility is.
 double shaded_rmse(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera,
                    const Image<float>& visibility, const Image<float>& other);
 

@@ -25,7 +25,14 @@ double pixels_of(const PointRecord& point) {
   return pixels;
 }
 
-// Of the two sides of a picture with few surfaces: what is there and not seen, else where the camera looks.
+std::string cut_off(const PointRecord& point) {
+  return fmt::format(
+      "at {:.0f} pixels the camera's near or far plane cuts the surface off; set view.near_m and "
+      "view.far_m",
+      number(point, "clipped"));
+}
+
+// Of a picture with few surfaces: what is there and not seen, else where the camera looks.
 std::string why_few_surfaces(const PointRecord& point) {
   const double receivers = number(point, "receivers"), culled = number(point, "culled"),
                clipped = number(point, "clipped");
@@ -34,11 +41,7 @@ std::string why_few_surfaces(const PointRecord& point) {
         "{:.0f} pixels see only backs of single-sided faces, which glTF's cameras do not see; look from the other "
         "side, or make the material doubleSided",
         culled);
-  if (clipped > receivers)
-    return fmt::format(
-        "at {:.0f} pixels the camera's near or far plane cuts the surface off; set view.near_m and "
-        "view.far_m",
-        clipped);
+  if (clipped > receivers) return cut_off(point);
   if (number(point, "scene_behind") == 1)
     return "the whole scene is behind the camera; set view.eye_m or view.target_m";
   return "the camera looks past the scene, or sees it too small; set view.eye_m, view.target_m or view.fov_deg";
@@ -50,11 +53,12 @@ std::string why_poor_view(const PointRecord& point) {
   const double pixels = pixels_of(point), counted = number(point, "counted"), receivers = number(point, "receivers"),
                facing = number(point, "facing"), few = std::max(1.0, few_receivers_share * pixels);
   if (!(counted < few)) {
-    if (number(point, "lit") != 0) return "";
-    return fmt::format(
-        "all of the {:.0f} pixels that can be judged are in shadow: the light reaches nothing that the "
-        "camera sees; set light.position_m (in a closed room, with light.kind = point)",
-        counted);
+    if (number(point, "lit") == 0)
+      return fmt::format(
+          "all of the {:.0f} pixels that can be judged are in shadow: the light reaches nothing that "
+          "the camera sees; set light.position_m (in a closed room, with light.kind = point)",
+          counted);
+    return number(point, "clipped") >= few ? cut_off(point) : "";
   }
   std::string text = counted == 0 ? fmt::format("no pixel of {:.0f} can be judged: ", pixels)
                                   : fmt::format("only {:.0f} of {:.0f} pixels can be judged: ", counted, pixels);
@@ -82,8 +86,8 @@ std::string poor_view_note(std::span<const PointRecord> points) {
   const std::string why = why_poor_view(*first);
   if (points.size() == 1) return why;
   return count == 1 ? fmt::format("point {}: {}", first->id, why)
-                    : fmt::format("at {} of {} points hardly anything can be judged; at point {}, {}", count,
-                                  points.size(), first->id, why);
+                    : fmt::format("the picture is poor at {} of {} points; at point {}, {}", count, points.size(),
+                                  first->id, why);
 }
 
 }  // namespace noonmark

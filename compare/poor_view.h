@@ -8,10 +8,11 @@
 
 namespace noonmark {
 
-inline constexpr double few_receivers_share = 0.01;  // of the picture's pixels: fewer counted receivers are few
+inline constexpr double few_receivers_share = 0.01;  // of the picture's pixels: fewer receivers are few
 
-// "only 535 of 921600 pixels can be judged: ...", with the reason and what to do; the same of a picture in which
-// nothing is lit. Empty where there is nothing to say, and where the record does not say.
+// "only 535 of 921600 pixels can be judged: ...", with the reason and what to do; also of a picture in which nothing is
+// lit, or of which near or far cut off more than that share. Empty where there is nothing to say, and where the record
+// does not say.
 std::string why_poor_view(const PointRecord& point);
 
 // The same over points: how many there are, and what is said of the first; empty where there is none.

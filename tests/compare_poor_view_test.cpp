@@ -39,6 +39,7 @@ TEST(PoorView, NamesTheReasonThatHidesMost) {
          "no pixel of 10000 can be judged: of 9000 that see a surface 9000 see one that faces away");
   begins(with({}, {{"counted", 0}, {"lit", nan}}),
          "no pixel of 10000 can be judged: of 8000 that face the light the truth of 8000 is ambiguous");
+  begins(with({}, {{"clipped", 100}}), "at 100 pixels the camera's near or far plane cuts the surface off");
   begins(with({}, {{"lit", 0}}), "all of the 7990 pixels that can be judged are in shadow");
 }
 
@@ -46,6 +47,7 @@ TEST(PoorView, IsSilentOfAGoodOneAndOfOldRecords) {
   EXPECT_EQ(why_poor_view(point_with({})), "");
   EXPECT_EQ(why_poor_view(point_with({{"counted", 100}})), "") << "1% is enough";
   EXPECT_NE(why_poor_view(point_with({{"counted", 99}})), "");
+  EXPECT_EQ(why_poor_view(point_with({{"clipped", 99}, {"culled", 500}})), "");
   EXPECT_EQ(why_poor_view(PointRecord{}), "");
   PointRecord old = point_with({});
   old.metrics.erase("lit");
@@ -59,7 +61,7 @@ TEST(PoorView, TellsOfManyPointsByTheFirst) {
   points[1].metrics["lit"] = 0;
   EXPECT_EQ(poor_view_note(points).find("point 1: all of the 7990"), 0u);
   points[2].metrics["lit"] = 0;
-  EXPECT_EQ(poor_view_note(points).find("at 2 of 3 points hardly anything can be judged; at point 1, all"), 0u);
+  EXPECT_EQ(poor_view_note(points).find("the picture is poor at 2 of 3 points; at point 1, all"), 0u);
   EXPECT_EQ(poor_view_note(std::span(points).subspan(1, 1)).find("all of"), 0u) << "of a lone point no number";
 }
 

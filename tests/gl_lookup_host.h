@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gl_fixture.h"
+#include "scenes/camera_fit.h"
 #include "scenes/depth_bias.h"
 #include "scenes/map_address.h"
 #include "scenes/receivers.h"
@@ -127,8 +128,11 @@ class GlLookupTest : public GlTest {
  protected:
   ReceiverImage load(const Scene& scene, int width, int height) {
     renderer.load_scene(scene);
-    const ReceiverImage receivers =
-        resolve_receivers(scene, scene.camera, renderer.render_primitives(scene.camera, width, height));
+    ViewSettings view;
+    view.width_px = width;
+    view.height_px = height;
+    const Camera camera = effective_camera(scene, view);
+    const ReceiverImage receivers = resolve_receivers(scene, camera, renderer.render_primitives(camera, width, height));
     renderer.load_receivers(receivers, scene.camera.eye_m);
     return receivers;
   }

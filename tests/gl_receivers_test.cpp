@@ -175,9 +175,9 @@ TEST_F(GlTest, BacksOfSingleSidedTrianglesAreSeenThrough) {
   EXPECT_EQ(quad_at({true, true, false, false}, 5), 1u);
   EXPECT_EQ(quad_at({false, false, true, true}, 5), 0u) << "the floor behind the lid";
   EXPECT_EQ(quad_at({true, true, true, true}, 25), 0u);
-  camera.eye_m.y = -10;  // from below the floor turns its back and the lid its front
-  EXPECT_EQ(quad_at({true, true, true, true}, 5), 1u);
-  EXPECT_EQ(quad_at({true, true, true, true}, 25), no_primitive / 2);
+  camera.eye_m.y = -10;  // from below, where right is -X, the floor turns its back and the lid its front
+  EXPECT_EQ(quad_at({true, true, true, true}, 25), 1u);
+  EXPECT_EQ(quad_at({true, true, true, true}, 5), no_primitive / 2);
 }
 
 }  // namespace

@@ -266,7 +266,10 @@ class Pictures : public ImageFile {
     settings.map.wrap = Wrap::repeat;
     frame.resolution = 2;
   }
-  Measurement measurement() const { return {{}, settings, ladder, frame, {}, scene, receivers, probe, stored, exact}; }
+  Measurement measurement() const {
+    const Camera camera{.near_m = 0.1, .far_m = 100};
+    return {{}, settings, ladder, frame, camera, scene, receivers, probe, stored, exact};
+  }
 
   Settings settings;
   Ladder ladder;

@@ -99,17 +99,24 @@ TEST(Interior, ThickWallsADomeAndACrateAreRoomsToo) {
   EXPECT_TRUE(camera_inside(with_sides(turned, Sides::front))) << "single-sided walls need no furniture";
 }
 
-TEST(Interior, WindowsAndADoorLeaveARoomARoom) {
-  Scene scene = open_room();  // whose wall is built anew, with a hole in its middle
-  const auto wall = [&](double x0, double y0, double x1, double y1) {
+// One wall of 8 x 4 m, with a window of so much of its width and height.
+Scene room_with_window(double share) {
+  Scene scene = open_room();
+  const double x = 4 * share, y = 2 * share;
+  const auto add = [&](double x0, double y0, double x1, double y1) {
     add_quad(scene, "wall", {x0, y0, 3}, {0, y1 - y0, 0}, {x1 - x0, 0, 0});
   };
-  wall(-4, -2, 4, -0.5);
-  wall(-4, 0.8, 4, 2);
-  wall(-4, -0.5, -1, 0.8);
-  wall(1, -0.5, 4, 0.8);
+  add(-4, -2, 4, -y);
+  add(-4, y, 4, 2);
+  add(-4, -y, -x, y);
+  add(x, -y, 4, y);
   add_furniture(scene);
-  EXPECT_TRUE(camera_inside(scene));
+  return scene;
+}
+
+TEST(Interior, AWindowLeavesARoomARoomAndHalfAWallDoesNot) {
+  EXPECT_TRUE(camera_inside(room_with_window(0.4)));   // a sixth of the wall
+  EXPECT_FALSE(camera_inside(room_with_window(0.7)));  // half of it
 }
 
 TEST(Interior, OrdinaryScenesAreSeenFromOutside) {
