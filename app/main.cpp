@@ -67,7 +67,7 @@ int run(int argc, char** argv) {
   with_choices(run);
   with_out(run, "Where the results go (default: out/<name of the experiment>)");
   with_overwrite(run);
-  run->add_flag("--dry-run", dry_run, "Only print the points and an estimate of the time");
+  run->add_flag("--dry-run", dry_run, "Only print the points, the memory that each takes, and an estimate of the time");
 
   CLI::App* check =
       app.add_subcommand("check", "Run experiments and judge their bounds and laws: the exit code is the verdict");

@@ -71,6 +71,13 @@ struct Tracer::Impl {
 Tracer::Tracer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
 Tracer::~Tracer() = default;
 
+uint64_t Tracer::open_edges() const {
+  uint64_t open = 0;
+  for (uint32_t t = 0; t < impl_->adjacency.triangles(); ++t)
+    for (int e = 0; e < 3; ++e) open += impl_->adjacency.across(t, e).empty();
+  return open;
+}
+
 TracerInfo tracer_info() {
   const EmbreeDevice device;
   return {device.version(), device.isa()};

@@ -9,6 +9,7 @@
 
 #include "scenes/gltf_accessor.h"
 #include "scenes/gltf_error.h"
+#include "scenes/memory.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -202,19 +203,28 @@ void append_geometry(const Document& document, Buffers& buffers, const std::vect
   std::vector<std::vector<Drawable>> meshes;
   for (const tinygltf::Mesh& mesh : model.meshes) meshes.push_back(drawables(model, mesh));
 
-  uint64_t triangles = 0;
+  // Counted before anything is made: instances turn a small file into a large scene.
+  uint64_t triangles = 0, vertices = 0;
   for (const PlacedNode& placed : nodes) {
     const int mesh = model.nodes[placed.node].mesh;
     if (mesh == -1) continue;
     for (const Drawable& drawable : meshes[static_cast<size_t>(mesh)]) {
       // Each count is below 2^53 and the sum stays below 2^26 before it is added: no overflow.
       triangles += drawable.triangles;
+      vertices += std::min<uint64_t>(drawable.corners, model.accessors[static_cast<size_t>(drawable.positions)].count);
       if (triangles > max_triangles || drawable.corners > 3 * max_triangles) {
         refuse(document.file, fmt::format("nodes[{}].mesh", placed.node),
                fmt::format("the scene has more than the {} triangles allowed", max_triangles),
                "simplify it or split it");
       }
     }
+  }
+  const double needed = scene_bytes({vertices, triangles});
+  if (const AvailableMemory available = available_memory(); needed > static_cast<double>(available.bytes)) {
+    refuse(document.file, "",
+           fmt::format("its {} triangles, instances counted, take at least {} of memory and {}", triangles,
+                       bytes_text(needed), available.text()),
+           "simplify it, draw fewer instances, or use a machine with more memory");
   }
   Appender appender(document, buffers, scene);
   for (const PlacedNode& placed : nodes) {

@@ -22,7 +22,7 @@ inline constexpr uint64_t max_triangles = uint64_t{1} << 26;
 //   and hides nothing.
 // A transform that mirrors flips the winding, so that outsides stay outsides.
 // Throws Error(scene): indices out of range or meaning restart, positions not finite or beyond max_coordinate_m, too
-// many triangles.
+// many triangles, or more than fit into the memory that is available (scenes/memory.h).
 void append_geometry(const Document& document, Buffers& buffers, const std::vector<PlacedNode>& nodes, Scene& scene);
 
 }  // namespace noonmark::gltf
