@@ -72,6 +72,23 @@ void apply_override(Experiment& experiment, std::string_view assignment) {
     experiment.overridden.push_back(name);
 }
 
+void choose_parts(Experiment& experiment, const std::vector<std::string>& names) {
+  if (experiment.parts.empty())
+    throw Error(ErrorKind::usage, fmt::format("--part {}: {} has no parts", names.at(0), experiment.path));
+  const auto chosen = [&](std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  std::vector<std::string_view> known;
+  for (const Experiment& part : experiment.parts) known.push_back(part.part);
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string near = nearest_name(name, known);
+    throw Error(ErrorKind::usage, fmt::format("--part {}: {} has no such part{}", name, experiment.path,
+                                              near.empty() ? fmt::format("; it has '{}'", fmt::join(known, "', '"))
+                                                           : fmt::format("; did you mean '{}'?", near)));
+  }
+  std::erase_if(experiment.parts, [&](const Experiment& part) { return !chosen(part.part); });
+  experiment.chosen = names;
+}
+
 const Experiment& part_of_point(const Experiment& experiment, int64_t id) {
   for (const Experiment& part : experiment.parts) {
     const int64_t count = point_count(part);
@@ -149,6 +166,7 @@ std::string reproduce_command(const Experiment& experiment, const PointRecord& p
     if (setting != point.settings.end()) command += " --set " + shell_quoted(name + "=" + setting->second);
   };
   for (const std::string& name : experiment.overridden) add(name);
+  for (const std::string& name : experiment.chosen) command += " --part " + shell_quoted(name);
   if (!experiment.parts.empty()) return command + fmt::format(" --point {}", point.id);
   for (const Swept& swept : experiment.swept) add(swept.name);
   return command;

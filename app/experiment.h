@@ -75,6 +75,7 @@ struct Experiment {
   std::string pictures =
       "first";  // which points get pictures: first | all | none | worst | extremes (the worst and the best)
   std::vector<std::string> overridden;  // settings given by apply_override, in order
+  std::vector<std::string> chosen;      // parts given by choose_parts
   std::string part;                     // its name, where it is a part of another
   std::vector<Experiment> parts;        // where there are any, the points are theirs, one part after the other
 };
@@ -92,6 +93,10 @@ Experiment parse_experiment(std::string_view toml, const std::string& path);
 // replaces the file's value; a swept setting is swept no more. Relative paths stay relative to where the program runs.
 // Bounds stay: one whose `where` no point meets any more is broken, not dropped. Throws Error(usage).
 void apply_override(Experiment& experiment, std::string_view assignment);
+
+// Leaves only the parts of these names (`--part`); points are numbered anew. Throws Error(usage) for a name that no
+// part has, and where the experiment has no parts.
+void choose_parts(Experiment& experiment, const std::vector<std::string>& names);
 
 // The part that holds point `id`, or the experiment itself where it has no parts.
 const Experiment& part_of_point(const Experiment& experiment, int64_t id);
@@ -112,7 +117,7 @@ std::map<std::string, std::string> settings_map(const Settings& settings);
 std::string shell_quoted(const std::string& word);
 
 // The command that renders one point of the experiment, quoted for a shell: its overridden and swept settings as --set,
-// or, of an experiment with parts, its number.
+// or, of an experiment with parts, its number among the chosen ones.
 std::string reproduce_command(const Experiment& experiment, const PointRecord& point);
 
 // Everything that determines the results, as text of one "name = value" per line, for ResultStore. What the experiment

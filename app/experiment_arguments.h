@@ -10,6 +10,7 @@ namespace noonmark {
 
 inline Experiment experiment_from(const std::string& path, const ExperimentArguments& arguments) {
   Experiment experiment = path.empty() ? Experiment{} : load_experiment(path);
+  if (!arguments.parts.empty()) choose_parts(experiment, arguments.parts);
   for (const std::string& assignment : arguments.sets) apply_override(experiment, assignment);
   return experiment;
 }

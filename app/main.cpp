@@ -38,12 +38,17 @@ int run(int argc, char** argv) {
   std::vector<std::string> paths;
   bool dry_run = false;
   long point = -1;
-  const auto with_sets = [&](CLI::App* verb) {
+  const auto with_choices = [&](CLI::App* verb) {
     verb->add_option("--set", arguments.sets,
                      "Override a setting: name=value (noonmark settings lists them). May be repeated")
         ->expected(1)
         ->take_all()
         ->type_name("NAME=VALUE");
+    verb->add_option("--part", arguments.parts,
+                     "Only this part of the experiment, by its name; its points are counted from 0. May be repeated")
+        ->expected(1)
+        ->take_all()
+        ->type_name("NAME");
     verb->add_option("--threads", arguments.threads,
                      "How many threads to use (default: all cores); no result depends on it")
         ->check(CLI::Range(1, 1024));
@@ -59,15 +64,15 @@ int run(int argc, char** argv) {
 
   CLI::App* run = app.add_subcommand("run", "Measure every point of an experiment and write its report");
   run->add_option("experiment", experiment, "The experiment's TOML file")->required();
-  with_sets(run);
+  with_choices(run);
   with_out(run, "Where the results go (default: out/<name of the experiment>)");
   with_overwrite(run);
-  run->add_flag("--dry-run", dry_run, "Only print the points and an estimate of the time");
+  run->add_flag("--dry-run", dry_run, "Only print the points, the memory that each takes, and an estimate of the time");
 
   CLI::App* check =
       app.add_subcommand("check", "Run experiments and judge their bounds and laws: the exit code is the verdict");
   check->add_option("experiments", paths, "TOML files, or folders of them")->required();
-  with_sets(check);
+  with_choices(check);
   with_out(check,
            "Where the results go (default: out/<name of the experiment>); of several experiments, in a folder each");
   with_overwrite(check);
@@ -76,7 +81,7 @@ int run(int argc, char** argv) {
   render->add_option("experiment", experiment, "The experiment's TOML file; without one, the default settings");
   render->add_option("--point", point, "Which point of the experiment's sweep, counted from 0")
       ->check(CLI::NonNegativeNumber);
-  with_sets(render);
+  with_choices(render);
   with_out(render, "Where the files go (default: out/render)");
 
   CLI::App* report = app.add_subcommand("report", "Write report.html and results.csv again from stored results");

@@ -144,37 +144,57 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
   return info;
 }
 
-std::string swept_text(const Experiment& experiment, const PointRecord& point) {
-  std::string text = point.part;
-  for (const Swept& swept : experiment.swept)
-    text += fmt::format("{}{}={}", text.empty() ? "" : " ", swept.name, point.settings.at(swept.name));
+std::string swept_text(const Experiment& part, const Settings& settings) {
+  std::string text = part.part;
+  for (const Swept& swept : part.swept)
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", swept.name, find_setting(swept.name).get(settings));
   return text.empty() ? "the only point" : text;
 }
 
-// Digests of every scene that the points name, so that an edited file is not taken for the one that was measured. What
-// the scenes' files hold and is not modelled goes into notes, a line for each scene.
-std::vector<std::pair<std::string, std::string>> provenance(Workbench& bench, const std::vector<Settings>& points,
-                                                            const raytrace::TracerInfo& tracer,
-                                                            std::vector<std::string>& notes) {
+struct Survey {
+  // Digests of every scene that the points name, so that an edited file is not taken for the one that was measured.
+  std::map<std::string, std::string> digests;
+  std::vector<std::string> notes;      // what the scenes' files hold and is not modelled, a line for each scene
+  std::vector<MemoryEstimate> memory;  // of each point
+};
+
+// Meets every scene once, in the order of the points.
+Survey survey(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points) {
+  Survey found;
+  for (size_t id = 0; id < points.size(); ++id) {
+    std::string key;
+    for (const Setting& row : settings_table())
+      if (row.name.starts_with("scene.")) key += row.get(points[id]) + ";";
+    if (!found.digests.contains(key)) {
+      const Scene& scene = bench.scene(points[id].scene);
+      found.digests[key] = scene_digest(scene);
+      // The same file in other triangles says the same.
+      if (const std::string note = notes_line(scene);
+          !note.empty() && std::find(found.notes.begin(), found.notes.end(), note) == found.notes.end())
+        found.notes.push_back(note);
+    }
+    const bool pictures = experiment.pictures != "none" && (experiment.pictures != "first" || id == 0);
+    const Experiment& part = part_of_point(experiment, static_cast<int64_t>(id));
+    found.memory.push_back(bench.memory(points[id], part.curve_enabled, pictures));
+  }
+  return found;
+}
+
+void require_memory_of(const Experiment& experiment, const std::vector<Settings>& points, const Survey& survey,
+                       size_t id) {
+  const Experiment& part = part_of_point(experiment, static_cast<int64_t>(id));
+  require_memory(survey.memory[id], fmt::format("point {} ({})", id, swept_text(part, points[id])));
+}
+
+// What the results depend on beside the experiment.
+std::vector<std::pair<std::string, std::string>> provenance(const Workbench& bench, const Survey& survey,
+                                                            const raytrace::TracerInfo& tracer) {
   std::vector<std::pair<std::string, std::string>> facts = {
       {"noonmark", fmt::format("{} {}", build_facts().version, build_facts().commit)},
       {"opengl", fmt::format("{} {}", bench.device().renderer, bench.device().version)},
       {"embree", fmt::format("{} {}", tracer.version, tracer.isa)},
   };
-  std::map<std::string, std::string> digests;
-  for (const Settings& point : points) {
-    std::string key;
-    for (const Setting& row : settings_table())
-      if (row.name.starts_with("scene.")) key += row.get(point) + ";";
-    if (digests.contains(key)) continue;
-    const Scene& scene = bench.scene(point.scene);
-    digests[key] = scene_digest(scene);
-    // The same file in other triangles says the same.
-    if (const std::string note = notes_line(scene);
-        !note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end())
-      notes.push_back(note);
-  }
-  for (const auto& [scene, digest] : digests) facts.emplace_back("scene " + scene, digest);
+  for (const auto& [scene, digest] : survey.digests) facts.emplace_back("scene " + scene, digest);
   return facts;
 }
 
@@ -262,18 +282,22 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
   Workbench bench(gl::DebugMode::log);
   if (experiment.pictures != "none") require_image_files();
   const raytrace::TracerInfo tracer = raytrace::tracer_info();
-  std::vector<std::string> scene_notes;
-  const auto facts = provenance(bench, planned, tracer, scene_notes);
-  for (const std::string& note : scene_notes) fmt::print(stderr, "note: {}\n", note);
+  const Survey surveyed = survey(bench, experiment, planned);
+  const auto facts = provenance(bench, surveyed, tracer);
+  for (const std::string& note : surveyed.notes) fmt::print(stderr, "note: {}\n", note);
   ResultStore store(options.out + "/results.sqlite", fingerprint(experiment, facts),
                     options.overwrite ? Existing::overwrite : Existing::resume);
   if (options.overwrite) remove_pictures(options.out);
   const auto total = static_cast<int64_t>(planned.size());
-  store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene), scene_notes),
+  store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene), surveyed.notes),
                  total);
 
   const std::vector<int64_t> before = store.finished();
   if (!before.empty()) fmt::print(stderr, "{} of {} points are in {} already\n", before.size(), total, options.out);
+  // All of them, before the first is measured: hours later is too late to hear of it.
+  const auto measured_before = [&](int64_t id) { return std::binary_search(before.begin(), before.end(), id); };
+  for (int64_t id = 0; id < total; ++id)
+    if (!measured_before(id)) require_memory_of(experiment, planned, surveyed, static_cast<size_t>(id));
   SweepOutcome outcome;
   {
     const StopOnSignal guard;
@@ -281,7 +305,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
     auto done = static_cast<int64_t>(before.size());
     IdleNotes notes;
     for (int64_t id = 0; id < total && !outcome.interrupted; ++id) {
-      if (std::binary_search(before.begin(), before.end(), id)) continue;
+      if (measured_before(id)) continue;
+      require_memory_of(experiment, planned, surveyed, static_cast<size_t>(id));  // others may have taken it meanwhile
       const Experiment& part = part_of_point(experiment, id);
       Measurement m = bench.measure(planned[static_cast<size_t>(id)],
                                     part.curve_enabled ? std::optional(part.curve) : std::nullopt);
@@ -291,7 +316,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
       if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0))
         m.record.pictures = keep_pictures(m, id, options.out);
       store.add(m.record);
-      progress.finished(++done, swept_text(part, m.record));
+      progress.finished(++done, swept_text(part, m.settings));
       outcome.interrupted = stop_asked && done < total;
     }
     notes.print();
@@ -328,18 +353,26 @@ void print_plan(const Experiment& experiment) {
   const auto taps = [](const Settings& s) {
     return static_cast<double>(s.view.width_px) * s.view.height_px * tap_pattern(s.filter).taps;
   };
+  Workbench bench(gl::DebugMode::log);
+  const Survey surveyed = survey(bench, experiment, planned);
   double all_taps = 0;
   for (size_t i = 0; i < planned.size(); ++i) {
     const Experiment& part = part_of_point(experiment, static_cast<int64_t>(i));
     std::string text = part.part.empty() ? "" : "  " + part.part;
     for (const Swept& swept : part.swept)
       text += fmt::format("  {} = {}", swept.name, find_setting(swept.name).get(planned[i]));
-    fmt::print("{:5}{}\n", i, text);
+    fmt::print("{:5}{}  ({})\n", i, text, bytes_text(surveyed.memory[i].bytes()));
     all_taps += taps(planned[i]);
   }
+  const auto most =
+      std::max_element(surveyed.memory.begin(), surveyed.memory.end(),
+                       [](const MemoryEstimate& a, const MemoryEstimate& b) { return a.bytes() < b.bytes(); });
+  const MemoryShare& share = most->largest();
+  fmt::print("memory: at most {}, by point {} ({} of it for {}); {}\n", bytes_text(most->bytes()),
+             most - surveyed.memory.begin(), bytes_text(share.bytes), share.what, available_memory().text());
+  for (size_t i = 0; i < planned.size(); ++i) require_memory_of(experiment, planned, surveyed, i);
   // Time is close to a constant for each point plus a share for each tap: two small pictures of the first point tell
   // both.
-  Workbench bench(gl::DebugMode::log);
   const auto seconds = [&](int divisor, double nudge) {
     Settings small = planned[0];
     small.view.width_px = std::max(1, small.view.width_px / divisor);

@@ -20,9 +20,10 @@ struct SweepOutcome {
   bool interrupted = false;  // by SIGINT or SIGTERM; the finished points are stored
 };
 
-// Resumes where an earlier run of the same experiment stopped. Writes results.sqlite point by point; then results.csv,
-// report.html and, when pictures are asked for, images/. Throws Error: usage, scene, device; defect when a
-// measurement is not sound (after everything is stored).
+// Points that would not fit into memory are refused before any is measured. Resumes where an earlier run of the same
+// experiment stopped. Writes results.sqlite point by point; then results.csv, report.html and, when pictures are asked
+// for, images/. Throws Error: usage, scene, device; defect when a measurement is not sound (after everything is
+// stored).
 SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options);
 
 // Throws Error(defect) at the first point with a metric beyond its limit in compare/soundness.h. Points without a
@@ -32,7 +33,8 @@ void require_sound(const Results& results);
 // report.html and results.csv from what is in the results' directory.
 void write_report(const Results& results, const std::string& out);
 
-// What a run would do: every point, and about how long it would take, judged from small pictures of the first point.
+// What a run would do: every point and how much memory it takes, and about how long it would take, judged from small
+// pictures of the first point. Throws Error(usage) for a point that does not fit into memory.
 void print_plan(const Experiment& experiment);
 
 }  // namespace noonmark

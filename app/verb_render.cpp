@@ -85,6 +85,7 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   Workbench bench(gl::DebugMode::log);
   require_image_files();
   const Experiment& part = part_of_point(experiment, std::max(point, 0L));
+  require_memory(bench.memory(settings, part.curve_enabled, true), "this point");
   const Measurement m = bench.measure(settings, part.curve_enabled ? std::optional(part.curve) : std::nullopt);
   write_pictures(m, out, ".", "point");
   write_images(m, out + "/");

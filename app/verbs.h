@@ -6,8 +6,9 @@
 namespace noonmark {
 
 struct ExperimentArguments {
-  std::vector<std::string> sets;  // --set name=value, in order
-  std::string out;                // --out; empty: out/<name of the experiment>
+  std::vector<std::string> sets;   // --set name=value, in order
+  std::vector<std::string> parts;  // --part; empty: all of the experiment's
+  std::string out;                 // --out; empty: out/<name of the experiment>
   bool overwrite = false;
   int threads = 0;      // --threads; 0: all cores
   std::string command;  // the whole command line, for the record

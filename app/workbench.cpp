@@ -66,6 +66,7 @@ double median_time(const Pass& pass) {
 struct LoadedScene {
   std::unique_ptr<Scene> scene;  // the tracer refers to it
   std::unique_ptr<raytrace::Tracer> tracer;
+  uint64_t open_edges;
 };
 
 struct View {
@@ -149,7 +150,8 @@ struct Workbench::Impl {
       auto loaded = std::make_unique<Scene>(make_scene(settings.scene));
       auto tracer = std::make_unique<raytrace::Tracer>(*loaded);
       renderer.load_scene(*loaded);
-      return LoadedScene{std::move(loaded), std::move(tracer)};
+      const uint64_t open_edges = tracer->open_edges();
+      return LoadedScene{std::move(loaded), std::move(tracer), open_edges};
     });
   }
 
@@ -173,6 +175,20 @@ const Scene& Workbench::scene(const SceneSettings& settings) {
   Settings only_scene;
   only_scene.scene = settings;
   return *impl_->load(only_scene).scene;
+}
+
+MemoryEstimate Workbench::memory(const Settings& settings, bool curve, bool pictures) {
+  validate(settings);
+  const LoadedScene& loaded = impl_->load(settings);
+  const Scene& scene = *loaded.scene;
+  const LightFrame frame = make_light_frame(scene, settings);
+  return estimate_memory({settings,
+                          frame.kind,
+                          {scene.positions.size(), scene.triangles.size()},
+                          loaded.open_edges,
+                          outside_texels(scene, frame, settings.filter),
+                          curve,
+                          pictures});
 }
 
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "app/memory_estimate.h"
 #include "compare/bias_curves.h"
 #include "compare/ladder.h"
 #include "compare/records.h"
@@ -38,6 +39,9 @@ class Workbench {
 
   // curve: none when empty or when the settings' filter or bias form cannot be read off one pass. Throws Error.
   Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve);
+
+  // What that would take of memory at its peak; pictures: with pictures and EXR files written of it. Throws Error.
+  MemoryEstimate memory(const Settings& settings, bool curve, bool pictures);
 
   const gl::DeviceInfo& device() const;
   // Of the scene that the settings name; loads it when it is not the one at hand.

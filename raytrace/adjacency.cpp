@@ -1,5 +1,7 @@
 #include "raytrace/adjacency.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <numeric>
 #include <tuple>
@@ -24,6 +26,30 @@ std::vector<uint32_t> weld(const std::vector<glm::vec3>& positions) {
   return number;
 }
 
+// For each triangle the first one with the same corners in the same order, wherever the order begins.
+std::vector<uint32_t> find_first(const std::vector<std::array<uint32_t, 3>>& corners) {
+  struct Key {
+    std::array<uint32_t, 3> corners;  // begun so that they are the least
+    uint32_t triangle;
+    bool operator<(const Key& other) const {
+      return std::tie(corners, triangle) < std::tie(other.corners, other.triangle);
+    }
+  };
+  std::vector<Key> keys;
+  keys.reserve(corners.size());
+  for (uint32_t t = 0; t < corners.size(); ++t) {
+    const auto [a, b, c] = corners[t];
+    using Corners = std::array<uint32_t, 3>;
+    keys.push_back({std::min({Corners{a, b, c}, Corners{b, c, a}, Corners{c, a, b}}), t});
+  }
+  tbb::parallel_sort(keys);
+  std::vector<uint32_t> first(corners.size());
+  for (size_t i = 0; i < keys.size(); ++i)
+    first[keys[i].triangle] =
+        i > 0 && keys[i].corners == keys[i - 1].corners ? first[keys[i - 1].triangle] : keys[i].triangle;
+  return first;
+}
+
 }  // namespace
 
 Adjacency::Adjacency(const Scene& scene) {
@@ -36,9 +62,16 @@ Adjacency::Adjacency(const Scene& scene) {
   };
   std::vector<Edge> edges;
   edges.reserve(3 * count);
-  for (uint32_t t = 0; t < count; ++t) {
+  for (size_t t = 0; t < count; ++t) {
     const glm::uvec3 v = scene.triangles[t];
     welded_[t] = {number[v.x], number[v.y], number[v.z]};
+  }
+  first_ = find_first(welded_);
+  for (uint32_t t = 0; t < count; ++t) {
+    if (is_copy(t)) {
+      any_copies_ = true;
+      continue;
+    }
     for (uint8_t e = 0; e < 3; ++e) {
       const uint32_t a = welded_[t][e], b = welded_[t][(e + 1) % 3];
       edges.push_back({std::min(a, b), std::max(a, b), t, e});
@@ -67,6 +100,13 @@ Adjacency::Adjacency(const Scene& scene) {
   neighbours_.resize(begin_.back());
   std::vector<uint32_t> fill(begin_.begin(), begin_.end() - 1);
   each_run([&](uint32_t slot, uint32_t neighbour) { neighbours_[fill[slot]++] = neighbour; });
+}
+
+std::vector<uint32_t> Adjacency::without_copies() const {
+  std::vector<uint32_t> kept;
+  for (uint32_t t = 0; any_copies_ && t < triangles(); ++t)
+    if (!is_copy(t)) kept.push_back(t);
+  return kept;
 }
 
 std::span<const uint32_t> Adjacency::across(uint32_t triangle, int edge) const {

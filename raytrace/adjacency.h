@@ -14,7 +14,16 @@ class Adjacency {
  public:
   explicit Adjacency(const Scene& scene);
 
-  // The other triangles at edge `edge` (0: corners 0-1, 1: 1-2, 2: 2-0) of `triangle`.
+  // The first triangle with exactly the same corners, wound alike: t itself, but for copies that lie in the same place.
+  // One of them hides what all do, so that rays and walks know the first alone.
+  uint32_t first(uint32_t t) const { return first_[t]; }
+  bool is_copy(uint32_t t) const { return first_[t] != t; }
+  bool any_copies() const { return any_copies_; }
+  // Every triangle that is no copy; empty where there are no copies.
+  std::vector<uint32_t> without_copies() const;
+
+  // The other triangles at edge `edge` (0: corners 0-1, 1: 1-2, 2: 2-0) of `triangle`; copies are not among them and
+  // have none.
   std::span<const uint32_t> across(uint32_t triangle, int edge) const;
 
   uint32_t triangles() const { return static_cast<uint32_t>(welded_.size()); }
@@ -24,6 +33,8 @@ class Adjacency {
 
  private:
   std::vector<std::array<uint32_t, 3>> welded_;
+  std::vector<uint32_t> first_;
+  bool any_copies_ = false;
   std::vector<uint32_t> begin_;  // [3 * triangle + edge] into neighbours_
   std::vector<uint32_t> neighbours_;
 };

@@ -76,7 +76,7 @@ Silhouettes::Silhouettes(const Adjacency& adjacency, const LightView& view, doub
     : view_(view), reach_m_(reach_m) {
   for (uint32_t t = 0; t < adjacency.triangles(); ++t)
     for (int e = 0; e < 3; ++e)
-      if (!goes_on(adjacency, view, t, e))
+      if (!adjacency.is_copy(t) && !goes_on(adjacency, view, t, e))
         edges_.push_back({view.corner(t, e), view.corner(t, (e + 1) % 3), t,
                           std::max(view.corner_rounding_m(t, e), view.corner_rounding_m(t, (e + 1) % 3))});
 

@@ -29,9 +29,11 @@ class Stopwatch {
 };
 
 // The exact map skips what the rasteriser culls. Front: counter-clockwise as the light sees it.
-std::vector<uint32_t> kept_triangles(const Scene& scene, const LightFrame& frame, CulledFaces cull) {
+std::vector<uint32_t> kept_triangles(const Scene& scene, const Adjacency& adjacency, const LightFrame& frame,
+                                     CulledFaces cull) {
   std::vector<uint32_t> kept;
   for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    if (adjacency.is_copy(t)) continue;
     const glm::uvec3 v = scene.triangles[t];
     const glm::dvec3 a = scene.positions[v.x], b = scene.positions[v.y], c = scene.positions[v.z];
     const bool front = glm::dot(glm::cross(b - a, c - a), frame.direction_to_light((a + b + c) / 3.0)) > 0;
@@ -57,28 +59,49 @@ std::optional<double> first_from_near(const EmbreeScene& seen, const LightView& 
 }  // namespace
 
 struct Tracer::Impl {
-  explicit Impl(const Scene& s) : scene(s), embree(device, s), adjacency(s) {}
+  explicit Impl(const Scene& s) : scene(s), adjacency(s), embree(device, s, adjacency.without_copies()) {}
 
   Image<float> exact_map(const LightView& view, const TexelRays& texels, const MapSettings& map,
                          const std::optional<PolygonOffset>& offset, uint64_t& rays) const;
 
+  // The receivers on the first of coincident triangles, the one that the rays know; `made` holds them where they
+  // differ.
+  const ReceiverImage& on_first(const ReceiverImage& receivers, std::optional<ReceiverImage>& made) const;
+
   const Scene& scene;
   EmbreeDevice device;
-  EmbreeScene embree;
   Adjacency adjacency;
+  EmbreeScene embree;
 };
+
+const ReceiverImage& Tracer::Impl::on_first(const ReceiverImage& receivers, std::optional<ReceiverImage>& made) const {
+  if (!adjacency.any_copies()) return receivers;
+  made = receivers;
+  for (uint32_t& primitive : made->primitive.pixels)
+    if (primitive != no_primitive) primitive = adjacency.first(primitive);
+  return *made;
+}
 
 Tracer::Tracer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
 Tracer::~Tracer() = default;
+
+uint64_t Tracer::open_edges() const {
+  uint64_t open = 0;
+  for (uint32_t t = 0; t < impl_->adjacency.triangles(); ++t)
+    for (int e = 0; e < 3; ++e) open += !impl_->adjacency.is_copy(t) && impl_->adjacency.across(t, e).empty();
+  return open;
+}
 
 TracerInfo tracer_info() {
   const EmbreeDevice device;
   return {device.version(), device.isa()};
 }
 
-ReceiverTruth Tracer::receiver_truth(const ReceiverImage& receivers, const LightFrame& frame, const SoftTruth& soft,
+ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFrame& frame, const SoftTruth& soft,
                                      StageTime* hard_stage, StageTime* soft_stage) const {
   const Stopwatch hard_watch;
+  std::optional<ReceiverImage> made;
+  const ReceiverImage& receivers = impl_->on_first(given, made);
   const int width = receivers.width(), height = receivers.height();
   const LightView view(impl_->scene, frame);
   const ShadowStart start(impl_->scene, receivers, frame);
@@ -102,8 +125,7 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& receivers, const Light
       hard_rays += static_cast<uint64_t>(n);
       ShadowRay rays[packet_size];
       for (int i = 0; i < n; ++i)
-        rays[i] =
-            place == 0 ? start.whole(facing[first + i]) : start.beside(facing[first + i], places[place]);
+        rays[i] = place == 0 ? start.whole(facing[first + i]) : start.beside(facing[first + i], places[place]);
       dark[place] = impl_->embree.occluded(n, rays);
     }
     const uint32_t any = dark[0] | dark[1] | dark[2] | dark[3] | dark[4],
@@ -134,7 +156,7 @@ Image<float> Tracer::Impl::exact_map(const LightView& view, const TexelRays& tex
   std::optional<EmbreeScene> uncut;  // only the faces that the rasteriser keeps
   bool nothing_kept = false;
   if (settings.cull != CulledFaces::none) {
-    std::vector<uint32_t> kept = kept_triangles(scene, frame, settings.cull);
+    std::vector<uint32_t> kept = kept_triangles(scene, adjacency, frame, settings.cull);
     nothing_kept = kept.empty();
     if (!nothing_kept) uncut.emplace(device, scene, std::move(kept));
   }
@@ -213,7 +235,8 @@ LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverT
       if (!truth.facing[first + i]) continue;
       const glm::dvec3 p = receivers.position[first + i], normal = receivers.normal[first + i];
       at[active] = frame.to_light(p);
-      points[active] = surface.point(at[active], receivers.primitive[first + i], truth.lit[first + i] != 0);
+      points[active] =
+          surface.point(at[active], impl_->adjacency.first(receivers.primitive[first + i]), truth.lit[first + i] != 0);
       looked_up[active] = frame.to_light(bias.looked_up(frame, p, normal));
       lanes[active++] = i;
     }
@@ -268,8 +291,10 @@ LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverT
   return result;
 }
 
-Image<float> Tracer::occluder_distance(const ReceiverImage& receivers, const LightFrame& frame,
+Image<float> Tracer::occluder_distance(const ReceiverImage& given, const LightFrame& frame,
                                        const Image<uint8_t>& mask) const {
+  std::optional<ReceiverImage> made;
+  const ReceiverImage& receivers = impl_->on_first(given, made);
   const ShadowStart start(impl_->scene, receivers, frame);
   Image<float> distance(receivers.width(), receivers.height(), 0);
   tbb::parallel_for(size_t{0}, mask.size(), [&](size_t i) {

@@ -62,6 +62,9 @@ class Tracer {
                            const LightFrame& frame, const MapSettings& map, const DepthBias& bias = {},
                            double offset_unit = 0) const;
 
+  // How many edges of triangles have no other triangle beside them: each is a shadow's edge under every light.
+  uint64_t open_edges() const;
+
   // For the pixels where mask is not 0: distance in metres from P to its nearest occluder towards the light; infinity
   // without one. Other pixels: 0.
   Image<float> occluder_distance(const ReceiverImage& receivers, const LightFrame& frame,

@@ -46,10 +46,4 @@ Scene load_gltf(const std::string& path, const Pose& pose) {
   }
 }
 
-uint64_t count_gltf_triangles(const std::string& path) {
-  const gltf::Document document = gltf::read_document(path, std::nullopt);
-  std::vector<std::string> notes;
-  return gltf::count_triangles(document, gltf::place_nodes(document, notes));
-}
-
 }  // namespace noonmark

@@ -14,6 +14,7 @@
 #include "scenes/gltf_morph.h"
 #include "scenes/gltf_notes.h"
 #include "scenes/gltf_skin.h"
+#include "scenes/memory.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -290,12 +291,12 @@ bool draws(const tinygltf::Node& node, const PlacedNode& placed) {
   return node.mesh != -1 && placed.visible && (!placed.collapsed || node.skin != -1);
 }
 
-}  // namespace
-
-uint64_t count_triangles(const Document& document, const Placement& placement) {
+// How much the scene asks for, by its lists alone: no buffer is read. A Draco mesh whose indices have no accessor counts
+// as nothing until it is decoded.
+SceneSize count_geometry(const Document& document, const Placement& placement) {
   const tinygltf::Model& model = document.model;
   std::map<int, std::vector<Drawable>> meshes;
-  uint64_t triangles = 0;
+  SceneSize count;
   for (const PlacedNode& placed : placement.nodes) {
     const tinygltf::Node& node = model.nodes[placed.node];
     if (!draws(node, placed)) continue;
@@ -305,19 +306,32 @@ uint64_t count_triangles(const Document& document, const Placement& placement) {
     for (const Drawable& drawable : mesh->second) {
       // Each count is below 2^53 and the sum at most 2^26 before one is added: no overflow.
       const bool too_many = drawable.triangles > max_triangles || instances > max_triangles;
-      triangles += too_many ? max_triangles + 1 : drawable.triangles * instances;
-      if (triangles > max_triangles || drawable.corners > 3 * max_triangles) {
+      count.triangles += too_many ? max_triangles + 1 : drawable.triangles * instances;
+      count.vertices +=
+          std::min<uint64_t>(drawable.corners, model.accessors[static_cast<size_t>(drawable.positions)].count) *
+          (too_many ? 1 : instances);
+      if (count.triangles > max_triangles || drawable.corners > 3 * max_triangles) {
         refuse(document.file, fmt::format("nodes[{}].mesh", placed.node),
                fmt::format("the scene has more than the {} triangles allowed", max_triangles),
                "simplify it or split it");
       }
     }
   }
-  return triangles;
+  return count;
 }
 
+}  // namespace
+
 void append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene) {
-  count_triangles(document, placement);
+  // Counted before anything is made: instances turn a small file into a large scene.
+  const SceneSize count = count_geometry(document, placement);
+  const double needed = scene_bytes(count);
+  if (const AvailableMemory available = available_memory(); needed > static_cast<double>(available.bytes)) {
+    refuse(document.file, "",
+           fmt::format("its {} triangles, instances counted, take at least {} of memory and {}", count.triangles,
+                       bytes_text(needed), available.text()),
+           "simplify it, draw fewer instances, or use a machine with more memory");
+  }
   const tinygltf::Model& model = document.model;
   std::vector<std::vector<Drawable>> meshes;
   for (const tinygltf::Mesh& mesh : model.meshes) meshes.push_back(drawables(model, mesh));

@@ -8,10 +8,6 @@
 
 namespace noonmark::gltf {
 
-// How many the scene asks for, those without an area included, by its lists alone: no buffer is read. A Draco mesh whose
-// indices have no accessor counts as nothing until it is decoded. Throws Error(scene) beyond max_triangles.
-uint64_t count_triangles(const Document& document, const Placement& placement);
-
 // Appends positions, triangles and parts. What is drawn:
 // - triangles, strips and fans; points and lines cast no shadow worth the name and are left out;
 // - positions with their morph targets (gltf_morph.h), where the node's place or its skin's joints put them
@@ -25,7 +21,8 @@ uint64_t count_triangles(const Document& document, const Placement& placement);
 // A transform that mirrors flips the winding, so that outsides stay outsides. Triangles of materials that are not
 // doubleSided are marked in scene.single_sided.
 // Throws Error(scene): indices out of range or meaning restart, positions not finite or beyond max_coordinate_m, more
-// than max_triangles, and what the files named above refuse.
+// than max_triangles or than fit into the memory that is available (scenes/memory.h), and what the files named above
+// refuse.
 void append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene);
 
 }  // namespace noonmark::gltf

@@ -44,10 +44,6 @@ struct Pose {
 Scene load_gltf(const std::string& path, const Pose& pose = {});
 
 <<<<<<< HEAD
-// How many triangles load_gltf(path) would make, those without an area included, at rest and without reading a buffer:
-// for telling what a scene will cost before it is loaded. Throws Error(scene).
-uint64_t count_gltf_triangles(const std::string& path);
-
 // scenes/fit.cpp: a perspective camera that sees the whole scene, and a light from above and aside. For scenes without.
 =======
 // scenes/fit.cpp: a perspective camera that sees the whole scene from outside, or stands inside a closed room

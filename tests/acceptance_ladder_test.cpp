@@ -132,7 +132,7 @@ class OneCurve : public testing::TestWithParam<std::string> {};
 
 // 100 random biases, each rendered by OpenGL with that bias, against the counts read off one pass.
 TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
-  const Settings base = with({{"map.resolution", "400"}}, small(GetParam(), 480, 270));
+  const Settings base = with({{"map.resolution", "400"}}, small(GetParam(), 320, 180));
   const Scene scene = make_scene(base.scene);
   gl::Renderer renderer(gl::DebugMode::fatal);
   renderer.load_scene(scene);

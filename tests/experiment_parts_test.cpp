@@ -101,6 +101,35 @@ TEST(ExperimentParts, APointIsReproducedByItsNumber) {
   EXPECT_EQ(reproduce_command(e, point), "noonmark render folder/x.toml --set map.resolution=64 --point 4");
 }
 
+TEST(ExperimentParts, OnlyTheChosenOnesAreMeasured) {
+  Experiment e = parse(two_parts);
+  choose_parts(e, {"second"});
+  ASSERT_EQ(points(e).size(), 4u);
+  EXPECT_EQ(points(e)[0].scene.name, "wall");
+  EXPECT_EQ(part_of_point(e, 0).part, "second");
+  PointRecord point;
+  point.id = 1;
+  EXPECT_EQ(reproduce_command(e, point), "noonmark render folder/x.toml --part second --point 1");
+
+  Experiment both = parse(two_parts);
+  choose_parts(both, {"second", "first"});
+  EXPECT_EQ(point_count(both), 7) << "in the file's order";
+  EXPECT_EQ(part_of_point(both, 0).part, "first");
+
+  const auto message = [](Experiment from, const std::string& name) -> std::string {
+    try {
+      choose_parts(from, {name});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(message(parse(two_parts), "secnd"), "--part secnd: folder/x.toml has no such part; did you mean 'second'?");
+  EXPECT_EQ(message(parse(two_parts), "x"), "--part x: folder/x.toml has no such part; it has 'first', 'second'");
+  EXPECT_EQ(message(parse(""), "first"), "--part first: folder/x.toml has no parts");
+}
+
 TEST(ExperimentParts, TheFingerprintSeesEveryPart) {
   const auto print = [](const std::string& text) { return fingerprint(parse(text), {}); };
   const std::string whole = two_parts;

@@ -224,7 +224,6 @@ TEST_F(GltfPose, InstancesAreInTheNodesOwnSpace) {
                        {99, 1, 3},
                        {99, 0, 3},
                        {100, 1, 3}});
-  EXPECT_EQ(count_gltf_triangles((folder_.path() / "scene.gltf").string()), 6u) << "before it is loaded";
   // The mirrored one faces as the others do.
   for (const glm::uvec3& t : s.triangles)
     EXPECT_GT(glm::cross(s.positions[t.y] - s.positions[t.x], s.positions[t.z] - s.positions[t.x]).z, 0);

@@ -1,0 +1,121 @@
+#include "app/memory_estimate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "compare/bias_curves.h"
+#include "scenes/error.h"
+#include "scenes/tap_pattern.h"
+
+namespace noonmark {
+namespace {
+
+// Bytes. Found by counting the arrays that are alive together and held against the peak (VmHWM) of runs in which one of
+// them dominates, on Debian 12 with llvmpipe; the measured numbers are in brackets.
+constexpr double program = 260e6;          // libraries, OpenGL's compiler, one picture of nothing [229e6]
+constexpr double per_pixel = 260;          // receivers, truth, probe, ladder, on both sides of OpenGL [236]
+constexpr double per_picture_pixel = 270;  // pictures, channels of the EXR files and what is encoded of them [245]
+constexpr double per_texel = 36;           // the map drawn, read back, exact, uploaded, and its ties [30]
+constexpr double per_picture_texel = 28;   // map.exr [25]
+constexpr double per_tap = 1;              // TapTruth
+constexpr double per_cube_tap = 4;         // LookupProbe::cube_texel
+constexpr double per_curve_tap = 12;    // thresholds of the error and of its cause, 4 each, and their lists' growth [6]
+constexpr double per_blended_tap = 36;  // with a weight of 8 each, and a list being sorted [18]
+constexpr double per_asked_texel = 16;  // of each texel that a tap reads: its address and its error [16]
+constexpr double per_outside_texel = 32;   // what is met at texels beside the map: two lists of 16 while they are made
+constexpr double per_open_edge = 240;      // as a shadow's edge: itself, its pieces, the cells that list it [220]
+constexpr double per_closed_edge = 70;     // a third of them may be such edges too, where the light sees a fold
+constexpr double per_kept_triangle = 150;  // the second tree of the rays, without the culled faces
+constexpr double per_grid_cell = 8;        // where a shadow's edges are listed, for each face of the map
+constexpr double least_grid_cells = 256 * 256, most_grid_cells = 2048 * 2048;
+
+}  // namespace
+
+double MemoryEstimate::bytes() const {
+  return std::accumulate(shares.begin(), shares.end(), 0.0,
+                         [](double sum, const MemoryShare& share) { return sum + share.bytes; });
+}
+
+const MemoryShare& MemoryEstimate::largest() const {
+  return *std::max_element(shares.begin(), shares.end(),
+                           [](const MemoryShare& a, const MemoryShare& b) { return a.bytes < b.bytes; });
+}
+
+MemoryEstimate estimate_memory(const MemoryInput& input) {
+  const Settings& s = input.settings;
+  const double pixels = static_cast<double>(s.view.width_px) * s.view.height_px;
+  const double faces = input.light == LightKind::point ? 6 : 1;
+  const double texels = static_cast<double>(s.map.resolution) * s.map.resolution * faces;
+  const TapPattern pattern = tap_pattern(s.filter);
+  const double taps = pixels * pattern.taps;
+
+  const double edges = 3.0 * static_cast<double>(input.scene.triangles);
+  const double open = std::min(edges, static_cast<double>(input.open_edges));
+  double scene = scene_bytes(input.scene) + per_open_edge * open + per_closed_edge * (edges - open);
+  scene += per_grid_cell * faces * std::clamp(16 * edges, least_grid_cells, most_grid_cells);
+  if (s.map.cull != CulledFaces::none) scene += per_kept_triangle * static_cast<double>(input.scene.triangles);
+
+  // The lists of texels beside the map are gone when the curve is made.
+  double curve = 0;
+  if (input.curve && curve_parameter(s.bias.form))
+    curve = taps * (pattern.bilinear() ? per_blended_tap : per_curve_tap);
+  const double outside = per_outside_texel * std::min(taps, input.outside_texels);
+  const double kept = taps * (per_tap + (input.light == LightKind::point ? per_cube_tap : 0));
+  return {{
+      {"the program itself", "use a machine with more memory", program},
+      {"the scene", "take a scene of fewer triangles (scene.name, scene.mesh)", scene},
+      {"the picture", "lower view.width_px and view.height_px",
+       pixels * (per_pixel + (input.pictures ? per_picture_pixel : 0))},
+      {"the taps",
+       curve > outside ? "lower filter.size, view.width_px or view.height_px, or set curve.enabled = false"
+                       : "lower filter.size, view.width_px or view.height_px, or widen map.extent_m",
+       kept + std::max(curve, outside)},
+      {"the shadow map", "lower map.resolution",
+       texels * (per_texel + (input.pictures ? per_picture_texel : 0)) + per_asked_texel * std::min(taps, texels)},
+  }};
+}
+
+double outside_texels(const Scene& scene, const LightFrame& frame, const FilterSettings& filter) {
+  if (frame.kind == LightKind::point) return 0;
+  const TapPattern pattern = tap_pattern(filter);
+  double reach = 1;
+  for (int variant = 0; variant < pattern.variants; ++variant)
+    for (int tap = 0; tap < pattern.taps; ++tap) {
+      const glm::vec3 o = glm::abs(pattern.offset(variant, tap));
+      reach = std::max<double>({reach, o.x, o.y});
+    }
+  const double inside = static_cast<double>(frame.resolution) * frame.resolution;
+  glm::dvec2 low(0), high(frame.resolution);
+  if (frame.kind == LightKind::spot) {  // nothing beyond the cone asks
+    const double tan_cone = std::sqrt(1 - frame.cos_half_cone * frame.cos_half_cone) / frame.cos_half_cone;
+    const double beside = frame.resolution * std::max(0.0, tan_cone / frame.tan_half_fov - 1) / 2;
+    low -= beside;
+    high += beside;
+  } else {
+    for (const glm::vec3& p : scene.positions) {
+      const glm::dvec2 at = frame.map_texels(frame.place(frame.to_light(p)));
+      low = glm::min(low, at);
+      high = glm::max(high, at);
+    }
+  }
+  const glm::dvec2 size = high - low + 2 * (reach + 1);
+  return std::max(0.0, size.x * size.y - inside);
+}
+
+bool fits(const MemoryEstimate& estimate, const AvailableMemory& available) {
+  return estimate.bytes() - static_cast<double>(resident_bytes()) <= static_cast<double>(available.bytes);
+}
+
+void require_memory(const MemoryEstimate& estimate, const std::string& point) {
+  const AvailableMemory available = available_memory();
+  if (fits(estimate, available)) return;
+  const MemoryShare& most = estimate.largest();
+  throw Error(ErrorKind::usage, fmt::format("{} would take about {} of memory, {} of it for {}, and {}; {}", point,
+                                            bytes_text(estimate.bytes()), bytes_text(most.bytes), most.what,
+                                            available.text(), most.remedy));
+}
+
+}  // namespace noonmark

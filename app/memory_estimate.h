@@ -1,0 +1,56 @@
+// How much memory the measurement of a point takes at its peak, predicted from its settings before it starts.
+//
+//   const MemoryEstimate estimate = estimate_memory({settings, LightKind::point, scene_size, open_edges, true, false});
+//   require_memory(estimate, "point 3");            // throws where it would not fit
+//
+// The prediction is an upper bound that is made of constants per pixel, tap, texel, triangle and vertex. Where one of
+// them dominates it is at most estimate_factor times what is taken (tests/memory_test.cpp). A map that lives on a
+// graphics card is counted as if it lived here, as it does with llvmpipe.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scenes/light_frame.h"
+#include "scenes/memory.h"
+#include "scenes/scene.h"
+#include "scenes/settings.h"
+
+namespace noonmark {
+
+struct MemoryInput {
+  const Settings& settings;
+  LightKind light = LightKind::directional;
+  SceneSize scene;
+  uint64_t open_edges = 0;    // raytrace::Tracer::open_edges
+  double outside_texels = 0;  // the most texels beside the map that receivers can ask for: outside_texels()
+  bool curve = true;          // an exact curve of the error against the bias is read off
+  bool pictures = false;      // pictures and EXR files are written
+};
+
+struct MemoryShare {
+  const char* what;    // "the shadow map"
+  const char* remedy;  // which setting lowers it
+  double bytes = 0;
+};
+
+struct MemoryEstimate {
+  std::vector<MemoryShare> shares;
+  double bytes() const;  // their sum: the peak of the whole program
+  const MemoryShare& largest() const;
+};
+
+MemoryEstimate estimate_memory(const MemoryInput& input);
+
+inline constexpr double estimate_factor = 3;
+
+// How many texels beside a flat map the scene reaches, kernel included; a cube has no outside.
+double outside_texels(const Scene& scene, const LightFrame& frame, const FilterSettings& filter);
+
+// Whether it fits into what the process holds already and may still take.
+bool fits(const MemoryEstimate& estimate, const AvailableMemory& available);
+
+// Throws Error(usage) where it does not, naming `point`, the largest share and the setting to change.
+void require_memory(const MemoryEstimate& estimate, const std::string& point);
+
+}  // namespace noonmark

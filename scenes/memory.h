@@ -1,0 +1,41 @@
+// How much memory the program may still take, and what a scene will take of it: asked before anything large is made.
+//
+//   const AvailableMemory available = available_memory();
+//   if (needed > available.bytes) throw Error(..., "... takes " + bytes_text(needed) + "; " + available.text());
+//
+// What is counted is what stays in memory when it is written to. Swap is not counted: a measurement that lives in it
+// does not end.
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace noonmark {
+
+// The least of three: what the machine has free (MemAvailable), what the control groups of the process leave (version 1
+// and 2, the group's own limit and those of the groups above it, less what is in use; file caches that can be given
+// back do not count as used), and what `ulimit -v` leaves of the address space.
+struct AvailableMemory {
+  uint64_t bytes = UINT64_MAX;  // where nothing is known: no limit
+  std::string limit;            // which of the three it is, in words
+  std::string text() const;     // "7.9 GB are available (the machine's free memory)"
+};
+
+// root: "/" but in tests, which bring proc/ and sys/fs/cgroup/ of their own.
+AvailableMemory available_memory(const std::string& root = "/");
+
+// What the process holds now.
+uint64_t resident_bytes();
+
+// "640 MB", "1.2 GB": two digits, in powers of 1000.
+std::string bytes_text(double bytes);
+
+struct SceneSize {
+  uint64_t vertices = 0;
+  uint64_t triangles = 0;
+};
+
+// What a scene of this size takes at the least in all that is made of it: OpenGL's buffers, Embree's tree, which
+// triangle is beside which, their planes as the light sees them. Edges that lie open cost more (app/memory_estimate.h).
+double scene_bytes(SceneSize size);
+
+}  // namespace noonmark
