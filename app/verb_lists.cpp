@@ -11,13 +11,15 @@
 #include "raytrace/tracer.h"
 #include "scenes/error.h"
 #include "scenes/library.h"
+#include "scenes/text.h"
 
 namespace noonmark {
 
 int verb_report(const std::string& folder) {
   const Results results = ResultStore::open(folder + "/results.sqlite").load();
   write_report(results, folder);
-  fmt::print("{} of {} points; the report is {}/report.html\n", results.points.size(), results.planned_points, folder);
+  fmt::print("{} of {} points; the report is {}/report.html\n", results.points.size(), results.planned_points,
+             printable(folder));
   return results.points.size() < static_cast<size_t>(results.planned_points) ? static_cast<int>(ErrorKind::incomplete)
                                                                              : 0;
 }

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "app/experiment_arguments.h"
 #include "app/pictures.h"
 #include "app/verbs.h"
@@ -11,6 +9,7 @@
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "scenes/idle_settings.h"
+#include "scenes/text.h"
 
 namespace noonmark {
 namespace {
@@ -28,8 +27,8 @@ Settings the_point(const Experiment& experiment, long point) {
 
 void print_ladder(const Measurement& m) {
   const auto value = [&](const char* name) { return m.record.metrics.at(name); };
-  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted ({:.4f}% ambiguous)\n\n", m.scene.name,
-             value("receivers"), value("facing"), value("counted"), 100 * value("ambiguous"));
+  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted ({:.4f}% ambiguous)\n\n",
+             printable(m.scene.name), value("receivers"), value("facing"), value("counted"), 100 * value("ambiguous"));
   if (value("counted") == 0) {
     fmt::print(
         "  no counted receiver, so nothing can be judged; does the camera see a surface that faces the light?\n");
@@ -74,11 +73,8 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   const Experiment experiment = experiment_from(path, arguments);
   const Settings settings = the_point(experiment, point);
   const std::string out = arguments.out.empty() ? "out/render" : arguments.out;
-  std::error_code error;
-  std::filesystem::create_directories(out, error);
-  if (error)
-    throw Error(ErrorKind::usage,
-                fmt::format("cannot make the folder {}: {}; give another --out", out, error.message()));
+  make_folder(out);
+  clear_abandoned_files(out);
   Workbench bench(gl::DebugMode::log);
   const Experiment& part = part_of_point(experiment, std::max(point, 0L));
   const Measurement m = bench.measure(settings, part.curve_enabled ? std::optional(part.curve) : std::nullopt);
@@ -88,7 +84,7 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   print_ladder(m);
   for (const IdleSetting& idle : idle_settings(m.frame.kind, settings))
     fmt::print("  note: {} has no effect {}\n", idle.name, idle.why);
-  fmt::print("\n{0}/point.json, {0}/ladder.exr, {0}/map.exr and {0}/point-*.png are written\n", out);
+  fmt::print("\n{0}/point.json, {0}/ladder.exr, {0}/map.exr and {0}/point-*.png are written\n", printable(out));
   return 0;
 }
 

@@ -1,6 +1,7 @@
 #include "app/workbench.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
@@ -12,9 +13,11 @@
 #include "compare/law_metrics.h"
 #include "compare/measure.h"
 #include "compare/soundness.h"
+#include "scenes/address_space.h"
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"
 #include "scenes/library.h"
+#include "scenes/scene_digest.h"
 
 namespace noonmark {
 namespace {
@@ -63,6 +66,7 @@ double median_time(const Pass& pass) {
 
 struct LoadedScene {
   std::unique_ptr<Scene> scene;  // the tracer refers to it
+  std::string identity;
   std::unique_ptr<raytrace::Tracer> tracer;
 };
 
@@ -105,6 +109,12 @@ std::string lookup_key_of(const Settings& settings, const DepthBias& bias) {
   return key + fmt::format("{}", bias.normal_offset_texels);
 }
 
+Settings of_scene(const SceneSettings& scene) {
+  Settings settings;
+  settings.scene = scene;
+  return settings;
+}
+
 Camera chosen_camera(const Scene& scene, const ViewSettings& view) {
   Camera camera = scene.camera;
   if (view.eye_m) camera.eye_m = *view.eye_m;
@@ -123,7 +133,8 @@ struct Workbench::Impl {
       auto loaded = std::make_unique<Scene>(make_scene(settings.scene));
       auto tracer = std::make_unique<raytrace::Tracer>(*loaded);
       renderer.load_scene(*loaded);
-      return LoadedScene{std::move(loaded), std::move(tracer)};
+      std::string identity = scene_digest(*loaded);
+      return LoadedScene{std::move(loaded), std::move(identity), std::move(tracer)};
     });
   }
 
@@ -137,16 +148,30 @@ struct Workbench::Impl {
   std::string receivers_on_device;
 };
 
-Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders)
-    : impl_(std::make_unique<Impl>(debug, std::move(shaders))) {}
+namespace {
+
+// What the driver, the rays and the image library take before anything of a point's own: libraries, shaders, threads.
+// Without it, what fails first is a library that cannot say so.
+void require_room_to_start() {
+  constexpr uint64_t base = uint64_t{384} << 20;
+  const size_t rays = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  require_address_space(base + 2 * rays * address_space_of_a_thread, fmt::format("a measurement by {} threads", rays));
+}
+
+}  // namespace
+
+Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders) {
+  require_room_to_start();
+  impl_ = std::make_unique<Impl>(debug, std::move(shaders));
+}
 Workbench::~Workbench() = default;
 
 const gl::DeviceInfo& Workbench::device() const { return impl_->renderer.info(); }
 
-const Scene& Workbench::scene(const SceneSettings& settings) {
-  Settings only_scene;
-  only_scene.scene = settings;
-  return *impl_->load(only_scene).scene;
+const Scene& Workbench::scene(const SceneSettings& settings) { return *impl_->load(of_scene(settings)).scene; }
+
+const std::string& Workbench::scene_identity(const SceneSettings& settings) {
+  return impl_->load(of_scene(settings)).identity;
 }
 
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options) {

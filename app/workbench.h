@@ -42,6 +42,8 @@ class Workbench {
   const gl::DeviceInfo& device() const;
   // Of the scene that the settings name; loads it when it is not the one at hand.
   const Scene& scene(const SceneSettings& settings);
+  // scene_digest of that scene, as it was loaded.
+  const std::string& scene_identity(const SceneSettings& settings);
 
  private:
   struct Impl;

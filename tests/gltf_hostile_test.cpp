@@ -165,7 +165,7 @@ const Case cases[] = {
     {"RequiredDraco", "extensionsRequired[0]: 'KHR_draco_mesh_compression'", [](json& d) { d["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }},
     {"RequiredMeshopt", "extensionsRequired[1]: 'EXT_meshopt_compression'", [](json& d) { d["extensionsRequired"] = {"KHR_mesh_quantization", "EXT_meshopt_compression"}; }},
     {"RequiredInstancing", "extensionsRequired[0]: 'EXT_mesh_gpu_instancing'", [](json& d) { d["extensionsRequired"] = {"EXT_mesh_gpu_instancing"}; }},
-    {"RequiredUnknown", "extensionsRequired[0]: 'X?Y'", [](json& d) { d["extensionsRequired"] = {"X\nY"}; }},
+    {"RequiredUnknown", "extensionsRequired[0]: 'X\\x0aY'", [](json& d) { d["extensionsRequired"] = {"X\nY"}; }},
     {"VersionOne", "asset.version: '1.0'", [](json& d) { d["asset"]["version"] = "1.0"; }},
     {"NeedsANewerReader", "asset.minVersion", [](json& d) { d["asset"]["minVersion"] = "2.1"; }},
     {"NoAsset", "asset: is missing", [](json& d) { d.erase("asset"); }},
