@@ -3,7 +3,9 @@
 
 #include "app/build_facts.h"
 #include "app/sweep.h"
+#include "app/threads.h"
 #include "app/verbs.h"
+#include "app/workbench.h"
 #include "compare/metrics.h"
 #include "compare/quantities.h"
 #include "compare/store.h"
@@ -66,6 +68,13 @@ int verb_doctor() {
     fmt::print("Embree    {}, ISA {} (pinned)\n", tracer.version, tracer.isa);
   } catch (const Error& error) {
     fmt::print("Embree    NOT USABLE: {}\n", error.what());
+    exit_code = static_cast<int>(ErrorKind::device);
+  }
+  try {
+    const ThreadLimit limit(0);
+    require_room_to_start();
+  } catch (const Error& error) {
+    fmt::print("Machine   NOT USABLE: {}\n", error.what());
     exit_code = static_cast<int>(ErrorKind::device);
   }
   fmt::print("Libraries");

@@ -148,17 +148,11 @@ struct Workbench::Impl {
   std::string receivers_on_device;
 };
 
-namespace {
-
-// What the driver, the rays and the image library take before anything of a point's own: libraries, shaders, threads.
-// Without it, what fails first is a library that cannot say so.
 void require_room_to_start() {
-  constexpr uint64_t base = uint64_t{384} << 20;
+  constexpr uint64_t base = uint64_t{384} << 20;  // libraries, shaders
   const size_t rays = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   require_address_space(base + 2 * rays * address_space_of_a_thread, fmt::format("a measurement by {} threads", rays));
 }
-
-}  // namespace
 
 Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders) {
   require_room_to_start();

@@ -30,6 +30,10 @@ struct Measurement {
   const Image<float>& exact_map;
 };
 
+// Throws Error(device) where there is no room for what the driver, the rays and the image library take before anything
+// of a point's own: without it, what fails first is a library that cannot say so.
+void require_room_to_start();
+
 class Workbench {
  public:
   // shaders: variants to measure in place of the program's own.

@@ -228,6 +228,13 @@ TEST_F(Adversity, MemoryThatRunsOutIsSaid) {
   }
   EXPECT_GT(failed, 2);
   EXPECT_GT(done, 0);
+  EXPECT_EQ(run({"doctor"},
+                [] {
+                  const rlimit most{uint64_t{900} << 20, uint64_t{900} << 20};
+                  setrlimit(RLIMIT_AS, &most);
+                }),
+            4);
+  EXPECT_TRUE(says("NOT USABLE: memory")) << output_;
 }
 
 }  // namespace
