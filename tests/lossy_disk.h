@@ -109,11 +109,13 @@ class LossyDisk {
     const size_t happened = std::uniform_int_distribution<size_t>(0, changes_.size())(random);
     for (size_t i = 0; i < happened; ++i) apply(names, changes_[i]);
     const auto moved = [&](const std::string& path) { return into + path.substr(root_.size()); };
-    for (const auto& [path, file] : names)
-      if (!file) fs::create_directories(moved(path));
-    for (const auto& [path, file] : names) {
+    for (const auto& [path, file] : names) {  // a folder comes before what is in it
       // What lies in a folder whose own name was lost is lost with it.
-      if (!file || !fs::is_directory(fs::path(moved(path)).parent_path())) continue;
+      if (!fs::is_directory(fs::path(moved(path)).parent_path())) continue;
+      if (!file) {
+        fs::create_directory(moved(path));
+        continue;
+      }
       std::string bytes = file->durable;
       const int kept = std::uniform_int_distribution(0, 3)(random);  // none, all, or some of what was not synced
       for (const DiskStep& write : file->pending) {

@@ -106,6 +106,7 @@ TEST_F(PowerCut, LosesNothingThatWasSaidToBeMeasured) {
   EXPECT_EQ(most_found, points);
   EXPECT_GT(lost, 0) << "the store's own making was never cut off";
   EXPECT_GT(cuts, 150);
+  RecordProperty("cuts", cuts);
   EXPECT_GE(resumed, 2);
   // The trace has seen everything that the program did, or the disk above is not the program's.
   int files = 0;

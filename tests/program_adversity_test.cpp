@@ -62,6 +62,9 @@ TEST_F(Adversity, APathMayHoldAnyBytes) {
   expect_printable();
   EXPECT_EQ(run({"run", odd + "/absent.toml"}), 2) << output_;
   expect_one_line("absent.toml");
+  EXPECT_EQ(run({"run", "x.toml", "--" + odd}), 2) << output_;  // said by a library
+  EXPECT_TRUE(says("not expected")) << output_;
+  expect_printable();
   EXPECT_EQ(run({"render", "--set", "scene.name=" + odd + ".glb"}), 3) << output_;
   expect_one_line("no such file");
 }
