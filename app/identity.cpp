@@ -5,11 +5,13 @@
 #include <gnu/libc-version.h>
 #include <link.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 
 #include "app/build_facts.h"
 #include "scenes/error.h"
+#include "scenes/library.h"
 #include "scenes/scene_digest.h"
 
 namespace noonmark {
@@ -62,7 +64,12 @@ std::string scene_key(const Settings& point) {
 
 void SceneDigests::remember(Workbench& bench, const Settings& point) {
   const std::string key = scene_key(point);
-  if (!digests_.contains(key)) digests_[key] = bench.scene_identity(point.scene);
+  if (digests_.contains(key)) return;
+  digests_[key] = bench.scene_identity(point.scene);
+  // The same file in other triangles says the same.
+  if (const std::string note = notes_line(bench.scene(point.scene));
+      !note.empty() && std::find(notes_.begin(), notes_.end(), note) == notes_.end())
+    notes_.push_back(note);
 }
 
 void SceneDigests::require_unchanged(Workbench& bench, const Settings& point) const {

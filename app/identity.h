@@ -23,9 +23,12 @@ class SceneDigests {
   // Throws Error(scene) when a file was edited since: its points would not belong together.
   void require_unchanged(Workbench& bench, const Settings& point) const;
   const std::map<std::string, std::string>& all() const { return digests_; }
+  // What the scenes' files hold and is not modelled, a line for each scene (notes_line, scenes/library.h).
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   std::map<std::string, std::string> digests_;  // by every setting of the scene
+  std::vector<std::string> notes_;
 };
 
 // Lines of "name", "value":

@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* exit_codes =
     "Exit codes: 0 held; 1 a bound or a law is broken; 2 wrong usage or experiment; 3 bad scene or file;\n"
-    "4 no usable OpenGL or ray tracer, or no memory or threads for them; 5 a defect of Noonmark;\n"
+    "4 no usable OpenGL, ray tracer or picture library, or no memory or threads for them; 5 a defect of Noonmark;\n"
     "6 the sweep is incomplete. Of several experiments, the largest.";
 
 std::string joined(int argc, char** argv) {

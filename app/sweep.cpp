@@ -19,6 +19,7 @@
 #include "compare/bounds.h"
 #include "compare/csv.h"
 #include "compare/laws.h"
+#include "compare/poor_view.h"
 #include "compare/report.h"
 #include "compare/soundness.h"
 #include "compare/store.h"
@@ -26,6 +27,7 @@
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "scenes/idle_settings.h"
+#include "scenes/library.h"
 #include "scenes/tap_pattern.h"
 #include "scenes/text.h"
 
@@ -88,7 +90,7 @@ class IdleNotes {
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 RunInfo run_info(const Experiment& experiment, const SweepOptions& options, const gl::DeviceInfo& device,
-                 const raytrace::TracerInfo& tracer, const Scene& scene) {
+                 const raytrace::TracerInfo& tracer, const Scene& scene, std::vector<std::string> scene_notes) {
   RunInfo info;
   info.experiment = experiment.path;
   info.title = experiment.title;
@@ -109,6 +111,7 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
   info.plot = experiment.plot;
   info.scene_name = scene.name;
   info.triangles = scene.triangles.size();
+  info.scene_notes = std::move(scene_notes);
   return info;
 }
 
@@ -183,9 +186,11 @@ void require_sound(const Results& results) {
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options) {
   const std::vector<Settings> planned = points(experiment);
   Workbench bench(gl::DebugMode::log);
+  if (experiment.pictures != "none") require_image_files();
   const raytrace::TracerInfo tracer = raytrace::tracer_info();
   SceneDigests scenes;
   const auto facts = identity(bench, planned, tracer, scenes);
+  for (const std::string& note : scenes.notes()) fmt::print(stderr, "note: {}\n", printable(note));
   ResultStore store(folder.path() + "/results.sqlite", fingerprint(experiment, facts),
                     options.overwrite ? Existing::overwrite : Existing::resume);
   if (options.overwrite) folder.remove_earlier_results();
@@ -196,7 +201,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   };
   for (const std::string& repaired : store.repair(expected)) fmt::print(stderr, "note: {}\n", printable(repaired));
   const auto total = static_cast<int64_t>(planned.size());
-  store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene)), total);
+  store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene), scenes.notes()),
+                 total);
 
   const std::vector<int64_t> before = store.finished();
   if (!before.empty())
@@ -226,6 +232,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   }
 
   outcome.results = store.load();
+  if (const std::string poor = poor_view_note(outcome.results.points); !poor.empty())
+    fmt::print(stderr, "note: {}\n", poor);
   if (!outcome.interrupted) {
     for (int64_t id : chosen_late(experiment.pictures, outcome.results.points))
       if (find_point(outcome.results.points, id)->pictures.empty()) {

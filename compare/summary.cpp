@@ -11,6 +11,7 @@
 #include "compare/escape.h"
 #include "compare/laws.h"
 #include "compare/metrics.h"
+#include "compare/poor_view.h"
 #include "compare/quantities.h"
 
 namespace noonmark {
@@ -27,7 +28,10 @@ void add_heading(std::string& text, const std::vector<std::string>& names) {
 }
 
 // Four digits are enough for a page; the store has them all.
-std::string short_number(std::optional<double> value) { return value ? fmt::format("{:.4g}", *value) : "–"; }
+std::string short_number(std::optional<double> value) {
+  if (!value) return "–";
+  return std::isnan(*value) ? std::string(not_measured) : fmt::format("{:.4g}", *value);
+}
 
 // "3 bounds", "the law"
 std::string counted(size_t count, std::string_view what) {
@@ -172,6 +176,8 @@ std::string to_summary(const Results& results) {
   const RunInfo& info = results.info;
   std::string text =
       fmt::format("# {}\n\n{}", markdown(info.title.empty() ? "Noonmark" : info.title), verdict(results));
+  if (const std::string poor = poor_view_note(results.points); !poor.empty())
+    text += fmt::format("\nNote: {}.\n", markdown(poor));
   if (!results.laws.empty()) text += laws_table(results);
   if (!results.bounds.empty()) text += bounds_table(results);
   // Points of different parts are not there to be compared.

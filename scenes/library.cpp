@@ -1,6 +1,7 @@
 #include "scenes/library.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <vector>
 
@@ -20,7 +21,7 @@ Scene scene_as_built(const SceneSettings& settings) {
     }
     names.push_back(builtin.name);
   }
-  if (settings.name.ends_with(".gltf") || settings.name.ends_with(".glb")) return load_gltf(settings.name);
+  if (names_file(settings.name)) return load_gltf(settings.name, {settings.time_s, settings.animation});
   const std::string near = nearest_name(settings.name, names);
   throw Error(
       ErrorKind::usage,
@@ -31,6 +32,14 @@ Scene scene_as_built(const SceneSettings& settings) {
 
 }  // namespace
 
-Scene make_scene(const SceneSettings& settings) { return remeshed(scene_as_built(settings), settings.mesh); }
+bool names_file(std::string_view scene_name) { return scene_name.ends_with(".gltf") || scene_name.ends_with(".glb"); }
+
+std::string notes_line(const Scene& scene) {
+  return scene.notes.empty() ? "" : fmt::format("{}: {}", scene.name, fmt::join(scene.notes, "; "));
+}
+
+Scene make_scene(const SceneSettings& settings) {
+  return remeshed(scene_as_built(settings), settings.mesh, {settings.turn_deg, settings.move_m});
+}
 
 }  // namespace noonmark

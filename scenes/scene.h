@@ -43,8 +43,7 @@ struct Camera {
   glm::dvec3 up{0, 1, 0};  // need not be perpendicular to the view direction, only not parallel to it
   double fov_y_deg = 45;   // perspective: the whole vertical angle
   double height_m = 10;    // orthographic: the world height that the picture shows
-  double near_m = 0.1;
-  double far_m = 100;
+  std::optional<double> near_m = {}, far_m = {};  // along the view; empty: fitted (scenes/camera_fit.h)
 };
 
 enum class LightKind { directional, spot, point };
@@ -75,10 +74,16 @@ struct Scene {
   std::string name;
   std::vector<glm::vec3> positions;   // world, metres, all finite
   std::vector<glm::uvec3> triangles;  // indices into positions; counter-clockwise seen from outside
+  // Of each triangle: whether cameras see its front only (glTF's doubleSided = false). Empty: both sides of all. Light
+  // and shadow rays meet both sides whatever it says; what the map's own pass culls is the setting map.cull.
+  std::vector<bool> single_sided;
   std::vector<Part> parts;
   Camera camera;
   Light light;
   std::optional<MapVolume> map;  // the scene's own choice; without one the map is fitted tightly to the scene
+  // What the scene's file holds and Noonmark does not model, and what was settled where it leaves a choice: a phrase
+  // each, for people.
+  std::vector<std::string> notes;
 };
 
 }  // namespace noonmark

@@ -24,6 +24,7 @@ inline std::string defect_of(const Scene& scene) {
       if (t[k] >= scene.positions.size()) return "an index is out of range";
     }
   }
+  if (scene.single_sided.size() != scene.triangles.size()) return "sides for another number of triangles";
   uint64_t in_parts = 0;
   for (const Part& part : scene.parts) {
     if (part.first_triangle != in_parts || part.triangle_count == 0) return "parts do not follow one another";
@@ -32,7 +33,8 @@ inline std::string defect_of(const Scene& scene) {
   if (in_parts != scene.triangles.size()) return "parts do not cover the triangles";
   const Camera& c = scene.camera;
   if (!finite(c.eye_m) || !finite(c.target_m) || !finite(c.up)) return "the camera is not finite";
-  if (!(c.near_m >= 0 && c.far_m > c.near_m && std::isfinite(c.far_m))) return "the camera's near and far";
+  if (c.near_m && !(*c.near_m >= 0)) return "the camera's near";
+  if (c.far_m && !(c.near_m && *c.far_m > *c.near_m && std::isfinite(*c.far_m))) return "the camera's far";
   if (!(c.fov_y_deg > 0 && c.fov_y_deg < 180) || !(c.height_m > 0) || !std::isfinite(c.height_m))
     return "the camera's angle";
   if (!(glm::length(glm::cross(glm::normalize(c.target_m - c.eye_m), glm::normalize(c.up))) > 1e-6))
@@ -43,9 +45,9 @@ inline std::string defect_of(const Scene& scene) {
 }
 
 // The message of the Error(scene) that loading throws; fails when it loads, throws another thing, or takes two lines.
-inline std::string refusal(const std::string& path) {
+inline std::string refusal(const std::string& path, const Pose& pose = {}) {
   try {
-    load_gltf(path);
+    load_gltf(path, pose);
   } catch (const Error& e) {
     const std::string message = e.what();
     EXPECT_EQ(e.kind(), ErrorKind::scene) << message;

@@ -194,6 +194,9 @@ TEST(SceneIdentity, SeesEveryMemberThatIsNoName) {
   edited("a position", [](Scene& s) { s.positions[1].x = std::nextafter(1.0f, 2.0f); });
   edited("an unused position", [](Scene& s) { s.positions.push_back({9, 9, 9}); });
   edited("a triangle's winding", [](Scene& s) { s.triangles[0] = {0, 2, 1}; });
+  edited("a side", [](Scene& s) { s.single_sided = {true}; });
+  edited("the other side", [](Scene& s) { s.single_sided = {false}; });
+  edited("a note", [](Scene& s) { s.notes = {"a note"}; });
   edited("a part", [](Scene& s) { s.parts[0].triangle_count = 2; });
   edited("eye", [](Scene& s) { s.camera.eye_m.z = 4; });
   edited("target", [](Scene& s) { s.camera.target_m.x = 1; });
@@ -202,6 +205,7 @@ TEST(SceneIdentity, SeesEveryMemberThatIsNoName) {
   edited("fov", [](Scene& s) { s.camera.fov_y_deg = 44; });
   edited("height", [](Scene& s) { s.camera.height_m = 9; });
   edited("near", [](Scene& s) { s.camera.near_m = 0.2; });
+  edited("near at 0, where it was fitted", [](Scene& s) { s.camera.near_m = 0; });
   edited("far", [](Scene& s) { s.camera.far_m = 99; });
   edited("kind", [](Scene& s) { s.light.kind = LightKind::spot; });
   edited("position", [](Scene& s) { s.light.position_m.y = 11; });
