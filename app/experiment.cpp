@@ -21,26 +21,6 @@ std::vector<size_t> digits(const Experiment& experiment, int64_t index) {
   return result;
 }
 
-// FNV-1a over 64 bits (Fowler, Noll, Vo): tells an edited scene from the one that was measured, nothing more.
-class Digest {
- public:
-  void bytes(const void* data, size_t size) {
-    for (size_t i = 0; i < size; ++i) hash_ = (hash_ ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3;
-  }
-  template <class T>
-  void value(const T& v) {
-    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
-    bytes(&v, sizeof v);
-  }
-  void point(const glm::dvec3& p) {
-    for (int axis = 0; axis < 3; ++axis) value(p[axis]);
-  }
-  std::string text() const { return fmt::format("{:016x}", hash_); }
-
- private:
-  uint64_t hash_ = 0xcbf29ce484222325;
-};
-
 }  // namespace
 
 std::string shell_quoted(const std::string& word) {
@@ -185,13 +165,13 @@ std::string points_text(const Experiment& experiment) {
   // The order of the sweep is part of it: it gives the points their ids.
   for (const Swept& swept : experiment.swept)
     text += fmt::format("sweep {} = [{}]\n", swept.name, fmt::join(swept.values, " | "));
-  const CurveOptions& curve = experiment.curve;
   text += fmt::format("curve.enabled = {}\n", experiment.curve_enabled);
   if (experiment.curve_enabled) {
-    text += fmt::format("curve.acne_bound = {}\ncurve.peter_panning_bound = {}\n", curve.acne_bound,
-                        curve.peter_panning_bound);
-    text += curve.bias_depth.empty() ? "curve.bias_depth = auto\n"
-                                     : fmt::format("curve.bias_depth = [{}]\n", fmt::join(curve.bias_depth, ", "));
+    const auto& [acne_bound, peter_panning_bound, bias_depth] =
+        experiment.curve;  // every member, or it does not compile
+    text += fmt::format("curve.acne_bound = {}\ncurve.peter_panning_bound = {}\n", acne_bound, peter_panning_bound);
+    text += bias_depth.empty() ? "curve.bias_depth = auto\n"
+                               : fmt::format("curve.bias_depth = [{}]\n", fmt::join(bias_depth, ", "));
   }
   return text;
 }
@@ -215,32 +195,6 @@ std::string fingerprint(const Experiment& experiment, std::span<const std::pair<
   if (experiment.parts.empty()) text += points_text(experiment);
   for (const Experiment& part : experiment.parts) text += in_part(part.part, points_text(part));
   return text + fmt::format("pictures = {}\n", experiment.pictures);
-}
-
-std::string scene_digest(const Scene& scene) {
-  Digest digest;
-  digest.value(scene.positions.size());
-  for (const glm::vec3& p : scene.positions)
-    for (int axis = 0; axis < 3; ++axis) digest.value(p[axis]);
-  digest.value(scene.triangles.size());
-  for (const glm::uvec3& t : scene.triangles)
-    for (int corner = 0; corner < 3; ++corner) digest.value(t[corner]);
-  const Camera& camera = scene.camera;
-  digest.value(camera.projection);
-  for (const glm::dvec3& p : {camera.eye_m, camera.target_m, camera.up}) digest.point(p);
-  for (double v : {camera.fov_y_deg, camera.height_m}) digest.value(v);
-  for (const std::optional<double>& v : {camera.near_m, camera.far_m}) {
-    digest.value(v.has_value());
-    digest.value(v.value_or(0));
-  }
-  digest.value(scene.light.kind);
-  digest.point(scene.light.position_m);
-  digest.point(scene.light.target_m);
-  digest.value(scene.light.angular_diameter_deg);
-  digest.value(scene.map.has_value());
-  if (scene.map)
-    for (double v : {scene.map->extent_m, scene.map->near_m, scene.map->far_m}) digest.value(v);
-  return digest.text();
 }
 
 }  // namespace noonmark

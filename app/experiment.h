@@ -121,10 +121,7 @@ std::string shell_quoted(const std::string& word);
 std::string reproduce_command(const Experiment& experiment, const PointRecord& point);
 
 // Everything that determines the results, as text of one "name = value" per line, for ResultStore. What the experiment
-// cannot know comes in `more`: version, OpenGL renderer, Embree ISA, scene_digest of each scene.
+// cannot know comes in `more`: app/identity.h.
 std::string fingerprint(const Experiment& experiment, std::span<const std::pair<std::string, std::string>> more);
-
-// 16 hexadecimal digits of everything in the scene that a measurement sees: geometry, camera, light, map.
-std::string scene_digest(const Scene& scene);
 
 }  // namespace noonmark

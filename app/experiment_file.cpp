@@ -329,8 +329,8 @@ class Reader : private SettingsReader {
         law.against = read_conditions(*item.node, "against");
       else
         unknown(item, "key",
-                {"name", "says", "found", "measured", "equals", "at_most", "at_least", "within", "slack", "join", "over",
-                 "where", "against"},
+                {"name", "says", "found", "measured", "equals", "at_most", "at_least", "within", "slack", "join",
+                 "over", "where", "against"},
                 "law.");
     }
     law.let = experiment_.let;
@@ -368,13 +368,33 @@ Experiment parse_experiment(std::string_view toml, const std::string& path) {
   }
 }
 
+namespace {
+
+// Far above any experiment that a person or a script writes; a device never ends.
+constexpr uint64_t max_experiment_bytes = uint64_t{1} << 24;
+
+// Nothing but white space and comments: cut short, most likely, and nothing that a user would want measured.
+bool says_nothing(std::string_view text) {
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    const size_t first = text.substr(0, end).find_first_not_of(" \t\r");
+    if (first != std::string_view::npos && text[first] != '#') return false;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return true;
+}
+
+}  // namespace
+
 Experiment load_experiment(const std::string& path) {
   std::string text;
   try {
-    text = read_file(path);
+    text = read_file(path, max_experiment_bytes);
   } catch (const Error& error) {
     throw Error(ErrorKind::usage, error.what());
   }
+  if (says_nothing(text))
+    throw Error(ErrorKind::usage, fmt::format("{}: is empty; name a scene at least (scene = \"cube-room\")", path));
   return parse_experiment(text, path);
 }
 

@@ -1,10 +1,21 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <optional>
+#include <sstream>
 #include <string>
+#include <system_error>
 
 #include "app/build_facts.h"
 #include "app/experiment.h"
+#include "app/failure.h"
+#include "app/terminal.h"
 #include "app/threads.h"
 #include "app/verbs.h"
 #include "scenes/error.h"
@@ -15,12 +26,35 @@ namespace {
 
 constexpr const char* exit_codes =
     "Exit codes: 0 held; 1 a bound or a law is broken; 2 wrong usage or experiment; 3 bad scene or file;\n"
-    "4 no usable OpenGL, ray tracer or picture library; 5 a defect of Noonmark; 6 the sweep is incomplete.";
+    "4 no usable OpenGL, ray tracer or picture library, or no memory or threads for them; 5 a defect of Noonmark;\n"
+    "6 the sweep is incomplete. Of several experiments, the largest.";
 
 std::string joined(int argc, char** argv) {
   std::string command = "noonmark";
   for (int i = 1; i < argc; ++i) command += " " + shell_quoted(argv[i]);
   return command;
+}
+
+// CLI11 writes to C++ streams; what is said here goes the way of everything else.
+int say(const CLI::App& app, const CLI::Error& result) {
+  std::ostringstream output, errors;
+  const int exit_code = app.exit(result, output, errors);
+  std::fputs(output.str().c_str(), stdout);
+  std::fputs(errors.str().c_str(), stderr);
+  return exit_code;
+}
+
+// For exceptions that a library does not let through: of those there is nothing to catch. Ours end as they always do.
+[[noreturn]] void give_up() {
+  try {
+    if (const std::exception_ptr exception = std::current_exception()) std::rethrow_exception(exception);
+  } catch (const std::bad_alloc&) {
+  } catch (const std::system_error&) {
+  } catch (...) {
+    std::abort();
+  }
+  write_to_terminal("noonmark: a library ended the program; most likely memory or threads have run out\n");
+  std::_Exit(static_cast<int>(ErrorKind::device));
 }
 
 int run(int argc, char** argv) {
@@ -105,12 +139,13 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {
-    return app.exit(asked);
+    return say(app, asked);
   } catch (const CLI::ParseError& error) {
-    app.exit(error);
+    say(app, error);
     return static_cast<int>(ErrorKind::usage);
   }
-  const ThreadLimit limit(arguments.threads);
+  std::optional<ThreadLimit> limit;
+  if (*run || *check || *render) limit.emplace(arguments.threads);
   if (*run) return verb_run(experiment, arguments, dry_run);
   if (*check) return verb_check(paths, arguments);
   if (*render) return verb_render(experiment, point, arguments);
@@ -125,15 +160,20 @@ int run(int argc, char** argv) {
 }  // namespace noonmark
 
 int main(int argc, char** argv) {
+  using namespace noonmark;
+  const Terminal terminal;
+  std::set_terminate(give_up);
+  int exit_code = 0;
   try {
-    return noonmark::run(argc, argv);
-  } catch (const noonmark::Error& error) {
-    std::fprintf(stderr, "noonmark: %s\n", error.what());
-    return error.exit_code();
-  } catch (const std::exception& error) {
-    std::fprintf(
-        stderr, "noonmark: a defect of ours: %s; please report it with the command and the output of noonmark doctor\n",
-        error.what());
-    return static_cast<int>(noonmark::ErrorKind::defect);
+    exit_code = run(argc, argv);
+  } catch (...) {
+    exit_code = tell(current_failure());
   }
+  if (const int error = terminal.lost(); error != 0) {
+    tell({static_cast<int>(ErrorKind::scene),
+          fmt::format("standard output cannot be written: {}; what it said is lost, files are not",
+                      std::strerror(error))});
+    exit_code = std::max(exit_code, static_cast<int>(ErrorKind::scene));
+  }
+  return exit_code;
 }

@@ -206,7 +206,8 @@ std::string point_json(const Measurement& m, const std::string& command) {
   for (int c = 0; c < cause_count; ++c) json["causes"].push_back(cause_name(static_cast<Cause>(c)));
   json["flags"] = {{"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);
-  return json.dump(2) + "\n";
+  // Paths may hold bytes that are no UTF-8; JSON may not.
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace noonmark

@@ -5,13 +5,16 @@
 
 #include <cstdio>
 
+#include "app/terminal.h"
+#include "scenes/text.h"
+
 namespace noonmark {
 
 Progress::Progress(int64_t total, int64_t already)
     : total_(total), already_(already), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
-  if (line_open_) std::fputc('\n', stderr);
+  if (line_open_) write_to_terminal("\n");
 }
 
 void Progress::finished(int64_t done, const std::string& what) {
@@ -19,15 +22,15 @@ void Progress::finished(int64_t done, const std::string& what) {
   const int64_t here = done - already_;
   const double left = here > 0 ? elapsed / static_cast<double>(here) * static_cast<double>(total_ - done) : 0;
   if (!terminal_) {
-    fmt::print(stderr, "[{}/{}] {} ({:.1f} s so far, about {:.0f} s left)\n", done, total_, what, elapsed, left);
+    fmt::print(stderr, "[{}/{}] {} ({:.1f} s so far, about {:.0f} s left)\n", done, total_, printable(what), elapsed,
+               left);
     return;
   }
   constexpr int width = 30;
   const int filled = total_ > 0 ? static_cast<int>(width * done / total_) : width;
   // Clears the rest of the line, and stays within 79 columns.
-  fmt::print(stderr, "\r[{:=<{}}{: <{}}] {}/{}  {:.0f} s left  {:.24}\x1b[K", "", filled, "", width - filled, done,
-             total_, left, what);
-  std::fflush(stderr);
+  write_to_terminal(fmt::format("\r[{:=<{}}{: <{}}] {}/{}  {:.0f} s left  {:.24}\x1b[K", "", filled, "", width - filled,
+                                done, total_, left, printable(what)));
   line_open_ = true;
 }
 

@@ -1,22 +1,18 @@
 #include "app/sweep.h"
 
-#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <map>
 
 #include "app/build_facts.h"
+#include "app/identity.h"
 #include "app/pictures.h"
 #include "app/progress.h"
 #include "app/workbench.h"
@@ -34,12 +30,16 @@
 #include "scenes/idle_settings.h"
 #include "scenes/library.h"
 #include "scenes/tap_pattern.h"
+#include "scenes/text.h"
 
 namespace noonmark {
 namespace {
 
 // A signal handler can reach nothing but a global.
 volatile std::sig_atomic_t stop_asked = 0;
+
+// Of one picture in the report: far above what the largest view takes as PNG.
+constexpr uint64_t max_picture_bytes = uint64_t{1} << 28;
 
 class StopOnSignal {
  public:
@@ -67,27 +67,6 @@ class StopOnSignal {
   struct sigaction before_[2]{};
 };
 
-// Two runs that write into one folder would spoil each other's files.
-class FolderLock {
- public:
-  explicit FolderLock(const std::string& folder)
-      : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      close(descriptor_);
-      throw Error(ErrorKind::usage,
-                  fmt::format("another run is writing into {}; wait for it, or give another --out", folder));
-    }
-  }
-  ~FolderLock() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int descriptor_;  // the lock goes with it, also when the program is killed
-};
-
 // What was set and changed nothing at any point of its part: a user should not believe that it was measured.
 class IdleNotes {
  public:
@@ -110,13 +89,6 @@ class IdleNotes {
 };
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
-
-std::string host_cpu() {
-  std::ifstream cpuinfo("/proc/cpuinfo");
-  for (std::string line; std::getline(cpuinfo, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown";
-}
 
 RunInfo run_info(const Experiment& experiment, const SweepOptions& options, const gl::DeviceInfo& device,
                  const raytrace::TracerInfo& tracer, const Scene& scene, std::vector<std::string> scene_notes) {
@@ -151,56 +123,28 @@ std::string swept_text(const Experiment& part, const Settings& settings) {
   return text.empty() ? "the only point" : text;
 }
 
-struct Survey {
-  // Digests of every scene that the points name, so that an edited file is not taken for the one that was measured.
-  std::map<std::string, std::string> digests;
-  std::vector<std::string> notes;      // what the scenes' files hold and is not modelled, a line for each scene
-  std::vector<MemoryEstimate> memory;  // of each point
-};
-
-// Meets every scene once, in the order of the points.
-Survey survey(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points) {
-  Survey found;
+// What each point will take, and every scene remembered as it is now. Each scene is met once, in the order of the points.
+std::vector<MemoryEstimate> survey(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points,
+                                   SceneDigests& scenes) {
+  std::vector<MemoryEstimate> memory;
   for (size_t id = 0; id < points.size(); ++id) {
-    std::string key;
-    for (const Setting& row : settings_table())
-      if (row.name.starts_with("scene.")) key += row.get(points[id]) + ";";
-    if (!found.digests.contains(key)) {
-      const Scene& scene = bench.scene(points[id].scene);
-      found.digests[key] = scene_digest(scene);
-      // The same file in other triangles says the same.
-      if (const std::string note = notes_line(scene);
-          !note.empty() && std::find(found.notes.begin(), found.notes.end(), note) == found.notes.end())
-        found.notes.push_back(note);
-    }
+    scenes.remember(bench, points[id]);
     const bool pictures = experiment.pictures != "none" && (experiment.pictures != "first" || id == 0);
     const Experiment& part = part_of_point(experiment, static_cast<int64_t>(id));
-    found.memory.push_back(bench.memory(points[id], part.curve_enabled, pictures));
+    memory.push_back(bench.memory(points[id], part.curve_enabled, pictures));
   }
-  return found;
+  return memory;
 }
 
-void require_memory_of(const Experiment& experiment, const std::vector<Settings>& points, const Survey& survey,
-                       size_t id) {
+void require_memory_of(const Experiment& experiment, const std::vector<Settings>& points,
+                       const std::vector<MemoryEstimate>& memory, size_t id) {
   const Experiment& part = part_of_point(experiment, static_cast<int64_t>(id));
-  require_memory(survey.memory[id], fmt::format("point {} ({})", id, swept_text(part, points[id])));
-}
-
-// What the results depend on beside the experiment.
-std::vector<std::pair<std::string, std::string>> provenance(const Workbench& bench, const Survey& survey,
-                                                            const raytrace::TracerInfo& tracer) {
-  std::vector<std::pair<std::string, std::string>> facts = {
-      {"noonmark", fmt::format("{} {}", build_facts().version, build_facts().commit)},
-      {"opengl", fmt::format("{} {}", bench.device().renderer, bench.device().version)},
-      {"embree", fmt::format("{} {}", tracer.version, tracer.isa)},
-  };
-  for (const auto& [scene, digest] : survey.digests) facts.emplace_back("scene " + scene, digest);
-  return facts;
+  require_memory(memory[id], fmt::format("point {} ({})", id, swept_text(part, points[id])));
 }
 
 std::vector<PictureRecord> keep_pictures(const Measurement& m, int64_t id, const std::string& out) {
   const std::string folder = out + "/images";
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   const std::string stem = fmt::format("p{:04}", id);
   write_images(m, folder + "/" + stem + "-");
   return write_pictures(m, folder, "images", stem);
@@ -219,17 +163,6 @@ std::vector<int64_t> chosen_late(const std::string& pictures, const std::vector<
   if (pictures == "worst" || (pictures == "extremes" && best == worst)) return {worst->id};
   if (pictures == "extremes") return {best->id, worst->id};
   return {};
-}
-
-// What an earlier run left there, when it is measured anew: pictures of other points would otherwise stay for ever.
-void remove_pictures(const std::string& out) {
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(out + "/images", none)) {
-    const std::string name = entry.path().filename().string();
-    if (name.size() > 5 && name[0] == 'p' && std::isdigit(static_cast<unsigned char>(name[1])) &&
-        (name.ends_with(".png") || name.ends_with(".exr")))
-      std::filesystem::remove(entry.path(), none);
-  }
 }
 
 // Every part's bounds and laws, asked of that part's points.
@@ -270,34 +203,35 @@ void require_sound(const Results& results) {
   }
 }
 
-SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options) {
+SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options) {
   const std::vector<Settings> planned = points(experiment);
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (error)
-    throw Error(ErrorKind::usage,
-                fmt::format("cannot make the folder {}: {}; give another --out", options.out, error.message()));
-
-  const FolderLock lock(options.out);
   Workbench bench(gl::DebugMode::log);
   if (experiment.pictures != "none") require_image_files();
   const raytrace::TracerInfo tracer = raytrace::tracer_info();
-  const Survey surveyed = survey(bench, experiment, planned);
-  const auto facts = provenance(bench, surveyed, tracer);
-  for (const std::string& note : surveyed.notes) fmt::print(stderr, "note: {}\n", note);
-  ResultStore store(options.out + "/results.sqlite", fingerprint(experiment, facts),
+  SceneDigests scenes;
+  const std::vector<MemoryEstimate> memory = survey(bench, experiment, planned, scenes);
+  const auto facts = identity(bench, planned, tracer, scenes);
+  for (const std::string& note : scenes.notes()) fmt::print(stderr, "note: {}\n", printable(note));
+  ResultStore store(folder.path() + "/results.sqlite", fingerprint(experiment, facts),
                     options.overwrite ? Existing::overwrite : Existing::resume);
-  if (options.overwrite) remove_pictures(options.out);
+  if (options.overwrite) folder.remove_earlier_results();
+  const auto expected = [&](const PointRecord& stored) {
+    return stored.id >= 0 && static_cast<size_t>(stored.id) < planned.size() &&
+           stored.settings == settings_map(planned[static_cast<size_t>(stored.id)]) &&
+           stored.part == part_of_point(experiment, stored.id).part;
+  };
+  for (const std::string& repaired : store.repair(expected)) fmt::print(stderr, "note: {}\n", printable(repaired));
   const auto total = static_cast<int64_t>(planned.size());
-  store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene), surveyed.notes),
+  store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene), scenes.notes()),
                  total);
 
   const std::vector<int64_t> before = store.finished();
-  if (!before.empty()) fmt::print(stderr, "{} of {} points are in {} already\n", before.size(), total, options.out);
+  if (!before.empty())
+    fmt::print(stderr, "{} of {} points are in {} already\n", before.size(), total, printable(folder.path()));
   // All of them, before the first is measured: hours later is too late to hear of it.
   const auto measured_before = [&](int64_t id) { return std::binary_search(before.begin(), before.end(), id); };
   for (int64_t id = 0; id < total; ++id)
-    if (!measured_before(id)) require_memory_of(experiment, planned, surveyed, static_cast<size_t>(id));
+    if (!measured_before(id)) require_memory_of(experiment, planned, memory, static_cast<size_t>(id));
   SweepOutcome outcome;
   {
     const StopOnSignal guard;
@@ -306,15 +240,16 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
     IdleNotes notes;
     for (int64_t id = 0; id < total && !outcome.interrupted; ++id) {
       if (measured_before(id)) continue;
-      require_memory_of(experiment, planned, surveyed, static_cast<size_t>(id));  // others may have taken it meanwhile
+      require_memory_of(experiment, planned, memory, static_cast<size_t>(id));  // others may have taken it meanwhile
       const Experiment& part = part_of_point(experiment, id);
+      scenes.require_unchanged(bench, planned[static_cast<size_t>(id)]);
       Measurement m = bench.measure(planned[static_cast<size_t>(id)],
                                     part.curve_enabled ? std::optional(part.curve) : std::nullopt);
       m.record.id = id;
       m.record.part = part.part;
       notes.add(part.part, idle_settings(m.frame.kind, m.settings));
       if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0))
-        m.record.pictures = keep_pictures(m, id, options.out);
+        m.record.pictures = keep_pictures(m, id, folder.path());
       store.add(m.record);
       progress.finished(++done, swept_text(part, m.settings));
       outcome.interrupted = stop_asked && done < total;
@@ -329,23 +264,26 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
     fmt::print(stderr, "note: {}\n", doubt);
   if (!outcome.interrupted) {
     for (int64_t id : chosen_late(experiment.pictures, outcome.results.points))
-      if (find_point(outcome.results.points, id)->pictures.empty())
-        store.set_pictures(
-            id, keep_pictures(bench.measure(planned[static_cast<size_t>(id)], std::nullopt), id, options.out));
+      if (find_point(outcome.results.points, id)->pictures.empty()) {
+        const Settings& settings = planned[static_cast<size_t>(id)];
+        scenes.require_unchanged(bench, settings);
+        store.set_pictures(id, keep_pictures(bench.measure(settings, std::nullopt), id, folder.path()));
+      }
     outcome.results = store.load();
   }
   judge(experiment, outcome.results);
   store.set_bounds(outcome.results.bounds);
   store.set_laws(outcome.results.laws);
-  write_report(outcome.results, options.out);
+  write_report(outcome.results, folder.path());
   require_sound(outcome.results);
   return outcome;
 }
 
 void write_report(const Results& results, const std::string& out) {
   write_file_atomically(out + "/results.csv", to_csv(results));
-  write_file_atomically(out + "/report.html",
-                        render_report(results, [&](const std::string& path) { return read_file(out + "/" + path); }));
+  write_file_atomically(out + "/report.html", render_report(results, [&](const std::string& path) {
+                          return read_file_below(out, path, max_picture_bytes);
+                        }));
 }
 
 void print_plan(const Experiment& experiment) {
@@ -354,23 +292,24 @@ void print_plan(const Experiment& experiment) {
     return static_cast<double>(s.view.width_px) * s.view.height_px * tap_pattern(s.filter).taps;
   };
   Workbench bench(gl::DebugMode::log);
-  const Survey surveyed = survey(bench, experiment, planned);
+  SceneDigests scenes;
+  const std::vector<MemoryEstimate> memory = survey(bench, experiment, planned, scenes);
   double all_taps = 0;
   for (size_t i = 0; i < planned.size(); ++i) {
     const Experiment& part = part_of_point(experiment, static_cast<int64_t>(i));
     std::string text = part.part.empty() ? "" : "  " + part.part;
     for (const Swept& swept : part.swept)
       text += fmt::format("  {} = {}", swept.name, find_setting(swept.name).get(planned[i]));
-    fmt::print("{:5}{}  ({})\n", i, text, bytes_text(surveyed.memory[i].bytes()));
+    fmt::print("{:5}{}  ({})\n", i, text, bytes_text(memory[i].bytes()));
     all_taps += taps(planned[i]);
   }
   const auto most =
-      std::max_element(surveyed.memory.begin(), surveyed.memory.end(),
+      std::max_element(memory.begin(), memory.end(),
                        [](const MemoryEstimate& a, const MemoryEstimate& b) { return a.bytes() < b.bytes(); });
   const MemoryShare& share = most->largest();
   fmt::print("memory: at most {}, by point {} ({} of it for {}); {}\n", bytes_text(most->bytes()),
-             most - surveyed.memory.begin(), bytes_text(share.bytes), share.what, available_memory().text());
-  for (size_t i = 0; i < planned.size(); ++i) require_memory_of(experiment, planned, surveyed, i);
+             most - memory.begin(), bytes_text(share.bytes), share.what, available_memory().text());
+  for (size_t i = 0; i < planned.size(); ++i) require_memory_of(experiment, planned, memory, i);
   // Time is close to a constant for each point plus a share for each tap: two small pictures of the first point tell
   // both.
   const auto seconds = [&](int divisor, double nudge) {

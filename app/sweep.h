@@ -1,17 +1,17 @@
 // Runs an experiment: every point measured once, stored as it goes, and the files for people and programs written.
 //
-//   SweepOutcome outcome = run_sweep(experiment, {.out = "out/cube-room", .command = "noonmark run ..."});
+//   SweepOutcome outcome = run_sweep(experiment, ResultsFolder("out/cube-room"), {.command = "noonmark run ..."});
 #pragma once
 #include <string>
 
 #include "app/experiment.h"
+#include "app/results_folder.h"
 #include "compare/records.h"
 
 namespace noonmark {
 
 struct SweepOptions {
-  std::string out;         // the results' directory; made when it is not there
-  bool overwrite = false;  // start anew, whatever the directory's store holds
+  bool overwrite = false;  // start anew, whatever the folder's store holds
   std::string command;     // for the record
 };
 
@@ -21,10 +21,10 @@ struct SweepOutcome {
 };
 
 // Points that would not fit into memory are refused before any is measured. Resumes where an earlier run of the same
-// experiment stopped. Writes results.sqlite point by point; then results.csv, report.html and, when pictures are asked
-// for, images/. Throws Error: usage, scene, device; defect when a measurement is not sound (after everything is
-// stored).
-SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options);
+// experiment stopped; what no longer holds together in its store is told and measured anew. Writes results.sqlite point
+// by point; then results.csv, report.html and, when pictures are asked for, images/. Throws Error: usage, scene, device;
+// defect when a measurement is not sound (after everything is stored).
+SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options);
 
 // Throws Error(defect) at the first point with a metric beyond its limit in compare/soundness.h. Points without a
 // facing receiver have nothing to contradict.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "app/experiment_arguments.h"
+#include "app/failure.h"
 #include "app/sweep.h"
 #include "app/verbs.h"
 #include "compare/bounds.h"
@@ -12,29 +14,50 @@
 #include "compare/summary.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
+#include "scenes/text.h"
 
 namespace noonmark {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct Listed {
   std::string file;
   std::string name;  // of its results' folder below out/ or --out: the way below the folder that was given, or the stem
 };
 
-std::vector<Listed> experiments_in(const std::vector<std::string>& paths) {
-  namespace fs = std::filesystem;
+// What a folder holds is listed as far as it can be read; the rest is told, and raises `worst`.
+std::vector<Listed> experiments_in(const std::vector<std::string>& paths, int& worst) {
   std::vector<Listed> files;
+  const auto failed = [&](ErrorKind kind, const std::string& message) {
+    worst = std::max(worst, tell({static_cast<int>(kind), printable(message)}));
+  };
   for (const std::string& path : paths) {
-    if (!fs::is_directory(path)) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
       files.push_back({path, fs::path(path).stem().string()});
       continue;
     }
-    std::vector<std::string> found;
-    for (const auto& entry : fs::recursive_directory_iterator(path))
-      if (entry.path().extension() == ".toml") found.push_back(entry.path().string());
-    if (found.empty())
-      throw Error(ErrorKind::usage,
-                  fmt::format("the folder {} holds no .toml file; give an experiment or a folder of them", path));
+    bool whole = true;
+    std::vector<std::string> found, open = {path};
+    while (!open.empty()) {
+      const std::string folder = std::move(open.back());
+      open.pop_back();
+      fs::directory_iterator entry(folder, error);
+      for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        std::error_code none;
+        if (entry->is_directory(none) && !entry->is_symlink(none))
+          open.push_back(entry->path().string());
+        else if (entry->path().extension() == ".toml")
+          found.push_back(entry->path().string());
+      }
+      if (!error) continue;
+      whole = false;
+      failed(ErrorKind::scene, fmt::format("{}: cannot be read: {}; check its permissions", folder, error.message()));
+    }
+    if (found.empty() && whole)
+      failed(ErrorKind::usage,
+             fmt::format("the folder {} holds no .toml file; give an experiment or a folder of them", path));
     std::sort(found.begin(), found.end());
     for (const std::string& file : found)
       files.push_back({file, fs::path(file).lexically_relative(path).replace_extension().string()});
@@ -49,7 +72,8 @@ std::vector<Listed> experiments_in(const std::vector<std::string>& paths) {
   return files;
 }
 
-int check_one(const std::string& path, const ExperimentArguments& arguments, const std::string& out) {
+int check_one(const std::string& path, const ExperimentArguments& arguments, const ResultsFolder& folder) {
+  const std::string& out = folder.path();
   const Experiment experiment = experiment_from(path, arguments);
   const auto promises = [](const Experiment& e) { return !e.bounds.empty() || !e.laws.empty(); };
   if (!promises(experiment) && std::none_of(experiment.parts.begin(), experiment.parts.end(), promises))
@@ -58,7 +82,7 @@ int check_one(const std::string& path, const ExperimentArguments& arguments, con
         fmt::format("{} has no [[bound]] and no [[law]], so there is nothing to check; add one, or use noonmark "
                     "run",
                     path));
-  const SweepOutcome outcome = run_sweep(experiment, {out, arguments.overwrite, arguments.command});
+  const SweepOutcome outcome = run_sweep(experiment, folder, {arguments.overwrite, arguments.command});
   write_file_atomically(out + "/junit.xml", to_junit(outcome.results));
   write_file_atomically(out + "/summary.md", to_summary(outcome.results));
   if (outcome.interrupted) {
@@ -80,21 +104,47 @@ int check_one(const std::string& path, const ExperimentArguments& arguments, con
   if (!results.bounds.empty()) verdict = fmt::format("{} of {} bounds held", bounds_held, results.bounds.size());
   if (!results.laws.empty())
     verdict += fmt::format("{}{} of {} laws hold", verdict.empty() ? "" : ", ", laws_held, results.laws.size());
-  fmt::print("{}: {}; the report is {}/report.html\n", path, verdict, out);
+  fmt::print("{}: {}; the report is {}/report.html\n", printable(path), verdict, printable(out));
   return bounds_held == results.bounds.size() && laws_held == results.laws.size() ? 0 : 1;
+}
+
+// A CI server that finds no verdict may show that of the run before; so one that says why there is none.
+void write_failure(const std::string& path, const ExperimentArguments& arguments, const Failure& failure,
+                   const ResultsFolder& folder) {
+  try {
+    const Unjudged why{path, arguments.command, failure.message, failure.exit_code};
+    write_file_atomically(folder.path() + "/junit.xml", to_junit(why));
+    write_file_atomically(folder.path() + "/summary.md", to_summary(why));
+  } catch (const Error& error) {  // the disk may be what failed in the first place
+    tell({failure.exit_code, printable(error.what())});
+  }
 }
 
 }  // namespace
 
 int verb_check(const std::vector<std::string>& paths, const ExperimentArguments& arguments) {
-  const std::vector<Listed> files = experiments_in(paths);
-  const bool alone = files.size() == 1 && !arguments.out.empty();
   int worst = 0;
+  const std::vector<Listed> files = experiments_in(paths, worst);
+  const bool alone = files.size() == 1 && !arguments.out.empty();
+  std::vector<std::string> failures;
   for (const Listed& listed : files) {
     const std::string out =
         alone ? arguments.out : (arguments.out.empty() ? std::string("out") : arguments.out) + "/" + listed.name;
-    worst = std::max(worst, check_one(listed.file, arguments, out));
-    if (worst == static_cast<int>(ErrorKind::incomplete)) break;
+    std::optional<ResultsFolder> folder;
+    try {
+      folder.emplace(out);
+      worst = std::max(worst, check_one(listed.file, arguments, *folder));
+    } catch (...) {
+      const Failure failure = current_failure();
+      worst = std::max(worst, tell(failure));
+      failures.push_back(listed.file);
+      if (folder) write_failure(listed.file, arguments, failure, *folder);
+    }
+    if (worst == static_cast<int>(ErrorKind::incomplete)) break;  // somebody asked to stop
+  }
+  if (files.size() > 1 && !failures.empty()) {
+    fmt::print("{} of {} experiments could not be checked:\n", failures.size(), files.size());
+    for (const std::string& file : failures) fmt::print("  {}\n", printable(file));
   }
   return worst;
 }

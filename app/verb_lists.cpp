@@ -4,7 +4,9 @@
 #include "app/build_facts.h"
 #include "app/image_file.h"
 #include "app/sweep.h"
+#include "app/threads.h"
 #include "app/verbs.h"
+#include "app/workbench.h"
 #include "compare/metrics.h"
 #include "compare/quantities.h"
 #include "compare/store.h"
@@ -12,13 +14,15 @@
 #include "raytrace/tracer.h"
 #include "scenes/error.h"
 #include "scenes/library.h"
+#include "scenes/text.h"
 
 namespace noonmark {
 
 int verb_report(const std::string& folder) {
   const Results results = ResultStore::open(folder + "/results.sqlite").load();
   write_report(results, folder);
-  fmt::print("{} of {} points; the report is {}/report.html\n", results.points.size(), results.planned_points, folder);
+  fmt::print("{} of {} points; the report is {}/report.html\n", results.points.size(), results.planned_points,
+             printable(folder));
   return results.points.size() < static_cast<size_t>(results.planned_points) ? static_cast<int>(ErrorKind::incomplete)
                                                                              : 0;
 }
@@ -50,6 +54,14 @@ int verb_doctor() {
   fmt::print("noonmark  {} (commit {}, {}, {})\n", facts.version, facts.commit, facts.compiler, facts.build_type);
   bool can_measure = true, can_write_pictures = true;
   try {
+    const ThreadLimit limit(0);
+    require_room_to_start();
+  } catch (const Error& error) {
+    fmt::print("Machine   NOT USABLE: {}\n", error.what());
+    can_measure = false;
+  }
+  const bool room = can_measure;
+  try {
     const gl::Renderer renderer(gl::DebugMode::off);
     const gl::DeviceInfo& device = renderer.info();
     fmt::print("OpenGL    {} ({}), {}\n", device.renderer, device.vendor, device.version);
@@ -68,8 +80,10 @@ int verb_doctor() {
     can_measure = false;
   }
   try {
-    require_image_files();
-    fmt::print("Pictures  OpenImageIO\n");
+    if (room) {  // without it, loading the library ends the program
+      require_image_files();
+      fmt::print("Pictures  OpenImageIO\n");
+    }
   } catch (const Error& error) {
     fmt::print("Pictures  NOT USABLE: {}\n", error.what());
     can_write_pictures = false;

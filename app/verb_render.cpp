@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "app/experiment_arguments.h"
 #include "app/pictures.h"
 #include "app/verbs.h"
@@ -14,6 +12,7 @@
 #include "scenes/file.h"
 #include "scenes/idle_settings.h"
 #include "scenes/library.h"
+#include "scenes/text.h"
 
 namespace noonmark {
 namespace {
@@ -31,8 +30,8 @@ Settings the_point(const Experiment& experiment, long point) {
 
 void print_ladder(const Measurement& m) {
   const auto value = [&](const char* name) { return m.record.metrics.at(name); };
-  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", m.scene.name, value("receivers"),
-             value("facing"), value("counted"));
+  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", printable(m.scene.name),
+             value("receivers"), value("facing"), value("counted"));
   if (value("facing") > 0) fmt::print(" ({:.4f}% ambiguous)", 100 * value("ambiguous"));
   fmt::print("\n\n");
   if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("  {}\n\n", poor);
@@ -77,11 +76,8 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   const Experiment experiment = experiment_from(path, arguments);
   const Settings settings = the_point(experiment, point);
   const std::string out = arguments.out.empty() ? "out/render" : arguments.out;
-  std::error_code error;
-  std::filesystem::create_directories(out, error);
-  if (error)
-    throw Error(ErrorKind::usage,
-                fmt::format("cannot make the folder {}: {}; give another --out", out, error.message()));
+  make_folder(out);
+  clear_abandoned_files(out);
   Workbench bench(gl::DebugMode::log);
   require_image_files();
   const Experiment& part = part_of_point(experiment, std::max(point, 0L));
@@ -94,7 +90,7 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", note);
   for (const IdleSetting& idle : idle_settings(m.frame.kind, settings))
     fmt::print("  note: {} has no effect {}\n", idle.name, idle.why);
-  fmt::print("\n{0}/point.json, {0}/ladder.exr, {0}/map.exr and {0}/point-*.png are written\n", out);
+  fmt::print("\n{0}/point.json, {0}/ladder.exr, {0}/map.exr and {0}/point-*.png are written\n", printable(out));
   return 0;
 }
 

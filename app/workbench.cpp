@@ -1,6 +1,7 @@
 #include "app/workbench.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
@@ -13,10 +14,12 @@
 #include "compare/law_metrics.h"
 #include "compare/measure.h"
 #include "compare/soundness.h"
+#include "scenes/address_space.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"
 #include "scenes/library.h"
+#include "scenes/scene_digest.h"
 
 namespace noonmark {
 namespace {
@@ -65,6 +68,7 @@ double median_time(const Pass& pass) {
 
 struct LoadedScene {
   std::unique_ptr<Scene> scene;  // the tracer refers to it
+  std::string identity;
   std::unique_ptr<raytrace::Tracer> tracer;
   uint64_t open_edges;
 };
@@ -140,6 +144,12 @@ std::string lookup_key_of(const Settings& settings, const DepthBias& bias) {
   return key + fmt::format("{}", bias.normal_offset_texels);
 }
 
+Settings of_scene(const SceneSettings& scene) {
+  Settings settings;
+  settings.scene = scene;
+  return settings;
+}
+
 }  // namespace
 
 struct Workbench::Impl {
@@ -150,8 +160,9 @@ struct Workbench::Impl {
       auto loaded = std::make_unique<Scene>(make_scene(settings.scene));
       auto tracer = std::make_unique<raytrace::Tracer>(*loaded);
       renderer.load_scene(*loaded);
+      std::string identity = scene_digest(*loaded);
       const uint64_t open_edges = tracer->open_edges();
-      return LoadedScene{std::move(loaded), std::move(tracer), open_edges};
+      return LoadedScene{std::move(loaded), std::move(identity), std::move(tracer), open_edges};
     });
   }
 
@@ -165,16 +176,24 @@ struct Workbench::Impl {
   std::string receivers_on_device;
 };
 
-Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders)
-    : impl_(std::make_unique<Impl>(debug, std::move(shaders))) {}
+void require_room_to_start() {
+  constexpr uint64_t base = uint64_t{384} << 20;  // libraries, shaders
+  const size_t rays = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  require_address_space(base + 2 * rays * address_space_of_a_thread, fmt::format("a measurement by {} threads", rays));
+}
+
+Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders) {
+  require_room_to_start();
+  impl_ = std::make_unique<Impl>(debug, std::move(shaders));
+}
 Workbench::~Workbench() = default;
 
 const gl::DeviceInfo& Workbench::device() const { return impl_->renderer.info(); }
 
-const Scene& Workbench::scene(const SceneSettings& settings) {
-  Settings only_scene;
-  only_scene.scene = settings;
-  return *impl_->load(only_scene).scene;
+const Scene& Workbench::scene(const SceneSettings& settings) { return *impl_->load(of_scene(settings)).scene; }
+
+const std::string& Workbench::scene_identity(const SceneSettings& settings) {
+  return impl_->load(of_scene(settings)).identity;
 }
 
 MemoryEstimate Workbench::memory(const Settings& settings, bool curve, bool pictures) {

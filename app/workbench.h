@@ -31,6 +31,10 @@ struct Measurement {
   const Image<float>& exact_map;
 };
 
+// Throws Error(device) where there is no room for what the driver, the rays and the image library take before anything
+// of a point's own: without it, what fails first is a library that cannot say so.
+void require_room_to_start();
+
 class Workbench {
  public:
   // shaders: variants to measure in place of the program's own.
@@ -46,6 +50,8 @@ class Workbench {
   const gl::DeviceInfo& device() const;
   // Of the scene that the settings name; loads it when it is not the one at hand.
   const Scene& scene(const SceneSettings& settings);
+  // scene_digest of that scene, as it was loaded.
+  const std::string& scene_identity(const SceneSettings& settings);
 
  private:
   struct Impl;

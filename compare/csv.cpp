@@ -7,19 +7,13 @@
 #include <set>
 #include <string_view>
 
+#include "compare/escape.h"
 #include "compare/metrics.h"
 #include "compare/quantities.h"
 #include "scenes/settings.h"
 
 namespace noonmark {
 namespace {
-
-std::string field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string number(double value) { return fmt::format("{}", value); }
 
@@ -92,7 +86,7 @@ std::string to_csv(const Results& results) {
   const std::vector<Column> list = columns(results);
   std::string csv;
   const auto row = [&](auto cell) {
-    for (size_t i = 0; i < list.size(); ++i) csv += (i ? "," : "") + field(cell(list[i]));
+    for (size_t i = 0; i < list.size(); ++i) csv += (i ? "," : "") + csv_text(cell(list[i]));
     csv += "\r\n";
   };
   row([](const Column& column) { return column.name; });

@@ -11,7 +11,8 @@ namespace noonmark {
 // of the bias curve (compare/quantities.h), the worst pixel; then, at the end, the times. All columns before the first
 // time are deterministic: two runs of one experiment on one machine agree in them byte for byte. Numbers are the
 // shortest decimals that read back as the same double; `nan`, `inf` and `-inf` say so; an empty field means that the
-// point has no such number (no curve, no usable bias).
+// point has no such number (no curve, no usable bias). A text that a spreadsheet would take for a formula has an
+// apostrophe before it (compare/escape.h).
 std::string to_csv(const Results& results);
 
 }  // namespace noonmark

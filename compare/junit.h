@@ -11,4 +11,7 @@ namespace noonmark {
 // (windyroad) and Jenkins, and well-formed whatever bytes the names hold.
 std::string to_junit(const Results& results);
 
+// One testcase with an error that says why nothing could be judged.
+std::string to_junit(const Unjudged& unjudged);
+
 }  // namespace noonmark

@@ -124,4 +124,12 @@ struct Results {
   std::vector<LawResult> laws;
 };
 
+// An experiment that failed before it could be judged.
+struct Unjudged {
+  std::string experiment;  // path as given
+  std::string command;
+  std::string why;  // one line
+  int exit_code = 0;
+};
+
 }  // namespace noonmark

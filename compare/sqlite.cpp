@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <filesystem>
 #include <limits>
 
+#include "scenes/digest.h"
 #include "scenes/error.h"
 
 namespace noonmark::sqlite {
@@ -35,6 +37,10 @@ std::string_view advice(int code) {
 }  // namespace
 
 Database::Database(const std::string& path, Mode mode) : path_(path) {
+  std::error_code none;
+  const auto status = std::filesystem::status(path, none);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw Error(ErrorKind::scene, fmt::format("{}: is not a regular file; {}", path, advice(SQLITE_NOTADB)));
   const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
   const int code = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
   if (code != SQLITE_OK) {
@@ -123,6 +129,21 @@ double Statement::real(int column) const {
 std::string Statement::text(int column) const {
   const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(handle_, column));
   return data ? std::string(data, static_cast<size_t>(sqlite3_column_bytes(handle_, column))) : std::string();
+}
+
+void Statement::add_to(Digest& digest) const {
+  const int columns = sqlite3_column_count(handle_);
+  digest.value(columns);
+  for (int column = 0; column < columns; ++column) {
+    const int type = sqlite3_column_type(handle_, column);
+    digest.value(type);
+    if (type == SQLITE_INTEGER)
+      digest.value(integer(column));
+    else if (type == SQLITE_FLOAT)
+      digest.value(real(column));
+    else if (type != SQLITE_NULL)
+      digest.text(text(column));
+  }
 }
 
 }  // namespace noonmark::sqlite

@@ -15,12 +15,16 @@
 struct sqlite3;
 struct sqlite3_stmt;
 
+namespace noonmark {
+class Digest;
+}
+
 namespace noonmark::sqlite {
 
 class Database {
  public:
   enum class Mode { create, existing };
-  // Throws Error(scene) when the file cannot be opened.
+  // Throws Error(scene) when the file cannot be opened, or is there and is no regular file (a pipe would never answer).
   Database(const std::string& path, Mode mode);
   ~Database();
   Database(const Database&) = delete;
@@ -85,6 +89,8 @@ class Statement {
   int64_t integer(int column) const;
   double real(int column) const;  // NULL: NaN
   std::string text(int column) const;
+  // Every column with its type.
+  void add_to(Digest& digest) const;
 
  private:
   void finish();

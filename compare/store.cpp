@@ -8,11 +8,12 @@
 #include <charconv>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 
+#include "compare/fingerprint.h"
 #include "compare/sqlite.h"
 #include "compare/store_schema.h"
+#include "compare/store_seals.h"
 #include "scenes/error.h"
 #include "scenes/settings.h"
 
@@ -55,30 +56,6 @@ void remove_store(const std::string& path) {
       throw Error(ErrorKind::scene,
                   fmt::format("{}: cannot be removed: {}; choose another --out", file, std::strerror(errno)));
   }
-}
-
-// The lines "name = value" of a fingerprint, in order.
-std::vector<std::pair<std::string, std::string>> named_lines(const std::string& text) {
-  std::vector<std::pair<std::string, std::string>> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.emplace_back(line.substr(0, line.find(" = ")), line);
-  return lines;
-}
-
-// "now 'map.resolution = 512', there 'map.resolution = 1024'" for the first name that differs.
-std::string first_difference(const std::string& here, const std::string& there) {
-  const auto a = named_lines(here), b = named_lines(there);
-  const auto find = [](const auto& lines, const std::string& name) {
-    return std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.first == name; });
-  };
-  for (const auto& [name, line] : a) {
-    const auto other = find(b, name);
-    if (other == b.end()) return fmt::format("now '{}', there nothing of the kind", line);
-    if (other->second != line) return fmt::format("now '{}', there '{}'", line, other->second);
-  }
-  for (const auto& [name, line] : b)
-    if (find(a, name) == a.end()) return fmt::format("there '{}', now nothing of the kind", line);
-  return "the same settings in another order";
 }
 
 // Throws unless the file is a whole store of this version.
@@ -284,6 +261,8 @@ ResultStore::ResultStore(const std::string& path, const std::string& fingerprint
       db_->execute(
           fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", store_application_id, store_version));
       Statement(*db_, "INSERT INTO info VALUES ('fingerprint', ?)").run(fingerprint);
+      seal_info(*db_);
+      seal_verdict(*db_);
       transaction.commit();
       return;
     }
@@ -313,6 +292,30 @@ std::vector<int64_t> ResultStore::finished() const {
   return ids;
 }
 
+std::vector<std::string> ResultStore::repair(const std::function<bool(const PointRecord&)>& expected) {
+  std::vector<std::string> said;
+  Transaction transaction(*db_);
+  for (int64_t point : broken_points(*db_)) {
+    remove_point(*db_, point);
+    said.push_back(
+        fmt::format("{}: the rows of point {} are not those that were stored (edited, lost, or of another store); it "
+                    "is measured anew",
+                    db_->path(), point));
+  }
+  for (const auto& [id, point] : load_points(*db_)) {
+    if (expected(point)) continue;
+    remove_point(*db_, id);
+    said.push_back(fmt::format("{}: point {} is none of this experiment's; it is removed", db_->path(), id));
+  }
+  if (!verdict_holds(*db_)) {
+    db_->execute("DELETE FROM bounds; DELETE FROM laws; DELETE FROM law_samples");
+    seal_verdict(*db_);
+    said.push_back(fmt::format("{}: the stored verdict was edited; it is judged anew", db_->path()));
+  }
+  transaction.commit();
+  return said;
+}
+
 void ResultStore::add(const PointRecord& point) {
   Transaction transaction(*db_);
   if (db_->ask(fmt::format("SELECT 1 FROM finished WHERE point = {}", point.id)))
@@ -330,6 +333,7 @@ void ResultStore::add(const PointRecord& point) {
   add_numbers(*db_, "times", point.id, point.times);
   if (point.curve) add_curve(*db_, point.id, *point.curve);
   add_pictures(*db_, point.id, point.pictures);
+  seal_point(*db_, point.id);
   transaction.commit();
 }
 
@@ -339,6 +343,7 @@ void ResultStore::set_pictures(int64_t point, const std::vector<PictureRecord>& 
     throw std::logic_error(fmt::format("pictures of point {}, which is not in the store", point));
   Statement(*db_, "DELETE FROM pictures WHERE point = ?").run(point);
   add_pictures(*db_, point, pictures);
+  seal_point(*db_, point);
   transaction.commit();
 }
 
@@ -353,6 +358,7 @@ void ResultStore::set_info(const RunInfo& info, int64_t planned_points) {
   insert.run("triangles", std::to_string(info.triangles));
   insert.run("scene_notes", json_text(info.scene_notes));
   insert.run("planned_points", std::to_string(planned_points));
+  seal_info(*db_);
   transaction.commit();
 }
 
@@ -365,6 +371,7 @@ void ResultStore::set_bounds(const std::vector<BoundResult>& bounds) {
     insert.run(static_cast<int64_t>(i), b.metric, b.max, b.min, json_text(b.where), b.join, b.held ? 1 : 0, b.found,
                b.point, b.points, b.reproduce);
   }
+  seal_verdict(*db_);
   transaction.commit();
 }
 
@@ -386,6 +393,7 @@ void ResultStore::set_laws(const std::vector<LawResult>& laws) {
                         sample.measured, sample.allowed);
     }
   }
+  seal_verdict(*db_);
   transaction.commit();
 }
 
@@ -393,6 +401,7 @@ Results ResultStore::load() const {
   Results results;
   db_->execute("BEGIN");  // one moment of the store, whoever writes meanwhile
   try {
+    require_sealed(*db_);
     load_info(*db_, results);
     for (auto& [id, point] : load_points(*db_)) results.points.push_back(std::move(point));
     results.bounds = load_bounds(*db_);

@@ -17,6 +17,7 @@
 // - Doubles come back exactly, but for the payload of a NaN and the sign of a zero.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ class ResultStore {
 
   // Ids of the points that are in the store, ascending.
   std::vector<int64_t> finished() const;
+  // What a resumed sweep cannot go on from is removed: points whose rows are not those that were stored or that the
+  // experiment does not expect (an id, part or settings of something else), and a verdict that was edited. Says each.
+  std::vector<std::string> repair(const std::function<bool(const PointRecord&)>& expected);
   // Throws Error(usage) when the id is there already.
   void add(const PointRecord& point);
   // The pictures of a point that is in the store, replacing those it had: some are chosen once the sweep is over.
@@ -58,6 +62,7 @@ class ResultStore {
   void set_bounds(const std::vector<BoundResult>& bounds);
   void set_laws(const std::vector<LawResult>& laws);
 
+  // Throws Error(scene) where rows are not those that were stored: every row is sealed (compare/store_seals.h).
   Results load() const;
   std::string fingerprint() const;
 

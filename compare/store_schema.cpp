@@ -38,6 +38,7 @@ CREATE TABLE laws (
   join_by TEXT, held INTEGER, worst INTEGER, reproduce TEXT, found TEXT);
 CREATE TABLE law_samples (
   law INTEGER, i INTEGER, point INTEGER, predicted REAL, measured REAL, allowed REAL, PRIMARY KEY (law, i)) WITHOUT ROWID;
+CREATE TABLE seals (name TEXT PRIMARY KEY, digest TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE columns (name TEXT PRIMARY KEY, kind TEXT, unit TEXT, help TEXT);
 )sql";
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "compare/bounds.h"
+#include "compare/escape.h"
 #include "compare/laws.h"
 #include "compare/metrics.h"
 #include "compare/poor_view.h"
@@ -19,41 +20,12 @@ namespace {
 
 constexpr size_t best_count = 5;  // rows of the table of best settings
 
-// For a cell of a Markdown table: nothing in it may end the cell, or be taken for markup.
-std::string cell(std::string_view text) {
-  std::string escaped;
-  for (char c : text) {
-    if (c == '\n' || c == '\r') {
-      escaped += ' ';
-      continue;
-    }
-    if (c == '<') {
-      escaped += "&lt;";
-      continue;
-    }
-    if (std::string_view("|`*_\\[]#").find(c) != std::string_view::npos) escaped += '\\';
-    escaped += c;
-  }
-  return escaped;
-}
-
 void add_row(std::string& text, const std::vector<std::string>& cells) {
   text += fmt::format("| {} |\n", fmt::join(cells, " | "));
 }
 void add_heading(std::string& text, const std::vector<std::string>& names) {
   add_row(text, names);
   add_row(text, std::vector<std::string>(names.size(), "---"));
-}
-
-// As Markdown shows text unchanged: indented, not fenced, so that no run of backticks in a name can end it.
-std::string indented(const std::string& lines) {
-  std::string text;
-  for (size_t begin = 0; begin < lines.size();) {
-    const size_t end = std::min(lines.find('\n', begin), lines.size());
-    text += "    " + lines.substr(begin, end - begin) + "\n";
-    begin = end + 1;
-  }
-  return text;
 }
 
 // Four digits are enough for a page; the store has them all.
@@ -98,15 +70,16 @@ std::string laws_table(const Results& results) {
   add_heading(text, {"", "law", "samples", "predicted", "measured", "measured / predicted"});
   for (const LawResult& law : results.laws) {
     const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
-    add_row(text, {law.held ? "holds" : "**broken**", cell(law.name), fmt::format("{}", law.samples.size()),
-                   cell(predicted_text(law)), worst ? short_number(worst->measured) : "–", cell(ratio_text(law))});
+    add_row(text,
+            {law.held ? "holds" : "**broken**", markdown(law.name), fmt::format("{}", law.samples.size()),
+             markdown(predicted_text(law)), worst ? short_number(worst->measured) : "–", markdown(ratio_text(law))});
   }
   for (const LawResult& law : results.laws)
-    if (!law.held) text += "\n" + indented(law_table({&law, 1}));
+    if (!law.held) text += "\n" + markdown_block(law_table({&law, 1}));
   bool any = false;
   for (const LawResult& law : results.laws) {
     if (law.found.empty()) continue;
-    text += fmt::format("{}- {}\n", any ? "" : "\n### Found\n\n", law.found);
+    text += fmt::format("{}- {}\n", any ? "" : "\n### Found\n\n", markdown(law.found));
     any = true;
   }
   return text;
@@ -122,14 +95,14 @@ std::string bounds_table(const Results& results) {
         const auto setting = point->settings.find(name);
         if (setting != point->settings.end()) at.push_back(fmt::format("{} = {}", name, setting->second));
       }
-    add_row(text, {bound.held ? "held" : "**broken**", cell(bound_text(bound)),
+    add_row(text, {bound.held ? "held" : "**broken**", markdown(bound_text(bound)),
                    bound.points == 0 ? "–" : short_number(bound.found), fmt::format("{}", bound.points),
-                   cell(fmt::format("{}", fmt::join(at, ", ")))});
+                   markdown(fmt::format("{}", fmt::join(at, ", ")))});
   }
   for (const BoundResult& bound : results.bounds) {
     if (bound.held) continue;
     const std::string why = describe(bound, find_point(results.points, bound.point), results.info.swept);
-    text += "\n" + indented(why);
+    text += "\n" + markdown_block(why);
   }
   return text;
 }
@@ -164,9 +137,9 @@ std::string best_table(const Results& results) {
   std::string text =
       order.size() == 1 ? "\n## The point\n\n" : "\n## Best settings: the least error at the bias that was set\n\n";
   std::vector<std::string> heading;
-  for (const std::string& name : results.info.swept) heading.push_back(cell(name));
+  for (const std::string& name : results.info.swept) heading.push_back(markdown(name));
   for (const char* name : {"error", "acne", "Peter Panning", "aliasing", "ms"}) heading.emplace_back(name);
-  const std::string parameter = cell(curve_parameter(results));
+  const std::string parameter = markdown(curve_parameter(results));
   heading.push_back(fmt::format("usable {} (depth)", parameter));
   heading.push_back(fmt::format("best {} (depth)", parameter));
   for (const char* name : {"(m)", "(texels)", "error there"}) heading.emplace_back(name);
@@ -175,7 +148,7 @@ std::string best_table(const Results& results) {
     std::vector<std::string> cells;
     for (const std::string& name : results.info.swept) {
       const auto setting = point->settings.find(name);
-      cells.push_back(cell(setting == point->settings.end() ? "–" : setting->second));
+      cells.push_back(markdown(setting == point->settings.end() ? "–" : setting->second));
     }
     for (const char* name : {"error", "acne", "peter_panning", "aliasing", "shadow_ms"})
       cells.push_back(short_number(quantity(*point, name)));
@@ -202,18 +175,29 @@ std::string best_table(const Results& results) {
 
 std::string to_summary(const Results& results) {
   const RunInfo& info = results.info;
-  std::string text = fmt::format("# {}\n\n{}", cell(info.title.empty() ? "Noonmark" : info.title), verdict(results));
+  std::string text =
+      fmt::format("# {}\n\n{}", markdown(info.title.empty() ? "Noonmark" : info.title), verdict(results));
   if (const std::string poor = poor_view_note(results.points); !poor.empty())
-    text += fmt::format("\nNote: {}.\n", poor);
+    text += fmt::format("
+Note: {}.
+", markdown(poor));
   if (const std::string doubt = undecided_note(results.points); !doubt.empty())
-    text += fmt::format("\nNote: {}.\n", doubt);
+    text += fmt::format("
+Note: {}.
+", markdown(doubt));
   if (!results.laws.empty()) text += laws_table(results);
   if (!results.bounds.empty()) text += bounds_table(results);
   // Points of different parts are not there to be compared.
   if (!results.points.empty() && results.points.front().part.empty()) text += best_table(results);
-  text += fmt::format("\nMade by noonmark {} ({}) on {}; Embree {} ({}).\n", cell(info.version), cell(info.commit),
-                      cell(info.gl_renderer), cell(info.embree_version), cell(info.embree_isa));
+  text +=
+      fmt::format("\nMade by noonmark {} ({}) on {}; Embree {} ({}).\n", markdown(info.version), markdown(info.commit),
+                  markdown(info.gl_renderer), markdown(info.embree_version), markdown(info.embree_isa));
   return text;
+}
+
+std::string to_summary(const Unjudged& unjudged) {
+  return fmt::format("# {}\n\n**Not judged (exit code {}): {}**\n", markdown(unjudged.experiment), unjudged.exit_code,
+                     markdown(unjudged.why));
 }
 
 }  // namespace noonmark

@@ -10,4 +10,7 @@ namespace noonmark {
 // the bias that each needs.
 std::string to_summary(const Results& results);
 
+// Why nothing could be judged.
+std::string to_summary(const Unjudged& unjudged);
+
 }  // namespace noonmark

@@ -1,11 +1,14 @@
 #include "raytrace/embree_scene.h"
 
+#include <tbb/global_control.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "raytrace/vertex_rounding.h"
+#include "scenes/address_space.h"
 #include "scenes/error.h"
 
 namespace noonmark {
@@ -17,9 +20,12 @@ struct ShadowContext : embree::Context {
   std::vector<uint32_t>* all = nullptr;  // where all_hits() collects
 };
 
-[[noreturn]] void device_failed(RTCDevice device, const std::string& what) {
-  const int code = static_cast<int>(rtcGetDeviceError(device));
-  throw Error(ErrorKind::device, what + " (Embree error " + std::to_string(code) + "); run noonmark doctor");
+// code: as rtcGetDeviceError had it, which forgets it.
+[[noreturn]] void device_failed(RTCError code, const std::string& what) {
+  if (code == RTC_ERROR_OUT_OF_MEMORY)
+    throw Error(ErrorKind::device, what + ": memory has run out; choose a smaller scene, or a machine with more");
+  throw Error(ErrorKind::device,
+              what + " (Embree error " + std::to_string(static_cast<int>(code)) + "); run noonmark doctor");
 }
 
 }  // namespace
@@ -34,14 +40,16 @@ EmbreeDevice::EmbreeDevice() {
   // avx2: every x86 machine of the last decade has it, and packets of 16 gain little from more. What the machine lacks
   // Embree refuses, and the widest set below it serves.
   for (const char* isa : {"avx2", "avx", "sse4.2", "sse2", ""}) {
-    const std::string config = *isa ? std::string("isa=") + isa : std::string();
+    // Subdivision surfaces have a cache of 128 MB, which triangles never use; and where its allocation fails, Embree
+    // 3.13 keeps its lock, so that the device's release waits for ever.
+    const std::string config = std::string("tessellation_cache_size=0") + (*isa ? ",isa=" : "") + isa;
     device_.reset(rtcNewDevice(config.c_str()));
     if (device_ && rtcGetDeviceError(device_.get()) == RTC_ERROR_NONE) {
       isa_ = *isa ? isa : "default";
       return;
     }
   }
-  device_failed(nullptr, "cannot start Embree");
+  device_failed(rtcGetDeviceError(nullptr), "cannot start Embree");
 }
 
 std::string EmbreeDevice::version() const {
@@ -61,6 +69,11 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::ve
     rtcCommitScene(embree_.get());
     return;
   }
+  // An allocation that fails within the build ends the program or never returns. Measured with Embree 3.13.5: at most
+  // 48 bytes a triangle in the buffers and 123 while it builds; a small scene takes 1.2 kB. Threads may start in it.
+  const size_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  require_address_space(count * 256 + (uint64_t{1} << 22) + threads * address_space_of_a_thread,
+                        "Embree's tree of the scene");
   RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
                                            scene.positions.size());
@@ -68,7 +81,8 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::ve
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), count);
   if (!vertices || !indices) {
     rtcReleaseGeometry(geometry);
-    device_failed(device.get(), "Embree cannot hold the scene's " + std::to_string(count) + " triangles");
+    device_failed(rtcGetDeviceError(device.get()),
+                  "Embree cannot hold the scene's " + std::to_string(count) + " triangles");
   }
   std::memcpy(vertices, scene.positions.data(), scene.positions.size() * sizeof(glm::vec3));
   auto* triangles = static_cast<glm::uvec3*>(indices);
@@ -78,7 +92,8 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::ve
   rtcAttachGeometry(embree_.get(), geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(embree_.get());
-  if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE) device_failed(device.get(), "Embree cannot build the scene");
+  if (const RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE)
+    device_failed(error, "Embree cannot build the scene");
 
   // Float's relative error is 2^-24; at grazing angles the plane distance amplifies it. 2^-12 of the scene's size
   // leaves a factor of 4096 for that, and deciding a hit in double that did not need it costs time but no truth.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scenes/error.h"
+#include "scenes/text.h"
 
 namespace noonmark::gltf {
 
@@ -12,9 +13,10 @@ void refuse(std::string_view file, std::string_view place, std::string_view what
 
 std::string printable(std::string_view text) {
   constexpr size_t longest = 80;
-  std::string shown;
-  for (char c : text.substr(0, longest)) shown += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return text.size() > longest ? shown + "..." : shown;
+  std::string_view shown = text.substr(0, longest);
+  // Not within a character.
+  while (shown.size() < text.size() && !shown.empty() && (text[shown.size()] & 0xc0) == 0x80) shown.remove_suffix(1);
+  return noonmark::printable(shown) + (shown.size() < text.size() ? "..." : "");
 }
 
 }  // namespace noonmark::gltf

@@ -8,7 +8,7 @@ namespace noonmark::gltf {
 // Throws Error(scene) "file: place: what; remedy". place is a JSON path such as accessors[3].count, or empty.
 [[noreturn]] void refuse(std::string_view file, std::string_view place, std::string_view what, std::string_view remedy);
 
-// Text from a file as a message may show it: one line, no control characters, at most 80 characters.
+// Text from a file as a message may show it: one line as scenes/text.h has it, at most 80 bytes of it.
 std::string printable(std::string_view text);
 
 }  // namespace noonmark::gltf

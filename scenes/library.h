@@ -43,12 +43,8 @@ struct Pose {
 // fitted where the file has none. Throws Error(scene).
 Scene load_gltf(const std::string& path, const Pose& pose = {});
 
-<<<<<<< HEAD
-// scenes/fit.cpp: a perspective camera that sees the whole scene, and a light from above and aside. For scenes without.
-=======
 // scenes/fit.cpp: a perspective camera that sees the whole scene from outside, or stands inside a closed room
 // (scenes/interior.h); and a light from above and aside. For scenes without.
->>>>>>> main
 Camera fit_camera(const Scene& scene);
 Light fit_light(const Scene& scene);
 

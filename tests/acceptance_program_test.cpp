@@ -7,8 +7,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "scenes/file.h"
@@ -47,24 +45,6 @@ int points_in(const fs::path& store) {
         &count, nullptr);
   sqlite3_close(db);
   return count;
-}
-
-// Every column before the times, which are the last ones (compare/csv.h).
-std::string without_times(const fs::path& csv) {
-  std::istringstream lines(read_file(csv.string()));
-  std::string line, kept;
-  size_t columns = 0;
-  while (std::getline(lines, line)) {
-    std::vector<std::string> fields;
-    std::istringstream row(line);
-    for (std::string field; std::getline(row, field, ',');) fields.push_back(field);
-    if (columns == 0) {
-      while (columns < fields.size() && !fields[columns].ends_with("_ms")) ++columns;
-    }
-    for (size_t i = 0; i < columns; ++i) kept += fields[i] + ",";
-    kept += "\n";
-  }
-  return columns > 30 ? kept : "no times found";
 }
 
 TEST_F(Program, ResumesAfterSigkillWithTheSameResults) {

@@ -184,26 +184,6 @@ TEST(Experiment, TheFingerprintTellsWhatChangesResultsOnly) {
   EXPECT_NE(fingerprint(parse(file), gl), print(file));
 }
 
-TEST(Experiment, TheDigestSeesEveryPartOfTheScene) {
-  Scene scene;
-  scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  scene.triangles = {{0, 1, 2}};
-  std::set<std::string> digests = {scene_digest(scene)};
-  EXPECT_EQ(scene_digest(scene), *digests.begin());
-  const auto edited = [&](auto edit) {
-    Scene copy = scene;
-    edit(copy);
-    EXPECT_TRUE(digests.insert(scene_digest(copy)).second);
-  };
-  edited([](Scene& s) { s.positions[1].x = std::nextafter(1.0f, 2.0f); });
-  edited([](Scene& s) { s.triangles[0] = {0, 2, 1}; });
-  edited([](Scene& s) { s.camera.eye_m.z = 4; });
-  edited([](Scene& s) { s.camera.fov_y_deg = 44; });
-  edited([](Scene& s) { s.light.position_m.y = 11; });
-  edited([](Scene& s) { s.light.angular_diameter_deg = 0.53; });
-  edited([](Scene& s) { s.map = MapVolume{}; });
-}
-
 // Any values that the rows take, swept: one point per combination, and each point's text sets the same text again.
 RC_GTEST_PROP(ExperimentProperty, PointsAreTheProductOfTheLists, ()) {
   Experiment experiment;

@@ -160,7 +160,7 @@ const Case cases[] = {
     {"UnknownLight", "nodes[0].extensions.KHR_lights_punctual.light: its type 'ambient'",
      [](json& d) { add_spot(d, json::object()), d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "ambient"}}}; }},
     // The document.
-    {"RequiredUnknown", "extensionsRequired[0]: 'X?Y'", [](json& d) { d["extensionsRequired"] = {"X\nY"}; }},
+    {"RequiredUnknown", "extensionsRequired[0]: 'X\\x0aY'", [](json& d) { d["extensionsRequired"] = {"X\nY"}; }},
     {"VersionOne", "asset.version: '1.0'", [](json& d) { d["asset"]["version"] = "1.0"; }},
     {"NeedsANewerReader", "asset.minVersion", [](json& d) { d["asset"]["minVersion"] = "2.1"; }},
     {"MinVersionAboveTheVersion", "asset.minVersion: '2.0' is above asset.version '1.9'", [](json& d) { d["asset"] = {{"version", "1.9"}, {"minVersion", "2.0"}}; }},

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <functional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,24 @@
 namespace noonmark::acceptance {
 
 namespace fs = std::filesystem;
+
+// Every column before the times, which are the last ones (compare/csv.h).
+inline std::string without_times(const fs::path& csv) {
+  std::istringstream lines(read_file(csv.string()));
+  std::string line, kept;
+  size_t columns = 0;
+  while (std::getline(lines, line)) {
+    std::vector<std::string> fields;
+    std::istringstream row(line);
+    for (std::string field; std::getline(row, field, ',');) fields.push_back(field);
+    if (columns == 0) {
+      while (columns < fields.size() && !fields[columns].ends_with("_ms")) ++columns;
+    }
+    for (size_t i = 0; i < columns; ++i) kept += fields[i] + ",";
+    kept += "\n";
+  }
+  return columns > 30 ? kept : "no times found";
+}
 
 class Program : public testing::Test {
  protected:
@@ -25,7 +45,8 @@ class Program : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  pid_t start(const std::vector<std::string>& arguments) {
+  // prepare: done in the new process before the program starts (limits, environment, other descriptors).
+  pid_t start(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}) {
     std::vector<char*> argv = {const_cast<char*>(NOONMARK_PROGRAM)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
@@ -35,6 +56,8 @@ class Program : public testing::Test {
     const int output = open("output.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(output, 1);
     dup2(output, 2);
+    close(output);
+    if (prepare) prepare();
     execv(NOONMARK_PROGRAM, argv.data());
     _exit(127);
   }
@@ -43,8 +66,8 @@ class Program : public testing::Test {
     waitpid(child, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
-  int run(const std::vector<std::string>& arguments) {
-    const int code = wait_for(start(arguments));
+  int run(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}) {
+    const int code = wait_for(start(arguments, prepare));
     output_ = read_file((folder_ / "output.txt").string());
     return code;
   }

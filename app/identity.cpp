@@ -1,0 +1,105 @@
+#include "app/identity.h"
+
+#include <elf.h>
+#include <fmt/format.h>
+#include <gnu/libc-version.h>
+#include <link.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+
+#include "app/build_facts.h"
+#include "scenes/error.h"
+#include "scenes/library.h"
+#include "scenes/scene_digest.h"
+
+namespace noonmark {
+namespace {
+
+// A note in an ELF file: head, name, contents, each filled up to 4 bytes.
+size_t padded(size_t size) { return (size + 3) & ~size_t{3}; }
+
+// The note that ld --build-id writes.
+std::string build_id_in(const char* notes, size_t size) {
+  for (size_t at = 0; at + sizeof(ElfW(Nhdr)) <= size;) {
+    ElfW(Nhdr) head;
+    std::memcpy(&head, notes + at, sizeof head);
+    const char* name = notes + at + sizeof head;
+    const char* contents = name + padded(head.n_namesz);
+    if (head.n_type == NT_GNU_BUILD_ID && std::string_view(name, head.n_namesz) == std::string_view("GNU", 4)) {
+      std::string id;
+      for (size_t i = 0; i < head.n_descsz; ++i) id += fmt::format("{:02x}", static_cast<unsigned char>(contents[i]));
+      return id;
+    }
+    at += sizeof head + padded(head.n_namesz) + padded(head.n_descsz);
+  }
+  return "";
+}
+
+std::string build_id() {
+  std::string id;
+  dl_iterate_phdr(
+      [](dl_phdr_info* object, size_t, void* out) {
+        auto& found = *static_cast<std::string*>(out);
+        for (int i = 0; i < object->dlpi_phnum && found.empty(); ++i) {
+          const ElfW(Phdr)& segment = object->dlpi_phdr[i];
+          if (segment.p_type == PT_NOTE)
+            found = build_id_in(reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr), segment.p_memsz);
+        }
+        return 1;  // the first object is the program; libraries follow
+      },
+      &id);
+  return id.empty() ? "unknown" : id;
+}
+
+std::string scene_key(const Settings& point) {
+  std::string key;
+  for (const Setting& row : settings_table())
+    if (row.name.starts_with("scene.")) key += row.get(point) + ";";
+  return key;
+}
+
+}  // namespace
+
+void SceneDigests::remember(Workbench& bench, const Settings& point) {
+  const std::string key = scene_key(point);
+  if (digests_.contains(key)) return;
+  digests_[key] = bench.scene_identity(point.scene);
+  // The same file in other triangles says the same.
+  if (const std::string note = notes_line(bench.scene(point.scene));
+      !note.empty() && std::find(notes_.begin(), notes_.end(), note) == notes_.end())
+    notes_.push_back(note);
+}
+
+void SceneDigests::require_unchanged(Workbench& bench, const Settings& point) const {
+  if (bench.scene_identity(point.scene) != digests_.at(scene_key(point)))
+    throw Error(ErrorKind::scene,
+                fmt::format("{}: was changed while the sweep ran, so that its points would be of different scenes; "
+                            "leave it alone and run again",
+                            point.scene.name));
+}
+
+std::string host_cpu() {
+  std::ifstream cpuinfo("/proc/cpuinfo");
+  for (std::string line; std::getline(cpuinfo, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+std::vector<std::pair<std::string, std::string>> identity(Workbench& bench, std::span<const Settings> points,
+                                                          const raytrace::TracerInfo& tracer, SceneDigests& scenes) {
+  const gl::DeviceInfo& device = bench.device();
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"noonmark", fmt::format("{} {}", build_facts().version, build_facts().commit)},
+      {"program", build_id()},
+      {"opengl", fmt::format("{} {} {}", device.vendor, device.renderer, device.version)},
+      {"embree", fmt::format("{} {}", tracer.version, tracer.isa)},
+      {"machine", fmt::format("{}, glibc {}", host_cpu(), gnu_get_libc_version())},
+  };
+  for (const Settings& point : points) scenes.remember(bench, point);
+  for (const auto& [scene, digest] : scenes.all()) facts.emplace_back("scene " + scene, digest);
+  return facts;
+}
+
+}  // namespace noonmark

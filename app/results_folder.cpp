@@ -1,0 +1,62 @@
+#include "app/results_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cerrno>
+#include <filesystem>
+
+#include "scenes/error.h"
+#include "scenes/file.h"
+
+namespace noonmark {
+
+namespace fs = std::filesystem;
+
+ResultsFolder::ResultsFolder(const std::string& path) : path_(path), descriptor_(-1) {
+  try {
+    make_folder(path);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::usage, fmt::format("{}, or give another --out", error.what()));
+  }
+  descriptor_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // Some file systems have no locks; then nobody is kept out.
+  if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    close(descriptor_);
+    throw Error(ErrorKind::usage,
+                fmt::format("another run is writing into {}; wait for it, or give another --out", path));
+  }
+  for (const char* verdict : {"junit.xml", "summary.md"}) {
+    std::error_code error;
+    fs::remove(fs::path(path) / verdict, error);
+    if (error) {
+      if (descriptor_ >= 0) close(descriptor_);
+      throw Error(ErrorKind::scene,
+                  fmt::format("{}/{}: the verdict of an earlier run cannot be removed: {}; remove it, "
+                              "or give another --out",
+                              path, verdict, error.message()));
+    }
+  }
+  clear_abandoned_files(path);
+  clear_abandoned_files(path + "/images");
+}
+
+ResultsFolder::~ResultsFolder() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void ResultsFolder::remove_earlier_results() const {
+  std::error_code none;
+  for (const char* file : {"report.html", "results.csv"}) fs::remove(fs::path(path_) / file, none);
+  for (const auto& entry : fs::directory_iterator(path_ + "/images", none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() > 5 && name[0] == 'p' && std::isdigit(static_cast<unsigned char>(name[1])) &&
+        (name.ends_with(".png") || name.ends_with(".exr")))
+      fs::remove(entry.path(), none);
+  }
+}
+
+}  // namespace noonmark

@@ -1,0 +1,32 @@
+// The folder that a run writes its results into, held for as long as the run lasts.
+//
+//   const ResultsFolder folder("out/cube-room");   // made, ours alone, and nothing in it says how an earlier run ended
+#pragma once
+#include <string>
+
+namespace noonmark {
+
+class ResultsFolder {
+ public:
+  // Makes the folder where it is not there, locks it, and removes from it
+  // - junit.xml and summary.md: the verdict of an earlier run must not be taken for that of one that fails or is
+  // killed;
+  // - temporary files of runs that were killed (clear_abandoned_files, scenes/file.h), in images/ too.
+  // Throws Error(usage) when the folder cannot be made or another run is writing into it; Error(scene) when the verdict
+  // cannot be removed.
+  explicit ResultsFolder(const std::string& path);
+  ~ResultsFolder();
+  ResultsFolder(const ResultsFolder&) = delete;
+  ResultsFolder& operator=(const ResultsFolder&) = delete;
+
+  const std::string& path() const { return path_; }
+
+  // Report, table and pictures of an earlier run, when all is measured anew.
+  void remove_earlier_results() const;
+
+ private:
+  std::string path_;
+  int descriptor_;  // the lock goes with it, also when the program is killed
+};
+
+}  // namespace noonmark

@@ -1,0 +1,10 @@
+// Fingerprints of experiments (app/experiment.h): text of one "name = value" per line.
+#pragma once
+#include <string>
+
+namespace noonmark {
+
+// "now 'map.resolution = 512', there 'map.resolution = 1024'" for the first name that differs.
+std::string first_difference(const std::string& here, const std::string& there);
+
+}  // namespace noonmark

@@ -1,0 +1,76 @@
+#include "scenes/scene_digest.h"
+
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "scenes/digest.h"
+
+namespace noonmark {
+namespace {
+
+// Each struct is taken apart by a structured binding, which must name every member: where one is added, the compiler
+// stops here and asks whether it is part of the identity. A name that is bound and not added says why.
+class SceneDigest {
+ public:
+  void add(const Scene& scene) {
+    const auto& [name, positions, triangles, single_sided, parts, camera, light, map, notes] = scene;
+    static_cast<void>(name);  // a label; which scene it is, the settings say
+    add_all(positions, triangles, single_sided, parts, camera, light, map, notes);
+  }
+  std::string hex() const { return digest_.hex(); }
+
+ private:
+  void add(const Part& part) {
+    const auto& [name, first_triangle, triangle_count] = part;
+    static_cast<void>(name);  // a label
+    add_all(first_triangle, triangle_count);
+  }
+  void add(const Camera& camera) {
+    const auto& [projection, eye_m, target_m, up, fov_y_deg, height_m, near_m, far_m] = camera;
+    add_all(projection, eye_m, target_m, up, fov_y_deg, height_m, near_m, far_m);
+  }
+  void add(const Light& light) {
+    const auto& [kind, position_m, target_m, angular_diameter_deg, radius_m, shape, cone_deg] = light;
+    add_all(kind, position_m, target_m, angular_diameter_deg, radius_m, shape, cone_deg);
+  }
+  void add(const MapVolume& map) {
+    const auto& [extent_m, near_m, far_m] = map;
+    add_all(extent_m, near_m, far_m);
+  }
+
+  template <class T>
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void add(const T& value) { digest_.value(value); }
+  template <glm::length_t n, class T>
+  void add(const glm::vec<n, T>& v) {
+    for (glm::length_t i = 0; i < n; ++i) add(v[i]);
+  }
+  void add(const std::string& text) { digest_.text(text); }
+  template <class T>
+  void add(const std::vector<T>& list) {
+    add(list.size());
+    for (const T& entry : list) add(entry);
+  }
+  template <class T>
+  void add(const std::optional<T>& value) {
+    add(value.has_value());
+    if (value) add(*value);
+  }
+
+  template <class... Members>
+  void add_all(const Members&... members) {
+    (add(members), ...);
+  }
+
+  Digest digest_;
+};
+
+}  // namespace
+
+std::string scene_digest(const Scene& scene) {
+  SceneDigest digest;
+  digest.add(scene);
+  return digest.hex();
+}
+
+}  // namespace noonmark

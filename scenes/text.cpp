@@ -1,0 +1,49 @@
+#include "scenes/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace noonmark {
+
+size_t utf8_length(std::string_view text) {
+  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const auto follows = [&](size_t i, unsigned from = 0x80, unsigned to = 0xbf) {
+    return byte(i) >= from && byte(i) <= to;
+  };
+  if (text.empty()) return 0;
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  if (first >= 0xc2 && first <= 0xdf) return follows(1) ? 2 : 0;
+  if (first >= 0xe0 && first <= 0xef)
+    return follows(1, first == 0xe0 ? 0xa0 : 0x80, first == 0xed ? 0x9f : 0xbf) && follows(2) ? 3 : 0;
+  if (first >= 0xf0 && first <= 0xf4)
+    return follows(1, first == 0xf0 ? 0x90 : 0x80, first == 0xf4 ? 0x8f : 0xbf) && follows(2) && follows(3) ? 4 : 0;
+  return 0;
+}
+
+bool is_control(std::string_view character) {
+  const auto in = [&](std::string_view first, std::string_view last) {
+    return character.size() == first.size() && character >= first && character <= last;  // UTF-8 keeps the order
+  };
+  return in(std::string_view("\0", 1), "\x1f") || character == "\x7f" || in("\u0080", "\u009f") ||
+         in("\u200e", "\u200f") || in("\u2028", "\u202e") || in("\u2066", "\u2069");
+}
+
+std::string printable(std::string_view text, Lines lines) {
+  std::string shown;
+  while (!text.empty()) {
+    const size_t length = utf8_length(text);
+    const std::string_view character = text.substr(0, std::max<size_t>(length, 1));
+    const bool kept =
+        length > 0 && (!is_control(character) || (lines == Lines::many && (character == "\n" || character == "\t")));
+    if (kept)
+      shown += character;
+    else
+      for (char c : character) shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    text.remove_prefix(character.size());
+  }
+  return shown;
+}
+
+}  // namespace noonmark

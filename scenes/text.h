@@ -1,0 +1,22 @@
+// Text of unknown origin (paths, names in files) as people may meet it.
+//
+//   fmt::print(stderr, "noonmark: {}\n", printable(error.what()));
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace noonmark {
+
+// Length in bytes of the UTF-8 character at the start of text, 0 where there is none (RFC 3629, section 4).
+size_t utf8_length(std::string_view text);
+
+// Whether the character, one that utf8_length knows, acts on a terminal or on the order of what is read instead of
+// standing for itself: C0, DEL and C1 controls, line and paragraph separators, bidirectional overrides.
+bool is_control(std::string_view character);
+
+enum class Lines { one, many };  // many: line breaks (\n) and tabs stay
+
+// Control characters and bytes that are no UTF-8 as \xNN; everything else as it is.
+std::string printable(std::string_view text, Lines lines = Lines::one);
+
+}  // namespace noonmark

@@ -1,0 +1,199 @@
+// Nothing of an earlier run is taken for this one's: scenes that were edited, verdicts, stored numbers, pictures.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "compare/sqlite.h"
+#include "compare/store.h"
+#include "tests/program_fixture.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+const std::string small_view = "pictures = \"none\"\n[view]\nwidth_px = 48\nheight_px = 27\n";
+const std::string bound = "[[bound]]\nmetric = \"residual\"\nmax = 1e-6\n";
+
+class Stale : public Program {
+ protected:
+  bool there(const std::string& file) const { return fs::exists(folder_ / file); }
+  std::string text(const std::string& file) const { return read_file((folder_ / file).string()); }
+  std::string good() { return write("x.toml", "scene = \"plate\"\n" + small_view + bound); }
+};
+
+// A floor and a spot light above it, with the cone that is given, in radians.
+std::string lit_floor(const std::string& cone) {
+  const std::string down = R"("rotation": [-0.70710678118654757, 0, 0, 0.70710678118654757])";
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+"extensionsUsed": ["KHR_lights_punctual"],
+"extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"outerConeAngle": )" +
+         cone + R"(}}]}},
+"cameras": [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.5, "zfar": 40}}],
+"nodes": [{"mesh": 0, )" +
+         down + R"(, "scale": [8, 8, 1], "translation": [-4, 0, 4]},
+ {"camera": 0, )" +
+         down + R"(, "translation": [0, 6, 0]},
+ {"extensions": {"KHR_lights_punctual": {"light": 0}}, )" +
+         down +
+         R"(, "translation": [0, 4, 0]}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+ {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+"bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+"buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64,)"
+         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAAAAAAAAAAgD8AAAAAAAABAAIAAAACAAMA\"}]}";
+}
+
+TEST_F(Stale, AnEditedSpotConeIsAnotherScene) {
+  write("floor.gltf", lit_floor("0.6"));
+  const std::string experiment = write("x.toml", "scene = \"floor.gltf\"\n" + small_view);
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  const std::string csv = text("out/results.csv");
+  write("floor.gltf", lit_floor("0.3"));
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 2) << output_;
+  EXPECT_TRUE(says("scene ") && says("--overwrite")) << output_;
+  ASSERT_EQ(run({"run", experiment, "--out", "out", "--overwrite"}), 0) << output_;
+  EXPECT_NE(without_times(folder_ / "out/results.csv"), csv);
+  write("floor.gltf", "\n" + lit_floor("0.3") + "\n");  // the same scene in other bytes
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  EXPECT_TRUE(says("1 of 1 points are in out already")) << output_;
+}
+
+TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveARunThatFails) {
+  const std::string experiment = good();
+  const auto held = [&] {
+    ASSERT_EQ(run({"check", experiment, "--out", "out", "--overwrite"}), 0) << output_;
+    ASSERT_NE(text("out/summary.md").find("Held"), std::string::npos);
+  };
+  const auto verdict_says = [&](const std::string& why) {
+    EXPECT_NE(text("out/junit.xml").find("errors=\"1\""), std::string::npos);
+    EXPECT_NE(text("out/junit.xml").find(why), std::string::npos) << text("out/junit.xml");
+    EXPECT_NE(text("out/summary.md").find("Not judged"), std::string::npos);
+    EXPECT_EQ(text("out/summary.md").find("Held"), std::string::npos);
+  };
+  held();
+  write("x.toml", "scene = \n");
+  EXPECT_EQ(run({"check", experiment, "--out", "out"}), 2);
+  verdict_says("x.toml:1");
+
+  good();
+  held();
+  fs::remove(folder_ / "x.toml");
+  EXPECT_EQ(run({"check", experiment, "--out", "out"}), 2);
+  verdict_says("cannot be read");
+
+  good();
+  held();
+  EXPECT_EQ(run({"check", experiment, "--out", "out", "--set", "scene.name=absent.glb", "--overwrite"}), 3);
+  verdict_says("absent.glb");
+
+  good();
+  held();
+  EXPECT_EQ(run({"check", experiment, "--out", "out", "--set", "map.resolution=64"}), 2)
+      << "another experiment's store";
+  verdict_says("map.resolution");
+
+  good();
+  held();
+  EXPECT_EQ(run({"run", experiment, "--out", "out", "--set", "map.resolution=64"}), 2);
+  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md")) << "a run does not judge";
+
+  held();
+  write("x.toml", "scene = \n");
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 2);
+  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md"));
+}
+
+TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAKill) {
+  ASSERT_EQ(run({"check", good(), "--out", "out"}), 0) << output_;
+  ASSERT_TRUE(there("out/junit.xml"));
+  const std::string longer =
+      write("x.toml", "scene = \"plate\"\n" + small_view +
+                          "[sweep]\nmap.shift_u_texels = {min = 0, max = 1, steps = 500}\n" + bound);
+  const pid_t child = start({"check", longer, "--out", "out", "--overwrite"});
+  for (int i = 0; i < 6000 && text("output.txt").find("[1/500]") == std::string::npos; ++i) usleep(10000);
+  kill(child, SIGKILL);
+  ASSERT_EQ(wait_for(child), -SIGKILL);
+  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md") || there("out/report.html") ||
+               there("out/results.csv"));
+}
+
+TEST_F(Stale, AFolderIsCheckedToItsEnd) {
+  fs::create_directories(folder_ / "exps/sub");
+  write("exps/a.toml", "scene = \"plate\"\n" + small_view + bound);
+  write("exps/b.toml", "scne = \"plate\"\n");
+  write("exps/c.toml", "scene = \"absent.glb\"\n" + small_view + bound);
+  write("exps/sub/d.toml", "scene = \"plate\"\n" + small_view + "[[bound]]\nmetric = \"residual\"\nmax = -1\n");
+  write("exps/sub/e.toml", "scene = \"plate\"\n" + small_view);  // promises nothing
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}), 3) << "the worst of 0, 2, 3, 1 and 2: " << output_;
+  EXPECT_TRUE(says("did you mean 'scene'") && says("absent.glb") && says("has no [[bound]]")) << output_;
+  EXPECT_TRUE(says("3 of 5 experiments could not be checked")) << output_;
+  EXPECT_NE(text("out/a/summary.md").find("Held"), std::string::npos);
+  EXPECT_NE(text("out/b/junit.xml").find("did you mean"), std::string::npos);
+  EXPECT_NE(text("out/c/junit.xml").find("exit code 3"), std::string::npos);
+  EXPECT_NE(text("out/sub/d/junit.xml").find("<failure"), std::string::npos)
+      << "what comes after a bad file is checked";
+  EXPECT_NE(text("out/sub/e/summary.md").find("Not judged"), std::string::npos);
+}
+
+TEST_F(Stale, StoredNumbersThatWereEditedAreMeasuredAnew) {
+  const std::string experiment =
+      write("x.toml", "scene = \"plate\"\n" + small_view + "[sweep]\nmap.resolution = [16, 32]\n" + bound);
+  ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+  const std::string csv = without_times(folder_ / "out/results.csv");
+  const auto edit = [&](const char* sql) {
+    sqlite::Database((folder_ / "out/results.sqlite").string(), sqlite::Database::Mode::existing).execute(sql);
+  };
+  for (const char* sql :
+       {"UPDATE metrics SET value = 0.5 WHERE point = 1 AND name = 'residual'",
+        "DELETE FROM metrics WHERE point = 1 AND name = 'error'", "INSERT INTO metrics VALUES (7, 'residual', 3)"}) {
+    SCOPED_TRACE(sql);
+    edit(sql);
+    EXPECT_EQ(run({"report", "out"}), 3) << output_;
+    EXPECT_TRUE(says("are not those that were stored")) << output_;
+    EXPECT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+    EXPECT_TRUE(says("measured anew")) << output_;
+    EXPECT_EQ(without_times(folder_ / "out/results.csv"), csv);
+  }
+}
+
+TEST_F(Stale, ResultsOfAnotherProgramDriverOrMachineAreNotGoneOnWith) {
+  const std::string experiment = good();
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  for (const char* fact : {"noonmark", "program", "opengl", "embree", "machine"}) {
+    const std::string line = std::string(fact) + " = ";
+    sqlite::Database((folder_ / "out/results.sqlite").string(), sqlite::Database::Mode::existing)
+        .execute("UPDATE info SET value = replace(value, '" + line + "', '" + line +
+                 "other ') WHERE key = 'fingerprint'");
+    EXPECT_EQ(run({"run", experiment, "--out", "out"}), 2) << output_;
+    EXPECT_TRUE(says("now '" + line) && says("there '" + line + "other ")) << output_;
+    sqlite::Database((folder_ / "out/results.sqlite").string(), sqlite::Database::Mode::existing)
+        .execute("UPDATE info SET value = replace(value, 'other ', '') WHERE key = 'fingerprint'");
+  }
+}
+
+TEST_F(Stale, TheReportReadsItsOwnPicturesOnly) {
+  const std::string experiment =
+      write("x.toml", "scene = \"plate\"\npictures = \"first\"\n[view]\nwidth_px = 48\nheight_px = 27\n");
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  write("secret.png", "SECRET-BYTES");
+  const std::string encoded = "U0VDUkVULUJZVEVT";  // base64 of those
+  ResultStore store = ResultStore::open((folder_ / "out/results.sqlite").string());
+  fs::create_symlink("../../secret.png", folder_ / "out/images/link.png");
+  fs::create_symlink("/dev/zero", folder_ / "out/images/zero.png");
+  ASSERT_EQ(mkfifo((folder_ / "out/images/fifo.png").c_str(), 0600), 0);
+  store.set_pictures(0, {{"a", "images/link.png", ""},
+                         {"b", "../secret.png", ""},
+                         {"c", (folder_ / "secret.png").string(), ""},
+                         {"d", "images/zero.png", ""},
+                         {"e", "images/fifo.png", ""},
+                         {"f", "images/p0000-truth.png", ""}});
+  ASSERT_EQ(run({"report", "out"}, [] { alarm(60); }), 0) << "must not wait for a pipe: " << output_;
+  const std::string report = text("out/report.html");
+  EXPECT_EQ(report.find(encoded), std::string::npos);
+  size_t missing = 0;
+  for (size_t at = 0; (at = report.find("class=\"missing\"", at)) != std::string::npos; ++at) ++missing;
+  EXPECT_EQ(missing, 5u);
+  EXPECT_NE(report.find("data:image/png;base64,"), std::string::npos) << "its own is shown";
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance
