@@ -330,22 +330,28 @@ void run(const std::string& bytes) {
   }
 }
 
+std::string any_choices(size_t size, Random& random) {
+  std::string bytes(size, '\0');
+  for (char& c : bytes) c = static_cast<char>(random());
+  return bytes;
+}
+
 std::vector<std::string> seeds() {
   std::vector<std::string> all;
   Random random(7);
-  for (int i = 0; i < 24; ++i) {
-    std::string bytes(40 + 12 * static_cast<size_t>(i), '\0');
-    for (char& c : bytes) c = static_cast<char>(random());
-    bytes[0] = static_cast<char>(i);  // every built-in scene's turn comes too
-    all.push_back(bytes);
-  }
+  for (size_t i = 0; i < 24; ++i) all.push_back(any_choices(40 + 12 * i, random));
   return all;
+}
+
+// Every input means something, so that a new one finds as much as an edited one.
+std::string mutate(const std::string& bytes, Random& random, const EditBytes& edit) {
+  return below(random, 4) == 0 ? any_choices(20 + below(random, 300), random) : edit(bytes, random);
 }
 
 std::vector<std::string> words() { return {}; }
 
 }  // namespace
 
-const Target measurement_target = {"measurement", run, seeds, words, nullptr};
+const Target measurement_target = {"measurement", run, seeds, words, mutate};
 
 }  // namespace noonmark::fuzz
