@@ -29,28 +29,30 @@ uint32_t read_unsigned(const uint8_t* at, int type) {
 }
 
 // From byte `offset` of the view to the view's end.
-std::span<const uint8_t> view_bytes(const Document& document, Buffers& buffers, int view, size_t offset) {
-  const tinygltf::BufferView& v = document.model.bufferViews[static_cast<size_t>(view)];
-  return buffers.bytes(static_cast<size_t>(v.buffer)).subspan(v.byteOffset, v.byteLength).subspan(offset);
+std::span<const uint8_t> view_bytes(Buffers& buffers, int view, size_t offset) {
+  return buffers.view(view).subspan(offset);
 }
 
 }  // namespace
 
-AccessorReader::AccessorReader(const Document& document, Buffers& buffers, int accessor) {
+AccessorReader::AccessorReader(const tinygltf::Accessor& a, std::span<const uint8_t> packed)
+    : count_(a.count),
+      stride_(packed_stride(a)),
+      component_bytes_(static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)))),
+      component_type_(a.componentType),
+      normalized_(a.normalized),
+      data_(packed) {}
+
+AccessorReader::AccessorReader(const Document& document, Buffers& buffers, int accessor)
+    : AccessorReader(document.model.accessors[static_cast<size_t>(accessor)], {}) {
   const tinygltf::Accessor& a = document.model.accessors[static_cast<size_t>(accessor)];
-  count_ = a.count;
   stride_ = element_stride(document, a);
-  component_type_ = a.componentType;
-  component_bytes_ = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
-  normalized_ = a.normalized;
-  if (a.bufferView != -1) data_ = view_bytes(document, buffers, a.bufferView, a.byteOffset);
+  if (a.bufferView != -1) data_ = view_bytes(buffers, a.bufferView, a.byteOffset);
   if (!a.sparse.isSparse) return;
   sparse_count_ = static_cast<size_t>(a.sparse.count);
   sparse_index_type_ = a.sparse.indices.componentType;
-  sparse_indices_ =
-      view_bytes(document, buffers, a.sparse.indices.bufferView, static_cast<size_t>(a.sparse.indices.byteOffset));
-  sparse_values_ =
-      view_bytes(document, buffers, a.sparse.values.bufferView, static_cast<size_t>(a.sparse.values.byteOffset));
+  sparse_indices_ = view_bytes(buffers, a.sparse.indices.bufferView, static_cast<size_t>(a.sparse.indices.byteOffset));
+  sparse_values_ = view_bytes(buffers, a.sparse.values.bufferView, static_cast<size_t>(a.sparse.values.byteOffset));
   sparse_stride_ = packed_stride(a);
   check_sparse(document, accessor);
 }
@@ -103,19 +105,44 @@ double AccessorReader::component(const uint8_t* at) const {
   }
 }
 
+double AccessorReader::value(size_t i, size_t k) const {
+  const uint8_t* at = element(i);
+  return at == nullptr ? 0 : component(at + k * component_bytes_);
+}
+
 glm::dvec3 AccessorReader::vec3(size_t i) const {
   const uint8_t* at = element(i);
   if (at == nullptr) return glm::dvec3(0);
   return {component(at), component(at + component_bytes_), component(at + 2 * component_bytes_)};
 }
 
-uint32_t AccessorReader::index(size_t i) const {
+// Columns of four components of 4 bytes need no padding between them.
+glm::dmat4 AccessorReader::mat4(size_t i) const {
+  glm::dmat4 m(0);
   const uint8_t* at = element(i);
-  return at == nullptr ? 0 : read_unsigned(at, component_type_);
+  for (int k = 0; at != nullptr && k < 16; ++k)
+    m[k / 4][k % 4] = component(at + static_cast<size_t>(k) * component_bytes_);
+  return m;
+}
+
+uint32_t AccessorReader::index(size_t i, size_t k) const {
+  const uint8_t* at = element(i);
+  return at == nullptr ? 0 : read_unsigned(at + k * component_bytes_, component_type_);
 }
 
 uint32_t AccessorReader::restart_index() const {
   return component_bytes_ == 1 ? 0xffu : component_bytes_ == 2 ? 0xffffu : 0xffffffffu;
+}
+
+const AccessorReader& Readers::operator()(int accessor) {
+  if (const auto known = readers_.find(accessor); known != readers_.end()) return known->second;
+  const tinygltf::Accessor& a = document_.model.accessors[static_cast<size_t>(accessor)];
+  if (a.sparse.isSparse) sparse_elements_ += static_cast<uint64_t>(a.sparse.count);
+  if (sparse_elements_ > max_vertices) {
+    refuse(document_.file, fmt::format("accessors[{}].sparse.count", accessor),
+           fmt::format("the scene has more than {} sparse elements", max_vertices), "export without sparse accessors");
+  }
+  return readers_.try_emplace(accessor, document_, buffers_, accessor).first->second;
 }
 
 }  // namespace noonmark::gltf

@@ -9,6 +9,7 @@
 
 #include "scenes/gltf_container.h"
 #include "scenes/gltf_error.h"
+#include "scenes/gltf_meshopt.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -99,20 +100,33 @@ std::optional<std::vector<uint8_t>> base64_decoded(std::string_view text) {
 std::span<const uint8_t> Buffers::bytes(size_t buffer) {
   if (!loaded_[buffer]) {
     const std::string place = fmt::format("buffers[{}]", buffer);
-    const uint64_t length = document_.buffers[buffer].byte_length;
-    total_bytes_ += length;
-    if (total_bytes_ > max_file_bytes) {
-      refuse(document_.file, place + ".byteLength",
-             fmt::format("{} bytes of buffers are more than the {} allowed", total_bytes_, max_file_bytes),
-             "split the scene");
-    }
+    count(document_.guarded.buffers[buffer].byte_length, place);
     loaded_[buffer] = load(buffer, place);
   }
   return *loaded_[buffer];
 }
 
+std::span<const uint8_t> Buffers::view(int view) {
+  if (const auto known = decompressed_.find(view); known != decompressed_.end()) return known->second;
+  const tinygltf::BufferView& v = document_.model.bufferViews[static_cast<size_t>(view)];
+  const std::optional<MeshoptView> compressed = meshopt_view(document_, view);
+  if (!compressed) return bytes(static_cast<size_t>(v.buffer)).subspan(v.byteOffset, v.byteLength);
+  const std::span<const uint8_t> from = bytes(compressed->buffer).subspan(compressed->offset, compressed->length);
+  count(v.byteLength, compressed->place);
+  return decompressed_[view] = decompress(document_, *compressed, from);
+}
+
+void Buffers::count(uint64_t more, const std::string& place) {
+  total_bytes_ += more;
+  if (total_bytes_ > max_file_bytes) {
+    refuse(document_.file, place + ".byteLength",
+           fmt::format("{} bytes of buffers are more than the {} allowed", total_bytes_, max_file_bytes),
+           "split the scene");
+  }
+}
+
 std::vector<uint8_t> Buffers::load(size_t buffer, const std::string& place) const {
-  const BufferInfo& info = document_.buffers[buffer];
+  const BufferInfo& info = document_.guarded.buffers[buffer];
   const std::string& file = document_.file;
   constexpr std::string_view remedy = "export the file again";
   std::vector<uint8_t> data;

@@ -24,7 +24,9 @@ Container split_glb(const std::string& file, const std::vector<uint8_t>& bytes) 
   constexpr std::string_view remedy = "the file is damaged or was cut short: export or copy it again";
   if (bytes.size() < header_bytes) refuse(file, "GLB header", fmt::format("has {} of 12 bytes", bytes.size()), remedy);
   if (u32(bytes, 4) != 2) {
-    refuse(file, "GLB header", fmt::format("version {} is not 2", u32(bytes, 4)), "export it as glTF 2.0");
+    refuse(file, "GLB header",
+           fmt::format("version {} is not 2{}", u32(bytes, 4), u32(bytes, 4) == 1 ? ": this is glTF 1.0" : ""),
+           "export it as glTF 2.0");
   }
   const size_t length = u32(bytes, 8);
   if (length > bytes.size() || length < header_bytes) {

@@ -1,7 +1,10 @@
 #include "scenes/gltf_document.h"
 
+#include <utility>
+
 #include "scenes/gltf_container.h"
 #include "scenes/gltf_error.h"
+#include "scenes/gltf_precheck.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -23,17 +26,15 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-Document read_document(const std::string& file) {
+Document read_document(const std::string& file, std::optional<size_t> animation) {
   Container container = read_container(file);
-  GuardedDocument guarded = guard(file, container.json);
   Document out;
   out.file = file;
-  out.buffers = std::move(guarded.buffers);
+  out.guarded = guard(file, container.json, animation);
   out.bin = std::move(container.bin);
   out.has_bin = container.has_bin;
-  out.quantized = guarded.quantized;
 
-  const std::string json = guarded.json.dump();
+  const std::string json = std::exchange(out.guarded.json, nullptr).dump();
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks(no_files());
   parser.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
@@ -52,6 +53,11 @@ Document read_document(const std::string& file) {
   }
   check_structure(out);
   return out;
+}
+
+int indices_of(const tinygltf::Primitive& primitive) {
+  const auto found = primitive.attributes.find(indices_attribute);
+  return found == primitive.attributes.end() ? -1 : found->second;
 }
 
 }  // namespace noonmark::gltf

@@ -12,15 +12,17 @@ namespace noonmark::gltf {
 
 struct Document {
   std::string file;
-  tinygltf::Model model;  // without buffers, images, animations, skins
-  std::vector<BufferInfo> buffers;
+  tinygltf::Model model;  // without buffers, images, animations; a primitive's indices: indices_of()
   std::vector<uint8_t> bin;
   bool has_bin = false;
-  bool quantized = false;
+  GuardedDocument guarded;  // without its json, which is the model now
 };
 
-// Throws Error(scene).
-Document read_document(const std::string& file);
+// animation: the index of the one that poses the scene. Throws Error(scene).
+Document read_document(const std::string& file, std::optional<size_t> animation);
+
+// The accessor of a primitive's indices, or -1.
+int indices_of(const tinygltf::Primitive& primitive);
 
 // Throws Error(scene) naming the first thing of the model that does not hold together; read_document has called it.
 void check_structure(const Document& document);

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <span>
 #include <string_view>
 
 #include "scenes/gltf_error.h"
+#include "scenes/gltf_extensions.h"
 #include "scenes/gltf_precheck.h"
 
 namespace noonmark::gltf {
@@ -16,17 +18,20 @@ namespace {
 
 using nlohmann::json;
 
-enum class Kind { integer, integers, number, numbers, flag, text, texts, object, objects };
+// references: an object of indices by name, of which those of read_attribute() are kept; reference_lists: an array of
+// such.
+enum class Kind { integer, integers, number, numbers, flag, text, texts, object, objects, references, reference_lists };
 
 constexpr uint64_t max_index = 0x7fffffff;        // tinygltf keeps these in an int
 constexpr uint64_t max_size = uint64_t{1} << 53;  // integers that JSON carries exactly
+constexpr uint64_t any_count = 0;
 constexpr bool required = true;
 
 struct Field {
   std::string_view name;
   Kind kind;
   bool is_required = false;
-  uint64_t limit = max_index;       // integer(s): the largest; numbers: how many
+  uint64_t limit = max_index;       // integer(s): the largest; numbers: how many, any_count: as many as there are
   std::span<const Field> fields{};  // object(s): what is read of it
 };
 
@@ -44,21 +49,44 @@ constexpr Field accessor[] = {{"bufferView", Kind::integer},
                               {"count", Kind::integer, required, max_size},
                               {"type", Kind::text, required},
                               {"sparse", Kind::object, false, 0, sparse}};
+// EXT_meshopt_compression, KHR_meshopt_compression
+constexpr Field meshopt[] = {{"buffer", Kind::integer, required},
+                             {"byteOffset", Kind::integer, false, max_size},
+                             {"byteLength", Kind::integer, required, max_size},
+                             {"byteStride", Kind::integer, required, 256},
+                             {"count", Kind::integer, required, max_size},
+                             {"mode", Kind::text, required},
+                             {"filter", Kind::text}};
+constexpr Field buffer_view_extensions[] = {{"EXT_meshopt_compression", Kind::object, false, 0, meshopt},
+                                            {"KHR_meshopt_compression", Kind::object, false, 0, meshopt}};
 constexpr Field buffer_view[] = {{"buffer", Kind::integer, required},
                                  {"byteOffset", Kind::integer, false, max_size},
                                  {"byteLength", Kind::integer, required, max_size},
-                                 {"byteStride", Kind::integer, false, 252}};
+                                 {"byteStride", Kind::integer, false, 252},
+                                 {"extensions", Kind::object, false, 0, buffer_view_extensions}};
 constexpr Field buffer[] = {{"uri", Kind::text}, {"byteLength", Kind::integer, required, max_size}};
-constexpr Field attributes[] = {{"POSITION", Kind::integer}};
-constexpr Field primitive[] = {{"attributes", Kind::object, required, 0, attributes},
+constexpr Field draco[] = {{"bufferView", Kind::integer, required}, {"attributes", Kind::references, required}};
+constexpr Field primitive_extensions[] = {{"KHR_draco_mesh_compression", Kind::object, false, 0, draco}};
+constexpr Field primitive[] = {{"attributes", Kind::references, required},
                                {"indices", Kind::integer},
                                {"material", Kind::integer},
-                               {"mode", Kind::integer, false, 6}};
-constexpr Field mesh[] = {{"name", Kind::text}, {"primitives", Kind::objects, required, 0, primitive}};
+                               {"mode", Kind::integer, false, 6},
+                               {"targets", Kind::reference_lists},
+                               {"extensions", Kind::object, false, 0, primitive_extensions}};
+constexpr Field mesh[] = {{"name", Kind::text},
+                          {"primitives", Kind::objects, required, 0, primitive},
+                          {"weights", Kind::numbers, false, any_count}};
+constexpr Field skin[] = {{"inverseBindMatrices", Kind::integer}, {"joints", Kind::integers, required}};
 constexpr Field node_light[] = {{"light", Kind::integer, required}};
-constexpr Field node_extensions[] = {{"KHR_lights_punctual", Kind::object, false, 0, node_light}};
+constexpr Field visibility[] = {{"visible", Kind::flag}};
+constexpr Field instancing[] = {{"attributes", Kind::references, required}};
+constexpr Field node_extensions[] = {{"KHR_lights_punctual", Kind::object, false, 0, node_light},
+                                     {"KHR_node_visibility", Kind::object, false, 0, visibility},
+                                     {"EXT_mesh_gpu_instancing", Kind::object, false, 0, instancing}};
 constexpr Field node[] = {{"name", Kind::text},
                           {"mesh", Kind::integer},
+                          {"skin", Kind::integer},
+                          {"weights", Kind::numbers, false, any_count},
                           {"camera", Kind::integer},
                           {"children", Kind::integers},
                           {"matrix", Kind::numbers, false, 16},
@@ -70,10 +98,13 @@ constexpr Field scene[] = {{"name", Kind::text}, {"nodes", Kind::integers}};
 constexpr Field texture_info[] = {{"index", Kind::integer, required}};
 constexpr Field metallic_roughness[] = {{"baseColorFactor", Kind::numbers, false, 4},
                                         {"baseColorTexture", Kind::object, false, 0, texture_info}};
+constexpr Field material_extensions[] = {{"KHR_materials_transmission", Kind::object}};
 constexpr Field material[] = {{"name", Kind::text},
                               {"alphaMode", Kind::text},
                               {"alphaCutoff", Kind::number},
-                              {"pbrMetallicRoughness", Kind::object, false, 0, metallic_roughness}};
+                              {"doubleSided", Kind::flag},
+                              {"pbrMetallicRoughness", Kind::object, false, 0, metallic_roughness},
+                              {"extensions", Kind::object, false, 0, material_extensions}};
 constexpr Field perspective[] = {
     {"yfov", Kind::number, required}, {"znear", Kind::number, required}, {"zfar", Kind::number}};
 constexpr Field orthographic[] = {{"xmag", Kind::number, required},
@@ -88,6 +119,17 @@ constexpr Field light[] = {
     {"name", Kind::text}, {"type", Kind::text, required}, {"spot", Kind::object, false, 0, spot}};
 constexpr Field root_lights[] = {{"lights", Kind::objects, required, 0, light}};
 constexpr Field root_extensions[] = {{"KHR_lights_punctual", Kind::object, false, 0, root_lights}};
+// Read when a pose is asked for, of one animation: files whose animations are broken stand still all the same.
+constexpr Field pointer[] = {{"pointer", Kind::text, required}};
+constexpr Field target_extensions[] = {{"KHR_animation_pointer", Kind::object, false, 0, pointer}};
+constexpr Field channel_target[] = {
+    {"node", Kind::integer}, {"path", Kind::text, required}, {"extensions", Kind::object, false, 0, target_extensions}};
+constexpr Field channel[] = {{"sampler", Kind::integer, required},
+                             {"target", Kind::object, required, 0, channel_target}};
+constexpr Field animation_sampler[] = {
+    {"input", Kind::integer, required}, {"output", Kind::integer, required}, {"interpolation", Kind::text}};
+constexpr Field animation[] = {{"channels", Kind::objects, required, 0, channel},
+                               {"samplers", Kind::objects, required, 0, animation_sampler}};
 constexpr Field asset[] = {{"version", Kind::text, required}, {"minVersion", Kind::text}};
 constexpr Field root[] = {{"asset", Kind::object, required, 0, asset},
                           {"extensionsUsed", Kind::texts},
@@ -97,37 +139,22 @@ constexpr Field root[] = {{"asset", Kind::object, required, 0, asset},
                           {"scenes", Kind::objects, false, 0, scene},
                           {"nodes", Kind::objects, false, 0, node},
                           {"meshes", Kind::objects, false, 0, mesh},
+                          {"skins", Kind::objects, false, 0, skin},
                           {"materials", Kind::objects, false, 0, material},
                           {"cameras", Kind::objects, false, 0, camera},
                           {"accessors", Kind::objects, false, 0, accessor},
                           {"bufferViews", Kind::objects, false, 0, buffer_view},
                           {"buffers", Kind::objects, false, 0, buffer}};
 
-constexpr std::string_view quantization = "KHR_mesh_quantization";
-// The first two are read. The others change shading, textures or metadata only, so shadows are right without them.
-constexpr std::array<std::string_view, 21> supported_extensions = {
-    quantization,
-    "KHR_lights_punctual",
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_iridescence",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_materials_volume",
-    "KHR_texture_basisu",
-    "KHR_texture_transform",
-    "KHR_xmp_json_ld",
-    "EXT_texture_avif",
-    "EXT_texture_webp",
-    "MSFT_texture_dds",
-    "KHR_animation_pointer",
-};
+bool read_attribute(std::string_view name) {
+  for (std::string_view set : {"JOINTS_", "WEIGHTS_"}) {
+    if (name.starts_with(set) && name.size() > set.size() && name.size() <= set.size() + 3 &&
+        std::all_of(name.begin() + static_cast<std::ptrdiff_t>(set.size()), name.end(),
+                    [](unsigned char c) { return std::isdigit(c) != 0; }))
+      return true;
+  }
+  return name == "POSITION" || name == "TRANSLATION" || name == "ROTATION" || name == "SCALE";
+}
 
 class Reducer {
  public:
@@ -170,14 +197,17 @@ class Reducer {
         return from.is_string() ? from : (wrong(place, "a string", from), from);
       case Kind::object:
         return object(from, field.fields, place);
+      case Kind::references:
+        return references(from, place);
       case Kind::integers:
       case Kind::numbers:
       case Kind::texts:
       case Kind::objects:
+      case Kind::reference_lists:
         break;
     }
     if (!from.is_array()) wrong(place, "an array", from);
-    if (field.kind == Kind::numbers && from.size() != field.limit) {
+    if (field.kind == Kind::numbers && field.limit != any_count && from.size() != field.limit) {
       refuse(file_, place, fmt::format("has {} numbers instead of {}", from.size(), field.limit), remedy);
     }
     json to = json::array();
@@ -187,8 +217,18 @@ class Reducer {
       element.kind = field.kind == Kind::integers  ? Kind::integer
                      : field.kind == Kind::numbers ? Kind::number
                      : field.kind == Kind::texts   ? Kind::text
-                                                   : Kind::object;
+                     : field.kind == Kind::objects ? Kind::object
+                                                   : Kind::references;
       to.push_back(value(from[i], element, inner));
+    }
+    return to;
+  }
+
+  json references(const json& from, const std::string& place) const {
+    if (!from.is_object()) wrong(place, "an object", from);
+    json to = json::object();
+    for (const auto& [name, index] : from.items()) {
+      if (read_attribute(name)) to[name] = integer(index, max_index, place + "." + name);
     }
     return to;
   }
@@ -214,48 +254,53 @@ class Reducer {
   const std::string& file_;
 };
 
-// "2.1" -> 2. Anything but digits, a point and digits is refused by returning -1.
-int major_version(const std::string& version) {
+// "2.1" -> {2, 1}. Anything but digits, a point and digits: nothing.
+std::optional<std::pair<int, int>> version_of(const std::string& text) {
   int major = -1, minor = -1, used = 0;
-  if (version.size() > 8 || std::sscanf(version.c_str(), "%d.%d%n", &major, &minor, &used) != 2) return -1;
-  return static_cast<size_t>(used) == version.size() && minor >= 0 ? major : -1;
+  if (text.size() > 8 || std::sscanf(text.c_str(), "%d.%d%n", &major, &minor, &used) != 2) return std::nullopt;
+  if (static_cast<size_t>(used) != text.size() || major < 0 || minor < 0) return std::nullopt;
+  return std::pair(major, minor);
 }
 
+// glTF 2.0, section 3.2: minVersion, where it is given, is what a reader must support; else the major version is.
 void check_version(const std::string& file, const json& document) {
   const json& found = document["asset"];
-  const std::string version = found["version"].get<std::string>();
-  if (major_version(version) != 2) {
-    refuse(file, "asset.version", fmt::format("'{}' is not 2.x", printable(version)), "export it as glTF 2.0");
+  const std::string text = found["version"].get<std::string>();
+  const auto version = version_of(text);
+  constexpr std::string_view remedy = "export it as glTF 2.0";
+  if (!found.contains("minVersion")) {
+    if (!version || version->first != 2)
+      refuse(file, "asset.version", fmt::format("'{}' is not 2.x", printable(text)), remedy);
+    return;
   }
-  if (!found.contains("minVersion")) return;
-  const std::string least = found["minVersion"].get<std::string>();
-  if (least != "2.0") {
+  const std::string least_text = found["minVersion"].get<std::string>();
+  const auto least = version_of(least_text);
+  if (!least || least->first != 2 || least->second != 0) {
     refuse(file, "asset.minVersion",
-           fmt::format("needs a reader of version '{}', this one reads 2.0", printable(least)),
-           "export it as glTF 2.0");
+           fmt::format("needs a reader of version '{}', this one reads 2.0", printable(least_text)), remedy);
+  }
+  if (!version || *version < *least) {
+    refuse(file, "asset.minVersion",
+           fmt::format("'{}' is above asset.version '{}'", printable(least_text), printable(text)), remedy);
   }
 }
 
-void check_extensions(const std::string& file, const json& document) {
-  const json none = json::array();
-  const json& needed = document.contains("extensionsRequired") ? document["extensionsRequired"] : none;
-  for (size_t i = 0; i < needed.size(); ++i) {
-    const std::string name = needed[i].get<std::string>();
-    if (std::find(supported_extensions.begin(), supported_extensions.end(), name) == supported_extensions.end()) {
-      refuse(file, fmt::format("extensionsRequired[{}]", i), fmt::format("'{}' is not supported", printable(name)),
-             "export without it (compressed meshes: uncompressed)");
-    }
+// The animation that is asked for; null where the document stands at rest.
+json chosen_animation(const std::string& file, const json& whole, std::optional<size_t> index) {
+  if (!index) return nullptr;
+  const auto found = whole.find("animations");
+  const size_t count = found != whole.end() && found->is_array() ? found->size() : 0;
+  if (*index >= count) {
+    refuse(file, "animations",
+           count == 0 ? "there are none" : fmt::format("there are {}, from 0, and {} is asked for", count, *index),
+           count == 0 ? "leave scene.time_s at auto" : "choose another scene.animation");
   }
-}
-
-bool names_extension(const json& document, const char* list, std::string_view name) {
-  if (!document.contains(list)) return false;
-  return std::any_of(document[list].begin(), document[list].end(), [&](const json& one) { return one == name; });
+  return Reducer(file).object((*found)[*index], animation, fmt::format("animations[{}]", *index));
 }
 
 }  // namespace
 
-GuardedDocument guard(const std::string& file, const std::string& text) {
+GuardedDocument guard(const std::string& file, const std::string& text, std::optional<size_t> animation_index) {
   json whole;
   // The parser of JSON skips a byte order mark; glTF forbids it (section 2.7).
   if (text.starts_with("\xef\xbb\xbf"))
@@ -268,12 +313,17 @@ GuardedDocument guard(const std::string& file, const std::string& text) {
   GuardedDocument out;
   if (!whole.is_object()) refuse(file, "JSON", "not an object", "is this a glTF file?");
   // Before the rest: a file of glTF 1.0 would fail on its first property and not say why.
+  for (const char* list : {"scenes", "nodes", "meshes", "accessors"}) {
+    if (whole.contains(list) && whole[list].is_object())
+      refuse(file, list, "named objects where glTF 2.0 has an array: this is glTF 1.0", "export it as glTF 2.0");
+  }
   if (whole.contains("asset")) check_version(file, Reducer(file).object(whole, std::span(root).first(1), ""));
   out.json = Reducer(file).object(whole, root, "");
-  check_extensions(file, out.json);
-  check_before_tinygltf(file, out.json);
-  out.quantized = names_extension(out.json, "extensionsUsed", quantization) ||
-                  names_extension(out.json, "extensionsRequired", quantization);
+  check_extensions(file, out.json, out.notes);
+  out.quantized = uses_extension(out.json, "KHR_mesh_quantization");
+  out.animation = chosen_animation(file, whole, animation_index);
+  out.animations = whole.contains("animations") && whole["animations"].is_array() ? whole["animations"].size() : 0;
+  prepare_for_tinygltf(file, out);
   if (out.json.contains("buffers")) {
     for (const json& one : out.json["buffers"]) {
       BufferInfo info;

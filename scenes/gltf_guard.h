@@ -1,9 +1,10 @@
 // The guard before tinygltf. tinygltf accepts most malformed files, truncates integers silently and tries to read every
 // image; so it only ever sees a document made anew from a table of the properties that Noonmark uses, each of the right
-// type and in range. Everything else (extras, images, textures, animations, skins, morph targets) stays behind, and so
-// do the buffers, which gltf_buffers.cpp reads itself: tinygltf opens no file.
+// type and in range. Everything else (extras, images, textures) stays behind, and so do the buffers, which
+// gltf_buffers.cpp reads itself, and the animation that poses the scene (gltf_animation.h): tinygltf opens no file.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -19,10 +20,17 @@ struct BufferInfo {
 struct GuardedDocument {
   nlohmann::json json;  // without `buffers`
   std::vector<BufferInfo> buffers;
-  bool quantized = false;  // KHR_mesh_quantization is in use: positions may be integers
+  bool quantized = false;    // KHR_mesh_quantization is in use: positions may be integers
+  nlohmann::json animation;  // the one that poses the scene; null: at rest
+  size_t animations = 0;     // how many the file has
+  // Objects of a type that glTF does not know, by index: nothing that is drawn may use them. To tinygltf they look like
+  // another type.
+  std::map<size_t, std::string> unknown_accessors, unknown_cameras;
+  std::vector<std::string> notes;  // of extensions in use that are not read
 };
 
-// Throws Error(scene) naming the first place that is malformed, of another version, or needs an unsupported extension.
-GuardedDocument guard(const std::string& file, const std::string& json);
+// animation: the index of the one that poses the scene. Throws Error(scene) naming the first place that is malformed,
+// of another version, or needs an unsupported extension, and where there is no such animation.
+GuardedDocument guard(const std::string& file, const std::string& json, std::optional<size_t> animation);
 
 }  // namespace noonmark::gltf

@@ -8,7 +8,12 @@
 #include <map>
 
 #include "scenes/gltf_accessor.h"
+#include "scenes/gltf_draco.h"
 #include "scenes/gltf_error.h"
+#include "scenes/gltf_instances.h"
+#include "scenes/gltf_morph.h"
+#include "scenes/gltf_notes.h"
+#include "scenes/gltf_skin.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -20,16 +25,27 @@ struct Drawable {
   int positions = -1;
   int indices = -1;
   int mode = TINYGLTF_MODE_TRIANGLES;
-  uint64_t corners = 0;
+  bool draco = false;
+  uint64_t corners = 0;  // of a Draco mesh without an accessor for its indices they are known when it is decoded
   uint64_t triangles = 0;
+  bool single_sided = true;
 };
 
-bool masked_out(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
-  if (primitive.material == -1) return false;
-  const tinygltf::Material& material = model.materials[static_cast<size_t>(primitive.material)];
+// Of a primitive without a material: the default one (glTF 2.0, section 3.9.6).
+const tinygltf::Material& material_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+  static const tinygltf::Material by_default;
+  return primitive.material == -1 ? by_default : model.materials[static_cast<size_t>(primitive.material)];
+}
+
+bool masked_out(const tinygltf::Material& material) {
   const tinygltf::PbrMetallicRoughness& base = material.pbrMetallicRoughness;
   return material.alphaMode == "MASK" && base.baseColorTexture.index == -1 && base.baseColorFactor.size() == 4 &&
          base.baseColorFactor[3] < material.alphaCutoff;
+}
+
+uint64_t triangles_of(int mode, uint64_t corners) {
+  // What is left over of an incomplete triangle is ignored (glTF 2.0, section 3.7.2.1).
+  return corners < 3 ? 0 : mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners - 2;
 }
 
 std::vector<Drawable> drawables(const tinygltf::Model& model, const tinygltf::Mesh& mesh) {
@@ -38,12 +54,14 @@ std::vector<Drawable> drawables(const tinygltf::Model& model, const tinygltf::Me
     const tinygltf::Primitive& primitive = mesh.primitives[i];
     const auto position = primitive.attributes.find("POSITION");
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) continue;
-    if (masked_out(model, primitive)) continue;
-    Drawable d{i, position->second, primitive.indices, primitive.mode};
-    d.corners = model.accessors[static_cast<size_t>(d.indices == -1 ? d.positions : d.indices)].count;
-    // What is left over of an incomplete triangle is ignored (glTF 2.0, section 3.7.2.1).
-    d.triangles = d.corners < 3 ? 0 : d.mode == TINYGLTF_MODE_TRIANGLES ? d.corners / 3 : d.corners - 2;
-    if (d.triangles > 0) out.push_back(d);
+    const tinygltf::Material& material = material_of(model, primitive);
+    if (masked_out(material)) continue;
+    Drawable d{i, position->second, indices_of(primitive), primitive.mode, is_draco(primitive)};
+    if (d.indices != -1 || !d.draco)
+      d.corners = model.accessors[static_cast<size_t>(d.indices == -1 ? d.positions : d.indices)].count;
+    d.triangles = triangles_of(d.mode, d.corners);
+    d.single_sided = !material.doubleSided;
+    if (d.triangles > 0 || d.draco) out.push_back(d);
   }
   return out;
 }
@@ -88,28 +106,104 @@ class VertexMap {
   std::vector<uint32_t> places_;
 };
 
+// What a primitive is made of: its vertices in drawing order and the readers of its attributes, which are packed in
+// `draco` where they were compressed.
+struct Source {
+  DracoMesh draco;
+  std::map<int, AccessorReader> unpacked;
+  std::vector<uint32_t> vertices;
+};
+
 class Appender {
  public:
-  Appender(const Document& document, Buffers& buffers, Scene& scene) : d_(document), buffers_(buffers), scene_(scene) {}
+  Appender(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene)
+      : d_(document),
+        buffers_(buffers),
+        readers_(document, buffers),
+        skins_(document, readers_, placement.world_from_node),
+        scene_(scene) {}
 
-  void append(const PlacedNode& placed, size_t mesh, const Drawable& drawable) {
-    const AccessorReader& positions = reader(drawable.positions);
-    const std::vector<uint32_t> vertices = vertex_list(mesh, drawable, positions.count());
-    VertexMap map(vertices);
-    const bool mirrored = glm::determinant(glm::dmat3(placed.world_from_node)) < 0;
+  void append(const PlacedNode& placed, const Drawable& drawable) {
+    const tinygltf::Node& node = d_.model.nodes[placed.node];
+    Source made;
+    const Source& source = drawable.draco ? decoded(node.mesh, drawable) : made;
+    if (!drawable.draco)
+      made.vertices =
+          vertex_list(node.mesh, drawable, d_.model.accessors[static_cast<size_t>(drawable.positions)].count);
+    if (source.vertices.empty()) return;
+    const auto reader = [&](int accessor) -> const AccessorReader& {
+      const auto found = source.unpacked.find(accessor);
+      return found != source.unpacked.end() ? found->second : readers_(accessor);
+    };
+    const MorphedPositions positions(d_, readers_, reader(drawable.positions), node, drawable.primitive);
     Part part;
     part.first_triangle = static_cast<uint32_t>(scene_.triangles.size());
-    for (uint32_t t = 0; t < drawable.triangles; ++t) {
-      glm::uvec3 triangle = corners_of(drawable.mode, t);
-      if (mirrored) std::swap(triangle.y, triangle.z);
+    const uint64_t instances = instance_count(d_, placed.node);
+    // Of a Draco mesh without an accessor for its indices, append_geometry could not count the triangles.
+    if (scene_.triangles.size() + instances * (source.vertices.size() / 3) > max_triangles)
+      refuse(d_.file, fmt::format("nodes[{}].mesh", placed.node),
+             fmt::format("the scene has more than the {} triangles allowed", max_triangles), "simplify it or split it");
+    if (node.skin != -1) {
+      const SkinnedVertices skin =
+          skins_.vertices(node.skin, node.mesh, drawable.primitive, reader(drawable.positions).count(), reader);
+      count_reads(placed, source, 1 + positions.targets() + 2 * skin.sets());
+      if (instances != 1 || d_.model.nodes[placed.node].extensions.contains("EXT_mesh_gpu_instancing"))
+        refuse(d_.file, fmt::format("nodes[{}]", placed.node),
+               "instances of a mesh under a skin: glTF does not say where", "export without EXT_mesh_gpu_instancing");
+      append_triangles(placed, drawable, source, positions, [&](uint32_t v) { return skin.world_from_mesh(v); });
+    } else {
+      require_invertible(d_, placed);
+      count_reads(placed, source, instances * (1 + positions.targets()));
+      const Instances places(d_, readers_, placed.node);
+      for (uint64_t i = 0; i < instances; ++i) {
+        const glm::dmat4 world_from_mesh = placed.world_from_node * places.node_from_mesh(i);
+        append_triangles(placed, drawable, source, positions, [&](uint32_t) { return world_from_mesh; });
+      }
+    }
+    part.triangle_count = static_cast<uint32_t>(scene_.triangles.size()) - part.first_triangle;
+    if (part.triangle_count == 0) return;
+    part.name = part_name(placed, drawable);
+    scene_.parts.push_back(std::move(part));
+  }
+
+  uint64_t degenerate_triangles() const { return degenerate_; }
+
+ private:
+  // Morph targets and sets of joints multiply what is read for each vertex; a small file can ask for hours of it.
+  void count_reads(const PlacedNode& placed, const Source& source, uint64_t each) {
+    constexpr uint64_t max_reads = uint64_t{1} << 31;
+    reads_ += each > max_reads ? max_reads + 1 : each * source.vertices.size();
+    if (reads_ > max_reads)
+      refuse(d_.file, fmt::format("nodes[{}].mesh", placed.node),
+             fmt::format("more than {} values are to be read for vertices, morph targets and joints", max_reads),
+             "simplify it or split it");
+  }
+
+  // world_from_mesh(v): of vertex v.
+  template <class WorldFromMesh>
+  void append_triangles(const PlacedNode& placed, const Drawable& drawable, const Source& source,
+                        const MorphedPositions& positions, const WorldFromMesh& world_from_mesh) {
+    const std::vector<uint32_t>& vertices = source.vertices;
+    VertexMap map(vertices);
+    const int mode = drawable.draco ? TINYGLTF_MODE_TRIANGLES : drawable.mode;
+    const auto count = static_cast<uint32_t>(triangles_of(mode, vertices.size()));
+    for (uint32_t t = 0; t < count; ++t) {
+      glm::uvec3 triangle = corners_of(mode, t);
       glm::vec3 corner[3];
+      double orientation = 0;  // below 0: mirrored, at most corners; joints may differ
       for (int k = 0; k < 3; ++k) {
         triangle[k] = vertices[triangle[k]];
+        const glm::dmat4 world = world_from_mesh(triangle[k]);
+        orientation += glm::determinant(glm::dmat3(world));
         const uint32_t known = map.place_of(triangle[k]);
-        corner[k] =
-            known != unused ? scene_.positions[known] : world_position(placed, drawable, positions, triangle[k]);
+        corner[k] = known != unused ? scene_.positions[known]
+                                    : world_position(placed, drawable, world, positions.at(triangle[k]), triangle[k]);
       }
-      if (degenerate(corner[0], corner[1], corner[2])) continue;
+      if (degenerate(corner[0], corner[1], corner[2])) {
+        ++degenerate_;
+        continue;
+      }
+      if (orientation < 0) std::swap(triangle.y, triangle.z), std::swap(corner[1], corner[2]);
       for (int k = 0; k < 3; ++k) {
         uint32_t& place = map.place_of(triangle[k]);
         if (place == unused) {
@@ -119,35 +213,30 @@ class Appender {
         triangle[k] = place;
       }
       scene_.triangles.push_back(triangle);
+      scene_.single_sided.push_back(drawable.single_sided);
     }
-    part.triangle_count = static_cast<uint32_t>(scene_.triangles.size()) - part.first_triangle;
-    if (part.triangle_count == 0) return;
-    part.name = part_name(placed, mesh, drawable);
-    scene_.parts.push_back(std::move(part));
   }
 
- private:
-  const AccessorReader& reader(int accessor) {
-    if (const auto known = readers_.find(accessor); known != readers_.end()) return known->second;
-    // Many accessors may share one long list of sparse indices, and each reader goes through the whole list.
-    const tinygltf::Accessor& a = d_.model.accessors[static_cast<size_t>(accessor)];
-    if (a.sparse.isSparse) sparse_elements_ += static_cast<uint64_t>(a.sparse.count);
-    if (sparse_elements_ > 3 * max_triangles) {
-      refuse(d_.file, fmt::format("accessors[{}].sparse.count", accessor),
-             fmt::format("the scene has more than {} sparse elements", 3 * max_triangles),
-             "export without sparse accessors");
-    }
-    return readers_.try_emplace(accessor, d_, buffers_, accessor).first->second;
+  // Decoded once, however many nodes show it.
+  const Source& decoded(int mesh, const Drawable& drawable) {
+    const auto [found, fresh] = decoded_.try_emplace({mesh, drawable.primitive});
+    Source& source = found->second;
+    if (!fresh) return source;
+    source.draco = decode_draco(d_, buffers_, mesh, drawable.primitive);
+    for (const auto& [accessor, bytes] : source.draco.elements)
+      source.unpacked.try_emplace(accessor, d_.model.accessors[static_cast<size_t>(accessor)], bytes);
+    source.vertices = std::move(source.draco.corners);
+    return source;
   }
 
   // The vertices in drawing order, each below count.
-  std::vector<uint32_t> vertex_list(size_t mesh, const Drawable& drawable, size_t count) {
+  std::vector<uint32_t> vertex_list(int mesh, const Drawable& drawable, size_t count) {
     std::vector<uint32_t> list(drawable.corners);
     if (drawable.indices == -1) {
       for (size_t i = 0; i < list.size(); ++i) list[i] = static_cast<uint32_t>(i);
       return list;
     }
-    const AccessorReader& indices = reader(drawable.indices);
+    const AccessorReader& indices = readers_(drawable.indices);
     for (size_t i = 0; i < list.size(); ++i) {
       list[i] = indices.index(i);
       if (list[i] < count && list[i] != indices.restart_index()) continue;
@@ -161,10 +250,9 @@ class Appender {
     return list;
   }
 
-  glm::vec3 world_position(const PlacedNode& placed, const Drawable& drawable, const AccessorReader& positions,
-                           uint32_t vertex) const {
-    const glm::dvec3 local = positions.vec3(vertex);
-    const glm::dvec3 world = glm::dvec3(placed.world_from_node * glm::dvec4(local, 1));
+  glm::vec3 world_position(const PlacedNode& placed, const Drawable& drawable, const glm::dmat4& world_from_mesh,
+                           const glm::dvec3& local, uint32_t vertex) const {
+    const glm::dvec3 world = glm::dvec3(world_from_mesh * glm::dvec4(local, 1));
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(world[axis]) <= max_coordinate_m) continue;  // false for NaN
       const std::string place = fmt::format("accessors[{}]", drawable.positions);
@@ -179,36 +267,45 @@ class Appender {
     return glm::vec3(world);
   }
 
-  std::string part_name(const PlacedNode& placed, size_t mesh, const Drawable& drawable) const {
-    const std::string& node_name = d_.model.nodes[placed.node].name;
-    const std::string& mesh_name = d_.model.meshes[mesh].name;
-    const std::string name = !node_name.empty()   ? node_name
-                             : !mesh_name.empty() ? mesh_name
+  std::string part_name(const PlacedNode& placed, const Drawable& drawable) const {
+    const tinygltf::Node& node = d_.model.nodes[placed.node];
+    const tinygltf::Mesh& mesh = d_.model.meshes[static_cast<size_t>(node.mesh)];
+    const std::string name = !node.name.empty()   ? node.name
+                             : !mesh.name.empty() ? mesh.name
                                                   : fmt::format("node {}", placed.node);
-    return d_.model.meshes[mesh].primitives.size() == 1 ? name : fmt::format("{}/{}", name, drawable.primitive);
+    return mesh.primitives.size() == 1 ? name : fmt::format("{}/{}", name, drawable.primitive);
   }
 
   const Document& d_;
   Buffers& buffers_;
+  Readers readers_;  // by accessor: instances share them
+  Skins skins_;
   Scene& scene_;
-  std::map<int, AccessorReader> readers_;  // by accessor: instances share them
-  uint64_t sparse_elements_ = 0;
+  std::map<std::pair<int, size_t>, Source> decoded_;  // Draco's, by mesh and primitive
+  uint64_t reads_ = 0, degenerate_ = 0;
 };
+
+// Whether the node's mesh is seen. A skin goes by its joints: its own node may be scaled to nothing.
+bool draws(const tinygltf::Node& node, const PlacedNode& placed) {
+  return node.mesh != -1 && placed.visible && (!placed.collapsed || node.skin != -1);
+}
 
 }  // namespace
 
-void append_geometry(const Document& document, Buffers& buffers, const std::vector<PlacedNode>& nodes, Scene& scene) {
+void append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene) {
   const tinygltf::Model& model = document.model;
   std::vector<std::vector<Drawable>> meshes;
   for (const tinygltf::Mesh& mesh : model.meshes) meshes.push_back(drawables(model, mesh));
 
   uint64_t triangles = 0;
-  for (const PlacedNode& placed : nodes) {
-    const int mesh = model.nodes[placed.node].mesh;
-    if (mesh == -1) continue;
-    for (const Drawable& drawable : meshes[static_cast<size_t>(mesh)]) {
-      // Each count is below 2^53 and the sum stays below 2^26 before it is added: no overflow.
-      triangles += drawable.triangles;
+  for (const PlacedNode& placed : placement.nodes) {
+    const tinygltf::Node& node = model.nodes[placed.node];
+    if (!draws(node, placed)) continue;
+    const uint64_t instances = instance_count(document, placed.node);
+    for (const Drawable& drawable : meshes[static_cast<size_t>(node.mesh)]) {
+      // Each count is below 2^53 and the sum at most 2^26 before one is added: no overflow.
+      const bool too_many = drawable.triangles > max_triangles || instances > max_triangles;
+      triangles += too_many ? max_triangles + 1 : drawable.triangles * instances;
       if (triangles > max_triangles || drawable.corners > 3 * max_triangles) {
         refuse(document.file, fmt::format("nodes[{}].mesh", placed.node),
                fmt::format("the scene has more than the {} triangles allowed", max_triangles),
@@ -216,14 +313,14 @@ void append_geometry(const Document& document, Buffers& buffers, const std::vect
       }
     }
   }
-  Appender appender(document, buffers, scene);
-  for (const PlacedNode& placed : nodes) {
-    const int mesh = model.nodes[placed.node].mesh;
-    if (mesh == -1) continue;
-    for (const Drawable& drawable : meshes[static_cast<size_t>(mesh)]) {
-      appender.append(placed, static_cast<size_t>(mesh), drawable);
-    }
+  Appender appender(document, buffers, placement, scene);
+  for (const PlacedNode& placed : placement.nodes) {
+    const tinygltf::Node& node = model.nodes[placed.node];
+    if (!draws(node, placed)) continue;
+    for (const Drawable& drawable : meshes[static_cast<size_t>(node.mesh)]) appender.append(placed, drawable);
   }
+  if (const uint64_t dropped = appender.degenerate_triangles(); dropped > 0)
+    scene.notes.push_back(counted(dropped, "triangle") + " without an area: left out, and not numbered");
 }
 
 }  // namespace noonmark::gltf

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
 #include "scenes/gltf_error.h"
+#include "scenes/gltf_notes.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -70,26 +72,29 @@ double relative_determinant(const glm::dmat4& m) {
   return lengths > 0 && std::isfinite(lengths) ? std::abs(glm::determinant(axes)) / lengths : 0;
 }
 
-glm::dmat4 local_transform(const Document& document, size_t index) {
+// What tinygltf cannot tell of a node's own transform.
+void check_local_transform(const Document& document, size_t index) {
   const tinygltf::Node& node = document.model.nodes[index];
-  const std::string place = place_of(index);
+  if (const auto& m = node.matrix; !m.empty() && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
+    refuse(document.file, place_of(index) + ".matrix", "its last row is not 0 0 0 1", remedy);
+  if (const auto& r = node.rotation; !r.empty()) {
+    const double length = glm::length(glm::dquat(r[3], r[0], r[1], r[2]));
+    if (!(std::abs(length - 1) <= unit_tolerance))
+      refuse(document.file, place_of(index) + ".rotation",
+             fmt::format("a quaternion of length {} instead of 1", length), remedy);
+  }
+}
+
+glm::dmat4 local_transform(const tinygltf::Node& node) {
   glm::dmat4 m(1);
   if (!node.matrix.empty()) {
     for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
-    if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) {
-      refuse(document.file, place + ".matrix", "its last row is not 0 0 0 1", remedy);
-    }
     return m;
   }
   glm::dmat3 axes(1);
-  if (!node.rotation.empty()) {
-    const glm::dquat q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    const double length = glm::length(q);
-    if (!(std::abs(length - 1) <= unit_tolerance)) {
-      refuse(document.file, place + ".rotation", fmt::format("a quaternion of length {} instead of 1", length), remedy);
-    }
-    axes = glm::mat3_cast(q / length);
-  }
+  if (!node.rotation.empty())
+    axes = glm::mat3_cast(
+        glm::normalize(glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2])));
   for (int axis = 0; axis < 3; ++axis) {
     const glm::dvec3 column = axes[axis] * (node.scale.empty() ? 1.0 : node.scale[static_cast<size_t>(axis)]);
     m[axis] = glm::dvec4(column, 0);
@@ -98,61 +103,128 @@ glm::dmat4 local_transform(const Document& document, size_t index) {
   return m;
 }
 
-bool hidden(const tinygltf::Node& node) {
+bool scaled_to_zero(const tinygltf::Node& node) {
   return node.matrix.empty() && node.scale.size() == 3 && node.scale[0] == 0 && node.scale[1] == 0 &&
          node.scale[2] == 0;
 }
 
-void check_transform(const Document& document, size_t node, const glm::dmat4& world) {
-  // Below this the three axes lie in a plane as far as double arithmetic can tell (16 digits, less what products lose).
-  constexpr double least_determinant = 1e-12;
+bool visible(const tinygltf::Node& node) {
+  const auto found = node.extensions.find("KHR_node_visibility");
+  return found == node.extensions.end() || !found->second.Has("visible") || found->second.Get("visible").Get<bool>();
+}
+
+void check_place(const Document& document, size_t node, const glm::dmat4& world) {
   if (!all_finite(world)) refuse(document.file, place_of(node), "its place in the world is not finite", remedy);
   if (glm::any(glm::greaterThan(glm::abs(glm::dvec3(world[3])), glm::dvec3(max_coordinate_m)))) {
     refuse(document.file, place_of(node), fmt::format("stands more than {} m from the origin", max_coordinate_m),
            "scale the scene to metres");
   }
-  if (!(relative_determinant(world) > least_determinant)) {
-    refuse(document.file, place_of(node), "its transform cannot be inverted: it flattens what is below it",
-           "give every axis a scale other than 0");
+}
+
+// Every node of the file, placed.
+std::vector<PlacedNode> place_all(const Document& document, const std::vector<int>& parents) {
+  const auto& nodes = document.model.nodes;
+  std::vector<PlacedNode> placed(nodes.size());
+  std::vector<size_t> open;
+  for (size_t i = nodes.size(); i-- > 0;) {
+    if (parents[i] == no_parent) open.push_back(i);
   }
+  while (!open.empty()) {
+    const size_t i = open.back();
+    open.pop_back();
+    PlacedNode& here = placed[i];
+    here = {i, local_transform(nodes[i]), visible(nodes[i]), scaled_to_zero(nodes[i])};
+    if (parents[i] != no_parent) {
+      const PlacedNode& parent = placed[static_cast<size_t>(parents[i])];
+      here.world_from_node = parent.world_from_node * here.world_from_node;
+      here.visible = here.visible && parent.visible;
+      here.collapsed = here.collapsed || parent.collapsed;
+    }
+    for (int child : nodes[i].children) open.push_back(static_cast<size_t>(child));
+  }
+  return placed;
+}
+
+// The roots of the scene that is shown, each once.
+std::vector<size_t> find_roots(const Document& document, const std::vector<int>& parents,
+                               std::vector<std::string>& notes) {
+  const tinygltf::Model& model = document.model;
+  std::vector<size_t> roots;
+  if (model.scenes.empty()) {
+    for (size_t i = 0; i < parents.size(); ++i) {
+      if (parents[i] == no_parent) roots.push_back(i);
+    }
+    notes.push_back("it lists no scenes: all its nodes are shown");
+    return roots;
+  }
+  const size_t shown = static_cast<size_t>(model.defaultScene == -1 ? 0 : model.defaultScene);
+  if (model.scenes.size() > 1) notes.push_back(fmt::format("scene {} of {} is shown", shown, model.scenes.size()));
+
+  std::vector<bool> listed(model.nodes.size(), false);
+  uint64_t twice = 0, below = 0, children = 0;
+  for (int root : model.scenes[shown].nodes) {
+    if (listed[static_cast<size_t>(root)]) {
+      ++twice;
+      continue;
+    }
+    listed[static_cast<size_t>(root)] = true;
+    roots.push_back(static_cast<size_t>(root));
+  }
+  // below_listed[i]: an ancestor of i is listed, so that i is drawn with it.
+  std::vector<bool> below_listed(model.nodes.size(), false);
+  std::vector<size_t> open;
+  for (size_t i = 0; i < parents.size(); ++i) {
+    if (parents[i] == no_parent) open.push_back(i);
+  }
+  while (!open.empty()) {
+    const size_t i = open.back();
+    open.pop_back();
+    for (int child : model.nodes[i].children) {
+      below_listed[static_cast<size_t>(child)] = listed[i] || below_listed[i];
+      open.push_back(static_cast<size_t>(child));
+    }
+  }
+  std::erase_if(roots, [&](size_t root) {
+    children += parents[root] != no_parent && !below_listed[root];
+    below += below_listed[root];
+    return below_listed[root];
+  });
+  if (twice > 0) notes.push_back(counted(twice, "node") + " that the scene lists twice: drawn once");
+  if (below > 0) notes.push_back(counted(below, "node") + " that the scene lists beside an ancestor: drawn once");
+  if (children > 0)
+    notes.push_back(counted(children, "root") + " of the scene that have parents: drawn where these put them");
+  return roots;
 }
 
 }  // namespace
 
-std::vector<PlacedNode> place_nodes(const Document& document) {
-  const tinygltf::Model& model = document.model;
+Placement place_nodes(const Document& document, std::vector<std::string>& notes) {
   const std::vector<int> parents = find_parents(document);
   refuse_cycles(document, parents);
-  if (model.scenes.empty()) refuse(document.file, "scenes", "there is none", "export a scene, not a library of parts");
-  const size_t shown = static_cast<size_t>(model.defaultScene == -1 ? 0 : model.defaultScene);
-
-  std::vector<PlacedNode> open, placed;
-  std::vector<bool> is_root(model.nodes.size(), false);
-  const std::vector<int>& roots = model.scenes[shown].nodes;
-  for (size_t i = 0; i < roots.size(); ++i) {
-    const auto root = static_cast<size_t>(roots[i]);
-    const std::string place = fmt::format("scenes[{}].nodes[{}]", shown, i);
-    if (parents[root] != no_parent) {
-      refuse(document.file, place, fmt::format("nodes[{}] is a child of nodes[{}], not a root", root, parents[root]),
-             "list root nodes only");
-    }
-    if (is_root[root]) refuse(document.file, place, fmt::format("nodes[{}] is listed twice", root), "list it once");
-    is_root[root] = true;
-  }
-  for (size_t i = roots.size(); i-- > 0;) open.push_back({static_cast<size_t>(roots[i]), glm::dmat4(1)});
+  const std::vector<PlacedNode> all = place_all(document, parents);
+  std::vector<size_t> open = find_roots(document, parents, notes);
+  std::reverse(open.begin(), open.end());
+  Placement placement;
   while (!open.empty()) {
-    PlacedNode here = open.back();
+    const size_t i = open.back();
     open.pop_back();
-    const tinygltf::Node& node = model.nodes[here.node];
-    if (hidden(node)) continue;
-    here.world_from_node = here.world_from_node * local_transform(document, here.node);
-    check_transform(document, here.node, here.world_from_node);
-    placed.push_back(here);
-    for (size_t i = node.children.size(); i-- > 0;) {
-      open.push_back({static_cast<size_t>(node.children[i]), here.world_from_node});
-    }
+    check_local_transform(document, i);
+    check_place(document, i, all[i].world_from_node);
+    placement.nodes.push_back(all[i]);
+    const std::vector<int>& children = document.model.nodes[i].children;
+    for (size_t k = children.size(); k-- > 0;) open.push_back(static_cast<size_t>(children[k]));
   }
-  return placed;
+  for (const PlacedNode& one : all) placement.world_from_node.push_back(one.world_from_node);
+  return placement;
+}
+
+void require_invertible(const Document& document, const PlacedNode& placed) {
+  // Below this the three axes lie in a plane as far as double arithmetic can tell (16 digits, less what products lose).
+  constexpr double least_determinant = 1e-12;
+  if (!(relative_determinant(placed.world_from_node) > least_determinant)) {
+    refuse(document.file, place_of(placed.node), "its transform cannot be inverted: it flattens what is below it",
+           "give every axis a scale other than 0");
+  }
 }
 
 }  // namespace noonmark::gltf

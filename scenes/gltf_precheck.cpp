@@ -15,13 +15,6 @@ using nlohmann::json;
 
 constexpr std::string_view remedy = "export the file again, or correct it";
 
-// The list of that name; empty where the document has none.
-const json& list(const json& document, const char* name) {
-  static const json none = json::array();
-  const auto found = document.find(name);
-  return found == document.end() ? none : *found;
-}
-
 void check_node(const std::string& file, const json& node, const std::string& place) {
   // tinygltf drops what stands beside a matrix.
   if (node.contains("matrix") &&
@@ -30,11 +23,11 @@ void check_node(const std::string& file, const json& node, const std::string& pl
   }
 }
 
-void check_camera(const std::string& file, const json& camera, const std::string& place) {
+// Empty, or why the camera's type is none of glTF's.
+std::string check_camera(const std::string& file, const json& camera, const std::string& place) {
   const std::string type = camera["type"].get<std::string>();
-  if (type != "perspective" && type != "orthographic") {
-    refuse(file, place + ".type", fmt::format("'{}' is neither perspective nor orthographic", printable(type)), remedy);
-  }
+  if (type != "perspective" && type != "orthographic")
+    return fmt::format("type '{}' is neither perspective nor orthographic", printable(type));
   if (!camera.contains(type)) refuse(file, place + "." + type, "is missing", remedy);
   if (camera.contains("perspective") && camera.contains("orthographic")) {
     refuse(file, place, "has both perspective and orthographic", remedy);
@@ -42,6 +35,7 @@ void check_camera(const std::string& file, const json& camera, const std::string
   // tinygltf takes 0 for an absent zfar.
   if (type == "perspective" && camera[type].value("zfar", 1.0) == 0)
     refuse(file, place + ".perspective.zfar", "is 0", remedy);
+  return "";
 }
 
 void check_light(const std::string& file, const json& light, const std::string& place) {
@@ -57,45 +51,51 @@ void check_view(const std::string& file, const json& view, const std::string& pl
   }
 }
 
-void check_accessor(const std::string& file, const json& accessor, const std::string& place) {
+// Empty, or why the accessor's type is none of glTF's.
+std::string unknown_type(const json& accessor) {
   constexpr std::array<std::string_view, 7> types = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+  constexpr std::array<int, 6> component_types = {5120, 5121, 5122, 5123, 5125, 5126};
   const std::string type = accessor["type"].get<std::string>();
-  if (std::find(types.begin(), types.end(), type) == types.end()) {
-    refuse(file, place + ".type", fmt::format("'{}' is none of glTF's", printable(type)), remedy);
-  }
-}
-
-void check_mesh(const std::string& file, const json& document, const json& mesh, const std::string& place) {
-  const json& accessors = list(document, "accessors");
-  const json& views = list(document, "bufferViews");
-  const json& primitives = mesh["primitives"];
-  for (size_t i = 0; i < primitives.size(); ++i) {
-    if (!primitives[i].contains("indices")) continue;
-    const std::string here = fmt::format("{}.primitives[{}].indices", place, i);
-    const size_t index = primitives[i]["indices"].get<size_t>();
-    if (index >= accessors.size()) {
-      refuse(file, here, fmt::format("{} refers beyond the {} accessors", index, accessors.size()), remedy);
-    }
-    // Allowed where the indices are sparse, but nobody writes that, and tinygltf refuses it.
-    const json& accessor = accessors[index];
-    if (!accessor.contains("bufferView") || accessor["bufferView"].get<size_t>() >= views.size()) {
-      refuse(file, fmt::format("accessors[{}].bufferView", index), "indices without a bufferView that exists", remedy);
-    }
-  }
+  const int component = accessor["componentType"].get<int>();
+  if (std::find(types.begin(), types.end(), type) == types.end())
+    return fmt::format("type: '{}' is none of glTF's", printable(type));
+  if (std::find(component_types.begin(), component_types.end(), component) == component_types.end())
+    return fmt::format("componentType: {} is none of glTF's", component);
+  return "";
 }
 
 }  // namespace
 
-void check_before_tinygltf(const std::string& file, const json& document) {
-  const auto each = [&](const char* name, const auto& check) {
-    const json& items = list(document, name);
-    for (size_t i = 0; i < items.size(); ++i) check(items[i], fmt::format("{}[{}]", name, i));
+void prepare_for_tinygltf(const std::string& file, GuardedDocument& guarded) {
+  json& document = guarded.json;
+  const auto each = [&](const char* name, const auto& step) {
+    const auto found = document.find(name);
+    for (size_t i = 0; found != document.end() && i < found->size(); ++i) {
+      step(i, (*found)[i], fmt::format("{}[{}]", name, i));
+    }
   };
-  each("nodes", [&](const json& one, const std::string& place) { check_node(file, one, place); });
-  each("cameras", [&](const json& one, const std::string& place) { check_camera(file, one, place); });
-  each("bufferViews", [&](const json& one, const std::string& place) { check_view(file, one, place); });
-  each("accessors", [&](const json& one, const std::string& place) { check_accessor(file, one, place); });
-  each("meshes", [&](const json& one, const std::string& place) { check_mesh(file, document, one, place); });
+  each("nodes", [&](size_t, const json& one, const std::string& place) { check_node(file, one, place); });
+  each("bufferViews", [&](size_t, const json& one, const std::string& place) { check_view(file, one, place); });
+  each("cameras", [&](size_t i, json& one, const std::string& place) {
+    const std::string unknown = check_camera(file, one, place);
+    if (unknown.empty()) return;
+    guarded.unknown_cameras[i] = unknown;
+    one = {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 1.0}}}};
+  });
+  each("accessors", [&](size_t i, json& one, const std::string&) {
+    const std::string unknown = unknown_type(one);
+    if (unknown.empty()) return;
+    guarded.unknown_accessors[i] = unknown;
+    one = {{"type", "SCALAR"}, {"componentType", 5121}, {"count", 1}};
+  });
+  each("meshes", [&](size_t, json& one, const std::string&) {
+    for (json& primitive : one["primitives"]) {
+      const auto indices = primitive.find("indices");
+      if (indices == primitive.end()) continue;
+      primitive["attributes"][indices_attribute] = *indices;
+      primitive.erase("indices");
+    }
+  });
   const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
   if (!document.contains(lights)) return;
   for (size_t i = 0; i < document[lights].size(); ++i) {

@@ -1,11 +1,17 @@
-// The last step of the guard: what tinygltf would settle silently, or refuse without naming the place.
+// The last step of the guard: what tinygltf would settle silently, or refuse without naming the place, or refuse
+// although glTF allows it.
 #pragma once
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "scenes/gltf_guard.h"
 
 namespace noonmark::gltf {
 
-// document: as gltf_guard.cpp has reduced it, so every property is of its type. Throws Error(scene).
-void check_before_tinygltf(const std::string& file, const nlohmann::json& document);
+// tinygltf refuses indices whose accessor has no view (glTF: zeros, or sparse, or compressed), so a primitive's indices
+// are handed to it as an attribute of this name.
+inline constexpr const char* indices_attribute = "INDICES";
+
+// guarded.json is reduced, so every property is of its type. Throws Error(scene).
+void prepare_for_tinygltf(const std::string& file, GuardedDocument& guarded);
 
 }  // namespace noonmark::gltf

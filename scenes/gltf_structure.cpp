@@ -22,6 +22,7 @@ class Checker {
     each(m_.accessors, "accessors", &Checker::accessor);
     each(m_.materials, "materials", &Checker::material);
     each(m_.meshes, "meshes", &Checker::mesh);
+    each(m_.skins, "skins", &Checker::skin);
     each(m_.cameras, "cameras", &Checker::camera);
     each(m_.lights, "extensions.KHR_lights_punctual.lights", &Checker::light);
     each(m_.nodes, "nodes", &Checker::node);
@@ -34,6 +35,15 @@ class Checker {
   void each(const std::vector<T>& items, std::string_view name,
             void (Checker::*check)(const T&, const std::string&) const) const {
     for (size_t i = 0; i < items.size(); ++i) (this->*check)(items[i], fmt::format("{}[{}]", name, i));
+  }
+
+  // An accessor that is used: there, and of a type that glTF knows.
+  const tinygltf::Accessor& used(int index, const std::string& place) const {
+    reference(index, m_.accessors.size(), place, "accessors");
+    const auto unknown = d_.guarded.unknown_accessors.find(static_cast<size_t>(index));
+    if (unknown != d_.guarded.unknown_accessors.end())
+      refuse(d_.file, fmt::format("accessors[{}]", index), unknown->second, remedy);
+    return m_.accessors[static_cast<size_t>(index)];
   }
 
   [[noreturn]] void fail(const std::string& place, const std::string& what) const {
@@ -50,8 +60,8 @@ class Checker {
   }
 
   void view(const tinygltf::BufferView& v, const std::string& place) const {
-    reference(v.buffer, d_.buffers.size(), place + ".buffer", "buffers");
-    const uint64_t length = d_.buffers[static_cast<size_t>(v.buffer)].byte_length;
+    reference(v.buffer, d_.guarded.buffers.size(), place + ".buffer", "buffers");
+    const uint64_t length = d_.guarded.buffers[static_cast<size_t>(v.buffer)].byte_length;
     if (v.byteOffset + v.byteLength > length) {
       fail(place,
            fmt::format("ends at byte {} of buffers[{}], which has {}", v.byteOffset + v.byteLength, v.buffer, length));
@@ -85,7 +95,7 @@ class Checker {
         if (a.normalized) fail(place + ".normalized", "is only for integers of 8 and 16 bits");
         break;
       default:
-        fail(place + ".componentType", fmt::format("{} is none of glTF's", a.componentType));
+        fail(place + ".componentType", "is none of glTF's");
     }
     if (a.count == 0) fail(place + ".count", "is 0");
     const size_t component =
@@ -136,25 +146,41 @@ class Checker {
       const tinygltf::Primitive& p = m.primitives[i];
       const std::string here = fmt::format("{}.primitives[{}]", place, i);
       optional(p.material, m_.materials.size(), here + ".material", "materials");
-      if (const auto found = p.attributes.find("POSITION"); found != p.attributes.end()) {
-        reference(found->second, m_.accessors.size(), here + ".attributes.POSITION", "accessors");
-        positions(m_.accessors[static_cast<size_t>(found->second)], fmt::format("accessors[{}]", found->second));
+      if (const auto found = p.attributes.find("POSITION"); found != p.attributes.end())
+        positions(used(found->second, here + ".attributes.POSITION"), fmt::format("accessors[{}]", found->second));
+      for (size_t k = 0; k < p.targets.size(); ++k) {
+        const auto found = p.targets[k].find("POSITION");
+        if (found == p.targets[k].end()) continue;
+        positions(used(found->second, fmt::format("{}.targets[{}].POSITION", here, k)),
+                  fmt::format("accessors[{}]", found->second));
       }
-      if (p.indices != -1) {
-        indices(m_.accessors[static_cast<size_t>(p.indices)], fmt::format("accessors[{}]", p.indices));
-      }
+      if (const int index = indices_of(p); index != -1)
+        indices(used(index, here + ".indices"), fmt::format("accessors[{}]", index));
     }
+  }
+
+  void skin(const tinygltf::Skin& s, const std::string& place) const {
+    if (s.joints.empty()) fail(place + ".joints", "is empty");
+    for (size_t i = 0; i < s.joints.size(); ++i) {
+      reference(s.joints[i], m_.nodes.size(), fmt::format("{}.joints[{}]", place, i), "nodes");
+    }
+    if (s.inverseBindMatrices == -1) return;
+    const std::string here = place + ".inverseBindMatrices";
+    const tinygltf::Accessor& a = used(s.inverseBindMatrices, here);
+    if (a.type != TINYGLTF_TYPE_MAT4 || a.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+      fail(here, fmt::format("accessors[{}] is no MAT4 of FLOAT", s.inverseBindMatrices));
+    if (a.count < s.joints.size()) fail(here, fmt::format("{} matrices for {} joints", a.count, s.joints.size()));
   }
 
   void positions(const tinygltf::Accessor& a, const std::string& place) const {
     if (a.type != TINYGLTF_TYPE_VEC3) fail(place + ".type", "positions are VEC3");
     if (a.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return;
     if (a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) fail(place + ".componentType", "positions are FLOAT");
-    if (!d_.quantized) {
+    if (!d_.guarded.quantized) {
       refuse(d_.file, place + ".componentType", "integer positions without KHR_mesh_quantization",
              "list that extension in extensionsUsed and extensionsRequired, or export floats");
     }
-    if (element_stride(d_, a) % 4 != 0) {
+    if (a.bufferView != -1 && element_stride(d_, a) % 4 != 0) {
       fail(place, "vertices that are no multiple of 4 bytes apart: their view needs a byteStride");
     }
   }
@@ -196,9 +222,6 @@ class Checker {
   }
 
   void light(const tinygltf::Light& l, const std::string& place) const {
-    if (l.type != "directional" && l.type != "point" && l.type != "spot") {
-      fail(place + ".type", fmt::format("'{}' is none of directional, point, spot", printable(l.type)));
-    }
     if (l.type != "spot") return;
     const double inner = l.spot.innerConeAngle, outer = l.spot.outerConeAngle;
     // Exporters write a right angle as a float, which is more than pi / 2 by 4e-8, or with five digits.
@@ -211,6 +234,7 @@ class Checker {
 
   void node(const tinygltf::Node& n, const std::string& place) const {
     optional(n.mesh, m_.meshes.size(), place + ".mesh", "meshes");
+    if (n.mesh != -1) optional(n.skin, m_.skins.size(), place + ".skin", "skins");
     optional(n.camera, m_.cameras.size(), place + ".camera", "cameras");
     for (size_t i = 0; i < n.children.size(); ++i) {
       reference(n.children[i], m_.nodes.size(), fmt::format("{}.children[{}]", place, i), "nodes");

@@ -6,6 +6,7 @@
 
 #include "scenes/fit.h"
 #include "scenes/gltf_error.h"
+#include "scenes/gltf_notes.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -30,11 +31,21 @@ double cone_deg(const tinygltf::SpotLight& spot) {
 
 }  // namespace
 
-std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes, const Scene& scene) {
-  const auto found = std::find_if(nodes.begin(), nodes.end(),
-                                  [&](const PlacedNode& n) { return document.model.nodes[n.node].camera != -1; });
+std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
+  const auto has_camera = [&](const PlacedNode& n) {
+    return !n.collapsed && document.model.nodes[n.node].camera != -1;
+  };
+  const auto found = std::find_if(nodes.begin(), nodes.end(), has_camera);
   if (found == nodes.end()) return std::nullopt;
-  const tinygltf::Camera& from = document.model.cameras[static_cast<size_t>(document.model.nodes[found->node].camera)];
+  if (const auto more = std::count_if(found + 1, nodes.end(), has_camera); more > 0)
+    scene.notes.push_back(counted(more, "camera") + " after the first are not used");
+  const auto index = static_cast<size_t>(document.model.nodes[found->node].camera);
+  if (const auto unknown = document.guarded.unknown_cameras.find(index);
+      unknown != document.guarded.unknown_cameras.end()) {
+    refuse(document.file, fmt::format("cameras[{}]", index), unknown->second, "remove the camera, or correct it");
+  }
+  require_invertible(document, *found);
+  const tinygltf::Camera& from = document.model.cameras[index];
   Camera camera;
   camera.eye_m = origin_of(*found);
   // Any point ahead will do for a target; the one nearest the scene's middle is the one that people expect.
@@ -63,11 +74,19 @@ std::optional<Camera> find_camera(const Document& document, const std::vector<Pl
   return camera;
 }
 
-std::optional<Light> find_light(const Document& document, const std::vector<PlacedNode>& nodes, const Scene& scene) {
-  const auto found =
-      std::find_if(nodes.begin(), nodes.end(), [&](const PlacedNode& n) { return light_of(document, n) != nullptr; });
+std::optional<Light> find_light(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
+  const auto lights = [&](const PlacedNode& n) { return n.shown() && light_of(document, n) != nullptr; };
+  const auto found = std::find_if(nodes.begin(), nodes.end(), lights);
   if (found == nodes.end()) return std::nullopt;
+  if (const auto more = std::count_if(found + 1, nodes.end(), lights); more > 0)
+    scene.notes.push_back(counted(more, "light") + " after the first are not used");
   const tinygltf::Light& from = *light_of(document, *found);
+  if (from.type != "directional" && from.type != "point" && from.type != "spot") {
+    refuse(document.file, fmt::format("nodes[{}].extensions.KHR_lights_punctual.light", found->node),
+           fmt::format("its type '{}' is none of directional, point, spot", printable(from.type)),
+           "remove the light, or correct it");
+  }
+  require_invertible(document, *found);
   const Sphere sphere = bounding_sphere(scene);
   const glm::dvec3 forward = forward_of(*found);
   if (from.type == "directional") return directional_light(sphere, forward);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "scenes/library.h"
+
 namespace noonmark {
 namespace {
 
@@ -13,6 +15,7 @@ struct Rule {
   bool (*is_read)(LightKind light, S settings);
 };
 
+bool from_file(LightKind, S s) { return names_file(s.scene.name); }
 bool directional(LightKind light, S) { return light == LightKind::directional; }
 bool spot(LightKind light, S) { return light == LightKind::spot; }
 bool point(LightKind light, S) { return light == LightKind::point; }
@@ -28,6 +31,8 @@ bool bias(LightKind, S s) {
 }
 
 constexpr Rule rules[] = {
+    {"scene.time_s", from_file},
+    {"scene.animation", [](LightKind, S s) { return names_file(s.scene.name) && s.scene.time_s.has_value(); }},
     {"light.angular_diameter_deg", directional},
     {"light.radius_m", has_place},
     {"light.shape", has_place},
@@ -57,6 +62,7 @@ constexpr Rule rules[] = {
 };
 
 std::string because(std::string_view name, LightKind light, S s) {
+  if (name.starts_with("scene.")) return names_file(s.scene.name) ? "without scene.time_s" : "in a built-in scene";
   if (name.starts_with("filter.")) return "with filter.kind = " + find_setting("filter.kind").get(s);
   if (name.starts_with("bias.")) return "with bias.form = " + find_setting("bias.form").get(s);
   constexpr std::string_view kinds[] = {"directional", "spot", "point"};

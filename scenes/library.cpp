@@ -20,7 +20,7 @@ Scene scene_as_built(const SceneSettings& settings) {
     }
     names.push_back(builtin.name);
   }
-  if (settings.name.ends_with(".gltf") || settings.name.ends_with(".glb")) return load_gltf(settings.name);
+  if (names_file(settings.name)) return load_gltf(settings.name, {settings.time_s, settings.animation});
   const std::string near = nearest_name(settings.name, names);
   throw Error(
       ErrorKind::usage,
@@ -30,6 +30,8 @@ Scene scene_as_built(const SceneSettings& settings) {
 }
 
 }  // namespace
+
+bool names_file(std::string_view scene_name) { return scene_name.ends_with(".gltf") || scene_name.ends_with(".glb"); }
 
 Scene make_scene(const SceneSettings& settings) { return remeshed(scene_as_built(settings), settings.mesh); }
 

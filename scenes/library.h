@@ -3,6 +3,7 @@
 //   Scene scene = make_scene(settings.scene);
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,13 +21,22 @@ struct BuiltinScene {
 
 std::span<const BuiltinScene> builtin_scenes();
 
+// Whether scene.name is the path of a file rather than a built-in name.
+bool names_file(std::string_view scene_name);
+
 // A built-in name, or a path that ends in .gltf or .glb; in the triangles that settings.mesh names. Throws Error(usage)
 // for an unknown name (suggesting the nearest), Error(scene) for a file that cannot be used.
 Scene make_scene(const SceneSettings& settings);
 
+// The pose of a glTF file's scene: at rest, or at a time of one of its animations.
+struct Pose {
+  std::optional<double> time_s;  // empty: at rest
+  int animation = 0;
+};
+
 // scenes/gltf.cpp. Nothing outside the file's own folder is read; images are never loaded. A camera and a light are
 // fitted where the file has none. Throws Error(scene).
-Scene load_gltf(const std::string& path);
+Scene load_gltf(const std::string& path, const Pose& pose = {});
 
 // scenes/fit.cpp: a perspective camera that sees the whole scene, and a light from above and aside. For scenes without.
 Camera fit_camera(const Scene& scene);

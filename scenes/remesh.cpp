@@ -41,14 +41,18 @@ void split(Scene& scene) {
     return entry->second;
   };
   std::vector<glm::uvec3> triangles;
+  std::vector<bool> single_sided;
   std::vector<uint32_t> first;  // of the pieces of each triangle, and one past the last
-  for (const glm::uvec3& t : scene.triangles) {
+  for (size_t i = 0; i < scene.triangles.size(); ++i) {
+    const glm::uvec3& t = scene.triangles[i];
     first.push_back(static_cast<uint32_t>(triangles.size()));
     const uint32_t xy = middle(t.x, t.y), yz = middle(t.y, t.z), zx = middle(t.z, t.x);
     const std::array<glm::uvec3, 4> pieces = {{{t.x, xy, zx}, {xy, t.y, yz}, {zx, yz, t.z}, {xy, yz, zx}}};
     for (const glm::uvec3& piece : pieces) {
       const glm::vec3 &a = scene.positions[piece.x], &b = scene.positions[piece.y], &c = scene.positions[piece.z];
-      if (a != b && b != c && c != a) triangles.push_back(piece);
+      if (a == b || b == c || c == a) continue;
+      triangles.push_back(piece);
+      if (!scene.single_sided.empty()) single_sided.push_back(scene.single_sided[i]);
     }
   }
   first.push_back(static_cast<uint32_t>(triangles.size()));
@@ -58,6 +62,7 @@ void split(Scene& scene) {
     part.triangle_count = end - begin;
   }
   scene.triangles = std::move(triangles);
+  scene.single_sided = std::move(single_sided);
 }
 
 void reverse(Scene& scene) {
@@ -65,6 +70,7 @@ void reverse(Scene& scene) {
   const uint32_t count = static_cast<uint32_t>(scene.triangles.size());
   std::reverse(scene.positions.begin(), scene.positions.end());
   std::reverse(scene.triangles.begin(), scene.triangles.end());
+  std::reverse(scene.single_sided.begin(), scene.single_sided.end());
   std::reverse(scene.parts.begin(), scene.parts.end());
   for (glm::uvec3& t : scene.triangles) t = {last_vertex - t.y, last_vertex - t.z, last_vertex - t.x};
   for (Part& part : scene.parts) part.first_triangle = count - part.first_triangle - part.triangle_count;
@@ -75,6 +81,8 @@ void double_up(Scene& scene) {
   for (size_t i = 0; i < vertices; ++i) scene.positions.push_back(glm::vec3(scene.positions[i]));
   for (size_t i = 0; i < triangles; ++i)
     scene.triangles.push_back(scene.triangles[i] + glm::uvec3(static_cast<uint32_t>(vertices)));
+  const std::vector<bool> sides = scene.single_sided;
+  scene.single_sided.insert(scene.single_sided.end(), sides.begin(), sides.end());
   for (size_t i = 0; i < parts; ++i) {
     Part again = scene.parts[i];
     again.name += " again";

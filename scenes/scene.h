@@ -75,10 +75,16 @@ struct Scene {
   std::string name;
   std::vector<glm::vec3> positions;   // world, metres, all finite
   std::vector<glm::uvec3> triangles;  // indices into positions; counter-clockwise seen from outside
+  // Of each triangle: whether cameras see its front only (glTF's doubleSided = false). Empty: both sides of all. Light
+  // and shadow rays meet both sides whatever it says; what the map's own pass culls is the setting map.cull.
+  std::vector<bool> single_sided;
   std::vector<Part> parts;
   Camera camera;
   Light light;
   std::optional<MapVolume> map;  // the scene's own choice; without one the map is fitted tightly to the scene
+  // What the scene's file holds and Noonmark does not model, and what was settled where it leaves a choice: a phrase
+  // each, for people.
+  std::vector<std::string> notes;
 };
 
 }  // namespace noonmark

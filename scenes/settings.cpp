@@ -164,6 +164,12 @@ std::vector<Setting> make_table() {
              "The scene's surface as built, or in other triangles: welded into one mesh, each triangle cut in four, "
              "triangles and vertices in reverse order, each triangle there twice.",
              MEMBER(scene.mesh)),
+      real("scene.time_s", "s", 0, 1e6,
+           "A glTF file's animation poses the scene at this time; before its first key and after its last it stands "
+           "still; auto: at rest, no animation.",
+           MEMBER(scene.time_s)),
+      integer("scene.animation", "", 0, 1e6, "Which of the file's animations scene.time_s speaks of, from 0.",
+              MEMBER(scene.animation)),
       integer("view.width_px", "px", 1, 8192, "Width of the picture.", MEMBER(view.width_px)),
       integer("view.height_px", "px", 1, 8192, "Height of the picture.", MEMBER(view.height_px)),
       point("view.eye_m", "Where the camera is; auto: the scene's.", MEMBER(view.eye_m)),

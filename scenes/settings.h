@@ -47,6 +47,8 @@ struct SceneSettings {
   double thickness_m = 0.1;        // wall, plate
   double height_m = 0.5;           // plate: of its lit face above the floor
   MeshForm mesh = MeshForm::as_built;  // the same surface in other triangles
+  std::optional<double> time_s;        // of a file's animation: the pose at that time; empty: at rest
+  int animation = 0;                   // which of the file's animations time_s is a time of
 };
 
 struct ViewSettings {

@@ -24,6 +24,7 @@ inline std::string defect_of(const Scene& scene) {
       if (t[k] >= scene.positions.size()) return "an index is out of range";
     }
   }
+  if (scene.single_sided.size() != scene.triangles.size()) return "sides for another number of triangles";
   uint64_t in_parts = 0;
   for (const Part& part : scene.parts) {
     if (part.first_triangle != in_parts || part.triangle_count == 0) return "parts do not follow one another";
@@ -43,9 +44,9 @@ inline std::string defect_of(const Scene& scene) {
 }
 
 // The message of the Error(scene) that loading throws; fails when it loads, throws another thing, or takes two lines.
-inline std::string refusal(const std::string& path) {
+inline std::string refusal(const std::string& path, const Pose& pose = {}) {
   try {
-    load_gltf(path);
+    load_gltf(path, pose);
   } catch (const Error& e) {
     const std::string message = e.what();
     EXPECT_EQ(e.kind(), ErrorKind::scene) << message;

@@ -210,6 +210,24 @@ TEST_F(Gltf, MaskedOutMaterialsAreNotDrawn) {
   EXPECT_EQ(load(d).triangles.size(), 4u);
 }
 
+// The back of a single-sided triangle is its back in the world: where a transform mirrors, the winding is turned and
+// the mark stays.
+TEST_F(Gltf, SidesAreThoseOfTheMaterial) {
+  json d = square();
+  EXPECT_EQ(load(d).single_sided, std::vector<bool>(2, true));  // the default material
+  auto& primitives = d["meshes"][0]["primitives"];
+  primitives.push_back(primitives[0]);
+  primitives[0]["material"] = 0;
+  primitives[1]["material"] = 1;
+  d["materials"] = {{{"doubleSided", true}}, json::object()};
+  for (double x : {1, -1}) {
+    d["nodes"][0]["scale"] = {x, 1, 1};
+    const Scene s = load(d);
+    EXPECT_EQ(s.single_sided, (std::vector<bool>{false, false, true, true}));
+    EXPECT_EQ(normals(s), std::vector<glm::vec3>(4, towards_z));
+  }
+}
+
 TEST_F(Gltf, FarApartIndicesTakeOnlyTheirVertices) {
   json d = square();
   std::vector<float> many(3 * 1000, 7);

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "scenes/library.h"
+#include "scenes/remesh.h"
 
 namespace noonmark {
 namespace {
@@ -131,6 +132,22 @@ TEST_P(Remesh, KeepsCameraLightAndMap) {
     EXPECT_EQ(other.light.position_m, built.light.position_m);
     EXPECT_EQ(other.map->extent_m, built.map->extent_m);
   }
+}
+
+TEST(RemeshSides, EachTriangleKeepsItsOwn) {
+  Scene two;
+  two.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  two.triangles = {{0, 1, 2}, {2, 1, 3}};
+  two.single_sided = {true, false};
+  two.parts = {{"both", 0, 2}};
+  using Sides = std::vector<bool>;
+  EXPECT_EQ(remeshed(two, MeshForm::one_mesh).single_sided, (Sides{true, false}));
+  EXPECT_EQ(remeshed(two, MeshForm::split).single_sided, (Sides{true, true, true, true, false, false, false, false}));
+  EXPECT_EQ(remeshed(two, MeshForm::reversed).single_sided, (Sides{false, true}));
+  EXPECT_EQ(remeshed(two, MeshForm::doubled).single_sided, (Sides{true, false, true, false}));
+  two.single_sided = {};
+  for (MeshForm form : {MeshForm::one_mesh, MeshForm::split, MeshForm::reversed, MeshForm::doubled})
+    EXPECT_TRUE(remeshed(two, form).single_sided.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Remesh, testing::Values("cube-room", "sphere", "bowl", "fence"),

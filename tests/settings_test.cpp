@@ -80,7 +80,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
   for (const Setting& row : settings_table()) ++rows[std::string(row.name.substr(0, row.name.find('.')))];
   // An aggregate binds to exactly as many names as it has members.
   const Settings s;
-  [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6] = s.scene;
+  [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6, a7, a8] = s.scene;
   [[maybe_unused]] const auto& [b1, b2, b3, b4, b5] = s.view;
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7] = s.light;
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16] = s.map;
@@ -89,7 +89,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
   [[maybe_unused]] const auto& [g1] = s.truth;
   EXPECT_EQ(rows,
             (std::map<std::string, int>{
-                {"scene", 6}, {"view", 5}, {"light", 7}, {"map", 16}, {"bias", 10}, {"filter", 9}, {"truth", 1}}));
+                {"scene", 8}, {"view", 5}, {"light", 7}, {"map", 16}, {"bias", 10}, {"filter", 9}, {"truth", 1}}));
 }
 
 TEST(SettingsTable, TakesItsOwnTextsBack) {
