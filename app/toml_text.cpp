@@ -21,18 +21,40 @@ class Scanner {
   void run() {
     while (!at_end()) {
       const char c = text_[at_];
-      if (c == '#')
+      if (c == '#') {
         at_ = std::min(text_.find('\n', at_), text_.size());
-      else if (c == '"' || c == '\'')
+      } else if ((c == '"' || c == '\'') && !in_word_) {
         string(c);
-      else if (!is_ascii(c))
+        before_ = c;
+      } else if (!is_ascii(c)) {
         refuse("may stand in strings and comments only; put quotes around the name or the value");
-      else
+      } else {
+        outside(c);
         ++at_;
+      }
     }
   }
 
  private:
+  // One character outside of strings. Within a word (+"x") a quote begins no string: toml++ reads on to the word's end,
+  // and only then finds that it is none. A dot ends a word among the parts of a key, not among the digits of a number.
+  void outside(char c) {
+    const bool names_value = c == '=' && (is_key_character(before_) || before_ == '"' || before_ == '\'');
+    in_word_ = !is_space(c) && !names_value && !(c == '.' && in_key_) && !is_bracket_or_comma(c);
+    if (c == '\n' && depth_ == 0) in_key_ = true;
+    if (c == '=') in_key_ = false;
+    if (!in_key_ && (c == '[' || c == '{')) ++depth_;
+    if (!in_key_ && (c == ']' || c == '}') && depth_ > 0) --depth_;
+    if (!is_space(c)) before_ = c;
+  }
+
+  static bool is_key_character(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  }
+  static bool is_bracket_or_comma(char c) {
+    return c != '\0' && std::string_view("[]{},").find(c) != std::string_view::npos;
+  }
+
   bool at_end() const { return at_ >= text_.size(); }
 
   // How many of `quote` follow one another from here on, at most 5: as many as can end a string of several lines.
@@ -122,6 +144,11 @@ class Scanner {
   std::string_view text_;
   const std::string& path_;
   size_t at_ = 0, begin_ = 0;
+  char before_ =
+      '\n';  // the last character outside of strings and comments that was no white space; or a string's quote
+  bool in_word_ = false;  // at a bare key, a number, or what would be one
+  bool in_key_ = true;    // before the '=' of a line that begins no value
+  int depth_ = 0;         // of lists and inline tables
 };
 
 }  // namespace

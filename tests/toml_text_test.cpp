@@ -38,43 +38,15 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(TomlText, OutsideOfStringsAndCommentsEveryCharacterIsAscii) {
-  for (const char* text : {"@ = 1",
-                           "a@ = 1",
-                           "a @= 1",
-                           "a.@ = 1",
-                           "a = @",
-                           "a = 1@",
-                           "a = 1 @",
-                           "[@]",
-                           "[a@]",
-                           "[a]@",
-                           "[[@]]",
-                           "a = [@]",
-                           "a = [1,@]",
-                           "a = [1@]",
-                           "a = {@}",
-                           "a = {b@=1}",
-                           "a = true@",
-                           "a = 1979-05-27@",
-                           "a = 1979-05-27T@",
-                           "a = 1_@",
-                           "a = \"\"@",
-                           "a = ''@",
-                           "a = \"x\"@",
-                           "a = 'x'@",
-                           "a = \"\"\"x\"\"\"@",
-                           "a = \"\"\"x\"\"\"\"@",
-                           "a = \"\"\"x\"\"\"\"\"@",
-                           "a = '''x'''@",
-                           "a = '''x''''@",
-                           "a = '''x'''''@",
-                           "a = \"\\\"\"@",
-                           "a = '\\'@",
-                           "a = \"\"\"\\\"\"\"\"@",
-                           "\"a\"@ = 1",
-                           "a = '\"'@",
-                           "a = \"'\"@",
-                           "a = \"#\"@"}) {
+  for (const char* text :
+       {"@ = 1", "a@ = 1", "a @= 1", "a.@ = 1", "a = @", "a = 1@", "a = 1 @", "[@]", "[a@]", "[a]@", "[[@]]", "a = [@]",
+        "a = [1,@]", "a = [1@]", "a = {@}", "a = {b@=1}", "a = true@", "a = 1979-05-27@", "a = 1979-05-27T@", "a = 1_@",
+        "a = \"\"@", "a = ''@", "a = \"x\"@", "a = 'x'@", "a = \"\"\"x\"\"\"@", "a = \"\"\"x\"\"\"\"@",
+        "a = \"\"\"x\"\"\"\"\"@", "a = '''x'''@", "a = '''x''''@", "a = '''x'''''@", "a = \"\\\"\"@", "a = '\\'@",
+        "a = \"\"\"\\\"\"\"\"@", "\"a\"@ = 1", "a = '\"'@", "a = \"'\"@", "a = \"#\"@",
+        // Here the quote begins no string: it stands in a word.
+        "a = +\"@\"", "a = 1\"@\"", "a = 1.\"@\"", "a = [1.\"@\"]", "a = t'@'", "a = =\"@\"", "a = [=\"@\"]",
+        "a\"@\" = 1", "a = {b = +\"@\"}", "a = ;'@'"}) {
     for (const char32_t c : characters) {
       const std::string before = "title = \"é\"  # 中\n", whole = before + placed(text, c) + "\n";
       const std::string place =
@@ -109,7 +81,13 @@ TEST(TomlText, InStringsAndCommentsEveryCharacterMayStand) {
                            "\"@\" = 1",
                            "'@' = 1",
                            "[\"@\"]",
-                           "a = {'@' = 1}"}) {
+                           "a = {'@' = 1}",
+                           "a.\"@\" = 1",
+                           "[a.'@']",
+                           "a=\"@\"",
+                           "a=['@','x']",
+                           "a = [\n'x',\n\"@\"]",
+                           "a = [\n[1]]\nb.\"@\" = 1"}) {
     for (const char32_t c : characters) EXPECT_EQ(refusal(placed(text, c) + "\n"), "") << text;
   }
 }
