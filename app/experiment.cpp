@@ -210,7 +210,11 @@ std::string scene_digest(const Scene& scene) {
   const Camera& camera = scene.camera;
   digest.value(camera.projection);
   for (const glm::dvec3& p : {camera.eye_m, camera.target_m, camera.up}) digest.point(p);
-  for (double v : {camera.fov_y_deg, camera.height_m, camera.near_m, camera.far_m}) digest.value(v);
+  for (double v : {camera.fov_y_deg, camera.height_m}) digest.value(v);
+  for (const std::optional<double>& v : {camera.near_m, camera.far_m}) {
+    digest.value(v.has_value());
+    digest.value(v.value_or(0));
+  }
   digest.value(scene.light.kind);
   digest.point(scene.light.position_m);
   digest.point(scene.light.target_m);

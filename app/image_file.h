@@ -1,5 +1,5 @@
 // Pictures and images on disk, by OpenImageIO: PNG for people, 32-bit float EXR for programs. Written beside and
-// renamed. Throws Error(scene) when a file cannot be written.
+// renamed. Throws Error(scene) when a file cannot be written, Error(device) when OpenImageIO cannot be loaded.
 #pragma once
 #include <glm/glm.hpp>
 #include <string>
@@ -8,6 +8,10 @@
 #include "scenes/image.h"
 
 namespace noonmark {
+
+// Loads OpenImageIO, which the first picture does otherwise. Throws Error(device) where that fails: a run that will
+// write pictures asks before it measures.
+void require_image_files();
 
 using Color = glm::u8vec3;  // sRGB
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* exit_codes =
     "Exit codes: 0 held; 1 a bound or a law is broken; 2 wrong usage or experiment; 3 bad scene or file;\n"
-    "4 no usable OpenGL or ray tracer; 5 a defect of Noonmark; 6 the sweep is incomplete.";
+    "4 no usable OpenGL, ray tracer or picture library; 5 a defect of Noonmark; 6 the sweep is incomplete.";
 
 std::string joined(int argc, char** argv) {
   std::string command = "noonmark";

@@ -11,6 +11,7 @@
 #include "app/view_map.h"
 #include "app/view_shading.h"
 #include "compare/image_difference.h"
+#include "compare/quantities.h"
 
 namespace noonmark {
 namespace {
@@ -127,11 +128,11 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
   const Image<float> seen = flip_difference(truth, map);
   Image<Color> colors(seen.width, seen.height);
   for (size_t i = 0; i < seen.size(); ++i) colors[i] = difference_color(seen[i]);
+  const double rmse = shaded_rmse(m.receivers, m.frame, camera, m.ladder.rung[1], m.ladder.rung[5]);
   add("shaded-difference",
-      fmt::format(
-          "Where an eye sees the two shaded pictures differ (FLIP, dark 0 to bright 1): mean {:.4g}, and RMSE {:.4g} "
-          "over the receivers, in linear light.",
-          mean_of(seen), shaded_rmse(m.receivers, m.frame, camera, m.ladder.rung[1], m.ladder.rung[5])),
+      fmt::format("Where an eye sees the two shaded pictures differ (FLIP, dark 0 to bright 1): mean {:.4g}, and RMSE "
+                  "{} over the receivers, in linear light.",
+                  mean_of(seen), std::isnan(rmse) ? std::string(not_measured) : fmt::format("{:.4g}", rmse)),
       colors);
   return records;
 }

@@ -169,8 +169,10 @@ std::string point_json(const Measurement& m, const std::string& command) {
   nlohmann::ordered_json json;
   json["noonmark"] = {{"version", build_facts().version}, {"commit", build_facts().commit}};
   json["command"] = command;
-  json["scene"] = {
-      {"name", m.scene.name}, {"triangles", m.scene.triangles.size()}, {"vertices", m.scene.positions.size()}};
+  json["scene"] = {{"name", m.scene.name},
+                   {"triangles", m.scene.triangles.size()},
+                   {"vertices", m.scene.positions.size()},
+                   {"notes", m.scene.notes}};
   for (const Setting& row : settings_table())
     json["settings"][std::string(row.name)] = setting_json(row, row.get(m.settings));
   for (const Metric& metric : metrics_table()) {
@@ -191,10 +193,16 @@ std::string point_json(const Measurement& m, const std::string& command) {
                     {"forward", vector_json(camera.forward)},
                     {"half_width", camera.half_width},
                     {"half_height", camera.half_height},
-                    {"near_m", m.camera.near_m},
-                    {"far_m", m.camera.far_m},
+                    {"near_m", m.camera.near_m.value()},
+                    {"far_m", m.camera.far_m.value()},
                     {"clip_from_world_rows", matrix_rows(camera.clip_from_world())}};
   json["light"] = light_json(m);
+  json["primitive"] =
+      "index of the triangle, counted from 0 in the order in which the scene's parts are drawn; of a file, triangles "
+      "without an area are left out before counting (scene.notes says how many); -1 where there is no surface";
+  for (const Part& part : m.scene.parts)
+    json["parts"].push_back(
+        {{"name", part.name}, {"first_primitive", part.first_triangle}, {"primitives", part.triangle_count}});
   for (int c = 0; c < cause_count; ++c) json["causes"].push_back(cause_name(static_cast<Cause>(c)));
   json["flags"] = {{"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);

@@ -23,6 +23,7 @@
 #include "compare/bounds.h"
 #include "compare/csv.h"
 #include "compare/laws.h"
+#include "compare/poor_view.h"
 #include "compare/report.h"
 #include "compare/soundness.h"
 #include "compare/store.h"
@@ -30,6 +31,7 @@
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "scenes/idle_settings.h"
+#include "scenes/library.h"
 #include "scenes/tap_pattern.h"
 
 namespace noonmark {
@@ -116,7 +118,7 @@ std::string host_cpu() {
 }
 
 RunInfo run_info(const Experiment& experiment, const SweepOptions& options, const gl::DeviceInfo& device,
-                 const raytrace::TracerInfo& tracer, const Scene& scene) {
+                 const raytrace::TracerInfo& tracer, const Scene& scene, std::vector<std::string> scene_notes) {
   RunInfo info;
   info.experiment = experiment.path;
   info.title = experiment.title;
@@ -137,6 +139,7 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
   info.plot = experiment.plot;
   info.scene_name = scene.name;
   info.triangles = scene.triangles.size();
+  info.scene_notes = std::move(scene_notes);
   return info;
 }
 
@@ -147,9 +150,11 @@ std::string swept_text(const Experiment& experiment, const PointRecord& point) {
   return text.empty() ? "the only point" : text;
 }
 
-// Digests of every scene that the points name, so that an edited file is not taken for the one that was measured.
+// Digests of every scene that the points name, so that an edited file is not taken for the one that was measured. What
+// the scenes' files hold and is not modelled goes into notes, a line for each scene.
 std::vector<std::pair<std::string, std::string>> provenance(Workbench& bench, const std::vector<Settings>& points,
-                                                            const raytrace::TracerInfo& tracer) {
+                                                            const raytrace::TracerInfo& tracer,
+                                                            std::vector<std::string>& notes) {
   std::vector<std::pair<std::string, std::string>> facts = {
       {"noonmark", fmt::format("{} {}", build_facts().version, build_facts().commit)},
       {"opengl", fmt::format("{} {}", bench.device().renderer, bench.device().version)},
@@ -160,7 +165,13 @@ std::vector<std::pair<std::string, std::string>> provenance(Workbench& bench, co
     std::string key;
     for (const Setting& row : settings_table())
       if (row.name.starts_with("scene.")) key += row.get(point) + ";";
-    if (!digests.contains(key)) digests[key] = scene_digest(bench.scene(point.scene));
+    if (digests.contains(key)) continue;
+    const Scene& scene = bench.scene(point.scene);
+    digests[key] = scene_digest(scene);
+    // The same file in other triangles says the same.
+    if (const std::string note = notes_line(scene);
+        !note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end())
+      notes.push_back(note);
   }
   for (const auto& [scene, digest] : digests) facts.emplace_back("scene " + scene, digest);
   return facts;
@@ -248,13 +259,17 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
 
   const FolderLock lock(options.out);
   Workbench bench(gl::DebugMode::log);
+  if (experiment.pictures != "none") require_image_files();
   const raytrace::TracerInfo tracer = raytrace::tracer_info();
-  const auto facts = provenance(bench, planned, tracer);
+  std::vector<std::string> scene_notes;
+  const auto facts = provenance(bench, planned, tracer, scene_notes);
+  for (const std::string& note : scene_notes) fmt::print(stderr, "note: {}\n", note);
   ResultStore store(options.out + "/results.sqlite", fingerprint(experiment, facts),
                     options.overwrite ? Existing::overwrite : Existing::resume);
   if (options.overwrite) remove_pictures(options.out);
   const auto total = static_cast<int64_t>(planned.size());
-  store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene)), total);
+  store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene), scene_notes),
+                 total);
 
   const std::vector<int64_t> before = store.finished();
   if (!before.empty()) fmt::print(stderr, "{} of {} points are in {} already\n", before.size(), total, options.out);
@@ -282,6 +297,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const SweepOptions& options
   }
 
   outcome.results = store.load();
+  if (const std::string poor = poor_view_note(outcome.results.points); !poor.empty())
+    fmt::print(stderr, "note: {}\n", poor);
   if (!outcome.interrupted) {
     for (int64_t id : chosen_late(experiment.pictures, outcome.results.points))
       if (find_point(outcome.results.points, id)->pictures.empty())

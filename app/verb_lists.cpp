@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/build_facts.h"
+#include "app/image_file.h"
 #include "app/sweep.h"
 #include "app/verbs.h"
 #include "compare/metrics.h"
@@ -47,7 +48,7 @@ int verb_settings() {
 int verb_doctor() {
   const BuildFacts& facts = build_facts();
   fmt::print("noonmark  {} (commit {}, {}, {})\n", facts.version, facts.commit, facts.compiler, facts.build_type);
-  int exit_code = 0;
+  bool can_measure = true, can_write_pictures = true;
   try {
     const gl::Renderer renderer(gl::DebugMode::off);
     const gl::DeviceInfo& device = renderer.info();
@@ -57,20 +58,29 @@ int verb_doctor() {
     fmt::print("          times by {}\n", device.timer_queries ? "timer queries" : "glFinish and a steady clock");
   } catch (const Error& error) {
     fmt::print("OpenGL    NOT USABLE: {}\n", error.what());
-    exit_code = static_cast<int>(ErrorKind::device);
+    can_measure = false;
   }
   try {
     const raytrace::TracerInfo tracer = raytrace::tracer_info();
     fmt::print("Embree    {}, ISA {} (pinned)\n", tracer.version, tracer.isa);
   } catch (const Error& error) {
     fmt::print("Embree    NOT USABLE: {}\n", error.what());
-    exit_code = static_cast<int>(ErrorKind::device);
+    can_measure = false;
+  }
+  try {
+    require_image_files();
+    fmt::print("Pictures  OpenImageIO\n");
+  } catch (const Error& error) {
+    fmt::print("Pictures  NOT USABLE: {}\n", error.what());
+    can_write_pictures = false;
   }
   fmt::print("Libraries");
   for (const LibraryVersion& library : facts.libraries) fmt::print(" {} {};", library.name, library.version);
-  fmt::print("\n{}\n", exit_code == 0 ? "Everything that a measurement needs is here."
-                                      : "Nothing can be measured here until this is mended.");
-  return exit_code;
+  fmt::print("\n{}\n", !can_measure ? "Nothing can be measured here until this is mended."
+                       : !can_write_pictures
+                           ? "Only experiments with pictures = \"none\" run here until this is mended."
+                           : "Everything that a measurement needs is here.");
+  return can_measure && can_write_pictures ? 0 : static_cast<int>(ErrorKind::device);
 }
 
 }  // namespace noonmark

@@ -7,10 +7,12 @@
 #include "app/verbs.h"
 #include "app/workbench.h"
 #include "compare/metrics.h"
+#include "compare/poor_view.h"
 #include "compare/quantities.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "scenes/idle_settings.h"
+#include "scenes/library.h"
 
 namespace noonmark {
 namespace {
@@ -28,13 +30,12 @@ Settings the_point(const Experiment& experiment, long point) {
 
 void print_ladder(const Measurement& m) {
   const auto value = [&](const char* name) { return m.record.metrics.at(name); };
-  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted ({:.4f}% ambiguous)\n\n", m.scene.name,
-             value("receivers"), value("facing"), value("counted"), 100 * value("ambiguous"));
-  if (value("counted") == 0) {
-    fmt::print(
-        "  no counted receiver, so nothing can be judged; does the camera see a surface that faces the light?\n");
-    return;
-  }
+  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", m.scene.name, value("receivers"),
+             value("facing"), value("counted"));
+  if (value("facing") > 0) fmt::print(" ({:.4f}% ambiguous)", 100 * value("ambiguous"));
+  fmt::print("\n\n");
+  if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("  {}\n\n", poor);
+  if (value("counted") == 0) return;
   fmt::print("  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_table())
     if (metric.unit == "fraction" && metric.name != "ambiguous")
@@ -80,12 +81,14 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
     throw Error(ErrorKind::usage,
                 fmt::format("cannot make the folder {}: {}; give another --out", out, error.message()));
   Workbench bench(gl::DebugMode::log);
+  require_image_files();
   const Experiment& part = part_of_point(experiment, std::max(point, 0L));
   const Measurement m = bench.measure(settings, part.curve_enabled ? std::optional(part.curve) : std::nullopt);
   write_pictures(m, out, ".", "point");
   write_images(m, out + "/");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));
   print_ladder(m);
+  if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", note);
   for (const IdleSetting& idle : idle_settings(m.frame.kind, settings))
     fmt::print("  note: {} has no effect {}\n", idle.name, idle.why);
   fmt::print("\n{0}/point.json, {0}/ladder.exr, {0}/map.exr and {0}/point-*.png are written\n", out);

@@ -158,7 +158,7 @@ bool project_segment(const CameraFrame& camera, int width, int height, glm::dvec
   };
   const glm::dvec4 p = seen(a), q = seen(b);
   const double wide = 1 + 2 * margin_px / width, high = 1 + 2 * margin_px / height;
-  const double least_depth = perspective ? 1e-3 * camera.camera.near_m : camera.camera.near_m;
+  const double near_m = camera.camera.near_m.value(), least_depth = perspective ? 1e-3 * near_m : near_m;
   // Liang and Barsky 1984, in homogeneous places: each plane keeps where its function is not negative.
   double first = 0, last = 1;
   const auto keep = [&](auto side) {

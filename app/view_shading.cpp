@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace noonmark {
 
@@ -54,7 +55,7 @@ double shaded_rmse(const ReceiverImage& receivers, const LightFrame& light, cons
         (static_cast<double>(visibility[i]) - static_cast<double>(other[i])) * response(receivers, light, camera, i);
     sum += d * d;
   }
-  return count == 0 ? 0 : std::sqrt(sum / static_cast<double>(count));
+  return count == 0 ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(sum / static_cast<double>(count));
 }
 
 }  // namespace noonmark

@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include "app/experiment.h"
 #include "app/view_shading.h"
 #include "compare/law_metrics.h"
 #include "compare/measure.h"
 #include "compare/soundness.h"
+#include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"
 #include "scenes/library.h"
@@ -69,7 +71,39 @@ struct LoadedScene {
 struct View {
   Camera camera;
   ReceiverImage receivers;
+  std::map<std::string, double> metrics;  // why pixels see nothing
 };
+
+double scene_behind(const Scene& scene, const Camera& camera) {
+  const glm::dvec3 way = camera.target_m - camera.eye_m;
+  const auto behind = std::count_if(scene.positions.begin(), scene.positions.end(), [&](const glm::vec3& p) {
+    return glm::dot(glm::dvec3(p) - camera.eye_m, way) <= 0;
+  });
+  return static_cast<double>(behind) / static_cast<double>(scene.positions.size());
+}
+
+// Drawn again without what may have hidden surfaces, and only where something may have.
+View take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings) {
+  const Camera camera = effective_camera(scene, settings);
+  const int width = settings.width_px, height = settings.height_px;
+  const std::vector<uint32_t> unseen = unseen_backs(scene, camera);
+  const Image<uint32_t> seen = renderer.render_primitives(camera, width, height, unseen);
+  const auto pixels_more = [&](const Image<uint32_t>& more) {
+    double count = 0;
+    for (size_t i = 0; i < seen.size(); ++i) count += seen[i] == no_primitive && more[i] != no_primitive;
+    return count;
+  };
+  double clipped = 0, culled = 0;
+  if (std::find(seen.pixels.begin(), seen.pixels.end(), no_primitive) != seen.pixels.end()) {
+    if (!unseen.empty()) culled = pixels_more(renderer.render_primitives(camera, width, height));
+    const Camera fitted = with_fitted_depths(scene, camera, width, height);
+    if (*camera.near_m > *fitted.near_m || *camera.far_m < *fitted.far_m)
+      clipped = pixels_more(renderer.render_primitives(fitted, width, height, unseen));
+  }
+  return {camera,
+          resolve_receivers(scene, camera, seen),
+          {{"clipped", clipped}, {"culled", culled}, {"scene_behind", scene_behind(scene, camera)}}};
+}
 
 struct Truth {
   ReceiverTruth receivers;
@@ -103,14 +137,6 @@ std::string lookup_key_of(const Settings& settings, const DepthBias& bias) {
   if (bias.moves_lookup() || bias.form == BiasForm::tan || bias.tap_reference() != TapReference::own_depth)
     key += key_of(settings, {"bias.form"});
   return key + fmt::format("{}", bias.normal_offset_texels);
-}
-
-Camera chosen_camera(const Scene& scene, const ViewSettings& view) {
-  Camera camera = scene.camera;
-  if (view.eye_m) camera.eye_m = *view.eye_m;
-  if (view.target_m) camera.target_m = *view.target_m;
-  if (view.fov_deg) camera.fov_y_deg = *view.fov_deg;
-  return camera;
 }
 
 }  // namespace
@@ -157,12 +183,8 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const LightFrame frame = make_light_frame(scene, settings);
   const Light light = effective_light(scene, settings);
 
-  const View& view = b.view.get(key_of(settings, {"scene.", "view."}), [&] {
-    const Camera camera = chosen_camera(scene, settings.view);
-    return View{camera, resolve_receivers(
-                            scene, camera,
-                            b.renderer.render_primitives(camera, settings.view.width_px, settings.view.height_px))};
-  });
+  const View& view =
+      b.view.get(key_of(settings, {"scene.", "view."}), [&] { return take_view(b.renderer, scene, settings.view); });
   const Truth& truth = b.truth.get(key_of(settings, {"scene.", "view.", "light.", "truth."}), [&] {
     Truth made;
     made.receivers = loaded.tracer->receiver_truth(view.receivers, frame, {light, settings.truth.standard_error},
@@ -213,6 +235,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const Image<float> tie_lookup = b.renderer.lookup(b.renderer.upload_map(ties, settings.map), frame, settings);
   m.record.metrics.merge(
       measure_soundness({evidence, map.depth, ties, tie_lookup, view.receivers, frame, view.camera.eye_m}));
+  m.record.metrics.insert(view.metrics.begin(), view.metrics.end());
   m.record.metrics["shaded_rmse"] = shaded_rmse(
       view.receivers, frame, make_camera_frame(view.camera, view.receivers.width(), view.receivers.height()),
       m.ladder.rung[1], m.ladder.rung[5]);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "compare/poor_view.h"
 #include "compare/quantities.h"
 #include "scenes/error.h"
 #include "scenes/settings.h"
@@ -145,15 +146,20 @@ std::string bound_text(const BoundResult& bound) {
   return bound.join == "worst" ? text : fmt::format("{} ({})", text, bound.join);
 }
 
+std::string found_text(const BoundResult& bound) {
+  return std::isnan(bound.found) ? std::string(not_measured) : fmt::format("{}", bound.found);
+}
+
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept) {
   std::string text = fmt::format("{}: {}", bound.held ? "held" : "broken", bound_text(bound));
   if (bound.points == 0)
     return text + "\n  no finished point matches it; change its where, or the values that are swept\n";
-  text += fmt::format("; found {} ({} of {} point{})\n", bound.found, bound.join, bound.points,
+  text += fmt::format("; found {} ({} of {} point{})\n", found_text(bound), bound.join, bound.points,
                       bound.points == 1 ? "" : "s");
   if (bound.held) return text;
 
   if (!std::isfinite(bound.found)) text += "  a value that could not be measured breaks every bound\n";
+  if (const std::string poor = point ? why_poor_view(*point) : ""; !poor.empty()) text += fmt::format("  {}\n", poor);
   if (point && find_quantity(bound.metric).of_curve && !why_no_curve(*point).empty())
     text += fmt::format("  it is read off the bias curve, and this point has none: {}\n", why_no_curve(*point));
   if (point) {

@@ -38,6 +38,9 @@ std::vector<BoundResult> evaluate_bounds(std::span<const PointRecord> points, st
 // "acne <= 0.01 where map.resolution = 512 | 1024 (mean)"
 std::string bound_text(const BoundResult& bound);
 
+// Every digit of what was found, or "not measured".
+std::string found_text(const BoundResult& bound);
+
 // One line when held; when broken also the point, found and allowed, its worst pixel and the command that reproduces
 // it. point: the worst point, or null. swept: settings to name the point by; empty: its id alone.
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept = {});

@@ -111,7 +111,7 @@ std::string to_junit(const Results& results) {
     testcase(
         bound_text(bound), bound.held, "bound",
         [&] {
-          return bound.points == 0 ? "no finished point matches the bound" : fmt::format("found {}", bound.found);
+          return bound.points == 0 ? "no finished point matches the bound" : fmt::format("found {}", found_text(bound));
         },
         [&] { return describe(bound, find_point(results.points, bound.point), results.info.swept); });
   for (const LawResult& law : results.laws)

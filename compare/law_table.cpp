@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "compare/laws.h"
+#include "compare/quantities.h"
 
 namespace noonmark {
 namespace {
@@ -14,7 +15,9 @@ constexpr size_t widest_name = 60;
 
 std::string_view limit_sign(LawRelation relation) { return relation == LawRelation::at_most ? "<=" : ">="; }
 
-std::string short_number(double value) { return fmt::format("{:.4g}", value); }
+std::string short_number(double value) {
+  return std::isnan(value) ? std::string(not_measured) : fmt::format("{:.4g}", value);
+}
 
 }  // namespace
 
@@ -63,8 +66,10 @@ std::string law_table(std::span<const LawResult> laws) {
     if (!worst)
       text += "    no finished point matches it; change its where, or the values that are swept\n";
     else
-      text += fmt::format("    point {}: off by {}, allowed {}\n", worst->point,
-                          short_number(worst->measured - worst->predicted), short_number(worst->allowed));
+      text += std::isnan(worst->measured - worst->predicted)
+                  ? fmt::format("    point {}: what could not be measured breaks every law\n", worst->point)
+                  : fmt::format("    point {}: off by {}, allowed {}\n", worst->point,
+                                short_number(worst->measured - worst->predicted), short_number(worst->allowed));
     if (!law.reproduce.empty()) text += fmt::format("    reproduce: {}\n", law.reproduce);
   }
   return text +

@@ -84,8 +84,10 @@ class Reader {
   // other: the point that `point` is compared with.
   std::string found(const PointRecord& point, const PointRecord& other) const {
     std::string text = end_of_sentence_;
-    for (auto figure = figures_.rbegin(); figure != figures_.rend(); ++figure)
-      text = fmt::format("{}{:.3g}{}", figure->before, value(figure->formula, figure->against ? other : point), text);
+    for (auto figure = figures_.rbegin(); figure != figures_.rend(); ++figure) {
+      const double number = value(figure->formula, figure->against ? other : point);
+      text = figure->before + (std::isnan(number) ? std::string(not_measured) : fmt::format("{:.3g}", number)) + text;
+    }
     return text;
   }
 

@@ -92,7 +92,7 @@ Image<uint8_t> peter_panning_mask(const Ladder& ladder) {
 
 std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   const Ladder& ladder = in.ladder;
-  uint64_t receivers = 0, facing = 0, base = 0, outside = 0, wrong = 0, aliased = 0;
+  uint64_t receivers = 0, facing = 0, base = 0, lit = 0, outside = 0, wrong = 0, aliased = 0;
   double error = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0, edge_sum = 0;
   std::array<double, cause_count> size{};
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
@@ -101,6 +101,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     ++facing;
     if (ladder.flags[i] & flag_ambiguous) continue;
     ++base;
+    lit += ladder.rung[1][i] != 0;
     outside += (ladder.flags[i] & flag_outside) != 0;
     const double hard = static_cast<double>(ladder.rung[5][i]) - ladder.rung[1][i];
     error += std::abs(hard);
@@ -160,6 +161,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"facing", static_cast<double>(facing)},
       {"counted", static_cast<double>(base)},
       {"attached", static_cast<double>(receivers - facing)},
+      {"lit", share(static_cast<double>(lit))},
       {"ambiguous", facing == 0 ? std::numeric_limits<double>::quiet_NaN()
                                 : static_cast<double>(facing - base) / static_cast<double>(facing)},
       {"outside", share(static_cast<double>(outside))},

@@ -30,6 +30,9 @@ QuantityInfo find_quantity(std::string_view name);
 // Empty when the point does not have it (its curve is off, its window empty, its metric was not recorded).
 std::optional<double> quantity(const PointRecord& point, std::string_view name);
 
+// In text, for a number that is NaN: there was nothing to measure it on.
+inline constexpr std::string_view not_measured = "not measured";
+
 // Why a point has no bias curve, as a sentence's end ("bias.form normal_offset ..."); empty when it has one, and when
 // its settings do not say.
 std::string_view why_no_curve(const PointRecord& point);

@@ -113,6 +113,7 @@ struct RunInfo {
   std::vector<std::string> plot;                 // metrics the experiment asks to plot
   std::string scene_name;
   uint64_t triangles = 0;
+  std::vector<std::string> scene_notes;  // a line for each scene that has something to say (Scene::notes)
 };
 
 struct Results {

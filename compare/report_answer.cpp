@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compare/metrics.h"
+#include "compare/poor_view.h"
 #include "compare/quantities.h"
 #include "compare/report_sections.h"
 #include "compare/report_text.h"
@@ -155,6 +156,7 @@ std::string health_items(const Results& results) {
         "bad", fmt::format(
                    "{} ha{} a metric that is <b>not finite</b>: it could not be measured, and fails every bound on it.",
                    points_text(not_finite), not_finite == 1 ? "s" : "ve"));
+  if (const std::string poor = poor_view_note(results.points); !poor.empty()) out += item("bad", html(poor) + ".");
   if (residual > largest_residual)
     out += item(
         "bad",
@@ -164,6 +166,8 @@ std::string health_items(const Results& results) {
   if (ambiguous > 0)
     out += item("note", fmt::format("The truth is ambiguous at no more than {} of facing receivers; they are left out.",
                                     quantity(ambiguous, "fraction")));
+  for (const std::string& note : results.info.scene_notes)
+    out += item("note", fmt::format("Of the scene {}.", html(note)));
   return out;
 }
 

@@ -153,6 +153,7 @@ void load_info(Database& db, Results& results) {
     if (key.starts_with(library_prefix)) info.libraries[key.substr(library_prefix.size())] = value;
     if (key == "swept") info.swept = nlohmann::json::parse(value).get<std::vector<std::string>>();
     if (key == "plot") info.plot = nlohmann::json::parse(value).get<std::vector<std::string>>();
+    if (key == "scene_notes") info.scene_notes = nlohmann::json::parse(value).get<std::vector<std::string>>();
     if (key == "triangles") info.triangles = std::stoull(value);
     if (key == "planned_points") results.planned_points = std::stoll(value);
   }
@@ -356,6 +357,7 @@ void ResultStore::set_info(const RunInfo& info, int64_t planned_points) {
   insert.run("swept", json_text(info.swept));
   insert.run("plot", json_text(info.plot));
   insert.run("triangles", std::to_string(info.triangles));
+  insert.run("scene_notes", json_text(info.scene_notes));
   insert.run("planned_points", std::to_string(planned_points));
   transaction.commit();
 }

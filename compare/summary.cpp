@@ -10,6 +10,7 @@
 #include "compare/bounds.h"
 #include "compare/laws.h"
 #include "compare/metrics.h"
+#include "compare/poor_view.h"
 #include "compare/quantities.h"
 
 namespace noonmark {
@@ -55,7 +56,10 @@ std::string indented(const std::string& lines) {
 }
 
 // Four digits are enough for a page; the store has them all.
-std::string short_number(std::optional<double> value) { return value ? fmt::format("{:.4g}", *value) : "–"; }
+std::string short_number(std::optional<double> value) {
+  if (!value) return "–";
+  return std::isnan(*value) ? std::string(not_measured) : fmt::format("{:.4g}", *value);
+}
 
 // "3 bounds", "the law"
 std::string counted(size_t count, std::string_view what) {
@@ -198,6 +202,8 @@ std::string best_table(const Results& results) {
 std::string to_summary(const Results& results) {
   const RunInfo& info = results.info;
   std::string text = fmt::format("# {}\n\n{}", cell(info.title.empty() ? "Noonmark" : info.title), verdict(results));
+  if (const std::string poor = poor_view_note(results.points); !poor.empty())
+    text += fmt::format("\nNote: {}.\n", poor);
   if (!results.laws.empty()) text += laws_table(results);
   if (!results.bounds.empty()) text += bounds_table(results);
   // Points of different parts are not there to be compared.

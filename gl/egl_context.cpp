@@ -13,7 +13,18 @@
 namespace noonmark::gl {
 namespace {
 
-constexpr const char* what_to_install = "on Debian, apt install libegl1 libegl-mesa0 libgl1-mesa-dri";
+constexpr const char* what_to_install = "on Debian, apt install libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri";
+
+// libepoxy ends the process when it cannot open what it needs, so look first, for what it looks for (1.5.10): EGL, and
+// OpenGL from the first of two. They stay open: epoxy holds pointers into them.
+void require_libraries() {
+  const auto opens = [](const char* name) { return dlopen(name, RTLD_LAZY | RTLD_LOCAL) != nullptr; };
+  const auto fail = [] {
+    throw Error(ErrorKind::device, fmt::format("OpenGL cannot be loaded: {}; {}", dlerror(), what_to_install));
+  };
+  if (!opens("libEGL.so.1")) fail();
+  if (!opens("libOpenGL.so.0") && !opens("libGL.so.1")) fail();
+}
 
 struct Candidate {
   EGLenum platform;
@@ -38,6 +49,8 @@ bool software_wanted() {
 std::vector<Candidate> candidates() {
   const char* client_extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::vector<Candidate> found;
+  // Without it there is no eglGetPlatformDisplayEXT, and libepoxy ends the process when it is called.
+  if (!has_word(client_extensions, "EGL_EXT_platform_base")) return found;
   if (has_word(client_extensions, "EGL_EXT_device_enumeration") &&
       has_word(client_extensions, "EGL_EXT_platform_device") && !software_wanted()) {
     EGLDeviceEXT devices[32];
@@ -85,10 +98,7 @@ EGLContext make_context(const Candidate& candidate, bool debug, EGLDisplay& disp
 }  // namespace
 
 EglContext::EglContext(DebugMode debug) {
-  // libepoxy ends the process when the library is missing; so look first. It stays open: epoxy holds pointers into it.
-  if (!dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL))
-    throw Error(ErrorKind::device, fmt::format("libEGL.so.1 is not installed; {}", what_to_install));
-
+  require_libraries();
   std::string refusals;
   for (const Candidate& candidate : candidates()) {
     EGLDisplay display = EGL_NO_DISPLAY;

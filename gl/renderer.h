@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "scenes/depth_bias.h"
@@ -74,8 +75,9 @@ class Renderer {
   // Uploads the scene's triangles; replaces any scene before it.
   void load_scene(const Scene& scene);
 
-  // For each pixel the index of the visible triangle (no culling), or no_primitive.
-  Image<uint32_t> render_primitives(const Camera& camera, int width, int height);
+  // For each pixel the index of the visible triangle, or no_primitive. unseen: the triangles that this camera looks
+  // through, as unseen_backs() has them (scenes/receivers.h); the others are seen from both sides.
+  Image<uint32_t> render_primitives(const Camera& camera, int width, int height, std::span<const uint32_t> unseen = {});
 
   // Uploads P and N. eye_m: the camera, for filters that grow with the view distance.
   void load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m);

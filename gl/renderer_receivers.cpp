@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "gl/renderer_impl.h"
 #include "scenes/camera_frame.h"
@@ -9,7 +10,8 @@
 
 namespace noonmark::gl {
 
-Image<uint32_t> Renderer::render_primitives(const Camera& camera, int width, int height) {
+Image<uint32_t> Renderer::render_primitives(const Camera& camera, int width, int height,
+                                            std::span<const uint32_t> unseen) {
   Impl& r = *impl_;
   r.context->make_current();
   const int limit = r.info.max_map_resolution;
@@ -18,7 +20,15 @@ Image<uint32_t> Renderer::render_primitives(const Camera& camera, int width, int
                 fmt::format("a picture of {} x {} pixels cannot be drawn; this OpenGL device goes up to {}; "
                             "set view.width_px and view.height_px",
                             width, height, limit));
-  Program& program = r.programs.get({"shaders/scene.vert", "shaders/primitive.frag"});
+  Program& program =
+      r.programs.get({"shaders/scene.vert", unseen.empty() ? "shaders/primitive.frag" : "shaders/primitive_seen.frag"});
+  Buffer unseen_bits;
+  if (!unseen.empty()) {
+    if (32 * unseen.size() < static_cast<size_t>(r.index_count) / 3)
+      throw std::logic_error("render_primitives: fewer bits than triangles");
+    unseen_bits = make_buffer(unseen.data(), unseen.size_bytes());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, unseen_bits.id());
+  }
   program.set("clip_from_world", glm::mat4(make_camera_frame(camera, width, height).clip_from_world()));
   r.require(r.primitive_colour, GL_R32UI, width, height);
   r.require(r.primitive_depth, GL_DEPTH_COMPONENT32F, width, height);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "raytrace/vertex_rounding.h"
 #include "scenes/error.h"
 
 namespace noonmark {
@@ -195,39 +196,29 @@ bool EmbreeScene::is_occluder(const ShadowRay& ray, uint32_t primitive, float di
   if (!near_start && !near_end) return true;
   // Near hits in double: where does the ray meet the other triangle's plane, against where it leaves its own, and where
   // the light is? A lamp that is fixed exactly to a ceiling is not behind it.
-  const glm::uvec3 t = scene_.triangles[primitive];
-  const glm::dvec3 a = scene_.positions[t.x], b = scene_.positions[t.y], c = scene_.positions[t.z];
-  const glm::dvec3 cross = glm::cross(b - a, c - a);
-  const double slope = glm::dot(cross, glm::dvec3(ray.direction));
-  if (slope == 0) return false;
-  // Both distances carry double's rounding, amplified where a plane is edge-on: 2^-48 of the coordinates over the
+  // Each distance carries double's rounding, amplified where the plane is edge-on: 2^-48 of the coordinates over the
   // cosine is 16 times that rounding.
-  const auto rounding = [&](glm::dvec3 from) {
-    return 0x1p-48 * (glm::length(from) + glm::length(a)) * glm::length(cross) / std::abs(slope);
+  struct Plane {
+    glm::dvec3 a, cross;
+    double slope;
+    double rounding(glm::dvec3 from) const {
+      return 0x1p-48 * (glm::length(from) + glm::length(a)) * glm::length(cross) / std::abs(slope);
+    }
   };
-  if (near_end && !(glm::dot(cross, a - ray.end) / slope < -rounding(ray.end))) return false;
+  const auto plane_of = [&](uint32_t triangle) {
+    const glm::uvec3 t = scene_.triangles[triangle];
+    const glm::dvec3 a = scene_.positions[t.x], b = scene_.positions[t.y], c = scene_.positions[t.z];
+    const glm::dvec3 cross = glm::cross(b - a, c - a);
+    return Plane{a, cross, glm::dot(cross, glm::dvec3(ray.direction))};
+  };
+  const Plane other = plane_of(primitive);
+  if (other.slope == 0) return false;
+  if (near_end && !(glm::dot(other.cross, other.a - ray.end) / other.slope < -other.rounding(ray.end))) return false;
   if (!near_start) return true;
   const glm::dvec3 origin(ray.origin);
-  const double exact = glm::dot(cross, a - origin) / slope;
-  return exact > ray.own_distance + rounding(origin) && !(ray.through_own_plane && one_plane(primitive, ray.own));
-}
-
-// The corners of one of the two must be as near to the other's plane as rounding leaves what was one plane: half a
-// float step in each of three axes, twice.
-bool EmbreeScene::one_plane(uint32_t a, uint32_t b) const {
-  const auto within = [&](uint32_t plane, uint32_t corners) {
-    const glm::uvec3 t = scene_.triangles[plane], v = scene_.triangles[corners];
-    const glm::dvec3 p = scene_.positions[t.x];
-    const glm::dvec3 normal =
-        glm::normalize(glm::cross(glm::dvec3(scene_.positions[t.y]) - p, glm::dvec3(scene_.positions[t.z]) - p));
-    for (int i = 0; i < 3; ++i) {
-      const glm::dvec3 corner = scene_.positions[v[i]];
-      const double scale = std::max(glm::length(corner), glm::length(p));
-      if (!(std::abs(glm::dot(normal, corner - p)) <= 0x1p-22 * scale)) return false;
-    }
-    return true;
-  };
-  return within(a, b) || within(b, a);
+  const double exact = glm::dot(other.cross, other.a - origin) / other.slope;
+  return exact > ray.own_distance + other.rounding(origin) + plane_of(ray.own).rounding(origin) &&
+         !may_be_one_plane(scene_, primitive, ray.own);
 }
 
 void EmbreeScene::filter(const RTCFilterFunctionNArguments* arguments) {

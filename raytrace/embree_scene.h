@@ -46,6 +46,7 @@ struct LightRay {
 
 // A shadow ray that starts on a triangle of the scene. own_distance: where along the ray (in units of its direction's
 // length) the plane of `own` lies, in double: the receiver's float position is up to half a float's last place off it.
+// Faces near the start that may have been one plane with `own` cast no shadow on it (raytrace/vertex_rounding.h).
 struct ShadowRay {
   glm::vec3 origin{0};
   glm::vec3 direction{0};
@@ -53,7 +54,6 @@ struct ShadowRay {
   glm::dvec3 end{0};                                     // finite reach: the place on the light, exactly
   uint32_t own = no_primitive;
   double own_distance = 0;
-  bool through_own_plane = false;  // sees through faces that lie in own's plane but for float's rounding of corners
 };
 
 class EmbreeScene {
@@ -70,10 +70,6 @@ class EmbreeScene {
 
   // Bit i: ray i meets another triangle than its own, beyond its own plane and before the light. count: 1 ... 16.
   uint32_t occluded(int count, const ShadowRay* rays) const;
-
-  // May the two triangles have been parts of one plane before their corners were rounded to float? Which of such faces
-  // is before the other is rounding's word.
-  bool one_plane(uint32_t a, uint32_t b) const;
 
   // Distance (in units of the direction's length) to the occluder nearest to the receiver; infinity without one.
   double occluder_distance(const ShadowRay& ray) const;

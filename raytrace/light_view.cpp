@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "raytrace/vertex_rounding.h"
+
 namespace noonmark {
 
 LightView::LightView(const Scene& scene, const LightFrame& frame)
@@ -56,6 +58,16 @@ double LightView::width(uint32_t triangle) const {
   const glm::dvec3 a = corner(triangle, 0), b = corner(triangle, 1), c = corner(triangle, 2);
   const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
   return glm::length(glm::cross(b - a, c - a)) / longest;
+}
+
+double LightView::corner_rounding_m(uint32_t triangle, int i) const {
+  return glm::length(vertex_rounding_m(scene_->positions[scene_->triangles[triangle][i]]));
+}
+
+bool LightView::touches(uint32_t triangle, glm::dvec3 point, double moved_m) const {
+  const glm::dvec3 normal = planes_[triangle].normal;
+  const double distance = std::abs(glm::dot(normal, point - corner(triangle, 0))) / glm::length(normal);
+  return distance <= moved_m + plane_rounding_m(*scene_, triangle, frame_.to_world(point));
 }
 
 glm::dvec3 LightView::at_depth(glm::dvec3 x, double depth) const {

@@ -24,6 +24,9 @@ class LightView {
 
   glm::dvec3 corner(uint32_t triangle, int i) const { return vertices_[scene_->triangles[triangle][i]]; }
 
+  // How far rounding may have moved the corner.
+  double corner_rounding_m(uint32_t triangle, int i) const;
+
   glm::dvec3 normal_place(glm::dvec3 place) const;
   glm::dvec3 place_of(glm::dvec3 light) const { return normal_place(frame_.place(light)); }
   glm::dvec3 texel_place(glm::ivec2 texel) const {
@@ -79,6 +82,9 @@ class LightView {
     return std::isnan(depth) ? plane.low : std::clamp(depth, plane.low, plane.high);
   }
 
+  // May a point of the light's frame that rounding has moved by as much have been meant to lie in the triangle's plane?
+  bool touches(uint32_t triangle, glm::dvec3 point, double moved_m) const;
+
   // The light-side ray through x: from before everything in the scene, or from the light itself.
   LightRay ray(glm::dvec3 x) const {
     if (!parallel_) return ray_from(x, 0);
@@ -97,6 +103,7 @@ class LightView {
   // origin and direction, and of Embree's edge tests over the scene's size (4 roundings of 2^-24).
   double ray_error_m() const { return ray_error_m_; }
 
+  const Scene& scene() const { return *scene_; }
   const LightFrame& frame() const { return frame_; }
   bool parallel() const { return parallel_; }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "raytrace/vertex_rounding.h"
 
 namespace noonmark {
 namespace {
@@ -44,32 +45,41 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec3 x) const {
     const double along = side_a == side_b ? 0.5 : std::clamp(side_a / (side_a - side_b), 0.0, 1.0);
     const double edge_depth = view_.frame().depth_m(a + along * (b - a));
 
-    // The sheet goes on in a triangle that lies on the other side of the edge as the light sees it. Where several do,
-    // the flattest continuation is P's surface.
-    uint32_t next = no_primitive;
-    double flattest = -2;
-    const glm::dvec3 n1 = view_.normal_away(triangle);
-    for (uint32_t candidate : adjacency_.across(triangle, out)) {
-      if (candidate == from || view_.edge_on(candidate)) continue;
-      int apex = 0;  // the corner of the candidate that is not on the edge
-      for (int i = 0; i < 3; ++i) {
-        const uint32_t v = adjacency_.welded(candidate)[i];
-        if (v != adjacency_.welded(triangle)[out] && v != adjacency_.welded(triangle)[(out + 1) % 3]) apex = i;
-      }
-      const double side = sign * view_.orientation(a, b, view_.corner(candidate, apex));
-      if (!(side < 0)) continue;  // folded back, or edge-on to the light
-      const glm::dvec3 n2 = view_.normal_away(candidate);
-      const double flatness = glm::dot(n1, n2) / (glm::length(n1) * glm::length(n2));
-      if (flatness > flattest) {
-        flattest = flatness;
-        next = candidate;
-      }
-    }
+    const uint32_t next = next_on_sheet(triangle, out, from, x);
     if (next == no_primitive) return ends_at(edge_depth);
     from = triangle;
     triangle = next;
   }
   return ends_at(view_.plane_depth(p.primitive, x));
+}
+
+// The sheet goes on in a triangle that lies on the other side of the edge as the light sees it. Where several do (solids
+// that touch along an edge, a wall on a floor), P's surface is what bounds the same space as P's side of the triangle:
+// wound alike where any is, and of those the one nearest to the light beyond the edge, which hides the others.
+uint32_t OwnSurface::next_on_sheet(uint32_t triangle, int edge, uint32_t from, glm::dvec3 x) const {
+  const uint32_t begin = adjacency_.welded(triangle)[edge], end = adjacency_.welded(triangle)[(edge + 1) % 3];
+  const glm::dvec3 a = view_.corner(triangle, edge), b = view_.corner(triangle, (edge + 1) % 3);
+  const double sign = view_.orientation(triangle) < 0 ? -1 : 1;
+  uint32_t next = no_primitive;
+  bool next_alike = false;
+  double nearest = 0;
+  for (uint32_t candidate : adjacency_.across(triangle, edge)) {
+    if (candidate == from || view_.edge_on(candidate)) continue;
+    const std::array<uint32_t, 3>& v = adjacency_.welded(candidate);
+    int apex = 0;  // the corner of the candidate that is not on the edge
+    for (int i = 0; i < 3; ++i)
+      if (v[i] != begin && v[i] != end) apex = i;
+    const double side = sign * view_.orientation(a, b, view_.corner(candidate, apex));
+    if (!(side < 0)) continue;  // folded back, or edge-on to the light
+    const bool alike = v[(apex + 1) % 3] == end;  // runs through the edge the other way
+    const double depth = view_.plane_depth(candidate, x);
+    if (next == no_primitive || (alike && !next_alike) || (alike == next_alike && depth < nearest)) {
+      next = candidate;
+      next_alike = alike;
+      nearest = depth;
+    }
+  }
+  return next;
 }
 
 uint32_t OwnSurface::first_hit(glm::dvec3 x, uint64_t& rays) const {
@@ -166,12 +176,11 @@ OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uin
   const bool on_surface = !on_edge && walk(p, p.at).triangle != no_primitive;
   const double behind = sheet.depth_m - view_.hit_depth(hit, x);
   if (behind <= rounding_of_sheet(p, x, sheet, hit)) return {true, on_surface || sheet.triangle != no_primitive};
-  if (!p.lit) {
-    const bool twin = embree_.one_plane(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle);
-    return {false, !twin && (on_surface || sheet.triangle != no_primitive)};
-  }
+  const uint32_t own = sheet.triangle == no_primitive ? p.primitive : sheet.triangle;
+  if (may_be_one_plane(view_.scene(), hit, own)) return {true, true};
+  if (!p.lit) return {false, on_surface || sheet.triangle != no_primitive};
   Verdict v = continuous(p, x, hit, crossed, rays);
-  v.sure &= on_surface;
+  v.sure &= on_surface || (v.lit && (on_edge || goes_on_at(p, rays)));
   return v;
 }
 
@@ -214,37 +223,80 @@ double OwnSurface::depth_error(uint32_t a, uint32_t b, glm::dvec3 x) const {
 
 OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
                                            const std::vector<Silhouettes::Crossing>& at, uint64_t& rays) const {
-  bool sure = true;
   const glm::dvec3 way = x - p.at;
   const auto place = [&](double t) { return view_.normal_place(p.at + t * way); };
-  const auto aside = [&](size_t i) {  // as a fraction of the way, which is longer the deeper the edge lies
-    const double length = glm::length(way) * (view_.parallel() ? 1 : at[i].depth_m);
-    return rounding_share * beside_m() / (length * at[i].sine);
+  // Silhouettes whose order along the way is rounding's word are crossed together: that of double's arithmetic, or of
+  // the vertices (`rounded`), which closes cracks.
+  struct Bracket {
+    size_t first, last;
+    double begin, end;  // fractions of the way
   };
-  const auto begin_of = [&](size_t i) { return at[i].t - aside(i); };
-  const auto end_of = [&](size_t i) { return at[i].t + aside(i); };
-  for (size_t first = 0, last; first < at.size(); first = last + 1) {
-    last = first;  // silhouettes that double cannot tell apart are crossed together
-    double begin = begin_of(first), end = end_of(first);
-    while (last + 1 < at.size() && begin_of(last + 1) <= end) {
-      ++last;
-      begin = std::min(begin, begin_of(last));
-      end = std::max(end, end_of(last));
-    }
-    const uint32_t before = begin > 0 ? exact_first(place(begin), rays) : p.primitive;
-    const uint32_t after = end < 1 ? exact_first(place(end), rays) : hit;
-    if (before == after) continue;
-    if (before == no_primitive || after == no_primitive) return {false, true};
-    double step = std::numeric_limits<double>::infinity();
-    for (size_t i = first; i <= last; ++i) {
+  const auto around = [&](size_t i, bool rounded) {
+    const double length = glm::length(way) * (view_.parallel() ? 1 : at[i].depth_m);  // longer the deeper the edge lies
+    const double aside =
+        (rounding_share * beside_m() + (rounded ? at[i].rounding_m : 0.0)) / (length * at[i].sine);
+    return Bracket{i, i, at[i].t - aside, at[i].t + aside};
+  };
+  const auto widen = [&](Bracket& b, bool rounded) {
+    const auto take = [&](size_t i) {
+      const Bracket one = around(i, rounded);
+      b = {std::min(b.first, i), std::max(b.last, i), std::min(b.begin, one.begin), std::max(b.end, one.end)};
+    };
+    for (size_t i = b.first; i <= b.last; ++i) take(i);
+    while (b.last + 1 < at.size() && around(b.last + 1, rounded).begin <= b.end) take(b.last + 1);
+    while (rounded && b.first > 0 && around(b.first - 1, rounded).end >= b.begin) take(b.first - 1);
+  };
+  const auto sheets = [&](const Bracket& b) {
+    return std::pair(b.begin > 0 ? exact_first(place(b.begin), rays) : p.primitive,
+                     b.end < 1 ? exact_first(place(b.end), rays) : hit);
+  };
+
+  bool sure = true;
+  for (size_t next = 0; next < at.size();) {
+    Bracket bracket{next, next, at[next].t, at[next].t};
+    widen(bracket, false);
+    next = bracket.last + 1;
+    const auto [before, after] = sheets(bracket);
+    bool jumps = before != after;
+    for (size_t i = bracket.first; i <= bracket.last && jumps; ++i) {
+      if (before == no_primitive || after == no_primitive) break;
       const glm::dvec3 y = place(at[i].t);
-      step = std::min(step, std::abs(view_.hit_depth(before, y) - view_.hit_depth(after, y)));
+      const double step = std::abs(view_.hit_depth(before, y) - view_.hit_depth(after, y));
+      jumps = step > rounding_share * depth_error(before, after, y);
     }
-    if (step <= rounding_share * depth_error(before, after, place(at[first].t))) continue;
-    if (!embree_.one_plane(before, after)) return {false, true};
-    sure = false;
+    if (!jumps) continue;
+    widen(bracket, true);
+    const auto [near, far] = sheets(bracket);
+    const Verdict joined = joins(near, far, at, bracket.first, bracket.last, place);
+    if (!joined.lit) return {false, true};
+    sure &= joined.sure;
+    next = std::max(next, bracket.last + 1);
   }
-  return {sure, sure};
+  return {true, sure};
+}
+
+// The two sheets are one where an edge that is crossed between them lies on both, to rounding. An edge before them that
+// does not may be crossed first or not at all: rounding says which.
+OwnSurface::Verdict OwnSurface::joins(uint32_t before, uint32_t after, const std::vector<Silhouettes::Crossing>& at,
+                                      size_t first, size_t last, const auto& place) const {
+  if (before == after) return {true, true};
+  if (before == no_primitive || after == no_primitive) return {false, true};
+  bool joined = false, other = false;
+  for (size_t i = first; i <= last; ++i) {
+    const glm::dvec3 y = place(at[i].t), edge = view_.at_depth(y, at[i].depth_m);
+    const double moved = at[i].rounding_m + rounding_share * depth_error(before, after, y);
+    if (view_.touches(before, edge, moved) && view_.touches(after, edge, moved))
+      joined = true;
+    else
+      other |= at[i].depth_m <= std::max(view_.hit_depth(before, y), view_.hit_depth(after, y));
+  }
+  return {joined, joined && !other};
+}
+
+bool OwnSurface::goes_on_at(const SurfacePoint& p, uint64_t& rays) const {
+  const uint32_t there = exact_first(p.at, rays);
+  const glm::dvec3 point = view_.at_depth(p.at, view_.plane_depth(p.primitive, p.at));
+  return there == p.primitive || (there != no_primitive && view_.touches(there, point, beside_m()));
 }
 
 }  // namespace noonmark

@@ -76,7 +76,9 @@ Silhouettes::Silhouettes(const Adjacency& adjacency, const LightView& view, doub
     : view_(view), reach_m_(reach_m) {
   for (uint32_t t = 0; t < adjacency.triangles(); ++t)
     for (int e = 0; e < 3; ++e)
-      if (!goes_on(adjacency, view, t, e)) edges_.push_back({view.corner(t, e), view.corner(t, (e + 1) % 3), t});
+      if (!goes_on(adjacency, view, t, e))
+        edges_.push_back({view.corner(t, e), view.corner(t, (e + 1) % 3), t,
+                          std::max(view.corner_rounding_m(t, e), view.corner_rounding_m(t, (e + 1) % 3))});
 
   std::vector<Piece> pieces;
   const uint32_t count = static_cast<uint32_t>(edges_.size());
@@ -175,7 +177,7 @@ void Silhouettes::cross(uint32_t index, glm::dvec3 from, glm::dvec3 to, std::vec
     sine = glm::length(glm::cross(edge_plane, way_plane)) / (glm::length(edge_plane) * glm::length(way_plane));
     if (!(glm::dot(where, from + t * way) > 0)) return;  // the edge's other side of the light
   }
-  if (t > 0 && t < 1) at.push_back({t, sine, view_.frame().depth_m(where)});
+  if (t > 0 && t < 1) at.push_back({t, sine, view_.frame().depth_m(where), edge.rounding_m});
 }
 
 bool Silhouettes::near_listed(glm::dvec3 x, double within_m, std::vector<uint32_t>* triangles) const {

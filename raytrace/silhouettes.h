@@ -31,6 +31,7 @@ class Silhouettes {
     double t = 0;        // fraction of the way
     double sine = 1;     // of the angle between the way and the edge
     double depth_m = 0;  // of the edge
+    double rounding_m = 0;  // how far the rounding of its ends may have moved it
     bool operator==(const Crossing&) const = default;
   };
   // Where the straight way crosses such edges, in order.
@@ -40,6 +41,7 @@ class Silhouettes {
   struct Edge {
     glm::dvec3 a, b;  // in the light's frame
     uint32_t triangle = 0;
+    double rounding_m = 0;
   };
   // A square of the light's plane, or one face of the cube (its s and t from -1 to 1, and a little more).
   struct Grid {

@@ -92,26 +92,22 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& receivers, const Light
     if (truth.facing[i]) facing.push_back(static_cast<uint32_t>(i));
   }
 
-  // Each receiver's verdict at P, at four places beside it, as far away as the float error reaches, and without the
-  // faces of its own plane: whether of two faces in one plane the other lies before or behind, float's rounding says.
+  // Each receiver's verdict at P, and at four places beside it, as far away as the float error reaches.
   const double error = view.ray_error_m();
   const glm::dvec2 places[5] = {{0, 0}, {error, 0}, {-error, 0}, {0, error}, {0, -error}};
   std::atomic<uint64_t> hard_rays = 0;
   for_each_packet(facing.size(), [&](size_t first, int n) {
-    uint32_t dark[6];
-    for (int place = 0; place < 6; ++place) {
-      dark[place] = 0;
-      if (place == 5 && dark[0] == 0) continue;  // who sees through more is no darker
+    uint32_t dark[5];
+    for (int place = 0; place < 5; ++place) {
       hard_rays += static_cast<uint64_t>(n);
       ShadowRay rays[packet_size];
       for (int i = 0; i < n; ++i)
         rays[i] =
-            place == 0 || place == 5 ? start.whole(facing[first + i]) : start.beside(facing[first + i], places[place]);
-      for (ShadowRay& ray : rays) ray.through_own_plane = place == 5;
+            place == 0 ? start.whole(facing[first + i]) : start.beside(facing[first + i], places[place]);
       dark[place] = impl_->embree.occluded(n, rays);
     }
-    const uint32_t any = dark[0] | dark[1] | dark[2] | dark[3] | dark[4] | dark[5],
-                   all = dark[0] & dark[1] & dark[2] & dark[3] & dark[4] & dark[5];
+    const uint32_t any = dark[0] | dark[1] | dark[2] | dark[3] | dark[4],
+                   all = dark[0] & dark[1] & dark[2] & dark[3] & dark[4];
     for (int i = 0; i < n; ++i) {
       truth.lit[facing[first + i]] = !(dark[0] >> i & 1);
       truth.ambiguous[facing[first + i]] = (any ^ all) >> i & 1;

@@ -1,5 +1,7 @@
 #include "scenes/camera_frame.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -20,8 +22,11 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   const glm::dvec3 view = camera.target_m - camera.eye_m;
   if (!(glm::length(view) > 0))
     throw Error(ErrorKind::usage, "the camera's eye is its target; set view.eye_m or view.target_m");
-  if (!(camera.near_m < camera.far_m))
-    throw Error(ErrorKind::usage, "the camera's near plane is not before its far plane");
+  if (camera.near_m && camera.far_m && !(*camera.near_m < *camera.far_m))
+    throw Error(ErrorKind::usage,
+                fmt::format("the camera's near plane ({} m) is not before its far plane ({} m); set view.near_m or "
+                            "view.far_m",
+                            *camera.near_m, *camera.far_m));
   CameraFrame frame;
   frame.camera = camera;
   frame.eye_m = camera.eye_m;
@@ -42,7 +47,7 @@ Ray CameraFrame::pixel_ray(int x, int y, int width, int height) const {
 }
 
 glm::dmat4 CameraFrame::clip_from_world() const {
-  const double n = camera.near_m, f = camera.far_m;
+  const double n = camera.near_m.value(), f = camera.far_m.value();
   glm::dmat4 view(1);  // GLM is column-major: view[column][row]
   for (int i = 0; i < 3; ++i) {
     view[i][0] = right[i];

@@ -18,7 +18,7 @@ struct CameraFrame {
 
   // Through the centre of pixel (x, y) of a picture of the size given to make_camera_frame; row 0 on top.
   Ray pixel_ray(int x, int y, int width, int height) const;
-  glm::dmat4 clip_from_world() const;
+  glm::dmat4 clip_from_world() const;  // of a camera with near and far
 };
 
 // Throws Error(usage) when eye and target coincide or near >= far.

@@ -9,7 +9,7 @@ namespace noonmark {
 enum class ErrorKind {
   usage = 2,       // wrong command line or experiment file
   scene = 3,       // bad scene or file
-  device = 4,      // no usable OpenGL or ray tracer
+  device = 4,      // no usable OpenGL, ray tracer or picture library
   defect = 5,      // a defect of ours: an invariant of the measurement did not hold
   incomplete = 6,  // the sweep did not finish
 };

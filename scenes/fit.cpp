@@ -4,12 +4,13 @@
 #include <glm/gtc/constants.hpp>
 #include <limits>
 
+#include "scenes/interior.h"
 #include "scenes/library.h"
 
 namespace noonmark {
 namespace {
 
-// Empty space around the sphere in the picture and before and behind it, as a fraction of its radius.
+// Empty space around the sphere in the picture, as a fraction of its radius.
 constexpr double margin = 0.05;
 // To the eye: a quarter to the right of the front (glTF's +Z), a little above. Any direction that shows three sides of
 // a box would do.
@@ -48,12 +49,9 @@ Light directional_light(const Sphere& around, const glm::dvec3& direction) {
   return light;
 }
 
-double far_beyond(const Sphere& sphere, const glm::dvec3& eye_m) {
-  return glm::distance(eye_m, sphere.centre_m) + (1 + margin) * usable_radius(sphere);
-}
-
-// For pictures at least as wide as they are high: the vertical angle holds the sphere.
+// From outside, for pictures at least as wide as they are high: the vertical angle holds the sphere.
 Camera fit_camera(const Scene& scene) {
+  if (const std::optional<Camera> inside = camera_inside(scene)) return *inside;
   const Sphere sphere = bounding_sphere(scene);
   const double radius = usable_radius(sphere);
   Camera camera;
@@ -61,8 +59,6 @@ Camera fit_camera(const Scene& scene) {
   const double distance = (1 + margin) * radius / glm::sin(half_angle);
   camera.target_m = sphere.centre_m;
   camera.eye_m = sphere.centre_m + to_eye * distance;
-  camera.near_m = distance - (1 + margin) * radius;
-  camera.far_m = far_beyond(sphere, camera.eye_m);
   return camera;
 }
 

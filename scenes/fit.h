@@ -18,7 +18,4 @@ Sphere bounding_sphere(const Scene& scene);
 // outside the sphere: a directional light has none of its own.
 Light directional_light(const Sphere& around, const glm::dvec3& direction);
 
-// Far enough from eye_m to hold the whole sphere, whatever way the camera looks.
-double far_beyond(const Sphere& sphere, const glm::dvec3& eye_m);
-
 }  // namespace noonmark

@@ -37,7 +37,8 @@ Scene load_gltf(const std::string& path, const Pose& pose) {
                    "export meshes of triangles, in the default scene and with an area");
     }
     gltf::note_contents(document, placement.nodes, scene.notes);
-    scene.camera = gltf::find_camera(document, placement.nodes, scene).value_or(fit_camera(scene));
+    const std::optional<Camera> camera = gltf::find_camera(document, placement.nodes, scene);
+    scene.camera = camera ? *camera : fit_camera(scene);
     scene.light = gltf::find_light(document, placement.nodes, scene).value_or(fit_light(scene));
     return scene;
   } catch (const std::bad_alloc&) {

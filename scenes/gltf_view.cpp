@@ -68,8 +68,7 @@ std::optional<Camera> find_camera(const Document& document, const std::vector<Pl
   } else {
     camera.fov_y_deg = glm::degrees(from.perspective.yfov);
     camera.near_m = from.perspective.znear;
-    camera.far_m = from.perspective.zfar != 0 ? from.perspective.zfar
-                                              : std::max(far_beyond(sphere, camera.eye_m), 2 * camera.near_m);
+    if (from.perspective.zfar != 0) camera.far_m = from.perspective.zfar;
   }
   return camera;
 }

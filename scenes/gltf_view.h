@@ -8,7 +8,7 @@
 
 namespace noonmark::gltf {
 
-// The first camera of the placed nodes; none: nothing. An infinite perspective gets a far plane behind the whole scene.
+// The first camera of the placed nodes; none: nothing. An infinite perspective has no far: it is fitted.
 // Aspect ratio and xmag are not used: the picture's shape is the user's. Others are left out, with a note; an invisible
 // node's camera is as good as any. Throws Error(scene) where a shear lays the camera's up along its view.
 std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene);

@@ -1,6 +1,7 @@
 #include "scenes/library.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <vector>
 
@@ -33,6 +34,12 @@ Scene scene_as_built(const SceneSettings& settings) {
 
 bool names_file(std::string_view scene_name) { return scene_name.ends_with(".gltf") || scene_name.ends_with(".glb"); }
 
-Scene make_scene(const SceneSettings& settings) { return remeshed(scene_as_built(settings), settings.mesh); }
+std::string notes_line(const Scene& scene) {
+  return scene.notes.empty() ? "" : fmt::format("{}: {}", scene.name, fmt::join(scene.notes, "; "));
+}
+
+Scene make_scene(const SceneSettings& settings) {
+  return remeshed(scene_as_built(settings), settings.mesh, {settings.turn_deg, settings.move_m});
+}
 
 }  // namespace noonmark

@@ -28,6 +28,9 @@ bool names_file(std::string_view scene_name);
 // for an unknown name (suggesting the nearest), Error(scene) for a file that cannot be used.
 Scene make_scene(const SceneSettings& settings);
 
+// "street: 2 animations at rest (...); 1 primitive of lines left out": the scene's notes as one line; empty without any.
+std::string notes_line(const Scene& scene);
+
 // The pose of a glTF file's scene: at rest, or at a time of one of its animations.
 struct Pose {
   std::optional<double> time_s;  // empty: at rest
@@ -38,7 +41,8 @@ struct Pose {
 // fitted where the file has none. Throws Error(scene).
 Scene load_gltf(const std::string& path, const Pose& pose = {});
 
-// scenes/fit.cpp: a perspective camera that sees the whole scene, and a light from above and aside. For scenes without.
+// scenes/fit.cpp: a perspective camera that sees the whole scene from outside, or stands inside a closed room
+// (scenes/interior.h); and a light from above and aside. For scenes without.
 Camera fit_camera(const Scene& scene);
 Light fit_light(const Scene& scene);
 

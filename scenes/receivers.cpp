@@ -32,6 +32,22 @@ glm::dvec3 nearest_in_triangle(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dv
 
 }  // namespace
 
+std::vector<uint32_t> unseen_backs(const Scene& scene, const Camera& camera) {
+  std::vector<uint32_t> bits((scene.single_sided.size() + 31) / 32);
+  bool any = false;
+  for (size_t t = 0; t < scene.single_sided.size(); ++t) {
+    if (!scene.single_sided[t]) continue;
+    const glm::uvec3 corner = scene.triangles[t];
+    const glm::dvec3 a = scene.positions[corner.x], b = scene.positions[corner.y], c = scene.positions[corner.z];
+    const glm::dvec3 to_viewer =
+        camera.projection == Projection::perspective ? camera.eye_m - a : camera.eye_m - camera.target_m;
+    if (glm::dot(glm::cross(b - a, c - a), to_viewer) > 0) continue;
+    bits[t / 32] |= 1u << (t % 32);
+    any = true;
+  }
+  return any ? bits : std::vector<uint32_t>();
+}
+
 ReceiverImage resolve_receivers(const Scene& scene, const Camera& camera, const Image<uint32_t>& primitives) {
   const int width = primitives.width, height = primitives.height;
   const CameraFrame frame = make_camera_frame(camera, width, height);

@@ -1,10 +1,12 @@
 // The receivers of a picture: for every pixel the visible surface point at its centre. One receiver image serves every
 // technique and the truth, so that nothing but the shadow can differ between the renderers.
 //
-//   ReceiverImage receivers = resolve_receivers(scene, camera, renderer.render_primitives(camera, 1280, 720));
+//   ReceiverImage receivers = resolve_receivers(
+//       scene, camera, renderer.render_primitives(camera, 1280, 720, unseen_backs(scene, camera)));
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "scenes/image.h"
 #include "scenes/scene.h"
@@ -20,6 +22,10 @@ struct ReceiverImage {
   int width() const { return primitive.width; }
   int height() const { return primitive.height; }
 };
+
+// The triangles that are single-sided and turn their backs to the camera, or are seen edge-on: bit t % 32 of word t /
+// 32 is triangle t. Empty where there is none.
+std::vector<uint32_t> unseen_backs(const Scene& scene, const Camera& camera);
 
 // primitives: what the rasteriser saw at each pixel's centre (index into scene.triangles, or no_primitive).
 // P is where the ray through the pixel's centre meets the primitive's plane, in double, moved to the nearest point of

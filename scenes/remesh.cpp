@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/gtc/matrix_transform.hpp>
 #include <map>
+#include <numbers>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -91,11 +93,114 @@ void double_up(Scene& scene) {
   }
 }
 
+// Triangles with corners of their own, in double until the scene stands where it is to be.
+struct Soup {
+  std::vector<glm::dvec3> corners;  // three for each triangle
+  std::vector<uint32_t> source;     // of each triangle: which of the scene's it was cut from
+  std::vector<Part> parts;
+
+  void add(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) { corners.insert(corners.end(), {a, b, c}); }
+  uint32_t triangles() const { return static_cast<uint32_t>(corners.size() / 3); }
+};
+
+template <class Cut>
+Soup cut_each(const Scene& scene, const Cut& cut) {
+  Soup soup;
+  for (const Part& part : scene.parts) {
+    for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
+      const glm::uvec3 v = scene.triangles[t];
+      cut(soup, part, scene.positions[v.x], scene.positions[v.y], scene.positions[v.z]);
+      soup.source.resize(soup.triangles(), t);
+    }
+  }
+  return soup;
+}
+
+void add_tiles(Soup& soup, const Part& part, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+  constexpr int n = 8;  // on a side
+  const auto at = [&](int i, int j) {
+    return a + static_cast<double>(i) / n * (b - a) + static_cast<double>(j) / n * (c - a);
+  };
+  const auto tile = [&](glm::dvec3 p, glm::dvec3 q, glm::dvec3 r) {
+    const glm::dvec3 origin = glm::vec3((p + q + r) / 3.0);
+    const auto placed = [&](glm::dvec3 corner) { return origin + glm::dvec3(glm::vec3(corner - origin)); };
+    soup.parts.push_back({part.name + " tile", soup.triangles(), 1});
+    soup.add(placed(p), placed(q), placed(r));
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      tile(at(i, j), at(i + 1, j), at(i, j + 1));
+      if (i + j + 1 < n) tile(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  }
+}
+
+void add_strips(Soup& soup, const Part& part, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+  constexpr int n = 6;
+  soup.parts.push_back({part.name, soup.triangles(), 0});
+  for (int strip = 0; strip < n; ++strip) {  // from corner a to side bc
+    const auto left = [&](int i) { return a + static_cast<double>(i) / n * (b - a); };
+    const auto right = [&](int i) { return a + static_cast<double>(i) / n * (c - a); };
+    const int pieces = 1 + strip % 3;
+    const auto on = [&](int i, int piece) {
+      return left(i) + static_cast<double>(piece) / pieces * (right(i) - left(i));
+    };
+    for (int piece = 0; piece < pieces; ++piece) {
+      if (strip > 0) soup.add(on(strip, piece), on(strip + 1, piece), on(strip, piece + 1));
+      soup.add(on(strip, piece + 1), on(strip + 1, piece), on(strip + 1, piece + 1));
+    }
+  }
+  soup.parts.back().triangle_count = soup.triangles() - soup.parts.back().first_triangle;
+}
+
+// The scene with the soup's triangles, each with vertices of its own.
+void replace(Scene& scene, const Soup& soup, const auto& placed) {
+  const std::vector<bool> sides = std::move(scene.single_sided);
+  scene.positions.clear();
+  scene.triangles.clear();
+  scene.parts.clear();
+  scene.single_sided.clear();
+  for (Part part : soup.parts) {
+    const uint32_t first = static_cast<uint32_t>(scene.triangles.size());
+    for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
+      const glm::vec3 a(placed(soup.corners[3 * t])), b(placed(soup.corners[3 * t + 1])),
+          c(placed(soup.corners[3 * t + 2]));
+      if (a == b || b == c || c == a) continue;
+      const uint32_t at = static_cast<uint32_t>(scene.positions.size());
+      scene.positions.insert(scene.positions.end(), {a, b, c});
+      scene.triangles.emplace_back(at, at + 1, at + 2);
+      if (!sides.empty()) scene.single_sided.push_back(sides[soup.source[t]]);
+    }
+    part.first_triangle = first;
+    part.triangle_count = static_cast<uint32_t>(scene.triangles.size()) - first;
+    scene.parts.push_back(part);
+  }
+}
+
+glm::dmat4 matrix(const Placement& placement) {
+  const glm::dmat4 moved = glm::translate(glm::dmat4(1), placement.move_m);
+  if (placement.turn_deg == 0) return moved;
+  return glm::rotate(moved, placement.turn_deg * std::numbers::pi / 180, glm::normalize(glm::dvec3(1, 2, 3)));
+}
+
 }  // namespace
 
-Scene remeshed(Scene scene, MeshForm form) {
+Scene remeshed(Scene scene, MeshForm form, const Placement& placement) {
+  const glm::dmat4 motion = matrix(placement);
+  const bool stays = placement.turn_deg == 0 && placement.move_m == glm::dvec3(0);
+  const auto placed = [&](glm::dvec3 p) { return stays ? p : glm::dvec3(motion * glm::dvec4(p, 1)); };
+  if (form == MeshForm::tiles || form == MeshForm::t_junctions)
+    replace(scene, cut_each(scene, form == MeshForm::tiles ? add_tiles : add_strips), placed);
+  else
+    for (glm::vec3& p : scene.positions) p = glm::vec3(placed(p));
+  for (glm::dvec3* p : {&scene.camera.eye_m, &scene.camera.target_m, &scene.light.position_m, &scene.light.target_m})
+    *p = placed(*p);
+  if (!stays) scene.camera.up = glm::dvec3(motion * glm::dvec4(scene.camera.up, 0));
+
   switch (form) {
     case MeshForm::as_built:
+    case MeshForm::tiles:
+    case MeshForm::t_junctions:
       return scene;
     case MeshForm::one_mesh:
       weld(scene);

@@ -1,12 +1,21 @@
-// The same surface in other triangles. What shades what does not depend on how a surface is cut, ordered or divided
-// into meshes, and neither may a verdict or its cause (design, law 11).
+// The same surface in other triangles, and the same scene elsewhere. What shades what does not depend on how a surface
+// is cut, ordered or divided into meshes, nor on where it stands in the world, and neither may a verdict or its cause
+// (design, law 11).
 //
 //   Scene again = remeshed(make_scene(settings), MeshForm::split);
+//   Scene far = remeshed(scene, MeshForm::tiles, {.turn_deg = 17, .move_m = {300, 0, 0}});
 #pragma once
 #include "scenes/scene.h"
 #include "scenes/settings.h"
 
 namespace noonmark {
+
+// A rigid motion of the whole scene with its camera and light: first turned about the axis (1, 2, 3) through the
+// origin, so that no plane of the scene stays along an axis, then moved.
+struct Placement {
+  double turn_deg = 0;
+  glm::dvec3 move_m{0};
+};
 
 // as_built: unchanged.
 // one_mesh: one part; vertices with equal positions become one vertex. Order and positions of the triangles stay.
@@ -16,6 +25,12 @@ namespace noonmark {
 // reversed: parts, triangles and vertices in reverse order, each triangle begun at another corner. It is still
 //           counter-clockwise: the winding is part of the surface.
 // doubled:  every triangle once more, in the same place, with vertices and parts of its own.
-Scene remeshed(Scene scene, MeshForm form);
+// tiles:    each triangle in 64, each a part with vertices of its own, placed as an engine places instances: an origin
+//           and offsets from it, both rounded to float. Neighbours agree to rounding only.
+// t_junctions: each triangle in 6 strips, which are cut into 1, 2 or 3 pieces in turn: corners lie on the edges of
+//           their neighbours, and across them on the neighbour's plane, to rounding only.
+// Positions are rounded to float once, after the placement; tiles' parts once before it. What the rounding makes
+// degenerate is left out.
+Scene remeshed(Scene scene, MeshForm form, const Placement& placement = {});
 
 }  // namespace noonmark

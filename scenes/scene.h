@@ -43,8 +43,7 @@ struct Camera {
   glm::dvec3 up{0, 1, 0};  // need not be perpendicular to the view direction, only not parallel to it
   double fov_y_deg = 45;   // perspective: the whole vertical angle
   double height_m = 10;    // orthographic: the world height that the picture shows
-  double near_m = 0.1;
-  double far_m = 100;
+  std::optional<double> near_m = {}, far_m = {};  // along the view; empty: fitted (scenes/camera_fit.h)
 };
 
 enum class LightKind { directional, spot, point };

@@ -94,17 +94,24 @@ Setting real(std::string_view name, std::string_view unit, double min, double ma
 }
 
 template <class Member>
-Setting point(std::string_view name, std::string_view help, Member member) {
-  Setting row{name, "m", ValueType::point, 0, 0, true, {}, help, {}, {}};
+Setting point(std::string_view name, std::string_view unit, std::string_view help, Member member) {
+  constexpr bool is_optional = std::is_same_v<std::invoke_result_t<Member, Settings&>, std::optional<glm::dvec3>&>;
+  Setting row{name, unit, ValueType::point, 0, 0, is_optional, {}, help, {}, {}};
   row.get = [member](const Settings& s) {
     const auto& value = member(const_cast<Settings&>(s));
-    return value ? point_text(*value) : std::string("auto");
+    if constexpr (is_optional)
+      return value ? point_text(*value) : std::string("auto");
+    else
+      return point_text(value);
   };
   row.set = [member, row](Settings& s, std::string_view text) {
-    if (text == "auto")
-      member(s).reset();
-    else
-      member(s) = parse_point(row, text);
+    if constexpr (is_optional) {
+      if (text == "auto") {
+        member(s).reset();
+        return;
+      }
+    }
+    member(s) = parse_point(row, text);
   };
   return row;
 }
@@ -160,10 +167,17 @@ std::vector<Setting> make_table() {
            MEMBER(scene.phi_deg)),
       real("scene.thickness_m", "m", 1e-4, 10, "wall, plate: thickness.", MEMBER(scene.thickness_m)),
       real("scene.height_m", "m", 0, 100, "plate: height of its lit face above the floor.", MEMBER(scene.height_m)),
-      choice("scene.mesh", {"as_built", "one_mesh", "split", "reversed", "doubled"},
+      choice("scene.mesh", {"as_built", "one_mesh", "split", "reversed", "doubled", "tiles", "t_junctions"},
              "The scene's surface as built, or in other triangles: welded into one mesh, each triangle cut in four, "
-             "triangles and vertices in reverse order, each triangle there twice.",
+             "triangles and vertices in reverse order, each triangle there twice, in tiles that meet to rounding only, "
+             "in strips with corners on their neighbours' edges.",
              MEMBER(scene.mesh)),
+      real("scene.turn_deg", "deg", -360, 360,
+           "Turns the whole scene, its camera and light with it, about the axis (1, 2, 3): then no plane is along an "
+           "axis.",
+           MEMBER(scene.turn_deg)),
+      point("scene.move_m", "m", "Moves the whole scene, its camera and light with it, after the turn.",
+            MEMBER(scene.move_m)),
       real("scene.time_s", "s", 0, 1e6,
            "A glTF file's animation poses the scene at this time; before its first key and after its last it stands "
            "still; auto: at rest, no animation.",
@@ -172,17 +186,25 @@ std::vector<Setting> make_table() {
               MEMBER(scene.animation)),
       integer("view.width_px", "px", 1, 8192, "Width of the picture.", MEMBER(view.width_px)),
       integer("view.height_px", "px", 1, 8192, "Height of the picture.", MEMBER(view.height_px)),
-      point("view.eye_m", "Where the camera is; auto: the scene's.", MEMBER(view.eye_m)),
-      point("view.target_m", "What the camera looks at; auto: the scene's.", MEMBER(view.target_m)),
+      point("view.eye_m", "m", "Where the camera is; auto: the scene's.", MEMBER(view.eye_m)),
+      point("view.target_m", "m", "What the camera looks at; auto: the scene's.", MEMBER(view.target_m)),
+      point("view.up", "", "The direction that points up in the picture, of any length; auto: the scene's.",
+            MEMBER(view.up)),
       real("view.fov_deg", "deg", 1, 170, "Whole vertical angle of view; auto: the scene's.", MEMBER(view.fov_deg)),
+      real("view.near_m", "m", 1e-6, 1e9,
+           "The camera's near plane, along the view; auto: the scene's, or fitted so that nothing in view is cut off.",
+           MEMBER(view.near_m)),
+      real("view.far_m", "m", 1e-6, 1e9,
+           "The camera's far plane, along the view; auto: the scene's, or fitted so that nothing in view is cut off.",
+           MEMBER(view.far_m)),
       choice("light.kind", {"auto", "directional", "spot", "point"},
              "directional: parallel rays and one orthographic map; spot: one perspective map; point: a cube map of "
              "distances; auto: the scene's.",
              MEMBER(light.kind)),
-      point("light.position_m",
+      point("light.position_m", "m",
             "Where a spot or point light is; a directional light's map measures depth from there; auto: the scene's.",
             MEMBER(light.position_m)),
-      point("light.target_m", "What the light points at, the middle of its map; auto: the scene's.",
+      point("light.target_m", "m", "What the light points at, the middle of its map; auto: the scene's.",
             MEMBER(light.target_m)),
       real("light.angular_diameter_deg", "deg", 0, 90,
            "directional: of a sun with a size, for R0 (the real sun: 0.53); auto: the scene's.",
@@ -358,9 +380,15 @@ void validate(const Settings& s) {
                             s.filter.size));
   if (s.bias.form == BiasForm::tan && s.bias.floor > s.bias.cap)
     throw Error(ErrorKind::usage, fmt::format("bias.floor = {} is more than bias.cap = {}", s.bias.floor, s.bias.cap));
-  if (s.map.near_m && s.map.far_m && *s.map.near_m >= *s.map.far_m)
-    throw Error(ErrorKind::usage,
-                fmt::format("map.near_m = {} is not less than map.far_m = {}", *s.map.near_m, *s.map.far_m));
+  const auto require_order = [](std::string_view group, std::optional<double> near_m, std::optional<double> far_m) {
+    if (near_m && far_m && *near_m >= *far_m)
+      throw Error(ErrorKind::usage,
+                  fmt::format("{0}.near_m = {1} is not less than {0}.far_m = {2}", group, *near_m, *far_m));
+  };
+  require_order("map", s.map.near_m, s.map.far_m);
+  require_order("view", s.view.near_m, s.view.far_m);
+  if (s.view.up && *s.view.up == glm::dvec3(0))
+    throw Error(ErrorKind::usage, "view.up = 0,0,0 is no direction; give another, or auto");
 }
 
 void validate_for(LightKind kind, const Settings& s) {

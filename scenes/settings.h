@@ -18,7 +18,7 @@
 
 namespace noonmark {
 
-enum class MeshForm { as_built, one_mesh, split, reversed, doubled };  // scenes/remesh.h
+enum class MeshForm { as_built, one_mesh, split, reversed, doubled, tiles, t_junctions };  // scenes/remesh.h
 enum class DepthFormat { d16, d24, d32f };
 enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
 enum class CulledFaces { none, back, front };
@@ -47,6 +47,8 @@ struct SceneSettings {
   double thickness_m = 0.1;        // wall, plate
   double height_m = 0.5;           // plate: of its lit face above the floor
   MeshForm mesh = MeshForm::as_built;  // the same surface in other triangles
+  double turn_deg = 0;                 // the whole scene, camera and light with it, about the axis (1, 2, 3)
+  glm::dvec3 move_m{0};                // and then moved
   std::optional<double> time_s;        // of a file's animation: the pose at that time; empty: at rest
   int animation = 0;                   // which of the file's animations time_s is a time of
 };
@@ -56,7 +58,10 @@ struct ViewSettings {
   int height_px = 720;
   std::optional<glm::dvec3> eye_m;     // empty: the scene's
   std::optional<glm::dvec3> target_m;  // empty: the scene's
+  std::optional<glm::dvec3> up;        // of the picture, any length but 0; empty: the scene's
   std::optional<double> fov_deg;       // whole vertical angle; empty: the scene's
+  std::optional<double> near_m;        // along the view; empty: the scene's, or fitted (scenes/camera_fit.h)
+  std::optional<double> far_m;
 };
 
 struct LightSettings {  // automatic and empty: the scene's

@@ -51,8 +51,18 @@ CubeAddress cube_address(glm::dvec3 r) {
 
 }  // namespace
 
-CentralForm::CentralForm(const std::vector<Shape>& shapes, const LightFrame& frame)
-    : frame_(frame), spot_(frame.kind == LightKind::spot) {
+bool CentralForm::one_plane(const Piece& a, const Piece& b) const {
+  const auto flat = [](const Piece& p) { return FlatFace{p.corner[0], p.corner[1] - p.corner[0], p.corner[3] - p.corner[0]}; };
+  return moved_m_ > 0 && !a.round && !b.round && may_be_one_plane(flat(a), flat(b), moved_m_);
+}
+
+bool CentralForm::is_step(const Piece& before, const Piece& after, glm::dvec3 way, double jump_m) const {
+  const auto cosine = [&](const Piece& p) { return 1 / std::sqrt(1 + slope(p, way) * slope(p, way)); };
+  return jump_m * std::min(cosine(before), cosine(after)) > 8 * moved_m_;
+}
+
+CentralForm::CentralForm(const std::vector<Shape>& shapes, const LightFrame& frame, double moved_m)
+    : frame_(frame), spot_(frame.kind == LightKind::spot), moved_m_(moved_m) {
   for (size_t i = 0; i < shapes.size(); ++i) {
     const Shape& s = shapes[i];
     for (int face = 0; face < (s.kind == ShapeKind::box ? 6 : 1); ++face) {
@@ -166,7 +176,8 @@ bool CentralForm::lit(const Place& place) const {
   const double depth = own.round ? along : plane_depth(own, way);
   return std::none_of(pieces_.begin(), pieces_.end(), [&](const Piece& other) {
     if (&other == &own) return false;
-    if (!other.round) return covers(other, way) && plane_depth(other, way) < depth - tie(own, other, way);
+    if (!other.round)
+      return covers(other, way) && plane_depth(other, way) < depth - tie(own, other, way) && !one_plane(own, other);
     const double most = (depth - tie(own, other, way)) * glm::length(way);
     double enters, leaves;
     if (!through_sphere(glm::normalize(way), other.corner[0], other.radius, enters, leaves)) return false;
@@ -233,7 +244,9 @@ bool CentralForm::has_jump(const Piece& own, glm::dvec3 from, glm::dvec3 to) con
     ends.push_back(i.end);
   }
   std::sort(ends.begin(), ends.end());
-  const double same = rounding / std::max(glm::length(to - from), rounding);
+  // The light's way to what it sees is no shorter than to P: a metre there is at least so much of a way.
+  const double apart = rounding + 4 * moved_m_ / plane_depth(own, from);
+  const double same = apart / std::max(glm::length(to - from), apart);
   for (size_t i = 0; i < ends.size();) {
     size_t last = i;  // outlines that meet in one place: a box's faces at their common edge
     while (last + 1 < ends.size() && ends[last + 1] <= ends[last] + same) ++last;
@@ -242,17 +255,20 @@ bool CentralForm::has_jump(const Piece& own, glm::dvec3 from, glm::dvec3 to) con
     if (left <= 0 || right >= 1) continue;
     const glm::dvec3 at_left = normal(from + left * (to - from)), at_right = normal(from + right * (to - from));
     double before = infinity, after = infinity, error = 0;
+    const Piece *piece_before = nullptr, *piece_after = nullptr;
     for (const Covered& c : list) {
       if (c.way.begin < left && c.way.end >= left) {
-        before = std::min(before, plane_depth(*c.piece, at_left));
+        if (plane_depth(*c.piece, at_left) < before) before = plane_depth(*c.piece, at_left), piece_before = c.piece;
         error = std::max(error, tie(*c.piece, *c.piece, at_left));
       }
       if (c.way.begin <= right && c.way.end > right) {
-        after = std::min(after, plane_depth(*c.piece, at_right));
+        if (plane_depth(*c.piece, at_right) < after) after = plane_depth(*c.piece, at_right), piece_after = c.piece;
         error = std::max(error, tie(*c.piece, *c.piece, at_right));
       }
     }
-    if (before != after && !(std::abs(before - after) <= error)) return true;
+    const double jump = std::abs(before - after);
+    if (before == after || jump <= error) continue;
+    if (!piece_before || !piece_after || is_step(*piece_before, *piece_after, at_left, jump)) return true;
   }
   return false;
 }
@@ -271,7 +287,8 @@ CentralForm::Answer CentralForm::answer_at(const Place& place, glm::dvec3 way, b
   const glm::dvec3 from = way_to(place.p);
   const Sheet s = sheet(own, from, way);
   answer.walked_off = s.ended_early;
-  if (depth >= s.depth_m - rounding * size_m_ * (1 + s.slope + slope(*first, way))) return answer;
+  if (depth >= s.depth_m - rounding * size_m_ * (1 + s.slope + slope(*first, way)) || one_plane(own, *first))
+    return answer;
   answer.lit = false;
   if (!p_lit) return answer;
   answer.by_jumps = true;

@@ -22,7 +22,8 @@ namespace noonmark::test {
 
 class CentralForm {
  public:
-  CentralForm(const std::vector<Shape>& shapes, const LightFrame& frame);
+  // moved_m: as ClosedForm has it.
+  CentralForm(const std::vector<Shape>& shapes, const LightFrame& frame, double moved_m = 0);
 
   glm::dvec3 way_to(glm::dvec3 world) const { return normal(world - frame_.origin_m); }
   // Of one tap at P: offset in texels of a flat map, in metres of the world for a cube.
@@ -93,12 +94,14 @@ class CentralForm {
     bool ended_early;
   };
   Sheet sheet(const Piece& own, glm::dvec3 from, glm::dvec3 way) const;
+  bool one_plane(const Piece& a, const Piece& b) const;
+  bool is_step(const Piece& before, const Piece& after, glm::dvec3 way, double jump_m) const;
   bool has_jump(const Piece& own, glm::dvec3 from, glm::dvec3 to) const;
 
   LightFrame frame_;
   bool spot_;
   std::vector<Piece> pieces_;
-  double size_m_ = 0;
+  double size_m_ = 0, moved_m_;
 };
 
 }  // namespace noonmark::test

@@ -56,7 +56,40 @@ FlatFace face_of(const Shape& s, int face) {
   return face % 2 ? FlatFace{at, u, v} : FlatFace{at, v, u};
 }
 
-ClosedForm::ClosedForm(const std::vector<Shape>& shapes, const LightFrame& frame) : frame_(frame) {
+bool may_be_one_plane(const FlatFace& a, const FlatFace& b, double moved_m) {
+  const auto holds = [&](const FlatFace& plane, const FlatFace& corners) {
+    const glm::dvec3 n = glm::cross(plane.u, plane.v);
+    const double narrowest = glm::length(n) / std::max(glm::length(plane.u), glm::length(plane.v));
+    for (const glm::dvec3 c : {corners.at, corners.at + corners.u, corners.at + corners.v,
+                               corners.at + corners.u + corners.v}) {
+      const glm::dvec3 way = c - plane.at;
+      const double off = std::abs(glm::dot(n, way)) / glm::length(n);
+      if (!(off <= moved_m * (4 + 12 * glm::length(way) / narrowest))) return false;
+    }
+    return true;
+  };
+  return holds(a, b) && holds(b, a);
+}
+
+double vertex_rounding_m(const Scene& scene) {
+  glm::vec3 largest(0);
+  for (const glm::vec3& p : scene.positions) largest = glm::max(largest, glm::abs(p));
+  return 0x1p-23 * glm::length(glm::dvec3(largest));
+}
+
+bool ClosedForm::one_plane(const Piece& a, const Piece& b) const {
+  return moved_m_ > 0 && a.kind != ShapeKind::sphere && b.kind != ShapeKind::sphere &&
+         may_be_one_plane(flat(a), flat(b), moved_m_);
+}
+
+// An edge of one of the two that lies in the other's plane, but for rounding of both, is none.
+bool ClosedForm::is_step(const Piece& before, const Piece& after, double jump_m) const {
+  const auto cosine = [](const Piece& p) { return 1 / std::sqrt(1 + glm::dot(p.gradient, p.gradient)); };
+  return jump_m * std::min(cosine(before), cosine(after)) > 8 * moved_m_;
+}
+
+ClosedForm::ClosedForm(const std::vector<Shape>& shapes, const LightFrame& frame, double moved_m)
+    : frame_(frame), moved_m_(moved_m) {
   const auto turned = [&](glm::dvec3 v) {
     return glm::dvec3(glm::dot(v, frame.right), glm::dot(v, frame.up), glm::dot(v, frame.forward));
   };
@@ -144,7 +177,7 @@ bool ClosedForm::lit(const Place& place) const {
   const glm::dvec2 x(p);
   const double z = own.kind == ShapeKind::sphere ? p.z : depth(own, x);
   return std::none_of(pieces_.begin(), pieces_.end(), [&](const Piece& other) {
-    return &other != &own && covers(other, x) && depth(other, x) < z - tie(own, other);
+    return &other != &own && covers(other, x) && depth(other, x) < z - tie(own, other) && !one_plane(own, other);
   });
 }
 
@@ -210,7 +243,7 @@ double ClosedForm::largest_jump(const Piece& own, glm::dvec2 from, glm::dvec2 to
     ends.push_back(i.end);
   }
   std::sort(ends.begin(), ends.end());
-  const double same = rounding * size_m_ / std::max(glm::length(to - from), rounding * size_m_);
+  const double apart = rounding * size_m_ + 8 * moved_m_, same = apart / std::max(glm::length(to - from), apart);
   double largest = 0;
   for (size_t i = 0; i < ends.size();) {
     size_t last = i;  // outlines that meet in one place: a box's faces at their common edge
@@ -219,14 +252,20 @@ double ClosedForm::largest_jump(const Piece& own, glm::dvec2 from, glm::dvec2 to
     i = last + 1;
     if (left <= 0 || right >= 1) continue;
     double before = infinity, after = infinity, error = 0;
+    const Piece *piece_before = nullptr, *piece_after = nullptr;
+    const auto nearer = [&](const Piece& piece, double t, double& least, const Piece*& which) {
+      const double z = depth(piece, from + t * (to - from));
+      if (z < least) least = z, which = &piece;
+    };
     for (const Covered& c : list) {
       error = std::max(error, tie(*c.piece, *c.piece));
-      if (c.way.begin < left && c.way.end >= left)
-        before = std::min(before, depth(*c.piece, from + left * (to - from)));
-      if (c.way.begin <= right && c.way.end > right)
-        after = std::min(after, depth(*c.piece, from + right * (to - from)));
+      if (c.way.begin < left && c.way.end >= left) nearer(*c.piece, left, before, piece_before);
+      if (c.way.begin <= right && c.way.end > right) nearer(*c.piece, right, after, piece_after);
     }
-    if (before != after && !(std::abs(before - after) <= error)) largest = std::max(largest, std::abs(before - after));
+    const double jump = std::abs(before - after);
+    if (before == after || jump <= error) continue;
+    if (piece_before && piece_after && !is_step(*piece_before, *piece_after, jump)) continue;
+    largest = std::max(largest, jump);
   }
   return largest;
 }
@@ -236,7 +275,7 @@ ClosedForm::Answer ClosedForm::answer_at(const Place& place, glm::dvec2 x) const
   const Piece* first = nullptr;
   for (const Piece& p : pieces_)
     if (covers(p, x) && (!first || depth(p, x) < depth(*first, x))) first = &p;
-  if (!first || depth(*first, x) >= sheet_depth(place, x) - tie(own, *first)) return {};
+  if (!first || depth(*first, x) >= sheet_depth(place, x) - tie(own, *first) || one_plane(own, *first)) return {};
   if (!lit(place)) return {.lit = false};
   const double jump = largest_jump(own, in_plane(place.p), x);
   return {jump == 0, true, jump};

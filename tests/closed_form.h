@@ -38,6 +38,13 @@ struct FlatFace {
 };
 FlatFace face_of(const Shape& shape, int face);
 
+// May two faces whose corners rounding has moved by up to moved_m have been parts of one plane? A plane that is carried
+// on from a narrow face is off by that much more.
+bool may_be_one_plane(const FlatFace& a, const FlatFace& b, double moved_m);
+
+// What rounding of the vertices may have moved a corner of the scene by, in metres: a float step in each of three axes.
+double vertex_rounding_m(const Scene& scene);
+
 struct Place {
   glm::dvec3 p{0};
   int shape = 0;
@@ -46,7 +53,9 @@ struct Place {
 
 class ClosedForm {
  public:
-  ClosedForm(const std::vector<Shape>& shapes, const LightFrame& frame);
+  // moved_m: 0, or what rounding may have moved the corners by: then no step that it can have made is an edge. What the
+  // two forms say differently of, rounding decides.
+  ClosedForm(const std::vector<Shape>& shapes, const LightFrame& frame, double moved_m = 0);
 
   // R1: nothing lies between the light and P, P taken on its own face (a sphere's far side is never asked for).
   bool lit(const Place& place) const;
@@ -106,9 +115,13 @@ class ClosedForm {
   double outline_distance(const Piece& piece, glm::dvec2 x) const;
   Interval shaded(const Piece& piece, glm::dvec3 p, glm::dvec3 start, glm::dvec3 way) const;
 
+  static FlatFace flat(const Piece& p) { return {p.at, p.u, p.v}; }
+  bool one_plane(const Piece& a, const Piece& b) const;
+  bool is_step(const Piece& before, const Piece& after, double jump_m) const;
+
   LightFrame frame_;
   std::vector<Piece> pieces_;
-  double size_m_ = 0;
+  double size_m_ = 0, moved_m_;
 };
 
 }  // namespace noonmark::test

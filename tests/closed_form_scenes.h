@@ -78,9 +78,11 @@ class Builder {
     glm::dmat4 turn = glm::rotate(glm::dmat4(1), glm::radians(static_cast<double>(s.yaw_deg)), {0, 1, 0});
     turn = glm::rotate(turn, glm::radians(static_cast<double>(s.pitch_deg)), {1, 0, 0});
     turn = glm::rotate(turn, glm::radians(static_cast<double>(s.roll_deg)), {0, 0, 1});
-    // What is not many times larger than a ray's error (a grid step or two) does not survive the rounding.
+    // What is not many times larger than a ray's error (a grid step or two) does not survive the rounding; and what is
+    // not many times larger than what rounding makes of its plane where it is carried across the scene has no edge that
+    // a formula and the program can be asked to agree on.
     const bool flat = s.kind == static_cast<int>(ShapeKind::rectangle) || s.kind == static_cast<int>(ShapeKind::box);
-    if (unit * (flat ? std::min({s.a, s.b, s.c}) : s.a) < 8 * site_.grid_m) return;
+    if (unit * (flat ? std::min({s.a, s.b, s.c}) : s.a) < 64 * site_.grid_m) return;
     const glm::dvec3 e[3] = {snapped(glm::dvec3(turn[0]) * (unit * s.a)), snapped(glm::dvec3(turn[1]) * (unit * s.b)),
                              snapped(glm::dvec3(turn[2]) * (unit * s.c))};
     switch (static_cast<ShapeKind>(s.kind)) {

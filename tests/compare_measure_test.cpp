@@ -122,6 +122,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"facing", 10},
       {"counted", base},
       {"attached", 1},
+      {"lit", 8 / base},
       {"ambiguous", 0.1},
       {"outside", 2 / base},
       {"ambiguous_receivers", 1},
@@ -370,7 +371,7 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
     EXPECT_EQ(&find_metric(metric.name), &metric);
   }
   std::set<std::string> measured = times;
-  measured.insert("shaded_rmse");  // likewise
+  for (const char* name : {"shaded_rmse", "clipped", "culled", "scene_behind"}) measured.insert(name);  // likewise
   const Picture picture(1, 1);
   for (const auto& [name, value] : picture.metrics()) measured.insert(name);
   const Scene nothing;

@@ -227,6 +227,8 @@ RC_GTEST_PROP(ExperimentProperty, PointsAreTheProductOfTheLists, ()) {
       // near < far needs the two apart.
       if (row.name == "map.near_m" && text != "auto") text = "-" + std::to_string(i + 1);
       if (row.name == "map.far_m" && text != "auto") text = std::to_string(i + 1);
+      if (row.name == "view.near_m" && text != "auto") text = std::to_string(0.1 * (i + 1));
+      if (row.name == "view.far_m" && text != "auto") text = std::to_string(i + 1);
       // And floor <= cap.
       if (row.name == "bias.floor") text = std::to_string(0.001 * (i + 1));
       if (row.name == "bias.cap") text = std::to_string(0.1 * (i + 1));

@@ -1,8 +1,11 @@
 // The receiver pass against what can be told by hand.
+#include <algorithm>
 #include <cmath>
 
 #include "gl_fixture.h"
+#include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
+#include "scenes/receivers.h"
 
 namespace noonmark::gl {
 namespace {
@@ -59,6 +62,8 @@ TEST_F(GlTest, PerspectivePrimitivesMeetTheirPixelsRay) {
   Camera camera;
   camera.eye_m = {4, 3, 6};
   camera.fov_y_deg = 50;
+  camera.near_m = 0.1;
+  camera.far_m = 100;
   const int width = 160, height = 90;
   const Image<uint32_t> image = renderer.render_primitives(camera, width, height);
   const CameraFrame frame = make_camera_frame(camera, width, height);
@@ -116,6 +121,63 @@ TEST_F(GlTest, AnImpossiblePictureIsAUsageError) {
   EXPECT_EQ(kind_thrown([&] { renderer.render_primitives(camera_from_above(1), 1 << 20, 4); }, &message),
             static_cast<int>(ErrorKind::usage));
   EXPECT_NE(message.find(std::to_string(renderer.info().max_map_resolution)), std::string::npos) << message;
+}
+
+// From within a closed room every pixel sees a surface, wherever the eye is, however near to a wall it looks along.
+TEST_F(GlTest, FittedDepthsCutNothingOffInsideARoom) {
+  Scene room;
+  add_box(room, "room", {-4, -2, -3}, {4, 2, 3});
+  add_box(room, "pillar", {0.9, -2, 0.9}, {1, 2, 1});
+  renderer.load_scene(room);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> in(-1, 1);
+  for (int round = 0; round < 60; ++round) {
+    ViewSettings view;
+    view.width_px = 64;
+    view.height_px = 36;
+    view.eye_m = glm::dvec3(3.999, 1.999, 2.999) * glm::dvec3(in(random), in(random), in(random));
+    view.target_m = *view.eye_m + glm::dvec3(in(random), in(random), in(random));
+    view.fov_deg = 90 + 60 * in(random);
+    const Camera camera = effective_camera(room, view);
+    const Image<uint32_t> image = renderer.render_primitives(camera, view.width_px, view.height_px);
+    ASSERT_EQ(std::count(image.pixels.begin(), image.pixels.end(), no_primitive), 0)
+        << "round " << round << ", near " << *camera.near_m << ", far " << *camera.far_m;
+  }
+}
+
+// A box's front face, at half the picture's height from wherever it is seen.
+TEST_F(GlTest, FittedDepthsCutNothingOffFromOutside) {
+  Scene scene;
+  add_box(scene, "box", {-1, -1, -1}, {1, 1, 1});
+  renderer.load_scene(scene);
+  ViewSettings view;
+  view.width_px = view.height_px = 100;
+  for (double distance : {1.2, 3.0, 10.0, 1e3, 1e5}) {
+    scene.camera = {.eye_m = {0, 0, 1 + distance}, .fov_y_deg = 2 * glm::degrees(std::atan(2 / distance))};
+    const Image<uint32_t> image = renderer.render_primitives(effective_camera(scene, view), 100, 100);
+    const auto background = std::count(image.pixels.begin(), image.pixels.end(), no_primitive);
+    EXPECT_NEAR(static_cast<double>(image.size()) - static_cast<double>(background), 50 * 50, 50 + 50 + 1)
+        << distance << ": but for a row and a column that rounding may add or take";
+  }
+}
+
+TEST_F(GlTest, BacksOfSingleSidedTrianglesAreSeenThrough) {
+  Scene scene;
+  add_floor(scene, 0, 2);                                     // triangles 0 and 1, towards the camera
+  add_quad(scene, "lid", {-2, 1, -2}, {2, 0, 0}, {0, 0, 4});  // 2 and 3: x < 0, away from the camera
+  renderer.load_scene(scene);
+  Camera camera = camera_from_above(3);
+  const auto quad_at = [&](const std::vector<bool>& single_sided, int x) {
+    scene.single_sided = single_sided;
+    return renderer.render_primitives(camera, 30, 30, unseen_backs(scene, camera)).at(x, 15) / 2;
+  };
+  EXPECT_EQ(quad_at({}, 5), 1u);
+  EXPECT_EQ(quad_at({true, true, false, false}, 5), 1u);
+  EXPECT_EQ(quad_at({false, false, true, true}, 5), 0u) << "the floor behind the lid";
+  EXPECT_EQ(quad_at({true, true, true, true}, 25), 0u);
+  camera.eye_m.y = -10;  // from below the floor turns its back and the lid its front
+  EXPECT_EQ(quad_at({true, true, true, true}, 5), 1u);
+  EXPECT_EQ(quad_at({true, true, true, true}, 25), no_primitive / 2);
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ inline std::string defect_of(const Scene& scene) {
   if (in_parts != scene.triangles.size()) return "parts do not cover the triangles";
   const Camera& c = scene.camera;
   if (!finite(c.eye_m) || !finite(c.target_m) || !finite(c.up)) return "the camera is not finite";
-  if (!(c.near_m >= 0 && c.far_m > c.near_m && std::isfinite(c.far_m))) return "the camera's near and far";
+  if (c.near_m && !(*c.near_m >= 0)) return "the camera's near";
+  if (c.far_m && !(c.near_m && *c.far_m > *c.near_m && std::isfinite(*c.far_m))) return "the camera's far";
   if (!(c.fov_y_deg > 0 && c.fov_y_deg < 180) || !(c.height_m > 0) || !std::isfinite(c.height_m))
     return "the camera's angle";
   if (!(glm::length(glm::cross(glm::normalize(c.target_m - c.eye_m), glm::normalize(c.up))) > 1e-6))

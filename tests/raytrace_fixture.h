@@ -88,11 +88,14 @@ class LightBins {
   }
 
   // Is there another triangle between the light and the plane of `own` at p?
-  bool occluded(glm::dvec3 p, uint32_t own) const {
+  // tie: a depth that is within rounding of p's own counts as behind it; without, it is compared as it came out.
+  bool occluded(glm::dvec3 p, uint32_t own, bool tie = true) const {
     const glm::dvec2 x = glm::dvec2(frame_.to_light(p));
     const double z_own = plane(own, x);
     bool dark = false;
-    each_at(x, [&](uint32_t t, double z) { dark |= t != own && z < z_own - rounding(t) - rounding(own); });
+    each_at(x, [&](uint32_t t, double z) {
+      dark |= t != own && z < z_own - (tie ? rounding(t) + rounding(own) : 0.0);
+    });
     return dark;
   }
 

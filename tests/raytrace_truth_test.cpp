@@ -33,7 +33,8 @@ Count compare_with_brute_force(const Scene& scene, bool facing_light, int receiv
     if (truth.ambiguous[i]) continue;
     const bool lit = !brute.occluded(receivers.position[i], receivers.primitive[i]);
     if (lit == (truth.lit[i] != 0)) continue;
-    bool undecided = false;
+    // At the terminator the planes are all but edge-on, and double cannot tell which is before the other.
+    bool undecided = lit == brute.occluded(receivers.position[i], receivers.primitive[i], false);
     for (int k = 0; k < 16 && within_m > 0; ++k) {
       const double turn = glm::radians(45.0 * k), reach = within_m * (k < 8 ? 1 : 0.5);
       const glm::dvec3 beside = std::cos(turn) * frame.right + std::sin(turn) * frame.up;

@@ -106,6 +106,15 @@ TEST(Report, DoesNotComparePointsOfDifferentParts) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
 }
 
+TEST(Report, SaysWhatTheScenesFileHoldsAndIsNotModelled) {
+  const std::string note = "Of the scene street: 2 animations at rest";
+  Results results = sample_results();
+  results.info.scene_notes = {};
+  EXPECT_EQ(render_report(results, sample_picture).find(note), std::string::npos);
+  results.info.scene_notes = {"street: 2 animations at rest"};
+  EXPECT_NE(render_report(results, sample_picture).find(note), std::string::npos);
+}
+
 TEST(Report, EscapesWhateverTextTheResultsHold) {
   const std::string evil = "</script><script>alert('1')</script><img src=x onerror=\"alert(2)\">&amp;{{data}}\xff\xfe";
   Results results = sample_results();
@@ -118,6 +127,7 @@ TEST(Report, EscapesWhateverTextTheResultsHold) {
   info.libraries[evil] = evil;
   info.swept.push_back(evil);
   info.plot.push_back(evil);
+  info.scene_notes.push_back(evil);
   results.bounds.push_back({evil, 1.0, {}, {{evil, {evil}}}, evil, false, nan, 3, 1, evil});
   LawResult law = sample_law();
   for (std::string* text :

@@ -1,0 +1,24 @@
+// What passes between the program and its module noonmark_images. The module is the only part that needs OpenImageIO,
+// whose 250 shared libraries take a quarter of a second to load: app/image_file.cpp opens it before the first picture.
+// Both are built together, so this is no interface for others.
+#pragma once
+#include <cstddef>
+
+namespace noonmark {
+
+struct ImageToEncode {
+  const char* path;  // its ending names the format; nothing is written there
+  int width, height;
+  int channels;
+  const char* const* channel_names;  // null: sRGB colours of 8 bits; else 32-bit floats, `channels` names
+  const void* pixels;                // row 0 on top, channels interleaved
+};
+
+// Calls done once, with the bytes of the file (true), or with the reason why there are none (false). Throws nothing.
+using EncodeImage = void(const ImageToEncode& image, void* context,
+                         void (*done)(void* context, bool encoded, const char* bytes, size_t count));
+
+inline constexpr const char* image_module_file = "noonmark_images.so";
+inline constexpr const char* image_module_function = "noonmark_encode_image";  // an EncodeImage
+
+}  // namespace noonmark

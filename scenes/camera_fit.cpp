@@ -1,0 +1,121 @@
+#include "scenes/camera_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "scenes/camera_frame.h"
+#include "scenes/error.h"
+
+namespace noonmark {
+namespace {
+
+// Around what is fitted, as a fraction of it: far more than rounding the matrix to float moves a plane.
+constexpr double margin = 0x1p-10;
+// Of far. A nearer near plane would take the depth buffer (32-bit float, 1 at far) more than it has.
+constexpr double least_near = 1e-4;
+
+// Along the view, of what lies between the sides of the picture.
+struct Depths {
+  double nearest = std::numeric_limits<double>::infinity();
+  double farthest = 0;
+};
+
+// The least z of a triangle's part between the sides, infinite where there is none: Sutherland and Hodgman 1974.
+// Corners in the camera's axes, z along the view.
+double least_depth_between(const std::array<glm::dvec4, 5>& sides, const std::array<glm::dvec3, 3>& corners) {
+  constexpr size_t most = 3 + 5;  // each plane adds at most one corner
+  std::array<glm::dvec3, most> polygon, kept;
+  size_t count = 3;
+  std::copy(corners.begin(), corners.end(), polygon.begin());
+  for (const glm::dvec4& side : sides) {
+    const auto inside_by = [&](const glm::dvec3& p) { return glm::dot(glm::dvec3(side), p) + side.w; };
+    size_t left = 0;
+    for (size_t i = 0; i < count; ++i) {
+      const glm::dvec3 &p = polygon[i], &q = polygon[(i + 1) % count];
+      const double from = inside_by(p), to = inside_by(q);
+      if (from >= 0) kept[left++] = p;
+      if ((from >= 0) != (to >= 0)) kept[left++] = p + (q - p) * (from / (from - to));
+    }
+    std::copy_n(kept.begin(), left, polygon.begin());
+    count = left;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < count; ++i) least = std::min(least, polygon[i].z);
+  return least;
+}
+
+Depths depths_in_view(const Scene& scene, const CameraFrame& frame) {
+  const bool perspective = frame.camera.projection == Projection::perspective;
+  const double wide = (1 + margin) * frame.half_width, high = (1 + margin) * frame.half_height;
+  // Each plane's function is not negative inside. The last is the eye's own plane.
+  const double spread = perspective ? 1 : 0, width = perspective ? 0 : wide, height = perspective ? 0 : high;
+  const std::array<glm::dvec4, 5> sides = {{{1, 0, spread * wide, width},
+                                            {-1, 0, spread * wide, width},
+                                            {0, 1, spread * high, height},
+                                            {0, -1, spread * high, height},
+                                            {0, 0, 1, 0}}};
+  Depths depths;
+  for (const glm::uvec3& t : scene.triangles) {
+    std::array<glm::dvec3, 3> corners;
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 way = glm::dvec3(scene.positions[t[i]]) - frame.eye_m;
+      corners[static_cast<size_t>(i)] = {glm::dot(way, frame.right), glm::dot(way, frame.up),
+                                         glm::dot(way, frame.forward)};
+    }
+    const auto [near_m, far_m] = std::minmax({corners[0].z, corners[1].z, corners[2].z});
+    depths.farthest = std::max(depths.farthest, far_m);
+    if (far_m > 0 && near_m < depths.nearest)
+      depths.nearest = std::min(depths.nearest, least_depth_between(sides, corners));
+  }
+  return depths;
+}
+
+void require_upright(const Camera& camera) {
+  const glm::dvec3 view = camera.target_m - camera.eye_m;
+  constexpr double least_sine = 1e-6;  // as in upright_axes
+  if (glm::length(glm::cross(view, camera.up)) > least_sine * glm::length(view) * glm::length(camera.up)) return;
+  throw Error(ErrorKind::usage, fmt::format("view.up = {},{},{} is parallel to the view, so that the picture has no "
+                                            "upright; give another, or auto",
+                                            camera.up.x, camera.up.y, camera.up.z));
+}
+
+}  // namespace
+
+Camera with_fitted_depths(const Scene& scene, Camera camera, int width, int height) {
+  camera.near_m = camera.far_m = std::nullopt;
+  const Depths seen = depths_in_view(scene, make_camera_frame(camera, width, height));
+  // What float coordinates of this size cannot tell apart.
+  const double rounding = 0x1p-20 * (glm::length(camera.eye_m) + seen.farthest);
+  camera.far_m = seen.farthest > 0 ? (1 + margin) * seen.farthest + rounding : 1;
+  const double least = camera.projection == Projection::perspective ? least_near * *camera.far_m : 0;
+  const bool any_in_view = std::isfinite(seen.nearest);
+  camera.near_m = std::max(least, any_in_view ? (1 - margin) * seen.nearest - rounding : *camera.far_m / 2);
+  return camera;
+}
+
+Camera effective_camera(const Scene& scene, const ViewSettings& view) {
+  Camera camera = scene.camera;
+  if (view.eye_m) camera.eye_m = *view.eye_m;
+  if (view.target_m) camera.target_m = *view.target_m;
+  if (view.up) camera.up = *view.up;
+  if (view.fov_deg) camera.fov_y_deg = *view.fov_deg;
+  if (view.near_m) camera.near_m = view.near_m;
+  if (view.far_m) camera.far_m = view.far_m;
+  make_camera_frame(camera, view.width_px, view.height_px);  // refuses what is no camera
+  if (view.up) require_upright(camera);
+  if (camera.near_m && camera.far_m) return camera;
+  const Camera fitted = with_fitted_depths(scene, camera, view.width_px, view.height_px);
+  if (camera.near_m)
+    camera.far_m = std::max(*fitted.far_m, 2 * *camera.near_m);
+  else if (camera.far_m)
+    camera.near_m = std::min(*fitted.near_m, *camera.far_m / 2);
+  else
+    camera = fitted;
+  return camera;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,73 @@
+// Which shared libraries the program loads, and what it says where one is missing.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/program_fixture.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+class Libraries : public Program {
+ protected:
+  // A file that is no library, found first, stands for a missing one: the loader looks no further.
+  int run_without(const std::vector<std::string>& libraries, const std::vector<std::string>& arguments) {
+    const fs::path hiding = folder_ / "hiding";
+    fs::remove_all(hiding);
+    fs::create_directories(hiding);
+    for (const std::string& library : libraries) write("hiding/" + library, "");
+    setenv("LD_LIBRARY_PATH", hiding.c_str(), 1);
+    const int code = run(arguments);
+    unsetenv("LD_LIBRARY_PATH");
+    return code;
+  }
+};
+
+const std::vector<std::string> small_picture = {"render", "--set", "view.width_px=16", "--set", "view.height_px=9"};
+
+// 250 of OpenImageIO's would take a quarter of a second, before `--version` as well.
+TEST_F(Libraries, StartsWithThoseAloneThatEveryMeasurementNeeds) {
+  setenv("LD_TRACE_LOADED_OBJECTS", "1", 1);  // the loader lists them in place of running the program
+  const int code = run({});
+  unsetenv("LD_TRACE_LOADED_OBJECTS");
+  ASSERT_EQ(code, 0) << output_;
+  EXPECT_TRUE(says("libembree")) << output_;
+  for (const char* later : {"OpenImageIO", "libGL.so", "libOpenGL.so", "libEGL.so"})
+    EXPECT_FALSE(says(later)) << output_;
+  EXPECT_LT(std::count(output_.begin(), output_.end(), '\n'), 30) << output_;
+}
+
+TEST_F(Libraries, WithoutOpenGlSaysWhatToInstall) {
+  const std::vector<std::vector<std::string>> needed = {
+      {"libEGL.so.1"}, {"libOpenGL.so.0", "libGL.so.1"}, {"libGLdispatch.so.0"}, {"libEGL_mesa.so.0"}};
+  for (const std::vector<std::string>& missing : needed) {
+    SCOPED_TRACE(missing.back());
+    EXPECT_EQ(run_without(missing, {"doctor"}), 4) << output_;
+    EXPECT_TRUE(says("OpenGL    NOT USABLE") && says("apt install libegl1")) << output_;
+    EXPECT_TRUE(says("Embree    ")) << "the rest is told as well: " << output_;
+    EXPECT_EQ(run_without(missing, small_picture), 4) << output_;
+    EXPECT_TRUE(says("apt install libegl1")) << output_;
+    EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+    EXPECT_EQ(run_without(missing, {"settings"}), 0) << output_;
+  }
+  for (const char* one : {"libOpenGL.so.0", "libGL.so.1"})
+    EXPECT_EQ(run_without({one}, {"doctor"}), 0) << "the other one will do: " << output_;
+}
+
+TEST_F(Libraries, WithoutOpenImageIoMeasuresAndRefusesPictures) {
+  const std::string pictures = "scene = \"plate\"\n[view]\nwidth_px = 16\nheight_px = 9\n";
+  write("pictures.toml", pictures);
+  write("none.toml", "pictures = \"none\"\n" + pictures);
+  const std::vector<std::string> missing = {"noonmark_images.so"};
+  EXPECT_EQ(run_without(missing, {"doctor"}), 4) << output_;
+  EXPECT_TRUE(says("Pictures  NOT USABLE") && says("noonmark_images.so")) << output_;
+  EXPECT_EQ(run_without(missing, small_picture), 4) << output_;
+  EXPECT_TRUE(says("apt install libopenimageio")) << output_;
+  EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+  EXPECT_EQ(run_without(missing, {"run", "pictures.toml", "--out", "out"}), 4) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "out/results.sqlite")) << "said before anything is measured";
+  EXPECT_EQ(run_without(missing, {"run", "none.toml", "--out", "out"}), 0) << output_;
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance
