@@ -6,9 +6,9 @@
 
 namespace noonmark::fuzz {
 
-// A few of: another value (odd numbers, near numbers, other types, copied from elsewhere in the document), a key
-// renamed to another key of the document, members and elements left out, doubled, moved or swapped, two subtrees
-// exchanged, text edited. `words`: keys and texts that the format knows.
+// One to four of: another value (odd numbers, near numbers, other types, copied from elsewhere in the document), a
+// member under another name of `words`, members and elements left out, doubled, swapped or added, text edited by
+// `edit`.
 void mutate_json(nlohmann::json& document, Random& random, std::span<const std::string> words, const EditBytes& edit);
 
 }  // namespace noonmark::fuzz

@@ -83,12 +83,8 @@ std::string edit_text(const std::string& text, Random& random, std::span<const s
 }
 
 Folder::Folder() {
-  const std::filesystem::path memory = "/dev/shm";
-  std::error_code none;
-  const std::filesystem::path parent =
-      std::filesystem::is_directory(memory, none) ? memory : std::filesystem::temp_directory_path();
-  path_ = (parent / "noonmark-fuzz-XXXXXX").string();
-  if (!::mkdtemp(path_.data())) throw std::runtime_error("cannot make a folder in " + parent.string());
+  path_ = (std::filesystem::temp_directory_path() / "noonmark-fuzz-XXXXXX").string();
+  if (!::mkdtemp(path_.data())) throw std::runtime_error("cannot make the folder " + path_);
 }
 
 Folder::~Folder() {
@@ -97,7 +93,8 @@ Folder::~Folder() {
 }
 
 void Folder::write(const std::string& name, std::string_view bytes) const {
-  std::ofstream out(file(name), std::ios::binary | std::ios::trunc);
+  std::filesystem::remove(file(name));  // some file systems wait for the disk when a file is overwritten
+  std::ofstream out(file(name), std::ios::binary);
   out << bytes;
   if (!out.flush()) throw std::runtime_error("cannot write " + file(name));
 }

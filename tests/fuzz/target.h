@@ -48,7 +48,7 @@ std::string edit_text(const std::string& text, Random& random, std::span<const s
 
 inline size_t below(Random& random, size_t n) { return static_cast<size_t>(random() % n); }
 
-// A folder of this process, in memory where the machine has such a place; gone at the end.
+// A folder of this process below TMPDIR; gone at the end, but for an end by a signal.
 class Folder {
  public:
   Folder();
