@@ -9,6 +9,7 @@
 
 #include "app/experiment.h"
 #include "app/settings_reader.h"
+#include "app/toml_text.h"
 #include "compare/formula.h"
 #include "compare/quantities.h"
 #include "scenes/error.h"
@@ -359,6 +360,7 @@ class Reader : private SettingsReader {
 }  // namespace
 
 Experiment parse_experiment(std::string_view toml, const std::string& path) {
+  check_toml_text(toml, path);
   try {
     const toml::table root = toml::parse(toml, path);
     return Reader(path).read(root);

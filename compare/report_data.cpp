@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "compare/cause_colors.h"
@@ -22,7 +23,7 @@ json value_of(double value) {
 
 // Six digits: a thousandth of a chart's pixel, at half the bytes.
 json drawn_value(double value) {
-  return std::isfinite(value) ? json(std::stod(fmt::format("{:.6g}", value))) : value_of(value);
+  return std::isfinite(value) ? json(std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr)) : value_of(value);
 }
 
 json drawn(const std::vector<double>& series, const std::vector<size_t>& indices) {

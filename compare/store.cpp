@@ -230,8 +230,11 @@ std::vector<LawResult> load_laws(Database& db) {
     law.name = rows.text(1);
     law.says = rows.text(2);
     law.measured = rows.text(3);
-    for (const auto& [relation, sign] : relations)
-      if (rows.text(4) == sign) law.relation = relation;
+    const std::string sign = rows.text(4);
+    const auto row = std::find_if(std::begin(relations), std::end(relations),
+                                  [&](const auto& relation) { return relation.second == sign; });
+    if (row == std::end(relations)) throw std::runtime_error("a law whose relation is none");
+    law.relation = row->first;
     law.predicted = rows.text(5);
     law.tolerance = rows.text(6);
     law.join = rows.text(7);
@@ -245,6 +248,9 @@ std::vector<LawResult> load_laws(Database& db) {
        rows.step();)
     laws.at(static_cast<size_t>(rows.integer(0)))
         .samples.push_back({rows.integer(1), rows.real(2), rows.real(3), rows.real(4)});
+  for (const LawResult& law : laws)
+    if (law.worst < -1 || law.worst >= static_cast<int>(law.samples.size()))
+      throw std::runtime_error("a law whose worst sample is none of its samples");
   return laws;
 }
 

@@ -275,6 +275,16 @@ TEST(Report, NotFiniteIsSaid) {
   EXPECT_NE(body.find("noonmark render x --set map.resolution=256"), std::string::npos);
 }
 
+// Found by fuzzing: std::stod refuses numbers below the least normal one.
+TEST(Report, TheLeastNumbersAreDrawn) {
+  Results results = sample_results();
+  for (PointRecord& point : results.points) {
+    point.metrics.at("error") = std::numeric_limits<double>::denorm_min();
+    for (double& error : point.curve.value().error) error = 1e-310;
+  }
+  EXPECT_TRUE(embedded_data(render_report(results, sample_picture)).is_object());
+}
+
 TEST(Report, PicturesAreInlinedAndMissingOnesSaid) {
   const std::string page = render_report(sample_results(), sample_picture);
   const std::string bytes = sample_picture("images/p0018-map.png");

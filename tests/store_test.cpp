@@ -263,6 +263,18 @@ TEST_F(Store, SaysWhereRowsDoNotFitTogether) {
   }
 }
 
+// Found by fuzzing: the report read the sample of that index, wherever in memory that was.
+TEST_F(Store, RefusesALawWhoseWorstSampleIsNoneOfItsSamples) {
+  fresh().set_laws({sample_law()});
+  for (const char* edit : {"worst = 2", "worst = -2", "worst = 99999999999", "relation = '<>'"}) {
+    const std::string kept = read_file(path);
+    sqlite::Database(path, sqlite::Database::Mode::existing).execute(std::string("UPDATE laws SET ") + edit);
+    EXPECT_THROW(ResultStore::open(path).load(), Error) << edit;
+    write_file_atomically(path, kept);
+  }
+  EXPECT_EQ(ResultStore::open(path).load().laws.size(), 1u);
+}
+
 TEST_F(Store, OpensNothingThatIsNotThere) {
   EXPECT_THROW(ResultStore::open(path), Error);
   EXPECT_FALSE(std::filesystem::exists(path));

@@ -1,0 +1,348 @@
+// Bytes of a .gltf or .glb through load_gltf: a sound scene, or one Error(scene) in one line. Mutated as JSON (bytes of
+// a .glb: its JSON chunk, its binary chunk and its header each). The file is alone in its folder but for a buffer and a
+// link out of it; beside the folder lies a buffer that no file may reach, whose positions would show in the scene.
+#include <cmath>
+#include <filesystem>
+
+#include "scenes/error.h"
+#include "scenes/library.h"
+#include "tests/fuzz/json_mutator.h"
+#include "tests/fuzz/targets.h"
+#include "tests/gltf_compressed_files.h"
+#include "tests/gltf_expect.h"
+
+namespace noonmark::fuzz {
+namespace {
+
+using nlohmann::json;
+using test::add_accessor;
+using test::raw;
+
+// A float whose bytes stand in no seed: only outside.bin holds it.
+constexpr float outside_value = -8191.7734375f;
+constexpr size_t buffer_bytes = 60;  // of the square: four positions, six indices
+
+struct Files {
+  Folder folder;
+  Files() {
+    std::filesystem::create_directory(folder.file("scene"));
+    folder.write("scene/inside.bin", test::square_bytes());
+    folder.write("outside.bin", raw(std::vector<float>(buffer_bytes / sizeof(float), outside_value)));
+    std::filesystem::create_symlink("../outside.bin", folder.file("scene/link.bin"));
+  }
+};
+
+void run(const std::string& bytes) {
+  static const Files files;
+  files.folder.write("scene/scene.glb", bytes);
+  const std::string path = files.folder.file("scene/scene.glb");
+  try {
+    Pose pose;  // at rest; where the file says how it moves, at some time of that
+    if (bytes.find("\"animations\"") != std::string::npos && bytes.size() % 4 != 0)
+      pose.time_s = 0.37 * static_cast<double>(bytes.size() % 5);
+    const Scene scene = load_gltf(path, pose);
+    const std::string defect = test::defect_of(scene);
+    require(defect.empty(), "the scene is not sound: " + defect);
+    for (const glm::vec3& p : scene.positions)
+      for (int axis = 0; axis < 3; ++axis)
+        require(p[axis] != outside_value, "a buffer outside of the scene's folder was read");
+  } catch (const Error& error) {
+    require(error.kind() == ErrorKind::scene, std::string("an error of another kind: ") + error.what());
+    for (const unsigned char c : std::string_view(error.what()))
+      require(c >= 0x20 && c != 0x7f, std::string("a control character in the message: ") + error.what());
+    require(std::string_view(error.what()).starts_with(path + ": "), "a message that does not name the file first");
+  }
+}
+
+// A bit of everything that the loader reads.
+json rich() {
+  json d = test::square();
+  d["extensionsUsed"] = {"KHR_lights_punctual", "KHR_mesh_quantization"};
+  d["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "directional"}},
+      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.7}}}},
+      {{"type", "point"}, {"range", 8}}};
+  d["cameras"] = {
+      {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}, {"zfar", 100}}}},
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 2}, {"znear", 0.1}, {"zfar", 9}}}}};
+  d["materials"] = {{{"alphaMode", "MASK"},
+                     {"alphaCutoff", 0.5},
+                     {"doubleSided", true},
+                     {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}}}}};
+  d["meshes"][0]["primitives"][0]["material"] = 0;
+  const int quantized = add_accessor(
+      d, raw(std::vector<int16_t>{0, 0, 0, 0, 900, 0, 0, 0, 0, 900, 0, 0, 900, 900, 5, 0}), 5122, "VEC3", 4, 8);
+  d["accessors"].back()["normalized"] = true;
+  d["meshes"].push_back(
+      {{"name", "strip"}, {"primitives", {{{"attributes", {{"POSITION", quantized}}}, {"mode", 5}}}}});
+  const int moved = add_accessor(d, raw(std::vector<uint16_t>{1, 2}), 5123, "SCALAR", 2);
+  const int values = add_accessor(d, raw(std::vector<float>{5, 0, 0, 5, 1, 0}), 5126, "VEC3", 2);
+  d["accessors"][0]["sparse"] = {
+      {"count", 2},
+      {"indices", {{"bufferView", d["accessors"][moved]["bufferView"]}, {"componentType", 5123}}},
+      {"values", {{"bufferView", d["accessors"][values]["bufferView"]}}}};
+  d["nodes"][0]["children"] = {1, 2};
+  d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 1;
+  d["nodes"].push_back({{"mesh", 1}, {"rotation", {0, 0, 0, 1}}, {"scale", {2, -2, 2}}, {"translation", {1, 2, 3}}});
+  d["nodes"].push_back({{"camera", 0},
+                        {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}},
+                        {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}}});
+  return d;
+}
+
+// Two joints that bend the square, a morph target, an animation of both, and the same square drawn three times.
+json moving() {
+  json d = test::square();
+  const int joints = add_accessor(d, std::string("\0\1\0\0\1\0\0\0\0\1\0\0\1\0\0\0", 16), 5121, "VEC4", 4);
+  const int weights =
+      add_accessor(d, raw(std::vector<float>{.5, .5, 0, 0, 1, 0, 0, 0, .25, .75, 0, 0, 1, 0, 0, 0}), 5126, "VEC4", 4);
+  const int target = add_accessor(d, raw(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0, 0}), 5126, "VEC3", 4);
+  const int inverse = add_accessor(d, raw(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,
+                                                             1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1}),
+                                   5126, "MAT4", 2);
+  const int times = add_accessor(d, raw(std::vector<float>{0, 1}), 5126, "SCALAR", 2);
+  const int turns = add_accessor(d, raw(std::vector<float>{0, 0, 0, 1, 0, 0, 0.7071068f, 0.7071068f}), 5126, "VEC4", 2);
+  const int moves = add_accessor(d, raw(std::vector<float>{0, 0, 0, 3, 0, 0, 0, 4, 0}), 5126, "VEC3", 3);
+  json& primitive = d["meshes"][0]["primitives"][0];
+  primitive["attributes"]["JOINTS_0"] = joints;
+  primitive["attributes"]["WEIGHTS_0"] = weights;
+  primitive["targets"] = {{{"POSITION", target}}};
+  d["meshes"][0]["weights"] = {0.5};
+  d["nodes"] = {
+      {{"mesh", 0}, {"skin", 0}},
+      {{"name", "hip"}, {"children", {2}}},
+      {{"name", "knee"}, {"translation", {0, 1, 0}}},
+      {{"mesh", 1}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", moves}}}}}}}},
+      {{"mesh", 1}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}}};
+  d["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}});
+  d["scenes"][0]["nodes"] = {0, 1, 3, 4};
+  d["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", inverse}, {"skeleton", 1}}};
+  d["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 2}, {"path", "rotation"}}}}}},
+                      {"samplers", {{{"input", times}, {"output", turns}, {"interpolation", "LINEAR"}}}}}};
+  d["extensionsUsed"] = {"EXT_mesh_gpu_instancing", "KHR_node_visibility"};
+  return d;
+}
+
+std::vector<std::string> seeds() {
+  json chunked = test::square();
+  chunked["buffers"][0] = {{"byteLength", buffer_bytes}};
+  json beside = test::square();
+  beside["buffers"][0]["uri"] = "inside.bin";
+  std::vector<std::string> all = {test::square().dump(), rich().dump(), moving().dump(), beside.dump(),
+                                  test::glb(chunked.dump(), test::square_bytes())};
+  const test::Grid grid = test::wavy(2);
+  for (const test::Encoding how : {test::Encoding{draco::MESH_EDGEBREAKER_ENCODING, 0, true},
+                                   test::Encoding{draco::MESH_SEQUENTIAL_ENCODING, 8, false}})
+    all.push_back(test::draco_document(grid, test::draco_bytes(grid, how), how).dump());
+  for (const bool sequence : {false, true}) all.push_back(test::meshopt_document(grid, sequence).dump());
+  return all;
+}
+
+std::vector<std::string> words() {
+  return {"accessors",
+          "accessor",
+          "asset",
+          "version",
+          "minVersion",
+          "2.0",
+          "attributes",
+          "POSITION",
+          "NORMAL",
+          "JOINTS_0",
+          "WEIGHTS_0",
+          "bufferView",
+          "bufferViews",
+          "buffer",
+          "buffers",
+          "byteLength",
+          "byteOffset",
+          "byteStride",
+          "uri",
+          "data:application/octet-stream;base64,",
+          "data:application/gltf-buffer;base64,",
+          "inside.bin",
+          "../outside.bin",
+          "link.bin",
+          "%2e%2e/outside.bin",
+          "./inside.bin",
+          "/dev/zero",
+          "scene.glb",
+          "camera",
+          "cameras",
+          "perspective",
+          "orthographic",
+          "yfov",
+          "znear",
+          "zfar",
+          "xmag",
+          "ymag",
+          "aspectRatio",
+          "children",
+          "component",
+          "componentType",
+          "count",
+          "type",
+          "SCALAR",
+          "VEC2",
+          "VEC3",
+          "VEC4",
+          "MAT4",
+          "normalized",
+          "min",
+          "max",
+          "sparse",
+          "indices",
+          "values",
+          "extensions",
+          "extensionsUsed",
+          "extensionsRequired",
+          "extras",
+          "KHR_lights_punctual",
+          "KHR_mesh_quantization",
+          "KHR_node_visibility",
+          "KHR_draco_mesh_compression",
+          "EXT_meshopt_compression",
+          "EXT_mesh_gpu_instancing",
+          "TRANSLATION",
+          "ROTATION",
+          "SCALE",
+          "visible",
+          "light",
+          "lights",
+          "directional",
+          "spot",
+          "point",
+          "innerConeAngle",
+          "outerConeAngle",
+          "range",
+          "matrix",
+          "mesh",
+          "meshes",
+          "mode",
+          "name",
+          "node",
+          "nodes",
+          "primitives",
+          "rotation",
+          "translation",
+          "scale",
+          "scene",
+          "scenes",
+          "skin",
+          "skins",
+          "joints",
+          "inverseBindMatrices",
+          "skeleton",
+          "targets",
+          "weights",
+          "animations",
+          "channels",
+          "samplers",
+          "sampler",
+          "target",
+          "path",
+          "input",
+          "output",
+          "interpolation",
+          "LINEAR",
+          "STEP",
+          "CUBICSPLINE",
+          "materials",
+          "material",
+          "alphaMode",
+          "MASK",
+          "BLEND",
+          "OPAQUE",
+          "alphaCutoff",
+          "doubleSided",
+          "pbrMetallicRoughness",
+          "baseColorFactor",
+          "baseColorTexture",
+          "index",
+          "textures",
+          "images",
+          "glTF",
+          "JSON"};
+}
+
+uint32_t word_at(const std::string& bytes, size_t at) {
+  uint32_t value = 0;
+  if (at + 4 <= bytes.size()) std::memcpy(&value, bytes.data() + at, 4);
+  return value;
+}
+
+// What stands in a buffer's data: URI; the square's where there is none.
+std::string embedded_bytes(const json& buffer) {
+  const std::string uri = buffer.contains("uri") && buffer["uri"].is_string() ? buffer["uri"].get<std::string>() : "";
+  const size_t comma = uri.find(',');
+  if (comma == std::string::npos) return test::square_bytes();
+  std::string out;
+  uint32_t bits = 0;
+  int held = 0;
+  for (const char c : std::string_view(uri).substr(comma + 1)) {
+    const size_t digit = std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/").find(c);
+    if (digit == std::string_view::npos) break;
+    bits = (bits << 6 | static_cast<uint32_t>(digit)) & 0xffffu;
+    held += 6;
+    if (held < 8) continue;
+    held -= 8;
+    out += static_cast<char>(bits >> held & 0xff);
+  }
+  return out;
+}
+
+// The text, with one of its embedded buffers damaged where there are any: base64 edited as text is refused at once.
+void edit_a_buffer(json& document, Random& random, const EditBytes& edit) {
+  if (!document.is_object() || !document.contains("buffers") || !document["buffers"].is_array()) return;
+  json& buffers = document["buffers"];
+  if (buffers.empty()) return;
+  json& buffer = buffers[below(random, buffers.size())];
+  if (!buffer.is_object()) return;
+  const std::string data = edit(embedded_bytes(buffer), random);
+  buffer["uri"] = test::data_uri(data);
+  if (below(random, 4) == 0) buffer["byteLength"] = data.size();
+}
+
+std::string mutate_text(const std::string& text, Random& random, const EditBytes& edit) {
+  static const std::vector<std::string> known = words();
+  json document = json::parse(text, nullptr, false);
+  if (document.is_discarded()) return edit(text, random);
+  if (below(random, 5) == 0)
+    edit_a_buffer(document, random, edit);
+  else
+    mutate_json(document, random, known, edit);
+  return document.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::string mutate(const std::string& bytes, Random& random, const EditBytes& edit) {
+  if (!bytes.starts_with("glTF")) {
+    // Now and then the same document as a .glb.
+    return below(random, 16) == 0 ? test::glb(bytes, test::square_bytes()) : mutate_text(bytes, random, edit);
+  }
+  const size_t length = word_at(bytes, 12);
+  if (length > bytes.size() || bytes.size() - length < 20) return edit(bytes, random);
+  std::string text = bytes.substr(20, length);
+  std::string bin = bytes.size() >= 28 + length ? bytes.substr(28 + length) : "";
+  switch (below(random, 8)) {
+    case 0:
+      return edit(bytes, random);
+    case 1: {
+      std::string whole = bytes;  // a chunk's length or type, or the whole file's
+      const size_t word = 4 * below(random, 5);
+      const std::string edited = edit(whole.substr(word, 4), random);
+      whole.replace(word, 4, (edited + std::string(4, '\0')).substr(0, 4));
+      return whole;
+    }
+    case 2:
+    case 3:
+      return test::glb(text, edit(bin, random));
+    default:
+      return test::glb(mutate_text(text, random, edit), bin);
+  }
+}
+
+}  // namespace
+
+const Target gltf_target = {"gltf", run, seeds, words, mutate};
+
+}  // namespace noonmark::fuzz

@@ -1,0 +1,357 @@
+// Bytes as choices: a small scene and legal settings, measured as a sweep measures them. What must hold for every one:
+// the limits of compare/soundness.h, sums that add up, numbers where there may be no NaN, the bias curve at the point's
+// own bias, and the same answer whatever was measured before.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "app/workbench.h"
+#include "compare/metrics.h"
+#include "compare/soundness.h"
+#include "scenes/error.h"
+#include "scenes/library.h"
+#include "tests/fuzz/targets.h"
+#include "tests/gltf_files.h"
+
+namespace noonmark::fuzz {
+namespace {
+
+// Steps are sums of at most a dozen floats in [0,1], each rounded to 2^-24; means of them no worse.
+constexpr double rounding = 1e-6;
+
+// Numbers from bytes, zeros when they are used up: every input means something, and a longer one more of the same.
+class Choices {
+ public:
+  explicit Choices(const std::string& bytes) : bytes_(bytes) {}
+  unsigned byte() { return at_ < bytes_.size() ? static_cast<unsigned char>(bytes_[at_++]) : 0; }
+  int below(int n) { return static_cast<int>((n > 256 ? byte() << 8 | byte() : byte()) % static_cast<unsigned>(n)); }
+  // [0, 1], both ends often.
+  double fraction() {
+    const unsigned value = byte() << 8 | byte();
+    return value == 0xffff ? 1 : value / 65536.0;
+  }
+  double between(double a, double b) { return a + (b - a) * fraction(); }
+
+ private:
+  const std::string& bytes_;
+  size_t at_ = 0;
+};
+
+// ---- the scene
+
+struct Triangles {
+  std::vector<float> positions;
+  std::vector<uint32_t> indices;
+  uint32_t vertex(const glm::dvec3& p) {
+    for (int axis = 0; axis < 3; ++axis) positions.push_back(static_cast<float>(p[axis]));
+    return static_cast<uint32_t>(positions.size() / 3 - 1);
+  }
+  void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
+    const uint32_t first = vertex(a);
+    vertex(b), vertex(c), vertex(d);
+    for (uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) indices.push_back(first + k);
+  }
+};
+
+glm::dvec3 any_point(Choices& choices, double reach) {
+  const double x = choices.between(-reach, reach), y = choices.between(-reach, reach);
+  return {x, y, choices.between(-reach, reach)};
+}
+
+// A parallelepiped, so flat or so slanted as the choices have it.
+void add_block(Triangles& to, Choices& choices) {
+  const glm::dvec3 o = any_point(choices, 4), x = any_point(choices, 2), y = any_point(choices, 2);
+  const glm::dvec3 z = any_point(choices, 2);
+  to.quad(o, o + y, o + x + y, o + x);
+  to.quad(o + z, o + x + z, o + x + y + z, o + y + z);
+  to.quad(o, o + x, o + x + z, o + z);
+  to.quad(o + y, o + y + z, o + x + y + z, o + x + y);
+  to.quad(o, o + z, o + y + z, o + y);
+  to.quad(o + x, o + x + y, o + x + y + z, o + x + z);
+}
+
+void add_floor(Triangles& to, Choices& choices) {
+  const double y = choices.between(-2, 2), half = choices.between(0.5, 10);
+  // In strips that do not share vertices: every seam is a T-junction or an unwelded edge.
+  const int strips = 1 + choices.below(4);
+  const double tilt = choices.between(-1, 1);
+  for (int i = 0; i < strips; ++i) {
+    const double a = -half + 2 * half * i / strips, b = -half + 2 * half * (i + 1) / strips;
+    to.quad({a, y + tilt * a, half}, {b, y + tilt * b, half}, {b, y + tilt * b, -half}, {a, y + tilt * a, -half});
+  }
+}
+
+std::string scene_file(Choices& choices) {
+  Triangles scene;
+  const int objects = 1 + choices.below(6);
+  for (int i = 0; i < objects; ++i) {
+    switch (choices.below(5)) {
+      case 0:
+      case 1:
+        add_floor(scene, choices);
+        break;
+      case 2: {  // a triangle alone; of no area where its corners meet
+        const uint32_t a = scene.vertex(any_point(choices, 4)), b = scene.vertex(any_point(choices, 4));
+        const uint32_t c = choices.below(8) == 0 ? a : scene.vertex(any_point(choices, 4));
+        scene.indices.insert(scene.indices.end(), {a, b, c});
+        break;
+      }
+      case 3:  // one that is there already, over other corners
+        for (int k = 0; k < 3 && !scene.positions.empty(); ++k)
+          scene.indices.push_back(static_cast<uint32_t>(choices.below(static_cast<int>(scene.positions.size() / 3))));
+        break;
+      default:
+        add_block(scene, choices);
+        break;
+    }
+  }
+  // Far from the origin floats are coarse.
+  static constexpr double places_m[] = {0, 0, 0, 30, 1000, 1e5};
+  static constexpr double sizes[] = {1, 1, 1, 1e-3, 1e3};
+  const double place = places_m[choices.below(6)], size = sizes[choices.below(5)];
+  for (float& x : scene.positions) x = static_cast<float>(size * x + place);
+
+  nlohmann::json d = test::square();
+  d["buffers"] = nlohmann::json::array();
+  d["bufferViews"] = nlohmann::json::array();
+  d["accessors"] = nlohmann::json::array();
+  test::add_accessor(d, test::raw(scene.positions), 5126, "VEC3", scene.positions.size() / 3);
+  test::add_accessor(d, test::raw(scene.indices), 5125, "SCALAR", scene.indices.size());
+  return d.dump();
+}
+
+// ---- the settings
+
+// Small enough that one execution takes milliseconds; what they bound, they bound in every scene alike.
+double most_of(const Setting& row) {
+  if (row.name == "view.width_px") return 24;
+  if (row.name == "view.height_px") return 18;
+  if (row.name == "map.resolution") return 96;
+  if (row.name == "filter.size") return 7;
+  return row.max;
+}
+double least_of(const Setting& row) { return row.name == "truth.standard_error" ? 0.1 : row.min; }
+
+std::string any_value(const Setting& row, Choices& choices) {
+  if (row.may_be_auto && choices.below(4) == 0) return "auto";
+  const double least = least_of(row), most = most_of(row);
+  switch (row.type) {
+    case ValueType::integer:
+      return fmt::format("{}", static_cast<int>(least) + choices.below(static_cast<int>(most - least) + 1));
+    case ValueType::flag:
+      return choices.below(2) == 0 ? "false" : "true";
+    case ValueType::choice:
+      return std::string(row.choices[static_cast<size_t>(choices.below(static_cast<int>(row.choices.size())))]);
+    case ValueType::point: {
+      const glm::dvec3 p = any_point(choices, choices.below(8) == 0 ? 1000 : 8);
+      return fmt::format("{},{},{}", p.x, p.y, p.z);
+    }
+    case ValueType::real:
+      switch (choices.below(8)) {
+        case 0:
+          return fmt::format("{}", choices.below(2) == 0 ? least : most);
+        case 1:
+          return fmt::format("{}", choices.between(least, most));
+        case 2:
+          return fmt::format("{}", std::clamp(std::round(choices.between(-3, 8)), least, most));
+        default:  // any magnitude up to a hundred: where settings mean something
+          return fmt::format("{}", std::clamp(std::pow(10.0, choices.between(-6, 2)), least, most));
+      }
+    case ValueType::text:
+      break;
+  }
+  throw std::logic_error("no value for " + std::string(row.name));
+}
+
+void choose(Settings& settings, int count, Choices& choices) {
+  const std::span<const Setting> table = settings_table();
+  for (int i = 0; i < count; ++i) {
+    const Setting& row = table[static_cast<size_t>(choices.below(static_cast<int>(table.size())))];
+    if (row.type == ValueType::text) continue;
+    std::string value = any_value(row, choices);
+    if (row.name == "filter.size") value = fmt::format("{}", std::stoi(value) | 1);  // an even one is refused at once
+    row.set(settings, value);
+  }
+}
+
+// ---- what must hold
+
+double metric(const Measurement& m, const char* name) { return m.record.metrics.at(name); }
+
+void require_sums(const Measurement& m) {
+  for (const SoundLimit& limit : sound_limits)
+    require(metric(m, limit.metric) <= limit.most, fmt::format("{} = {}", limit.metric, metric(m, limit.metric)));
+  require(metric(m, "counted") + metric(m, "ambiguous_receivers") == metric(m, "facing"),
+          "counted is not facing less ambiguous");
+  require(metric(m, "attached") + metric(m, "facing") == metric(m, "receivers"),
+          "attached is not receivers less facing");
+  for (const Image<float>& rung : m.ladder.rung)
+    for (size_t i = 0; i < rung.size(); ++i)
+      require(rung[i] >= 0 && rung[i] <= 1 + rounding, fmt::format("a rung is {}", rung[i]));
+}
+
+void require_metrics(const Measurement& m) {
+  if (metric(m, "counted") == 0) return;
+  for (const Metric& row : metrics_table()) {
+    const double value = m.record.metrics.at(std::string(row.name));
+    require(!std::isnan(value), fmt::format("{} is not a number", row.name));
+    if (row.unit == "fraction")
+      require(value >= 0 && value <= 1 + rounding, fmt::format("{} = {} is no fraction", row.name, value));
+    if (row.unit == "m2" || row.unit == "count")
+      require(value >= 0 && std::isfinite(value), fmt::format("{} = {}", row.name, value));
+  }
+  double causes = 0;
+  for (const char* name : {"filter", "displacement", "aliasing", "acne", "peter_panning", "coverage", "precision"})
+    causes += metric(m, name);
+  require(metric(m, "error") <= causes + rounding,
+          fmt::format("error {} is more than its causes, {}", metric(m, "error"), causes));
+  require(metric(m, "error") <= metric(m, "wrong") + rounding, "a mean error above the share of wrong receivers");
+  require(metric(m, "peter_panning_lit") <= metric(m, "peter_panning") + rounding, "a part above its whole");
+}
+
+void require_curve(const Measurement& m) {
+  if (!m.record.curve || metric(m, "counted") == 0) return;
+  const BiasCurve& curve = *m.record.curve;
+  require(std::is_sorted(curve.bias_depth.begin(), curve.bias_depth.end()), "the curve's biases do not ascend");
+  for (auto series : {&BiasCurve::error, &BiasCurve::wrong, &BiasCurve::acne, &BiasCurve::peter_panning,
+                      &BiasCurve::aliasing_dark, &BiasCurve::aliasing_light, &BiasCurve::coverage})
+    for (const double value : curve.*series)
+      require(value >= 0 && value <= 1 + rounding, fmt::format("a curve's value is {}", value));
+  if (curve.window_min_depth)
+    require(*curve.window_min_depth <= *curve.window_max_depth, "a window that ends before it begins");
+  if (m.settings.bias.form != BiasForm::constant || m.settings.bias.unit != BiasUnit::depth) return;
+  // The point's own bias is the last one asked for (below): there the curve is the measurement.
+  const auto at_bias = std::find(curve.bias_depth.begin(), curve.bias_depth.end(), m.settings.bias.constant);
+  if (at_bias == curve.bias_depth.end()) return;
+  const auto i = static_cast<size_t>(at_bias - curve.bias_depth.begin());
+  const auto same = [&](const char* name, double found) {
+    require(std::abs(metric(m, name) - found) <= rounding,
+            fmt::format("the curve has {} = {} at the point's bias, the measurement {}", name, found, metric(m, name)));
+  };
+  same("acne", curve.acne[i]);
+  same("peter_panning", curve.peter_panning[i]);
+  same("coverage", curve.coverage[i]);
+  same("aliasing_dark", curve.aliasing_dark[i]);
+  same("aliasing_light", curve.aliasing_light[i]);
+}
+
+bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+void require_same(const Measurement& a, const Measurement& b) {
+  for (const Metric& row : metrics_table()) {
+    if (row.unit == "ms") continue;
+    const std::string name(row.name);
+    require(same_number(a.record.metrics.at(name), b.record.metrics.at(name)),
+            fmt::format("{} = {}, and {} when nothing was remembered", name, a.record.metrics.at(name),
+                        b.record.metrics.at(name)));
+  }
+  require(a.record.curve.has_value() == b.record.curve.has_value(), "a curve once, and once none");
+  if (!a.record.curve) return;
+  for (auto series : {&BiasCurve::bias_depth, &BiasCurve::error, &BiasCurve::acne, &BiasCurve::peter_panning}) {
+    const std::vector<double>&x = *a.record.curve.*series, &y = *b.record.curve.*series;
+    require(
+        std::equal(x.begin(), x.end(), y.begin(), y.end(), same_number),
+        fmt::format("a curve has [{}], and [{}] when nothing was remembered", fmt::join(x, " "), fmt::join(y, " ")));
+  }
+}
+
+struct Benches {
+  // Pictures this small are faster without threads, and a failure comes again.
+  tbb::global_control one_thread{tbb::global_control::max_allowed_parallelism, 1};
+  int no_threads = ::setenv("LP_NUM_THREADS", "0", 1);
+  Folder folder;
+  Workbench bench{gl::DebugMode::fatal}, other{gl::DebugMode::fatal};
+  int files = 0;
+};
+
+std::optional<CurveOptions> curve_for(const Settings& settings, bool wanted) {
+  if (!wanted) return std::nullopt;
+  CurveOptions options;
+  if (settings.bias.form == BiasForm::constant && settings.bias.constant > 0)
+    options.bias_depth = {0, settings.bias.constant};
+  return options;
+}
+
+void measure(Benches& b, const Settings& settings, bool curve, bool compare) {
+  const std::optional<CurveOptions> options = curve_for(settings, curve);
+  const Measurement m = b.bench.measure(settings, options);
+  if (metric(m, "facing") > 0) {
+    require_sums(m);
+    require_metrics(m);
+    require_curve(m);
+  }
+  if (!compare) return;
+  Settings unlike;  // another scene: nothing of it can be remembered
+  unlike.scene.name = settings.scene.name == "plane" ? "wall" : "plane";
+  unlike.view.width_px = unlike.view.height_px = 2;
+  unlike.map.resolution = 2;
+  b.other.measure(unlike, std::nullopt);
+  require_same(m, b.other.measure(settings, options));
+}
+
+void run(const std::string& bytes) {
+  static Benches benches;
+  Choices choices(bytes);
+  Settings settings;
+  settings.view.width_px = 16;
+  settings.view.height_px = 12;
+  settings.map.resolution = 32;
+  settings.truth.standard_error = 0.1;
+  const int kind = choices.below(4);
+  if (kind == 0) {
+    const std::span<const BuiltinScene> scenes = builtin_scenes();
+    settings.scene.name = scenes[static_cast<size_t>(choices.below(static_cast<int>(scenes.size())))].name;
+  } else {
+    // A name of its own each time: what was measured of the last one is not this one's.
+    const std::string old = benches.folder.file(fmt::format("{}.gltf", benches.files));
+    std::filesystem::remove(old);
+    const std::string name = fmt::format("{}.gltf", ++benches.files);
+    benches.folder.write(name, scene_file(choices));
+    settings.scene.name = benches.folder.file(name);
+  }
+  const bool curve = choices.below(2) == 0, compare = choices.below(4) == 3;
+  const int points = 1 + choices.below(3);
+  for (int i = 0; i < points; ++i) {
+    choose(settings, i == 0 ? choices.below(16) : 1 + choices.below(3), choices);
+    try {
+      measure(benches, settings, curve, compare);
+    } catch (const Error& error) {  // settings that do not go together, a scene without a triangle
+      require(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::scene,
+              std::string("an error of another kind: ") + error.what());
+      require(*error.what() != '\0', "an error without a message");
+    }
+  }
+}
+
+std::string any_choices(size_t size, Random& random) {
+  std::string bytes(size, '\0');
+  for (char& c : bytes) c = static_cast<char>(random());
+  return bytes;
+}
+
+std::vector<std::string> seeds() {
+  std::vector<std::string> all;
+  Random random(7);
+  for (size_t i = 0; i < 24; ++i) all.push_back(any_choices(40 + 12 * i, random));
+  return all;
+}
+
+// Every input means something, so that a new one finds as much as an edited one.
+std::string mutate(const std::string& bytes, Random& random, const EditBytes& edit) {
+  return below(random, 4) == 0 ? any_choices(20 + below(random, 300), random) : edit(bytes, random);
+}
+
+std::vector<std::string> words() { return {}; }
+
+}  // namespace
+
+const Target measurement_target = {"measurement", run, seeds, words, mutate};
+
+}  // namespace noonmark::fuzz

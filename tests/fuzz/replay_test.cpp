@@ -1,0 +1,69 @@
+// Every target over its seeds, over what once broke it (regressions/<target>/), and over a few hundred mutants that are
+// the same each time. scripts/fuzz goes on from here with clang's libFuzzer.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "scenes/file.h"
+#include "tests/fuzz/targets.h"
+
+namespace noonmark::fuzz {
+namespace {
+
+// mutants: how many one run tries; each target takes about a second.
+struct Replay {
+  const Target* target;
+  int mutants;
+};
+std::ostream& operator<<(std::ostream& out, const Replay& replay) { return out << replay.target->name; }
+
+class Fuzz : public ::testing::TestWithParam<Replay> {
+ protected:
+  void run(const std::string& bytes, const std::string& what) {
+    try {
+      GetParam().target->run(bytes);
+    } catch (const std::exception& error) {
+      const std::string file = testing::TempDir() + "fuzz-" + std::string(GetParam().target->name);
+      std::ofstream(file, std::ios::binary) << bytes;
+      ADD_FAILURE() << what << " (now " << file << "): " << error.what();
+    }
+  }
+};
+
+TEST_P(Fuzz, SeedsAndWhatOnceBroke) {
+  const std::vector<std::string> seeds = GetParam().target->seeds();
+  ASSERT_FALSE(seeds.empty());
+  for (size_t i = 0; i < seeds.size(); ++i) run(seeds[i], "seed " + std::to_string(i));
+  const std::filesystem::path folder =
+      std::filesystem::path(NOONMARK_SOURCE_DIR) / "tests/fuzz/regressions" / GetParam().target->name;
+  std::set<std::filesystem::path> files;
+  if (std::filesystem::exists(folder))  // not every target has been broken
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) files.insert(entry.path());
+  for (const std::filesystem::path& file : files) run(read_file(file.string()), file.filename().string());
+}
+
+// NOONMARK_FUZZ_MUTANTS tries another number, from another seed.
+TEST_P(Fuzz, Mutants) {
+  const Target& target = *GetParam().target;
+  const std::vector<std::string> seeds = target.seeds();
+  const char* asked = std::getenv("NOONMARK_FUZZ_MUTANTS");
+  const int mutants = asked ? std::stoi(asked) : GetParam().mutants;
+  Random random(asked ? std::random_device()() : 20240611);
+  for (int i = 0; i < mutants && !HasFailure(); ++i) {
+    std::string bytes = seeds[below(random, seeds.size())];
+    for (size_t rounds = 1 + below(random, 3); rounds > 0; --rounds)
+      bytes = target.mutate ? target.mutate(bytes, random, edit_bytes) : edit_bytes(bytes, random);
+    run(bytes, "mutant " + std::to_string(i));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Target, Fuzz,
+                         ::testing::Values(Replay{&gltf_target, 5000}, Replay{&experiment_target, 3000},
+                                           Replay{&formula_target, 2000}, Replay{&store_target, 200},
+                                           Replay{&measurement_target, 100}),
+                         [](const auto& instance) { return std::string(instance.param.target->name); });
+
+}  // namespace
+}  // namespace noonmark::fuzz

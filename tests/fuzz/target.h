@@ -1,0 +1,66 @@
+// What is fuzzed, said once for both drivers: libfuzzer_main.cpp (clang, preset `fuzz`) and replay_test.cpp (every test
+// run). One target is one file, <name>_target.cpp, one line in targets.h and one in CMakeLists.txt.
+//
+//   target.run(bytes);                              // throws what no input may cause; what input may cause it takes
+//   std::string next = target.mutate(bytes, random, edit_bytes);
+#pragma once
+#include <functional>
+#include <random>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace noonmark::fuzz {
+
+using Random = std::mt19937;
+
+// Damage to bytes that knows nothing of what they mean: libFuzzer's own, or edit_bytes().
+using EditBytes = std::function<std::string(const std::string&, Random&)>;
+
+struct Target {
+  std::string_view name;
+  // One execution. Whatever it throws is a finding.
+  void (*run)(const std::string& bytes);
+  // Where mutation starts: made by code, so that they follow the formats.
+  std::vector<std::string> (*seeds)();
+  // Words of the format, for libFuzzer's dictionary.
+  std::vector<std::string> (*words)();
+  // Damage that knows the format; null: bytes are all there is.
+  std::string (*mutate)(const std::string& bytes, Random& random, const EditBytes& edit);
+};
+
+// A property that did not hold.
+struct Broken : std::logic_error {
+  using std::logic_error::logic_error;
+};
+inline void require(bool holds, const std::string& what) {
+  if (!holds) throw Broken(what);
+}
+
+// One to four random edits.
+std::string edit_bytes(const std::string& bytes, Random& random);
+
+// Lines doubled, left out, moved, their values replaced, and words put in; or `edit`.
+std::string edit_text(const std::string& text, Random& random, std::span<const std::string> words,
+                      const EditBytes& edit);
+
+inline size_t below(Random& random, size_t n) { return static_cast<size_t>(random() % n); }
+
+// A folder of this process below TMPDIR; gone at the end, but for an end by a signal.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  // Replaces what was there; without the flush to the disk that the program's own files get.
+  void write(const std::string& name, std::string_view bytes) const;
+
+ private:
+  std::string path_;
+};
+
+}  // namespace noonmark::fuzz
