@@ -204,7 +204,8 @@ std::string point_json(const Measurement& m, const std::string& command) {
     json["parts"].push_back(
         {{"name", part.name}, {"first_primitive", part.first_triangle}, {"primitives", part.triangle_count}});
   for (int c = 0; c < cause_count; ++c) json["causes"].push_back(cause_name(static_cast<Cause>(c)));
-  json["flags"] = {{"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
+  json["flags"] = {
+      {"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);
   // Paths may hold bytes that are no UTF-8; JSON may not.
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

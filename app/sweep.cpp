@@ -20,10 +20,10 @@
 #include "compare/csv.h"
 #include "compare/laws.h"
 #include "compare/poor_view.h"
-#include "compare/undecided.h"
 #include "compare/report.h"
 #include "compare/soundness.h"
 #include "compare/store.h"
+#include "compare/undecided.h"
 #include "raytrace/tracer.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -123,7 +123,8 @@ std::string swept_text(const Experiment& part, const Settings& settings) {
   return text.empty() ? "the only point" : text;
 }
 
-// What each point will take, and every scene remembered as it is now. Each scene is met once, in the order of the points.
+// What each point will take, and every scene remembered as it is now. Each scene is met once, in the order of the
+// points.
 std::vector<MemoryEstimate> survey(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points,
                                    SceneDigests& scenes) {
   std::vector<MemoryEstimate> memory;

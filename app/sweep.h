@@ -22,8 +22,8 @@ struct SweepOutcome {
 
 // Points that would not fit into memory are refused before any is measured. Resumes where an earlier run of the same
 // experiment stopped; what no longer holds together in its store is told and measured anew. Writes results.sqlite point
-// by point; then results.csv, report.html and, when pictures are asked for, images/. Throws Error: usage, scene, device;
-// defect when a measurement is not sound (after everything is stored).
+// by point; then results.csv, report.html and, when pictures are asked for, images/. Throws Error: usage, scene,
+// device; defect when a measurement is not sound (after everything is stored).
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options);
 
 // Throws Error(defect) at the first point with a metric beyond its limit in compare/soundness.h. Points without a

@@ -6,8 +6,8 @@
 #include "app/workbench.h"
 #include "compare/metrics.h"
 #include "compare/poor_view.h"
-#include "compare/undecided.h"
 #include "compare/quantities.h"
+#include "compare/undecided.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "scenes/idle_settings.h"
@@ -30,8 +30,8 @@ Settings the_point(const Experiment& experiment, long point) {
 
 void print_ladder(const Measurement& m) {
   const auto value = [&](const char* name) { return m.record.metrics.at(name); };
-  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", printable(m.scene.name),
-             value("receivers"), value("facing"), value("counted"));
+  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", printable(m.scene.name), value("receivers"),
+             value("facing"), value("counted"));
   if (value("facing") > 0) fmt::print(" ({:.4f}% ambiguous)", 100 * value("ambiguous"));
   fmt::print("\n\n");
   if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("  {}\n\n", poor);

@@ -84,7 +84,8 @@ void receiver(const LookupEvidence& e, const Image<float>& stored_map, CurvePara
     }
     const float at_r5 = threshold(tap_of(e.probe, e.taps, e.map, stored_map, i, t));
     const bool sure = exact.moved_sure && exact.texel_sure;
-    if (exact.covered && sure && exact.moved_lit && exact.texel_lit) lists.stored_acne = std::max(lists.stored_acne, at_r5);
+    if (exact.covered && sure && exact.moved_lit && exact.texel_lit)
+      lists.stored_acne = std::max(lists.stored_acne, at_r5);
     least = std::min(least, at_r5);
     most = std::max(most, at_r5);
     if (!e.truth.lit[i])
@@ -155,8 +156,7 @@ BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, 
                     [&](const tbb::blocked_range<size_t>& range) {
                       Lists& lists = parts.local();
                       for (size_t i = range.begin(); i != range.end(); ++i)
-                        if (e.truth.facing[i] && !e.truth.ambiguous[i])
-                          receiver(e, stored_map, parameter, i, lists);
+                        if (e.truth.facing[i] && !e.truth.ambiguous[i]) receiver(e, stored_map, parameter, i, lists);
                     });
   const auto add = [](ThresholdSums& to, Taps& from) { to.add(from.thresholds, from.weights); };
   parts.combine_each([&](Lists& part) {
@@ -170,7 +170,9 @@ BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, 
     add(undecided_light_, part.undecided_light);
     for (int c = 0; c < cause_count; ++c) add(by_cause_[c], part.by_cause[c]);
   });
-  for (ThresholdSums* list : {&error_dark_, &error_light_, &wrong_dark_, &wrong_light_, &undecided_dark_, &undecided_light_}) list->sort();
+  for (ThresholdSums* list :
+       {&error_dark_, &error_light_, &wrong_dark_, &wrong_light_, &undecided_dark_, &undecided_light_})
+    list->sort();
   for (ThresholdSums& list : by_cause_) list.sort();
 }
 

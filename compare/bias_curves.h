@@ -72,8 +72,8 @@ class BiasCounts {
   uint64_t wrong_receivers(float x) const {
     return static_cast<uint64_t>(wrong_dark_.above(x) + wrong_light_.up_to(x));
   }
-  // Taps at R4, by cause. cause: one of the six that are booked tap by tap, or undecided (where taps that darken and taps
-  // that lighten do not cancel, as they do in a pixel's step).
+  // Taps at R4, by cause. cause: one of the six that are booked tap by tap, or undecided (where taps that darken and
+  // taps that lighten do not cancel, as they do in a pixel's step).
   double caused(Cause cause, float x) const;
 
   // The least x at which acne is at most this share of taps(); the greatest at which Peter Panning is (infinity when it

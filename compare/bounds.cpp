@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "compare/poor_view.h"
-#include "compare/undecided.h"
 #include "compare/quantities.h"
+#include "compare/undecided.h"
 #include "scenes/error.h"
 #include "scenes/settings.h"
 

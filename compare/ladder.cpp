@@ -47,7 +47,7 @@ bool inside(const LookupProbe& probe, size_t i, const Image<float>& map) {
 std::string_view cause_name(Cause cause) {
   static constexpr std::string_view names[cause_count] = {
       "none", "light_size",    "filter",        "displacement",   "aliasing_dark", "aliasing_light",
-      "acne", "peter_panning", "coverage_dark", "coverage_light", "undecided",      "precision"};
+      "acne", "peter_panning", "coverage_dark", "coverage_light", "undecided",     "precision"};
   return names[static_cast<size_t>(cause)];
 }
 
@@ -65,8 +65,8 @@ Ladder climb(const LookupEvidence& e) {
   ladder.doubt = Image<float>(width, height, 0);
 
   const auto receiver = [&](size_t i, Residuals& worst) {
-    ladder.flags[i] = static_cast<uint8_t>((e.truth.facing[i] ? flag_facing : 0) |
-                                           (e.truth.ambiguous[i] ? flag_ambiguous : 0));
+    ladder.flags[i] =
+        static_cast<uint8_t>((e.truth.facing[i] ? flag_facing : 0) | (e.truth.ambiguous[i] ? flag_ambiguous : 0));
     if (!e.truth.facing[i]) return;
     if (e.probe.reference[i] > 1.0f || !inside(e.probe, i, e.exact_map)) ladder.flags[i] |= flag_outside;
 
@@ -86,7 +86,9 @@ Ladder climb(const LookupEvidence& e) {
       booked[static_cast<size_t>(cause)] += tap.weight;
       if (tap.exact_sure && tap.moved_sure && tap.texel_sure) continue;
       unsure += tap.weight;
-      const auto step = [&](bool from, bool to) { return tap.weight * (static_cast<int>(to) - static_cast<int>(from)); };
+      const auto step = [&](bool from, bool to) {
+        return tap.weight * (static_cast<int>(to) - static_cast<int>(from));
+      };
       if (!tap.exact_sure) before_exact += step(e.truth.lit[i] != 0, tap.exact_lit);
       if (!tap.exact_sure || !tap.moved_sure) before_moved += step(tap.exact_lit, tap.moved_lit);
       if (cause == Cause::undecided) before_r4 += step(tap.moved_lit, lit);

@@ -68,8 +68,8 @@ struct LookupEvidence {
   const Image<float>& r5;
 };
 
-// ambiguous: float error can change R1, and the receiver is in no metric. undecided: it can change what some tap's truth
-// is.
+// ambiguous: float error can change R1, and the receiver is in no metric. undecided: it can change what some tap's
+// truth is.
 enum LadderFlags : uint8_t { flag_facing = 1, flag_outside = 2, flag_ambiguous = 4, flag_undecided = 8 };
 
 struct Ladder {
@@ -77,7 +77,7 @@ struct Ladder {
   std::array<Image<float>, cause_count> step;  // signed change of visibility by cause, in the order of Cause
   Image<uint8_t> cause;                        // the Cause of each wrong pixel (R5 != R1); none where right
   Image<uint8_t> flags;
-  Image<float> doubt;                          // weight of the taps whose truth is unsure
+  Image<float> doubt;  // weight of the taps whose truth is unsure
   // Largest |(R5 - R0) - sum of steps| and |(R4 - R2) - displacement - sum of tap classes| over the facing receivers,
   // what is undecided among them included; NaN when any value is. Above 1e-6 the instrument is broken.
   double residual = 0, tap_residual = 0;
@@ -87,9 +87,9 @@ Ladder climb(const LookupEvidence& evidence);
 
 // A tap of a lookup, ready to be judged at any bias. Shared by the ladder and by the bias curves.
 struct Tap {
-  bool exact_lit = false;   // F
-  bool moved_lit = false;   // D
-  bool texel_lit = false;   // V
+  bool exact_lit = false;  // F
+  bool moved_lit = false;  // D
+  bool texel_lit = false;  // V
   bool exact_sure = true, moved_sure = true, texel_sure = true;
   bool covered = true;      // inside the map, before far, blocker not clipped
   bool always_lit = false;  // whatever the bias: beyond far, and the lookup says lit without comparing

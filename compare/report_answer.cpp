@@ -6,10 +6,10 @@
 
 #include "compare/metrics.h"
 #include "compare/poor_view.h"
-#include "compare/undecided.h"
 #include "compare/quantities.h"
 #include "compare/report_sections.h"
 #include "compare/report_text.h"
+#include "compare/undecided.h"
 
 namespace noonmark::report {
 namespace {

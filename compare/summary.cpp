@@ -12,8 +12,8 @@
 #include "compare/laws.h"
 #include "compare/metrics.h"
 #include "compare/poor_view.h"
-#include "compare/undecided.h"
 #include "compare/quantities.h"
+#include "compare/undecided.h"
 
 namespace noonmark {
 namespace {
@@ -178,13 +178,9 @@ std::string to_summary(const Results& results) {
   std::string text =
       fmt::format("# {}\n\n{}", markdown(info.title.empty() ? "Noonmark" : info.title), verdict(results));
   if (const std::string poor = poor_view_note(results.points); !poor.empty())
-    text += fmt::format("
-Note: {}.
-", markdown(poor));
+    text += fmt::format("\nNote: {}.\n", markdown(poor));
   if (const std::string doubt = undecided_note(results.points); !doubt.empty())
-    text += fmt::format("
-Note: {}.
-", markdown(doubt));
+    text += fmt::format("\nNote: {}.\n", markdown(doubt));
   if (!results.laws.empty()) text += laws_table(results);
   if (!results.bounds.empty()) text += bounds_table(results);
   // Points of different parts are not there to be compared.

@@ -18,8 +18,8 @@ double metric_of(const PointRecord& point, const char* name) {
 
 // The metrics that an undecided tap may belong to.
 constexpr std::array<std::string_view, 11> causes = {
-    "filter", "displacement", "aliasing", "aliasing_dark", "aliasing_light", "acne",
-    "peter_panning", "coverage", "coverage_dark", "coverage_light", "peter_panning_lit"};
+    "filter",        "displacement", "aliasing",      "aliasing_dark",  "aliasing_light",   "acne",
+    "peter_panning", "coverage",     "coverage_dark", "coverage_light", "peter_panning_lit"};
 
 }  // namespace
 
@@ -36,7 +36,8 @@ std::string undecided_note(std::span<const PointRecord> points) {
   }
   if (!worst) return "";
   return fmt::format(
-      "undecided is {:.3g}% where the error is {:.3g}%: that much is wrong at taps whose truth changes within float error, "
+      "undecided is {:.3g}% where the error is {:.3g}%: that much is wrong at taps whose truth changes within float "
+      "error, "
       "and the causes' shares may be off by it (edges that meet to rounding only, or a scene far from the origin)",
       100 * metric_of(*worst, "undecided"), 100 * metric_of(*worst, "error"));
 }

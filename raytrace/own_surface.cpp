@@ -45,7 +45,8 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec3 x) const {
     const double along = side_a == side_b ? 0.5 : std::clamp(side_a / (side_a - side_b), 0.0, 1.0);
     const double edge_depth = view_.frame().depth_m(a + along * (b - a));
 
-    const uint32_t next = next_on_sheet(triangle, out, from, x);
+    uint32_t next = next_on_sheet(triangle, out, from, x);
+    if (next == no_primitive) next = across_seam(triangle, a + along * (b - a), x);
     if (next == no_primitive) return ends_at(edge_depth);
     from = triangle;
     triangle = next;
@@ -53,9 +54,10 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec3 x) const {
   return ends_at(view_.plane_depth(p.primitive, x));
 }
 
-// The sheet goes on in a triangle that lies on the other side of the edge as the light sees it. Where several do (solids
-// that touch along an edge, a wall on a floor), P's surface is what bounds the same space as P's side of the triangle:
-// wound alike where any is, and of those the one nearest to the light beyond the edge, which hides the others.
+// The sheet goes on in a triangle that lies on the other side of the edge as the light sees it. Where several do
+// (solids that touch along an edge, a wall on a floor), P's surface is what bounds the same space as P's side of the
+// triangle: wound alike where any is, and of those the one nearest to the light beyond the edge, which hides the
+// others.
 uint32_t OwnSurface::next_on_sheet(uint32_t triangle, int edge, uint32_t from, glm::dvec3 x) const {
   const uint32_t begin = adjacency_.welded(triangle)[edge], end = adjacency_.welded(triangle)[(edge + 1) % 3];
   const glm::dvec3 a = view_.corner(triangle, edge), b = view_.corner(triangle, (edge + 1) % 3);
@@ -70,13 +72,38 @@ uint32_t OwnSurface::next_on_sheet(uint32_t triangle, int edge, uint32_t from, g
     for (int i = 0; i < 3; ++i)
       if (v[i] != begin && v[i] != end) apex = i;
     const double side = sign * view_.orientation(a, b, view_.corner(candidate, apex));
-    if (!(side < 0)) continue;  // folded back, or edge-on to the light
+    if (!(side < 0)) continue;                    // folded back, or edge-on to the light
     const bool alike = v[(apex + 1) % 3] == end;  // runs through the edge the other way
     const double depth = view_.plane_depth(candidate, x);
     if (next == no_primitive || (alike && !next_alike) || (alike == next_alike && depth < nearest)) {
       next = candidate;
       next_alike = alike;
       nearest = depth;
+    }
+  }
+  return next;
+}
+
+// Where a sheet ends at a border, another that ends there too goes on with it where the place of the border lies in its
+// plane, but for the rounding of both: tiles, and corners on a neighbour's edge. Of several one in the same plane, else
+// the one nearest to the light, which hides the others.
+uint32_t OwnSurface::across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x) const {
+  const glm::dvec3 place = view_.place_of(end), way = x - place;
+  const double length = glm::length(way) * (view_.parallel() ? 1 : view_.frame().depth_m(end));
+  if (!(length > 0)) return no_primitive;
+  std::vector<uint32_t> borders;
+  silhouettes_.near(place, borders);
+  const glm::dvec3 beyond = view_.normal_place(place + std::min(1.0, 2 * beside_m() / length) * way);
+  const double moved = view_.corner_rounding_m(triangle, 0);
+  uint32_t next = no_primitive;
+  bool next_flat = false;
+  for (uint32_t candidate : borders) {
+    if (candidate == triangle || !covers(candidate, beyond) || !view_.touches(candidate, end, moved)) continue;
+    const bool flat = may_be_one_plane(view_.scene(), candidate, triangle);
+    if (next == no_primitive || (flat && !next_flat) ||
+        (flat == next_flat && view_.plane_depth(candidate, beyond) < view_.plane_depth(next, beyond))) {
+      next = candidate;
+      next_flat = flat;
     }
   }
   return next;
@@ -233,8 +260,7 @@ OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, 
   };
   const auto around = [&](size_t i, bool rounded) {
     const double length = glm::length(way) * (view_.parallel() ? 1 : at[i].depth_m);  // longer the deeper the edge lies
-    const double aside =
-        (rounding_share * beside_m() + (rounded ? at[i].rounding_m : 0.0)) / (length * at[i].sine);
+    const double aside = (rounding_share * beside_m() + (rounded ? at[i].rounding_m : 0.0)) / (length * at[i].sine);
     return Bracket{i, i, at[i].t - aside, at[i].t + aside};
   };
   const auto widen = [&](Bracket& b, bool rounded) {

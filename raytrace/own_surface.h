@@ -2,11 +2,12 @@
 // ladder's rungs R1 to R3, and the rule that tells an occluder from P's own surface.
 //
 // Let H be the first hit on the light ray through x, and S the depth at x of P's own sheet: walk from P straight to x
-// over triangles joined by exactly equal vertex positions, across any dihedral angle. Where the walk ends early at E (a
-// fold as the light sees it, or a boundary), S is the nearer to the light of P's tangent plane at x and the depth of E.
-// V = lit iff z_H >= S, or P is lit and the first-hit depth has no jump along the way from P to x. So aliasing needs a
-// shadow edge between the pixel and the texel; without one it is acne. What rounding of the vertices can have made is no
-// jump, and a hit that may be of one plane with P's sheet is that sheet (raytrace/vertex_rounding.h).
+// over triangles joined by exactly equal vertex positions, or whose borders meet but for the rounding of their
+// vertices, across any dihedral angle. Where the walk ends early at E (a fold as the light sees it, or a boundary), S
+// is the nearer to the light of P's tangent plane at x and the depth of E. V = lit iff z_H >= S, or P is lit and the
+// first-hit depth has no jump along the way from P to x. So aliasing needs a shadow edge between the pixel and the
+// texel; without one it is acne. What rounding of the vertices can have made is no jump, and a hit that may be of one
+// plane with P's sheet is that sheet (raytrace/vertex_rounding.h).
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -70,12 +71,14 @@ class OwnSurface {
   // Silhouettes within this distance of x may part the ray that was cast from the exact one, or from one as far away.
   double beside_m() const { return 2 * view_.ray_error_m(); }
   uint32_t next_on_sheet(uint32_t triangle, int edge, uint32_t from, glm::dvec3 x) const;
+  // end: of the sheet, in the light's frame.
+  uint32_t across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x) const;
   // Has the first-hit depth no jump between P, lit, and x? It can have one only where the way crosses a silhouette.
   Verdict continuous(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
                      const std::vector<Silhouettes::Crossing>& crossed, uint64_t& rays) const;
   // Do the two first hits on either side of these crossings belong together, but for the rounding of their vertices?
-  Verdict joins(uint32_t before, uint32_t after, const std::vector<Silhouettes::Crossing>& at, size_t first, size_t last,
-                const auto& place) const;
+  Verdict joins(uint32_t before, uint32_t after, const std::vector<Silhouettes::Crossing>& at, size_t first,
+                size_t last, const auto& place) const;
   // Does a surface go on at P, lit, where P's own rounding put it beside its triangle?
   bool goes_on_at(const SurfacePoint& p, uint64_t& rays) const;
   // Is this hit P's own sheet, or behind it, but for the ray's error?

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <new>
 #include <optional>
+#include <string>
 
 #include "raytrace/adjacency.h"
 #include "raytrace/area_light.h"
@@ -14,6 +16,7 @@
 #include "raytrace/polygon_offset.h"
 #include "raytrace/shadow_start.h"
 #include "raytrace/texel_rays.h"
+#include "scenes/error.h"
 
 namespace noonmark::raytrace {
 namespace {
@@ -82,7 +85,12 @@ const ReceiverImage& Tracer::Impl::on_first(const ReceiverImage& receivers, std:
   return *made;
 }
 
-Tracer::Tracer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+Tracer::Tracer(const Scene& scene) try : impl_(std::make_unique<Impl>(scene)) {
+} catch (const std::bad_alloc&) {
+  throw Error(ErrorKind::device,
+              "the ray tracer's tables for " + std::to_string(scene.triangles.size()) +
+                  " triangles do not fit into memory; simplify the scene, or allow more memory (ulimit -v)");
+}
 Tracer::~Tracer() = default;
 
 uint64_t Tracer::open_edges() const {

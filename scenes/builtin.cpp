@@ -152,9 +152,9 @@ Scene fence(const SceneSettings&) {
   return scene;
 }
 
-// A house front with six windows, as modellers cut it: a grid of wall pieces around the openings, whose reveals are faces
-// of their own. Sills and a canopy cast shadows over the seams. Turned (scene.turn_deg) and cut otherwise (scene.mesh)
-// it is what seams and T-junctions of real meshes are.
+// A house front with six windows, as modellers cut it: a grid of wall pieces around the openings, whose reveals are
+// faces of their own. Sills and a canopy cast shadows over the seams. Turned (scene.turn_deg) and cut otherwise
+// (scene.mesh) it is what seams and T-junctions of real meshes are.
 Scene facade(const SceneSettings&) {
   Scene scene;
   add_floor(scene, 4, 0);
@@ -164,13 +164,13 @@ Scene facade(const SceneSettings&) {
       const glm::dvec3 corner(x[i], y[j], 0), right(x[i + 1] - x[i], 0, 0), up(0, y[j + 1] - y[j], 0);
       const bool window = i % 2 == 1 && j % 2 == 1;
       const glm::dvec3 back(0, 0, window ? -depth : 0);
-      add_quad(scene, window ? "pane" : "wall", corner + back, right, up);
+      add_quad(scene, window ? "pane" : "wall piece", corner + back, right, up);
       if (!window) continue;
       add_quad(scene, "reveal", corner, -back, up);
       add_quad(scene, "reveal", corner + right, up, -back);
       add_quad(scene, "reveal", corner, right, -back);
       add_quad(scene, "reveal", corner + up, -back, right);
-      add_box(scene, "sill", {x[i] - 0.08, y[j] - 0.06, 0}, {x[i + 1] + 0.08, y[j], 0.12});
+      add_box(scene, "sill", {x[i] - 0.08, y[j] - 0.08, 0}, {x[i + 1] + 0.08, y[j] - 0.02, 0.12});
     }
   }
   add_box(scene, "canopy", {-0.7, 2.0, 0.4}, {0.7, 2.05, 1.2});

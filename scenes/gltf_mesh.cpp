@@ -291,8 +291,8 @@ bool draws(const tinygltf::Node& node, const PlacedNode& placed) {
   return node.mesh != -1 && placed.visible && (!placed.collapsed || node.skin != -1);
 }
 
-// How much the scene asks for, by its lists alone: no buffer is read. A Draco mesh whose indices have no accessor counts
-// as nothing until it is decoded.
+// How much the scene asks for, by its lists alone: no buffer is read. A Draco mesh whose indices have no accessor
+// counts as nothing until it is decoded.
 SceneSize count_geometry(const Document& document, const Placement& placement) {
   const tinygltf::Model& model = document.model;
   std::map<int, std::vector<Drawable>> meshes;

@@ -39,7 +39,8 @@ std::string notes_line(const Scene& scene) {
 }
 
 Scene make_scene(const SceneSettings& settings) {
-  return remeshed(scene_as_built(settings), settings.mesh, {settings.turn_deg, settings.move_m});
+  return remeshed(scene_as_built(settings), settings.mesh,
+                  {settings.turn_deg, settings.move_m.value_or(glm::dvec3(0))});
 }
 
 }  // namespace noonmark

@@ -95,23 +95,16 @@ Setting real(std::string_view name, std::string_view unit, double min, double ma
 
 template <class Member>
 Setting point(std::string_view name, std::string_view unit, std::string_view help, Member member) {
-  constexpr bool is_optional = std::is_same_v<std::invoke_result_t<Member, Settings&>, std::optional<glm::dvec3>&>;
-  Setting row{name, unit, ValueType::point, 0, 0, is_optional, {}, help, {}, {}};
+  Setting row{name, unit, ValueType::point, 0, 0, true, {}, help, {}, {}};
   row.get = [member](const Settings& s) {
     const auto& value = member(const_cast<Settings&>(s));
-    if constexpr (is_optional)
-      return value ? point_text(*value) : std::string("auto");
-    else
-      return point_text(value);
+    return value ? point_text(*value) : std::string("auto");
   };
   row.set = [member, row](Settings& s, std::string_view text) {
-    if constexpr (is_optional) {
-      if (text == "auto") {
-        member(s).reset();
-        return;
-      }
-    }
-    member(s) = parse_point(row, text);
+    if (text == "auto")
+      member(s).reset();
+    else
+      member(s) = parse_point(row, text);
   };
   return row;
 }
@@ -176,7 +169,7 @@ std::vector<Setting> make_table() {
            "Turns the whole scene, its camera and light with it, about the axis (1, 2, 3): then no plane is along an "
            "axis.",
            MEMBER(scene.turn_deg)),
-      point("scene.move_m", "m", "Moves the whole scene, its camera and light with it, after the turn.",
+      point("scene.move_m", "m", "Moves the whole scene, its camera and light with it, after the turn; auto: not.",
             MEMBER(scene.move_m)),
       real("scene.time_s", "s", 0, 1e6,
            "A glTF file's animation poses the scene at this time; before its first key and after its last it stands "

@@ -46,11 +46,11 @@ struct SceneSettings {
                                    // how far it is turned about the vertical
   double thickness_m = 0.1;        // wall, plate
   double height_m = 0.5;           // plate: of its lit face above the floor
-  MeshForm mesh = MeshForm::as_built;  // the same surface in other triangles
-  double turn_deg = 0;                 // the whole scene, camera and light with it, about the axis (1, 2, 3)
-  glm::dvec3 move_m{0};                // and then moved
+  MeshForm mesh = MeshForm::as_built;     // the same surface in other triangles
+  double turn_deg = 0;                    // the whole scene, camera and light with it, about the axis (1, 2, 3)
+  std::optional<glm::dvec3> move_m = {};  // and then moved; empty: not
   std::optional<double> time_s = {};      // of a file's animation: the pose at that time; empty: at rest
-  int animation = 0;                   // which of the file's animations time_s is a time of
+  int animation = 0;                      // which of the file's animations time_s is a time of
 };
 
 struct ViewSettings {

@@ -74,12 +74,12 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
         all += step;
         const Cause cause = static_cast<Cause>(c);
         const bool of_taps = cause != Cause::light_size && cause != Cause::filter && cause != Cause::precision;
-        if (of_taps) taps += step;
+        if (cause != Cause::light_size && cause != Cause::precision) taps += step;
         classes += of_taps && cause != Cause::displacement && step != 0;
       }
       // Written so that a NaN is broken.
       broken_steps += !(std::abs((ladder.rung[5][i] - ladder.rung[0][i]) - all) <= rounding_of_steps);
-      broken_taps += !(std::abs((ladder.rung[4][i] - ladder.rung[2][i]) - taps) <= rounding_of_steps);
+      broken_taps += !(std::abs((ladder.rung[4][i] - ladder.rung[1][i]) - taps) <= rounding_of_steps);
       if (filtered) continue;
       several += classes > 1;
       const bool wrong = ladder.rung[5][i] != ladder.rung[1][i];
@@ -154,8 +154,8 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
       const raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, probe, frame, settings.map);
       const gl::ShadowMap exact = renderer.upload_map(taps.exact_map, settings.map);
       const Image<float> nothing;
-      const LookupEvidence evidence{
-          truth, probe, taps.taps, taps.exact_map, settings.map, depth_bias(settings.bias), nothing, nothing};
+      const LookupEvidence evidence{truth,   probe,  taps.taps, taps.exact_map, settings.map, depth_bias(settings.bias),
+                                    nothing, nothing};
       const bool slope = settings.bias.form == BiasForm::slope;
       const BiasCounts counts(evidence, stored, slope ? CurveParameter::slope : CurveParameter::constant);
       ASSERT_GT(counts.receivers(), 10000u);

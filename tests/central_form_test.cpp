@@ -142,7 +142,12 @@ struct Verdict {
 class Comparison {
  public:
   Comparison(const CentralSpec& spec, const Modelled& model, const LightFrame& frame)
-      : spec_(spec), model_(model), frame_(frame), inner_(model.inner, frame), outer_(model.outer, frame), rounded_(model.inner, frame, vertex_rounding_m(model.scene)) {
+      : spec_(spec),
+        model_(model),
+        frame_(frame),
+        inner_(model.inner, frame),
+        outer_(model.outer, frame),
+        rounded_(model.inner, frame, vertex_rounding_m(model.scene)) {
     error_ = ray_error_m(model.scene);
     // A float's rounding of the depth, and double's of the plane it lies on.
     depth_step_ = 0x1p-24 + 1e-12 * (inner_.size_m() * frame.window_depth_slope(frame.near_m));
@@ -386,7 +391,8 @@ TEST_P(CentralFormSweep, TracerAgrees) {
   EXPECT_EQ(all.wrong(), 0);
   EXPECT_EQ(all.far_from_edges, 0);
   EXPECT_GT(all.facing, 100 * sweep.scenes);
-  EXPECT_LT(static_cast<double>(all.ambiguous + all.taps_ambiguous + all.by_rounding), sweep.ambiguous * static_cast<double>(all.facing));
+  EXPECT_LT(static_cast<double>(all.ambiguous + all.taps_ambiguous + all.by_rounding),
+            sweep.ambiguous * static_cast<double>(all.facing));
   EXPECT_LT(static_cast<double>(all.edge_on), sweep.edge_on * static_cast<double>(all.facing));
   EXPECT_LT(static_cast<double>(all.depth_either), 1e-4 * static_cast<double>(all.taps));
   if (sweep.kinds > 2) return;

@@ -31,7 +31,8 @@ struct Tally {
   void record() const {
     const auto put = [](const char* name, int64_t n) { testing::Test::RecordProperty(name, static_cast<int>(n)); };
     put("scenes", scenes), put("facing", facing), put("ambiguous", ambiguous), put("taps_ambiguous", taps_ambiguous);
-    put("by_rounding", by_rounding), put("banded", banded), put("wrong_r1", r1), put("wrong_r2", r2), put("wrong_r3", r3), put("wrong_depth", depth);
+    put("by_rounding", by_rounding), put("banded", banded), put("wrong_r1", r1), put("wrong_r2", r2),
+        put("wrong_r3", r3), put("wrong_depth", depth);
     put("wrong_clipped", clipped), put("depth_either", depth_either), put("hidden", hidden),
         put("far_from_edges", far_from_edges), put("taps", taps);
     put("dark_taps", dark_taps), put("taps_that_differ", differ);

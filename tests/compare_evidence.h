@@ -194,8 +194,8 @@ inline std::vector<Tap> taps_of(const Synthetic& s, const Image<float>& map, siz
         reference += slope.x * static_cast<float>(i - s.kernel / 2) + slope.y * static_cast<float>(j - s.kernel / 2);
       if (s.bias.form == BiasForm::tangent_plane)
         reference += slope.x * (static_cast<float>(x) + 0.5f - u) + slope.y * (static_cast<float>(y) + 0.5f - v);
-      result.push_back({exact, moved, (bits & 2) != 0, (bits & 8) == 0, (bits & 32) == 0, (bits & 64) == 0, inside && !beyond && (bits & 4) == 0, beyond, reference, depth,
-                        weight(i, u) * weight(j, v)});
+      result.push_back({exact, moved, (bits & 2) != 0, (bits & 8) == 0, (bits & 32) == 0, (bits & 64) == 0,
+                        inside && !beyond && (bits & 4) == 0, beyond, reference, depth, weight(i, u) * weight(j, v)});
     }
   }
   return result;
@@ -203,12 +203,11 @@ inline std::vector<Tap> taps_of(const Synthetic& s, const Image<float>& map, siz
 
 // The receiver's own verdict may be another one.
 inline bool ambiguous(const Synthetic& s, size_t receiver) { return s.truth.ambiguous[receiver] != 0; }
-// The verdict of one of its taps may be.
+// The verdict of one of its taps may be; taps without a weight are not read.
 inline bool undecided(const Synthetic& s, size_t receiver) {
-  bool result = false;
-  const size_t taps = static_cast<size_t>(s.side()) * static_cast<size_t>(s.side());
-  for (size_t t = 0; t < taps; ++t) result |= (s.taps.taps[receiver * taps + t] & (8 | 32 | 64)) != 0;
-  return result;
+  for (const Tap& tap : taps_of(s, s.exact, receiver))
+    if (tap.weight > 0 && !(tap.exact_sure && tap.moved_sure && tap.texel_sure)) return true;
+  return false;
 }
 
 // The shader: lit_beyond_far first, else one float comparison. A sampler that compares, on fixed-point depths, clamps

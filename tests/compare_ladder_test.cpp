@@ -148,8 +148,9 @@ TEST_P(Climb, FlagsFacingAmbiguousAndOutside) {
       const glm::vec2 t = s.probe.map_texels[i];
       const bool off = s.lookup != Lookup::cube && (t.x < 0 || t.y < 0 || t.x >= 6 || t.y >= 6),
                  far = s.probe.reference[i] > 1;
-      const int expected = !s.truth.facing[i] ? 0 : 1 + (off || far ? 2 : 0) + (naive::ambiguous(s, i) ? 4 : 0) +
-                                                              (naive::undecided(s, i) ? 8 : 0);
+      const int expected = !s.truth.facing[i] ? 0
+                                              : 1 + (off || far ? 2 : 0) + (naive::ambiguous(s, i) ? 4 : 0) +
+                                                    (naive::undecided(s, i) ? 8 : 0);
       ASSERT_EQ(ladder.flags[i], expected);
       outside += s.truth.facing[i] && off && !far;
       beyond += s.truth.facing[i] && far && !off;
@@ -238,6 +239,7 @@ TEST(ClimbUnfiltered, SizesOfCausesSumToTheError) {
       // What moves the lookup is a step whatever the map then says; where the map's answer is another, the pixel may be
       // right again.
       mended += displaced > 0 && sizes > 0;
+      if (naive::undecided(s, i)) continue;  // there they are booked as undecided
       ASSERT_EQ(std::abs(displaced - sizes), std::abs(ladder.rung[5][i] - ladder.rung[1][i]));
     }
   }

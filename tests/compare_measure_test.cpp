@@ -95,6 +95,9 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
   p.ladder.flags.at(3, 1) |= flag_outside;
   p.ladder.residual = 2e-7;
   p.ladder.tap_residual = 3e-7;
+  p.ladder.flags.at(2, 1) |= flag_undecided;
+  p.ladder.doubt.at(2, 1) = 0.5f;
+  p.ladder.step[static_cast<size_t>(Cause::undecided)].at(2, 1) = -0.125f;
 
   const double base = 9;
   const std::map<std::string, double> expected = {
@@ -115,6 +118,9 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"coverage_dark", 1 / base},
       {"coverage_light", 1 / base},
       {"precision", 0.25 / base},
+      {"undecided", 0.125 / base},
+      {"undecided_taps", 0.5 / base},
+      {"undecided_receivers", 1},
       {"peter_panning_gap_m", 0},
       {"edge_displacement_texels", 1.5},
       {"edge_displacement_mean_texels", 1},

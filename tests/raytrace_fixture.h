@@ -23,8 +23,8 @@ namespace noonmark::test {
 // Can float error change neither the receiver's truth nor that of any of its taps?
 inline bool is_sure(const ReceiverTruth& truth, const TapTruth& taps, size_t i) {
   const auto first = taps.taps.begin() + static_cast<std::ptrdiff_t>(i) * taps.taps_per_receiver;
-  return !truth.ambiguous[i] && std::none_of(first, first + taps.taps_per_receiver,
-                                             [](uint8_t bits) { return (bits & tap_unsure) != 0; });
+  return !truth.ambiguous[i] &&
+         std::none_of(first, first + taps.taps_per_receiver, [](uint8_t bits) { return (bits & tap_unsure) != 0; });
 }
 
 // Two depths nearer than this (as a fraction of the scene's size) are one: some hundred roundings of 2^-53, for the

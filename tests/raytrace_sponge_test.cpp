@@ -106,15 +106,15 @@ TEST(Sponge, CoplanarTopsAreOneSheetWhateverTouchesAtTheirEdges) {
         const OwnSurface::Verdict verdict = surface.lit_at(surface.point(p_light, own, false), x, hit, rays);
         if (!verdict.sure) continue;
         const bool lit = brute.first_hit(glm::dvec2(q_light)).z >= q_light.z - 1e-9;
-        ASSERT_EQ(verdict.lit, lit) << "seed " << seed << " inner " << inner << " from " << p.x << ' ' << p.y << ' ' << p.z
-                                    << " to " << q.x << ' ' << q.z;
+        ASSERT_EQ(verdict.lit, lit) << "seed " << seed << " inner " << inner << " from " << p.x << ' ' << p.y << ' '
+                                    << p.z << " to " << q.x << ' ' << q.z;
         (lit ? on_sheet : hidden) += 1;
         over_shared += cells > 1;
       }
     }
   }
-  EXPECT_GT(on_sheet, 300);
-  EXPECT_GT(hidden, 300);
+  EXPECT_GT(on_sheet, 150);
+  EXPECT_GT(hidden, 150);
   EXPECT_GT(over_shared, 100);
 }
 

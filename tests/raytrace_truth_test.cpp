@@ -33,7 +33,8 @@ Count compare_with_brute_force(const Scene& scene, bool facing_light, int receiv
     if (truth.ambiguous[i]) continue;
     const bool lit = !brute.occluded(receivers.position[i], receivers.primitive[i]);
     if (lit == (truth.lit[i] != 0)) continue;
-    // Dark only by a face of the same plane, but for what rounding has moved its vertices by: lit, as the tracer has it.
+    // Dark only by a face of the same plane, but for what rounding has moved its vertices by: lit, as the tracer has
+    // it.
     bool undecided =
         !lit && !brute.occluded(receivers.position[i], receivers.primitive[i], 0x1p-22 * largest_coordinate(scene));
     for (int k = 0; k < 16 && within_m > 0; ++k) {
