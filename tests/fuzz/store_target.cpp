@@ -1,6 +1,7 @@
 // Bytes of results.sqlite, opened and written out again as `noonmark report` does, and as `check` writes its verdict:
 // one Error that says what is wrong with the file, or files that are whole. Mutated as a database (rows and columns
-// changed, dropped, doubled) and as bytes. Text that the mutator plants would be markup if anything let it through.
+// changed, dropped, doubled; most are sealed again, so that the rows are read) and as bytes. Text that the mutator
+// plants would be markup if anything let it through.
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -12,7 +13,9 @@
 #include "compare/junit.h"
 #include "compare/laws.h"
 #include "compare/report.h"
+#include "compare/sqlite.h"
 #include "compare/store.h"
+#include "compare/store_seals.h"
 #include "compare/summary.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -29,6 +32,13 @@ constexpr std::string_view markup = "<fuzzed>";
 Folder& folder() {
   static Folder one;
   return one;
+}
+
+// The path of a new database, without what an earlier one of this name left beside it.
+std::string written(const std::string& name, const std::string& bytes) {
+  folder().write(name, bytes);
+  for (const char* rest : {"-journal", "-wal", "-shm"}) ::unlink(folder().file(name + rest).c_str());
+  return folder().file(name);
 }
 
 // RFC 4180: as many fields in each row as in the first.
@@ -60,11 +70,9 @@ void require_report(const std::string& html) {
 }
 
 void run(const std::string& bytes) {
-  folder().write("results.sqlite", bytes);
-  for (const char* rest : {"-journal", "-wal", "-shm"})
-    ::unlink(folder().file(std::string("results.sqlite") + rest).c_str());
+  const std::string path = written("results.sqlite", bytes);
   try {
-    const Results results = ResultStore::open(folder().file("results.sqlite")).load();
+    const Results results = ResultStore::open(path).load();
     const std::string html = render_report(results, [](const std::string& path) { return sample_picture(path); });
     require_report(html);
     require_csv(to_csv(results));
@@ -185,6 +193,12 @@ std::string odd_sql_value(Random& random) {
   return odd[below(random, odd.size())];
 }
 
+// A view of a damaged schema may have no end.
+void forbid_endless(sqlite3* db) {
+  sqlite3_progress_handler(
+      db, 100000, [](void*) { return 1; }, nullptr);
+}
+
 class Scratch {
  public:
   // A database in memory that begins as `bytes`.
@@ -195,9 +209,7 @@ class Scratch {
     std::memcpy(copy, bytes.data(), bytes.size());
     const auto size = static_cast<sqlite3_int64>(bytes.size());
     sqlite3_deserialize(db_, "main", copy, size, size, SQLITE_DESERIALIZE_FREEONCLOSE | SQLITE_DESERIALIZE_RESIZEABLE);
-    // A view of a damaged schema may have no end.
-    sqlite3_progress_handler(
-        db_, 100000, [](void*) { return 1; }, nullptr);
+    forbid_endless(db_);
   }
   ~Scratch() { sqlite3_close(db_); }
   Scratch(const Scratch&) = delete;
@@ -271,12 +283,36 @@ void edit_database(Scratch& db, Random& random) {
   }
 }
 
-std::string mutate(const std::string& bytes, Random& random, const EditBytes& edit) {
+// The same rows, sealed as if the program had written them: an edited store is refused before its values are read.
+// Where the damage does not let it, the bytes as they are.
+std::string sealed(const std::string& bytes) {
+  const std::string path = written("sealed.sqlite", bytes);
+  try {
+    sqlite::Database db(path, sqlite::Database::Mode::existing);
+    forbid_endless(db.handle());
+    db.execute("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF");
+    sqlite::Transaction all(db);
+    for (int64_t point : broken_points(db)) seal_point(db, point);
+    seal_info(db);
+    seal_verdict(db);
+    all.commit();
+  } catch (const Error&) {
+    return bytes;
+  }
+  return read_file(path);
+}
+
+std::string edited(const std::string& bytes, Random& random, const EditBytes& edit) {
   if (!bytes.starts_with("SQLite format 3") || below(random, 8) == 0) return edit(bytes, random);
   Scratch db(bytes);
   for (size_t edits = 1 + below(random, 4); edits > 0; --edits) edit_database(db, random);
   const std::string next = db.bytes();
   return next.empty() ? edit(bytes, random) : next;
+}
+
+std::string mutate(const std::string& bytes, Random& random, const EditBytes& edit) {
+  const std::string next = edited(bytes, random, edit);
+  return below(random, 4) == 0 ? next : sealed(next);
 }
 
 }  // namespace
