@@ -55,15 +55,13 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec3 x) const {
 }
 
 // The sheet goes on in a triangle that lies on the other side of the edge as the light sees it. Where several do
-// (solids that touch along an edge, a wall on a floor), P's surface is what bounds the same space as P's side of the
-// triangle: wound alike where any is, and of those the one nearest to the light beyond the edge, which hides the
-// others.
+// (solids that touch along an edge, a wall on a floor), P's surface is the one nearest to the light beyond the edge: it
+// hides the others.
 uint32_t OwnSurface::next_on_sheet(uint32_t triangle, int edge, uint32_t from, glm::dvec3 x) const {
   const uint32_t begin = adjacency_.welded(triangle)[edge], end = adjacency_.welded(triangle)[(edge + 1) % 3];
   const glm::dvec3 a = view_.corner(triangle, edge), b = view_.corner(triangle, (edge + 1) % 3);
   const double sign = view_.orientation(triangle) < 0 ? -1 : 1;
   uint32_t next = no_primitive;
-  bool next_alike = false;
   double nearest = 0;
   for (uint32_t candidate : adjacency_.across(triangle, edge)) {
     if (candidate == from || view_.edge_on(candidate)) continue;
@@ -72,14 +70,11 @@ uint32_t OwnSurface::next_on_sheet(uint32_t triangle, int edge, uint32_t from, g
     for (int i = 0; i < 3; ++i)
       if (v[i] != begin && v[i] != end) apex = i;
     const double side = sign * view_.orientation(a, b, view_.corner(candidate, apex));
-    if (!(side < 0)) continue;                    // folded back, or edge-on to the light
-    const bool alike = v[(apex + 1) % 3] == end;  // runs through the edge the other way
+    if (!(side < 0)) continue;  // folded back, or edge-on to the light
     const double depth = view_.plane_depth(candidate, x);
-    if (next == no_primitive || (alike && !next_alike) || (alike == next_alike && depth < nearest)) {
-      next = candidate;
-      next_alike = alike;
-      nearest = depth;
-    }
+    if (next != no_primitive && !(depth < nearest)) continue;
+    next = candidate;
+    nearest = depth;
   }
   return next;
 }

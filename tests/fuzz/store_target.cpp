@@ -73,7 +73,7 @@ void run(const std::string& bytes) {
   const std::string path = written("results.sqlite", bytes);
   try {
     const Results results = ResultStore::open(path).load();
-    const std::string html = render_report(results, [](const std::string& path) { return sample_picture(path); });
+    const std::string html = render_report(results, [](const std::string& picture) { return sample_picture(picture); });
     require_report(html);
     require_csv(to_csv(results));
     require_no_markup(to_junit(results), "JUnit file");
