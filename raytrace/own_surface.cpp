@@ -13,7 +13,7 @@ constexpr double rounding_share = 0x1p-24;
 
 }  // namespace
 
-OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec3 x) const {
+OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec3 x, bool over_seams) const {
   uint32_t triangle = p.primitive;
   uint32_t from = no_primitive;  // the triangle that the walk came from
   const auto ends_at = [&](double depth) {
@@ -46,7 +46,7 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec3 x) const {
     const double edge_depth = view_.frame().depth_m(a + along * (b - a));
 
     uint32_t next = next_on_sheet(triangle, out, from, x);
-    if (next == no_primitive) next = across_seam(triangle, a + along * (b - a), x);
+    if (next == no_primitive && over_seams) next = across_seam(triangle, a + along * (b - a), x);
     if (next == no_primitive) return ends_at(edge_depth);
     from = triangle;
     triangle = next;
@@ -138,7 +138,7 @@ uint32_t OwnSurface::exact_first(glm::dvec3 x, uint64_t& rays) const {
     if (!covers(triangle, x)) {  // the sheet may go on below x
       const glm::dvec3 centre =
           (view_.corner(triangle, 0) + view_.corner(triangle, 1) + view_.corner(triangle, 2)) / 3.0;
-      triangle = walk({view_.frame().place(centre), triangle, false, false}, x).triangle;
+      triangle = walk({view_.frame().place(centre), triangle, false, false}, x, false).triangle;
       if (!covers(triangle, x)) continue;
     }
     if (first == no_primitive || view_.hit_depth(triangle, x) < view_.hit_depth(first, x)) first = triangle;
@@ -286,8 +286,12 @@ OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, 
       jumps = step > rounding_share * depth_error(before, after, y);
     }
     if (!jumps) continue;
+    const size_t crossed = bracket.last - bracket.first;
     widen(bracket, true);
-    const auto [near, far] = sheets(bracket);
+    // With no other silhouette in it the bracket's ends see what they saw.
+    const auto [near, far] = bracket.last - bracket.first > crossed
+                                 ? sheets(bracket)
+                                 : std::pair(bracket.begin > 0 ? before : p.primitive, bracket.end < 1 ? after : hit);
     const Verdict joined = joins(near, far, at, bracket.first, bracket.last, place);
     if (!joined.lit) return {false, true};
     sure &= joined.sure;

@@ -57,7 +57,8 @@ class OwnSurface {
     double depth_m = 0;                // S
     uint32_t triangle = no_primitive;  // where the walk arrived, or no_primitive when it ended early
   };
-  Sheet walk(const SurfacePoint& p, glm::dvec3 x) const;
+  // over_seams: also where borders meet but for rounding.
+  Sheet walk(const SurfacePoint& p, glm::dvec3 x, bool over_seams = true) const;
 
  private:
   uint32_t first_hit(glm::dvec3 x, uint64_t& rays) const;
