@@ -23,7 +23,7 @@ TEST(Law11Rounding, AnEmptyFloorInPiecesIsStillEmpty) {
   for (const char* form : forms) {
     for (const char* turn : {"0", "17"}) {
       for (const Assignment& place : places) {
-        for (int size : {1, 3, 9}) {
+        for (int size : {1, 3}) {  // 9 x 9: experiments/laws.toml
           SCOPED_TRACE(std::string(form) + " turned " + turn + " at " + place.second + " size " + std::to_string(size));
           const Measurement m = bench.measure(with({{"scene.theta_deg", "40"},
                                                     {"scene.phi_deg", "25"},
