@@ -37,8 +37,8 @@ std::string undecided_note(std::span<const PointRecord> points) {
   if (!worst) return "";
   return fmt::format(
       "undecided is {:.3g}% where the error is {:.3g}%: that much is wrong at taps whose truth changes within float "
-      "error, "
-      "and the causes' shares may be off by it (edges that meet to rounding only, or a scene far from the origin)",
+      "error, and the causes' shares may be off by it (edges that meet to rounding only, or a scene far from the "
+      "origin)",
       100 * metric_of(*worst, "undecided"), 100 * metric_of(*worst, "error"));
 }
 

@@ -247,8 +247,8 @@ OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, 
                                            const std::vector<Silhouettes::Crossing>& at, uint64_t& rays) const {
   const glm::dvec3 way = x - p.at;
   const auto place = [&](double t) { return view_.normal_place(p.at + t * way); };
-  // Silhouettes whose order along the way is rounding's word are crossed together: that of double's arithmetic, or of
-  // the vertices (`rounded`), which closes cracks.
+  // Two silhouettes are crossed together where rounding may exchange their order along the way: the rounding of
+  // double's arithmetic, or (`rounded`) that of the vertices. The latter closes cracks.
   struct Bracket {
     size_t first, last;
     double begin, end;  // fractions of the way
@@ -300,8 +300,8 @@ OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, 
   return {true, sure};
 }
 
-// The two sheets are one where an edge that is crossed between them lies on both, to rounding. An edge before them that
-// does not may be crossed first or not at all: rounding says which.
+// The two sheets are one where an edge that is crossed between them lies on both, to rounding. Where another edge in
+// front of them does not, the verdict is not sure: rounding may decide which of the edges is crossed first.
 OwnSurface::Verdict OwnSurface::joins(uint32_t before, uint32_t after, const std::vector<Silhouettes::Crossing>& at,
                                       size_t first, size_t last, const auto& place) const {
   if (before == after) return {true, true};

@@ -12,7 +12,8 @@ namespace noonmark::gltf {
 // where its attributes are of the wrong types or of different lengths.
 uint64_t instance_count(const Document& document, size_t node);
 
-// node_from_mesh of instance i, below instance_count().
+// Where the instances of a node stand. node_from_mesh(i) takes the mesh into the space of its node, for the instance
+// i = 0 ... instance_count() - 1.
 class Instances {
  public:
   Instances(const Document& document, Readers& readers, size_t node);

@@ -11,7 +11,8 @@ namespace noonmark::gltf {
 // are handed to it as an attribute of this name.
 inline constexpr const char* indices_attribute = "INDICES";
 
-// guarded.json is reduced, so every property is of its type. Throws Error(scene).
+// guarded.json: after gltf_guard.h has left out what is not read, so that each property has the type that glTF gives
+// it. Throws Error(scene).
 void prepare_for_tinygltf(const std::string& file, GuardedDocument& guarded);
 
 }  // namespace noonmark::gltf

@@ -1,4 +1,4 @@
-// The identity of a scene's contents: what a measurement of it depends on.
+// A hash over everything in a scene that can change a measurement. Two scenes with equal hashes give equal results.
 //
 //   if (scene_digest(make_scene(settings.scene)) != remembered) measure_anew();
 #pragma once

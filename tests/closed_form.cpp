@@ -82,7 +82,7 @@ bool ClosedForm::one_plane(const Piece& a, const Piece& b) const {
          may_be_one_plane(flat(a), flat(b), moved_m_);
 }
 
-// An edge of one of the two that lies in the other's plane, but for rounding of both, is none.
+// Is the step larger than rounding can make it? Rounding moves the two planes and the edge between them.
 bool ClosedForm::is_step(const Piece& before, const Piece& after, double jump_m) const {
   const auto cosine = [](const Piece& p) { return 1 / std::sqrt(1 + glm::dot(p.gradient, p.gradient)); };
   return jump_m * std::min(cosine(before), cosine(after)) > 8 * moved_m_;

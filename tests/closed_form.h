@@ -53,8 +53,8 @@ struct Place {
 
 class ClosedForm {
  public:
-  // moved_m: 0, or what rounding may have moved the corners by: then no step that it can have made is an edge. What the
-  // two forms say differently of, rounding decides.
+  // moved_m: 0, or what rounding may have moved the corners by: then no step that it can have made is an edge. Where
+  // a form with 0 and one with moved_m differ, the answer depends on rounding.
   ClosedForm(const std::vector<Shape>& shapes, const LightFrame& frame, double moved_m = 0);
 
   // R1: nothing lies between the light and P, P taken on its own face (a sphere's far side is never asked for).

@@ -16,8 +16,8 @@ const Assignment places[] = {{"scene.move_m", "0,0,0"},
                              {"scene.move_m", "7300,-6000,3200"}};  // 10 km
 const char* const forms[] = {"tiles", "t_junctions"};
 
-// An empty floor is lit everywhere, and nothing but acne can go wrong on it: with the bias of law 1, nothing. As one
-// quad and in pieces.
+// An empty floor is lit everywhere. The only possible error is acne, and the bias of law 1 removes it. So there is no
+// error at all, for one quad as for many pieces.
 TEST(Law11Rounding, AnEmptyFloorInPiecesIsStillEmpty) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* form : forms) {

@@ -26,7 +26,7 @@ namespace {
 // Steps are sums of at most a dozen floats in [0,1], each rounded to 2^-24; means of them no worse.
 constexpr double rounding = 1e-6;
 
-// Numbers from bytes, zeros when they are used up: every input means something, and a longer one more of the same.
+// Takes numbers from the input, byte by byte. After the last byte all numbers are 0, so that every input is valid.
 class Choices {
  public:
   explicit Choices(const std::string& bytes) : bytes_(bytes) {}
