@@ -4,17 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
+
+#include "compare/report_findings.h"
 
 namespace noonmark {
 namespace {
-
-// NaN where the record has none.
-double metric_of(const PointRecord& point, const char* name) {
-  const auto found = point.metrics.find(name);
-  return found == point.metrics.end() ? std::nan("") : found->second;
-}
 
 // The metrics that an undecided tap may belong to.
 constexpr std::array<std::string_view, 11> causes = {

@@ -89,7 +89,8 @@ uint32_t OwnSurface::across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x
   std::vector<uint32_t> borders;
   silhouettes_.near(place, borders);
   const glm::dvec3 beyond = view_.normal_place(place + std::min(1.0, 2 * beside_m() / length) * way);
-  const double moved = view_.corner_rounding_m(triangle, 0);
+  double moved = 0;
+  for (int i = 0; i < 3; ++i) moved = std::max(moved, view_.corner_rounding_m(triangle, i));
   uint32_t next = no_primitive;
   bool next_flat = false;
   for (uint32_t candidate : borders) {
