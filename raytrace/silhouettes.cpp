@@ -9,7 +9,11 @@ namespace noonmark {
 namespace {
 
 constexpr int least_cells = 256, most_cells = 2048;  // on a side: from 0.25 to 16 MiB of offsets
-constexpr double face_margin = 1e-3;                 // how far the grid of a cube's face reaches into its neighbours
+// Long edges on one another would be listed in hundreds of cells each: the grid is made coarser, down to so many cells
+// on a side, until its lists are at most so long.
+constexpr int coarsest_cells = 16;
+constexpr size_t listed_per_piece = 16, listed_besides = size_t{1} << 20;
+constexpr double face_margin = 1e-3;  // how far the grid of a cube's face reaches into its neighbours
 
 // Does another triangle go on across this edge, on its other side as the light sees it?
 bool goes_on(const Adjacency& adjacency, const LightView& view, uint32_t triangle, int edge) {
@@ -114,10 +118,20 @@ Silhouettes::Silhouettes(const Adjacency& adjacency, const LightView& view, doub
 // cells_per_unit comes as grids per unit.
 void Silhouettes::fill(Grid& grid, const std::vector<Piece>& pieces) {
   if (pieces.empty()) return;
+  const double grids_per_unit = grid.cells_per_unit;
   grid.size = std::clamp(static_cast<int>(4 * std::sqrt(static_cast<double>(pieces.size()))), least_cells, most_cells);
-  grid.cells_per_unit *= grid.size;
-  grid.begin.assign(static_cast<size_t>(grid.size) * static_cast<size_t>(grid.size) + 1, 0);
-  for (const Piece& p : pieces) grid.each_cell(p.a, p.b, p.reach, [&](size_t cell) { ++grid.begin[cell + 1]; });
+  for (;; grid.size /= 2) {
+    grid.cells_per_unit = grids_per_unit * grid.size;
+    grid.begin.assign(static_cast<size_t>(grid.size) * static_cast<size_t>(grid.size) + 1, 0);
+    const size_t most = grid.size <= coarsest_cells ? std::numeric_limits<size_t>::max()
+                                                    : listed_per_piece * pieces.size() + listed_besides;
+    size_t listed = 0;
+    for (const Piece& p : pieces) {
+      grid.each_cell(p.a, p.b, p.reach, [&](size_t cell) { ++grid.begin[cell + 1], ++listed; });
+      if (listed > most) break;
+    }
+    if (listed <= most) break;
+  }
   std::partial_sum(grid.begin.begin(), grid.begin.end(), grid.begin.begin());
   grid.listed.resize(grid.begin.back());
   std::vector<uint32_t> next(grid.begin.begin(), grid.begin.end() - 1);

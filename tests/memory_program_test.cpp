@@ -71,6 +71,18 @@ class Memory : public Program {
   }
 };
 
+// So many squares, each a little above the one before: all their edges lie on one another as the light sees them.
+test::json stack(int squares) {
+  test::json document = test::square();
+  document["nodes"] = test::json::array();
+  document["scenes"][0]["nodes"] = test::json::array();
+  for (int i = 0; i < squares; ++i) {
+    document["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 1e-5 * i}}});
+    document["scenes"][0]["nodes"].push_back(i);
+  }
+  return document;
+}
+
 struct Case {
   const char* name;
   const char* toml;
@@ -82,6 +94,7 @@ class MemoryOf : public Memory, public testing::WithParamInterface<Case> {};
 // adds to a program that measures next to nothing, too.
 TEST_P(MemoryOf, APointIsPredicted) {
   if (std::string(GetParam().name) == "triangles") grid(100, 40);
+  if (std::string(GetParam().name) == "overlapping") write("stack.gltf", stack(100000).dump());
   const std::string small =
       write("small.toml", "pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = 16\n");
   const std::string file = write("x.toml", GetParam().toml);
@@ -105,8 +118,38 @@ INSTANTIATE_TEST_SUITE_P(
              "1024\n"},
         Case{"triangles",
              "scene = \"grid.gltf\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "
+             "64\n"},
+        Case{"overlapping",
+             "scene = \"stack.gltf\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "
              "64\n"}),
     [](const auto& one) { return std::string(one.param.name); });
+
+// In strips of half a MB, of which the widest kernel's taps fill 30.
+TEST_F(Memory, DoesNotGrowWithTheKernel) {
+  const auto peak_of = [](const char* size) {
+    const pid_t child = fork();
+    if (child == 0) {
+      Settings settings;
+      for (const auto& [name, value] :
+           std::initializer_list<std::pair<const char*, const char*>>{{"scene.name", "plane"},
+                                                                      {"view.width_px", "160"},
+                                                                      {"view.height_px", "100"},
+                                                                      {"filter.kind", "box"},
+                                                                      {"filter.size", size},
+                                                                      {"map.resolution", "256"}})
+        find_setting(name).set(settings, value);
+      const Measurement m = Workbench(gl::DebugMode::log, {}, 1 << 19).measure(settings, std::nullopt);
+      _exit(m.record.metrics.at("contract") == 0 ? 0 : 1);
+    }
+    int status = 0;
+    struct rusage usage {};
+    wait4(child, &status, 0, &usage);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+  };
+  const double narrow = peak_of("3"), wide = peak_of("31");
+  EXPECT_LT(wide - narrow, 7e6) << "of 15 MB that all taps take";
+}
 
 TEST_F(Memory, ADryRunNamesIt) {
   const std::string file =
