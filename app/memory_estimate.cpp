@@ -20,10 +20,13 @@ constexpr double per_pixel = 260;          // receivers, truth, probe, ladder, o
 constexpr double per_picture_pixel = 270;  // pictures, channels of the EXR files and what is encoded of them [245]
 constexpr double per_texel = 36;           // the map drawn, read back, exact, uploaded, and its ties [30]
 constexpr double per_picture_texel = 28;   // map.exr [25]
-constexpr double per_tap = 1;              // TapTruth
-constexpr double per_cube_tap = 4;         // the texel that a tap reads in a cube map (LookupProbe::cube_texel)
-constexpr double per_curve_tap = 12;    // thresholds of the error and of its cause, 4 each, and their lists' growth [6]
+// Of each tap that is listed at once: thresholds of the error and of its cause, 4 each, and their lists' growth [6].
+constexpr double per_curve_tap = 12;
 constexpr double per_blended_tap = 36;  // with a weight of 8 each, and a list being sorted [18]
+// Of each tap, for the sums over different thresholds: 12 for the error, 12 for the cause, 12 while strips join. At most
+// so much in all, which is 28 million of them, because differences of float depths repeat: 52 million taps had 1.6
+// million different ones, 885 million taps 10.5.
+constexpr double per_summed_tap = 4, most_sums = 1e9;  // [1.1]
 constexpr double per_asked_texel = 16;  // of each texel that a tap reads: its address and its error [16]
 constexpr double per_outside_texel = 32;   // what is met at texels beside the map: two lists of 16 while they are made
 constexpr double per_open_edge = 240;      // as a shadow's edge: itself, its pieces, the cells that list it [220]
@@ -58,12 +61,15 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   scene += per_grid_cell * faces * std::clamp(16 * edges, least_grid_cells, most_grid_cells);
   if (s.map.cull != CulledFaces::none) scene += per_kept_triangle * static_cast<double>(input.scene.triangles);
 
-  // The lists of texels beside the map are gone when the curve is made.
   double curve = 0;
   if (input.curve && curve_parameter(s.bias.form))
-    curve = taps * (pattern.bilinear() ? per_blended_tap : per_curve_tap);
+    curve = std::min<double>(taps, curve_batch_taps) * (pattern.bilinear() ? per_blended_tap : per_curve_tap) +
+            std::min(taps * per_summed_tap, most_sums);
+  const double all_taps = taps * static_cast<double>(bytes_per_tap(input.light)), row = all_taps / s.view.height_px;
+  const double strip = std::min(all_taps, std::max<double>(most_strip_bytes, row));
+  // The lists of texels beside the map are gone when the curve is made, but for what later strips read.
   const double outside = per_outside_texel * std::min(taps, input.outside_texels);
-  const double kept = taps * (per_tap + (input.light == LightKind::point ? per_cube_tap : 0));
+  const double beside = strip < all_taps ? curve + outside : std::max(curve, outside);
   return {{
       {"the program itself", "use a machine with more memory", program},
       {"the scene", "take a scene of fewer triangles (scene.name, scene.mesh)", scene},
@@ -72,7 +78,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
       {"the taps",
        curve > outside ? "lower filter.size, view.width_px or view.height_px, or set curve.enabled = false"
                        : "lower filter.size, view.width_px or view.height_px, or widen map.extent_m",
-       kept + std::max(curve, outside)},
+       strip + beside},
       {"the shadow map", "lower map.resolution",
        texels * (per_texel + (input.pictures ? per_picture_texel : 0)) + per_asked_texel * std::min(taps, texels)},
   }};

@@ -18,6 +18,13 @@
 
 namespace noonmark {
 
+// The truth of a picture's taps is traced in strips of whole rows that take at most as much, so that memory does not
+// grow with the kernel.
+inline constexpr size_t most_strip_bytes = size_t{256} << 20;
+constexpr size_t bytes_per_tap(LightKind light) {
+  return light == LightKind::point ? 1 + sizeof(uint32_t) : 1;  // TapTruth; LookupProbe::cube_texel
+}
+
 struct MemoryInput {
   const Settings& settings;
   LightKind light = LightKind::directional;

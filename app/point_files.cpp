@@ -25,7 +25,7 @@ Image<float> depth_read(const Measurement& m, const Image<float>& map) {
   Image<float> values(m.receivers.width(), m.receivers.height(), std::numeric_limits<float>::quiet_NaN());
   for (size_t i = 0; i < values.size(); ++i) {
     if (m.receivers.primitive[i] == no_primitive) continue;
-    const glm::ivec2 read = wrapped(m.probe.texel(i, m.probe.taps() / 2), {map.width, map.height}, m.settings.map.wrap);
+    const glm::ivec2 read = wrapped(m.probe.middle_texel(i), {map.width, map.height}, m.settings.map.wrap);
     values[i] = read.x < 0 ? border_depth : map.at(read.x, read.y);
   }
   return values;

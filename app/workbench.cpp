@@ -20,6 +20,7 @@
 #include "scenes/error.h"
 #include "scenes/library.h"
 #include "scenes/scene_digest.h"
+#include "scenes/tap_pattern.h"
 
 namespace noonmark {
 namespace {
@@ -29,6 +30,8 @@ namespace {
 template <class T>
 class Remembered {
  public:
+  bool has(const std::string& key) const { return value_ && key == key_; }
+
   template <class Make>
   T& get(const std::string& key, const Make& make) {
     if (!value_ || key != key_) {
@@ -121,10 +124,15 @@ struct RenderedMap {
   double time_ms;
 };
 
+// Where all taps fit into one strip, their truth is kept for the points that share it, and the rays are not.
 struct Lookup {
-  LookupProbe probe;
-  raytrace::LookupTruth truth;
+  LookupProbe probe;  // of a cube, with the texels of the strip at hand
   gl::ShadowMap exact_map;
+  Image<float> exact_depth;
+  std::optional<raytrace::LookupTracer> rays;
+  std::optional<TapTruth> taps;
+  Image<float> edge_distance_texels;
+  StageTime texel_stage, tap_stage;
 };
 
 // The settings that change what the probe and the truth of the taps are, beside scene, view, light and map: a form
@@ -144,6 +152,27 @@ std::string lookup_key_of(const Settings& settings, const DepthBias& bias) {
   return key + fmt::format("{}", bias.normal_offset_texels);
 }
 
+std::string curve_key_of(const Settings& settings, const std::string& lookup_key, CurveParameter parameter,
+                         const CurveOptions& options) {
+  // What the form holds while its parameter runs stays in the key.
+  std::string key =
+      lookup_key + key_of(settings, {"map.", "truth.", "bias.form"}) +
+      fmt::format("{} {} {}", options.acne_bound, options.peter_panning_bound, fmt::join(options.bias_depth, " "));
+  if (parameter != CurveParameter::constant) key += key_of(settings, {"bias.floor"});
+  if (parameter == CurveParameter::tan_scale) key += key_of(settings, {"bias.cap"});
+  return key;
+}
+
+// Whole rows of the picture, as many as have their taps in so many bytes; one at least.
+std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t strip_bytes) {
+  const auto width = static_cast<size_t>(settings.view.width_px), height = static_cast<size_t>(settings.view.height_px);
+  const size_t row_bytes = width * static_cast<size_t>(tap_pattern(settings.filter).taps) * bytes_per_tap(light);
+  const size_t rows = std::clamp<size_t>(strip_bytes / row_bytes, 1, height);
+  std::vector<PixelRange> strips;
+  for (size_t row = 0; row < height; row += rows) strips.push_back({row * width, std::min(row + rows, height) * width});
+  return strips;
+}
+
 Settings of_scene(const SceneSettings& scene) {
   Settings settings;
   settings.scene = scene;
@@ -153,7 +182,8 @@ Settings of_scene(const SceneSettings& scene) {
 }  // namespace
 
 struct Workbench::Impl {
-  Impl(gl::DebugMode debug, gl::ShaderReplacements shaders) : renderer(debug, std::move(shaders)) {}
+  Impl(gl::DebugMode debug, gl::ShaderReplacements shaders, size_t bytes)
+      : renderer(debug, std::move(shaders)), strip_bytes(bytes) {}
 
   LoadedScene& load(const Settings& settings) {
     return scene.get(key_of(settings, {"scene."}), [&] {
@@ -167,12 +197,13 @@ struct Workbench::Impl {
   }
 
   gl::Renderer renderer;
+  size_t strip_bytes;
   Remembered<LoadedScene> scene;
   Remembered<View> view;
   Remembered<Truth> truth;
   Remembered<RenderedMap> map;
   Remembered<Lookup> lookup;
-  Remembered<std::optional<BiasCurve>> curve;
+  Remembered<BiasCurve> curve;
   std::string receivers_on_device;
 };
 
@@ -182,9 +213,9 @@ void require_room_to_start() {
   require_address_space(base + 2 * rays * address_space_of_a_thread, fmt::format("a measurement by {} threads", rays));
 }
 
-Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders) {
+Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders, size_t strip_bytes) {
   require_room_to_start();
-  impl_ = std::make_unique<Impl>(debug, std::move(shaders));
+  impl_ = std::make_unique<Impl>(debug, std::move(shaders), strip_bytes);
 }
 Workbench::~Workbench() = default;
 
@@ -242,34 +273,79 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   });
   const DepthBias bias = depth_bias(settings.bias);
   const std::string lookup_key = lookup_key_of(settings, bias);
+  const std::vector<PixelRange> strips = strips_of(settings, frame.kind, b.strip_bytes);
   Lookup& lookup = b.lookup.get(lookup_key, [&] {
-    LookupProbe probe = b.renderer.probe(frame, settings);
+    LookupProbe probe = b.renderer.probe(frame, settings, gl::ProbeTaps::none);
     const double offset_unit =
         bias.form == BiasForm::polygon_offset ? b.renderer.polygon_offset_unit(settings.map.format) : 0;
-    raytrace::LookupTruth taps =
-        loaded.tracer->lookup_truth(view.receivers, truth.receivers, probe, frame, settings.map, bias, offset_unit);
-    gl::ShadowMap exact = b.renderer.upload_map(taps.exact_map, settings.map);
-    return Lookup{std::move(probe), std::move(taps), std::move(exact)};
+    raytrace::LookupTracer rays =
+        loaded.tracer->lookup(view.receivers, truth.receivers, frame, settings.map, bias, offset_unit);
+    StageTime texel_stage;
+    for (const PixelRange& strip : strips) {
+      b.renderer.probe_strip(probe, frame, settings, strip);
+      rays.ask(probe, strip, &texel_stage);
+    }
+    Image<float> depth = rays.trace_map(&texel_stage);
+    gl::ShadowMap exact = b.renderer.upload_map(depth, settings.map);
+    return Lookup{std::move(probe), std::move(exact),
+                  std::move(depth), std::move(rays),
+                  std::nullopt,     Image<float>(view.receivers.width(), view.receivers.height(), 0),
+                  texel_stage,      {}};
   });
 
   Image<float> r5;
   const double lookup_ms = median_time([&](double* ms) { r5 = b.renderer.lookup(map.map, frame, settings, ms); });
   const Image<float> r4 = b.renderer.lookup(lookup.exact_map, frame, settings);
 
-  const LookupEvidence evidence{
-      truth.receivers, lookup.probe, lookup.truth.taps, lookup.truth.exact_map, settings.map, bias, r4, r5};
-  Measurement m{{},    settings,       climb(evidence), frame,     view.camera,
-                scene, view.receivers, lookup.probe,    map.depth, lookup.truth.exact_map};
-
-  const Image<float> occluders = loaded.tracer->occluder_distance(view.receivers, frame, peter_panning_mask(m.ladder));
-  m.record.metrics = measure_ladder(
-      {m.ladder, view.receivers, frame, lookup.probe, bias, lookup.truth.edge_distance_texels, occluders});
-  m.record.metrics.merge(
-      measure_laws({m.ladder, scene, view.receivers, view.camera, frame, settings.map.format, lookup.probe}));
+  if (strips.size() == 1 && !lookup.taps) {
+    lookup.taps = lookup.rays->trace_taps(lookup.probe, strips[0], lookup.edge_distance_texels, &lookup.tap_stage);
+    lookup.rays.reset();
+  }
+  TapTruth of_strip;  // where there are several
+  const LookupEvidence evidence{truth.receivers,
+                                lookup.probe,
+                                lookup.taps ? *lookup.taps : of_strip,
+                                lookup.exact_depth,
+                                settings.map,
+                                bias,
+                                r4,
+                                r5};
   const Image<float> ties = tie_map(evidence);
   const Image<float> tie_lookup = b.renderer.lookup(b.renderer.upload_map(ties, settings.map), frame, settings);
+  SoundnessCheck soundness({evidence, map.depth, ties, tie_lookup, view.receivers, frame, view.camera.eye_m});
+  Measurement m{{},
+                settings,
+                empty_ladder(view.receivers.width(), view.receivers.height()),
+                frame,
+                view.camera,
+                scene,
+                view.receivers,
+                lookup.probe,
+                map.depth,
+                lookup.exact_depth};
+  // A form that moves the lookup or draws another map has no threshold for each tap.
+  const std::optional<CurveParameter> parameter = curve_options ? curve_parameter(settings.bias.form) : std::nullopt;
+  const std::string curve_key = parameter ? curve_key_of(settings, lookup_key, *parameter, *curve_options) : "";
+  std::optional<BiasCounts> counts;
+  if (parameter && !b.curve.has(curve_key)) counts.emplace(lookup.probe, *parameter);
+  if (!lookup.taps) lookup.tap_stage = {};
+  for (const PixelRange& strip : strips) {
+    if (!lookup.taps) {
+      of_strip = {};  // before the next: it is large
+      b.renderer.probe_strip(lookup.probe, frame, settings, strip);
+      of_strip = lookup.rays->trace_taps(lookup.probe, strip, lookup.edge_distance_texels, &lookup.tap_stage);
+    }
+    climb(evidence, strip, m.ladder);
+    soundness.add(strip);
+    if (counts) counts->add(evidence, map.depth, strip);
+  }
+
+  const Image<float> occluders = loaded.tracer->occluder_distance(view.receivers, frame, peter_panning_mask(m.ladder));
+  m.record.metrics =
+      measure_ladder({m.ladder, view.receivers, frame, lookup.probe, bias, lookup.edge_distance_texels, occluders});
   m.record.metrics.merge(
-      measure_soundness({evidence, map.depth, ties, tie_lookup, view.receivers, frame, view.camera.eye_m}));
+      measure_laws({m.ladder, scene, view.receivers, view.camera, frame, settings.map.format, lookup.probe}));
+  m.record.metrics.merge(soundness.metrics());
   m.record.metrics.insert(view.metrics.begin(), view.metrics.end());
   m.record.metrics["shaded_rmse"] = shaded_rmse(
       view.receivers, frame, make_camera_frame(view.camera, view.receivers.width(), view.receivers.height()),
@@ -279,29 +355,17 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   m.record.metrics["shadow_ms"] = map.time_ms + lookup_ms;
   m.record.worst = worst_pixel(m.ladder);
   m.record.settings = settings_map(settings);
-  m.record.times = {{"hard_truth_ms", truth.hard.milliseconds},
-                    {"hard_truth_rays", static_cast<double>(truth.hard.rays)},
-                    {"soft_truth_ms", truth.soft.milliseconds},
-                    {"soft_truth_rays", static_cast<double>(truth.soft.rays)},
-                    {"texel_ms", lookup.truth.texel_stage.milliseconds},
-                    {"texel_rays", static_cast<double>(lookup.truth.texel_stage.rays)},
-                    {"tap_ms", lookup.truth.tap_stage.milliseconds},
-                    {"tap_rays", static_cast<double>(lookup.truth.tap_stage.rays)}};
+  m.record.times = {
+      {"hard_truth_ms", truth.hard.milliseconds},    {"hard_truth_rays", static_cast<double>(truth.hard.rays)},
+      {"soft_truth_ms", truth.soft.milliseconds},    {"soft_truth_rays", static_cast<double>(truth.soft.rays)},
+      {"texel_ms", lookup.texel_stage.milliseconds}, {"texel_rays", static_cast<double>(lookup.texel_stage.rays)},
+      {"tap_ms", lookup.tap_stage.milliseconds},     {"tap_rays", static_cast<double>(lookup.tap_stage.rays)}};
 
-  // A form that moves the lookup or draws another map has no threshold for each tap.
-  if (const std::optional<CurveParameter> parameter = curve_parameter(settings.bias.form); curve_options && parameter) {
-    // What the form holds while its parameter runs stays in the key.
-    std::string key = lookup_key + key_of(settings, {"map.", "truth.", "bias.form"}) +
-                      fmt::format("{} {} {}", curve_options->acne_bound, curve_options->peter_panning_bound,
-                                  fmt::join(curve_options->bias_depth, " "));
-    if (*parameter != CurveParameter::constant) key += key_of(settings, {"bias.floor"});
-    if (*parameter == CurveParameter::tan_scale) key += key_of(settings, {"bias.cap"});
-    m.record.curve = b.curve.get(key, [&] {
-      return std::optional(summarise(BiasCounts(evidence, map.depth, *parameter),
-                                     bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit),
-                                     *curve_options));
+  if (parameter)
+    m.record.curve = b.curve.get(curve_key, [&] {
+      const BiasScale scale = bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit);
+      return summarise(*counts, scale, *curve_options);
     });
-  }
   return m;
 }
 

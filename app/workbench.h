@@ -37,8 +37,9 @@ void require_room_to_start();
 
 class Workbench {
  public:
-  // shaders: variants to measure in place of the program's own.
-  explicit Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders = {});
+  // shaders: variants to measure in place of the program's own. strip_bytes: what the truth of a strip's taps may take;
+  // where all taps fit, points that share them share their truth. It changes no result.
+  explicit Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders = {}, size_t strip_bytes = most_strip_bytes);
   ~Workbench();
 
   // curve: none when empty or when the settings' filter or bias form cannot be read off one pass. Throws Error.

@@ -35,6 +35,10 @@ void append(std::vector<T>& to, std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
   std::vector<T>().swap(from);
 }
+void append(Taps& to, Taps& from) {
+  append(to.thresholds, from.thresholds);
+  append(to.weights, from.weights);
+}
 
 // The least value of the parameter from which a tap of receiver i is lit. All of the form's float steps are monotone in
 // the one before, so that the thresholds of the steps are followed back one by one.
@@ -124,56 +128,89 @@ std::optional<CurveParameter> curve_parameter(BiasForm form) {
 }
 
 void ThresholdSums::add(std::vector<float>& thresholds, std::vector<double>& weights) {
-  append(at_, thresholds);
-  append(weights_, weights);
-}
-
-void ThresholdSums::sort() {
-  if (weights_.empty()) {
-    tbb::parallel_sort(at_);
+  if (thresholds.empty()) return;
+  ThresholdSums batch;
+  const auto count = [&](float at, double sum) {
+    if (batch.at_.empty() || batch.at_.back() != at) {
+      batch.at_.push_back(at);
+      batch.up_to_.push_back(sum);
+    }
+    batch.up_to_.back() = sum;
+  };
+  if (weights.empty()) {
+    tbb::parallel_sort(thresholds);
+    for (size_t i = 0; i < thresholds.size(); ++i) count(thresholds[i], static_cast<double>(i + 1));
+  } else {
+    // By weight too, so that sums do not depend on the order in which the cores came to them.
+    std::vector<std::pair<float, double>> pairs(thresholds.size());
+    for (size_t i = 0; i < pairs.size(); ++i) pairs[i] = {thresholds[i], weights[i]};
+    tbb::parallel_sort(pairs);
+    double sum = 0;
+    for (const auto& [at, weight] : pairs) count(at, sum += weight);
+  }
+  std::vector<float>().swap(thresholds);
+  std::vector<double>().swap(weights);
+  if (at_.empty()) {
+    *this = std::move(batch);
     return;
   }
-  // By weight too, so that sums do not depend on the order in which the cores came to them.
-  std::vector<std::pair<float, double>> pairs(at_.size());
-  for (size_t i = 0; i < pairs.size(); ++i) pairs[i] = {at_[i], weights_[i]};
-  std::vector<double>().swap(weights_);
-  tbb::parallel_sort(pairs);
-  sums_.resize(pairs.size() + 1);
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    at_[i] = pairs[i].first;
-    sums_[i + 1] = sums_[i] + pairs[i].second;
+  ThresholdSums both;
+  both.at_.reserve(at_.size() + batch.at_.size());
+  both.up_to_.reserve(both.at_.capacity());
+  for (size_t i = 0, j = 0; i < size() || j < batch.size();) {
+    const float next = std::min(i < size() ? at_[i] : infinity, j < batch.size() ? batch[j] : infinity);
+    if (i < size() && at_[i] == next) ++i;
+    if (j < batch.size() && batch[j] == next) ++j;
+    both.at_.push_back(next);
+    both.up_to_.push_back(before(i) + batch.before(j));
   }
+  *this = std::move(both);
 }
 
-size_t ThresholdSums::after(float x) const {
-  return static_cast<size_t>(std::upper_bound(at_.begin(), at_.end(), x) - at_.begin());
+double ThresholdSums::up_to(float x) const {
+  return before(static_cast<size_t>(std::upper_bound(at_.begin(), at_.end(), x) - at_.begin()));
 }
+
+BiasCounts::BiasCounts(const LookupProbe& probe, CurveParameter parameter)
+    : parameter_(parameter), blended_(probe.pattern.bilinear()), whole_(whole_weight(probe)) {}
 
 BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, CurveParameter parameter)
-    : parameter_(parameter), blended_(e.probe.pattern.bilinear()), whole_(whole_weight(e.probe)) {
+    : BiasCounts(e.probe, parameter) {
+  add(e, stored_map, {0, e.truth.facing.size()});
+}
+
+void BiasCounts::add(const LookupEvidence& e, const Image<float>& stored_map, PixelRange strip) {
+  require_strip(e, strip);
+  const size_t batch = std::max<size_t>(1, curve_batch_taps / static_cast<size_t>(e.taps.taps_per_receiver));
+  for (size_t first = strip.first; first < strip.end; first += batch)
+    add_batch(e, stored_map, {first, std::min(strip.end, first + batch)});
+}
+
+void BiasCounts::add_batch(const LookupEvidence& e, const Image<float>& stored_map, PixelRange pixels) {
   tbb::combinable<Lists> parts;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, e.truth.facing.size(), 8192),
+  tbb::parallel_for(tbb::blocked_range<size_t>(pixels.first, pixels.end, 8192),
                     [&](const tbb::blocked_range<size_t>& range) {
                       Lists& lists = parts.local();
                       for (size_t i = range.begin(); i != range.end(); ++i)
-                        if (e.truth.facing[i] && !e.truth.ambiguous[i]) receiver(e, stored_map, parameter, i, lists);
+                        if (e.truth.facing[i] && !e.truth.ambiguous[i]) receiver(e, stored_map, parameter_, i, lists);
                     });
-  const auto add = [](ThresholdSums& to, Taps& from) { to.add(from.thresholds, from.weights); };
+  Lists all;
   parts.combine_each([&](Lists& part) {
     receivers_ += part.receivers;
     stored_acne_free_from_ = std::max(stored_acne_free_from_, part.stored_acne);
-    add(error_dark_, part.error_dark);
-    add(error_light_, part.error_light);
-    add(wrong_dark_, part.wrong_dark);
-    add(wrong_light_, part.wrong_light);
-    add(undecided_dark_, part.undecided_dark);
-    add(undecided_light_, part.undecided_light);
-    for (int c = 0; c < cause_count; ++c) add(by_cause_[c], part.by_cause[c]);
+    for (Taps Lists::*list : {&Lists::error_dark, &Lists::error_light, &Lists::wrong_dark, &Lists::wrong_light,
+                              &Lists::undecided_dark, &Lists::undecided_light})
+      append(all.*list, part.*list);
+    for (int c = 0; c < cause_count; ++c) append(all.by_cause[c], part.by_cause[c]);
   });
-  for (ThresholdSums* list :
-       {&error_dark_, &error_light_, &wrong_dark_, &wrong_light_, &undecided_dark_, &undecided_light_})
-    list->sort();
-  for (ThresholdSums& list : by_cause_) list.sort();
+  const auto add = [](ThresholdSums& to, Taps& from) { to.add(from.thresholds, from.weights); };
+  add(error_dark_, all.error_dark);
+  add(error_light_, all.error_light);
+  add(wrong_dark_, all.wrong_dark);
+  add(wrong_light_, all.wrong_light);
+  add(undecided_dark_, all.undecided_dark);
+  add(undecided_light_, all.undecided_light);
+  for (int c = 0; c < cause_count; ++c) add(by_cause_[c], all.by_cause[c]);
 }
 
 double BiasCounts::caused(Cause cause, float x) const {
@@ -214,32 +251,39 @@ float BiasCounts::peter_panning_free_to(double share) const {
 
 BiasCounts::Best BiasCounts::best(float most) const {
   // The error is constant from each breakpoint to the next; 0 starts the first stretch.
-  struct Stretch {
-    float from;
-    double wrong;
+  const auto for_each_stretch = [&](const auto& visit) {
+    size_t d = 0, l = 0;
+    float x = 0;
+    for (bool last = false; !last;) {
+      while (d < error_dark_.size() && error_dark_[d] <= x) ++d;
+      while (l < error_light_.size() && error_light_[l] <= x) ++l;
+      const float next = std::min(d < error_dark_.size() ? error_dark_[d] : infinity,
+                                  l < error_light_.size() ? error_light_[l] : infinity);
+      last = next > most || next == infinity;
+      visit(x, last ? most : std::nextafter(next, -infinity),
+            error_dark_.total() - error_dark_.before(d) + error_light_.before(l));
+      x = next;
+    }
   };
-  std::vector<Stretch> stretches;
-  size_t d = 0, l = 0;
-  float x = 0;
-  for (;;) {
-    while (d < error_dark_.size() && error_dark_[d] <= x) ++d;
-    while (l < error_light_.size() && error_light_[l] <= x) ++l;
-    stretches.push_back({x, error_dark_.total() - error_dark_.before(d) + error_light_.before(l)});
-    const float next = std::min(d < error_dark_.size() ? error_dark_[d] : infinity,
-                                l < error_light_.size() ? error_light_[l] : infinity);
-    if (next > most || next == infinity) break;
-    x = next;
-  }
-  const auto least = std::min_element(stretches.begin(), stretches.end(),
-                                      [](const Stretch& a, const Stretch& b) { return a.wrong < b.wrong; });
-  const auto end_of = [&](auto stretch) {
-    return stretch + 1 == stretches.end() ? most : std::nextafter((stretch + 1)->from, -infinity);
-  };
-  const double limit = 1.1 * least->wrong;
-  auto first = least, last = least;
-  while (first != stretches.begin() && (first - 1)->wrong <= limit) --first;
-  while (last + 1 != stretches.end() && (last + 1)->wrong <= limit) ++last;
-  return {least->from, end_of(least), least->wrong, first->from, end_of(last), stretches.size() - 1};
+  Best best;
+  uint64_t stretches = 0;
+  for_each_stretch([&](float from, float to, double wrong) {
+    if (stretches++ == 0 || wrong < best.wrong_taps) best = {from, to, wrong, from, to, 0};
+  });
+  best.breakpoints = stretches - 1;
+  const double limit = 1.1 * best.wrong_taps;
+  float flat_from = 0;  // of the unbroken run of flat stretches up to the one at hand
+  bool flat = false;    // whether that one is flat
+  for_each_stretch([&](float from, float to, double wrong) {
+    if (!flat) flat_from = from;
+    if (from <= best.from) {
+      flat = wrong <= limit;
+      if (from == best.from) best.flat_from = flat_from;
+    } else if (flat = flat && wrong <= limit; flat) {
+      best.flat_to = to;
+    }
+  });
+  return best;
 }
 
 BiasScale bias_scale(const LightFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,

@@ -1,6 +1,7 @@
 // The error at every bias from one lookup pass (design: all biases for the price of one). A tap of a comparing lookup
 // is lit exactly when the bias reaches the tap's threshold; (F, V) names the cause it has on either side. Thresholds
-// are sorted once, and every sum is read off exactly.
+// are sorted, and every sum is read off exactly. Memory grows with the different thresholds that there are, which float
+// depths have a limited number of, and not with the taps.
 //
 //   BiasCounts curves(evidence, stored_map, *curve_parameter(settings.bias.form));
 //   curves.caused(Cause::acne, 0.005f);                   // taps, exactly as rendering with that bias would book
@@ -31,32 +32,37 @@ enum class CurveParameter {
 // None for forms that no one pass can read off: those that move the lookup or draw another map.
 std::optional<CurveParameter> curve_parameter(BiasForm form);
 
-// Thresholds in ascending order, each with a weight; sums of weights over a stretch of them.
+// Weights of thresholds, summed in ascending order; it holds each different threshold once.
 class ThresholdSums {
  public:
-  // weights: one for each threshold, or empty where each weighs 1.
-  void add(std::vector<float>& thresholds, std::vector<double>& weights);  // empties both
-  void sort();
+  // weights: one for each threshold, or empty where each weighs 1. Empties both.
+  void add(std::vector<float>& thresholds, std::vector<double>& weights);
 
-  double above(float x) const { return total() - before(after(x)); }
-  double up_to(float x) const { return before(after(x)); }
-  double total() const { return before(at_.size()); }
+  double above(float x) const { return total() - up_to(x); }
+  double up_to(float x) const;
+  double total() const { return before(size()); }
 
   size_t size() const { return at_.size(); }
   float operator[](size_t i) const { return at_[i]; }
-  double before(size_t i) const { return sums_.empty() ? static_cast<double>(i) : sums_[i]; }
+  double before(size_t i) const { return i == 0 ? 0 : up_to_[i - 1]; }  // of the first i
 
  private:
-  size_t after(float x) const;  // how many are at most x
-  std::vector<float> at_;
-  std::vector<double> weights_;  // until sort()
-  std::vector<double> sums_;     // [i]: weights of the first i; empty where each weighs 1
+  std::vector<float> at_;      // ascending
+  std::vector<double> up_to_;  // [i]: of all that are at most at_[i]
 };
+
+// The thresholds of so many taps are listed before they are sorted and join the sums.
+inline constexpr size_t curve_batch_taps = size_t{1} << 24;
 
 class BiasCounts {
  public:
-  // stored_map: the GPU's map as its sampler returns it. evidence.r4 and r5 are not read. Only counted receivers
-  // (facing, not ambiguous) take part.
+  // Of no receiver yet.
+  BiasCounts(const LookupProbe& probe, CurveParameter parameter);
+  // Adds a strip of the picture, where the evidence holds the taps of one strip at a time. stored_map: the GPU's map as
+  // its sampler returns it. evidence.r4 and r5 are not read. Only counted receivers (facing, not ambiguous) take part.
+  void add(const LookupEvidence& evidence, const Image<float>& stored_map, PixelRange strip);
+
+  // Of the whole picture.
   BiasCounts(const LookupEvidence& evidence, const Image<float>& stored_map, CurveParameter parameter);
 
   CurveParameter parameter() const { return parameter_; }
@@ -93,6 +99,8 @@ class BiasCounts {
   Best best(float most = 1) const;
 
  private:
+  void add_batch(const LookupEvidence& evidence, const Image<float>& stored_map, PixelRange pixels);
+
   // Taps that should be lit are wrong below their threshold; taps that should be dark are wrong from it on.
   uint64_t receivers_ = 0;
   CurveParameter parameter_;

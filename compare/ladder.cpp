@@ -51,18 +51,32 @@ std::string_view cause_name(Cause cause) {
   return names[static_cast<size_t>(cause)];
 }
 
+void require_strip(const LookupEvidence& e, PixelRange strip) {
+  if (e.taps.taps_per_receiver != e.probe.taps()) throw std::logic_error("the truth's taps are not the probe's");
+  if (!e.taps.holds(strip) || !e.probe.holds(strip)) throw std::logic_error("not the strip that the evidence holds");
+}
+
 Ladder climb(const LookupEvidence& e) {
-  const int width = e.truth.facing.width, height = e.truth.facing.height;
-  const int taps = e.taps.taps_per_receiver;
-  if (taps != e.probe.taps()) throw std::logic_error("the truth's taps are not the probe's");
-  const bool blended = e.probe.pattern.bilinear();
-  const double whole = whole_weight(e.probe);
+  Ladder ladder = empty_ladder(e.truth.facing.width, e.truth.facing.height);
+  climb(e, {0, e.truth.facing.size()}, ladder);
+  return ladder;
+}
+
+Ladder empty_ladder(int width, int height) {
   Ladder ladder;
   for (Image<float>& image : ladder.rung) image = Image<float>(width, height, 0);
   for (Image<float>& image : ladder.step) image = Image<float>(width, height, 0);
   ladder.cause = Image<uint8_t>(width, height, 0);
   ladder.flags = Image<uint8_t>(width, height, 0);
   ladder.doubt = Image<float>(width, height, 0);
+  return ladder;
+}
+
+void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {
+  const int taps = e.taps.taps_per_receiver;
+  require_strip(e, strip);
+  const bool blended = e.probe.pattern.bilinear();
+  const double whole = whole_weight(e.probe);
 
   const auto receiver = [&](size_t i, Residuals& worst) {
     ladder.flags[i] =
@@ -123,7 +137,7 @@ Ladder climb(const LookupEvidence& e) {
   };
 
   const Residuals worst = tbb::parallel_reduce(
-      tbb::blocked_range<size_t>(0, e.truth.facing.size(), 8192), Residuals{},
+      tbb::blocked_range<size_t>(strip.first, strip.end, 8192), Residuals{},
       [&](const tbb::blocked_range<size_t>& range, Residuals so_far) {
         for (size_t i = range.begin(); i != range.end(); ++i) receiver(i, so_far);
         return so_far;
@@ -131,9 +145,8 @@ Ladder climb(const LookupEvidence& e) {
       [](Residuals a, Residuals b) {
         return Residuals{larger(a.steps, b.steps), larger(a.taps, b.taps)};
       });
-  ladder.residual = worst.steps;
-  ladder.tap_residual = worst.taps;
-  return ladder;
+  ladder.residual = larger(ladder.residual, worst.steps);
+  ladder.tap_residual = larger(ladder.tap_residual, worst.taps);
 }
 
 }  // namespace noonmark

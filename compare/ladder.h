@@ -68,6 +68,9 @@ struct LookupEvidence {
   const Image<float>& r5;
 };
 
+// Throws std::logic_error where the evidence does not hold the taps of these pixels.
+void require_strip(const LookupEvidence& evidence, PixelRange strip);
+
 // ambiguous: float error can change R1, and the receiver is in no metric. undecided: it can change what some tap's
 // truth is.
 enum LadderFlags : uint8_t { flag_facing = 1, flag_outside = 2, flag_ambiguous = 4, flag_undecided = 8 };
@@ -83,7 +86,13 @@ struct Ladder {
   double residual = 0, tap_residual = 0;
 };
 
+// The whole picture's.
 Ladder climb(const LookupEvidence& evidence);
+
+// Strip by strip, where the evidence holds the taps of one strip at a time: an empty ladder of the picture's size, to
+// which every strip adds its pixels. The order of the strips and their size change nothing.
+Ladder empty_ladder(int width, int height);
+void climb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder);
 
 // A tap of a lookup, ready to be judged at any bias. Shared by the ladder and by the bias curves.
 struct Tap {
@@ -107,7 +116,7 @@ inline double whole_weight(const LookupProbe& probe) { return probe.pattern.bili
 // Tap number `tap` of pixel i, reading `map_depth` (the exact map, or the GPU's as its sampler returns it).
 inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSettings& map, const Image<float>& map_depth,
                   size_t i, int tap) {
-  const uint8_t bits = taps.taps[i * static_cast<size_t>(taps.taps_per_receiver) + static_cast<size_t>(tap)];
+  const uint8_t bits = taps.bits(i, tap);
   const bool sampler_compares = probe.pattern.bilinear();
   const glm::ivec2 size(map_depth.width, map_depth.height);
   const glm::ivec2 texel = probe.texel(i, tap);

@@ -15,20 +15,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-struct Found {
-  uint64_t facing = 0, broken = 0;
-  ProbeErrors probe;
-};
-
-Found join(Found a, const Found& b) {
-  a.facing += b.facing;
-  a.broken += b.broken;
-  raise_error(a.probe.excess, b.probe.excess);
-  raise_error(a.probe.address_texels, b.probe.address_texels);
-  raise_error(a.probe.reference_m, b.probe.reference_m);
-  return a;
-}
-
 double quantum(DepthFormat format, float depth) {
   switch (format) {
     case DepthFormat::d16:
@@ -78,20 +64,24 @@ bool held_by(int bits, float depth) {
   return std::abs(nearest - depth) <= std::nextafter(depth, 2.0f) - depth;
 }
 
-// A box's is the one at P.
-int middle_tap(const LookupProbe& probe) { return probe.taps() / 2; }
+}  // namespace
 
-struct MapFound {
-  double error_quanta = 0;
-  int bits = 16;
-};
+SoundnessCheck::Found SoundnessCheck::join(Found a, const Found& b) {
+  a.facing += b.facing;
+  a.broken += b.broken;
+  raise_error(a.probe.excess, b.probe.excess);
+  raise_error(a.probe.address_texels, b.probe.address_texels);
+  raise_error(a.probe.reference_m, b.probe.reference_m);
+  return a;
+}
 
-MapFound compare_maps(const SoundnessInput& in) {
+SoundnessCheck::MapFound SoundnessCheck::compare_maps() const {
+  const SoundnessInput& in = in_;
   const Image<float>& exact = in.evidence.exact_map;
   Image<uint8_t> asked(exact.width, exact.height);
   for (size_t i = 0; i < in.evidence.truth.facing.size(); ++i) {
     if (!in.evidence.truth.facing[i]) continue;
-    const glm::ivec2 texel = in.evidence.probe.texel(i, middle_tap(in.evidence.probe));
+    const glm::ivec2 texel = in.evidence.probe.middle_texel(i);
     if (inside_map(texel, {exact.width, exact.height})) asked.at(texel.x, texel.y) = 1;
   }
   std::vector<double> errors;
@@ -110,52 +100,63 @@ MapFound compare_maps(const SoundnessInput& in) {
   return found;
 }
 
-}  // namespace
-
 Image<float> tie_map(const LookupEvidence& e) {
   Image<float> map(e.exact_map.width, e.exact_map.height, 1.0f);
   for (size_t i = 0; i < e.truth.facing.size(); ++i) {
     if (!e.truth.facing[i]) continue;
-    const int tap = middle_tap(e.probe);
-    const glm::ivec2 read = wrapped(e.probe.texel(i, tap), {map.width, map.height}, e.map.wrap);
+    const glm::ivec2 texel = e.probe.middle_texel(i);
+    const glm::ivec2 read = wrapped(texel, {map.width, map.height}, e.map.wrap);
     if (read.x < 0) continue;
-    const float biased = e.probe.tap_depth(i, tap) - e.bias.at(e.probe, i);
+    const float biased = e.probe.tap_depth(i, e.probe.middle_tap()) - e.bias.at(e.probe, i);
     const float depth = (read.x + read.y) % 2 ? std::nextafter(biased, -1.0f) : biased;
     if (depth > 0 && depth <= 1) map.at(read.x, read.y) = depth;
   }
   return map;
 }
 
-std::map<std::string, double> measure_soundness(const SoundnessInput& in) {
-  const LookupEvidence& e = in.evidence;
-  const ProbeCheck check(e, in.receivers, in.frame, in.eye_m);
+SoundnessCheck::SoundnessCheck(const SoundnessInput& in)
+    : in_(in), check_(in.evidence, in.receivers, in.frame, in.eye_m) {}
+
+void SoundnessCheck::add(PixelRange strip) {
+  const LookupEvidence& e = in_.evidence;
+  require_strip(e, strip);
   const Found found = tbb::parallel_reduce(
-      tbb::blocked_range<size_t>(0, e.truth.facing.size(), 8192), Found{},
+      tbb::blocked_range<size_t>(strip.first, strip.end, 8192), Found{},
       [&](const tbb::blocked_range<size_t>& range, Found so_far) {
         for (size_t i = range.begin(); i != range.end(); ++i) {
           if (!e.truth.facing[i]) continue;
           ++so_far.facing;
           // Maps that are uploaded are 32-bit float whatever the settings say.
           so_far.broken += !(holds(e, e.exact_map, DepthFormat::d32f, i, e.r4[i]) &&
-                             holds(e, in.stored_map, e.map.format, i, e.r5[i]) &&
-                             holds(e, in.ties, DepthFormat::d32f, i, in.tie_lookup[i]));
-          check.compare(i, so_far.probe);
+                             holds(e, in_.stored_map, e.map.format, i, e.r5[i]) &&
+                             holds(e, in_.ties, DepthFormat::d32f, i, in_.tie_lookup[i]));
+          check_.compare(i, so_far.probe);
         }
         return so_far;
       },
       join);
-  const MapFound map = compare_maps(in);
+  found_ = join(found_, found);
+}
+
+std::map<std::string, double> SoundnessCheck::metrics() const {
+  const MapFound map = compare_maps();
   const auto measured = [&](double value) {
-    return found.facing == 0 ? std::numeric_limits<double>::quiet_NaN() : value;
+    return found_.facing == 0 ? std::numeric_limits<double>::quiet_NaN() : value;
   };
   return {
-      {"contract", measured(static_cast<double>(found.broken) / static_cast<double>(found.facing))},
-      {"rounding_excess", measured(found.probe.excess)},
-      {"address_error_texels", measured(found.probe.address_texels)},
-      {"reference_error_m", measured(found.probe.reference_m)},
+      {"contract", measured(static_cast<double>(found_.broken) / static_cast<double>(found_.facing))},
+      {"rounding_excess", measured(found_.probe.excess)},
+      {"address_error_texels", measured(found_.probe.address_texels)},
+      {"reference_error_m", measured(found_.probe.reference_m)},
       {"map_error_quanta", measured(map.error_quanta)},
       {"map_bits", measured(map.bits)},
   };
+}
+
+std::map<std::string, double> measure_soundness(const SoundnessInput& in) {
+  SoundnessCheck check(in);
+  check.add({0, in.evidence.truth.facing.size()});
+  return check.metrics();
 }
 
 }  // namespace noonmark

@@ -3,13 +3,14 @@
 // map against the exact one. A shader that is wrong in the same way at R4 and at R5 shows as no precision, and one that
 // the probe shares moves the truth's texels with it; here both show.
 //
-//   Image<float> ties = tie_map(evidence, resolution);    // uploaded and looked up as R4's map is
+//   Image<float> ties = tie_map(evidence);    // uploaded and looked up as R4's map is
 //   auto metrics = measure_soundness({evidence, map, ties, renderer.lookup(...), receivers, frame});
 #pragma once
 #include <map>
 #include <string>
 
 #include "compare/ladder.h"
+#include "compare/probe_errors.h"
 #include "scenes/light_frame.h"
 #include "scenes/receivers.h"
 
@@ -46,6 +47,32 @@ struct SoundnessInput {
 //                         the settings claim: the driver stored another one. Fewer: so it did, or all depths lie beyond
 //                         one half, where floats are no finer than 24 bits, or are few.
 // Values that are not finite are broken contracts and errors without bound. Without a facing receiver: NaN.
+class SoundnessCheck {
+ public:
+  explicit SoundnessCheck(const SoundnessInput& input);  // what it refers to must outlive this
+
+  // Every pixel once, strip by strip, where the evidence holds the taps of one strip at a time.
+  void add(PixelRange strip);
+  std::map<std::string, double> metrics() const;  // of the strips added so far
+
+ private:
+  struct Found {
+    uint64_t facing = 0, broken = 0;
+    ProbeErrors probe;
+  };
+  static Found join(Found a, const Found& b);
+  struct MapFound {
+    double error_quanta = 0;
+    int bits = 16;
+  };
+  MapFound compare_maps() const;
+
+  SoundnessInput in_;
+  ProbeCheck check_;
+  Found found_;
+};
+
+// Of the whole picture.
 std::map<std::string, double> measure_soundness(const SoundnessInput& input);
 
 // The most that a sound program shows of a metric of measure_soundness, and of the ladder's residuals; none for those

@@ -47,6 +47,9 @@ struct DeviceInfo {
   int max_map_resolution = 0;
 };
 
+// Which taps a probe knows the texels of; the middle one always.
+enum class ProbeTaps { all, none };
+
 // A shadow map on the device. Move-only.
 class ShadowMap {
  public:
@@ -106,7 +109,11 @@ class Renderer {
 
   // What lookup computes before it compares. Independent of the map's contents and of the bias's value, but for forms
   // that move the lookup.
-  LookupProbe probe(const LightFrame& frame, const Settings& settings);
+  LookupProbe probe(const LightFrame& frame, const Settings& settings, ProbeTaps taps = ProbeTaps::all);
+
+  // Puts these pixels' taps, whole rows of the picture, in the place of those that the probe holds. Only a cube's
+  // sampler chooses the texel of each tap: of a flat map every tap is known, and this does nothing.
+  void probe_strip(LookupProbe& probe, const LightFrame& frame, const Settings& settings, PixelRange strip);
 
  private:
   struct Impl;

@@ -90,7 +90,12 @@ struct Renderer::Impl {
   void set_receiver_uniforms(Program& program, const LightFrame& frame, const Settings& settings);
   // Uploads and binds the pattern of a program that includes shaders/pattern.glsl.
   void set_pattern(Program& program, const TapPattern& pattern);
-  void read_cube_texels(LookupProbe& probe, const LightFrame& frame, const Settings& settings);
+  // The texels that these taps of those rows' receivers read in a cube map: LookupProbe::cube_texel.
+  struct Rows {
+    int begin = 0, end = 0;
+  };
+  std::vector<uint32_t> cube_texels(const LookupProbe& probe, const LightFrame& frame, const Settings& settings,
+                                    Rows rows, int tap_begin, int tap_end);
 };
 
 // The whole of level 0, row 0 first.

@@ -1,5 +1,6 @@
 // What the lookup computes before it compares, read back from it.
 #include <algorithm>
+#include <stdexcept>
 
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
@@ -32,7 +33,7 @@ Image<T> each(const Image<glm::vec4>& image, F&& part) {
 
 }  // namespace
 
-LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings) {
+LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings, ProbeTaps taps) {
   Impl& r = *impl_;
   r.context->make_current();
   validate_for(frame.kind, settings);
@@ -66,12 +67,33 @@ LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings) {
       probe.gradient = each<glm::vec2>(texels, [](glm::vec4 t) { return glm::vec2(t.z, t.w); });
   }
   if (probe.pattern.scaled_by_view) probe.radius = read_back<float>(r.probe_radius, GL_RED, GL_FLOAT);
-  if (cube) r.read_cube_texels(probe, frame, settings);
+  if (cube) {
+    probe.cube_resolution = frame.resolution;
+    const int middle = probe.middle_tap();
+    probe.cube_middle = Image<uint32_t>(width, height);
+    probe.cube_middle.pixels = r.cube_texels(probe, frame, settings, {0, height}, middle, middle + 1);
+    if (taps == ProbeTaps::all) probe.cube_texel = r.cube_texels(probe, frame, settings, {0, height}, 0, probe.taps());
+  }
   r.context->check("probe");
   return probe;
 }
 
-void Renderer::Impl::read_cube_texels(LookupProbe& probe, const LightFrame& frame, const Settings& settings) {
+void Renderer::probe_strip(LookupProbe& probe, const LightFrame& frame, const Settings& settings, PixelRange strip) {
+  if (frame.kind != LightKind::point) return;
+  Impl& r = *impl_;
+  const auto width = static_cast<size_t>(r.position_image.width);
+  if (strip.first % width != 0 || strip.end % width != 0) throw std::logic_error("a strip is of whole rows");
+  r.context->make_current();
+  std::vector<uint32_t>().swap(probe.cube_texel);  // before the next: it is large
+  probe.cube_texel = r.cube_texels(probe, frame, settings,
+                                   {static_cast<int>(strip.first / width), static_cast<int>(strip.end / width)}, 0,
+                                   probe.taps());
+  probe.cube_first = strip.first;
+  r.context->check("probe");
+}
+
+std::vector<uint32_t> Renderer::Impl::cube_texels(const LookupProbe& probe, const LightFrame& frame,
+                                                  const Settings& settings, Rows rows, int tap_begin, int tap_end) {
   if (cube_index_resolution != frame.resolution) {
     cube_index_resolution = 0;
     cube_index = {};  // first, so that both are never held at once
@@ -83,31 +105,35 @@ void Renderer::Impl::read_cube_texels(LookupProbe& probe, const LightFrame& fram
                                   {{"light", light_file(frame.kind)}, {"bias", bias_file(settings.bias.form)}});
   set_receiver_uniforms(program, frame, settings);
   set_pattern(program, probe.pattern);
+  program.set("tap_begin", tap_begin);
+  program.set("tap_count", tap_end - tap_begin);
   const int width = position_image.width, height = position_image.height;
-  const size_t row_texels = static_cast<size_t>(width) * static_cast<size_t>(probe.taps());
-  // In strips of at most 16 MiB, so that the device does not hold the whole; OpenGL promises a shader's buffer 128 MiB.
-  const int rows = static_cast<int>(
-      std::clamp<size_t>((size_t{1} << 24) / (row_texels * sizeof(uint32_t)), 1, static_cast<size_t>(height)));
-  const Buffer buffer = make_buffer(nullptr, row_texels * static_cast<size_t>(rows) * sizeof(uint32_t));
-  check_memory("the texels of a cube map's taps", width, rows);
+  const size_t row_texels = static_cast<size_t>(width) * static_cast<size_t>(tap_end - tap_begin);
+  // Some rows at a time, at most 16 MiB, so that the device does not hold all; OpenGL promises a shader's buffer 128
+  // MiB.
+  const int most = static_cast<int>(std::clamp<size_t>((size_t{1} << 24) / (row_texels * sizeof(uint32_t)), 1,
+                                                       static_cast<size_t>(rows.end - rows.begin)));
+  const Buffer buffer = make_buffer(nullptr, row_texels * static_cast<size_t>(most) * sizeof(uint32_t));
+  check_memory("the texels of a cube map's taps", width, most);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.id());
   glBindTextureUnit(3, cube_index.id());
+  require(probe_radius, GL_R32F, width, height);
   draw_into({probe_radius.texture.id()}, 0, width, height);  // for its size: the shader writes to the buffer
-  probe.cube_resolution = frame.resolution;
-  probe.cube_texel.resize(row_texels * static_cast<size_t>(height));
-  for (int first = 0; first < height; first += rows) {
-    const int count = std::min(rows, height - first);
+  std::vector<uint32_t> texels(row_texels * static_cast<size_t>(rows.end - rows.begin));
+  for (int first = rows.begin; first < rows.end; first += most) {
+    const int count = std::min(most, rows.end - first);
     glViewport(0, first, width, count);
     program.set("first_pixel", first * width);
     draw_screen(program);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(buffer.id(), 0,
                             static_cast<GLsizeiptr>(row_texels * static_cast<size_t>(count) * sizeof(uint32_t)),
-                            probe.cube_texel.data() + row_texels * static_cast<size_t>(first));
+                            texels.data() + row_texels * static_cast<size_t>(first - rows.begin));
   }
   detach(1);
   glBindTextureUnit(3, 0);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, 0);
+  return texels;
 }
 
 }  // namespace noonmark::gl

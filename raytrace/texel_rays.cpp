@@ -24,7 +24,8 @@ glm::ivec2 texel_of(uint64_t key) {
   return {back(key & 0xffffffffu), back(key >> 32)};
 }
 
-void trace(const EmbreeScene& embree, const LightView& view, size_t count, const auto& texel_at, const auto& store) {
+void first_hits(const EmbreeScene& embree, const LightView& view, size_t count, const auto& texel_at,
+                const auto& store) {
   for_each_packet(count, [&](size_t first, int n) {
     glm::dvec3 places[packet_size];
     uint32_t hits[packet_size];
@@ -36,53 +37,62 @@ void trace(const EmbreeScene& embree, const LightView& view, size_t count, const
 
 }  // namespace
 
-TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, const Image<uint8_t>& facing,
-                     const LookupProbe& probe, Wrap wrap) {
-  const glm::ivec2 size = view.frame().map_size();
-  Image<uint8_t> wanted(size.x, size.y, 0);
+TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, Wrap wrap)
+    : embree_(&embree), view_(&view), wrap_(wrap), wanted_(view.frame().map_size().x, view.frame().map_size().y, 0) {}
+
+void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, PixelRange pixels) {
+  const glm::ivec2 size(wanted_.width, wanted_.height);
   struct Outside {
     std::vector<uint64_t> keys;
     size_t limit = outside_buffer;
   };
   tbb::combinable<Outside> outside_keys;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, facing.size(), 4096), [&](const tbb::blocked_range<size_t>& range) {
-    Outside& outside = outside_keys.local();
-    for (size_t i = range.begin(); i != range.end(); ++i) {
-      if (!facing[i]) continue;
-      for (int tap = 0; tap < probe.taps(); ++tap) {
-        const glm::ivec2 texel = probe.texel(i, tap);
-        const glm::ivec2 read = wrapped(texel, size, wrap);
-        if (read.x >= 0) std::atomic_ref(wanted.at(read.x, read.y)).store(1, std::memory_order_relaxed);
-        if (!inside_map(texel, size)) outside.keys.push_back(texel_key(texel));
-      }
-      // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills the memory. The
-      // limit doubles with what is truly different, so that the sorting stays a small share of the work.
-      if (outside.keys.size() > outside.limit) {
-        std::sort(outside.keys.begin(), outside.keys.end());
-        outside.keys.erase(std::unique(outside.keys.begin(), outside.keys.end()), outside.keys.end());
-        outside.limit = std::max(outside_buffer, 2 * outside.keys.size());
-      }
-    }
-  });
+  tbb::parallel_for(tbb::blocked_range<size_t>(pixels.first, pixels.end, 4096),
+                    [&](const tbb::blocked_range<size_t>& range) {
+                      Outside& outside = outside_keys.local();
+                      for (size_t i = range.begin(); i != range.end(); ++i) {
+                        if (!facing[i]) continue;
+                        for (int tap = 0; tap < probe.taps(); ++tap) {
+                          const glm::ivec2 texel = probe.texel(i, tap);
+                          const glm::ivec2 read = wrapped(texel, size, wrap_);
+                          if (read.x >= 0)
+                            std::atomic_ref(wanted_.at(read.x, read.y)).store(1, std::memory_order_relaxed);
+                          if (!inside_map(texel, size)) outside.keys.push_back(texel_key(texel));
+                        }
+                        // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills
+                        // the memory. The limit doubles with what is truly different, so that the sorting stays a small
+                        // share of the work.
+                        if (outside.keys.size() > outside.limit) {
+                          std::sort(outside.keys.begin(), outside.keys.end());
+                          outside.keys.erase(std::unique(outside.keys.begin(), outside.keys.end()), outside.keys.end());
+                          outside.limit = std::max(outside_buffer, 2 * outside.keys.size());
+                        }
+                      }
+                    });
 
-  for (int y = 0; y < size.y; ++y)
-    for (int x = 0; x < size.x; ++x)
-      if (wanted.at(x, y)) inside_texels_.push_back({x, y});
-  inside_ = Image<uint32_t>(size.x, size.y, no_primitive);
-  trace(
-      embree, view, inside_texels_.size(), [&](size_t i) { return inside_texels_[i]; },
+  outside_keys.combine_each(
+      [&](const Outside& part) { outside_keys_.insert(outside_keys_.end(), part.keys.begin(), part.keys.end()); });
+  tbb::parallel_sort(outside_keys_);
+  outside_keys_.erase(std::unique(outside_keys_.begin(), outside_keys_.end()), outside_keys_.end());
+}
+
+void TexelRays::trace() {
+  for (int y = 0; y < wanted_.height; ++y)
+    for (int x = 0; x < wanted_.width; ++x)
+      if (wanted_.at(x, y)) inside_texels_.push_back({x, y});
+  inside_ = Image<uint32_t>(wanted_.width, wanted_.height, no_primitive);
+  wanted_ = {};
+  first_hits(
+      *embree_, *view_, inside_texels_.size(), [&](size_t i) { return inside_texels_[i]; },
       [&](size_t i, uint32_t hit) { inside_.at(inside_texels_[i].x, inside_texels_[i].y) = hit; });
 
-  std::vector<uint64_t> keys;
-  outside_keys.combine_each([&](const Outside& part) { keys.insert(keys.end(), part.keys.begin(), part.keys.end()); });
-  tbb::parallel_sort(keys);
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  outside_.resize(keys.size());
-  trace(
-      embree, view, keys.size(), [&](size_t i) { return texel_of(keys[i]); },
+  outside_.resize(outside_keys_.size());
+  first_hits(
+      *embree_, *view_, outside_keys_.size(), [&](size_t i) { return texel_of(outside_keys_[i]); },
       [&](size_t i, uint32_t hit) {
-        outside_[i] = {keys[i], hit};
+        outside_[i] = {outside_keys_[i], hit};
       });
+  std::vector<uint64_t>().swap(outside_keys_);
 }
 
 uint32_t TexelRays::outside_hit(glm::ivec2 texel) const {

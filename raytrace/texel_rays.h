@@ -1,4 +1,9 @@
 // First hits of the light-side rays through texel centres, only for the texels that some receiver looks up.
+//
+//   TexelRays texels(embree, view, Wrap::border);
+//   texels.ask(truth.facing, probe, strip);  // for each strip of the picture
+//   texels.trace();
+//   uint32_t triangle = texels.hit({12, 7});
 #pragma once
 #include <cstdint>
 #include <utility>
@@ -13,12 +18,17 @@ namespace noonmark {
 
 class TexelRays {
  public:
-  // The texel of every tap of a receiver with facing != 0, at its place in the unbounded grid; and, where that is
-  // outside the map, the texel that `wrap` reads in its stead.
-  TexelRays(const EmbreeScene& embree, const LightView& view, const Image<uint8_t>& facing, const LookupProbe& probe,
-            Wrap wrap);
+  // embree and view must outlive it.
+  TexelRays(const EmbreeScene& embree, const LightView& view, Wrap wrap);
 
-  // The triangle first met through the centre of a texel that was asked for, or no_primitive.
+  // Asks for the texel of every tap of those pixels' receivers with facing != 0, at its place in the unbounded grid;
+  // and, where that is outside the map, for the texel that `wrap` reads in its stead.
+  void ask(const Image<uint8_t>& facing, const LookupProbe& probe, PixelRange pixels);
+
+  // Follows the rays through all that was asked for.
+  void trace();
+
+  // After trace(): the triangle first met through the centre of a texel that was asked for, or no_primitive.
   uint32_t hit(glm::ivec2 texel) const {
     return inside_map(texel, {inside_.width, inside_.height}) ? inside_.at(texel.x, texel.y) : outside_hit(texel);
   }
@@ -29,6 +39,11 @@ class TexelRays {
  private:
   uint32_t outside_hit(glm::ivec2 texel) const;
 
+  const EmbreeScene* embree_;
+  const LightView* view_;
+  Wrap wrap_;
+  Image<uint8_t> wanted_;               // until trace()
+  std::vector<uint64_t> outside_keys_;  // until trace(); sorted, each once
   Image<uint32_t> inside_;
   std::vector<glm::ivec2> inside_texels_;
   std::vector<std::pair<uint64_t, uint32_t>> outside_;  // (texel key, hit), sorted

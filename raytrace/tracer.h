@@ -8,8 +8,10 @@
 // outlive the tracer. Throws Error(device) when Embree fails.
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "raytrace/lookup_tracer.h"
 #include "scenes/depth_bias.h"
 #include "scenes/evidence.h"
 #include "scenes/light_frame.h"
@@ -32,17 +34,6 @@ struct SoftTruth {
   double standard_error = 0.01;  // of R0 at each receiver
 };
 
-// The truth of one lookup: every tap of every facing receiver, and the exact map that those taps read.
-struct LookupTruth {
-  TapTruth taps;
-  Image<float> exact_map;  // window depth at the centres of the texels looked up; 1 elsewhere. LightFrame::map_size()
-  Image<float> edge_distance_texels;  // per receiver: the largest distance, across the light's rays and in texels
-                                      // there, from a tap's exact place (of the lookup as it is made, moved or not) to
-                                      // the shadow edge before the texel centre it snaps to; 0 where D = V at every tap
-  StageTime texel_stage;              // light-side rays through texel centres
-  StageTime tap_stage;                // V at every tap
-};
-
 class Tracer {
  public:
   explicit Tracer(const Scene& scene);
@@ -57,7 +48,10 @@ class Tracer {
 
   // map: resolution is the frame's; format, wrap, cull and depth_clamp are read. bias: the one that the probe was taken
   // with; forms that move the lookup cost one ray more for each tap, a polygon offset is in the exact map.
-  // offset_unit: gl::Renderer::polygon_offset_unit.
+  // offset_unit: gl::Renderer::polygon_offset_unit. The tracer, receivers and truth must outlive what it returns.
+  LookupTracer lookup(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
+                      const MapSettings& map, const DepthBias& bias = {}, double offset_unit = 0) const;
+  // The whole picture's at once.
   LookupTruth lookup_truth(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
                            const LightFrame& frame, const MapSettings& map, const DepthBias& bias = {},
                            double offset_unit = 0) const;
@@ -71,8 +65,10 @@ class Tracer {
                                  const Image<uint8_t>& mask) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  // The receivers on the first of coincident triangles, the one that the rays know; `made` holds them where they
+  // differ.
+  const ReceiverImage& on_first(const ReceiverImage& receivers, std::optional<ReceiverImage>& made) const;
+  std::unique_ptr<TracedScene> traced_;
 };
 
 }  // namespace noonmark::raytrace

@@ -11,6 +11,13 @@
 
 namespace noonmark {
 
+// Pixels of a picture, row by row. What there is of every tap is made, read and dropped in such strips, so that memory
+// does not grow with the kernel.
+struct PixelRange {
+  size_t first = 0, end = 0;
+  size_t size() const { return end - first; }
+};
+
 // What a tap's texel is compared with: the receiver's own depth; its plane's depth at the tap's exact place; its
 // plane's depth at the centre of the tap's texel.
 enum class TapReference { own_depth, plane_at_tap, plane_at_texel };
@@ -27,11 +34,14 @@ struct LookupProbe {
   Image<float> radius;          // metres; only of patterns that are scaled by view
   TapPattern pattern;
   TapReference tap_reference = TapReference::own_depth;
-  int cube_resolution = 0;           // of a cube map; 0: the map is flat
-  std::vector<uint32_t> cube_texel;  // [pixel * taps + tap]: j * resolution + i, where (i, j) is the texel in the map's
-                                     // image, as the sampler itself chose it
+  int cube_resolution = 0;  // of a cube map; 0: the map is flat
+  // Cube maps: j * resolution + i, where (i, j) is the texel in the map's image, as the sampler itself chose it.
+  Image<uint32_t> cube_middle;       // of the middle tap
+  std::vector<uint32_t> cube_texel;  // [(pixel - cube_first) * taps + tap], of a strip of the picture or of all of it
+  size_t cube_first = 0;
 
   int taps() const { return pattern.taps; }
+  int middle_tap() const { return pattern.taps / 2; }  // a box's is the one at P
 
   // How far the exact place of a tap lies from P: texels of a flat map, metres along the world's axes for a cube.
   glm::vec3 offset(size_t i, int tap) const {
@@ -39,13 +49,10 @@ struct LookupProbe {
     return pattern.scaled_by_view ? radius[i] * o : o;
   }
 
-  // The texel that a tap reads; of a flat map it may lie outside.
+  // The texel that a tap reads; of a flat map it may lie outside. A cube's is known within the strip at hand.
   glm::ivec2 texel(size_t i, int tap) const {
-    if (cube_resolution > 0) {
-      const uint32_t at = cube_texel[i * static_cast<size_t>(taps()) + static_cast<size_t>(tap)];
-      const uint32_t side = static_cast<uint32_t>(cube_resolution);
-      return {static_cast<int>(at % side), static_cast<int>(at / side)};
-    }
+    if (cube_resolution > 0)
+      return cube_place(cube_texel[(i - cube_first) * static_cast<size_t>(taps()) + static_cast<size_t>(tap)]);
     const glm::vec2 at = map_texels[i];
     if (pattern.bilinear()) {  // the fetch of 2 x 2 texels begins at the one whose centre is to the lower left of P
       const int side = static_cast<int>(pattern.kernel.size()) + 1, before = (side - 2) / 2;
@@ -53,6 +60,17 @@ struct LookupProbe {
     }
     const glm::vec3 o = offset(i, tap);
     return floored(at + glm::vec2(o));
+  }
+
+  // Whether the texels of these pixels' taps are known.
+  bool holds(PixelRange pixels) const {
+    return cube_resolution == 0 ||
+           (cube_first <= pixels.first && (pixels.end - cube_first) * static_cast<size_t>(taps()) <= cube_texel.size());
+  }
+
+  // The texel that the middle tap reads; of a cube map too it is known everywhere.
+  glm::ivec2 middle_texel(size_t i) const {
+    return cube_resolution > 0 ? cube_place(cube_middle[i]) : texel(i, middle_tap());
   }
 
   // What it is compared with, before the bias.
@@ -83,6 +101,12 @@ struct LookupProbe {
     };
     return {along(at.x), along(at.y)};
   }
+
+ private:
+  glm::ivec2 cube_place(uint32_t at) const {
+    const auto side = static_cast<uint32_t>(cube_resolution);
+    return {static_cast<int>(at % side), static_cast<int>(at / side)};
+  }
 };
 
 // The bits of TapTruth::taps.
@@ -97,10 +121,20 @@ enum TapBits : uint8_t {
 };
 inline constexpr uint8_t tap_unsure = tap_exact_unsure | tap_moved_unsure | tap_texel_unsure;
 
-// The truth of every tap of every facing receiver. Taps run as the pattern's do.
+// The truth of every tap of every facing receiver, of a strip of the picture or of all of it. Taps run as the
+// pattern's do.
 struct TapTruth {
   int taps_per_receiver = 1;
-  std::vector<uint8_t> taps;  // [pixel * taps_per_receiver + tap]; 0 where the pixel is not facing
+  std::vector<uint8_t> taps;  // [(pixel - first) * taps_per_receiver + tap]; 0 where the pixel is not facing
+  size_t first = 0;           // the strip's first pixel
+
+  bool holds(PixelRange pixels) const {
+    const size_t count = taps.size() / static_cast<size_t>(taps_per_receiver);
+    return first <= pixels.first && pixels.end <= first + count;
+  }
+  uint8_t bits(size_t pixel, int tap) const {
+    return taps[(pixel - first) * static_cast<size_t>(taps_per_receiver) + static_cast<size_t>(tap)];
+  }
 };
 
 // The truth at the receivers themselves; shared by every point of a sweep with the same view and light.

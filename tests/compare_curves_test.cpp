@@ -273,6 +273,29 @@ TEST(BiasCounts, AreTheSameOverManyBlocks) {
   }
 }
 
+// Sums of the synthetic weights are exact in any order; see fetch_weights().
+TEST(BiasCounts, AreTheSameInStrips) {
+  for (uint64_t seed = 0; seed < 90; ++seed) {
+    const auto parameter = static_cast<CurveParameter>(seed % 3);
+    const Synthetic s = evidence_for(parameter, seed, {12, 9, 6, 3, seed % 2 == 0, static_cast<Lookup>(seed / 3 % 3)});
+    const BiasCounts whole(s.evidence(), s.stored, parameter);
+    BiasCounts counts(s.probe, parameter);
+    for_each_strip(s, seed,
+                   [&](const Synthetic& part, PixelRange strip) { counts.add(part.evidence(), part.stored, strip); });
+    for (float x : breakpoints(s, parameter))
+      for (float beside : {std::nextafter(x, 0.0f), x})
+        ASSERT_EQ(read_off(counts, beside), read_off(whole, beside)) << seed;
+    for (double share : {0.0, 0.001, 0.01, 0.1, 1.0}) {
+      EXPECT_EQ(counts.acne_free_from(share), whole.acne_free_from(share));
+      EXPECT_EQ(counts.peter_panning_free_to(share), whole.peter_panning_free_to(share));
+    }
+    EXPECT_EQ(counts.stored_acne_free_from(), whole.stored_acne_free_from());
+    const BiasCounts::Best a = counts.best(), b = whole.best();
+    EXPECT_EQ(std::tuple(a.from, a.to, a.wrong_taps, a.flat_from, a.flat_to, a.breakpoints),
+              std::tuple(b.from, b.to, b.wrong_taps, b.flat_from, b.flat_to, b.breakpoints));
+  }
+}
+
 TEST(BiasCounts, AreWhatTheLadderBooksAtThatBias) {
   for (uint64_t seed = 60; seed < 120; ++seed) {
     Synthetic s =

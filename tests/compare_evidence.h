@@ -29,6 +29,33 @@ struct Synthetic {
   LookupEvidence evidence() const { return {truth, probe, taps, exact, map, bias, r4, r5}; }
 };
 
+// The same evidence with the taps of one strip alone, as a measurement of many taps goes through it.
+inline Synthetic only(const Synthetic& s, PixelRange strip) {
+  Synthetic part = s;
+  const auto cut = [&](auto& per_tap) {
+    const auto at = [&](size_t pixel) {
+      return per_tap.begin() + static_cast<std::ptrdiff_t>(pixel) * s.taps.taps_per_receiver;
+    };
+    per_tap = {at(strip.first), at(strip.end)};
+  };
+  cut(part.taps.taps);
+  part.taps.first = strip.first;
+  if (s.probe.cube_resolution > 0) cut(part.probe.cube_texel);
+  part.probe.cube_first = strip.first;
+  return part;
+}
+
+// Calls visit with the evidence of strips of any sizes that cover the picture.
+template <class Visit>
+void for_each_strip(const Synthetic& s, uint64_t seed, const Visit& visit) {
+  std::mt19937_64 random(seed);
+  const size_t pixels = s.truth.facing.size();
+  for (size_t first = 0, end; first < pixels; first = end) {
+    end = std::min(pixels, first + 1 + random() % (pixels / 2));
+    visit(only(s, {first, end}), PixelRange{first, end});
+  }
+}
+
 struct Shape {
   int width = 12, height = 9, resolution = 6, kernel = 1;
   bool lattice = true;  // depths and biases of a few values, so that many are equal
@@ -97,6 +124,9 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
     s.probe.cube_resolution = n;
     s.probe.cube_texel.resize(s.taps.taps.size());
     for (uint32_t& texel : s.probe.cube_texel) texel = static_cast<uint32_t>(random() % (6 * n * n));
+    s.probe.cube_middle = Image<uint32_t>(w, h);
+    for (size_t i = 0; i < s.probe.cube_middle.size(); ++i)
+      s.probe.cube_middle[i] = s.probe.cube_texel[i * static_cast<size_t>(taps) + static_cast<size_t>(taps / 2)];
   }
   for (size_t i = 0; i < s.truth.facing.size(); ++i) {
     const auto place = [&] { return static_cast<float>(static_cast<int>(random() % (3 * n * 64)) - n * 64) / 64; };

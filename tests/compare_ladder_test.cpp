@@ -378,6 +378,37 @@ TEST(Climb, KeepsTheSamplersRoundingInPrecision) {
   }
 }
 
+TEST(Climb, GivesTheSameInStrips) {
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    Synthetic s = random_evidence(
+        seed, {.kernel = static_cast<int>(seed % 2) * 2 + 1, .lookup = static_cast<Lookup>(seed / 2 % 3)});
+    set_verdicts(s);
+    const Ladder whole = climb(s.evidence());
+    Ladder ladder = empty_ladder(s.r4.width, s.r4.height);
+    for_each_strip(s, seed, [&](const Synthetic& part, PixelRange strip) { climb(part.evidence(), strip, ladder); });
+    for (size_t n = 0; n < whole.rung.size(); ++n) ASSERT_EQ(ladder.rung[n].pixels, whole.rung[n].pixels) << n;
+    for (size_t c = 0; c < whole.step.size(); ++c) ASSERT_EQ(ladder.step[c].pixels, whole.step[c].pixels) << c;
+    ASSERT_EQ(ladder.cause.pixels, whole.cause.pixels);
+    ASSERT_EQ(ladder.flags.pixels, whole.flags.pixels);
+    ASSERT_EQ(ladder.doubt.pixels, whole.doubt.pixels);
+    ASSERT_EQ(ladder.residual, whole.residual);
+    ASSERT_EQ(ladder.tap_residual, whole.tap_residual);
+  }
+}
+
+TEST(Climb, RefusesAnotherStripThanTheEvidenceHolds) {
+  for (Lookup lookup : {Lookup::box, Lookup::cube}) {
+    Synthetic s = random_evidence(3, {.kernel = 3, .lookup = lookup});
+    set_verdicts(s);
+    const Synthetic part = only(s, {12, 36});
+    Ladder ladder = empty_ladder(s.r4.width, s.r4.height);
+    EXPECT_NO_THROW(climb(part.evidence(), {12, 36}, ladder));
+    EXPECT_NO_THROW(climb(part.evidence(), {20, 30}, ladder));
+    EXPECT_THROW(climb(part.evidence(), {11, 36}, ladder), std::logic_error);
+    EXPECT_THROW(climb(part.evidence(), {12, 37}, ladder), std::logic_error);
+  }
+}
+
 TEST(Climb, RefusesATruthOfOtherTaps) {
   Synthetic s = any_evidence(1, 3);
   s.taps.taps_per_receiver = 1;

@@ -55,6 +55,23 @@ TEST(Contract, CountsEveryBrokenReceiverOnce) {
   }
 }
 
+TEST(Contract, AndTheRestAreTheSameInStrips) {
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    Case c(seed, 3, static_cast<Lookup>(seed % 3));
+    for (size_t i = 0; i < c.s.r5.size(); i += 7) c.s.r5[i] += 0.25f;
+    const std::map<std::string, double> whole = c.metrics();
+    Synthetic held = c.s;  // what the evidence refers to, strip after strip
+    const LookupEvidence evidence = held.evidence();
+    SoundnessCheck check({evidence, c.s.stored, c.ties, c.tie_lookup, c.receivers, c.frame, {}});
+    for_each_strip(c.s, seed, [&](const Synthetic& part, PixelRange strip) {
+      held.taps = part.taps;
+      held.probe = part.probe;
+      check.add(strip);
+    });
+    for (const auto& [name, value] : check.metrics()) EXPECT_EQ(value, whole.at(name)) << name << " " << seed;
+  }
+}
+
 // Where a sampler blends the taps, what it may round is allowed, and no more.
 TEST(Contract, AllowsASamplerItsWeights) {
   for (uint64_t seed = 0; seed < 60; ++seed) {

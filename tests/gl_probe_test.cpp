@@ -216,5 +216,33 @@ TEST_F(GlProbeTest, CubeTapsFallWhereTheFrameSays) {
     }
 }
 
+// What a picture of many taps is measured by, strip by strip.
+TEST_F(GlProbeTest, GivesTheSameTexelsInStrips) {
+  std::mt19937 random(77);
+  for (const LightKind kind : kinds) {
+    const Scene scene = random_scene(random, kind);
+    const ReceiverImage receivers = load(scene, 64, 50);
+    Settings settings;
+    settings.map.resolution = 100;
+    settings.filter.kind = kind == LightKind::point ? FilterKind::cube_disk : FilterKind::box;
+    settings.filter.size = 3;
+    const LightFrame frame = make_light_frame(scene, settings);
+    const LookupProbe whole = renderer.probe(frame, settings);
+    LookupProbe probe = renderer.probe(frame, settings, ProbeTaps::none);
+    EXPECT_EQ(probe.holds({0, 64}), kind != LightKind::point) << "a flat map's texels follow from P";
+    for (size_t i = 0; i < receivers.primitive.size(); ++i)
+      ASSERT_EQ(probe.middle_texel(i), whole.texel(i, whole.taps() / 2));
+    for (const PixelRange strip : {PixelRange{64 * 20, 64 * 50}, {0, 64}, {64, 64 * 20}}) {
+      renderer.probe_strip(probe, frame, settings, strip);
+      ASSERT_TRUE(probe.holds(strip));
+      for (size_t i = strip.first; i < strip.end; ++i)
+        for (int tap = 0; tap < whole.taps(); ++tap) ASSERT_EQ(probe.texel(i, tap), whole.texel(i, tap));
+    }
+    if (kind == LightKind::point) {
+      EXPECT_THROW(renderer.probe_strip(probe, frame, settings, {1, 64}), std::logic_error);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace noonmark::gl

@@ -6,14 +6,15 @@
 
 layout(binding = 3) uniform usamplerCube index_map;  // nearest; each texel's own index
 layout(std430, binding = 0) writeonly buffer CubeTexels {
-  uint cube_texels[];  // [pixel * taps + tap], from the first pixel of these rows on
+  uint cube_texels[];  // [pixel * tap_count + tap], from the first pixel of these rows and the first of these taps on
 };
 uniform int first_pixel;
+uniform int tap_begin, tap_count;
 
 void main() {
   Receiver receiver = receiver_at(ivec2(gl_FragCoord.xy));
-  int first = first_tap(receiver), to = (int(receiver.pixel) - first_pixel) * taps;
-  for (int tap = 0; tap < taps; ++tap) {
+  int first = first_tap(receiver) + tap_begin, to = (int(receiver.pixel) - first_pixel) * tap_count;
+  for (int tap = 0; tap < tap_count; ++tap) {
     vec3 at = tap_address(receiver.map_texels, receiver.from_light, tap_offset(receiver, first + tap));
     cube_texels[to + tap] = receiver.present ? textureLod(index_map, at, 0.0).r : 0u;
   }

@@ -1,0 +1,219 @@
+#include "raytrace/lookup_tracer.h"
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+
+#include "raytrace/light_view.h"
+#include "raytrace/own_surface.h"
+#include "raytrace/packets.h"
+#include "raytrace/polygon_offset.h"
+#include "raytrace/stopwatch.h"
+#include "raytrace/texel_rays.h"
+#include "raytrace/traced_scene.h"
+
+namespace noonmark::raytrace {
+namespace {
+
+// The exact map skips what the rasteriser culls. Front: counter-clockwise as the light sees it.
+std::vector<uint32_t> kept_triangles(const Scene& scene, const Adjacency& adjacency, const LightFrame& frame,
+                                     CulledFaces cull) {
+  std::vector<uint32_t> kept;
+  for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    if (adjacency.is_copy(t)) continue;
+    const glm::uvec3 v = scene.triangles[t];
+    const glm::dvec3 a = scene.positions[v.x], b = scene.positions[v.y], c = scene.positions[v.z];
+    const bool front = glm::dot(glm::cross(b - a, c - a), frame.direction_to_light((a + b + c) / 3.0)) > 0;
+    if (front != (cull == CulledFaces::front)) kept.push_back(t);
+  }
+  return kept;
+}
+
+// Depth of the first surface at x from the near plane on. The rays start a little before it, for they start and end in
+// float; what is before it in double is passed.
+std::optional<double> first_from_near(const EmbreeScene& seen, const LightView& view, glm::dvec3 x, uint64_t& rays) {
+  const double near = view.near_depth(x);
+  for (double from = near - 2 * view.ray_error_m();;) {
+    ++rays;
+    const uint32_t hit = seen.first_hit(view.ray_from(x, from));
+    if (hit == no_primitive) return std::nullopt;
+    const double depth = view.hit_depth(hit, x);
+    if (depth >= near) return depth;
+    from = std::max(from, std::min(depth, near)) + 2 * view.ray_error_m();
+  }
+}
+
+Image<float> exact_map_of(const TracedScene& traced, const LightView& view, const TexelRays& texels,
+                          const MapSettings& settings, const std::optional<PolygonOffset>& offset, uint64_t& rays) {
+  const LightFrame& frame = view.frame();
+  std::optional<EmbreeScene> uncut;  // only the faces that the rasteriser keeps
+  bool nothing_kept = false;
+  if (settings.cull != CulledFaces::none) {
+    std::vector<uint32_t> kept = kept_triangles(traced.scene, traced.adjacency, frame, settings.cull);
+    nothing_kept = kept.empty();
+    if (!nothing_kept) uncut.emplace(traced.device, traced.scene, std::move(kept));
+  }
+  const EmbreeScene& seen = uncut ? *uncut : traced.embree;
+  const glm::ivec2 size = frame.map_size();
+  Image<float> map(size.x, size.y, 1.0f);
+  if (nothing_kept) return map;
+
+  const std::vector<glm::ivec2>& list = texels.inside_texels();
+  std::atomic<uint64_t> extra = 0;
+  for_each_packet(list.size(), [&](size_t first, int n) {
+    uint64_t extra_here = 0;
+    uint32_t hits[packet_size];
+    glm::dvec3 places[packet_size];
+    if (uncut) {
+      for (int i = 0; i < n; ++i) places[i] = view.texel_place(list[first + i]);
+      view.first_hits(seen, n, places, hits);
+      extra_here += static_cast<uint64_t>(n);
+    } else {
+      for (int i = 0; i < n; ++i) hits[i] = texels.hit(list[first + i]);
+    }
+    for (int i = 0; i < n; ++i) {
+      if (hits[i] == no_primitive) continue;
+      const glm::dvec3 centre = view.texel_place(list[first + i]);
+      float& texel = map.at(list[first + i].x, list[first + i].y);
+      if (offset) {
+        texel = static_cast<float>(least_offset_depth(seen, view, *offset, centre, settings.depth_clamp));
+        ++extra_here;
+        continue;
+      }
+      double depth = view.hit_depth(hits[i], centre);
+      if (depth < view.near_depth(centre) && !settings.depth_clamp) {
+        // The rasteriser clips it: what lies behind it, from the near plane on?
+        const std::optional<double> behind = first_from_near(seen, view, centre, extra_here);
+        if (!behind) continue;
+        depth = *behind;
+      }
+      texel = static_cast<float>(std::clamp(frame.window_depth(depth), 0.0, 1.0));
+    }
+    extra += extra_here;
+  });
+  rays += extra;
+  return map;
+}
+
+}  // namespace
+
+struct LookupTracer::Impl {
+  const TracedScene& traced;
+  const ReceiverImage& receivers;
+  const ReceiverTruth& truth;
+  MapSettings map;
+  DepthBias bias;
+  std::optional<PolygonOffset> offset;
+  LightView view;
+  TexelRays texels{traced.embree, view, map.wrap};
+  std::optional<OwnSurface> surface{};  // once a tap is asked about
+};
+
+LookupTracer::LookupTracer(const TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
+                           const LightFrame& frame, const MapSettings& map, const DepthBias& bias, double offset_unit) {
+  std::optional<PolygonOffset> offset;  // a fragment shader that writes its own depth, a point light's, has none
+  if (bias.form == BiasForm::polygon_offset && frame.kind != LightKind::point)
+    offset.emplace(PolygonOffset{bias.factor, bias.units, map.format == DepthFormat::d32f ? 0 : offset_unit});
+  impl_.reset(new Impl{traced, receivers, truth, map, bias, offset, LightView(traced.scene, frame)});
+}
+LookupTracer::LookupTracer(LookupTracer&&) noexcept = default;
+LookupTracer& LookupTracer::operator=(LookupTracer&&) noexcept = default;
+LookupTracer::~LookupTracer() = default;
+
+void LookupTracer::ask(const LookupProbe& probe, PixelRange strip, StageTime* stage) {
+  const Stopwatch watch;
+  impl_->texels.ask(impl_->truth.facing, probe, strip);
+  if (stage) stage->milliseconds += watch.milliseconds();
+}
+
+Image<float> LookupTracer::trace_map(StageTime* stage) {
+  const Stopwatch watch;
+  impl_->texels.trace();
+  uint64_t rays = impl_->texels.rays();
+  Image<float> map = exact_map_of(impl_->traced, impl_->view, impl_->texels, impl_->map, impl_->offset, rays);
+  if (stage) *stage = {stage->milliseconds + watch.milliseconds(), stage->rays + rays};
+  return map;
+}
+
+TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Image<float>& edge_distance_texels,
+                                  StageTime* stage) {
+  const Stopwatch watch;
+  Impl& l = *impl_;
+  if (!l.surface) l.surface.emplace(l.traced.embree, l.traced.adjacency, l.view);
+  const OwnSurface& surface = *l.surface;
+  const LightView& view = l.view;
+  const LightFrame& frame = view.frame();
+  const int taps = probe.taps();
+  const bool one_for_all = probe.pattern.variants == 1 && !probe.pattern.scaled_by_view;  // every receiver's offsets
+  TapTruth result{taps, {}, strip.first};
+  result.taps.assign(strip.size() * static_cast<size_t>(taps), 0);
+  std::atomic<uint64_t> all_rays = 0;
+
+  for_each_packet(strip.size(), [&](size_t begin, int n) {
+    const size_t first = strip.first + begin;
+    uint64_t rays = 0;
+    SurfacePoint points[packet_size];
+    glm::dvec3 at[packet_size];          // P in the light's frame
+    glm::dvec3 looked_up[packet_size];   // P' there; P but for forms that move the lookup
+    int lanes[packet_size], active = 0;  // the facing ones among the packet's pixels
+    for (int i = 0; i < n; ++i) {
+      if (!l.truth.facing[first + i]) continue;
+      const glm::dvec3 p = l.receivers.position[first + i], normal = l.receivers.normal[first + i];
+      at[active] = frame.to_light(p);
+      points[active] = surface.point(at[active], l.traced.adjacency.first(l.receivers.primitive[first + i]),
+                                     l.truth.lit[first + i] != 0);
+      looked_up[active] = frame.to_light(l.bias.looked_up(frame, p, normal));
+      edge_distance_texels[first + static_cast<size_t>(i)] = 0;
+      lanes[active++] = i;
+    }
+    if (active == 0) return;
+    for (int tap = 0; tap < taps; ++tap) {
+      glm::dvec3 offsets[packet_size];
+      if (one_for_all)
+        std::fill_n(offsets, active, glm::dvec3(probe.pattern.offset(0, tap)));
+      else
+        for (int k = 0; k < active; ++k) offsets[k] = probe.offset(first + static_cast<size_t>(lanes[k]), tap);
+      OwnSurface::Verdict exact[packet_size], moved[packet_size];  // F and D
+      const auto at_offset = [&](const glm::dvec3* from, OwnSurface::Verdict* verdicts) {
+        glm::dvec3 x[packet_size];
+        uint32_t hits[packet_size];
+        for (int k = 0; k < active; ++k) x[k] = view.normal_place(frame.tap_place(from[k], offsets[k]));
+        view.first_hits(l.traced.embree, active, x, hits);
+        rays += static_cast<uint64_t>(active);
+        for (int k = 0; k < active; ++k) verdicts[k] = surface.lit_at(points[k], x[k], hits[k], rays);
+      };
+      if (std::all_of(offsets, offsets + active, [](glm::dvec3 o) { return o == glm::dvec3(0); }))
+        for (int k = 0; k < active; ++k) exact[k] = {points[k].lit, true};  // V(P, P) is R1
+      else
+        at_offset(at, exact);
+      if (l.bias.moves_lookup())
+        at_offset(looked_up, moved);
+      else
+        std::copy_n(exact, active, moved);
+      for (int k = 0; k < active; ++k) {
+        const size_t pixel = first + static_cast<size_t>(lanes[k]);
+        const glm::ivec2 texel = probe.texel(pixel, tap);
+        const uint32_t hit = l.texels.hit(texel);
+        const glm::dvec3 centre = view.texel_place(texel);
+        const OwnSurface::Verdict at_texel = surface.lit_at(points[k], centre, hit, rays);
+        const bool exact_lit = exact[k].lit, moved_lit = moved[k].lit, texel_lit = at_texel.lit;
+        const bool clipped = !l.map.depth_clamp && surface.clipped(hit, centre);
+        result.taps[(pixel - strip.first) * static_cast<size_t>(taps) + static_cast<size_t>(tap)] =
+            static_cast<uint8_t>((exact_lit ? tap_exact_lit : 0) | (moved_lit != exact_lit ? tap_displaced : 0) |
+                                 (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
+                                 (exact[k].sure ? 0 : tap_exact_unsure) | (moved[k].sure ? 0 : tap_moved_unsure) |
+                                 (at_texel.sure ? 0 : tap_texel_unsure));
+        if (moved_lit != texel_lit) {
+          const glm::dvec3 from = view.normal_place(frame.tap_place(looked_up[k], offsets[k]));
+          const double distance = surface.edge_distance_texels(points[k], from, centre, moved_lit, rays);
+          edge_distance_texels[pixel] = std::max(edge_distance_texels[pixel], static_cast<float>(distance));
+        }
+      }
+    }
+    all_rays += rays;
+  });
+  if (stage) *stage = {stage->milliseconds + watch.milliseconds(), stage->rays + all_rays};
+  return result;
+}
+
+}  // namespace noonmark::raytrace

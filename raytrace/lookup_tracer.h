@@ -1,0 +1,59 @@
+// The truth of one lookup: what a perfect shadow map would hold, and what is true at every tap. Tracer::lookup() makes
+// one.
+#pragma once
+#include <memory>
+
+#include "scenes/depth_bias.h"
+#include "scenes/evidence.h"
+#include "scenes/light_frame.h"
+#include "scenes/receivers.h"
+#include "scenes/settings.h"
+
+namespace noonmark::raytrace {
+
+struct TracedScene;
+
+// Traces the truth of one lookup strip by strip, so that no more taps are held than the caller asks for.
+//
+//   LookupTracer rays = tracer.lookup(receivers, truth, frame, settings.map, bias);
+//   rays.ask(probe, strip);                                        // for every strip of the picture
+//   Image<float> exact_map = rays.trace_map();
+//   TapTruth taps = rays.trace_taps(probe, strip, edge_distance);  // for every strip, in any order
+//
+// The probe is the same in all calls, with the strip at hand. Where a stage is given, time and rays are added to it.
+class LookupTracer {
+ public:
+  // What Tracer::lookup() is given.
+  LookupTracer(const TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
+               const LightFrame& frame, const MapSettings& map, const DepthBias& bias, double offset_unit);
+  ~LookupTracer();
+  LookupTracer(LookupTracer&&) noexcept;
+  LookupTracer& operator=(LookupTracer&&) noexcept;
+
+  // The map will hold the texels of these pixels' taps.
+  void ask(const LookupProbe& probe, PixelRange strip, StageTime* stage = nullptr);
+
+  // Window depth at the centres of the texels that were asked for, 1 elsewhere; of LightFrame::map_size().
+  Image<float> trace_map(StageTime* stage = nullptr);
+
+  // edge_distance_texels, of the picture's size, gets for each receiver of the strip: the largest distance, across the
+  // light's rays and in texels there, from a tap's exact place (of the lookup as it is made, moved or not) to the
+  // shadow edge before the texel centre it snaps to; 0 where D = V at every tap.
+  TapTruth trace_taps(const LookupProbe& probe, PixelRange strip, Image<float>& edge_distance_texels,
+                      StageTime* stage = nullptr);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Of the whole picture at once: every tap of every facing receiver, and the exact map that those taps read.
+struct LookupTruth {
+  TapTruth taps;
+  Image<float> exact_map;             // LookupTracer::trace_map()
+  Image<float> edge_distance_texels;  // LookupTracer::trace_taps()
+  StageTime texel_stage;              // light-side rays through texel centres
+  StageTime tap_stage;                // V at every tap
+};
+
+}  // namespace noonmark::raytrace

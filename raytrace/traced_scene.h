@@ -1,0 +1,18 @@
+// A scene as its rays know it: each of coincident triangles once.
+#pragma once
+#include "raytrace/adjacency.h"
+#include "raytrace/embree_scene.h"
+#include "scenes/scene.h"
+
+namespace noonmark::raytrace {
+
+struct TracedScene {
+  explicit TracedScene(const Scene& s) : scene(s), adjacency(s), embree(device, s, adjacency.without_copies()) {}
+
+  const Scene& scene;
+  EmbreeDevice device;
+  Adjacency adjacency;
+  EmbreeScene embree;
+};
+
+}  // namespace noonmark::raytrace
