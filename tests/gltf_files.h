@@ -111,4 +111,78 @@ inline int add_accessor(json& document, const std::string& bytes, int component_
   return static_cast<int>(document["accessors"].size()) - 1;
 }
 
+// A bit of everything that the loader reads and that does not move.
+inline json rich() {
+  json d = square();
+  d["extensionsUsed"] = {"KHR_lights_punctual", "KHR_mesh_quantization"};
+  d["extensions"]["KHR_lights_punctual"]["lights"] = {
+      {{"type", "directional"}},
+      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.7}}}},
+      {{"type", "point"}, {"range", 8}}};
+  d["cameras"] = {
+      {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}, {"zfar", 100}}}},
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 2}, {"znear", 0.1}, {"zfar", 9}}}}};
+  d["materials"] = {{{"alphaMode", "MASK"},
+                     {"alphaCutoff", 0.5},
+                     {"doubleSided", true},
+                     {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}}}}};
+  d["meshes"][0]["primitives"][0]["material"] = 0;
+  const int quantized = add_accessor(
+      d, raw(std::vector<int16_t>{0, 0, 0, 0, 900, 0, 0, 0, 0, 900, 0, 0, 900, 900, 5, 0}), 5122, "VEC3", 4, 8);
+  d["accessors"].back()["normalized"] = true;
+  d["meshes"].push_back(
+      {{"name", "strip"}, {"primitives", {{{"attributes", {{"POSITION", quantized}}}, {"mode", 5}}}}});
+  const int moved = add_accessor(d, raw(std::vector<uint16_t>{1, 2}), 5123, "SCALAR", 2);
+  const int values = add_accessor(d, raw(std::vector<float>{5, 0, 0, 5, 1, 0}), 5126, "VEC3", 2);
+  d["accessors"][0]["sparse"] = {
+      {"count", 2},
+      {"indices", {{"bufferView", d["accessors"][moved]["bufferView"]}, {"componentType", 5123}}},
+      {"values", {{"bufferView", d["accessors"][values]["bufferView"]}}}};
+  d["nodes"][0]["children"] = {1, 2};
+  d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 1;
+  d["nodes"].push_back({{"mesh", 1}, {"rotation", {0, 0, 0, 1}}, {"scale", {2, -2, 2}}, {"translation", {1, 2, 3}}});
+  d["nodes"].push_back({{"camera", 0},
+                        {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}},
+                        {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}}});
+  return d;
+}
+
+// And with what moves: a skin, a morph target, instances, a hidden node and an animation of all of them.
+inline json moving() {
+  json d = rich();
+  auto& primitive = d["meshes"][0]["primitives"][0];
+  primitive["attributes"]["JOINTS_0"] =
+      add_accessor(d, raw(std::vector<uint8_t>{0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), 5121, "VEC4", 4);
+  primitive["attributes"]["WEIGHTS_0"] =
+      add_accessor(d, raw(std::vector<float>{1, 0, 0, 0, 0.5, 0.5, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), 5126, "VEC4", 4);
+  const int target = add_accessor(d, raw(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}), 5126, "VEC3", 4);
+  primitive["targets"] = {{{"POSITION", target}}};
+  d["meshes"][0]["weights"] = {0.5};
+  std::vector<float> bind(32, 0);
+  for (size_t i = 0; i < 32; i += 16) bind[i] = bind[i + 5] = bind[i + 10] = bind[i + 15] = 1;
+  const int matrices = add_accessor(d, raw(bind), 5126, "MAT4", 2);
+  d["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", matrices}}};
+  d["nodes"][0]["skin"] = 0;
+  const int places = add_accessor(d, raw(std::vector<float>{0, 0, 1, 5, 0, 2}), 5126, "VEC3", 2);
+  const int turns = add_accessor(d, raw(std::vector<float>{0, 0, 0, 1, 0, 1, 0, 0}), 5126, "VEC4", 2);
+  d["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", places}, {"ROTATION", turns}, {"SCALE", places}};
+  d["nodes"].push_back({{"mesh", 1}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}});
+  d["nodes"][0]["children"].push_back(3);
+  const int times = add_accessor(d, raw(std::vector<float>{0, 2}), 5126, "SCALAR", 2);
+  const int weights = add_accessor(d, raw(std::vector<float>{0, 1}), 5126, "SCALAR", 2);
+  const int splines = add_accessor(d, raw(std::vector<float>(18, 0.5)), 5126, "VEC3", 6);
+  d["animations"] = {{{"samplers",
+                       {{{"input", times}, {"output", places}},
+                        {{"input", times}, {"output", turns}, {"interpolation", "STEP"}},
+                        {{"input", times}, {"output", weights}},
+                        {{"input", times}, {"output", splines}, {"interpolation", "CUBICSPLINE"}}}},
+                      {"channels",
+                       {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}},
+                        {{"sampler", 1}, {"target", {{"node", 1}, {"path", "rotation"}}}},
+                        {{"sampler", 2}, {"target", {{"node", 0}, {"path", "weights"}}}},
+                        {{"sampler", 3}, {"target", {{"node", 1}, {"path", "scale"}}}}}}}};
+  return d;
+}
+
 }  // namespace noonmark::test

@@ -7,10 +7,9 @@
 #include "app/experiment.h"
 #include "compare/bounds.h"
 #include "compare/laws.h"
-#include "compare/metrics.h"
-#include "compare/quantities.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
+#include "tests/fuzz/names.h"
 #include "tests/fuzz/targets.h"
 #include "tests/sample_results.h"
 
@@ -216,22 +215,14 @@ std::vector<std::string> words() {
                                   "acne_bound",
                                   "bias_depth",
                                   "metrics"};
-  for (const Setting& row : settings_table()) {
-    all.emplace_back(row.name);
+  for (const Setting& row : settings_table())
     for (std::string_view choice : row.choices) all.push_back("\"" + std::string(choice) + "\"");
-  }
-  for (const Metric& row : metrics_table()) all.emplace_back(row.name);
-  for (const CurveQuantity& row : curve_quantities()) all.emplace_back(row.name);
+  for (const std::string& name : program_names()) all.push_back(name);
   return all;
-}
-
-std::string mutate(const std::string& text, Random& random, const EditBytes& edit) {
-  static const std::vector<std::string> known = words();
-  return edit_text(text, random, known, edit);
 }
 
 }  // namespace
 
-const Target experiment_target = {"experiment", run, seeds, words, mutate};
+const Target experiment_target = {"experiment", run, seeds, words, mutate_text<words>};
 
 }  // namespace noonmark::fuzz

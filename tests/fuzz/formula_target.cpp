@@ -8,10 +8,8 @@
 
 #include "compare/formula.h"
 #include "compare/laws.h"
-#include "compare/metrics.h"
-#include "compare/quantities.h"
 #include "scenes/error.h"
-#include "scenes/settings.h"
+#include "tests/fuzz/names.h"
 #include "tests/fuzz/targets.h"
 #include "tests/sample_results.h"
 
@@ -93,19 +91,12 @@ std::vector<std::string> words() {
       "atan_deg(", "hypot(", "sqrt(",  "exp(",  "ln(",        "log2(", "log10(", "abs(",     "min(",        "max(",
       "floor(",    "pi",     "==",     "!=",    "<=",         ">=",    "&&",     "||",       "?",           ":",
       "^",         "1e308",  "1e-320", "0x1",   "{against: ", "{",     "}",      "\n",       "view.eye_m.x"};
-  for (const Setting& row : settings_table()) all.emplace_back(row.name);
-  for (const Metric& row : metrics_table()) all.emplace_back(row.name);
-  for (const CurveQuantity& row : curve_quantities()) all.emplace_back(row.name);
+  for (const std::string& name : program_names()) all.push_back(name);
   return all;
-}
-
-std::string mutate(const std::string& text, Random& random, const EditBytes& edit) {
-  static const std::vector<std::string> known = words();
-  return edit_text(text, random, known, edit);
 }
 
 }  // namespace
 
-const Target formula_target = {"formula", run, seeds, words, mutate};
+const Target formula_target = {"formula", run, seeds, words, mutate_text<words>};
 
 }  // namespace noonmark::fuzz

@@ -54,81 +54,12 @@ void run(const std::string& bytes) {
   }
 }
 
-// A bit of everything that the loader reads.
-json rich() {
-  json d = test::square();
-  d["extensionsUsed"] = {"KHR_lights_punctual", "KHR_mesh_quantization"};
-  d["extensions"]["KHR_lights_punctual"]["lights"] = {
-      {{"type", "directional"}},
-      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.7}}}},
-      {{"type", "point"}, {"range", 8}}};
-  d["cameras"] = {
-      {{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}, {"zfar", 100}}}},
-      {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 2}, {"znear", 0.1}, {"zfar", 9}}}}};
-  d["materials"] = {{{"alphaMode", "MASK"},
-                     {"alphaCutoff", 0.5},
-                     {"doubleSided", true},
-                     {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}}}}};
-  d["meshes"][0]["primitives"][0]["material"] = 0;
-  const int quantized = add_accessor(
-      d, raw(std::vector<int16_t>{0, 0, 0, 0, 900, 0, 0, 0, 0, 900, 0, 0, 900, 900, 5, 0}), 5122, "VEC3", 4, 8);
-  d["accessors"].back()["normalized"] = true;
-  d["meshes"].push_back(
-      {{"name", "strip"}, {"primitives", {{{"attributes", {{"POSITION", quantized}}}, {"mode", 5}}}}});
-  const int moved = add_accessor(d, raw(std::vector<uint16_t>{1, 2}), 5123, "SCALAR", 2);
-  const int values = add_accessor(d, raw(std::vector<float>{5, 0, 0, 5, 1, 0}), 5126, "VEC3", 2);
-  d["accessors"][0]["sparse"] = {
-      {"count", 2},
-      {"indices", {{"bufferView", d["accessors"][moved]["bufferView"]}, {"componentType", 5123}}},
-      {"values", {{"bufferView", d["accessors"][values]["bufferView"]}}}};
-  d["nodes"][0]["children"] = {1, 2};
-  d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 1;
-  d["nodes"].push_back({{"mesh", 1}, {"rotation", {0, 0, 0, 1}}, {"scale", {2, -2, 2}}, {"translation", {1, 2, 3}}});
-  d["nodes"].push_back({{"camera", 0},
-                        {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}},
-                        {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}}});
-  return d;
-}
-
-// Two joints that bend the square, a morph target, an animation of both, and the same square drawn three times.
-json moving() {
-  json d = test::square();
-  const int joints = add_accessor(d, std::string("\0\1\0\0\1\0\0\0\0\1\0\0\1\0\0\0", 16), 5121, "VEC4", 4);
-  const int weights =
-      add_accessor(d, raw(std::vector<float>{.5, .5, 0, 0, 1, 0, 0, 0, .25, .75, 0, 0, 1, 0, 0, 0}), 5126, "VEC4", 4);
-  const int target = add_accessor(d, raw(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0, 0}), 5126, "VEC3", 4);
-  const int inverse = add_accessor(d, raw(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,
-                                                             1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1}),
-                                   5126, "MAT4", 2);
-  const int times = add_accessor(d, raw(std::vector<float>{0, 1}), 5126, "SCALAR", 2);
-  const int turns = add_accessor(d, raw(std::vector<float>{0, 0, 0, 1, 0, 0, 0.7071068f, 0.7071068f}), 5126, "VEC4", 2);
-  const int moves = add_accessor(d, raw(std::vector<float>{0, 0, 0, 3, 0, 0, 0, 4, 0}), 5126, "VEC3", 3);
-  json& primitive = d["meshes"][0]["primitives"][0];
-  primitive["attributes"]["JOINTS_0"] = joints;
-  primitive["attributes"]["WEIGHTS_0"] = weights;
-  primitive["targets"] = {{{"POSITION", target}}};
-  d["meshes"][0]["weights"] = {0.5};
-  d["nodes"] = {
-      {{"mesh", 0}, {"skin", 0}},
-      {{"name", "hip"}, {"children", {2}}},
-      {{"name", "knee"}, {"translation", {0, 1, 0}}},
-      {{"mesh", 1}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", moves}}}}}}}},
-      {{"mesh", 1}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}}};
-  d["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}});
-  d["scenes"][0]["nodes"] = {0, 1, 3, 4};
-  d["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", inverse}, {"skeleton", 1}}};
-  d["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 2}, {"path", "rotation"}}}}}},
-                      {"samplers", {{{"input", times}, {"output", turns}, {"interpolation", "LINEAR"}}}}}};
-  d["extensionsUsed"] = {"EXT_mesh_gpu_instancing", "KHR_node_visibility"};
-  return d;
-}
-
 std::vector<std::string> seeds() {
   json chunked = test::square();
   chunked["buffers"][0] = {{"byteLength", buffer_bytes}};
   json beside = test::square();
   beside["buffers"][0]["uri"] = "inside.bin";
-  std::vector<std::string> all = {test::square().dump(), rich().dump(), moving().dump(), beside.dump(),
+  std::vector<std::string> all = {test::square().dump(), test::rich().dump(), test::moving().dump(), beside.dump(),
                                   test::glb(chunked.dump(), test::square_bytes())};
   const test::Grid grid = test::wavy(2);
   for (const test::Encoding how : {test::Encoding{draco::MESH_EDGEBREAKER_ENCODING, 0, true},

@@ -46,6 +46,13 @@ std::string edit_bytes(const std::string& bytes, Random& random);
 std::string edit_text(const std::string& text, Random& random, std::span<const std::string> words,
                       const EditBytes& edit);
 
+// Target::mutate of a text, with the target's own words.
+template <auto words>
+std::string mutate_text(const std::string& text, Random& random, const EditBytes& edit) {
+  static const std::vector<std::string> known = words();
+  return edit_text(text, random, known, edit);
+}
+
 inline size_t below(Random& random, size_t n) { return static_cast<size_t>(random() % n); }
 
 // A folder of this process below TMPDIR; gone at the end, but for an end by a signal.

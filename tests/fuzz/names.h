@@ -1,0 +1,21 @@
+// The names that experiments and formulas are made of.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "compare/metrics.h"
+#include "compare/quantities.h"
+#include "scenes/settings.h"
+
+namespace noonmark::fuzz {
+
+// Of all settings, metrics and quantities of a curve.
+inline std::vector<std::string> program_names() {
+  std::vector<std::string> names;
+  for (const Setting& row : settings_table()) names.emplace_back(row.name);
+  for (const Metric& row : metrics_table()) names.emplace_back(row.name);
+  for (const CurveQuantity& row : curve_quantities()) names.emplace_back(row.name);
+  return names;
+}
+
+}  // namespace noonmark::fuzz
