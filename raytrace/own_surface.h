@@ -1,13 +1,15 @@
-// V(P, x) = "P's surface, carried along itself to the light-plane position x, is lit": the one function behind the
-// ladder's rungs R1 to R3, and the rule that tells an occluder from P's own surface.
+// V(P, x): is P's surface lit at the place x of the light's plane, when it is carried along itself from P to there? The
+// one function behind the ladder's rungs R1 to R3, and the rule that tells an occluder from P's own surface.
 //
-// Let H be the first hit on the light ray through x, and S the depth at x of P's own sheet: walk from P straight to x
-// over triangles joined by exactly equal vertex positions, or whose borders meet but for the rounding of their
-// vertices, across any dihedral angle. Where the walk ends early at E (a fold as the light sees it, or a boundary), S
-// is the nearer to the light of P's tangent plane at x and the depth of E. V = lit iff z_H >= S, or P is lit and the
-// first-hit depth has no jump along the way from P to x. So aliasing needs a shadow edge between the pixel and the
-// texel; without one it is acne. What rounding of the vertices can have made is no jump, and a hit that may be of one
-// plane with P's sheet is that sheet (raytrace/vertex_rounding.h).
+// - H is the first hit of the light's ray through x; z_H is its depth.
+// - S is the depth at x of P's own sheet. The sheet is walked straight from P to x, across any dihedral angle, over
+//   triangles whose edges have equal corners, or whose borders meet but for the rounding of their vertices. Where the
+//   walk ends before x, at E (a fold as the light sees it, or a border), S is the smaller of two depths: that of E, and
+//   that of P's tangent plane at x.
+// - V is lit where z_H >= S. It is also lit where P is lit and the depth of the first hit has no jump on the way from P
+//   to x: then no shadow's edge lies between the two, and a tap that is dark there is acne, not aliasing.
+// - A step that the rounding of vertices can have made is no jump, and a hit that may be of one plane with P's sheet is
+//   that sheet (raytrace/vertex_rounding.h).
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
