@@ -113,7 +113,8 @@ std::vector<Settings> points(const Experiment& experiment);
 // Every setting by its row's name, in canonical text: PointRecord::settings.
 std::map<std::string, std::string> settings_map(const Settings& settings);
 
-// A word as a shell reads it back: plain words stay as they are, anything else goes into single quotes.
+// A word as a shell reads it back: plain words stay as they are, anything else goes into single quotes, and what a
+// terminal would not show as it is into $'...' (bash, zsh, ksh, POSIX 2024), so that what is printed can be pasted.
 std::string shell_quoted(const std::string& word);
 
 // The command that renders one point of the experiment, quoted for a shell: its overridden and swept settings as --set,

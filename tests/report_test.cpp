@@ -65,6 +65,12 @@ TEST(ReportText, NumbersReadAsPeopleWriteThem) {
   EXPECT_EQ(report::setting_label("bias.constant"), "bias constant");
 }
 
+TEST(ReportText, HtmlHasNoControlCharacters) {
+  EXPECT_EQ(report::html("a\x1b[31m\u202e\u0085<"), "a\uFFFD[31m\uFFFD\uFFFD&lt;");
+  EXPECT_EQ(report::html("a\tb\nc"), "a\tb\nc");
+  EXPECT_EQ(report::html("\xff"), "\uFFFD");
+}
+
 TEST(ReportText, Base64AsInRfc4648) {
   const std::pair<const char*, const char*> cases[] = {{"", ""},
                                                        {"f", "Zg=="},
