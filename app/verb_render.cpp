@@ -2,6 +2,7 @@
 
 #include "app/experiment_arguments.h"
 #include "app/pictures.h"
+#include "app/results_folder.h"
 #include "app/verbs.h"
 #include "app/workbench.h"
 #include "compare/metrics.h"
@@ -76,7 +77,7 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   const Experiment experiment = experiment_from(path, arguments);
   const Settings settings = the_point(experiment, point);
   const std::string out = arguments.out.empty() ? "out/render" : arguments.out;
-  make_folder(out);
+  make_output_folder(out);
   clear_abandoned_files(out);
   Workbench bench(gl::DebugMode::log);
   require_image_files();

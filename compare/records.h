@@ -128,7 +128,8 @@ struct Results {
 struct Unjudged {
   std::string experiment;  // path as given
   std::string command;
-  std::string why;  // one line
+  std::string started;  // ISO 8601, UTC
+  std::string why;      // one line
   int exit_code = 0;
 };
 

@@ -102,6 +102,63 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveARunThatFails) {
   EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md"));
 }
 
+// Which folder was meant can be told although the command line is wrong.
+TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAWrongCommandLine) {
+  const std::string experiment = good();
+  const auto held = [&](const std::string& folder) {
+    ASSERT_EQ(run({"check", experiment, "--out", folder, "--overwrite"}), 0) << output_;
+    ASSERT_NE(text(folder + "/summary.md").find("Held"), std::string::npos);
+  };
+  const auto not_judged = [&](const std::string& folder, const std::string& why) {
+    EXPECT_NE(text(folder + "/junit.xml").find("errors=\"1\""), std::string::npos);
+    EXPECT_NE(text(folder + "/junit.xml").find(why), std::string::npos) << text(folder + "/junit.xml");
+    EXPECT_NE(text(folder + "/summary.md").find("Not judged"), std::string::npos);
+  };
+  using Words = std::vector<std::string>;
+  for (const auto& [words, why] : std::vector<std::pair<Words, std::string>>{
+           {{"check", experiment, "--threads", "0", "--out", "out"}, "--threads"},
+           {{"check", experiment, "--threads", "many", "--out=out"}, "--threads"},
+           {{"check", "--out", "out", experiment, "--foo"}, "--foo"},
+           {{"check", "--foo", "7", "--out", "out", "--", experiment}, "not expected"},
+           {{"check", experiment, "--out", "out", "--set"}, "--set"},
+           {{"check", experiment, "--out", "other", "--out", "out"}, "--out"},
+           {{"check", "--out", "out"}, "experiments"},
+           {{"--foo", "check", experiment, "--out", "out"}, "--foo"},
+           {{"chek", experiment, "--out", "out"}, "chek"}}) {
+    SCOPED_TRACE(why);
+    held("out");
+    EXPECT_EQ(run(words), 2) << output_;
+    EXPECT_TRUE(says(why)) << output_;
+    not_judged("out", why);
+    EXPECT_FALSE(there("other")) << "a folder is not made for a mistake";
+  }
+
+  held("out/x");  // where it goes without --out
+  EXPECT_EQ(run({"check", experiment, "--threads", "0"}), 2);
+  not_judged("out/x", "--threads");
+  held("all/x");
+  write("y.toml", "");
+  EXPECT_EQ(run({"check", experiment, "y.toml", "--foo", "--out", "all"}), 2);
+  not_judged("all/x", "--foo");
+  held("all/x");
+  EXPECT_EQ(run({"check", experiment, experiment, "--out", "all"}), 2) << "two that would share one folder";
+  not_judged("all/x", "share");
+  fs::create_directories(folder_ / "exps/sub");
+  fs::copy_file(experiment, folder_ / "exps/sub/x.toml");
+  held("all/sub/x");
+  write("exps/y.toml", "");
+  EXPECT_EQ(run({"check", "exps", "--foo", "--out", "all"}), 2);
+  not_judged("all/sub/x", "--foo");
+
+  held("out");
+  EXPECT_EQ(run({"run", experiment, "--out", "out", "--foo"}), 2);
+  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md")) << "a run does not judge";
+  held("out");
+  EXPECT_EQ(run({"render", experiment, "--out", "out", "--foo"}), 2);
+  EXPECT_EQ(run({"check", "--help", "--out", "out"}), 0);
+  EXPECT_TRUE(there("out/junit.xml")) << "neither measures into this folder";
+}
+
 TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAKill) {
   ASSERT_EQ(run({"check", good(), "--out", "out"}), 0) << output_;
   ASSERT_TRUE(there("out/junit.xml"));
@@ -132,6 +189,19 @@ TEST_F(Stale, AFolderIsCheckedToItsEnd) {
   EXPECT_NE(text("out/sub/d/junit.xml").find("<failure"), std::string::npos)
       << "what comes after a bad file is checked";
   EXPECT_NE(text("out/sub/e/summary.md").find("Not judged"), std::string::npos);
+}
+
+TEST_F(Stale, APipeInAFolderIsSaidAndTheRestIsChecked) {
+  fs::create_directories(folder_ / "exps");
+  write("exps/b.toml", "scene = \"plate\"\n" + small_view + bound);
+  ASSERT_EQ(mkfifo((folder_ / "exps/a.toml").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder_ / "exps/c.toml");
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}, [] { alarm(60); }), 2) << output_;
+  for (const char* name : {"a", "c"}) {
+    EXPECT_TRUE(says(std::string("exps/") + name + ".toml: is not a regular file")) << output_;
+    EXPECT_NE(text(std::string("out/") + name + "/junit.xml").find("not a regular file"), std::string::npos);
+  }
+  EXPECT_NE(text("out/b/summary.md").find("Held"), std::string::npos);
 }
 
 TEST_F(Stale, StoredNumbersThatWereEditedAreMeasuredAnew) {
