@@ -85,7 +85,7 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   require_memory(bench.memory(settings, part.curve_enabled, true), "this point");
   const Measurement m = bench.measure(settings, part.curve_enabled ? std::optional(part.curve) : std::nullopt);
   write_pictures(m, out, ".", "point");
-  write_images(m, out + "/");
+  write_images(m, out, ".", "");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));
   print_ladder(m);
   if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", note);

@@ -5,6 +5,7 @@
 
 #include <ctime>
 
+#include "compare/sqlite.h"
 #include "tests/program_fixture.h"
 
 namespace noonmark::acceptance {
@@ -81,6 +82,44 @@ TEST_F(Messages, AnUnjudgedRunHasItsTime) {
   const size_t at = junit.find("timestamp=\"");
   ASSERT_NE(at, std::string::npos);
   EXPECT_GE(junit.substr(at + 11, before.size()), before);
+}
+
+TEST_F(Messages, OneIsSingular) {
+  const std::string experiment = write("x.toml", one_point + bound);
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  EXPECT_TRUE(says("1 point measured;")) << output_;
+  ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+  EXPECT_TRUE(says("1 of 1 point is in out already") && says("1 of 1 bound held")) << output_;
+  ASSERT_EQ(run({"report", "out"}), 0) << output_;
+  EXPECT_TRUE(says("1 of 1 point;")) << output_;
+}
+
+TEST_F(Messages, AReportSaysWhatIsWrongWithTheResults) {
+  for (const char* folder : {"absent", "empty"}) {
+    fs::create_directories(folder_ / "empty");
+    EXPECT_EQ(run({"report", folder}), 3);
+    EXPECT_TRUE(says(std::string(folder) + ": there are no results here")) << output_;
+  }
+  const std::string experiment = write("x.toml", one_point);
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  const std::string whole = text("out/results.sqlite");
+  const auto refused = [&](const std::string& why) {
+    EXPECT_EQ(run({"report", "out"}), 3) << output_;
+    EXPECT_TRUE(says(why)) << output_;
+    EXPECT_FALSE(says("--out")) << "report has no such option: " << output_;
+    EXPECT_TRUE(says("run the experiment into this folder again")) << output_;
+  };
+  write("out/results.sqlite", "no database, but as long as the head of one has to be");
+  refused("file is not a database");
+  write("out/results.sqlite", whole.substr(0, whole.size() / 2));
+  refused("results.sqlite");
+  write("out/results.sqlite", whole);
+  sqlite::Database((folder_ / "out/results.sqlite").string(), sqlite::Database::Mode::existing)
+      .execute("PRAGMA application_id = 1");
+  refused("not one of Noonmark's results");
+  // A run has both.
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 3);
+  EXPECT_TRUE(says("choose another --out, or pass --overwrite")) << output_;
 }
 
 TEST_F(Messages, AnExperimentOfAByteOrderMarkIsEmpty) {

@@ -295,7 +295,7 @@ TEST(Report, PicturesAreInlinedAndMissingOnesSaid) {
   const std::string page = render_report(sample_results(), sample_picture);
   const std::string bytes = sample_picture("images/p0018-map.png");
   EXPECT_NE(page.find("src=\"data:image/png;base64," + report::base64(bytes) + "\""), std::string::npos);
-  EXPECT_NE(page.find("The picture images/p0026-truth.png is not here: there is no images/p0026-truth.png."),
+  EXPECT_NE(page.find("The picture images/p0026-truth.png is not shown: there is no images/p0026-truth.png."),
             std::string::npos);
 }
 
