@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "scenes/error.h"
+#include "scenes/text.h"
 
 namespace noonmark {
 namespace {
@@ -21,6 +22,23 @@ std::vector<size_t> digits(const Experiment& experiment, int64_t index) {
   return result;
 }
 
+// Every byte that printable() would replace, and of characters that it would all bytes, in octal: three digits are
+// read, whatever comes behind them.
+std::string shell_quoted_bytes(std::string_view word) {
+  std::string quoted = "$'";
+  while (!word.empty()) {
+    const std::string_view character = word.substr(0, std::max<size_t>(utf8_length(word), 1));
+    if (character == "'" || character == "\\")
+      quoted += fmt::format("\\{}", character);
+    else if (printable(character) == character)
+      quoted += character;
+    else
+      for (char c : character) quoted += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
+    word.remove_prefix(character.size());
+  }
+  return quoted + "'";
+}
+
 }  // namespace
 
 std::string shell_quoted(const std::string& word) {
@@ -29,6 +47,7 @@ std::string shell_quoted(const std::string& word) {
            std::string_view("_-./,=+:@%").find(c) != std::string_view::npos;
   };
   if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  if (printable(word) != word) return shell_quoted_bytes(word);
   std::string quoted = "'";
   for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";

@@ -4,6 +4,7 @@
 //   apply_override(experiment, "map.resolution=2048");            // --set
 //   for (const Settings& settings : points(experiment)) measure(settings);
 //
+// clang-format off
 // The file (every key may be left out; an unknown one is an error):
 //   title = "..."
 //   scene = "cube-room"              # or a table [scene] with name = and the scene's other settings
@@ -30,12 +31,16 @@
 //   [[law]]                          # a number that must follow from others (compare/laws.h)
 //   name = "1 acne-free bias"
 //   says = "one sentence"
-//   found = "{100 * acne} % of the pixels are acne, {against: 100 * acne} % without a filter."   # said with its
-//   figures measured = "acne_free_bias_m" equals = "k * texel_m * tan_deg(scene.theta_deg)"       # or at_most,
-//   at_least; a formula or a number within = 0.05                    # of it; and slack = a formula or a number, in the
-//   measured number's unit join = "each"                    # each | mean | slope (with over = a setting) where = {} #
-//   as a bound's against = {"filter.kind" = "none"}    # read `equals` at the point that differs from the measured one
-//   in this alone
+//   found = "{100 * acne} % of the pixels are acne, {against: 100 * acne} % without a filter."  # said with its figures
+//   measured = "acne_free_bias_m"
+//   equals = "k * texel_m * tan_deg(scene.theta_deg)"    # or at_most, at_least; a formula or a number
+//   within = 0.05                    # of it; and
+//   slack = "depth_quantum_m"        # a formula or a number, in the measured number's unit
+//   join = "each"                    # each | mean | slope
+//   over = "map.resolution"          # of a slope: the setting that it is taken over
+//   where = {}                       # as a bound's
+//   against = {"filter.kind" = "none"}    # read `equals` at the point that differs from the measured one in this alone
+// clang-format on
 //
 // Several experiments in one file: [[part]] tables, each with a name and any of scene, settings, sweep, curve, bound,
 // let and law. What stands outside them are their defaults; sweeps, bounds and laws stand inside.
@@ -113,7 +118,8 @@ std::vector<Settings> points(const Experiment& experiment);
 // Every setting by its row's name, in canonical text: PointRecord::settings.
 std::map<std::string, std::string> settings_map(const Settings& settings);
 
-// A word as a shell reads it back: plain words stay as they are, anything else goes into single quotes.
+// A word as a shell reads it back: plain words stay as they are, anything else goes into single quotes, and what a
+// terminal would not show as it is into $'...' (bash, zsh, ksh, POSIX 2024), so that what is printed can be pasted.
 std::string shell_quoted(const std::string& word);
 
 // The command that renders one point of the experiment, quoted for a shell: its overridden and swept settings as --set,

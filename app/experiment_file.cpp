@@ -377,6 +377,7 @@ constexpr uint64_t max_experiment_bytes = uint64_t{1} << 24;
 
 // Nothing but white space and comments: cut short, most likely, and nothing that a user would want measured.
 bool says_nothing(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a byte order mark
   while (!text.empty()) {
     const size_t end = std::min(text.find('\n'), text.size());
     const size_t first = text.substr(0, end).find_first_not_of(" \t\r");

@@ -53,11 +53,13 @@ std::string build_id() {
   return id.empty() ? "unknown" : id;
 }
 
+// "street.glb (45;0;...)": its name, and every other setting of a scene.
 std::string scene_key(const Settings& point) {
-  std::string key;
+  std::string others;
   for (const Setting& row : settings_table())
-    if (row.name.starts_with("scene.")) key += row.get(point) + ";";
-  return key;
+    if (row.name.starts_with("scene.") && row.name != "scene.name")
+      others += (others.empty() ? "" : ";") + row.get(point);
+  return fmt::format("{} ({})", point.scene.name, others);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/image_codec.h"
+#include "scenes/digest.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 
@@ -29,7 +30,7 @@ EncodeImage& encoder() {
   return *function;
 }
 
-void write(const ImageToEncode& image) {
+std::string write(const ImageToEncode& image) {
   struct Result {
     bool encoded = false;
     std::string bytes;
@@ -39,17 +40,18 @@ void write(const ImageToEncode& image) {
   });
   if (!result.encoded) throw Error(ErrorKind::scene, fmt::format("cannot write {}: {}", image.path, result.bytes));
   write_file_atomically(image.path, result.bytes);
+  return digest_of(result.bytes);
 }
 
 }  // namespace
 
 void require_image_files() { encoder(); }
 
-void write_png(const std::string& path, const Image<Color>& picture) {
-  write({path.c_str(), picture.width, picture.height, 3, nullptr, picture.pixels.data()});
+std::string write_png(const std::string& path, const Image<Color>& picture) {
+  return write({path.c_str(), picture.width, picture.height, 3, nullptr, picture.pixels.data()});
 }
 
-void write_exr(const std::string& path, const std::vector<Channel>& channels) {
+std::string write_exr(const std::string& path, const std::vector<Channel>& channels) {
   const int width = channels.at(0).values.width, height = channels.at(0).values.height;
   const size_t count = channels.size();
   std::vector<const char*> names;
@@ -60,7 +62,7 @@ void write_exr(const std::string& path, const std::vector<Channel>& channels) {
       throw std::logic_error("channels of one image differ in size");
     for (size_t i = 0; i < channels[c].values.size(); ++i) pixels[i * count + c] = channels[c].values[i];
   }
-  write({path.c_str(), width, height, static_cast<int>(count), names.data(), pixels.data()});
+  return write({path.c_str(), width, height, static_cast<int>(count), names.data(), pixels.data()});
 }
 
 }  // namespace noonmark

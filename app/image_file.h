@@ -15,13 +15,14 @@ void require_image_files();
 
 using Color = glm::u8vec3;  // sRGB
 
-void write_png(const std::string& path, const Image<Color>& picture);
+// Both return the digest of the file (digest_of, scenes/digest.h).
+std::string write_png(const std::string& path, const Image<Color>& picture);
 
 // One named channel of an EXR; values are stored as 32-bit float, row 0 on top.
 struct Channel {
   std::string name;
   Image<float> values;
 };
-void write_exr(const std::string& path, const std::vector<Channel>& channels);
+std::string write_exr(const std::string& path, const std::vector<Channel>& channels);
 
 }  // namespace noonmark

@@ -2,10 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <new>
 #include <optional>
 #include <sstream>
@@ -15,24 +17,38 @@
 #include "app/build_facts.h"
 #include "app/experiment.h"
 #include "app/failure.h"
+#include "app/retract.h"
 #include "app/terminal.h"
 #include "app/threads.h"
 #include "app/verbs.h"
 #include "scenes/error.h"
 #include "scenes/settings.h"
+#include "scenes/text.h"
 
 namespace noonmark {
 namespace {
 
 constexpr const char* exit_codes =
-    "Exit codes: 0 held; 1 a bound or a law is broken; 2 wrong usage or experiment; 3 bad scene or file;\n"
-    "4 no usable OpenGL, ray tracer or picture library, or no memory or threads for them; 5 a defect of Noonmark;\n"
-    "6 the sweep is incomplete. Of several experiments, the largest.";
+    "Exit codes: 0 done, all held; 1 a bound or a law is broken; otherwise what has to change:\n"
+    "2 the command line or the experiment (wrong usage; more asked for than fits: a point into memory, results\n"
+    "  into that folder); 3 a file (a bad scene, or one that memory cannot hold; damaged results; a full disk);\n"
+    "4 the machine (no usable OpenGL, ray tracer or picture library, no memory or threads left for them);\n"
+    "5 Noonmark: a defect of ours; 6 nothing: the sweep is incomplete. Of several experiments, the largest.";
 
 std::string joined(int argc, char** argv) {
   std::string command = "noonmark";
   for (int i = 1; i < argc; ++i) command += " " + shell_quoted(argv[i]);
   return command;
+}
+
+// For CLI::Option::check: what is wrong with the text, or nothing.
+auto whole_number(long least, long most, const char* range) {
+  return [=](const std::string& text) -> std::string {
+    long value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc{} && end == text.data() + text.size() && value >= least && value <= most) return "";
+    return fmt::format("'{}' is no whole number {}", text, range);
+  };
 }
 
 // CLI11 writes to C++ streams; what is said here goes the way of everything else.
@@ -55,6 +71,18 @@ int say(const CLI::App& app, const CLI::Error& result) {
   }
   write_to_terminal("noonmark: a library ended the program; most likely memory or threads have run out\n");
   std::_Exit(static_cast<int>(ErrorKind::device));
+}
+
+// CLI11 would ask for a verb first.
+void refuse_unknown(const std::string& first, const std::vector<std::string_view>& verbs) {
+  const std::vector<std::string_view> options = {"--help", "--version"};
+  const bool option = first.starts_with('-');
+  const std::vector<std::string_view>& known = option ? options : verbs;
+  if (first == "-h" || std::find(known.begin(), known.end(), first) != known.end()) return;
+  const std::string near = nearest_name(first, known);
+  throw Error(ErrorKind::usage,
+              fmt::format("there is no {} '{}'{}{} (noonmark --help lists them)", option ? "option" : "verb", first,
+                          option ? " before the verb" : "", near.empty() ? "" : "; did you mean '" + near + "'?"));
 }
 
 int run(int argc, char** argv) {
@@ -85,7 +113,7 @@ int run(int argc, char** argv) {
         ->type_name("NAME");
     verb->add_option("--threads", arguments.threads,
                      "How many threads to use (default: all cores); no result depends on it")
-        ->check(CLI::Range(1, 1024));
+        ->check(whole_number(1, 1024, "from 1 to 1024"));
     verb->footer(exit_codes);
   };
   const auto with_out = [&](CLI::App* verb, const char* what) {
@@ -114,7 +142,7 @@ int run(int argc, char** argv) {
   CLI::App* render = app.add_subcommand("render", "Measure one point: pictures, its ladder, and all numbers behind it");
   render->add_option("experiment", experiment, "The experiment's TOML file; without one, the default settings");
   render->add_option("--point", point, "Which point of the experiment's sweep, counted from 0")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number(0, std::numeric_limits<long>::max(), "from 0 on"));
   with_choices(render);
   with_out(render, "Where the files go (default: out/render)");
 
@@ -126,34 +154,35 @@ int run(int argc, char** argv) {
       app.add_subcommand("settings", "List every setting, metric and quantity: unit, range, default, meaning");
   CLI::App* doctor = app.add_subcommand("doctor", "Say which OpenGL, ray tracer and libraries are at work");
 
-  if (argc > 1 && argv[1][0] != '-') {
-    std::vector<std::string_view> verbs;
-    for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-    if (std::find(verbs.begin(), verbs.end(), argv[1]) == verbs.end()) {
-      const std::string near = nearest_name(argv[1], verbs);
-      throw Error(ErrorKind::usage, "there is no verb '" + std::string(argv[1]) + "'" +
-                                        (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                                        " (noonmark --help lists them)");
-    }
-  }
+  std::vector<std::string_view> verbs;
+  for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+  const auto retract = [&](const Failure& failure) {
+    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    retract_verdicts(meant_folders(words, verbs), failure, arguments.command);
+  };
   try {
+    if (argc > 1) refuse_unknown(argv[1], verbs);
     app.parse(argc, argv);
+    std::optional<ThreadLimit> limit;
+    if (*run || *check || *render) limit.emplace(arguments.threads);
+    if (*run) return verb_run(experiment, arguments, dry_run);
+    if (*check) return verb_check(paths, arguments);
+    if (*render) return verb_render(experiment, point, arguments);
+    if (*report) return verb_report(folder);
+    if (*scenes) return verb_scenes();
+    if (*settings) return verb_settings();
+    if (*doctor) return verb_doctor();
+    return static_cast<int>(ErrorKind::usage);
   } catch (const CLI::Success& asked) {
     return say(app, asked);
   } catch (const CLI::ParseError& error) {
     say(app, error);
+    retract({static_cast<int>(ErrorKind::usage), printable(error.what())});
     return static_cast<int>(ErrorKind::usage);
+  } catch (...) {
+    retract(current_failure());
+    throw;
   }
-  std::optional<ThreadLimit> limit;
-  if (*run || *check || *render) limit.emplace(arguments.threads);
-  if (*run) return verb_run(experiment, arguments, dry_run);
-  if (*check) return verb_check(paths, arguments);
-  if (*render) return verb_render(experiment, point, arguments);
-  if (*report) return verb_report(folder);
-  if (*scenes) return verb_scenes();
-  if (*settings) return verb_settings();
-  if (*doctor) return verb_doctor();
-  return static_cast<int>(ErrorKind::usage);
 }
 
 }  // namespace

@@ -99,8 +99,8 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
   std::vector<PictureRecord> records;
   const auto add = [&](const std::string& name, const std::string& caption, const Image<Color>& picture) {
     const std::string file = fmt::format("{}-{}.png", stem, name);
-    write_png(folder + "/" + file, picture);
-    records.push_back({name, relative + "/" + file, caption});
+    const std::string digest = write_png(folder + "/" + file, picture);
+    records.push_back({name, relative + "/" + file, caption, digest});
   };
   const Light light = effective_light(m.scene, m.settings);
   const bool sized = (light.kind == LightKind::directional ? light.angular_diameter_deg : light.radius_m) > 0;

@@ -12,8 +12,9 @@ namespace noonmark {
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
                                           const std::string& stem);
 
-// <prefix>ladder.exr and <prefix>map.exr: every rung and what it was made of, 32 bits a channel (design, section 7).
-void write_images(const Measurement& m, const std::string& prefix);
+// <folder>/<prefix>ladder.exr and map.exr: every rung and what it was made of, 32 bits a channel (design, section 7).
+std::vector<ImageRecord> write_images(const Measurement& m, const std::string& folder, const std::string& relative,
+                                      const std::string& prefix);
 
 // Every setting, metric and time; camera and light in full precision; the list of causes and the bits of flags.
 std::string point_json(const Measurement& m, const std::string& command);

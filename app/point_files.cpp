@@ -135,7 +135,13 @@ nlohmann::ordered_json light_json(const Measurement& m) {
 
 }  // namespace
 
-void write_images(const Measurement& m, const std::string& prefix) {
+std::vector<ImageRecord> write_images(const Measurement& m, const std::string& folder, const std::string& relative,
+                                      const std::string& prefix) {
+  std::vector<ImageRecord> records;
+  const auto write = [&](const std::string& name, const std::vector<Channel>& channels) {
+    const std::string digest = write_exr(folder + "/" + prefix + name, channels);
+    records.push_back({relative + "/" + prefix + name, digest});
+  };
   std::vector<Channel> channels;
   const auto add = [&](std::string name, Image<float> values) {
     channels.push_back({std::move(name), std::move(values)});
@@ -155,14 +161,15 @@ void write_images(const Measurement& m, const std::string& prefix) {
   add("flags", channel_of(m.ladder.flags, [](uint8_t f) { return f; }));
   for (int c = 1; c < cause_count; ++c)
     add(fmt::format("step.{}", cause_name(static_cast<Cause>(c))), m.ladder.step[static_cast<size_t>(c)]);
-  write_exr(prefix + "ladder.exr", channels);
+  write("ladder.exr", channels);
 
   const auto top_first = [](const Image<float>& map) {
     Image<float> flipped(map.width, map.height);
     for (int y = 0; y < map.height; ++y) std::copy_n(&map.at(0, y), map.width, &flipped.at(0, map.height - 1 - y));
     return flipped;
   };
-  write_exr(prefix + "map.exr", {{"depth.stored", top_first(m.stored_map)}, {"depth.exact", top_first(m.exact_map)}});
+  write("map.exr", {{"depth.stored", top_first(m.stored_map)}, {"depth.exact", top_first(m.exact_map)}});
+  return records;
 }
 
 std::string point_json(const Measurement& m, const std::string& command) {

@@ -16,12 +16,16 @@ namespace noonmark {
 
 namespace fs = std::filesystem;
 
-ResultsFolder::ResultsFolder(const std::string& path) : path_(path), descriptor_(-1) {
+void make_output_folder(const std::string& path) {
   try {
     make_folder(path);
   } catch (const Error& error) {
     throw Error(ErrorKind::usage, fmt::format("{}, or give another --out", error.what()));
   }
+}
+
+ResultsFolder::ResultsFolder(const std::string& path) : path_(path), descriptor_(-1) {
+  make_output_folder(path);
   descriptor_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   // Some file systems have no locks; then nobody is kept out.
   if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
@@ -48,9 +52,14 @@ ResultsFolder::~ResultsFolder() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-void ResultsFolder::remove_earlier_results() const {
+void ResultsFolder::remove_report() const {
   std::error_code none;
   for (const char* file : {"report.html", "results.csv"}) fs::remove(fs::path(path_) / file, none);
+}
+
+void ResultsFolder::remove_earlier_results() const {
+  remove_report();
+  std::error_code none;
   for (const auto& entry : fs::directory_iterator(path_ + "/images", none)) {
     const std::string name = entry.path().filename().string();
     if (name.size() > 5 && name[0] == 'p' && std::isdigit(static_cast<unsigned char>(name[1])) &&

@@ -6,11 +6,14 @@
 
 namespace noonmark {
 
+// make_folder (scenes/file.h) for a folder that the command line names: throws Error(usage).
+void make_output_folder(const std::string& path);
+
 class ResultsFolder {
  public:
   // Makes the folder where it is not there, locks it, and removes from it
   // - junit.xml and summary.md: the verdict of an earlier run must not be taken for that of one that fails or is
-  // killed;
+  //   killed;
   // - temporary files of runs that were killed (clear_abandoned_files, scenes/file.h), in images/ too.
   // Throws Error(usage) when the folder cannot be made or another run is writing into it; Error(scene) when the verdict
   // cannot be removed.
@@ -21,7 +24,10 @@ class ResultsFolder {
 
   const std::string& path() const { return path_; }
 
-  // Report, table and pictures of an earlier run, when all is measured anew.
+  // report.html and results.csv, which show an earlier verdict, or other results than this run's. They are made from
+  // the store, and can be made again from it.
+  void remove_report() const;
+  // The pictures too, when all is measured anew.
   void remove_earlier_results() const;
 
  private:

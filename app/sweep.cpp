@@ -1,6 +1,5 @@
 #include "app/sweep.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -8,12 +7,13 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <ctime>
 #include <map>
 
 #include "app/build_facts.h"
+#include "app/clock.h"
 #include "app/identity.h"
-#include "app/pictures.h"
+#include "app/image_file.h"
+#include "app/point_pictures.h"
 #include "app/progress.h"
 #include "app/workbench.h"
 #include "compare/bounds.h"
@@ -37,9 +37,6 @@ namespace {
 
 // A signal handler can reach nothing but a global.
 volatile std::sig_atomic_t stop_asked = 0;
-
-// Of one picture in the report: far above what the largest view takes as PNG.
-constexpr uint64_t max_picture_bytes = uint64_t{1} << 28;
 
 class StopOnSignal {
  public:
@@ -87,8 +84,6 @@ class IdleNotes {
   std::map<std::string, int> points_;
   std::map<std::pair<std::string, std::string>, int> idle_;
 };
-
-std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 RunInfo run_info(const Experiment& experiment, const SweepOptions& options, const gl::DeviceInfo& device,
                  const raytrace::TracerInfo& tracer, const Scene& scene, std::vector<std::string> scene_notes) {
@@ -143,27 +138,22 @@ void require_memory_of(const Experiment& experiment, const std::vector<Settings>
   require_memory(memory[id], fmt::format("point {} ({})", id, swept_text(part, points[id])));
 }
 
-std::vector<PictureRecord> keep_pictures(const Measurement& m, int64_t id, const std::string& out) {
-  const std::string folder = out + "/images";
-  make_folder(folder);
-  const std::string stem = fmt::format("p{:04}", id);
-  write_images(m, folder + "/" + stem + "-");
-  return write_pictures(m, folder, "images", stem);
-}
-
-// The points whose pictures can only be chosen when all are measured: by their error; one that is not finite is worse
-// than any.
-std::vector<int64_t> chosen_late(const std::string& pictures, const std::vector<PointRecord>& points) {
-  const auto badness = [](const PointRecord& p) {
-    const double error = p.metrics.at("error");
-    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
-  };
-  const auto [best, worst] =
-      std::minmax_element(points.begin(), points.end(),
-                          [&](const PointRecord& a, const PointRecord& b) { return badness(a) < badness(b); });
-  if (pictures == "worst" || (pictures == "extremes" && best == worst)) return {worst->id};
-  if (pictures == "extremes") return {best->id, worst->id};
-  return {};
+// Whatever the folder holds of an earlier verdict, or of other results, is gone then.
+ResultStore open_store(const ResultsFolder& folder, const std::string& fingerprint, bool overwrite) {
+  try {
+    ResultStore store(folder.path() + "/results.sqlite", fingerprint,
+                      overwrite ? Existing::overwrite : Existing::resume);
+    if (overwrite)
+      folder.remove_earlier_results();
+    else
+      folder.remove_report();
+    return store;
+  } catch (const OtherResults& other) {
+    folder.remove_report();
+    throw Error(ErrorKind::usage,
+                fmt::format("{} (its report.html and results.csv are removed; noonmark report {} makes them again)",
+                            other.what(), shell_quoted(folder.path())));
+  }
 }
 
 // Every part's bounds and laws, asked of that part's points.
@@ -213,22 +203,21 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   const std::vector<MemoryEstimate> memory = survey(bench, experiment, planned, scenes);
   const auto facts = identity(bench, planned, tracer, scenes);
   for (const std::string& note : scenes.notes()) fmt::print(stderr, "note: {}\n", printable(note));
-  ResultStore store(folder.path() + "/results.sqlite", fingerprint(experiment, facts),
-                    options.overwrite ? Existing::overwrite : Existing::resume);
-  if (options.overwrite) folder.remove_earlier_results();
+  ResultStore store = open_store(folder, fingerprint(experiment, facts), options.overwrite);
   const auto expected = [&](const PointRecord& stored) {
-    return stored.id >= 0 && static_cast<size_t>(stored.id) < planned.size() &&
-           stored.settings == settings_map(planned[static_cast<size_t>(stored.id)]) &&
+    return stored.settings == settings_map(planned[static_cast<size_t>(stored.id)]) &&
            stored.part == part_of_point(experiment, stored.id).part;
   };
-  for (const std::string& repaired : store.repair(expected)) fmt::print(stderr, "note: {}\n", printable(repaired));
   const auto total = static_cast<int64_t>(planned.size());
+  for (const std::string& repaired : store.repair(total, expected))
+    fmt::print(stderr, "note: {}\n", printable(repaired));
   store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene), scenes.notes()),
                  total);
 
   const std::vector<int64_t> before = store.finished();
   if (!before.empty())
-    fmt::print(stderr, "{} of {} points are in {} already\n", before.size(), total, printable(folder.path()));
+    fmt::print(stderr, "{} of {} {} in {} already\n", before.size(), counted(planned.size(), "point"),
+               total == 1 ? "is" : "are", printable(folder.path()));
   // All of them, before the first is measured: hours later is too late to hear of it.
   const auto measured_before = [&](int64_t id) { return std::binary_search(before.begin(), before.end(), id); };
   for (int64_t id = 0; id < total; ++id)
@@ -250,7 +239,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       m.record.part = part.part;
       notes.add(part.part, idle_settings(m.frame.kind, m.settings));
       if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0))
-        m.record.pictures = keep_pictures(m, id, folder.path());
+        static_cast<PointPictures&>(m.record) = keep_pictures(m, id, folder.path());
       store.add(m.record);
       progress.finished(++done, swept_text(part, m.settings));
       outcome.interrupted = stop_asked && done < total;
@@ -264,12 +253,18 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   if (const std::string doubt = undecided_note(outcome.results.points); !doubt.empty())
     fmt::print(stderr, "note: {}\n", doubt);
   if (!outcome.interrupted) {
-    for (int64_t id : chosen_late(experiment.pictures, outcome.results.points))
-      if (find_point(outcome.results.points, id)->pictures.empty()) {
-        const Settings& settings = planned[static_cast<size_t>(id)];
-        scenes.require_unchanged(bench, settings);
-        store.set_pictures(id, keep_pictures(bench.measure(settings, std::nullopt), id, folder.path()));
+    for (int64_t id : points_with_pictures(experiment.pictures, outcome.results.points)) {
+      const PointRecord& point = *find_point(outcome.results.points, id);
+      if (!point.pictures.empty()) {
+        const std::string why = measured_before(id) ? why_not_as_written(point, folder.path()) : "";
+        if (why.empty()) continue;
+        fmt::print(stderr, "note: {}; the pictures of point {} are made again\n", printable(why), id);
       }
+      const Settings& settings = planned[static_cast<size_t>(id)];
+      require_memory_of(experiment, planned, memory, static_cast<size_t>(id));
+      scenes.require_unchanged(bench, settings);
+      store.set_pictures(id, keep_pictures(bench.measure(settings, std::nullopt), id, folder.path()));
+    }
     outcome.results = store.load();
   }
   judge(experiment, outcome.results);
@@ -283,7 +278,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
 void write_report(const Results& results, const std::string& out) {
   write_file_atomically(out + "/results.csv", to_csv(results));
   write_file_atomically(out + "/report.html", render_report(results, [&](const std::string& path) {
-                          return read_file_below(out, path, max_picture_bytes);
+                          return read_picture(out, path, results.points);
                         }));
 }
 
@@ -328,9 +323,8 @@ void print_plan(const Experiment& experiment) {
   const double per_tap = more > few ? std::max(0.0, (longer_time - short_time) / (more - few)) : 0;
   const double per_point = std::max(0.0, short_time - per_tap * few);
   fmt::print(
-      "{} point{}, {:.3g} million taps; about {:.0f} s here (judged from point 0 at a quarter and at half of its "
-      "size)\n",
-      planned.size(), planned.size() == 1 ? "" : "s", all_taps / 1e6,
+      "{}, {:.3g} million taps; about {:.0f} s here (judged from point 0 at a quarter and at half of its size)\n",
+      counted(planned.size(), "point"), all_taps / 1e6,
       per_point * static_cast<double>(planned.size()) + per_tap * all_taps);
 }
 

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <optional>
 
 #include "app/experiment_arguments.h"
+#include "app/experiment_list.h"
 #include "app/failure.h"
+#include "app/retract.h"
 #include "app/sweep.h"
 #include "app/verbs.h"
 #include "compare/bounds.h"
@@ -21,59 +24,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Listed {
-  std::string file;
-  std::string name;  // of its results' folder below out/ or --out: the way below the folder that was given, or the stem
-};
-
-// What a folder holds is listed as far as it can be read; the rest is told, and raises `worst`.
-std::vector<Listed> experiments_in(const std::vector<std::string>& paths, int& worst) {
-  std::vector<Listed> files;
-  const auto failed = [&](ErrorKind kind, const std::string& message) {
-    worst = std::max(worst, tell({static_cast<int>(kind), printable(message)}));
-  };
-  for (const std::string& path : paths) {
-    std::error_code error;
-    if (!fs::is_directory(path, error)) {
-      files.push_back({path, fs::path(path).stem().string()});
-      continue;
-    }
-    bool whole = true;
-    std::vector<std::string> found, open = {path};
-    while (!open.empty()) {
-      const std::string folder = std::move(open.back());
-      open.pop_back();
-      fs::directory_iterator entry(folder, error);
-      for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-        std::error_code none;
-        if (entry->is_directory(none) && !entry->is_symlink(none))
-          open.push_back(entry->path().string());
-        else if (entry->path().extension() == ".toml")
-          found.push_back(entry->path().string());
-      }
-      if (!error) continue;
-      whole = false;
-      failed(ErrorKind::scene, fmt::format("{}: cannot be read: {}; check its permissions", folder, error.message()));
-    }
-    if (found.empty() && whole)
-      failed(ErrorKind::usage,
-             fmt::format("the folder {} holds no .toml file; give an experiment or a folder of them", path));
-    std::sort(found.begin(), found.end());
-    for (const std::string& file : found)
-      files.push_back({file, fs::path(file).lexically_relative(path).replace_extension().string()});
-  }
-  for (size_t i = 0; i < files.size(); ++i)
-    for (size_t j = 0; j < i; ++j)
-      if (files[i].name == files[j].name)
-        throw Error(
-            ErrorKind::usage,
-            fmt::format("{} and {} would share the results' folder {}; check them one by one with different --out",
-                        files[j].file, files[i].file, files[i].name));
-  return files;
-}
-
-int check_one(const std::string& path, const ExperimentArguments& arguments, const ResultsFolder& folder) {
-  const std::string& out = folder.path();
+// folder: held before anything can fail; empty where it could not be had, which is said after what is wrong with the
+// experiment.
+int check_one(const ListedExperiment& listed, const ExperimentArguments& arguments,
+              const std::optional<ResultsFolder>& folder, const std::exception_ptr& why_no_folder) {
+  const std::string &path = listed.file, &out = listed.out;
+  std::error_code none;
+  if (listed.in_folder && fs::exists(path, none) && !fs::is_regular_file(path, none))
+    throw Error(ErrorKind::usage, fmt::format("{}: is not a regular file; only those of a folder are checked", path));
   const Experiment experiment = experiment_from(path, arguments);
   const auto promises = [](const Experiment& e) { return !e.bounds.empty() || !e.laws.empty(); };
   if (!promises(experiment) && std::none_of(experiment.parts.begin(), experiment.parts.end(), promises))
@@ -82,12 +40,13 @@ int check_one(const std::string& path, const ExperimentArguments& arguments, con
         fmt::format("{} has no [[bound]] and no [[law]], so there is nothing to check; add one, or use noonmark "
                     "run",
                     path));
-  const SweepOutcome outcome = run_sweep(experiment, folder, {arguments.overwrite, arguments.command});
+  if (why_no_folder) std::rethrow_exception(why_no_folder);
+  const SweepOutcome outcome = run_sweep(experiment, *folder, {arguments.overwrite, arguments.command});
   write_file_atomically(out + "/junit.xml", to_junit(outcome.results));
   write_file_atomically(out + "/summary.md", to_summary(outcome.results));
   if (outcome.interrupted) {
-    fmt::print("stopped after {} of {} points; the same command goes on from there\n", outcome.results.points.size(),
-               outcome.results.planned_points);
+    fmt::print("stopped after {} of {}; the same command goes on from there\n", outcome.results.points.size(),
+               counted(static_cast<size_t>(outcome.results.planned_points), "point"));
     return static_cast<int>(ErrorKind::incomplete);
   }
   const Results& results = outcome.results;
@@ -101,51 +60,57 @@ int check_one(const std::string& path, const ExperimentArguments& arguments, con
   for (const LawResult& law : results.laws)
     if (!law.found.empty()) fmt::print("found: {}\n", law.found);
   std::string verdict;
-  if (!results.bounds.empty()) verdict = fmt::format("{} of {} bounds held", bounds_held, results.bounds.size());
+  if (!results.bounds.empty())
+    verdict = fmt::format("{} of {} held", bounds_held, counted(results.bounds.size(), "bound"));
   if (!results.laws.empty())
-    verdict += fmt::format("{}{} of {} laws hold", verdict.empty() ? "" : ", ", laws_held, results.laws.size());
+    verdict += fmt::format("{}{} of {} {}", verdict.empty() ? "" : ", ", laws_held, counted(results.laws.size(), "law"),
+                           results.laws.size() == 1 ? "holds" : "hold");
   fmt::print("{}: {}; the report is {}/report.html\n", printable(path), verdict, printable(out));
   return bounds_held == results.bounds.size() && laws_held == results.laws.size() ? 0 : 1;
 }
 
-// A CI server that finds no verdict may show that of the run before; so one that says why there is none.
-void write_failure(const std::string& path, const ExperimentArguments& arguments, const Failure& failure,
-                   const ResultsFolder& folder) {
-  try {
-    const Unjudged why{path, arguments.command, failure.message, failure.exit_code};
-    write_file_atomically(folder.path() + "/junit.xml", to_junit(why));
-    write_file_atomically(folder.path() + "/summary.md", to_summary(why));
-  } catch (const Error& error) {  // the disk may be what failed in the first place
-    tell({failure.exit_code, printable(error.what())});
-  }
+// At the end, where the lines above may be many.
+void tell_the_unchecked(const std::vector<std::string>& experiments, size_t of,
+                        const std::vector<std::string>& folders) {
+  std::string who;
+  if (!experiments.empty()) who = fmt::format("{} of {}", experiments.size(), counted(of, "experiment"));
+  if (!folders.empty()) who += (who.empty() ? "" : " and ") + counted(folders.size(), "folder");
+  fmt::print("{} could not be checked:\n", who);
+  for (const std::string& folder : folders) fmt::print("  {}\n", printable(folder));
+  for (const std::string& file : experiments) fmt::print("  {}\n", printable(file));
 }
 
 }  // namespace
 
 int verb_check(const std::vector<std::string>& paths, const ExperimentArguments& arguments) {
+  const ExperimentList list = list_experiments(paths, arguments.out);
+  require_folders_of_their_own(list);
   int worst = 0;
-  const std::vector<Listed> files = experiments_in(paths, worst);
-  const bool alone = files.size() == 1 && !arguments.out.empty();
-  std::vector<std::string> failures;
-  for (const Listed& listed : files) {
-    const std::string out =
-        alone ? arguments.out : (arguments.out.empty() ? std::string("out") : arguments.out) + "/" + listed.name;
+  std::vector<std::string> unreadable, failed;
+  for (const UnreadableFolder& one : list.unreadable) {
+    worst = std::max(worst, tell({one.error.exit_code(), printable(one.error.what())}));
+    unreadable.push_back(one.folder);
+  }
+  for (const ListedExperiment& listed : list.experiments) {
     std::optional<ResultsFolder> folder;
+    std::exception_ptr why_no_folder;
     try {
-      folder.emplace(out);
-      worst = std::max(worst, check_one(listed.file, arguments, *folder));
+      folder.emplace(listed.out);
+    } catch (...) {
+      why_no_folder = std::current_exception();
+    }
+    try {
+      worst = std::max(worst, check_one(listed, arguments, folder, why_no_folder));
     } catch (...) {
       const Failure failure = current_failure();
       worst = std::max(worst, tell(failure));
-      failures.push_back(listed.file);
-      if (folder) write_failure(listed.file, arguments, failure, *folder);
+      failed.push_back(listed.file);
+      if (folder) write_unjudged(listed.out, listed.file, failure, arguments.command);
     }
     if (worst == static_cast<int>(ErrorKind::incomplete)) break;  // somebody asked to stop
   }
-  if (files.size() > 1 && !failures.empty()) {
-    fmt::print("{} of {} experiments could not be checked:\n", failures.size(), files.size());
-    for (const std::string& file : failures) fmt::print("  {}\n", printable(file));
-  }
+  if (list.experiments.size() + unreadable.size() > 1 && failed.size() + unreadable.size() > 0)
+    tell_the_unchecked(failed, list.experiments.size(), unreadable);
   return worst;
 }
 

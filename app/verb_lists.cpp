@@ -1,6 +1,8 @@
 // The verbs that only tell: report, scenes, settings, doctor.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "app/build_facts.h"
 #include "app/image_file.h"
 #include "app/sweep.h"
@@ -19,10 +21,16 @@
 namespace noonmark {
 
 int verb_report(const std::string& folder) {
-  const Results results = ResultStore::open(folder + "/results.sqlite").load();
+  const std::string store = folder + "/results.sqlite";
+  std::error_code none;
+  if (std::filesystem::status(store, none).type() == std::filesystem::file_type::not_found)
+    throw Error(ErrorKind::scene, fmt::format("{}: there are no results here (no results.sqlite); give the folder that "
+                                              "noonmark run or check wrote",
+                                              folder));
+  const Results results = ResultStore::open(store).load();
   write_report(results, folder);
-  fmt::print("{} of {} points; the report is {}/report.html\n", results.points.size(), results.planned_points,
-             printable(folder));
+  fmt::print("{} of {}; the report is {}/report.html\n", results.points.size(),
+             counted(static_cast<size_t>(results.planned_points), "point"), printable(folder));
   return results.points.size() < static_cast<size_t>(results.planned_points) ? static_cast<int>(ErrorKind::incomplete)
                                                                              : 0;
 }
@@ -88,12 +96,13 @@ int verb_doctor() {
     fmt::print("Pictures  NOT USABLE: {}\n", error.what());
     can_write_pictures = false;
   }
-  fmt::print("Libraries");
-  for (const LibraryVersion& library : facts.libraries) fmt::print(" {} {};", library.name, library.version);
-  fmt::print("\n{}\n", !can_measure ? "Nothing can be measured here until this is mended."
-                       : !can_write_pictures
-                           ? "Only experiments with pictures = \"none\" run here until this is mended."
-                           : "Everything that a measurement needs is here.");
+  std::string libraries;
+  for (const LibraryVersion& library : facts.libraries)
+    libraries += fmt::format("{}{} {}", libraries.empty() ? "" : "; ", library.name, library.version);
+  fmt::print("Libraries {}\n", libraries);
+  fmt::print("{}\n", !can_measure          ? "Nothing can be measured here until this is mended."
+                     : !can_write_pictures ? "Only experiments with pictures = \"none\" run here until this is mended."
+                                           : "Everything that a measurement needs is here.");
   return can_measure && can_write_pictures ? 0 : static_cast<int>(ErrorKind::device);
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/experiment_arguments.h"
 #include "app/pictures.h"
+#include "app/results_folder.h"
 #include "app/verbs.h"
 #include "app/workbench.h"
 #include "compare/metrics.h"
@@ -76,7 +77,7 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   const Experiment experiment = experiment_from(path, arguments);
   const Settings settings = the_point(experiment, point);
   const std::string out = arguments.out.empty() ? "out/render" : arguments.out;
-  make_folder(out);
+  make_output_folder(out);
   clear_abandoned_files(out);
   Workbench bench(gl::DebugMode::log);
   require_image_files();
@@ -84,7 +85,7 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   require_memory(bench.memory(settings, part.curve_enabled, true), "this point");
   const Measurement m = bench.measure(settings, part.curve_enabled ? std::optional(part.curve) : std::nullopt);
   write_pictures(m, out, ".", "point");
-  write_images(m, out + "/");
+  write_images(m, out, ".", "");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));
   print_ladder(m);
   if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", note);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <exception>
 #include <filesystem>
 #include <optional>
 
@@ -14,11 +15,18 @@ namespace noonmark {
 
 int verb_run(const std::string& path, const ExperimentArguments& arguments, bool dry_run) {
   const std::string out = out_folder(path, arguments);
-  std::optional<ResultsFolder>
-      folder;  // before anything can fail, if it is there, for what an earlier check left in it
+  // Before anything can fail, if it is there, for what an earlier check left in it; but what is wrong with the
+  // experiment is said first.
+  std::optional<ResultsFolder> folder;
+  std::exception_ptr why_no_folder;
   std::error_code none;
-  if (!dry_run && std::filesystem::is_directory(out, none)) folder.emplace(out);
+  if (!dry_run && std::filesystem::is_directory(out, none)) try {
+      folder.emplace(out);
+    } catch (...) {
+      why_no_folder = std::current_exception();
+    }
   const Experiment experiment = experiment_from(path, arguments);
+  if (why_no_folder) std::rethrow_exception(why_no_folder);
   if (dry_run) {
     print_plan(experiment);
     return 0;
@@ -26,11 +34,12 @@ int verb_run(const std::string& path, const ExperimentArguments& arguments, bool
   if (!folder) folder.emplace(out);
   const SweepOutcome outcome = run_sweep(experiment, *folder, {arguments.overwrite, arguments.command});
   if (outcome.interrupted) {
-    fmt::print("stopped after {} of {} points; the same command goes on from there\n", outcome.results.points.size(),
-               outcome.results.planned_points);
+    fmt::print("stopped after {} of {}; the same command goes on from there\n", outcome.results.points.size(),
+               counted(static_cast<size_t>(outcome.results.planned_points), "point"));
     return static_cast<int>(ErrorKind::incomplete);
   }
-  fmt::print("{} points measured; the report is {}/report.html\n", outcome.results.points.size(), printable(out));
+  fmt::print("{} measured; the report is {}/report.html\n", counted(outcome.results.points.size(), "point"),
+             printable(out));
   return 0;
 }
 

@@ -8,23 +8,17 @@
 namespace noonmark {
 namespace {
 
-// "-1.5", "-4,3,1": what a setting's value may be.
-bool is_numbers(std::string_view text) {
-  for (;;) {
-    const std::string_view one = text.substr(0, text.find(','));
-    double value = 0;
-    const auto [end, error] = std::from_chars(one.data(), one.data() + one.size(), value);
-    if (error != std::errc{} || end != one.data() + one.size()) return false;
-    if (one.size() == text.size()) return true;
-    text.remove_prefix(one.size() + 1);
-  }
+bool is_number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
 }
 
 }  // namespace
 
 std::string csv_text(std::string_view text) {
   std::string cell;
-  if (!text.empty() && std::string_view("=+-@\t\r\n").find(text.front()) != std::string_view::npos && !is_numbers(text))
+  if (!text.empty() && std::string_view("=+-@\t\r\n").find(text.front()) != std::string_view::npos && !is_number(text))
     cell = "'";
   cell += text;
   if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;

@@ -7,7 +7,7 @@
 namespace noonmark {
 
 // A cell of CSV that holds text: quoted where RFC 4180 asks for it; a text that a spreadsheet would take for a formula
-// (it begins with = + - @, a tab or a line break, and is no number or list of numbers) gets an apostrophe before it.
+// (it begins with = + - @, a tab or a line break, and is no number: "-5,4,5" is none) gets an apostrophe before it.
 std::string csv_text(std::string_view text);
 
 // A run of Markdown, within a table's cell too: one line, nothing in it is taken for markup.

@@ -4,7 +4,8 @@
 
 namespace noonmark {
 
-// "now 'map.resolution = 512', there 'map.resolution = 1024'" for the first name that differs.
+// "now 'map.resolution = 512', there 'map.resolution = 1024'" for the first name that differs; of a scene's digest
+// (app/identity.h) "the contents of the scene street.glb have changed since these were stored".
 std::string first_difference(const std::string& here, const std::string& there);
 
 }  // namespace noonmark

@@ -85,7 +85,8 @@ std::string to_junit(const Unjudged& unjudged) {
       "timestamp=\"{2}\" hostname=\"localhost\">\n    <properties>\n      <property name=\"command\" value=\"{3}\"/>\n"
       "    </properties>\n    <testcase classname=\"{1}\" name=\"the experiment can be judged\" time=\"0\">\n"
       "      <error message=\"{4}\" type=\"exit code {5}\"/>\n    </testcase>\n{6}",
-      head, suite, timestamp(""), xml_text(unjudged.command), xml_text(unjudged.why), unjudged.exit_code, foot);
+      head, suite, xml_text(timestamp(unjudged.started)), xml_text(unjudged.command), xml_text(unjudged.why),
+      unjudged.exit_code, foot);
 }
 
 }  // namespace noonmark

@@ -12,9 +12,8 @@
 // V = V(P, c) and L = the tap's verdict at R4:
 // - displacement is the mean of D - F: what moving the lookup means to do, whatever the map holds.
 // - The other causes are booked tap by tap, on taps that are wrong: a tap counts only where L != D. It is coverage
-// where
-//   its centre lies outside the map, its receiver beyond far, or its true blocker before near; else aliasing where V =
-//   L (the grid asked elsewhere and was answered truly); else acne (L dark) or Peter Panning (L lit).
+//   where its centre lies outside the map, its receiver beyond far, or its true blocker before near; else aliasing
+//   where V = L (the grid asked elsewhere and was answered truly); else acne (L dark) or Peter Panning (L lit).
 // So the classes sum to R4 - R2, and without displacement steps never cancel on pixels that are right.
 //
 // Doubt stays where it is. Where float error can change F, D or V of a tap, the steps of that tap on either side of it

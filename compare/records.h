@@ -44,19 +44,30 @@ struct BiasCurve {
 
 // A picture of a point, for people. Path relative to the results' directory.
 struct PictureRecord {
-  std::string name;     // "truth", "map", "classes", "difference", "shaded" ...
-  std::string path;     // "images/p0003-truth.png"
-  std::string caption;  // one sentence
+  std::string name;      // "truth", "map", "classes", "difference", "shaded" ...
+  std::string path;      // "images/p0003-truth.png"
+  std::string caption;   // one sentence
+  std::string digest{};  // of the file, when it was written (digest_of, scenes/digest.h)
 };
 
-struct PointRecord {
+// An image of a point, for programs.
+struct ImageRecord {
+  std::string path;  // "images/p0003-ladder.exr", relative to the results' directory
+  std::string digest;
+};
+
+struct PointPictures {
+  std::vector<PictureRecord> pictures;
+  std::vector<ImageRecord> images;
+};
+
+struct PointRecord : PointPictures {
   int64_t id = 0;                               // position in the sweep, from 0
   std::string part;                             // of the experiment; empty where it has none
   std::map<std::string, std::string> settings;  // every setting by its row's name, in canonical text
   std::map<std::string, double> metrics;  // by metric name; not finite = could not be measured, and fails any bound
   std::map<std::string, double> times;    // "map_ms", "lookup_ms", "truth_ms", "rays" ...
   std::optional<BiasCurve> curve;
-  std::vector<PictureRecord> pictures;
   struct Worst {
     int x = -1, y = -1;
     double error = 0;
@@ -128,7 +139,8 @@ struct Results {
 struct Unjudged {
   std::string experiment;  // path as given
   std::string command;
-  std::string why;  // one line
+  std::string started;  // ISO 8601, UTC
+  std::string why;      // one line
   int exit_code = 0;
 };
 

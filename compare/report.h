@@ -1,8 +1,7 @@
 // The report: one HTML file that needs nothing else. It works offline (a Content-Security-Policy in it forbids every
 // request), every number in it is readable without JavaScript, and the same results always give the same bytes.
 //
-//   write(dir + "/report.html", render_report(results, [&](const std::string& path) { return bytes_of(dir + "/" +
-//   path); }));
+//   write(dir + "/report.html", render_report(results, [&](const std::string& path) { return bytes_of(dir, path); }));
 #pragma once
 #include <functional>
 #include <string>

@@ -34,7 +34,7 @@ std::string picture(const PictureRecord& record, const std::function<std::string
   }
   const std::string shown =
       bytes.empty()
-          ? fmt::format("<p class=\"missing\">The picture {} is not here: {}.</p>", html(record.path), html(why))
+          ? fmt::format("<p class=\"missing\">The picture {} is not shown: {}.</p>", html(record.path), html(why))
           : fmt::format("<img alt=\"{}: {}\" src=\"data:{};base64,{}\">", html(record.name), html(record.caption),
                         mime_of(record.path), base64(bytes));
   return fmt::format("<figure data-name=\"{0}\">{1}<figcaption><b>{0}</b> {2}</figcaption></figure>\n",

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/settings.h"
+#include "scenes/text.h"
 
 namespace noonmark::report {
 namespace {
@@ -46,29 +47,23 @@ std::string html(std::string_view text) {
   const std::string dumped = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   const std::string valid = nlohmann::json::parse(dumped).get<std::string>();
   std::string out;
-  for (char c : valid) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      case '\0':
-        out += "\uFFFD";
-        break;
-      default:
-        out += c;
-    }
+  for (std::string_view rest = valid; !rest.empty();) {
+    const std::string_view character = rest.substr(0, std::max<size_t>(utf8_length(rest), 1));
+    rest.remove_prefix(character.size());
+    if (character == "&")
+      out += "&amp;";
+    else if (character == "<")
+      out += "&lt;";
+    else if (character == ">")
+      out += "&gt;";
+    else if (character == "\"")
+      out += "&quot;";
+    else if (character == "'")
+      out += "&#39;";
+    else if (is_control(character) && character != "\n" && character != "\t")
+      out += "\uFFFD";
+    else
+      out += character;
   }
   return out;
 }

@@ -9,7 +9,8 @@
 
 namespace noonmark::report {
 
-// For HTML text and quoted attributes. Bytes that are not UTF-8 become U+FFFD.
+// For HTML text and quoted attributes. Bytes that are not UTF-8, and control characters but for line breaks and tabs,
+// become U+FFFD.
 std::string html(std::string_view text);
 // JSON that may stand inside a <script> element: no '<', '>' or '&' is left in it.
 std::string script_json(const nlohmann::json& value);

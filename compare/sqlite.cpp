@@ -15,14 +15,15 @@ namespace {
 // How long to wait for a reader, such as an analyst's query, to let go of the file.
 constexpr int busy_timeout_ms = 30000;
 
-std::string_view advice(int code) {
+// way_out: of Database.
+std::string advice(int code, std::string_view way_out) {
   switch (code & 0xff) {
     case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
-      return "choose another --out, or pass --overwrite to replace it";
+      return std::string(way_out);
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return "another program holds it; wait for it to end, or choose another --out";
+      return "another program holds it; wait for it to end";
     case SQLITE_FULL:
       return "make room on the disk and run again; finished points are kept";
     case SQLITE_READONLY:
@@ -30,27 +31,32 @@ std::string_view advice(int code) {
     case SQLITE_PERM:
       return "check that its folder exists and may be written to";
     default:
-      return "check the disk, or choose another --out";
+      return "check the disk";
   }
 }
 
 }  // namespace
 
-Database::Database(const std::string& path, Mode mode) : path_(path) {
+Database::Database(const std::string& path, Mode mode) : path_(path), mode_(mode) {
   std::error_code none;
   const auto status = std::filesystem::status(path, none);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    throw Error(ErrorKind::scene, fmt::format("{}: is not a regular file; {}", path, advice(SQLITE_NOTADB)));
+    throw Error(ErrorKind::scene, fmt::format("{}: is not a regular file; {}", path, way_out()));
   const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
   const int code = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
   if (code != SQLITE_OK) {
     // A failed open leaves a handle that must be closed all the same; the destructor does not run.
     const std::string what = handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
     sqlite3_close(handle_);
-    throw Error(ErrorKind::scene, fmt::format("{}: cannot be opened: {}; {}", path, what, advice(code)));
+    throw Error(ErrorKind::scene, fmt::format("{}: cannot be opened: {}; {}", path, what, advice(code, way_out())));
   }
   sqlite3_extended_result_codes(handle_, 1);
   sqlite3_busy_timeout(handle_, busy_timeout_ms);
+}
+
+std::string_view Database::way_out() const {
+  return mode_ == Mode::create ? "choose another --out, or pass --overwrite to replace it"
+                               : "run the experiment into this folder again, with --overwrite";
 }
 
 Database::~Database() { sqlite3_close(handle_); }
@@ -67,7 +73,8 @@ std::optional<std::string> Database::ask(const std::string& sql) {
 }
 
 void Database::fail(int code, std::string_view doing) const {
-  throw Error(ErrorKind::scene, fmt::format("{}: {}: {}; {}", path_, doing, sqlite3_errmsg(handle_), advice(code)));
+  throw Error(ErrorKind::scene,
+              fmt::format("{}: {}: {}; {}", path_, doing, sqlite3_errmsg(handle_), advice(code, way_out())));
 }
 
 Transaction::~Transaction() {

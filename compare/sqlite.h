@@ -38,11 +38,15 @@ class Database {
   // Throws Error(scene) that says what SQLite says of `code` and what to do.
   [[noreturn]] void fail(int code, std::string_view doing) const;
 
+  // What to do about a file that is no store of ours, or a damaged one.
+  std::string_view way_out() const;
+
   const std::string& path() const { return path_; }
   sqlite3* handle() const { return handle_; }
 
  private:
   std::string path_;
+  Mode mode_;
   sqlite3* handle_ = nullptr;
 };
 

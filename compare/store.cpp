@@ -24,8 +24,6 @@ using sqlite::Database;
 using sqlite::Statement;
 using sqlite::Transaction;
 
-constexpr std::string_view elsewhere = "choose another --out, or pass --overwrite to replace it";
-
 // The text members of RunInfo, by their key in the table `info`.
 constexpr std::pair<std::string_view, std::string RunInfo::*> info_texts[] = {
     {"experiment", &RunInfo::experiment},   {"title", &RunInfo::title},
@@ -62,15 +60,15 @@ void remove_store(const std::string& path) {
 void check_store(Database& db, const std::string& path) {
   if (db.ask("PRAGMA application_id") != std::to_string(store_application_id))
     throw Error(ErrorKind::scene,
-                fmt::format("{}: is a database, but not one of Noonmark's results; {}", path, elsewhere));
+                fmt::format("{}: is a database, but not one of Noonmark's results; {}", path, db.way_out()));
   if (const std::optional<std::string> version = db.ask("PRAGMA user_version");
       version != std::to_string(store_version))
     throw Error(ErrorKind::usage,
                 fmt::format("{}: was written by another version of Noonmark (store version {}, not {}); {}", path,
-                            version.value_or("?"), store_version, elsewhere));
+                            version.value_or("?"), store_version, db.way_out()));
   const std::optional<std::string> damage = db.ask("PRAGMA quick_check(1)");
   if (damage != "ok")
-    throw Error(ErrorKind::scene, fmt::format("{}: is damaged: {}; {}", path, damage.value_or("?"), elsewhere));
+    throw Error(ErrorKind::scene, fmt::format("{}: is damaged: {}; {}", path, damage.value_or("?"), db.way_out()));
 }
 
 void bind_setting_value(Statement& insert, int index, const std::string& name, const std::string& text) {
@@ -115,10 +113,15 @@ void add_curve(Database& db, int64_t point, const BiasCurve& curve) {
                curve.peter_panning[i], curve.aliasing_dark[i], curve.aliasing_light[i], curve.coverage[i]);
 }
 
-void add_pictures(Database& db, int64_t point, const std::vector<PictureRecord>& pictures) {
-  Statement insert(db, "INSERT INTO pictures VALUES (?, ?, ?, ?, ?)");
-  for (size_t i = 0; i < pictures.size(); ++i)
-    insert.run(point, static_cast<int64_t>(i), pictures[i].name, pictures[i].path, pictures[i].caption);
+void add_pictures(Database& db, int64_t point, const PointPictures& made) {
+  Statement insert(db, "INSERT INTO pictures VALUES (?, ?, ?, ?, ?, ?)");
+  for (size_t i = 0; i < made.pictures.size(); ++i) {
+    const PictureRecord& picture = made.pictures[i];
+    insert.run(point, static_cast<int64_t>(i), picture.name, picture.path, picture.caption, picture.digest);
+  }
+  Statement insert_image(db, "INSERT INTO images VALUES (?, ?, ?, ?)");
+  for (size_t i = 0; i < made.images.size(); ++i)
+    insert_image.run(point, static_cast<int64_t>(i), made.images[i].path, made.images[i].digest);
 }
 
 void load_info(Database& db, Results& results) {
@@ -187,8 +190,10 @@ std::map<int64_t, PointRecord> load_points(Database& db) {
     points.at(rows.integer(0)).metrics[rows.text(1)] = rows.real(2);
   for (Statement rows(db, "SELECT point, name, value FROM times"); rows.step();)
     points.at(rows.integer(0)).times[rows.text(1)] = rows.real(2);
-  for (Statement rows(db, "SELECT point, name, path, caption FROM pictures ORDER BY point, i"); rows.step();)
-    points.at(rows.integer(0)).pictures.push_back({rows.text(1), rows.text(2), rows.text(3)});
+  for (Statement rows(db, "SELECT point, name, path, caption, digest FROM pictures ORDER BY point, i"); rows.step();)
+    points.at(rows.integer(0)).pictures.push_back({rows.text(1), rows.text(2), rows.text(3), rows.text(4)});
+  for (Statement rows(db, "SELECT point, path, digest FROM images ORDER BY point, i"); rows.step();)
+    points.at(rows.integer(0)).images.push_back({rows.text(1), rows.text(2)});
   load_curves(db, points);
   return points;
 }
@@ -277,8 +282,8 @@ ResultStore::ResultStore(const std::string& path, const std::string& fingerprint
   db_->execute("PRAGMA journal_mode = DELETE");  // a person's tool may have left it otherwise
   const std::string there = this->fingerprint();
   if (there != fingerprint)
-    throw Error(ErrorKind::usage, fmt::format("{}: holds the results of another experiment ({}); {}", path,
-                                              first_difference(fingerprint, there), elsewhere));
+    throw OtherResults(fmt::format("{}: holds the results of another experiment ({}); {}", path,
+                                   first_difference(fingerprint, there), db_->way_out()));
 }
 
 ResultStore::ResultStore(std::unique_ptr<Database> db) : db_(std::move(db)) {}
@@ -298,20 +303,25 @@ std::vector<int64_t> ResultStore::finished() const {
   return ids;
 }
 
-std::vector<std::string> ResultStore::repair(const std::function<bool(const PointRecord&)>& expected) {
+std::vector<std::string> ResultStore::repair(int64_t planned_points,
+                                             const std::function<bool(const PointRecord&)>& expected) {
   std::vector<std::string> said;
+  const auto say = [&](int64_t point, const char* why) {
+    if (point < 0 || point >= planned_points)
+      said.push_back(fmt::format("{}: has rows of point {}, which this experiment does not have; they are dropped",
+                                 db_->path(), point));
+    else
+      said.push_back(fmt::format("{}: the rows of point {} are {}; it is measured anew", db_->path(), point, why));
+  };
   Transaction transaction(*db_);
   for (int64_t point : broken_points(*db_)) {
     remove_point(*db_, point);
-    said.push_back(
-        fmt::format("{}: the rows of point {} are not those that were stored (edited, lost, or of another store); it "
-                    "is measured anew",
-                    db_->path(), point));
+    say(point, "not those that were stored (edited, lost, or of another store)");
   }
   for (const auto& [id, point] : load_points(*db_)) {
-    if (expected(point)) continue;
+    if (id >= 0 && id < planned_points && expected(point)) continue;
     remove_point(*db_, id);
-    said.push_back(fmt::format("{}: point {} is none of this experiment's; it is removed", db_->path(), id));
+    say(id, "of another experiment");
   }
   if (!verdict_holds(*db_)) {
     db_->execute("DELETE FROM bounds; DELETE FROM laws; DELETE FROM law_samples");
@@ -338,16 +348,17 @@ void ResultStore::add(const PointRecord& point) {
   add_numbers(*db_, "metrics", point.id, point.metrics);
   add_numbers(*db_, "times", point.id, point.times);
   if (point.curve) add_curve(*db_, point.id, *point.curve);
-  add_pictures(*db_, point.id, point.pictures);
+  add_pictures(*db_, point.id, point);
   seal_point(*db_, point.id);
   transaction.commit();
 }
 
-void ResultStore::set_pictures(int64_t point, const std::vector<PictureRecord>& pictures) {
+void ResultStore::set_pictures(int64_t point, const PointPictures& pictures) {
   Transaction transaction(*db_);
   if (!db_->ask(fmt::format("SELECT 1 FROM finished WHERE point = {}", point)))
     throw std::logic_error(fmt::format("pictures of point {}, which is not in the store", point));
   Statement(*db_, "DELETE FROM pictures WHERE point = ?").run(point);
+  Statement(*db_, "DELETE FROM images WHERE point = ?").run(point);
   add_pictures(*db_, point, pictures);
   seal_point(*db_, point);
   transaction.commit();
@@ -417,8 +428,8 @@ Results ResultStore::load() const {
     throw;
   } catch (const std::exception& error) {  // rows that do not fit together, text that is no JSON
     db_->execute("ROLLBACK");
-    throw Error(ErrorKind::scene,
-                fmt::format("{}: holds what Noonmark did not write ({}); {}", db_->path(), error.what(), elsewhere));
+    throw Error(ErrorKind::scene, fmt::format("{}: holds what Noonmark did not write ({}); {}", db_->path(),
+                                              error.what(), db_->way_out()));
   }
   db_->execute("COMMIT");
   return results;

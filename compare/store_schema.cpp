@@ -29,7 +29,9 @@ CREATE TABLE curves (
 CREATE TABLE curve_points (
   point INTEGER, i INTEGER, bias_depth REAL, error REAL, wrong REAL, acne REAL, peter_panning REAL,
   aliasing_dark REAL, aliasing_light REAL, coverage REAL, PRIMARY KEY (point, i)) WITHOUT ROWID;
-CREATE TABLE pictures (point INTEGER, i INTEGER, name TEXT, path TEXT, caption TEXT, PRIMARY KEY (point, i)) WITHOUT ROWID;
+CREATE TABLE pictures (
+  point INTEGER, i INTEGER, name TEXT, path TEXT, caption TEXT, digest TEXT, PRIMARY KEY (point, i)) WITHOUT ROWID;
+CREATE TABLE images (point INTEGER, i INTEGER, path TEXT, digest TEXT, PRIMARY KEY (point, i)) WITHOUT ROWID;
 CREATE TABLE bounds (
   i INTEGER PRIMARY KEY, metric TEXT, max REAL, min REAL, where_json TEXT, join_by TEXT, held INTEGER, found REAL,
   point INTEGER, points INTEGER, reproduce TEXT);

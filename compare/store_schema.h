@@ -7,7 +7,7 @@ namespace noonmark {
 // "NnMk": marks a SQLite file as ours.
 constexpr int store_application_id = 0x4e6e4d6b;
 // Counts changes of the tables below. A store of another version is refused.
-constexpr int store_version = 4;
+constexpr int store_version = 5;
 
 // Tables, the view `points` and its legend `columns`, for an empty database.
 std::string store_schema();

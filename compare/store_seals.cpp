@@ -19,8 +19,8 @@ using sqlite::Database;
 using sqlite::Statement;
 
 // Each has a column `point`, and its first two columns give its rows an order.
-constexpr std::string_view point_tables[] = {"finished", "settings",     "metrics", "times",
-                                             "curves",   "curve_points", "pictures"};
+constexpr std::string_view point_tables[] = {"finished", "settings",     "metrics",  "times",
+                                             "curves",   "curve_points", "pictures", "images"};
 constexpr std::string_view info_tables[] = {"info"};
 constexpr std::string_view verdict_tables[] = {"bounds", "laws", "law_samples"};
 

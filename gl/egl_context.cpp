@@ -116,12 +116,12 @@ EglContext::EglContext(DebugMode debug) {
       log_.install(debug);
       return;
     }
-    refusals += fmt::format(" {}: {}.", candidate.name, reason);
+    refusals += fmt::format("{}{}: {}", refusals.empty() ? "" : ", ", candidate.name, reason);
   }
   throw Error(
       ErrorKind::device,
-      fmt::format("no OpenGL 4.5 without a display.{} {}",
-                  refusals.empty() ? " EGL offers no device and no surfaceless platform." : refusals, what_to_install));
+      fmt::format("no OpenGL 4.5 without a display: {}; {}",
+                  refusals.empty() ? "EGL offers no device and no surfaceless platform" : refusals, what_to_install));
 }
 
 EglContext::~EglContext() {

@@ -37,4 +37,10 @@ class Digest {
   uint64_t hash_ = 0xcbf29ce484222325;
 };
 
+inline std::string digest_of(std::string_view bytes) {
+  Digest digest;
+  digest.bytes(bytes.data(), bytes.size());
+  return digest.hex();
+}
+
 }  // namespace noonmark

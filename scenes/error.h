@@ -6,12 +6,14 @@
 
 namespace noonmark {
 
+// What has to change for it to work.
 enum class ErrorKind {
-  usage = 2,       // wrong command line or experiment file
-  scene = 3,       // bad scene or file
-  device = 4,      // no usable OpenGL, ray tracer or picture library, or no memory or threads for them
-  defect = 5,      // a defect of ours: an invariant of the measurement did not hold
-  incomplete = 6,  // the sweep did not finish
+  usage = 2,       // the command line or the experiment: wrong, or it asks for more than fits (a point into memory,
+                   // results into that folder)
+  scene = 3,       // a file: a bad scene, or one that memory cannot hold; damaged results; a full disk
+  device = 4,      // the machine: no usable OpenGL, ray tracer or picture library, or no memory or threads for them
+  defect = 5,      // ours: an invariant of the measurement did not hold
+  incomplete = 6,  // nothing: the sweep did not finish, and the same command goes on
 };
 
 class Error : public std::runtime_error {

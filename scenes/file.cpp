@@ -9,11 +9,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 
+#include "scenes/digest.h"
 #include "scenes/error.h"
 
 namespace noonmark {
@@ -28,35 +29,33 @@ namespace fs = std::filesystem;
 // "results.csv" + ".noonmark-4711-0.tmp": process and attempt.
 constexpr std::string_view temporary_mark = ".noonmark-", temporary_ending = ".tmp";
 
-// The process that a temporary file's name tells of, 0 for any other name.
-pid_t writer_of(std::string_view name) {
+bool is_temporary_name(std::string_view name) {
   const size_t mark = name.rfind(temporary_mark);
-  if (mark == std::string_view::npos || mark == 0 || !name.ends_with(temporary_ending)) return 0;
+  if (mark == std::string_view::npos || mark == 0 || !name.ends_with(temporary_ending)) return false;
   name.remove_suffix(temporary_ending.size());
   name.remove_prefix(mark + temporary_mark.size());
   pid_t process = 0;
   unsigned attempt = 0;
   const char* const end = name.data() + name.size();
   const auto [dash, no_process] = std::from_chars(name.data(), end, process);
-  if (no_process != std::errc{} || dash == end || *dash != '-' || process <= 0) return 0;
+  if (no_process != std::errc{} || dash == end || *dash != '-' || process <= 0) return false;
   const auto [last, no_attempt] = std::from_chars(dash + 1, end, attempt);
-  return no_attempt == std::errc{} && last == end ? process : 0;
+  return no_attempt == std::errc{} && last == end;
 }
 
-// An open file that is closed, and removed unless it was kept. Locked as long as it is open, so that others see whether
-// its program lives.
+// An open file that is closed, and removed unless it was kept. Locked until it has its own name, so that others see
+// whether its program lives: a process's number would not tell, which is given again, also to another container's.
 class Temporary {
  public:
   explicit Temporary(const std::string& beside) {
     for (int attempt = 0;; ++attempt) {
       path_ = fmt::format("{}{}{}-{}{}", beside, temporary_mark, ::getpid(), attempt, temporary_ending);
       descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (descriptor_ >= 0) {
-        ::flock(descriptor_, LOCK_EX | LOCK_NB);
-        return;
-      }
-      if (errno != EEXIST)
+      if (descriptor_ < 0 && errno == EEXIST) continue;
+      if (descriptor_ < 0)
         fail(beside, "cannot be written", errno, "check that its folder exists and may be written to");
+      if (is_ours()) return;
+      ::close(descriptor_);
     }
   }
   ~Temporary() {
@@ -69,11 +68,6 @@ class Temporary {
   int descriptor() const { return descriptor_; }
 
   // 0 or errno.
-  int close() {
-    const int result = ::close(descriptor_);
-    descriptor_ = -1;
-    return result == 0 ? 0 : errno;
-  }
   int rename_to(const std::string& target) {
     if (::rename(path_.c_str(), target.c_str()) != 0) return errno;
     path_.clear();
@@ -81,6 +75,13 @@ class Temporary {
   }
 
  private:
+  // Between its making and its lock, somebody who clears the folder may have locked and removed it.
+  bool is_ours() const {
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+    struct stat status {};
+    return ::fstat(descriptor_, &status) != 0 || status.st_nlink > 0;
+  }
+
   std::string path_;
   int descriptor_ = -1;
 };
@@ -94,25 +95,66 @@ void flush_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
-// Closes the descriptor.
-std::string read_all(int descriptor, const std::string& path, uint64_t most_bytes) {
-  std::string bytes;
-  char block[1 << 16];
-  for (;;) {
-    const ssize_t count = ::read(descriptor, block, sizeof block);
-    if (count < 0 && errno == EINTR) continue;
-    const int error = errno;
-    if (count <= 0) ::close(descriptor);
-    if (count < 0) fail(path, "cannot be read", error, "check the path");
-    if (count == 0) return bytes;
-    bytes.append(block, static_cast<size_t>(count));
-    if (bytes.size() > most_bytes) {
-      ::close(descriptor);
-      throw Error(ErrorKind::scene,
-                  fmt::format("{}: holds more than {} bytes, which no file of its kind does; check the path", path,
-                              most_bytes));
+// An open file, closed at the end.
+class Opened {
+ public:
+  Opened(int descriptor, const std::string& path) : descriptor_(descriptor), path_(path) {}
+  ~Opened() { ::close(descriptor_); }
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+
+  bool is_regular() const {
+    struct stat status {};
+    return ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
+  }
+  // Calls take(bytes) for all that is in it, block by block.
+  template <class Take>
+  void read(const Take& take) const {
+    char block[1 << 16];
+    for (;;) {
+      const ssize_t count = ::read(descriptor_, block, sizeof block);
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) fail(path_, "cannot be read", errno, "check the path");
+      if (count == 0) return;
+      take(std::string_view(block, static_cast<size_t>(count)));
     }
   }
+  std::string all(uint64_t most_bytes) const {
+    std::string bytes;
+    read([&](std::string_view block) {
+      bytes += block;
+      if (bytes.size() > most_bytes)
+        throw Error(ErrorKind::scene,
+                    fmt::format("{}: holds more than {} bytes, which no file of its kind does; check the path", path_,
+                                most_bytes));
+    });
+    return bytes;
+  }
+
+ private:
+  int descriptor_;
+  std::string path_;
+};
+
+// A regular file below the folder, links resolved.
+std::unique_ptr<Opened> open_below(const std::string& folder, const std::string& name) {
+  const std::string path = folder + "/" + name;
+  const auto refuse = [&](std::string_view what) {
+    throw Error(ErrorKind::scene, fmt::format("{}: {}; only regular files in {} are read", path, what, folder));
+  };
+  std::error_code error;
+  const fs::path home = fs::canonical(folder, error);
+  if (error) fail(folder, "cannot be read", error.value(), "check the path");
+  if (fs::path(name).is_absolute()) refuse("leads out of the folder");
+  const fs::path target = fs::canonical(home / name, error);
+  if (error) fail(path, "cannot be read", error.value(), "check the path");
+  if (std::mismatch(home.begin(), home.end(), target.begin(), target.end()).first != home.end())
+    refuse("leads out of the folder");
+  const int descriptor = ::open(target.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (descriptor < 0) fail(path, "cannot be read", errno, "check the path");
+  auto opened = std::make_unique<Opened>(descriptor, path);
+  if (!opened->is_regular()) refuse("is not a regular file");
+  return opened;
 }
 
 }  // namespace
@@ -127,7 +169,7 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
     bytes.remove_prefix(static_cast<size_t>(written));
   }
   if (::fsync(temporary.descriptor()) != 0) fail(path, "cannot be written", errno, next);
-  if (const int error = temporary.close()) fail(path, "cannot be written", error, next);
+  // Closed, and with that unlocked, only when it has its own name; what close() could tell, fsync() has told.
   if (const int error = temporary.rename_to(path))
     fail(path, "cannot be replaced", error, "choose another place for it");
   flush_folder(fs::path(path).parent_path());
@@ -155,14 +197,14 @@ void make_folder(const std::string& path) {
 void clear_abandoned_files(const std::string& folder) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none)) {
-    const pid_t writer = writer_of(entry.path().filename().native());
-    // A process of this number may be another one by now: then the file stays until a later start.
-    if (writer == 0 || ::kill(writer, 0) == 0 || errno != ESRCH) continue;
-    // Another container's process is not seen here, but its lock is.
+    if (!is_temporary_name(entry.path().filename().native())) continue;
     const int descriptor = ::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) continue;
+    // By the time that the lock is ours the file may have its own name, and this one may be another file's.
     struct stat status {};
-    if (::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+    struct stat named {};
+    if (::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 &&
+        ::lstat(entry.path().c_str(), &named) == 0 && named.st_dev == status.st_dev && named.st_ino == status.st_ino)
       ::unlink(entry.path().c_str());
     ::close(descriptor);
   }
@@ -171,30 +213,17 @@ void clear_abandoned_files(const std::string& folder) {
 std::string read_file(const std::string& path, uint64_t most_bytes) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) fail(path, "cannot be read", errno, "check the path");
-  return read_all(descriptor, path, most_bytes);
+  return Opened(descriptor, path).all(most_bytes);
 }
 
 std::string read_file_below(const std::string& folder, const std::string& name, uint64_t most_bytes) {
-  const std::string path = folder + "/" + name;
-  const auto refuse = [&](std::string_view what) {
-    throw Error(ErrorKind::scene, fmt::format("{}: {}; only regular files in {} are read", path, what, folder));
-  };
-  std::error_code error;
-  const fs::path home = fs::canonical(folder, error);
-  if (error) fail(folder, "cannot be read", error.value(), "check the path");
-  if (fs::path(name).is_absolute()) refuse("leads out of the folder");
-  const fs::path target = fs::canonical(home / name, error);
-  if (error) fail(path, "cannot be read", error.value(), "check the path");
-  if (std::mismatch(home.begin(), home.end(), target.begin(), target.end()).first != home.end())
-    refuse("leads out of the folder");
-  const int descriptor = ::open(target.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-  if (descriptor < 0) fail(path, "cannot be read", errno, "check the path");
-  struct stat status {};
-  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
-    ::close(descriptor);
-    refuse("is not a regular file");
-  }
-  return read_all(descriptor, path, most_bytes);
+  return open_below(folder, name)->all(most_bytes);
+}
+
+std::string digest_of_file_below(const std::string& folder, const std::string& name) {
+  Digest digest;
+  open_below(folder, name)->read([&](std::string_view block) { digest.bytes(block.data(), block.size()); });
+  return digest.hex();
 }
 
 }  // namespace noonmark

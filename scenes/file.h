@@ -21,7 +21,8 @@ void write_file_atomically(const std::string& path, std::string_view bytes);
 void make_folder(const std::string& path);
 
 // Removes the temporary files that write_file_atomically left in this folder (not below it) when its program was
-// killed: files of that name's form that no living program holds open. No error when the folder is absent.
+// killed: files of that name's form that nobody holds a lock on. No error when the folder is absent; where the file
+// system has no locks, nothing is removed.
 void clear_abandoned_files(const std::string& folder);
 
 // Throws Error(scene) when there is no such file, it cannot be read, or it holds more than most_bytes (a device may
@@ -31,5 +32,8 @@ std::string read_file(const std::string& path, uint64_t most_bytes = std::numeri
 // A regular file below the folder, links resolved. Throws Error(scene) as above, and for a name that leads out of the
 // folder (absolute, "..", a link) or to a pipe or device, which might never end.
 std::string read_file_below(const std::string& folder, const std::string& name, uint64_t most_bytes);
+
+// digest_of (scenes/digest.h) what read_file_below would read, however large it is.
+std::string digest_of_file_below(const std::string& folder, const std::string& name);
 
 }  // namespace noonmark

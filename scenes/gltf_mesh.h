@@ -11,8 +11,8 @@ namespace noonmark::gltf {
 // Appends positions, triangles and parts. What is drawn:
 // - triangles, strips and fans; points and lines cast no shadow worth the name and are left out;
 // - positions with their morph targets (gltf_morph.h), where the node's place or its skin's joints put them
-// (gltf_skin.h),
-//   once for each instance of the node (gltf_instances.h), out of Draco's data where there are any (gltf_draco.h);
+//   (gltf_skin.h), once for each instance of the node (gltf_instances.h), out of Draco's data where there are any
+//   (gltf_draco.h);
 // - not a primitive whose material masks it wholly (MASK, no base colour texture, alpha below the cutoff). A masking
 //   texture is not read, so such a primitive is drawn whole;
 // - only the vertices that some triangle uses;

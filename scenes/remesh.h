@@ -28,8 +28,8 @@ struct Placement {
 // tiles:    each triangle in 64, each a part with vertices of its own, placed as an engine places instances: an origin
 //           and offsets from it, both rounded to float. Neighbours agree to rounding only.
 // t_junctions: each triangle in 6 strips. The strips are cut into 1, 2 or 3 pieces in turn, so that corners of one
-// strip
-//           lie in the middle of the next one's edges. To rounding only: such a corner may stand a little off the edge.
+//           strip lie in the middle of the next one's edges. To rounding only: such a corner may stand a little off the
+//           edge.
 // Positions are rounded to float once, after the placement; tiles' parts once before it. What the rounding makes
 // degenerate is left out.
 Scene remeshed(Scene scene, MeshForm form, const Placement& placement = {});

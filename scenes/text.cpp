@@ -30,6 +30,10 @@ bool is_control(std::string_view character) {
          in("\u200e", "\u200f") || in("\u2028", "\u202e") || in("\u2066", "\u2069");
 }
 
+std::string counted(size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 std::string printable(std::string_view text, Lines lines) {
   std::string shown;
   while (!text.empty()) {

@@ -16,6 +16,9 @@ bool is_control(std::string_view character);
 
 enum class Lines { one, many };  // many: line breaks (\n) and tabs stay
 
+// "1 point", "3 points"
+std::string counted(size_t count, std::string_view what);
+
 // Control characters and bytes that are no UTF-8 as \xNN; everything else as it is.
 std::string printable(std::string_view text, Lines lines = Lines::one);
 

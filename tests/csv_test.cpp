@@ -106,6 +106,17 @@ TEST(Csv, HoldsEverySettingMetricAndQuantity) {
   EXPECT_EQ(rows[3][column(rows[0], "window_width_depth")], "0");
 }
 
+TEST(Csv, GuardsAPlaceAndLeavesNumbersAlone) {
+  Results results = sample();
+  results.points[0].settings["light.position_m"] = "-5,4,5";
+  results.points[0].settings["map.shift_u_texels"] = "-0.25";
+  results.points[0].metrics["error"] = -inf_value;
+  const std::vector<Row> rows = parse(to_csv(results));
+  EXPECT_EQ(rows[1][column(rows[0], "light.position_m")], "'-5,4,5");
+  EXPECT_EQ(rows[1][column(rows[0], "map.shift_u_texels")], "-0.25");
+  EXPECT_EQ(rows[1][column(rows[0], "error")], "-inf");
+}
+
 TEST(Csv, OnlyTheLastColumnsChangeWithTheClock) {
   Results slow = sample();
   for (PointRecord& point : slow.points) {

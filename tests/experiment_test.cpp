@@ -165,6 +165,17 @@ TEST(Experiment, TheReproducingCommandSurvivesTheShell) {
             R"(noonmark render 'my exp.toml' --set 'scene.name=it'\''s a $cene.gltf')");
 }
 
+// What a terminal would obey, and what is no UTF-8, as text: a line that is printed is the line that is pasted.
+TEST(Experiment, AWordWithControlBytesIsQuotedAsText) {
+  EXPECT_EQ(shell_quoted("a\x1b[0m"), R"($'a\033[0m')");
+  EXPECT_EQ(shell_quoted("it's\n\\"), R"($'it\'s\012\\')");
+  EXPECT_EQ(shell_quoted("\xff"
+                         "1"),
+            R"($'\3771')");
+  EXPECT_EQ(shell_quoted("\u202e"), R"($'\342\200\256')");
+  EXPECT_EQ(shell_quoted("Größe 1"), "'Größe 1'");
+}
+
 TEST(Experiment, TheFingerprintTellsWhatChangesResultsOnly) {
   const std::string file =
       "title = \"a\"\n[map]\nformat = 24\n[sweep]\nmap.resolution = [512, 1024]\n[curve]\nacne_bound = 0.1\n";

@@ -69,12 +69,13 @@ TEST_F(File, ReadsRegularFilesOnly) {
 }
 
 TEST_F(File, ClearsWhatKilledProgramsLeftAndNothingElse) {
+  // Numbers say nothing: that of an ended process is given again, and a container has its own.
   const std::string dead = std::to_string(dead_process()), alive = std::to_string(getpid());
   make_folder(folder.file("sub"));
   const std::string abandoned[] = {"results.csv.noonmark-" + dead + "-0.tmp",
-                                   "p0000-map.exr.noonmark-" + dead + "-12.tmp"};
-  const std::string kept[] = {"results.csv.noonmark-" + alive + "-0.tmp",
-                              "results.csv.noonmark-" + dead + ".tmp",
+                                   "p0000-map.exr.noonmark-" + dead + "-12.tmp",
+                                   "results.csv.noonmark-" + alive + "-0.tmp", "results.csv.noonmark-1-0.tmp"};
+  const std::string kept[] = {"results.csv.noonmark-" + dead + ".tmp",
                               "results.csv.noonmark-" + dead + "-x.tmp",
                               "results.csv.noonmark--1-0.tmp",
                               "results.csv.noonmark-" + dead + "-0.tmp.bak",
@@ -105,7 +106,7 @@ TEST_F(File, ClearsWhatKilledProgramsLeftAndNothingElse) {
   clear_abandoned_files(folder.file("absent"));
 }
 
-// The real thing: killed while it writes.
+// The real thing: killed while it writes, and then a zombie.
 TEST_F(File, ClearsWhatAKilledWriteLeft) {
   const auto temporaries = [&] {
     int count = 0;
@@ -117,16 +118,39 @@ TEST_F(File, ClearsWhatAKilledWriteLeft) {
     const std::string large(1 << 24, 'x');
     for (;;) write_file_atomically(folder.file("large"), large);
   }
-  while (temporaries() == 0) usleep(200);
-  clear_abandoned_files(folder.path().string());  // its program lives
-  kill(child, SIGSTOP);
-  const int left = temporaries();
-  clear_abandoned_files(folder.path().string());
-  EXPECT_EQ(temporaries(), left);
+  for (int left = 0; left == 0;) {
+    usleep(200);
+    kill(child, SIGSTOP);
+    waitpid(child, nullptr, WUNTRACED);
+    left = temporaries();
+    if (left == 0) kill(child, SIGCONT);
+  }
   kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
+  siginfo_t ended{};
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT), 0);
+  ASSERT_EQ(kill(child, 0), 0) << "its number is still there";
   clear_abandoned_files(folder.path().string());
   EXPECT_EQ(temporaries(), 0);
+  waitpid(child, nullptr, 0);
+}
+
+// At no moment of a write may another program's clearing take the file away.
+TEST_F(File, ClearsNothingOfTheLiving) {
+  const pid_t child = fork();
+  if (child == 0) {
+    int failed = 0;
+    for (int i = 0; i < 500; ++i) try {
+        write_file_atomically(folder.file("file"), "whole");
+      } catch (const Error&) {
+        failed = 1;
+      }
+    _exit(failed);
+  }
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0) clear_abandoned_files(folder.path().string());
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(read_file(folder.file("file")), "whole");
 }
 
 TEST_F(File, MakesFoldersAndSaysWhyNot) {

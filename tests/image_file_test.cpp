@@ -281,7 +281,7 @@ class Pictures : public ImageFile {
 };
 
 TEST_F(Pictures, LadderHoldsTheChannelsOfTheDesign) {
-  write_images(measurement(), folder.file("p-"));
+  write_images(measurement(), folder.path().string(), "images", "p-");
   EXPECT_EQ(files_in(folder.path()), (std::set<std::string>{"p-ladder.exr", "p-map.exr"}));
   const ReadImage image = read_exr(folder.file("p-ladder.exr"));
   const auto expect = [&](const std::string& name, const std::vector<float>& values) {
@@ -309,7 +309,7 @@ TEST_F(Pictures, LadderHoldsTheChannelsOfTheDesign) {
 
   // What the wrap mode makes of the texels above; the last pixel has no receiver.
   const auto expect_depths = [&](std::vector<int> texels) {
-    write_images(measurement(), folder.file("q-"));
+    write_images(measurement(), folder.path().string(), "images", "q-");
     const ReadImage read = read_exr(folder.file("q-ladder.exr"));
     for (const auto& [name, map] : {std::pair("depth.stored", &stored), std::pair("depth.exact", &exact)}) {
       for (size_t i = 0; i < 5; ++i)
@@ -326,7 +326,7 @@ TEST_F(Pictures, LadderHoldsTheChannelsOfTheDesign) {
 }
 
 TEST_F(Pictures, MapHasItsHighestRowOnTop) {
-  write_images(measurement(), folder.file(""));
+  write_images(measurement(), folder.path().string(), ".", "");
   const ReadImage map = read_exr(folder.file("map.exr"));
   EXPECT_EQ(map.channels.size(), 2);
   EXPECT_EQ(map.channels.at("depth.stored"), (std::vector<float>{stored[2], stored[3], stored[0], stored[1]}));

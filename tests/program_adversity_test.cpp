@@ -49,7 +49,7 @@ TEST_F(Adversity, APathMayHoldAnyBytes) {
   write(odd + "/x\xfe.toml", one_point + "[[bound]]\nmetric = \"residual\"\nmax = 1e-6\n");
   write(odd + "/bad.toml", "scne = 1\n");
   EXPECT_EQ(run({"check", odd, "--out", odd + "/out"}), 2) << output_;
-  EXPECT_TRUE(says("did you mean 'scene'") && says("1 of 1 bounds held")) << output_;
+  EXPECT_TRUE(says("did you mean 'scene'") && says("1 of 1 bound held")) << output_;
   expect_printable();
   const fs::path out = folder_ / odd / "out" / "x\xfe";
   for (const char* file : {"junit.xml", "summary.md"}) {
@@ -80,7 +80,7 @@ TEST_F(Adversity, AFolderThatCannotBeReadIsSaidAndTheRestIsChecked) {
   };
   EXPECT_EQ(run({"check", "exps", "--out", "out"}, unprivileged), 3) << output_;
   expect_one_line("exps/closed: cannot be read: Permission denied");
-  EXPECT_TRUE(says("1 of 1 bounds held")) << output_;
+  EXPECT_TRUE(says("1 of 1 bound held")) << output_;
   chmod((folder_ / "exps/closed").c_str(), 0700);
 }
 

@@ -4,6 +4,7 @@
 
 #include "compare/sqlite.h"
 #include "compare/store.h"
+#include "scenes/digest.h"
 #include "tests/program_fixture.h"
 
 namespace noonmark::acceptance {
@@ -49,12 +50,12 @@ TEST_F(Stale, AnEditedSpotConeIsAnotherScene) {
   const std::string csv = text("out/results.csv");
   write("floor.gltf", lit_floor("0.3"));
   EXPECT_EQ(run({"run", experiment, "--out", "out"}), 2) << output_;
-  EXPECT_TRUE(says("scene ") && says("--overwrite")) << output_;
+  EXPECT_TRUE(says("floor.gltf have changed since these were stored") && says("--overwrite")) << output_;
   ASSERT_EQ(run({"run", experiment, "--out", "out", "--overwrite"}), 0) << output_;
   EXPECT_NE(without_times(folder_ / "out/results.csv"), csv);
   write("floor.gltf", "\n" + lit_floor("0.3") + "\n");  // the same scene in other bytes
   EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
-  EXPECT_TRUE(says("1 of 1 points are in out already")) << output_;
+  EXPECT_TRUE(says("1 of 1 point is in out already")) << output_;
 }
 
 TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveARunThatFails) {
@@ -102,6 +103,89 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveARunThatFails) {
   EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md"));
 }
 
+// Which folder was meant can be told although the command line is wrong.
+TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAWrongCommandLine) {
+  const std::string experiment = good();
+  const auto held = [&](const std::string& folder) {
+    ASSERT_EQ(run({"check", experiment, "--out", folder, "--overwrite"}), 0) << output_;
+    ASSERT_NE(text(folder + "/summary.md").find("Held"), std::string::npos);
+  };
+  const auto not_judged = [&](const std::string& folder, const std::string& why) {
+    EXPECT_NE(text(folder + "/junit.xml").find("errors=\"1\""), std::string::npos);
+    EXPECT_NE(text(folder + "/junit.xml").find(why), std::string::npos) << text(folder + "/junit.xml");
+    EXPECT_NE(text(folder + "/summary.md").find("Not judged"), std::string::npos);
+  };
+  using Words = std::vector<std::string>;
+  for (const auto& [words, why] : std::vector<std::pair<Words, std::string>>{
+           {{"check", experiment, "--threads", "0", "--out", "out"}, "--threads"},
+           {{"check", experiment, "--threads", "many", "--out=out"}, "--threads"},
+           {{"check", "--out", "out", experiment, "--foo"}, "--foo"},
+           {{"check", "--foo", "7", "--out", "out", "--", experiment}, "not expected"},
+           {{"check", experiment, "--out", "out", "--set"}, "--set"},
+           {{"check", experiment, "--out", "other", "--out", "out"}, "--out"},
+           {{"check", "--out", "out"}, "experiments"},
+           {{"--foo", "check", experiment, "--out", "out"}, "--foo"},
+           {{"chek", experiment, "--out", "out"}, "chek"}}) {
+    SCOPED_TRACE(why);
+    held("out");
+    EXPECT_EQ(run(words), 2) << output_;
+    EXPECT_TRUE(says(why)) << output_;
+    not_judged("out", why);
+    EXPECT_FALSE(there("other")) << "a folder is not made for a mistake";
+  }
+
+  held("out/x");  // where it goes without --out
+  EXPECT_EQ(run({"check", experiment, "--threads", "0"}), 2);
+  not_judged("out/x", "--threads");
+  held("all/x");
+  write("y.toml", "");
+  EXPECT_EQ(run({"check", experiment, "y.toml", "--foo", "--out", "all"}), 2);
+  not_judged("all/x", "--foo");
+  held("all/x");
+  EXPECT_EQ(run({"check", experiment, experiment, "--out", "all"}), 2) << "two that would share one folder";
+  not_judged("all/x", "share");
+  fs::create_directories(folder_ / "exps/sub");
+  fs::copy_file(experiment, folder_ / "exps/sub/x.toml");
+  held("all/sub/x");
+  write("exps/y.toml", "");
+  EXPECT_EQ(run({"check", "exps", "--foo", "--out", "all"}), 2);
+  not_judged("all/sub/x", "--foo");
+
+  held("out");
+  EXPECT_EQ(run({"run", experiment, "--out", "out", "--foo"}), 2);
+  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md")) << "a run does not judge";
+  held("out");
+  EXPECT_EQ(run({"render", experiment, "--out", "out", "--foo"}), 2);
+  EXPECT_EQ(run({"check", "--help", "--out", "out"}), 0);
+  EXPECT_TRUE(there("out/junit.xml")) << "neither measures into this folder";
+}
+
+TEST_F(Stale, AReportOfOtherResultsGoesWithThem) {
+  const std::string experiment = good();
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  const std::string csv = text("out/results.csv"), report = text("out/report.html");
+  EXPECT_EQ(run({"run", experiment, "--out", "out", "--set", "map.resolution=64"}), 2);
+  EXPECT_FALSE(there("out/report.html") || there("out/results.csv"));
+  EXPECT_TRUE(says("noonmark report out")) << "how to have them again: " << output_;
+  ASSERT_EQ(run({"report", "out"}), 0) << output_;
+  EXPECT_EQ(text("out/results.csv"), csv);
+  EXPECT_EQ(text("out/report.html"), report);
+  // Where the store was not looked at, they are what they were: the report of what is in it.
+  EXPECT_EQ(run({"run", "absent.toml", "--out", "out"}), 2);
+  EXPECT_TRUE(there("out/report.html") && there("out/results.csv"));
+}
+
+// The bounds are no part of what the store is resumed by, and the report shows their verdict.
+TEST_F(Stale, AReportWithAnEarlierVerdictDoesNotOutliveARunThatFails) {
+  const std::string experiment = good();
+  ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+  write("x.toml", "scene = \"plate\"\n" + small_view + "[[bound]]\nmetric = \"residual\"\nmax = -1\n");
+  fs::remove(folder_ / "out/results.csv");
+  fs::create_directories(folder_ / "out/results.csv/in the way");
+  EXPECT_EQ(run({"check", experiment, "--out", "out"}), 3) << output_;
+  EXPECT_FALSE(there("out/report.html"));
+}
+
 TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAKill) {
   ASSERT_EQ(run({"check", good(), "--out", "out"}), 0) << output_;
   ASSERT_TRUE(there("out/junit.xml"));
@@ -134,6 +218,19 @@ TEST_F(Stale, AFolderIsCheckedToItsEnd) {
   EXPECT_NE(text("out/sub/e/summary.md").find("Not judged"), std::string::npos);
 }
 
+TEST_F(Stale, APipeInAFolderIsSaidAndTheRestIsChecked) {
+  fs::create_directories(folder_ / "exps");
+  write("exps/b.toml", "scene = \"plate\"\n" + small_view + bound);
+  ASSERT_EQ(mkfifo((folder_ / "exps/a.toml").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder_ / "exps/c.toml");
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}, [] { alarm(60); }), 2) << output_;
+  for (const char* name : {"a", "c"}) {
+    EXPECT_TRUE(says(std::string("exps/") + name + ".toml: is not a regular file")) << output_;
+    EXPECT_NE(text(std::string("out/") + name + "/junit.xml").find("not a regular file"), std::string::npos);
+  }
+  EXPECT_NE(text("out/b/summary.md").find("Held"), std::string::npos);
+}
+
 TEST_F(Stale, StoredNumbersThatWereEditedAreMeasuredAnew) {
   const std::string experiment =
       write("x.toml", "scene = \"plate\"\n" + small_view + "[sweep]\nmap.resolution = [16, 32]\n" + bound);
@@ -150,7 +247,11 @@ TEST_F(Stale, StoredNumbersThatWereEditedAreMeasuredAnew) {
     EXPECT_EQ(run({"report", "out"}), 3) << output_;
     EXPECT_TRUE(says("are not those that were stored")) << output_;
     EXPECT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
-    EXPECT_TRUE(says("measured anew")) << output_;
+    EXPECT_TRUE(says(std::string(sql).find("VALUES (7") != std::string::npos
+                         ? "point 7, which this experiment does not "
+                           "have; they are dropped"
+                         : "it is measured anew"))
+        << output_;
     EXPECT_EQ(without_times(folder_ / "out/results.csv"), csv);
   }
 }
@@ -180,12 +281,14 @@ TEST_F(Stale, TheReportReadsItsOwnPicturesOnly) {
   fs::create_symlink("../../secret.png", folder_ / "out/images/link.png");
   fs::create_symlink("/dev/zero", folder_ / "out/images/zero.png");
   ASSERT_EQ(mkfifo((folder_ / "out/images/fifo.png").c_str(), 0600), 0);
-  store.set_pictures(0, {{"a", "images/link.png", ""},
-                         {"b", "../secret.png", ""},
-                         {"c", (folder_ / "secret.png").string(), ""},
-                         {"d", "images/zero.png", ""},
-                         {"e", "images/fifo.png", ""},
-                         {"f", "images/p0000-truth.png", ""}});
+  const std::string secret = digest_of("SECRET-BYTES"), own = digest_of(text("out/images/p0000-truth.png"));
+  store.set_pictures(0, {{{"a", "images/link.png", "", secret},
+                          {"b", "../secret.png", "", secret},
+                          {"c", (folder_ / "secret.png").string(), "", secret},
+                          {"d", "images/zero.png", "", ""},
+                          {"e", "images/fifo.png", "", ""},
+                          {"f", "images/p0000-truth.png", "", own}},
+                         {}});
   ASSERT_EQ(run({"report", "out"}, [] { alarm(60); }), 0) << "must not wait for a pipe: " << output_;
   const std::string report = text("out/report.html");
   EXPECT_EQ(report.find(encoded), std::string::npos);
@@ -193,6 +296,61 @@ TEST_F(Stale, TheReportReadsItsOwnPicturesOnly) {
   for (size_t at = 0; (at = report.find("class=\"missing\"", at)) != std::string::npos; ++at) ++missing;
   EXPECT_EQ(missing, 5u);
   EXPECT_NE(report.find("data:image/png;base64,"), std::string::npos) << "its own is shown";
+}
+
+TEST_F(Stale, PicturesThatAreLostOrAnothersAreMadeAgain) {
+  for (const char* which : {"first", "extremes", "all"}) {
+    SCOPED_TRACE(which);
+    const std::string experiment =
+        write("x.toml", "scene = \"plate\"\npictures = \"" + std::string(which) +
+                            "\"\n[view]\nwidth_px = 48\nheight_px = 27\n[sweep]\nmap.resolution = [16, 32]\n");
+    ASSERT_EQ(run({"run", experiment, "--out", "out", "--overwrite"}), 0) << output_;
+    const std::string report = text("out/report.html");
+    std::vector<std::string> files;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/images"))
+      files.push_back(entry.path().filename().string());
+    ASSERT_GE(files.size(), 11u);
+    const std::string first =
+        std::string("out/images/p000") + (fs::exists(folder_ / "out/images/p0000-map.exr") ? "0" : "1");
+    for (const auto& [file, damage] : std::vector<std::pair<std::string, std::string>>{
+             {"-truth.png", "lost"}, {"-ladder.exr", "lost"}, {"-map.png", "edited"}, {"-map.exr", "edited"}}) {
+      SCOPED_TRACE(file);
+      const std::string bytes = text(first + file);
+      fs::remove(folder_ / (first + file));
+      if (damage == "edited") write(first + file, bytes + " ");
+      EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+      EXPECT_TRUE(says("pictures of point ") && says("made again") && says("2 of 2 points are in out already"))
+          << output_;
+      ASSERT_TRUE(there(first + file));
+      EXPECT_TRUE(text(first + file) == bytes || file.ends_with(".exr")) << "the same, but for an EXR's date";
+    }
+    EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0);
+    EXPECT_FALSE(says("made again")) << output_;
+  }
+}
+
+TEST_F(Stale, OnlyAPictureThatWasWrittenIsShown) {
+  const std::string experiment =
+      write("x.toml", "scene = \"plate\"\npictures = \"first\"\n[view]\nwidth_px = 48\nheight_px = 27\n");
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  const std::string secret = "SECRET-BYTES", picture = text("out/images/p0000-truth.png");
+  write("secret", secret);
+  const auto replace = [&](const std::string& file, const std::string& by) {
+    fs::remove(folder_ / "out/images" / file);
+    fs::create_hard_link(folder_ / by, folder_ / "out/images" / file);
+  };
+  replace("p0000-truth.png", "secret");
+  replace("p0000-map.png", "out/images/p0000-classes.png");  // a picture, but not this one
+  ASSERT_EQ(run({"report", "out"}), 0) << output_;
+  const std::string report = text("out/report.html");
+  EXPECT_EQ(report.find("U0VDUkVULUJZVEVT"), std::string::npos);
+  EXPECT_NE(report.find("images/p0000-truth.png is not shown"), std::string::npos);
+  EXPECT_NE(report.find("images/p0000-map.png is not shown"), std::string::npos);
+  // Also where the store was made to say that it belongs there.
+  ResultStore::open((folder_ / "out/results.sqlite").string())
+      .set_pictures(0, {{{"truth", "images/p0000-truth.png", "", digest_of(secret)}}, {}});
+  ASSERT_EQ(run({"report", "out"}), 0) << output_;
+  EXPECT_EQ(text("out/report.html").find("U0VDUkVULUJZVEVT"), std::string::npos);
 }
 
 }  // namespace

@@ -65,6 +65,12 @@ TEST(ReportText, NumbersReadAsPeopleWriteThem) {
   EXPECT_EQ(report::setting_label("bias.constant"), "bias constant");
 }
 
+TEST(ReportText, HtmlHasNoControlCharacters) {
+  EXPECT_EQ(report::html("a\x1b[31m\u202e\u0085<"), "a\uFFFD[31m\uFFFD\uFFFD&lt;");
+  EXPECT_EQ(report::html("a\tb\nc"), "a\tb\nc");
+  EXPECT_EQ(report::html("\xff"), "\uFFFD");
+}
+
 TEST(ReportText, Base64AsInRfc4648) {
   const std::pair<const char*, const char*> cases[] = {{"", ""},
                                                        {"f", "Zg=="},
@@ -289,7 +295,7 @@ TEST(Report, PicturesAreInlinedAndMissingOnesSaid) {
   const std::string page = render_report(sample_results(), sample_picture);
   const std::string bytes = sample_picture("images/p0018-map.png");
   EXPECT_NE(page.find("src=\"data:image/png;base64," + report::base64(bytes) + "\""), std::string::npos);
-  EXPECT_NE(page.find("The picture images/p0026-truth.png is not here: there is no images/p0026-truth.png."),
+  EXPECT_NE(page.find("The picture images/p0026-truth.png is not shown: there is no images/p0026-truth.png."),
             std::string::npos);
 }
 

@@ -72,8 +72,9 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
     curve.acne_free_bias_stored_depth = id % 2 ? std::optional(0.2 / 7) : std::nullopt;
     point.curve = curve;
   }
-  point.pictures = {{"truth", "images/p0003-truth.png", "The truth."},
-                    {"map", "images/p0003-map.png", "It's \"the\" map."}};
+  point.pictures = {{"truth", "images/p0003-truth.png", "The truth.", "0123456789abcdef"},
+                    {"map", "images/p0003-map.png", "It's \"the\" map.", "fedcba9876543210"}};
+  point.images = {{"images/p0003-ladder.exr", "00000000000000ff"}, {"images/p0003-map.exr", "00000000000000fe"}};
   point.worst = {12, 34, 2.0 / 3, "acne"};
   return point;
 }
@@ -145,7 +146,7 @@ inline bool same(const BiasCurve& a, const BiasCurve& b) {
          same(a.acne_free_bias_stored_depth, b.acne_free_bias_stored_depth);
 }
 inline bool same(const PictureRecord& a, const PictureRecord& b) {
-  return a.name == b.name && a.path == b.path && a.caption == b.caption;
+  return a.name == b.name && a.path == b.path && a.caption == b.caption && a.digest == b.digest;
 }
 inline bool same(const PointRecord& a, const PointRecord& b) {
   return a.id == b.id && a.part == b.part && a.settings == b.settings && same(a.metrics, b.metrics) &&
@@ -153,6 +154,9 @@ inline bool same(const PointRecord& a, const PointRecord& b) {
          (!a.curve || same(*a.curve, *b.curve)) &&
          std::equal(a.pictures.begin(), a.pictures.end(), b.pictures.begin(), b.pictures.end(),
                     [](const PictureRecord& x, const PictureRecord& y) { return same(x, y); }) &&
+         std::equal(
+             a.images.begin(), a.images.end(), b.images.begin(), b.images.end(),
+             [](const ImageRecord& x, const ImageRecord& y) { return x.path == y.path && x.digest == y.digest; }) &&
          a.worst.x == b.worst.x && a.worst.y == b.worst.y && same(a.worst.error, b.worst.error) &&
          a.worst.cause == b.worst.cause;
 }

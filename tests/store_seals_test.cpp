@@ -59,13 +59,13 @@ class StoreSeals : public testing::Test {
 
 TEST_F(StoreSeals, HoldWhatWasStored) {
   EXPECT_EQ(ResultStore::open(path).load().points.size(), 3u);
-  EXPECT_TRUE(ResultStore(path, "x = 1\n", Existing::resume).repair(any_point).empty());
+  EXPECT_TRUE(ResultStore(path, "x = 1\n", Existing::resume).repair(3, any_point).empty());
   EXPECT_EQ(ResultStore::open(path).finished().size(), 3u);
 }
 
 TEST_F(StoreSeals, NoticeEveryCellOfAPoint) {
   int cells = 0;
-  for (const char* table : {"finished", "settings", "metrics", "times", "curves", "curve_points", "pictures"})
+  for (const char* table : {"finished", "settings", "metrics", "times", "curves", "curve_points", "pictures", "images"})
     for (const std::string& column : columns(table)) {
       SCOPED_TRACE(std::string(table) + "." + column);
       if (column == "point") continue;  // below
@@ -76,7 +76,7 @@ TEST_F(StoreSeals, NoticeEveryCellOfAPoint) {
            table + " WHERE point = 1)");
       EXPECT_NE(refusal().find("rows of point 1 "), std::string::npos);
       ResultStore store(path, "x = 1\n", Existing::resume);
-      EXPECT_EQ(store.repair(any_point).size(), 1u);
+      EXPECT_EQ(store.repair(3, any_point).size(), 1u);
       EXPECT_EQ(store.finished(), (std::vector<int64_t>{0, 2}));
       store.add(sample_point(1));  // nothing of the old one is in the way
       EXPECT_TRUE(same(store.load().points.at(1), sample_point(1)));
@@ -99,7 +99,7 @@ TEST_F(StoreSeals, NoticeLostAndForeignRows) {
     edit(sql);
     EXPECT_NE(refusal().find("rows of point 1 "), std::string::npos);
     ResultStore store(path, "x = 1\n", Existing::resume);
-    EXPECT_EQ(store.repair(any_point).size(), 1u);
+    EXPECT_EQ(store.repair(3, any_point).size(), 1u);
     EXPECT_EQ(store.finished(), (std::vector<int64_t>{0, 2}));
     EXPECT_EQ(store.load().points.size(), 2u);
   }
@@ -107,13 +107,13 @@ TEST_F(StoreSeals, NoticeLostAndForeignRows) {
   edit("INSERT INTO metrics VALUES (8, 'acne', 1)");
   EXPECT_NE(refusal().find("rows of point 8 "), std::string::npos);
   ResultStore store(path, "x = 1\n", Existing::resume);
-  EXPECT_EQ(store.repair(any_point).size(), 1u);
+  EXPECT_EQ(store.repair(3, any_point).size(), 1u);
   EXPECT_EQ(store.load().points.size(), 3u);
 }
 
 // A point moved to another's place carries its own seal along with its numbers, but not its name.
 TEST_F(StoreSeals, NoticeARenumberedPoint) {
-  for (const char* table : {"finished", "settings", "metrics", "times", "curves", "curve_points", "pictures"})
+  for (const char* table : {"finished", "settings", "metrics", "times", "curves", "curve_points", "pictures", "images"})
     edit("UPDATE " + std::string(table) + " SET point = 9 WHERE point = 1");
   edit("UPDATE seals SET name = 'point 9' WHERE name = 'point 1'");
   EXPECT_NE(refusal().find("rows of point 9 "), std::string::npos);
@@ -127,7 +127,7 @@ TEST_F(StoreSeals, NoticeAnEditedVerdict) {
     edit(sql);
     EXPECT_NE(refusal().find("bounds and laws"), std::string::npos);
     ResultStore store(path, "x = 1\n", Existing::resume);
-    EXPECT_EQ(store.repair(any_point).size(), 1u);
+    EXPECT_EQ(store.repair(3, any_point).size(), 1u);
     EXPECT_TRUE(store.load().bounds.empty()) << "to be judged anew";
   }
 }
@@ -142,7 +142,7 @@ TEST_F(StoreSeals, NoticeEditedFactsOfTheRun) {
 TEST_F(StoreSeals, RemoveWhatTheExperimentDoesNotExpect) {
   ResultStore store(path, "x = 1\n", Existing::resume);
   const auto only_two = [](const PointRecord& point) { return point.id != 2; };
-  EXPECT_EQ(store.repair(only_two).size(), 1u);
+  EXPECT_EQ(store.repair(3, only_two).size(), 1u);
   EXPECT_EQ(store.finished(), (std::vector<int64_t>{0, 1}));
 }
 

@@ -213,10 +213,12 @@ TEST_F(Store, AddsAPointWholeOrNotAtAll) {
 TEST_F(Store, ReplacesPictures) {
   ResultStore store = fresh();
   store.add(sample_point(1));
-  store.set_pictures(1, {{"worst", "images/w.png", "The worst."}});
+  store.set_pictures(1, {{{"worst", "images/w.png", "The worst.", "01"}}, {{"images/w.exr", "02"}}});
   const Results results = store.load();
   ASSERT_EQ(results.points.at(0).pictures.size(), 1u);
   EXPECT_EQ(results.points[0].pictures[0].path, "images/w.png");
+  ASSERT_EQ(results.points[0].images.size(), 1u);
+  EXPECT_EQ(results.points[0].images[0].digest, "02");
   EXPECT_THROW(store.set_pictures(7, {}), std::logic_error);
 }
 

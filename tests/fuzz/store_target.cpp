@@ -130,6 +130,7 @@ std::vector<std::string> words() {
           "curves",
           "curve_points",
           "pictures",
+          "images",
           "bounds",
           "laws",
           "law_samples",

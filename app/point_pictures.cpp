@@ -1,0 +1,86 @@
+#include "app/point_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "app/pictures.h"
+#include "scenes/digest.h"
+#include "scenes/error.h"
+#include "scenes/file.h"
+
+namespace noonmark {
+namespace {
+
+// Of one picture in the report: far above what the largest view takes as PNG.
+constexpr uint64_t max_picture_bytes = uint64_t{1} << 28;
+
+// PNG specification, section 5.2.
+constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
+
+}  // namespace
+
+std::vector<int64_t> points_with_pictures(const std::string& pictures, const std::vector<PointRecord>& points) {
+  std::vector<int64_t> ids;
+  if (points.empty() || pictures == "none") return ids;
+  if (pictures == "first") return {points.front().id};
+  if (pictures == "all") {
+    for (const PointRecord& point : points) ids.push_back(point.id);
+    return ids;
+  }
+  const auto badness = [](const PointRecord& p) {
+    const double error = p.metrics.at("error");
+    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+  };
+  const auto [best, worst] =
+      std::minmax_element(points.begin(), points.end(),
+                          [&](const PointRecord& a, const PointRecord& b) { return badness(a) < badness(b); });
+  if (pictures == "worst" || best == worst) return {worst->id};
+  return {best->id, worst->id};
+}
+
+PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out) {
+  const std::string folder = out + "/images";
+  make_folder(folder);
+  const std::string stem = fmt::format("p{:04}", id);
+  PointPictures kept;
+  kept.images = write_images(m, folder, "images", stem + "-");
+  kept.pictures = write_pictures(m, folder, "images", stem);
+  return kept;
+}
+
+std::string why_not_as_written(const PointRecord& point, const std::string& out) {
+  std::string why;
+  const auto check = [&](const std::string& path, const std::string& digest) {
+    if (!why.empty()) return;
+    std::error_code none;
+    if (!std::filesystem::exists(out + "/" + path, none)) {
+      why = fmt::format("{}/{} is lost", out, path);
+      return;
+    }
+    try {
+      if (digest_of_file_below(out, path) != digest)
+        why = fmt::format("{}/{} is not the file that was written", out, path);
+    } catch (const Error& error) {
+      why = error.what();
+    }
+  };
+  for (const PictureRecord& picture : point.pictures) check(picture.path, picture.digest);
+  for (const ImageRecord& image : point.images) check(image.path, image.digest);
+  return why;
+}
+
+std::string read_picture(const std::string& out, const std::string& path, const std::vector<PointRecord>& points) {
+  const std::string bytes = read_file_below(out, path, max_picture_bytes);
+  if (!bytes.starts_with(png_signature)) throw Error(ErrorKind::scene, "it is no PNG file");
+  const std::string digest = digest_of(bytes);
+  for (const PointRecord& point : points)
+    for (const PictureRecord& picture : point.pictures)
+      if (picture.path == path && picture.digest == digest) return bytes;
+  throw Error(ErrorKind::scene, "it is not the file that was written; run the experiment into this folder again");
+}
+
+}  // namespace noonmark

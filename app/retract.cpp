@@ -1,0 +1,102 @@
+#include "app/retract.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/clock.h"
+#include "app/experiment_list.h"
+#include "app/results_folder.h"
+#include "compare/junit.h"
+#include "compare/summary.h"
+#include "scenes/error.h"
+#include "scenes/file.h"
+#include "scenes/settings.h"
+#include "scenes/text.h"
+
+namespace noonmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view options_with_a_value[] = {"--set", "--part", "--threads", "--out", "--point"};
+
+// As far as it can be told: the words that are no options and no option's value, and every --out.
+struct Words {
+  std::vector<std::string> plain, outs;
+  bool dry_run = false;
+};
+
+Words sorted_out(std::span<const std::string> words) {
+  Words sorted;
+  bool only_plain = false;  // behind "--"
+  for (size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (only_plain || !word.starts_with('-') || word == "-")
+      sorted.plain.push_back(word);
+    else if (word == "--")
+      only_plain = true;
+    else if (word == "--dry-run")
+      sorted.dry_run = true;
+    else if (word.starts_with("--out="))
+      sorted.outs.push_back(word.substr(6));
+    else if (std::find(std::begin(options_with_a_value), std::end(options_with_a_value), word) !=
+             std::end(options_with_a_value)) {
+      if (++i < words.size() && word == "--out") sorted.outs.push_back(words[i]);
+    }
+  }
+  return sorted;
+}
+
+}  // namespace
+
+MeantFolders meant_folders(std::span<const std::string> words, const std::vector<std::string_view>& verbs) {
+  Words sorted = sorted_out(words);
+  MeantFolders meant;
+  if (sorted.plain.empty() || sorted.dry_run) return meant;
+  const auto is_verb = [&](const std::string& word) {
+    return std::find(verbs.begin(), verbs.end(), word) != verbs.end();
+  };
+  // Before the verb may stand the value of an option that there is not.
+  auto at = std::find_if(sorted.plain.begin(), sorted.plain.end(), is_verb);
+  if (at == sorted.plain.end()) at = sorted.plain.begin();
+  const std::string verb = is_verb(*at) ? *at : nearest_name(*at, verbs);
+  if (verb != "check" && verb != "run") return meant;
+  meant.judges = verb == "check";
+  const std::vector<std::string> paths(at + 1, sorted.plain.end());
+
+  if (sorted.outs.empty()) sorted.outs.emplace_back();
+  for (const std::string& out : sorted.outs) {
+    // One word that was wrongly taken for an experiment makes one into several: so both, the folder and those below.
+    if (!out.empty()) meant.folders.push_back({out, paths.empty() ? out : paths[0]});
+    for (const ListedExperiment& one : list_experiments(paths, out).experiments)
+      if (one.out != out) meant.folders.push_back({one.out, one.file});
+  }
+  return meant;
+}
+
+void retract_verdicts(const MeantFolders& meant, const Failure& failure, const std::string& command) {
+  for (const MeantFolder& one : meant.folders) {
+    std::error_code none;
+    if (!fs::exists(fs::path(one.path) / "junit.xml", none) && !fs::exists(fs::path(one.path) / "summary.md", none))
+      continue;
+    try {
+      const ResultsFolder folder(one.path);
+      if (meant.judges) write_unjudged(one.path, one.experiment, failure, command);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::usage) tell({failure.exit_code, printable(error.what())});  // it is another run's
+    }
+  }
+}
+
+void write_unjudged(const std::string& out, const std::string& experiment, const Failure& failure,
+                    const std::string& command) {
+  try {
+    const Unjudged why{experiment, command, utc_now(), failure.message, failure.exit_code};
+    write_file_atomically(out + "/junit.xml", to_junit(why));
+    write_file_atomically(out + "/summary.md", to_summary(why));
+  } catch (const Error& error) {  // the disk may be what failed in the first place
+    tell({failure.exit_code, printable(error.what())});
+  }
+}
+
+}  // namespace noonmark
