@@ -157,9 +157,8 @@ std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec3 from, glm::
   };
   if (&grid == &grid_of(to, end)) {
     if (grid.size == 0) return at;
-    // Most taps stay within a cell that lists no edge: an edge is listed wherever it comes within reach of the cell.
-    const size_t first = grid.cell_of(begin);
-    if (first == grid.cell_of(end) && grid.empty(first)) return at;
+    // Most taps cross cells that list no edge: an edge is listed wherever it comes within reach of the cell.
+    if (grid.empty_between(begin, end)) return at;
     each_edge(grid, begin, end);
   } else {
     for (int face = 0; face < 6; ++face) {

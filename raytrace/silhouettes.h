@@ -61,6 +61,14 @@ class Silhouettes {
     }
     void each_cell(glm::dvec2 a, glm::dvec2 b, double reach, const auto& visit) const;
     bool empty(size_t cell) const { return begin[cell] == begin[cell + 1]; }
+    // The same of all cells of the rectangle between a and b. The cells of one row follow each other in `begin`.
+    bool empty_between(glm::dvec2 a, glm::dvec2 b) const {
+      const size_t first = cell_of(glm::min(a, b)), last = cell_of(glm::max(a, b)), row = static_cast<size_t>(size);
+      const size_t columns = (last - first) % row;  // last lies in no column before first's
+      for (size_t cell = first; cell <= last; cell += row)
+        if (begin[cell] != begin[cell + columns + 1]) return false;
+      return true;
+    }
   };
   // A part of an edge in one grid.
   struct Piece {

@@ -34,7 +34,10 @@ TEST(Law5, GivesWhatAStraightEdgeCosts) {
     // All six resolutions at 20 degrees; every other one at the others, to save time.
     for (int resolution = 16; resolution <= 512; resolution *= phi == 20 ? 2 : 4) {
       const double w = 4.0 / resolution;
-      const double found = mean_over_alignments(bench, plate_from_above(phi, resolution), "aliasing_area_m2");
+      // The narrow bands of 512 texels need the larger picture.
+      const Settings settings =
+          resolution < 512 ? plate_from_above(phi, resolution, 360, 200) : plate_from_above(phi, resolution, 480, 270);
+      const double found = mean_over_alignments(bench, settings, "aliasing_area_m2");
       SCOPED_TRACE(testing::Message() << "phi " << phi << " resolution " << resolution);
       // Sampling noise: the same pixels serve all 16 alignments. At 512 texels the band in which an edge can be wrong
       // is a pixel wide and holds some 600 pixels: 4%; elsewhere it is below 2%.
@@ -83,7 +86,7 @@ TEST(Law5, SaturatesWhereFeaturesAreThinnerThanATexel) {
   std::vector<double> area;
   double whole = 0;
   std::vector<double> found_at;
-  for (int resolution : {128, 256, 512}) {
+  for (int resolution : {128, 512}) {  // 256, 512 and 1024: experiments/laws.toml
     const double w = frame.extent_m / resolution;
     double wrong = 0;
     const int n = 16;
@@ -115,7 +118,7 @@ TEST(Law5, SaturatesWhereFeaturesAreThinnerThanATexel) {
     found_at.push_back(per_wire_m);
   }
   // From 128 to 512 texels, four times as many, the error falls by less than a third: a slope of -0.25 at most.
-  EXPECT_GT(found_at[2], 0.7 * found_at[0]);
+  EXPECT_GT(found_at[1], 0.7 * found_at[0]);
 }
 
 // Law 6: extent s at resolution 2N and extent s/2 at N about the same centre have the same texels (N even), so the same
