@@ -79,7 +79,7 @@ found = "an error of {100 * error}%"
   EXPECT_EQ(run({"check", "empty.toml", "--out", "out"}), 1) << output_;
   const std::string why = "the whole scene is behind the camera";
   EXPECT_TRUE(says("note: the picture is poor at 2 of 2 points; at point 0, no pixel of 2304")) << output_;
-  EXPECT_TRUE(says("0 of 2 bounds held, 0 of 1 laws hold") && says("found not measured")) << output_;
+  EXPECT_TRUE(says("0 of 2 bounds held, 0 of 1 law holds") && says("found not measured")) << output_;
   EXPECT_FALSE(says("nan")) << output_;
   for (const char* page : {"summary.md", "junit.xml", "report.html"}) {
     const std::string text = read_file((folder_ / "out" / page).string());
