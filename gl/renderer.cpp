@@ -173,6 +173,12 @@ void Renderer::load_scene(const Scene& scene) {
   glEnableVertexArrayAttrib(vao, 0);
   glVertexArrayAttribFormat(vao, 0, 3, GL_FLOAT, GL_FALSE, 0);
   glVertexArrayAttribBinding(vao, 0, 0);
+  r.scene_box = {};
+  if (!scene.positions.empty()) r.scene_box = {scene.positions.front(), scene.positions.front()};
+  for (const glm::dvec3 p : scene.positions) {
+    r.scene_box.low = glm::min(r.scene_box.low, p);
+    r.scene_box.high = glm::max(r.scene_box.high, p);
+  }
   r.context->check("load_scene");
   r.index_count = static_cast<GLsizei>(3 * scene.triangles.size());
 }

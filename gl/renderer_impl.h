@@ -40,6 +40,10 @@ struct Target {
   int width = 0, height = 0;
 };
 
+struct Box {
+  glm::dvec3 low{0}, high{0};
+};
+
 struct Renderer::Impl {
   std::shared_ptr<EglContext> context;  // first, so that it dies last
   DeviceInfo info;
@@ -50,6 +54,7 @@ struct Renderer::Impl {
   VertexArray scene_vertices, no_vertices;
   Buffer positions, triangles;
   GLsizei index_count = 0;
+  Box scene_box;  // of the positions
 
   Framebuffer framebuffer;
   Target primitive_colour, primitive_depth;

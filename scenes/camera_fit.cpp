@@ -15,7 +15,8 @@ namespace {
 
 // Around what is fitted, as a fraction of it: far more than rounding the matrix to float moves a plane.
 constexpr double margin = 0x1p-10;
-// Of far. A nearer near plane would take the depth buffer (32-bit float, 1 at far) more than it has.
+// Of far. Over a triangle that reaches from near to far the rasteriser interpolates near / depth in float: at far it is
+// off by a float step of 1, so that the depth there is off by a share of 2^-24 / this.
 constexpr double least_near = 1e-4;
 
 // Along the view, of what lies between the sides of the picture.

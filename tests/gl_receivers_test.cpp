@@ -5,6 +5,7 @@
 #include "gl_fixture.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
+#include "scenes/library.h"
 #include "scenes/receivers.h"
 
 namespace noonmark::gl {
@@ -121,6 +122,53 @@ TEST_F(GlTest, AnImpossiblePictureIsAUsageError) {
   EXPECT_EQ(kind_thrown([&] { renderer.render_primitives(camera_from_above(1), 1 << 20, 4); }, &message),
             static_cast<int>(ErrorKind::usage));
   EXPECT_NE(message.find(std::to_string(renderer.info().max_map_resolution)), std::string::npos) << message;
+}
+
+// Near and far cut, and do nothing else: a near plane a millionth of its place, or a far one out of all reach, takes no
+// surface away and lets none through.
+TEST_F(GlTest, NearAndFarThatCutNothingOffChangeNothing) {
+  for (const BuiltinScene& builtin : builtin_scenes()) {
+    Scene scene = builtin.make({});
+    renderer.load_scene(scene);
+    for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+      scene.camera.projection = projection;
+      scene.camera.height_m = 5;
+      const Camera fitted = with_fitted_depths(scene, scene.camera, 160, 90);
+      const Image<uint32_t> image = renderer.render_primitives(fitted, 160, 90);
+      const auto seen =
+          std::count_if(image.pixels.begin(), image.pixels.end(), [](uint32_t p) { return p != no_primitive; });
+      EXPECT_GT(seen, 500) << builtin.name;
+      const double least_near = projection == Projection::perspective ? 1e-6 : 0;
+      for (const auto& [near_m, far_m] :
+           {std::pair(*fitted.near_m, 1e9), {least_near, *fitted.far_m}, {least_near, 1e9}}) {
+        Camera camera = fitted;
+        camera.near_m = near_m;
+        camera.far_m = far_m;
+        const Image<uint32_t> other = renderer.render_primitives(camera, 160, 90);
+        int different = 0;
+        for (size_t i = 0; i < image.size(); ++i) different += other[i] != image[i];
+        EXPECT_EQ(different, 0) << builtin.name << ", near " << near_m << ", far " << far_m;
+      }
+    }
+  }
+}
+
+// Sheets one behind the other, a share of their distance apart: the nearer one hides the other at any distance.
+TEST_F(GlTest, TheNearerOfTwoSheetsIsSeenHoweverFarOff) {
+  // Each of the vertex's depth, its reciprocal and its place in the plane may be off by half a float step or two.
+  constexpr double apart = 16 * 0x1p-24;
+  for (double distance : {0.01, 1.0, 100.0, 1e4, 1e6}) {
+    Scene scene;
+    const double near_sheet = distance, far_sheet = distance * (1 + apart);
+    add_quad(scene, "far", {-far_sheet, -far_sheet, -far_sheet}, {2 * far_sheet, 0, 0}, {0, 2 * far_sheet, 0});
+    add_quad(scene, "near", {-near_sheet, -near_sheet, -near_sheet}, {2 * near_sheet, 0, 0}, {0, 2 * near_sheet, 0});
+    add_quad(scene, "farther", {-far_sheet, -far_sheet, -far_sheet * 1.5}, {2 * far_sheet, 0, 0},
+             {0, 2 * far_sheet, 0});
+    renderer.load_scene(scene);
+    Camera camera{.eye_m = {0, 0, 0}, .target_m = {0, 0, -1}, .near_m = 1e-3, .far_m = 1e7};
+    const Image<uint32_t> image = renderer.render_primitives(camera, 64, 64);
+    for (uint32_t p : image.pixels) ASSERT_EQ(p / 2, 1u) << distance;
+  }
 }
 
 // From within a closed room every pixel sees a surface, wherever the eye is, however near to a wall it looks along.
