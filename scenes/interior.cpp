@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scenes/camera_frame.h"
-#include "scenes/image.h"
+#include "scenes/first_hits.h"
 
 namespace noonmark {
 namespace {
@@ -18,63 +18,6 @@ constexpr double box_share = 0.95;    // of the rays
 constexpr double hull_depth = 0.05;   // of the box: as thick as a hull is taken to be
 constexpr double room_fov_deg = 75;   // of the camera inside
 constexpr int sample_rays = 32;       // along each edge of the pictures that places are judged by
-constexpr float nothing = std::numeric_limits<float>::infinity();
-
-struct Hits {
-  Image<float> depth;  // along the view; infinite where nothing is met
-  Image<uint8_t> back, single_sided;
-};
-
-// What the rays of a small picture meet first: a z-buffer in which every triangle is asked at each pixel of its bounds.
-Hits first_hits(const Scene& scene, const CameraFrame& frame, int rays, bool through_single_sided_backs) {
-  const bool perspective = frame.camera.projection == Projection::perspective;
-  Hits hits{Image<float>(rays, rays, nothing), Image<uint8_t>(rays, rays), Image<uint8_t>(rays, rays)};
-  for (size_t i = 0; i < scene.triangles.size(); ++i) {
-    const glm::uvec3& t = scene.triangles[i];
-    const glm::dvec3 a = scene.positions[t.x], b = scene.positions[t.y], c = scene.positions[t.z];
-    const glm::dvec3 normal = glm::cross(b - a, c - a);
-    const bool back = glm::dot(normal, perspective ? a - frame.eye_m : frame.forward) > 0;
-    const bool single_sided = !scene.single_sided.empty() && scene.single_sided[i];
-    if (back && single_sided && through_single_sided_backs) continue;
-    glm::dvec2 low(rays), high(-1);
-    double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
-    for (const glm::dvec3& corner : {a, b, c}) {
-      const glm::dvec3 way = corner - frame.eye_m;
-      const double z = glm::dot(way, frame.forward), w = perspective ? z : 1;
-      nearest = std::min(nearest, z);
-      farthest = std::max(farthest, z);
-      const glm::dvec2 pixel = 0.5 * rays *
-                               glm::dvec2(1 + glm::dot(way, frame.right) / (w * frame.half_width),
-                                          1 - glm::dot(way, frame.up) / (w * frame.half_height));
-      low = glm::min(low, pixel);
-      high = glm::max(high, pixel);
-    }
-    if (!(farthest > 0)) continue;
-    if (perspective && !(nearest > 1e-6 * farthest)) {  // it crosses the eye's plane: its bounds may be anywhere
-      low = glm::dvec2(0);
-      high = glm::dvec2(rays);
-    }
-    const glm::ivec2 from = glm::clamp(glm::floor(low), 0.0, static_cast<double>(rays));
-    const glm::ivec2 to = glm::clamp(glm::ceil(high), 0.0, static_cast<double>(rays));
-    for (int y = from.y; y < to.y; ++y) {
-      for (int x = from.x; x < to.x; ++x) {
-        const Ray ray = frame.pixel_ray(x, y, rays, rays);
-        const double slope = glm::dot(normal, ray.direction);
-        const double along = glm::dot(normal, a - ray.origin) / slope;  // the direction's part along the view is 1
-        if (!(along > 0) || !(along < static_cast<double>(hits.depth.at(x, y)))) continue;
-        const glm::dvec3 p = ray.origin + along * ray.direction;
-        const auto left_of = [&](const glm::dvec3& q, const glm::dvec3& r) {
-          return glm::dot(glm::cross(r - q, p - q), normal) >= 0;
-        };
-        if (!left_of(a, b) || !left_of(b, c) || !left_of(c, a)) continue;
-        hits.depth.at(x, y) = static_cast<float>(along);
-        hits.back.at(x, y) = back;
-        hits.single_sided.at(x, y) = single_sided;
-      }
-    }
-  }
-  return hits;
-}
 
 struct Box {
   glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
@@ -86,7 +29,7 @@ struct Box {
 struct Side {
   CameraFrame frame;
   double extent_m = 0;  // of the box along the view
-  Hits hits;
+  FirstHits hits;
 
   // How deep p lies behind what is met first, as a share of the box.
   double depth_behind(const glm::dvec3& p) const {
@@ -115,7 +58,7 @@ Side look_from(const Scene& scene, const Box& box, int face) {
   side.extent_m = 2 * box.half()[axis];
   // The eye's plane holds the hull's own face: from just before it.
   side.frame.eye_m[axis] += sign * 1e-3 * side.extent_m;
-  side.hits = first_hits(scene, side.frame, side_rays, false);
+  side.hits = first_hits(scene, side.frame, side_rays, Backs::seen);
   return side;
 }
 
@@ -140,7 +83,7 @@ std::optional<Hull> hull_of_room(const Scene& scene, const Box& box) {
     side = look_from(scene, box, face);
     int met = 0, met_back = 0, met_at_face = 0;
     for (size_t i = 0; i < side.hits.depth.size(); ++i) {
-      if (side.hits.depth[i] == nothing) continue;
+      if (side.hits.depth[i] == FirstHits::nothing) continue;
       ++met;
       met_back += side.hits.back[i];
       single_sided = single_sided && (!side.hits.back[i] || side.hits.single_sided[i]);
@@ -156,9 +99,10 @@ std::optional<Hull> hull_of_room(const Scene& scene, const Box& box) {
 
 // How far one sees from there: the median over the picture, where nothing is 0.
 double view_depth(const Scene& scene, const Camera& camera) {
-  Hits hits = first_hits(scene, make_camera_frame(camera, sample_rays, sample_rays), sample_rays, true);
+  FirstHits hits =
+      first_hits(scene, make_camera_frame(camera, sample_rays, sample_rays), sample_rays, Backs::seen_of_double_sided);
   std::vector<float>& depths = hits.depth.pixels;
-  std::replace(depths.begin(), depths.end(), nothing, 0.0f);
+  std::replace(depths.begin(), depths.end(), FirstHits::nothing, 0.0f);
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
   return static_cast<double>(*middle);
