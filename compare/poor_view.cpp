@@ -27,8 +27,8 @@ double pixels_of(const PointRecord& point) {
 
 std::string cut_off(const PointRecord& point) {
   return fmt::format(
-      "at {:.0f} pixels the camera's near or far plane cuts the surface off; set view.near_m and "
-      "view.far_m",
+      "at {:.0f} pixels the camera's near or far plane cuts the surface off; set view.fit_depths = true, or "
+      "view.near_m and view.far_m",
       number(point, "clipped"));
 }
 

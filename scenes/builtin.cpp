@@ -29,8 +29,7 @@ Scene cube_room(const SceneSettings&) {
   add_box(scene, "floating cube", glm::dvec3(0.5), place({0, 1.5, 0}, 0));
   add_box(scene, "standing cube", glm::dvec3(0.5), place({2, 0, 1}, 0));
   add_box(scene, "turned cube", glm::dvec3(0.25), place({-1, 0, 2}, 60));
-  scene.camera = {
-      .eye_m = {-1.6, 2.8, 6.4}, .target_m = {1.0, 0.35, 0.6}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 100};
+  scene.camera = {.eye_m = {-1.6, 2.8, 6.4}, .target_m = {1.0, 0.35, 0.6}, .fov_y_deg = 45};
   scene.light = {.position_m = {-2, 4, -1}, .target_m = {0, 0, 0}};
   scene.map = MapVolume{.extent_m = 20, .near_m = 1, .far_m = 7.5};
   return scene;
@@ -50,12 +49,8 @@ Scene plane(const SceneSettings& settings) {
   const glm::dvec3 down = glm::cross(across, normal);
   const double half_m = 3;
   add_quad(scene, "plane", -half_m * (across + down), 2 * half_m * down, 2 * half_m * across);
-  scene.camera = {.eye_m = 7.0 * normal,
-                  .target_m = {0, 0, 0},
-                  .up = glm::normalize(0.9 * across + 0.44 * down),
-                  .fov_y_deg = 35,
-                  .near_m = 1,
-                  .far_m = 20};
+  scene.camera = {
+      .eye_m = 7.0 * normal, .target_m = {0, 0, 0}, .up = glm::normalize(0.9 * across + 0.44 * down), .fov_y_deg = 35};
   scene.map = MapVolume{.extent_m = 10, .near_m = 5, .far_m = 15};
   return scene;
 }
@@ -68,7 +63,7 @@ Scene wall(const SceneSettings& settings) {
   add_floor(scene, 5, 0);
   add_box(scene, "wall seen from its shadow", {0, 0, 0}, {t, 1.5, 3});
   add_box(scene, "wall seen from its light", {1, 0, -2}, {4, 1.5, -2 + t});
-  scene.camera = {.eye_m = {7, 5, -5}, .target_m = {1.4, 0.2, 0.2}, .fov_y_deg = 38, .near_m = 0.1, .far_m = 50};
+  scene.camera = {.eye_m = {7, 5, -5}, .target_m = {1.4, 0.2, 0.2}, .fov_y_deg = 38};
   scene.light = {.position_m = {-4, 4, -2}, .target_m = {0, 0, 0}};
   scene.map = MapVolume{.extent_m = 14, .near_m = -2, .far_m = 14};
   return scene;
@@ -84,7 +79,7 @@ Scene plate(const SceneSettings& settings) {
   const glm::dvec3 low(-0.8, top - settings.thickness_m, -0.6), high(0.8, top, 0.6);
   const glm::dmat4 placed = glm::translate(glm::dmat4(1), (low + high) / 2.0);
   add_box(scene, "plate", (high - low) / 2.0, glm::rotate(placed, radians(settings.phi_deg), glm::dvec3(0, 1, 0)));
-  scene.camera = {.eye_m = {3.2, 2.6, 4.2}, .target_m = {0.2, 0.1, 0.1}, .fov_y_deg = 35, .near_m = 0.1, .far_m = 30};
+  scene.camera = {.eye_m = {3.2, 2.6, 4.2}, .target_m = {0.2, 0.1, 0.1}, .fov_y_deg = 35};
   scene.light = {.position_m = {-3, 4, -1.5}, .target_m = {0, 0, 0}};
   scene.map = MapVolume{.extent_m = 9, .near_m = 0.5, .far_m = 10};
   return scene;
@@ -98,7 +93,7 @@ Scene pillars(const SceneSettings&) {
   for (int i = -2; i <= 2; ++i)
     for (int j = -2; j <= 2; ++j)
       add_box(scene, "pillar", {30.0 * i - 0.5, 0, 30.0 * j - 0.5}, {30.0 * i + 0.5, 4, 30.0 * j + 0.5});
-  scene.camera = {.eye_m = {11, 5, 17}, .target_m = {0, 1, 0}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 300};
+  scene.camera = {.eye_m = {11, 5, 17}, .target_m = {0, 1, 0}, .fov_y_deg = 45};
   scene.light = {.position_m = {-30, 60, -20}, .target_m = {0, 0, 0}};
   scene.map = MapVolume{.extent_m = 200, .near_m = -40, .far_m = 180};
   return scene;
@@ -113,7 +108,7 @@ Scene sphere(const SceneSettings&) {
     const double r = t == 0 || t == 1 ? 0 : std::sin(polar);  // sin(pi) is not 0 in floating point, and poles must weld
     return glm::dvec3(r * std::sin(phi), -std::cos(polar), r * std::cos(phi));
   });
-  scene.camera = {.eye_m = {-1.5, 2.2, 3.6}, .target_m = {0, 0, 0}, .fov_y_deg = 30, .near_m = 0.1, .far_m = 20};
+  scene.camera = {.eye_m = {-1.5, 2.2, 3.6}, .target_m = {0, 0, 0}, .fov_y_deg = 30};
   scene.light = {.position_m = {-2, 4, -1}, .target_m = {0, 0, 0}};
   scene.map = MapVolume{.extent_m = 2.6, .near_m = 2, .far_m = 8};
   return scene;
@@ -128,7 +123,7 @@ Scene bowl(const SceneSettings&) {
     const double r = t == 1 ? 0 : std::sin(polar);
     return glm::dvec3(r * std::sin(phi), 1 - std::cos(polar), r * std::cos(phi));
   });
-  scene.camera = {.eye_m = {0.6, 4.2, 1.8}, .target_m = {0, 0.3, 0}, .fov_y_deg = 30, .near_m = 0.1, .far_m = 20};
+  scene.camera = {.eye_m = {0.6, 4.2, 1.8}, .target_m = {0, 0.3, 0}, .fov_y_deg = 30};
   scene.light = {.position_m = {0, 5, 0}, .target_m = {0, 0, 0}};
   scene.map = MapVolume{.extent_m = 2.6, .near_m = 3, .far_m = 6};
   return scene;
@@ -146,7 +141,7 @@ Scene fence(const SceneSettings&) {
   }
   for (double y : {0.05, 1.0}) add_box(scene, "rail", {-0.02, y - 0.02, -half - 0.05}, {0.02, y + 0.02, half + 0.05});
   for (double z : {-half - 0.05, half + 0.05}) add_box(scene, "post", {-0.03, 0, z - 0.03}, {0.03, 1.1, z + 0.03});
-  scene.camera = {.eye_m = {3.4, 2.2, 2.6}, .target_m = {0.4, 0.2, 0}, .fov_y_deg = 38, .near_m = 0.1, .far_m = 30};
+  scene.camera = {.eye_m = {3.4, 2.2, 2.6}, .target_m = {0.4, 0.2, 0}, .fov_y_deg = 38};
   scene.light = {.position_m = {-3, 4, -1.2}, .target_m = {0, 0, 0}};
   scene.map = MapVolume{.extent_m = 11, .near_m = 0, .far_m = 10};
   return scene;
@@ -174,7 +169,7 @@ Scene facade(const SceneSettings&) {
     }
   }
   add_box(scene, "canopy", {-0.7, 2.0, 0.4}, {0.7, 2.05, 1.2});
-  scene.camera = {.eye_m = {1.8, 2.2, 6.4}, .target_m = {0, 1.5, 0}, .fov_y_deg = 38, .near_m = 0.1, .far_m = 30};
+  scene.camera = {.eye_m = {1.8, 2.2, 6.4}, .target_m = {0, 1.5, 0}, .fov_y_deg = 38};
   scene.light = {.position_m = {-3, 5, 4}, .target_m = {0, 1.2, 0}};
   scene.map = MapVolume{.extent_m = 12, .near_m = -1, .far_m = 14};
   return scene;
@@ -196,7 +191,7 @@ Scene spot_room(const SceneSettings&) {
   add_box(scene, "leaning box", glm::dvec3(0.5, 0.2, 0.5), place({1, 0.6, -1}, 35, {0.4, 0, 1}));
   add_box(scene, "box at the wall", {2, 0, -4}, {3.2, 0.9, -3});
   add_box(scene, "far box", glm::dvec3(0.6), place({5.4, 0.6, -0.6}, 20, {0, 1, 0}));
-  scene.camera = {.eye_m = {0.2, 5, 11}, .target_m = {0.2, 0.6, -0.8}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 60};
+  scene.camera = {.eye_m = {0.2, 5, 11}, .target_m = {0.2, 0.6, -0.8}, .fov_y_deg = 45};
   scene.light = {.kind = LightKind::spot, .position_m = {-6, 3.5, 1.5}, .target_m = {0.5, 0.2, -0.8}, .cone_deg = 64};
   scene.map = MapVolume{.near_m = 1, .far_m = 22};
   return scene;
@@ -220,7 +215,7 @@ Scene point_room(const SceneSettings&) {
   cube({-3, -1, 0}, 0.5, 0);
   cube({-1.5, 1, 1.5}, 0.5, 0);
   cube({-1.5, 2, -3}, 0.75, 60);
-  scene.camera = {.eye_m = {-4.3, -2.5, 4.4}, .target_m = {1, 0.5, -1.5}, .fov_y_deg = 75, .near_m = 0.1, .far_m = 30};
+  scene.camera = {.eye_m = {-4.3, -2.5, 4.4}, .target_m = {1, 0.5, -1.5}, .fov_y_deg = 75};
   scene.light = {.kind = LightKind::point, .position_m = {0.013, 0.007, -0.011}, .target_m = {0, -1, 0}};
   scene.map = MapVolume{.near_m = 1, .far_m = 25};
   return scene;

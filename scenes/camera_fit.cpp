@@ -104,6 +104,7 @@ Camera effective_camera(const Scene& scene, const ViewSettings& view) {
   if (view.target_m) camera.target_m = *view.target_m;
   if (view.up) camera.up = *view.up;
   if (view.fov_deg) camera.fov_y_deg = *view.fov_deg;
+  if (view.fit_depths) camera.near_m = camera.far_m = std::nullopt;
   if (view.near_m) camera.near_m = view.near_m;
   if (view.far_m) camera.far_m = view.far_m;
   make_camera_frame(camera, view.width_px, view.height_px);  // refuses what is no camera

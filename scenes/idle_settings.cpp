@@ -33,6 +33,7 @@ bool bias(LightKind, S s) {
 constexpr Rule rules[] = {
     {"scene.time_s", from_file},
     {"scene.animation", [](LightKind, S s) { return names_file(s.scene.name) && s.scene.time_s.has_value(); }},
+    {"view.fit_depths", [](LightKind, S s) { return names_file(s.scene.name) && !(s.view.near_m && s.view.far_m); }},
     {"light.angular_diameter_deg", directional},
     {"light.radius_m", has_place},
     {"light.shape", has_place},
@@ -63,6 +64,9 @@ constexpr Rule rules[] = {
 
 std::string because(std::string_view name, LightKind light, S s) {
   if (name.starts_with("scene.")) return names_file(s.scene.name) ? "without scene.time_s" : "in a built-in scene";
+  if (name == "view.fit_depths")
+    return names_file(s.scene.name) ? "with both view.near_m and view.far_m"
+                                    : "in a built-in scene, where near and far are always fitted";
   if (name.starts_with("filter.")) return "with filter.kind = " + find_setting("filter.kind").get(s);
   if (name.starts_with("bias.")) return "with bias.form = " + find_setting("bias.form").get(s);
   constexpr std::string_view kinds[] = {"directional", "spot", "point"};

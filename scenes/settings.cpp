@@ -185,11 +185,19 @@ std::vector<Setting> make_table() {
             MEMBER(view.up)),
       real("view.fov_deg", "deg", 1, 170, "Whole vertical angle of view; auto: the scene's.", MEMBER(view.fov_deg)),
       real("view.near_m", "m", 1e-6, 1e9,
-           "The camera's near plane, along the view; auto: the scene's, or fitted so that nothing in view is cut off.",
+           "The camera's near plane, along the view; auto: that of the scene's file, or fitted so that nothing in view "
+           "is "
+           "cut off.",
            MEMBER(view.near_m)),
       real("view.far_m", "m", 1e-6, 1e9,
-           "The camera's far plane, along the view; auto: the scene's, or fitted so that nothing in view is cut off.",
+           "The camera's far plane, along the view; auto: that of the scene's file, or fitted so that nothing in view "
+           "is "
+           "cut off.",
            MEMBER(view.far_m)),
+      flag("view.fit_depths",
+           "Fits the near and far that are auto, so that nothing in view is cut off, also where the scene's file gives "
+           "them.",
+           MEMBER(view.fit_depths)),
       choice("light.kind", {"auto", "directional", "spot", "point"},
              "directional: parallel rays and one orthographic map; spot: one perspective map; point: a cube map of "
              "distances; auto: the scene's.",

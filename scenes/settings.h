@@ -62,6 +62,7 @@ struct ViewSettings {
   std::optional<double> fov_deg;       // whole vertical angle; empty: the scene's
   std::optional<double> near_m;        // along the view; empty: the scene's, or fitted (scenes/camera_fit.h)
   std::optional<double> far_m;
+  bool fit_depths = false;  // near and far fitted, also where the scene's file gives them
 };
 
 struct LightSettings {  // automatic and empty: the scene's

@@ -8,6 +8,7 @@
 #include "compare/measure.h"
 #include "gl/renderer.h"
 #include "raytrace/tracer.h"
+#include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "tests/acceptance_support.h"
 
@@ -136,11 +137,12 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
   const Scene scene = make_scene(base.scene);
   gl::Renderer renderer(gl::DebugMode::fatal);
   renderer.load_scene(scene);
-  const ReceiverImage receivers = resolve_receivers(
-      scene, scene.camera, renderer.render_primitives(scene.camera, base.view.width_px, base.view.height_px));
+  const Camera camera = effective_camera(scene, base.view);
+  const ReceiverImage receivers =
+      resolve_receivers(scene, camera, renderer.render_primitives(camera, base.view.width_px, base.view.height_px));
   const raytrace::Tracer tracer(scene);
   const LightFrame frame = make_light_frame(scene, base);
-  renderer.load_receivers(receivers, scene.camera.eye_m);
+  renderer.load_receivers(receivers, camera.eye_m);
   const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {});
   const gl::ShadowMap map = renderer.render_map(frame, base);
   const Image<float> stored = renderer.read_map(map);

@@ -14,6 +14,7 @@
 #include "compare/soundness.h"
 #include "gl/renderer.h"
 #include "raytrace/tracer.h"
+#include "scenes/camera_fit.h"
 #include "scenes/library.h"
 
 namespace noonmark::planted {
@@ -48,8 +49,9 @@ inline Figures measure(const Settings& settings, const Defect& defect = {}) {
   // Which surface a pixel sees is not in question: a sound renderer says it.
   gl::Renderer sound(gl::DebugMode::fatal);
   sound.load_scene(scene);
+  const Camera camera = effective_camera(scene, settings.view);
   const ReceiverImage receivers = resolve_receivers(
-      scene, scene.camera, sound.render_primitives(scene.camera, settings.view.width_px, settings.view.height_px));
+      scene, camera, sound.render_primitives(camera, settings.view.width_px, settings.view.height_px));
   const raytrace::Tracer tracer(scene);
   const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {});
 

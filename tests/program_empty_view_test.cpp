@@ -16,6 +16,10 @@ class EmptyView : public Program {
     square["materials"] = {{{"doubleSided", true}}};
     square["meshes"][0]["primitives"][0]["material"] = 0;
     write("both.gltf", square.dump());
+    square["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.5}, {"zfar", 20}}}}};
+    square["nodes"].push_back({{"camera", 0}, {"translation", {0.5, 0.5, 2}}});
+    square["scenes"][0]["nodes"].push_back(square["nodes"].size() - 1);
+    write("near_and_far.gltf", square.dump());
   }
   static std::vector<std::string> render(const std::vector<std::string>& sets) {
     std::vector<std::string> arguments = {"render", "--set", "view.width_px=64", "--set", "view.height_px=36"};
@@ -34,7 +38,8 @@ TEST_F(EmptyView, RenderSaysWhy) {
       {{"view.eye_m=0,1,100", "view.target_m=0,1,200"}, "no pixel of 2304 can be judged: the whole scene is behind"},
       {{"view.eye_m=0,1,100", "view.target_m=1000,1,0"}, "no pixel of 2304 can be judged: the camera looks past"},
       {{"view.near_m=60"}, "the camera's near or far plane cuts the surface off"},
-      {{"view.far_m=0.2"}, "set view.near_m and view.far_m"},
+      {{"view.far_m=0.2"}, "set view.fit_depths = true, or view.near_m and view.far_m"},
+      {{"scene.name=near_and_far.gltf", "view.eye_m=0.5,0.5,40"}, "near or far plane cuts the surface off"},
       {{"scene.name=square.gltf", "view.eye_m=0.5,0.5,-2", "view.target_m=0.5,0.5,0"}, "backs of single-sided faces"},
       {{"scene.name=square.gltf", "view.eye_m=0.5,0.5,30"}, "only"},
       {{"scene.name=both.gltf", "view.eye_m=0.5,0.5,2", "light.position_m=0.5,0.5,-3", "light.target_m=0.5,0.5,0"},
@@ -50,6 +55,9 @@ TEST_F(EmptyView, RenderSaysWhy) {
   }
   const std::vector<std::vector<std::string>> enough = {
       {},
+      {"view.eye_m=500,500,500", "view.fov_deg=5"},
+      {"scene.name=near_and_far.gltf"},
+      {"scene.name=near_and_far.gltf", "view.eye_m=0.5,0.5,40", "view.fov_deg=3", "view.fit_depths=true"},
       {"scene.name=square.gltf"},
       {"scene.name=both.gltf", "view.eye_m=0.5,0.5,-2", "view.target_m=0.5,0.5,0", "light.position_m=0.5,2,-3"}};
   for (const std::vector<std::string>& sets : enough) {
@@ -107,7 +115,8 @@ TEST_F(EmptyView, CamerasThatAreNoneAreUsageErrors) {
            {{"view.up=0,0,0"}, "view.up = 0,0,0"},
            {{"view.eye_m=0,5,0", "view.target_m=0,0,0", "view.up=0,1,0"}, "view.up = 0,1,0 is parallel to the view"},
            {{"view.near_m=5", "view.far_m=5"}, "view.near_m = 5 is not less than view.far_m = 5"},
-           {{"view.near_m=200"}, "near plane (200 m) is not before its far plane (100 m)"},
+           {{"scene.name=near_and_far.gltf", "view.near_m=200"},
+            "near plane (200 m) is not before its far plane (20 m)"},
            {{"view.near_m=0"}, "view.near_m = '0' is not allowed"},
            {{"view.eye_m=1,1,1", "view.target_m=1,1,1"}, "eye is its target"}}) {
     SCOPED_TRACE(testing::PrintToString(one.sets));

@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "scenes/library.h"
 #include "scenes/light_frame.h"
@@ -108,7 +109,8 @@ TEST(BuiltinScenes, OpenSurfacesFaceTheLight) {
 // on it.
 TEST(BuiltinScenes, TheCameraSeesThem) {
   for (const Scene& scene : all_scenes()) {
-    const CameraFrame frame = make_camera_frame(scene.camera, 1280, 720);
+    const Camera camera = effective_camera(scene, {});
+    const CameraFrame frame = make_camera_frame(camera, 1280, 720);
     size_t seen = 0, parts_seen = 0;
     for (const Part& part : scene.parts) {
       size_t of_part = 0;
@@ -136,7 +138,7 @@ TEST(BuiltinScenes, TheCameraSeesThem) {
       if (!((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0))) continue;
       const glm::dvec3 n = glm::cross(b - a, c - a);
       const double along = glm::dot(n, a - ray.origin) / glm::dot(n, d);
-      met |= along > scene.camera.near_m && along < scene.camera.far_m;
+      met |= along > camera.near_m && along < camera.far_m;
     }
     EXPECT_TRUE(met) << scene.name;
   }

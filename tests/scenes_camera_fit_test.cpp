@@ -113,13 +113,6 @@ TEST(CameraFit, OrthographicCamerasStartAtTheEye) {
 }
 
 TEST(CameraFit, GivenPlanesStayAndTheOtherYields) {
-  SceneSettings settings;
-  for (const BuiltinScene& builtin : builtin_scenes()) {
-    const Scene scene = builtin.make(settings);
-    const Camera camera = effective_camera(scene, {});
-    EXPECT_EQ(camera.near_m, scene.camera.near_m) << builtin.name;
-    EXPECT_EQ(camera.far_m, scene.camera.far_m) << builtin.name;
-  }
   Scene scene;
   add_quad(scene, "wall", {-5, -5, -10}, {10, 0, 0}, {0, 10, 0});
   scene.camera = {.eye_m = {0, 0, 0}, .target_m = {0, 0, -1}};
@@ -142,6 +135,33 @@ TEST(CameraFit, GivenPlanesStayAndTheOtherYields) {
   ViewSettings crossed;
   crossed.near_m = 20;
   EXPECT_EQ(kind_of_error(scene, crossed), 2) << "the scene's far is not behind it";
+  crossed.fit_depths = true;
+  EXPECT_EQ(*effective_camera(scene, crossed).far_m, 40) << "it yields, as where there is none";
+  ViewSettings fitted;
+  fitted.fit_depths = true;
+  EXPECT_NEAR(*effective_camera(scene, fitted).near_m, 10, 0.02);
+  EXPECT_NEAR(*effective_camera(scene, fitted).far_m, 10, 0.02);
+  fitted.far_m = 12;
+  EXPECT_EQ(*effective_camera(scene, fitted).far_m, 12);
+}
+
+TEST(CameraFit, BuiltInScenesAreWholeFromWhereverTheyAreSeen) {
+  for (const BuiltinScene& builtin : builtin_scenes()) {
+    const Scene scene = builtin.make({});
+    ViewSettings view;
+    for (const double distance : {0.0, 5e2, 5e5}) {
+      if (distance > 0) view.eye_m = glm::dvec3(distance);
+      const Camera camera = effective_camera(scene, view);
+      const CameraFrame frame = make_camera_frame(camera, view.width_px, view.height_px);
+      for (const glm::vec3& p : scene.positions) {
+        const double depth = glm::dot(glm::dvec3(p) - frame.eye_m, frame.forward);
+        EXPECT_LT(depth, *camera.far_m) << builtin.name;
+        if (distance > 0) {
+          EXPECT_GT(depth, *camera.near_m) << builtin.name;
+        }
+      }
+    }
+  }
 }
 
 TEST(CameraFit, UpTurnsThePicture) {

@@ -83,7 +83,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
   // An aggregate binds to exactly as many names as it has members.
   const Settings s;
   [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10] = s.scene;
-  [[maybe_unused]] const auto& [b1, b2, b3, b4, b5, b6, b7, b8] = s.view;
+  [[maybe_unused]] const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9] = s.view;
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7] = s.light;
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16] = s.map;
   [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7, e8, e9, e10] = s.bias;
@@ -91,7 +91,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
   [[maybe_unused]] const auto& [g1] = s.truth;
   EXPECT_EQ(rows,
             (std::map<std::string, int>{
-                {"scene", 10}, {"view", 8}, {"light", 7}, {"map", 16}, {"bias", 10}, {"filter", 9}, {"truth", 1}}));
+                {"scene", 10}, {"view", 9}, {"light", 7}, {"map", 16}, {"bias", 10}, {"filter", 9}, {"truth", 1}}));
 }
 
 TEST(SettingsTable, TakesItsOwnTextsBack) {
@@ -372,6 +372,12 @@ TEST(Settings, ThoseThatChangeNothingAreNamed) {
   EXPECT_EQ(idle(LightKind::point,
                  {{"filter.kind", "cube_disk"}, {"filter.disk", "view_distance"}, {"filter.radius_m", "0.1"}}),
             "filter.radius_m with filter.kind = cube_disk;");
+  EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"view.fit_depths", "true"}}), "");
+  EXPECT_EQ(idle(LightKind::spot, {{"view.fit_depths", "true"}}),
+            "view.fit_depths in a built-in scene, where near and far are always fitted;");
+  EXPECT_EQ(idle(LightKind::spot,
+                 {{"scene.name", "a.glb"}, {"view.fit_depths", "true"}, {"view.near_m", "1"}, {"view.far_m", "9"}}),
+            "view.fit_depths with both view.near_m and view.far_m;");
   EXPECT_EQ(idle(LightKind::spot, {{"scene.time_s", "2"}}), "scene.time_s in a built-in scene;");
   EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"scene.animation", "1"}}),
             "scene.animation without scene.time_s;");
