@@ -34,10 +34,10 @@ void print_ladder(const Measurement& m) {
   fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", printable(m.scene.name), value("receivers"),
              value("facing"), value("counted"));
   if (value("facing") > 0) fmt::print(" ({:.4f}% ambiguous)", 100 * value("ambiguous"));
-  fmt::print("\n\n");
-  if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("  {}\n\n", poor);
-  if (value("counted") == 0) return;
-  fmt::print("  {:<32}{:>12}\n", "share of counted receivers", "");
+  fmt::print("\n");
+  if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("\n  {}\n", poor);
+  if (nothing_judged(m.record)) return;
+  fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_table())
     if (metric.unit == "fraction" && metric.name != "ambiguous")
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));

@@ -13,6 +13,7 @@
 #include "app/view_shading.h"
 #include "compare/law_metrics.h"
 #include "compare/measure.h"
+#include "compare/poor_view.h"
 #include "compare/soundness.h"
 #include "scenes/address_space.h"
 #include "scenes/camera_fit.h"
@@ -361,7 +362,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       {"texel_ms", lookup.texel_stage.milliseconds}, {"texel_rays", static_cast<double>(lookup.texel_stage.rays)},
       {"tap_ms", lookup.tap_stage.milliseconds},     {"tap_rays", static_cast<double>(lookup.tap_stage.rays)}};
 
-  if (parameter)
+  if (parameter && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
       const BiasScale scale = bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit);
       return summarise(*counts, scale, *curve_options);

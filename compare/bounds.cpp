@@ -164,7 +164,7 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
 
   if (!std::isfinite(bound.found)) text += "  a value that could not be measured breaks every bound\n";
   if (const std::string poor = point ? why_poor_view(*point) : ""; !poor.empty()) text += fmt::format("  {}\n", poor);
-  if (point && find_quantity(bound.metric).of_curve && !why_no_curve(*point).empty())
+  if (point && find_quantity(bound.metric).of_curve && !nothing_judged(*point) && !why_no_curve(*point).empty())
     text += fmt::format("  it is read off the bias curve, and this point has none: {}\n", why_no_curve(*point));
   if (point) {
     text += fmt::format("  {}\n", point_text(*point, swept));

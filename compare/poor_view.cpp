@@ -49,6 +49,8 @@ std::string why_few_surfaces(const PointRecord& point) {
 
 }  // namespace
 
+bool nothing_judged(const PointRecord& point) { return quantity(point, "counted") == 0.0; }
+
 std::string why_poor_view(const PointRecord& point) {
   const double pixels = pixels_of(point), counted = number(point, "counted"), receivers = number(point, "receivers"),
                facing = number(point, "facing"), few = std::max(1.0, few_receivers_share * pixels);

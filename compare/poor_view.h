@@ -10,6 +10,10 @@ namespace noonmark {
 
 inline constexpr double few_receivers_share = 0.01;  // of the picture's pixels: fewer receivers are few
 
+// Whether no pixel could be judged: then nothing was measured, and nothing can be said of the method. A record that
+// does not say is judged.
+bool nothing_judged(const PointRecord& point);
+
 // "only 535 of 921600 pixels can be judged: ...", with the reason and what to do; also of a picture in which nothing is
 // lit, or of which near or far cut off more than that share. Empty where there is nothing to say, and where the record
 // does not say.

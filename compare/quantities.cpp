@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "compare/metrics.h"
+#include "compare/poor_view.h"
 #include "scenes/error.h"
 #include "scenes/settings.h"
 
@@ -86,6 +87,7 @@ QuantityInfo find_quantity(std::string_view name) {
 std::string_view why_no_curve(const PointRecord& point) {
   const auto form = point.settings.find("bias.form");
   if (point.curve || form == point.settings.end()) return "";
+  if (nothing_judged(point)) return "no pixel can be judged";
   if (form->second == "normal_offset")
     return "bias.form normal_offset moves the lookup, so that no one pass knows its every value: sweep "
            "bias.normal_offset instead";

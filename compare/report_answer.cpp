@@ -175,6 +175,11 @@ std::string health_items(const Results& results) {
 }
 
 std::string recommendation_box(const Results& results) {
+  if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
+    return fmt::format(
+        "<div class=\"recommend broken\"><h3>What to set</h3><p><b>Nothing was measured</b>: {}. This says nothing of "
+        "the method.</p></div>\n",
+        html(poor_view_note(results.points)));
   const Recommendation found = recommend(results);
   if (found.outcome == Recommendation::Outcome::no_criterion)
     return "<div class=\"recommend none\"><h3>What to set</h3><p>Nothing says what is good enough: set a bound, or "

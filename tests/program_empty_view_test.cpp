@@ -52,6 +52,7 @@ TEST_F(EmptyView, RenderSaysWhy) {
     EXPECT_EQ(run(render(one.sets)), 0) << output_;
     EXPECT_TRUE(says(one.says)) << output_;
     EXPECT_FALSE(says("nan")) << output_;
+    EXPECT_FALSE(says("\n\n\n")) << output_;
   }
   const std::vector<std::vector<std::string>> enough = {
       {},
@@ -78,6 +79,15 @@ max = 1
 [[bound]]
 metric = "shaded_rmse"
 max = 1
+[[bound]]
+metric = "window_width_m"
+min = 0
+[[bound]]
+metric = "best_bias_depth"
+max = 0.01
+[[bound]]
+metric = "flat_min_depth"
+max = 0.01
 [[law]]
 name = "a law over nothing"
 measured = "error"
@@ -87,13 +97,18 @@ found = "an error of {100 * error}%"
   EXPECT_EQ(run({"check", "empty.toml", "--out", "out"}), 1) << output_;
   const std::string why = "the whole scene is behind the camera";
   EXPECT_TRUE(says("note: the picture is poor at 2 of 2 points; at point 0, no pixel of 2304")) << output_;
-  EXPECT_TRUE(says("0 of 2 bounds held, 0 of 1 law holds") && says("found not measured")) << output_;
+  EXPECT_TRUE(says("0 of 5 bounds held, 0 of 1 law holds") && says("found not measured")) << output_;
   EXPECT_FALSE(says("nan")) << output_;
   for (const char* page : {"summary.md", "junit.xml", "report.html"}) {
     const std::string text = read_file((folder_ / "out" / page).string());
     EXPECT_NE(text.find(why), std::string::npos) << page;
     EXPECT_EQ(text.find("nan%"), std::string::npos) << page;
   }
+  const std::string report = read_file((folder_ / "out" / "report.html").string());
+  EXPECT_NE(report.find("<b>Nothing was measured</b>: the picture is poor at 2 of 2 points"), std::string::npos);
+  const std::string shown = report.substr(0, report.find("<script"));
+  for (const char* claim : {"method fails", "good enough", "usable bias exists"})
+    EXPECT_EQ(shown.find(claim), std::string::npos) << claim;
   for (const char* page : {"summary.md", "junit.xml"})
     EXPECT_EQ(read_file((folder_ / "out" / page).string()).find("nan"), std::string::npos) << page;
 }
