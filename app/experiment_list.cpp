@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "scenes/text.h"
+
 namespace noonmark {
 namespace {
 
@@ -23,7 +25,7 @@ std::vector<std::string> toml_files_below(const std::string& path, std::vector<U
       std::error_code none;
       if (entry->is_directory(none) && !entry->is_symlink(none))
         open.push_back(entry->path().string());
-      else if (entry->path().extension() == ".toml")
+      else if (ends_with_any_case(entry->path().extension().native(), ".toml"))
         found.push_back(entry->path().string());
     }
     if (!error) continue;

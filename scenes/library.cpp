@@ -7,6 +7,7 @@
 
 #include "scenes/error.h"
 #include "scenes/remesh.h"
+#include "scenes/text.h"
 
 namespace noonmark {
 namespace {
@@ -32,7 +33,9 @@ Scene scene_as_built(const SceneSettings& settings) {
 
 }  // namespace
 
-bool names_file(std::string_view scene_name) { return scene_name.ends_with(".gltf") || scene_name.ends_with(".glb"); }
+bool names_file(std::string_view scene_name) {
+  return ends_with_any_case(scene_name, ".gltf") || ends_with_any_case(scene_name, ".glb");
+}
 
 std::string notes_line(const Scene& scene) {
   return scene.notes.empty() ? "" : fmt::format("{}: {}", scene.name, fmt::join(scene.notes, "; "));

@@ -50,4 +50,11 @@ std::string printable(std::string_view text, Lines lines) {
   return shown;
 }
 
+bool ends_with_any_case(std::string_view text, std::string_view ending) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return text.size() >= ending.size() &&
+         std::equal(ending.begin(), ending.end(), text.end() - static_cast<std::ptrdiff_t>(ending.size()),
+                    [&](char e, char c) { return lower(c) == e; });
+}
+
 }  // namespace noonmark

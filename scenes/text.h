@@ -22,4 +22,7 @@ std::string counted(size_t count, std::string_view what);
 // Control characters and bytes that are no UTF-8 as \xNN; everything else as it is.
 std::string printable(std::string_view text, Lines lines = Lines::one);
 
+// Whether text ends so, letters of ASCII in either case: file systems and tools write .GLTF too. ending: in lower case.
+bool ends_with_any_case(std::string_view text, std::string_view ending);
+
 }  // namespace noonmark

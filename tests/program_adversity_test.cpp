@@ -84,6 +84,15 @@ TEST_F(Adversity, AFolderThatCannotBeReadIsSaidAndTheRestIsChecked) {
   chmod((folder_ / "exps/closed").c_str(), 0700);
 }
 
+TEST_F(Adversity, EndingsInCapitalsCount) {
+  fs::create_directories(folder_ / "exps");
+  write("exps/A.TOML", one_point + "[[bound]]\nmetric = \"residual\"\nmax = 1e-6\n");
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}), 0) << output_;
+  EXPECT_TRUE(says("1 of 1 bounds held")) << output_;
+  EXPECT_EQ(run({"render", "--set", "scene.name=ABSENT.GLTF"}), 3) << output_;
+  expect_one_line("no such file");
+}
+
 TEST_F(Adversity, ProgressThatCannotBeWrittenLosesNothing) {
   const std::string experiment = write("x.toml", two_points);
   ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
