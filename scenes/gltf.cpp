@@ -31,9 +31,11 @@ Scene load_gltf(const std::string& path, const Pose& pose) {
       gltf::pose(document, readers, *pose.time_s, scene.notes);
     }
     const gltf::Placement placement = gltf::place_nodes(document, scene.notes);
-    gltf::append_geometry(document, buffers, placement, scene);
+    const uint64_t without_area = gltf::append_geometry(document, buffers, placement, scene);
     if (scene.triangles.empty()) {
-      gltf::refuse(path, "", "the scene that it shows holds no triangles",
+      gltf::refuse(path, "",
+                   "the scene that it shows holds no triangles" +
+                       gltf::instead_of_triangles(document, placement.nodes, without_area),
                    "export meshes of triangles, in the default scene and with an area");
     }
     gltf::note_contents(document, placement.nodes, scene.notes);

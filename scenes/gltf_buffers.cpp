@@ -150,7 +150,8 @@ std::vector<uint8_t> Buffers::load(size_t buffer, const std::string& place) cons
              "use data:application/octet-stream;base64,");
     }
   } else {
-    return read_bytes(confined(file, *info.uri, place + ".uri"), info.byte_length, file, place + ".uri");
+    return read_bytes(confined(file, *info.uri, place + ".uri"), info.byte_length, file, place + ".uri",
+                      printable(*info.uri));
   }
   if (data.size() < info.byte_length) {
     refuse(file, place + ".byteLength", fmt::format("{} bytes, but only {} are there", info.byte_length, data.size()),

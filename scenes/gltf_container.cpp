@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "scenes/gltf_error.h"
+#include "scenes/text.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -84,12 +85,14 @@ void check_nesting(const std::string& file, std::string_view json) {
 }  // namespace
 
 std::vector<uint8_t> read_bytes(const std::filesystem::path& path, uint64_t wanted, std::string_view file,
-                                std::string_view place) {
+                                std::string_view place, std::string_view shown) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) refuse(file, place, "there is no such file", "check its name and folder");
   // A directory, a pipe or a device would fail late, block, or never end.
-  if (!std::filesystem::is_regular_file(status)) refuse(file, place, "not a regular file", "name a file");
+  if (!std::filesystem::is_regular_file(status))
+    refuse(file, place, shown.empty() ? "not a regular file" : fmt::format("'{}' is not a regular file", shown),
+           "name a file");
   const uint64_t size = std::filesystem::file_size(path, error);
   if (error) refuse(file, place, "its size cannot be read: " + error.message(), "check its permissions");
   if (wanted > size) {
@@ -112,7 +115,7 @@ Container read_container(const std::string& file) {
   Container out;
   if (bytes.size() >= 4 && u32(bytes, 0) == magic_gltf) {
     out = split_glb(file, bytes);
-  } else if (file.ends_with(".glb")) {
+  } else if (ends_with_any_case(file, ".glb")) {
     refuse(file, "GLB header", bytes.size() < header_bytes ? "is cut short" : "does not begin with 'glTF'",
            "the file is damaged, or is JSON and should be named .gltf");
   } else {

@@ -26,8 +26,9 @@ struct Container {
 // that its nesting is at most max_json_depth.
 Container read_container(const std::string& file);
 
-// The first `wanted` bytes of a regular file (all of it when wanted is 0). file and place are for the message.
+// The first `wanted` bytes of a regular file (all of it when wanted is 0). file, place and shown (what the scene calls
+// it) are for the message.
 std::vector<uint8_t> read_bytes(const std::filesystem::path& path, uint64_t wanted, std::string_view file,
-                                std::string_view place);
+                                std::string_view place, std::string_view shown = "");
 
 }  // namespace noonmark::gltf

@@ -5,7 +5,10 @@
 #include <draco/metadata/metadata_decoder.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "scenes/gltf_error.h"
 
@@ -69,6 +72,34 @@ bool pack(const draco::PointAttribute& from, uint32_t points, int component_type
   }
 }
 
+// The data may be damaged and still decode. min and max are those of the values before or after they were quantized.
+std::string note_of_bounds(const Document& document, int accessor, std::span<const uint8_t> packed,
+                           const std::string& place) {
+  const tinygltf::Accessor& a = document.model.accessors[static_cast<size_t>(accessor)];
+  const auto declared = document.guarded.declared_bounds.find(static_cast<size_t>(accessor));
+  if (declared == document.guarded.declared_bounds.end() || a.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) return "";
+  const auto& [low, high] = declared->second;
+  const AccessorReader reader(a, packed);
+  glm::dvec3 least(std::numeric_limits<double>::infinity()), most = -least;
+  for (size_t i = 0; i < reader.count(); ++i) {
+    least = glm::min(least, reader.vec3(i));
+    most = glm::max(most, reader.vec3(i));
+  }
+  double extent = 0, off = 0;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<size_t>(k);
+    extent = std::max(extent, high[axis] - low[axis]);
+    off = std::max({off, std::abs(least[k] - low[axis]), std::abs(most[k] - high[axis])});
+  }
+  // One step of 8 bits over the longest axis; exporters use 10 to 16. The other term: rounding to float.
+  const double step = extent / 255 + 0x1p-22 * std::max(glm::length(least), glm::length(most));
+  if (off <= step) return "";
+  return fmt::format(
+      "{}: the data reach {:.3g} beyond or short of the min and max of accessors[{}], more than "
+      "quantization does: drawn as decoded, they may be damaged",
+      place, off, accessor);
+}
+
 }  // namespace
 
 bool is_draco(const tinygltf::Primitive& primitive) { return primitive.extensions.contains(extension); }
@@ -130,7 +161,9 @@ DracoMesh decode_draco(const Document& document, Buffers& buffers, int mesh, siz
     if (!pack(*attribute, made.num_points(), a.componentType, bytes.data()))
       fail(fmt::format("{} cannot be converted to the type of accessors[{}]", name, accessor_index));
   }
-  if (!out.elements.contains(primitive.attributes.at("POSITION"))) fail("POSITION is not among what is compressed");
+  const int positions = primitive.attributes.at("POSITION");
+  if (!out.elements.contains(positions)) fail("POSITION is not among what is compressed");
+  out.note = note_of_bounds(document, positions, out.elements.at(positions), place);
   return out;
 }
 

@@ -11,6 +11,7 @@ namespace noonmark::gltf {
 struct DracoMesh {
   std::vector<uint32_t> corners;                 // three to a triangle, whatever the primitive's mode
   std::map<int, std::vector<uint8_t>> elements;  // of the accessors that stand for compressed attributes, packed
+  std::string note;  // that the positions are not where their accessor's min and max say; else empty
 };
 
 bool is_draco(const tinygltf::Primitive& primitive);

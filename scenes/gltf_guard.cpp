@@ -11,6 +11,7 @@
 
 #include "scenes/gltf_error.h"
 #include "scenes/gltf_extensions.h"
+#include "scenes/gltf_json.h"
 #include "scenes/gltf_precheck.h"
 
 namespace noonmark::gltf {
@@ -49,12 +50,12 @@ constexpr Field accessor[] = {{"bufferView", Kind::integer},
                               {"count", Kind::integer, required, max_size},
                               {"type", Kind::text, required},
                               {"sparse", Kind::object, false, 0, sparse}};
-// EXT_meshopt_compression, KHR_meshopt_compression
+// EXT_meshopt_compression, KHR_meshopt_compression. tinygltf keeps all numbers of an extension in an int.
 constexpr Field meshopt[] = {{"buffer", Kind::integer, required},
-                             {"byteOffset", Kind::integer, false, max_size},
-                             {"byteLength", Kind::integer, required, max_size},
+                             {"byteOffset", Kind::integer},
+                             {"byteLength", Kind::integer, required},
                              {"byteStride", Kind::integer, required, 256},
-                             {"count", Kind::integer, required, max_size},
+                             {"count", Kind::integer, required},
                              {"mode", Kind::text, required},
                              {"filter", Kind::text}};
 constexpr Field buffer_view_extensions[] = {{"EXT_meshopt_compression", Kind::object, false, 0, meshopt},
@@ -285,6 +286,20 @@ void check_version(const std::string& file, const json& document) {
   }
 }
 
+// What an accessor says of its values; nothing where it does not, or not as it should: only a note depends on it.
+std::optional<DeclaredBounds> declared_bounds(const json& from) {
+  DeclaredBounds out;
+  for (auto [name, to] : {std::pair("min", &out.min), std::pair("max", &out.max)}) {
+    const auto found = from.find(name);
+    if (found == from.end() || !found->is_array() || found->size() != 3) return std::nullopt;
+    for (size_t k = 0; k < 3; ++k) {
+      if (!(*found)[k].is_number()) return std::nullopt;
+      (*to)[k] = (*found)[k].get<double>();
+    }
+  }
+  return out;
+}
+
 // The animation that is asked for; null where the document stands at rest.
 json chosen_animation(const std::string& file, const json& whole, std::optional<size_t> index) {
   if (!index) return nullptr;
@@ -301,15 +316,7 @@ json chosen_animation(const std::string& file, const json& whole, std::optional<
 }  // namespace
 
 GuardedDocument guard(const std::string& file, const std::string& text, std::optional<size_t> animation_index) {
-  json whole;
-  // The parser of JSON skips a byte order mark; glTF forbids it (section 2.7).
-  if (text.starts_with("\xef\xbb\xbf"))
-    refuse(file, "byte 0 of the JSON", "a byte order mark", "save it as plain UTF-8");
-  try {
-    whole = json::parse(text);
-  } catch (const json::exception& e) {
-    refuse(file, "JSON", printable(e.what()), "export the file again, or correct it");
-  }
+  const json whole = parse_json(file, text);
   GuardedDocument out;
   if (!whole.is_object()) refuse(file, "JSON", "not an object", "is this a glTF file?");
   // Before the rest: a file of glTF 1.0 would fail on its first property and not say why.
@@ -323,6 +330,10 @@ GuardedDocument guard(const std::string& file, const std::string& text, std::opt
   out.quantized = uses_extension(out.json, "KHR_mesh_quantization");
   out.animation = chosen_animation(file, whole, animation_index);
   out.animations = whole.contains("animations") && whole["animations"].is_array() ? whole["animations"].size() : 0;
+  const auto accessors = whole.find("accessors");
+  for (size_t i = 0; accessors != whole.end() && i < accessors->size(); ++i) {
+    if (const auto bounds = declared_bounds((*accessors)[i])) out.declared_bounds[i] = *bounds;
+  }
   prepare_for_tinygltf(file, out);
   if (out.json.contains("buffers")) {
     for (const json& one : out.json["buffers"]) {

@@ -3,6 +3,7 @@
 // type and in range. Everything else (extras, images, textures) stays behind, and so do the buffers, which
 // gltf_buffers.cpp reads itself, and the animation that poses the scene (gltf_animation.h): tinygltf opens no file.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,11 @@ struct BufferInfo {
   uint64_t byte_length = 0;
 };
 
+// min and max of an accessor of three components.
+struct DeclaredBounds {
+  std::array<double, 3> min{}, max{};
+};
+
 struct GuardedDocument {
   nlohmann::json json;  // without `buffers`
   std::vector<BufferInfo> buffers;
@@ -26,7 +32,8 @@ struct GuardedDocument {
   // Objects of a type that glTF does not know, by index: nothing that is drawn may use them. To tinygltf they look like
   // another type.
   std::map<size_t, std::string> unknown_accessors, unknown_cameras;
-  std::vector<std::string> notes;  // of extensions in use that are not read
+  std::map<size_t, DeclaredBounds> declared_bounds;  // by accessor
+  std::vector<std::string> notes;                    // of extensions in use that are not read
 };
 
 // animation: the index of the one that poses the scene. Throws Error(scene) naming the first place that is malformed,

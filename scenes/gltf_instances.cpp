@@ -69,10 +69,16 @@ glm::dmat4 Instances::node_from_mesh(size_t i) const {
              fmt::format("instance {} has a quaternion of length {} instead of 1", i, glm::length(q)), remedy);
     axes = glm::mat3_cast(glm::normalize(q));
   }
-  const glm::dvec3 scale = scale_ != nullptr ? scale_->vec3(i) : glm::dvec3(1);
+  const auto finite = [&](const glm::dvec3& v, const char* name) {
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+      refuse(document_.file, fmt::format("{}.attributes.{}", place_of(node_), name),
+             fmt::format("instance {} is not finite", i), remedy);
+    return v;
+  };
+  const glm::dvec3 scale = scale_ != nullptr ? finite(scale_->vec3(i), "SCALE") : glm::dvec3(1);
   glm::dmat4 m(1);
   for (int axis = 0; axis < 3; ++axis) m[axis] = glm::dvec4(axes[axis] * scale[axis], 0);
-  if (translation_ != nullptr) m[3] = glm::dvec4(translation_->vec3(i), 1);
+  if (translation_ != nullptr) m[3] = glm::dvec4(finite(translation_->vec3(i), "TRANSLATION"), 1);
   return m;
 }
 

@@ -78,6 +78,17 @@ bool degenerate(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   return glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)) == glm::dvec3(0);
 }
 
+// Of a flattened mesh: whether rounding the corners to float can have made all of its width. Each corner may be off by
+// sqrt(3) / 2 of a float step of the largest coordinate, and two of them, on opposite sides, make the width.
+bool as_thin_as_rounding(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const glm::dvec3 ab = glm::dvec3(b) - glm::dvec3(a), ac = glm::dvec3(c) - glm::dvec3(a), bc = ac - ab;
+  const double longest = std::max({glm::length(ab), glm::length(ac), glm::length(bc)});
+  double largest = 0;
+  for (const glm::vec3& p : {a, b, c})
+    for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(static_cast<double>(p[k])));
+  return glm::length(glm::cross(ab, ac)) <= 4 * 0x1p-24 * largest * longest;
+}
+
 // Where the file's vertices went in the scene. The range of indices that a primitive uses is often a small part of its
 // accessor; where it is far larger than their number, a list of the used ones takes less memory.
 class VertexMap {
@@ -151,14 +162,14 @@ class Appender {
       if (instances != 1 || d_.model.nodes[placed.node].extensions.contains("EXT_mesh_gpu_instancing"))
         refuse(d_.file, fmt::format("nodes[{}]", placed.node),
                "instances of a mesh under a skin: glTF does not say where", "export without EXT_mesh_gpu_instancing");
-      append_triangles(placed, drawable, source, positions, [&](uint32_t v) { return skin.world_from_mesh(v); });
+      append_triangles(placed, drawable, source, positions, false, [&](uint32_t v) { return skin.world_from_mesh(v); });
     } else {
-      require_invertible(d_, placed);
       count_reads(placed, source, instances * (1 + positions.targets()));
       const Instances places(d_, readers_, placed.node);
       for (uint64_t i = 0; i < instances; ++i) {
         const glm::dmat4 world_from_mesh = placed.world_from_node * places.node_from_mesh(i);
-        append_triangles(placed, drawable, source, positions, [&](uint32_t) { return world_from_mesh; });
+        append_triangles(placed, drawable, source, positions, flattens(world_from_mesh),
+                         [&](uint32_t) { return world_from_mesh; });
       }
     }
     part.triangle_count = static_cast<uint32_t>(scene_.triangles.size()) - part.first_triangle;
@@ -180,10 +191,11 @@ class Appender {
              "simplify it or split it");
   }
 
-  // world_from_mesh(v): of vertex v.
+  // world_from_mesh(v): of vertex v. flat: it has no inside and no outside; its triangles keep the order of their
+  // corners.
   template <class WorldFromMesh>
   void append_triangles(const PlacedNode& placed, const Drawable& drawable, const Source& source,
-                        const MorphedPositions& positions, const WorldFromMesh& world_from_mesh) {
+                        const MorphedPositions& positions, bool flat, const WorldFromMesh& world_from_mesh) {
     const std::vector<uint32_t>& vertices = source.vertices;
     VertexMap map(vertices);
     const int mode = drawable.draco ? TINYGLTF_MODE_TRIANGLES : drawable.mode;
@@ -195,12 +207,13 @@ class Appender {
       for (int k = 0; k < 3; ++k) {
         triangle[k] = vertices[triangle[k]];
         const glm::dmat4 world = world_from_mesh(triangle[k]);
-        orientation += glm::determinant(glm::dmat3(world));
+        if (!flat) orientation += glm::determinant(glm::dmat3(world));
         const uint32_t known = map.place_of(triangle[k]);
         corner[k] = known != unused ? scene_.positions[known]
                                     : world_position(placed, drawable, world, positions.at(triangle[k]), triangle[k]);
       }
-      if (degenerate(corner[0], corner[1], corner[2])) {
+      if (degenerate(corner[0], corner[1], corner[2]) ||
+          (flat && as_thin_as_rounding(corner[0], corner[1], corner[2]))) {
         ++degenerate_;
         continue;
       }
@@ -224,6 +237,7 @@ class Appender {
     Source& source = found->second;
     if (!fresh) return source;
     source.draco = decode_draco(d_, buffers_, mesh, drawable.primitive);
+    if (!source.draco.note.empty()) scene_.notes.push_back(source.draco.note);
     for (const auto& [accessor, bytes] : source.draco.elements)
       source.unpacked.try_emplace(accessor, d_.model.accessors[static_cast<size_t>(accessor)], bytes);
     source.vertices = std::move(source.draco.corners);
@@ -322,7 +336,7 @@ SceneSize count_geometry(const Document& document, const Placement& placement) {
 
 }  // namespace
 
-void append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene) {
+uint64_t append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene) {
   // Counted before anything is made: instances turn a small file into a large scene.
   const SceneSize count = count_geometry(document, placement);
   const double needed = scene_bytes(count);
@@ -341,8 +355,9 @@ void append_geometry(const Document& document, Buffers& buffers, const Placement
     if (!draws(node, placed)) continue;
     for (const Drawable& drawable : meshes[static_cast<size_t>(node.mesh)]) appender.append(placed, drawable);
   }
-  if (const uint64_t dropped = appender.degenerate_triangles(); dropped > 0)
-    scene.notes.push_back(counted(dropped, "triangle") + " without an area: left out, and not numbered");
+  const uint64_t dropped = appender.degenerate_triangles();
+  if (dropped > 0) scene.notes.push_back(counted(dropped, "triangle") + " without an area: left out, and not numbered");
+  return dropped;
 }
 
 }  // namespace noonmark::gltf

@@ -18,11 +18,13 @@ namespace noonmark::gltf {
 // - only the vertices that some triangle uses;
 // - no degenerate triangle: two equal corners, or corners in a line as far as double arithmetic tells. It has no normal
 //   and hides nothing. Scene::notes says how many: triangles are numbered without them.
-// A transform that mirrors flips the winding, so that outsides stay outsides. Triangles of materials that are not
+// A transform that mirrors flips the winding, so that outsides stay outsides. One that flattens leaves the order of the
+// corners, and of the triangles those that have an area then. Triangles of materials that are not
 // doubleSided are marked in scene.single_sided.
 // Throws Error(scene): indices out of range or meaning restart, positions not finite or beyond max_coordinate_m, more
 // than max_triangles or than fit into the memory that is available (scenes/memory.h), and what the files named above
 // refuse.
-void append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene);
+// Returns how many triangles without an area were left out.
+uint64_t append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene);
 
 }  // namespace noonmark::gltf

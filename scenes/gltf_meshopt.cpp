@@ -25,7 +25,7 @@ bool layout_is_right(const MeshoptView& v) {
     return v.filter == "NONE" || v.filter == "EXPONENTIAL";
   }
   if (v.mode != "TRIANGLES" && v.mode != "INDICES") return false;
-  return (v.stride == 2 || v.stride == 4) && v.filter == "NONE" && (v.mode == "INDICES" || v.count % 3 == 0);
+  return (v.stride == 2 || v.stride == 4) && v.filter == "NONE";
 }
 
 // The shortest data that the codecs take for an element: 4 bytes for a block of 256 rows at most and a byte of a row; 1
@@ -59,6 +59,8 @@ std::optional<MeshoptView> meshopt_view(const Document& document, int view) {
     if (!layout_is_right(out))
       fail(fmt::format("mode '{}', filter '{}' and byteStride {} do not go together", printable(out.mode),
                        printable(out.filter), out.stride));
+    if (out.mode == "TRIANGLES" && out.count % 3 != 0)
+      fail(fmt::format("count {} is not a multiple of 3, which mode TRIANGLES asks for", out.count));
     if (out.count > parent.byteLength || out.count * out.stride != parent.byteLength)
       fail(fmt::format("{} elements of {} bytes do not fill the view's {}", out.count, out.stride, parent.byteLength));
     if (parent.byteLength / largest_ratio > out.length)

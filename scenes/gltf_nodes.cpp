@@ -192,7 +192,8 @@ std::vector<size_t> find_roots(const Document& document, const std::vector<int>&
   if (twice > 0) notes.push_back(counted(twice, "node") + " that the scene lists twice: drawn once");
   if (below > 0) notes.push_back(counted(below, "node") + " that the scene lists beside an ancestor: drawn once");
   if (children > 0)
-    notes.push_back(counted(children, "root") + " of the scene that have parents: drawn where these put them");
+    notes.push_back(fmt::format("{} of the scene that {} parents: drawn where these put them",
+                                counted(children, "root"), children == 1 ? "has" : "have"));
   return roots;
 }
 
@@ -218,10 +219,14 @@ Placement place_nodes(const Document& document, std::vector<std::string>& notes)
   return placement;
 }
 
-void require_invertible(const Document& document, const PlacedNode& placed) {
+bool flattens(const glm::dmat4& transform) {
   // Below this the three axes lie in a plane as far as double arithmetic can tell (16 digits, less what products lose).
   constexpr double least_determinant = 1e-12;
-  if (!(relative_determinant(placed.world_from_node) > least_determinant)) {
+  return !(relative_determinant(transform) > least_determinant);
+}
+
+void require_invertible(const Document& document, const PlacedNode& placed) {
+  if (flattens(placed.world_from_node)) {
     refuse(document.file, place_of(placed.node), "its transform cannot be inverted: it flattens what is below it",
            "give every axis a scale other than 0");
   }

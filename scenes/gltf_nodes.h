@@ -33,8 +33,11 @@ struct Placement {
 // max_coordinate_m.
 Placement place_nodes(const Document& document, std::vector<std::string>& notes);
 
-// Throws Error(scene) where the node's place in the world flattens what it holds: then it has neither an outside nor a
-// direction. Asked of nodes that hold meshes, cameras or lights; a joint may be flat.
+// Whether it maps all of space into a plane, a line or a point.
+bool flattens(const glm::dmat4& transform);
+
+// Throws Error(scene) where the node's place in the world flattens what it holds: then it has no direction. Asked of
+// nodes that hold cameras or lights; what a flat mesh is still has its area.
 void require_invertible(const Document& document, const PlacedNode& placed);
 
 }  // namespace noonmark::gltf

@@ -169,7 +169,8 @@ class Checker {
     const tinygltf::Accessor& a = used(s.inverseBindMatrices, here);
     if (a.type != TINYGLTF_TYPE_MAT4 || a.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
       fail(here, fmt::format("accessors[{}] is no MAT4 of FLOAT", s.inverseBindMatrices));
-    if (a.count < s.joints.size()) fail(here, fmt::format("{} matrices for {} joints", a.count, s.joints.size()));
+    if (a.count < s.joints.size())
+      fail(here, fmt::format("{} {} for {} joints", a.count, a.count == 1 ? "matrix" : "matrices", s.joints.size()));
   }
 
   void positions(const tinygltf::Accessor& a, const std::string& place) const {

@@ -37,8 +37,8 @@ std::optional<Camera> find_camera(const Document& document, const std::vector<Pl
   };
   const auto found = std::find_if(nodes.begin(), nodes.end(), has_camera);
   if (found == nodes.end()) return std::nullopt;
-  if (const auto more = std::count_if(found + 1, nodes.end(), has_camera); more > 0)
-    scene.notes.push_back(counted(more, "camera") + " after the first are not used");
+  if (const auto more = static_cast<uint64_t>(std::count_if(found + 1, nodes.end(), has_camera)); more > 0)
+    scene.notes.push_back(fmt::format("{} after the first {} not used", counted(more, "camera"), is_or_are(more)));
   const auto index = static_cast<size_t>(document.model.nodes[found->node].camera);
   if (const auto unknown = document.guarded.unknown_cameras.find(index);
       unknown != document.guarded.unknown_cameras.end()) {
@@ -77,8 +77,8 @@ std::optional<Light> find_light(const Document& document, const std::vector<Plac
   const auto lights = [&](const PlacedNode& n) { return n.shown() && light_of(document, n) != nullptr; };
   const auto found = std::find_if(nodes.begin(), nodes.end(), lights);
   if (found == nodes.end()) return std::nullopt;
-  if (const auto more = std::count_if(found + 1, nodes.end(), lights); more > 0)
-    scene.notes.push_back(counted(more, "light") + " after the first are not used");
+  if (const auto more = static_cast<uint64_t>(std::count_if(found + 1, nodes.end(), lights)); more > 0)
+    scene.notes.push_back(fmt::format("{} after the first {} not used", counted(more, "light"), is_or_are(more)));
   const tinygltf::Light& from = *light_of(document, *found);
   if (from.type != "directional" && from.type != "point" && from.type != "spot") {
     refuse(document.file, fmt::format("nodes[{}].extensions.KHR_lights_punctual.light", found->node),

@@ -62,6 +62,30 @@ TEST_F(GltfCompression, DracoWithQuantizedPositionsIsWithinHalfAStep) {
   }
 }
 
+// What decodes may be damaged all the same: min and max tell, if only of the hull.
+TEST_F(GltfCompression, DracoThatContradictsMinAndMaxIsSaid) {
+  const Grid g = wavy(12);
+  glm::vec3 low(g.positions[0], g.positions[1], g.positions[2]), high = low;
+  for (size_t i = 0; i < g.positions.size(); ++i) {
+    const auto axis = static_cast<int>(i % 3);
+    low[axis] = std::min(low[axis], g.positions[i]);
+    high[axis] = std::max(high[axis], g.positions[i]);
+  }
+  for (const int bits : {0, 8, 10, 14}) {
+    const Encoding how{draco::MESH_EDGEBREAKER_ENCODING, bits};
+    json d = draco_document(g, draco_bytes(g, how), how);
+    d["accessors"][0]["min"] = {low.x, low.y, low.z};
+    d["accessors"][0]["max"] = {high.x, high.y, high.z};
+    EXPECT_EQ(load(d).notes, std::vector<std::string>()) << bits;
+    d["accessors"][0]["max"][1] = 1.01 * high.y;
+    const Scene s = load(d);
+    ASSERT_EQ(s.notes.size(), 1u) << bits;
+    EXPECT_NE(s.notes[0].find("than quantization does: drawn as decoded"), std::string::npos) << s.notes[0];
+    d["accessors"][0]["max"] = {"high", nullptr};
+    EXPECT_EQ(load(d).notes, std::vector<std::string>()) << "no bounds at all";
+  }
+}
+
 TEST_F(GltfCompression, DracoCarriesJointsAndWeights) {
   const Grid g = wavy(6);
   const Encoding how{draco::MESH_EDGEBREAKER_ENCODING, 0, true};
@@ -191,9 +215,13 @@ TEST_F(GltfCompression, MeshoptThatContradictsItselfIsRefused) {
   expect([](json& x) { x["buffer"] = 9; }, place + ": buffer 9 is beyond");
   expect([](json& x) { x["byteOffset"] = 9; }, place + ": ends at byte");
   expect([](json& x) { x["count"] = 26; }, "26 elements of 12 bytes do not fill the view's 300");
-  expect([](json& x) { x["count"] = uint64_t{1} << 53; }, "do not fill the view's 300");
+  expect([](json& x) { x["count"] = 0x7fffffff; }, "2147483647 elements of 12 bytes do not fill the view's 300");
   expect([](json& x) { x["byteStride"] = 10; }, "do not go together");
   expect([](json& x) { x["mode"] = "TRIANGLES"; }, "do not go together");
+  expect([](json& x) { x["count"] = uint64_t{1} << 40; },
+         "count: should be an integer from 0 to 2147483647, not 1099511627776");
+  expect([](json& x) { x["mode"] = "TRIANGLES", x["byteStride"] = 4, x["count"] = 37; },
+         "count 37 is not a multiple of 3");
   expect([](json& x) { x["mode"] = "MAGIC"; }, "mode 'MAGIC'");
   expect([](json& x) { x["filter"] = "QUATERNION"; }, "do not go together");
   expect([](json& x) { x["filter"] = "COLOR"; }, "do not go together");

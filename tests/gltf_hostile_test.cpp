@@ -107,8 +107,8 @@ const Case cases[] = {
     {"NanPosition", "accessors[2]: vertex 1 is not finite", [](json& d) { replace_positions(d, {0, 0, 0, 1, not_a_number, 0, 1, 1, 0, 0, 1, 0}); }},
     {"InfinitePosition", "accessors[2]: vertex 3 is not finite", [](json& d) { replace_positions(d, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, -infinite, 0}); }},
     {"FarAwayPosition", "accessors[2]: vertex 3 is", [](json& d) { replace_positions(d, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 3e38f, 0}); }},
-    {"OnlyPoints", "holds no triangles", [](json& d) { primitive(d)["mode"] = 0; }},
-    {"OnlyDegenerate", "holds no triangles", [](json& d) { replace_positions(d, std::vector<float>(12, 1)); }},
+    {"OnlyPoints", "holds no triangles: 1 primitive of points;", [](json& d) { primitive(d)["mode"] = 0; }},
+    {"OnlyDegenerate", "holds no triangles: 2 triangles without an area;", [](json& d) { replace_positions(d, std::vector<float>(12, 1)); }},
     {"UnknownAlphaMode", "materials[0].alphaMode", [](json& d) { d["materials"] = {{{"alphaMode", "GLASS"}}}; }},
     // Nodes.
     {"NodeIsItsOwnChild", "nodes[0]: is its own ancestor", [](json& d) { d["nodes"][0]["children"] = {0}; }},
@@ -123,12 +123,30 @@ const Case cases[] = {
     {"DanglingScene", "scene: 4 refers", [](json& d) { d["scene"] = 4; }},
     {"DanglingRoot", "scenes[0].nodes[0]: 4 refers", [](json& d) { d["scenes"][0]["nodes"] = {4}; }},
     {"ZeroMatrix", "nodes[0].matrix: its last row", [](json& d) { d["nodes"][0]["matrix"] = std::vector<int>(16); }},
-    {"SingularMatrix", "nodes[0]: its transform cannot be inverted",
+    {"SingularMatrix", "holds no triangles: 2 triangles without an area",
      [](json& d) { d["nodes"][0]["matrix"] = {1, 2, 3, 0, 2, 4, 6, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }},
     {"ProjectiveMatrix", "nodes[0].matrix: its last row", [](json& d) { d["nodes"][0]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }},
     {"ShortMatrix", "nodes[0].matrix: has 9 numbers", [](json& d) { d["nodes"][0]["matrix"] = std::vector<int>(9, 1); }},
     {"MatrixAndScale", "nodes[0]: has both", [](json& d) { d["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, d["nodes"][0]["scale"] = {1, 1, 1}; }},
-    {"FlatScale", "nodes[0]: its transform cannot be inverted", [](json& d) { d["nodes"][0]["scale"] = {1, 0, 1}; }},
+    {"FlatScale", "holds no triangles: 2 triangles without an area", [](json& d) { d["nodes"][0]["scale"] = {1, 0, 1}; }},
+    {"FlatScaleOfTwoAxes", "holds no triangles: 2 triangles without an area",
+     [](json& d) { d["nodes"][0]["scale"] = {1, 0, 0}, d["nodes"][0]["rotation"] = {0.48, 0.36, 0, 0.8}; }},
+    {"FlatCamera", "nodes[1]: its transform cannot be inverted",
+     [](json& d) {
+       add_camera(d, {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.25}}}});
+       d["nodes"].push_back({{"camera", 0}, {"scale", {1, 0, 1}}});
+       d["nodes"][0].erase("camera"), d["scenes"][0]["nodes"] = {0, 1};
+     }},
+    {"ScaledToNothing", "holds no triangles: 1 node with a mesh scaled to nothing;", [](json& d) { d["nodes"][0]["scale"] = {0, 0, 0}; }},
+    {"AllHidden", "holds no triangles: 2 nodes with a mesh hidden by KHR_node_visibility;",
+     [](json& d) {
+       d["nodes"][0]["extensions"]["KHR_node_visibility"]["visible"] = false;
+       d["nodes"][0]["children"] = {1}, d["nodes"].push_back({{"mesh", 0}});
+     }},
+    {"NoMeshAtAll", "holds no triangles: no node has a mesh;", [](json& d) { d["nodes"][0].erase("mesh"); }},
+    {"NanInstance", "nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION: instance 1 is not finite",
+     [](json& d) { d["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+                       add_accessor(d, raw(std::vector<float>{0, 0, 0, 1, not_a_number, 0}), 5126, "VEC3", 2); }},
     {"HugeScale", "nodes[0]", [](json& d) { d["nodes"][0]["scale"] = {1e300, 1e300, 1e300}; }},
     {"HugeTranslation", "nodes[0]: stands more than", [](json& d) { d["nodes"][0]["translation"] = {1e300, 0, 0}; }},
     {"ZeroRotation", "nodes[0].rotation: a quaternion of length 0", [](json& d) { d["nodes"][0]["rotation"] = {0, 0, 0, 0}; }},
@@ -230,7 +248,8 @@ TEST(GltfFiles, DirectoriesAndPipesAreNotBuffers) {
   for (const char* uri : {"directory.bin", "pipe.bin", ".", "directory.bin/"}) {
     json d = square();
     d["buffers"][0]["uri"] = uri;
-    expect_refusal(folder.write("scene.gltf", d.dump()), "buffers[0].uri: not a regular file");
+    expect_refusal(folder.write("scene.gltf", d.dump()),
+                   "buffers[0].uri: '" + std::string(uri) + "' is not a regular file");
   }
 }
 

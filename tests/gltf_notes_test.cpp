@@ -45,7 +45,7 @@ TEST_F(GltfNotes, ListedRootsAreDrawnOnceWhereTheirParentsPutThem) {
   d["scenes"][0]["nodes"] = {0};
   const Scene alone = load(d);
   EXPECT_EQ(alone.positions[0].z, 3);
-  EXPECT_TRUE(noted(alone, "1 root of the scene that have parents"));
+  EXPECT_TRUE(noted(alone, "1 root of the scene that has parents"));
 }
 
 TEST_F(GltfNotes, WhatIsLeftOutIsSaid) {
@@ -72,7 +72,8 @@ TEST_F(GltfNotes, WhatIsLeftOutIsSaid) {
   for (const char* text :
        {"extension ACME_wobble is not read", "scene 0 of 2 is shown", "1 primitive of points left out",
         "3 primitives of lines left out", "1 material masked by a texture", "1 material with alphaMode BLEND",
-        "1 material that transmit light", "1 camera after the first", "1 light after the first"})
+        "1 material that transmits light", "1 camera after the first is not used",
+        "1 light after the first is not used"})
     EXPECT_TRUE(noted(s, text)) << text;
   EXPECT_EQ(s.notes.size(), 9u);
 }
@@ -119,6 +120,92 @@ TEST_F(GltfNotes, ExtensionsOfMaterialsAndTexturesLeaveShadowsAlone) {
     d["extensionsUsed"] = d["extensionsRequired"] = {name};
     EXPECT_EQ(load(d).notes, std::vector<std::string>()) << name;
   }
+}
+
+// glTF 2.0 leaves open what a flat transform does to the winding: the order of the corners stays.
+TEST_F(GltfNotes, AFlatNodeIsDrawn) {
+  json d = square();
+  d["nodes"][0]["scale"] = {2, 3, 0};
+  const Scene s = load(d);
+  ASSERT_EQ(s.triangles.size(), 2u);
+  EXPECT_EQ(s.notes, std::vector<std::string>());
+  EXPECT_EQ(s.positions[2], glm::vec3(2, 3, 0));
+  for (const glm::uvec3& t : s.triangles)
+    EXPECT_GT(glm::cross(s.positions[t.y] - s.positions[t.x], s.positions[t.z] - s.positions[t.x]).z, 0);
+}
+
+// A box that is flattened along no axis of the world: its sides come down to what rounding makes of a line.
+TEST_F(GltfNotes, AFlattenedBoxIsItsTwoFaces) {
+  std::vector<float> corners;
+  for (int i = 0; i < 8; ++i)
+    for (int bit : {1, 2, 4}) corners.push_back((i & bit) != 0 ? 0.7f : -0.3f);
+  const std::vector<uint16_t> faces = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                       2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+  json d = square();
+  auto& primitive = d["meshes"][0]["primitives"][0];
+  primitive["attributes"]["POSITION"] = add_accessor(d, raw(corners), 5126, "VEC3", 8);
+  primitive["indices"] = add_accessor(d, raw(faces), 5123, "SCALAR", faces.size());
+  d["nodes"][0]["scale"] = {1, 1, 0};
+  d["nodes"].push_back({{"children", {0}}, {"rotation", {0.48, 0.36, 0, 0.8}}, {"translation", {3, -2, 7}}});
+  d["scenes"][0]["nodes"] = {1};
+  const Scene s = load(d);
+  EXPECT_EQ(s.triangles.size(), 4u);
+  EXPECT_TRUE(noted(s, "8 triangles without an area"));
+}
+
+TEST_F(GltfNotes, WhatIsScaledToNothingIsSaid) {
+  json d = square();
+  d["nodes"].push_back({{"mesh", 0}, {"scale", {0, 0, 0}}});
+  d["scenes"][0]["nodes"] = {0, 1};
+  const Scene s = load(d);
+  EXPECT_EQ(s.triangles.size(), 2u);
+  EXPECT_EQ(s.notes, std::vector<std::string>{"1 node with a mesh scaled to nothing: not drawn"});
+}
+
+TEST_F(GltfNotes, EndingsInCapitalsAreFilesToo) {
+  const std::string text = square().dump();
+  EXPECT_EQ(load_gltf(folder_.write("SQUARE.GLTF", text)).triangles.size(), 2u);
+  json d = square();
+  d["buffers"][0].erase("uri");
+  EXPECT_EQ(load_gltf(folder_.write("Square.Glb", glb(d.dump(), square_bytes()))).triangles.size(), 2u);
+  EXPECT_TRUE(names_file("A.GLTF") && names_file("b.gLb") && !names_file("gltf") && !names_file("cube-room"));
+}
+
+TEST_F(GltfNotes, TextThatIsNoJsonSaysWhy) {
+  const auto said = [&](const std::string& text) { return test::refusal(folder_.write("scene.gltf", text)); };
+  const auto expect = [&](const std::string& text, const std::string& what) {
+    const std::string message = said(text);
+    EXPECT_NE(message.find(what), std::string::npos) << message;
+    EXPECT_EQ(message.find("json.exception"), std::string::npos) << message;
+    EXPECT_EQ(message.find("..."), std::string::npos) << message;
+  };
+  expect("", "the file is empty");
+  expect(" \n\t", "the file is empty");
+  expect(std::string(100, '\0'), "holds nothing but zeros");
+  std::string wide = "\xff\xfe";
+  for (char c : square().dump()) wide += std::string{c, '\0'};
+  expect(wide, "looks like UTF-16");
+  expect(wide.substr(2), "looks like UTF-16");
+  expect("{\n \"asset\": {\"version\": \"2.0\"", "line 2, column 28 of the JSON: unexpected end of input");
+  expect("{\"asset\": 2.0.0}", "line 1, column 14 of the JSON: invalid literal");
+  expect("{\"asset\": 1e999}", "number overflow");
+}
+
+TEST_F(GltfNotes, AKeyThatStandsTwiceIsRefused) {
+  std::string text = square().dump();
+  const auto at = text.find("\"mesh\":0");
+  ASSERT_NE(at, std::string::npos);
+  std::string twice = text;
+  twice.insert(at, "\"mesh\":1,");
+  EXPECT_NE(test::refusal(folder_.write("scene.gltf", twice)).find("an object in nodes: has the key 'mesh' twice"),
+            std::string::npos);
+  twice = text;
+  twice.insert(1, "\"nodes\":[],");
+  EXPECT_NE(test::refusal(folder_.write("scene.gltf", twice)).find("JSON: has the key 'nodes' twice"),
+            std::string::npos);
+  std::string extras = text;
+  extras.insert(at, "\"extras\":{\"a\":1,\"a\":{\"b\":2,\"b\":3}},");
+  EXPECT_EQ(load_gltf(folder_.write("scene.gltf", extras)).triangles.size(), 2u);
 }
 
 }  // namespace

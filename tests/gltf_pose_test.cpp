@@ -138,7 +138,7 @@ TEST_F(GltfPose, BrokenSkinsAreRefused) {
   expect([](json& d) { d["skins"][0]["joints"] = json::array(); }, "skins[0].joints: is empty");
   expect([](json& d) { d["skins"][0]["inverseBindMatrices"] = 0; }, "skins[0].inverseBindMatrices: accessors[0] is no");
   expect([](json& d) { d["skins"][0]["inverseBindMatrices"] = add_floats(d, std::vector<float>(16), "MAT4", 1); },
-         "1 matrices for 2 joints");
+         "1 matrix for 2 joints");
 }
 
 // Targets: the first lifts all by 1, the second moves vertex 2 by (4, 0, 0).
