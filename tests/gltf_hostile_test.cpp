@@ -130,7 +130,10 @@ const Case cases[] = {
     {"MatrixAndScale", "nodes[0]: has both", [](json& d) { d["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, d["nodes"][0]["scale"] = {1, 1, 1}; }},
     {"FlatScale", "holds no triangles: 2 triangles without an area", [](json& d) { d["nodes"][0]["scale"] = {1, 0, 1}; }},
     {"FlatScaleOfTwoAxes", "holds no triangles: 2 triangles without an area",
-     [](json& d) { d["nodes"][0]["scale"] = {1, 0, 0}, d["nodes"][0]["rotation"] = {0.48, 0.36, 0, 0.8}; }},
+     [](json& d) {
+       replace_positions(d, {0, 0, 0, 0.3f, 1, 0, 0.7f, 0.4f, 0, 1, 0.2f, 0});  // on a line, as far as float tells
+       d["nodes"][0]["scale"] = {1, 0, 0}, d["nodes"][0]["rotation"] = {0.48, 0.36, 0, 0.8};
+     }},
     {"FlatCamera", "nodes[1]: its transform cannot be inverted",
      [](json& d) {
        add_camera(d, {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.25}}}});
