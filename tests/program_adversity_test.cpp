@@ -88,7 +88,7 @@ TEST_F(Adversity, EndingsInCapitalsCount) {
   fs::create_directories(folder_ / "exps");
   write("exps/A.TOML", one_point + "[[bound]]\nmetric = \"residual\"\nmax = 1e-6\n");
   EXPECT_EQ(run({"check", "exps", "--out", "out"}), 0) << output_;
-  EXPECT_TRUE(says("1 of 1 bounds held")) << output_;
+  EXPECT_TRUE(says("1 of 1 bound held")) << output_;
   EXPECT_EQ(run({"render", "--set", "scene.name=ABSENT.GLTF"}), 3) << output_;
   expect_one_line("no such file");
 }
