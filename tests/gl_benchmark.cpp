@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gl/renderer.h"
+#include "scenes/camera_fit.h"
 #include "scenes/receivers.h"
 #include "scenes/shapes.h"
 
@@ -19,6 +20,7 @@ Scene sheet(int n) {
     return glm::dvec3(6 * s - 3, 0.5 * std::sin(20 * s) * std::cos(15 * t), 3 - 6 * t);
   });
   scene.camera.eye_m = {3, 4, 7};
+  scene.camera = with_fitted_depths(scene, scene.camera, 1280, 720);
   scene.light.position_m = {2, 8, 1};
   return scene;
 }
