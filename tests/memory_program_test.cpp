@@ -111,7 +111,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"pixels", "pictures = \"first\"\n[view]\nwidth_px = 1280\nheight_px = 720\n[map]\nresolution = 64\n"},
         Case{"taps",
-             "pictures = \"none\"\n[view]\nwidth_px = 640\nheight_px = 360\n[filter]\nkind = \"box\"\nsize = 9\n"},
+             "pictures = \"none\"\n[view]\nwidth_px = 640\nheight_px = 360\n[map]\nextent_scale = 4\n[filter]\nkind = "
+             "\"box\"\nsize = 9\n"},
         Case{"texels", "pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = 4096\n"},
         Case{"cube",
              "scene = \"point-room\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "

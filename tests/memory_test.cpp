@@ -106,7 +106,7 @@ TEST_F(Estimate, DoesNotGrowWithTheKernelBeyondAStrip) {
   const double most = bytes();
   EXPECT_EQ(estimate().largest().what, std::string("the taps"));
   EXPECT_LT(most, 2.2e9);
-  settings_.filter.size = 21;
+  settings_.filter.size = 25;
   EXPECT_EQ(bytes(), most);
   settings_.view.width_px *= 2;
   settings_.view.height_px *= 2;
