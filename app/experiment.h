@@ -37,7 +37,7 @@
 //   within = 0.05                    # of it; and
 //   slack = "depth_quantum_m"        # a formula or a number, in the measured number's unit
 //   join = "each"                    # each | mean | slope
-//   over = "map.resolution"          # of a slope: the setting that it is taken over
+//   over = "map.resolution"          # with "slope": the setting on the horizontal axis
 //   where = {}                       # as a bound's
 //   against = {"filter.kind" = "none"}    # read `equals` at the point that differs from the measured one in this alone
 // clang-format on

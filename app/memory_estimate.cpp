@@ -20,14 +20,15 @@ constexpr double per_pixel = 260;          // receivers, truth, probe, ladder, o
 constexpr double per_picture_pixel = 270;  // pictures, channels of the EXR files and what is encoded of them [245]
 constexpr double per_texel = 36;           // the map drawn, read back, exact, uploaded, and its ties [30]
 constexpr double per_picture_texel = 28;   // map.exr [25]
-// Of each tap that is listed at once: thresholds of the error and of its cause, 4 each, and a share of their lists' growth [3].
+// Of each tap in the batch whose thresholds are listed at the moment (curve_batch_taps): a threshold of the error and
+// one of its cause, 4 each. Not every tap has both; the rest pays for the lists' growth [3].
 constexpr double per_curve_tap = 8;
 constexpr double per_blended_tap = 36;  // with a weight of 8 each, and a list being sorted [18]
-// Of each tap, for the sums over different thresholds: 12 for the error, 12 for the cause, 12 while strips join. At most
-// so much in all, which is 28 million of them, because differences of float depths repeat: 52 million taps had 1.6
+// Of each tap, for the sums over different thresholds: 12 for the error, 12 for the cause, 12 while strips join. At
+// most so much in all, which is 28 million of them, because differences of float depths repeat: 52 million taps had 1.6
 // million different ones, 885 million taps 10.5.
 constexpr double per_summed_tap = 2, most_sums = 1e9;  // [1.1]
-constexpr double per_asked_texel = 16;  // of each texel that a tap reads: its address and its error [16]
+constexpr double per_asked_texel = 16;                 // of each texel that a tap reads: its address and its error [16]
 constexpr double per_outside_texel = 32;   // what is met at texels beside the map: two lists of 16 while they are made
 constexpr double per_open_edge = 240;      // as a shadow's edge: itself, its pieces, the cells that list it [220]
 constexpr double per_closed_edge = 70;     // a third of them may be such edges too, where the light sees a fold

@@ -56,7 +56,7 @@ MeantFolders meant_folders(std::span<const std::string> words, const std::vector
   const auto is_verb = [&](const std::string& word) {
     return std::find(verbs.begin(), verbs.end(), word) != verbs.end();
   };
-  // Before the verb may stand the value of an option that there is not.
+  // The first word is not always the verb: it can be the value of an unknown option.
   auto at = std::find_if(sorted.plain.begin(), sorted.plain.end(), is_verb);
   if (at == sorted.plain.end()) at = sorted.plain.begin();
   const std::string verb = is_verb(*at) ? *at : nearest_name(*at, verbs);

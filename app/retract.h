@@ -1,5 +1,5 @@
-// The verdict that an earlier run left, when this one ends before it gets to its results' folder: because of a command
-// line that is wrong, threads that do not start, experiments that would share a folder.
+// Removes the verdict of an earlier run when this run fails before it opens its results' folder. It fails so early when
+// the command line is wrong, when threads do not start, or when two experiments have the same results' folder.
 #pragma once
 #include <span>
 #include <string>

@@ -138,7 +138,8 @@ void require_memory_of(const Experiment& experiment, const std::vector<Settings>
   require_memory(memory[id], fmt::format("point {} ({})", id, swept_text(part, points[id])));
 }
 
-// Whatever the folder holds of an earlier verdict, or of other results, is gone then.
+// Opens the store. It also removes the report and the table of an earlier run: they can show an old verdict, or other
+// results.
 ResultStore open_store(const ResultsFolder& folder, const std::string& fingerprint, bool overwrite) {
   try {
     ResultStore store(folder.path() + "/results.sqlite", fingerprint,

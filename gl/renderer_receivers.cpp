@@ -37,7 +37,7 @@ glm::mat4 reversed_clip_from_world(const CameraFrame& frame, const Box& box) {
   const bool perspective = frame.camera.projection == Projection::perspective;
   // A float's exponent ends at 2^-126.
   if (perspective) near_m = std::max(near_m, 0x1p-60 * far_m);
-  glm::dmat4 clip = frame.clip_from_world();  // GLM is column-major
+  glm::dmat4 clip = frame.clip_from_world();  // clip[column][row]
   const double scale = (perspective ? near_m : 1) / (far_m - near_m);
   for (int i = 0; i < 3; ++i) clip[i][2] = -scale * frame.forward[i];
   clip[3][2] = scale * (far_m + glm::dot(frame.forward, frame.eye_m));

@@ -289,7 +289,7 @@ OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, 
     if (!jumps) continue;
     const size_t crossed = bracket.last - bracket.first;
     widen(bracket, true);
-    // With no other silhouette in it the bracket's ends see what they saw.
+    // If the wider bracket holds no further silhouette, the same triangles are visible at its ends as before.
     const auto [near, far] = bracket.last - bracket.first > crossed
                                  ? sheets(bracket)
                                  : std::pair(bracket.begin > 0 ? before : p.primitive, bracket.end < 1 ? after : hit);

@@ -25,7 +25,7 @@ class TexelRays {
   // and, where that is outside the map, for the texel that `wrap` reads in its stead.
   void ask(const Image<uint8_t>& facing, const LookupProbe& probe, PixelRange pixels);
 
-  // Follows the rays through all that was asked for.
+  // Traces one ray through the centre of each texel that was asked for.
   void trace();
 
   // After trace(): the triangle first met through the centre of a texel that was asked for, or no_primitive.

@@ -286,7 +286,8 @@ void check_version(const std::string& file, const json& document) {
   }
 }
 
-// What an accessor says of its values; nothing where it does not, or not as it should: only a note depends on it.
+// The min and max of an accessor with three components. None if they are missing or not three numbers: that is no
+// error here, because only a note depends on them.
 std::optional<DeclaredBounds> declared_bounds(const json& from) {
   DeclaredBounds out;
   for (auto [name, to] : {std::pair("min", &out.min), std::pair("max", &out.max)}) {
