@@ -1,6 +1,5 @@
 // What a machine and a file system can do to the program: each has its exit code and one short line.
 #include <gtest/gtest.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -19,8 +18,8 @@ constexpr bool sanitized = true;  // takes terabytes of address space for itself
 constexpr bool sanitized = false;
 #endif
 
-const std::string one_point = "scene = \"plate\"\npictures = \"first\"\n[view]\nwidth_px = 48\nheight_px = 27\n";
-const std::string two_points = one_point + "[sweep]\nmap.resolution = [16, 32]\n";
+const std::string with_pictures = "scene = \"plate\"\npictures = \"first\"\n[view]\nwidth_px = 48\nheight_px = 27\n";
+const std::string two_points = with_pictures + "[sweep]\nmap.resolution = [16, 32]\n";
 
 class Adversity : public Program {
  protected:
@@ -46,7 +45,7 @@ void redirect(int descriptor, const char* path) {
 TEST_F(Adversity, APathMayHoldAnyBytes) {
   const std::string odd = "\xff\x1b[31m\n\xe2\x82";
   fs::create_directories(folder_ / odd);
-  write(odd + "/x\xfe.toml", one_point + "[[bound]]\nmetric = \"residual\"\nmax = 1e-6\n");
+  write(odd + "/x\xfe.toml", with_pictures + held_bound);
   write(odd + "/bad.toml", "scne = 1\n");
   EXPECT_EQ(run({"check", odd, "--out", odd + "/out"}), 2) << output_;
   EXPECT_TRUE(says("did you mean 'scene'") && says("1 of 1 bound held")) << output_;
@@ -71,14 +70,10 @@ TEST_F(Adversity, APathMayHoldAnyBytes) {
 
 TEST_F(Adversity, AFolderThatCannotBeReadIsSaidAndTheRestIsChecked) {
   fs::create_directories(folder_ / "exps/closed");
-  write("exps/a.toml", one_point + "[[bound]]\nmetric = \"residual\"\nmax = 1e-6\n");
+  write("exps/a.toml", with_pictures + held_bound);
   write("exps/closed/b.toml", "");
   ASSERT_EQ(chmod((folder_ / "exps/closed").c_str(), 0), 0);
-  const auto unprivileged = [] {  // root reads everything, unless it gives that up
-    prctl(PR_CAPBSET_DROP, 1 /* CAP_DAC_OVERRIDE */);
-    prctl(PR_CAPBSET_DROP, 2 /* CAP_DAC_READ_SEARCH */);
-  };
-  EXPECT_EQ(run({"check", "exps", "--out", "out"}, unprivileged), 3) << output_;
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}, without_privileges), 3) << output_;
   expect_one_line("exps/closed: cannot be read: Permission denied");
   EXPECT_TRUE(says("1 of 1 bound held")) << output_;
   chmod((folder_ / "exps/closed").c_str(), 0700);
@@ -86,7 +81,7 @@ TEST_F(Adversity, AFolderThatCannotBeReadIsSaidAndTheRestIsChecked) {
 
 TEST_F(Adversity, EndingsInCapitalsCount) {
   fs::create_directories(folder_ / "exps");
-  write("exps/A.TOML", one_point + "[[bound]]\nmetric = \"residual\"\nmax = 1e-6\n");
+  write("exps/A.TOML", with_pictures + held_bound);
   EXPECT_EQ(run({"check", "exps", "--out", "out"}), 0) << output_;
   EXPECT_TRUE(says("1 of 1 bound held")) << output_;
   EXPECT_EQ(run({"render", "--set", "scene.name=ABSENT.GLTF"}), 3) << output_;
@@ -116,7 +111,7 @@ TEST_F(Adversity, ProgressThatCannotBeWrittenLosesNothing) {
 }
 
 TEST_F(Adversity, StandardOutputThatCannotBeWrittenIsSaid) {
-  const std::string experiment = write("x.toml", two_points + "[[bound]]\nmetric = \"residual\"\nmax = 1e-6\n");
+  const std::string experiment = write("x.toml", two_points + held_bound);
   const std::vector<std::vector<std::string>> verbs = {
       {"check", experiment, "--out", "out"}, {"settings"}, {"doctor"}, {"--help"}};
   for (const std::vector<std::string>& verb : verbs) {
@@ -180,7 +175,7 @@ TEST_F(Adversity, AStoreThatIsNoFileIsAnError) {
 }
 
 TEST_F(Adversity, TemporaryFilesOfKilledRunsAreCleared) {
-  const std::string experiment = write("x.toml", one_point);
+  const std::string experiment = write("x.toml", with_pictures);
   const pid_t dead = fork();
   if (dead == 0) _exit(0);
   wait_for(dead);

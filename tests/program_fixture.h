@@ -2,6 +2,7 @@
 #pragma once
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -33,6 +34,17 @@ inline std::string without_times(const fs::path& csv) {
     kept += "\n";
   }
   return columns > 30 ? kept : "no times found";
+}
+
+// Of experiments whose content does not matter: a small picture, one point with it, and a bound that holds.
+inline const std::string small_view = "pictures = \"none\"\n[view]\nwidth_px = 48\nheight_px = 27\n";
+inline const std::string one_point = "scene = \"plate\"\n" + small_view;
+inline const std::string held_bound = "[[bound]]\nmetric = \"residual\"\nmax = 1e-6\n";
+
+// For Program::run: root reads everything, unless it gives that up.
+inline void without_privileges() {
+  prctl(PR_CAPBSET_DROP, 1 /* CAP_DAC_OVERRIDE */);
+  prctl(PR_CAPBSET_DROP, 2 /* CAP_DAC_READ_SEARCH */);
 }
 
 class Program : public testing::Test {
@@ -75,7 +87,8 @@ class Program : public testing::Test {
     write_file_atomically((folder_ / name).string(), text);
     return (folder_ / name).string();
   }
-  bool says(const std::string& text) const { return output_.find(text) != std::string::npos; }
+  std::string text(const std::string& file) const { return read_file((folder_ / file).string()); }
+  bool says(const std::string& words) const { return output_.find(words) != std::string::npos; }
 
   fs::path folder_;
   std::string output_;

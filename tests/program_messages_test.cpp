@@ -1,6 +1,5 @@
 // What the program says, and with which exit code, of what a user got wrong.
 #include <gtest/gtest.h>
-#include <sys/prctl.h>
 #include <sys/stat.h>
 
 #include <ctime>
@@ -11,13 +10,7 @@
 namespace noonmark::acceptance {
 namespace {
 
-const std::string one_point = "scene = \"plate\"\npictures = \"none\"\n[view]\nwidth_px = 48\nheight_px = 27\n";
-const std::string bound = "[[bound]]\nmetric = \"residual\"\nmax = 1e-6\n";
-
-class Messages : public Program {
- protected:
-  std::string text(const std::string& file) const { return read_file((folder_ / file).string()); }
-};
+class Messages : public Program {};
 
 TEST_F(Messages, AWrongOptionIsNamedInPlainWords) {
   const std::string experiment = write("x.toml", one_point);
@@ -46,7 +39,7 @@ TEST_F(Messages, TheExperimentsFaultComesBeforeThatOfTheFolder) {
     EXPECT_EQ(run({verb, "x.toml", "--out", "file/below"}), 2);
     EXPECT_TRUE(says("did you mean 'scene'") && !says("folder")) << output_;
   }
-  write("x.toml", one_point + bound);
+  write("x.toml", one_point + held_bound);
   for (const char* verb : {"run", "check", "render"}) {
     EXPECT_EQ(run({verb, "x.toml", "--out", "file/below"}), 2) << verb;
     EXPECT_TRUE(says("cannot make the folder file/below") && says("another --out")) << output_;
@@ -55,17 +48,13 @@ TEST_F(Messages, TheExperimentsFaultComesBeforeThatOfTheFolder) {
 
 TEST_F(Messages, WhatCouldNotBeCheckedIsAllInTheLastLines) {
   fs::create_directories(folder_ / "exps/closed");
-  write("exps/a.toml", one_point + bound);
+  write("exps/a.toml", one_point + held_bound);
   write("exps/b.toml", "scne = 1\n");
   ASSERT_EQ(chmod((folder_ / "exps/closed").c_str(), 0), 0);
-  const auto unprivileged = [] {  // root reads everything, unless it gives that up
-    prctl(PR_CAPBSET_DROP, 1 /* CAP_DAC_OVERRIDE */);
-    prctl(PR_CAPBSET_DROP, 2 /* CAP_DAC_READ_SEARCH */);
-  };
-  EXPECT_EQ(run({"check", "exps", "--out", "out"}, unprivileged), 3) << output_;
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}, without_privileges), 3) << output_;
   EXPECT_TRUE(says("1 of 2 experiments and 1 folder could not be checked:\n  exps/closed\n  exps/b.toml\n")) << output_;
   fs::remove(folder_ / "exps/b.toml");
-  EXPECT_EQ(run({"check", "exps", "--out", "out"}, unprivileged), 3) << output_;
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}, without_privileges), 3) << output_;
   EXPECT_TRUE(says("1 folder could not be checked:\n  exps/closed\n")) << output_;
   chmod((folder_ / "exps/closed").c_str(), 0700);
 }
@@ -85,7 +74,7 @@ TEST_F(Messages, AnUnjudgedRunHasItsTime) {
 }
 
 TEST_F(Messages, OneIsSingular) {
-  const std::string experiment = write("x.toml", one_point + bound);
+  const std::string experiment = write("x.toml", one_point + held_bound);
   ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
   EXPECT_TRUE(says("1 point measured;")) << output_;
   ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;

@@ -10,14 +10,10 @@
 namespace noonmark::acceptance {
 namespace {
 
-const std::string small_view = "pictures = \"none\"\n[view]\nwidth_px = 48\nheight_px = 27\n";
-const std::string bound = "[[bound]]\nmetric = \"residual\"\nmax = 1e-6\n";
-
 class Stale : public Program {
  protected:
   bool there(const std::string& file) const { return fs::exists(folder_ / file); }
-  std::string text(const std::string& file) const { return read_file((folder_ / file).string()); }
-  std::string good() { return write("x.toml", "scene = \"plate\"\n" + small_view + bound); }
+  std::string good() { return write("x.toml", one_point + held_bound); }
 };
 
 // A floor and a spot light above it, with the cone that is given, in radians.
@@ -179,7 +175,7 @@ TEST_F(Stale, AReportOfOtherResultsGoesWithThem) {
 TEST_F(Stale, AReportWithAnEarlierVerdictDoesNotOutliveARunThatFails) {
   const std::string experiment = good();
   ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
-  write("x.toml", "scene = \"plate\"\n" + small_view + "[[bound]]\nmetric = \"residual\"\nmax = -1\n");
+  write("x.toml", one_point + "[[bound]]\nmetric = \"residual\"\nmax = -1\n");
   fs::remove(folder_ / "out/results.csv");
   fs::create_directories(folder_ / "out/results.csv/in the way");
   EXPECT_EQ(run({"check", experiment, "--out", "out"}), 3) << output_;
@@ -190,8 +186,7 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAKill) {
   ASSERT_EQ(run({"check", good(), "--out", "out"}), 0) << output_;
   ASSERT_TRUE(there("out/junit.xml"));
   const std::string longer =
-      write("x.toml", "scene = \"plate\"\n" + small_view +
-                          "[sweep]\nmap.shift_u_texels = {min = 0, max = 1, steps = 500}\n" + bound);
+      write("x.toml", one_point + "[sweep]\nmap.shift_u_texels = {min = 0, max = 1, steps = 500}\n" + held_bound);
   const pid_t child = start({"check", longer, "--out", "out", "--overwrite"});
   for (int i = 0; i < 6000 && text("output.txt").find("[1/500]") == std::string::npos; ++i) usleep(10000);
   kill(child, SIGKILL);
@@ -202,11 +197,11 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAKill) {
 
 TEST_F(Stale, AFolderIsCheckedToItsEnd) {
   fs::create_directories(folder_ / "exps/sub");
-  write("exps/a.toml", "scene = \"plate\"\n" + small_view + bound);
+  write("exps/a.toml", one_point + held_bound);
   write("exps/b.toml", "scne = \"plate\"\n");
-  write("exps/c.toml", "scene = \"absent.glb\"\n" + small_view + bound);
-  write("exps/sub/d.toml", "scene = \"plate\"\n" + small_view + "[[bound]]\nmetric = \"residual\"\nmax = -1\n");
-  write("exps/sub/e.toml", "scene = \"plate\"\n" + small_view);  // promises nothing
+  write("exps/c.toml", "scene = \"absent.glb\"\n" + small_view + held_bound);
+  write("exps/sub/d.toml", one_point + "[[bound]]\nmetric = \"residual\"\nmax = -1\n");
+  write("exps/sub/e.toml", one_point);  // promises nothing
   EXPECT_EQ(run({"check", "exps", "--out", "out"}), 3) << "the worst of 0, 2, 3, 1 and 2: " << output_;
   EXPECT_TRUE(says("did you mean 'scene'") && says("absent.glb") && says("has no [[bound]]")) << output_;
   EXPECT_TRUE(says("3 of 5 experiments could not be checked")) << output_;
@@ -220,7 +215,7 @@ TEST_F(Stale, AFolderIsCheckedToItsEnd) {
 
 TEST_F(Stale, APipeInAFolderIsSaidAndTheRestIsChecked) {
   fs::create_directories(folder_ / "exps");
-  write("exps/b.toml", "scene = \"plate\"\n" + small_view + bound);
+  write("exps/b.toml", one_point + held_bound);
   ASSERT_EQ(mkfifo((folder_ / "exps/a.toml").c_str(), 0600), 0);
   fs::create_symlink("/dev/zero", folder_ / "exps/c.toml");
   EXPECT_EQ(run({"check", "exps", "--out", "out"}, [] { alarm(60); }), 2) << output_;
@@ -232,8 +227,7 @@ TEST_F(Stale, APipeInAFolderIsSaidAndTheRestIsChecked) {
 }
 
 TEST_F(Stale, StoredNumbersThatWereEditedAreMeasuredAnew) {
-  const std::string experiment =
-      write("x.toml", "scene = \"plate\"\n" + small_view + "[sweep]\nmap.resolution = [16, 32]\n" + bound);
+  const std::string experiment = write("x.toml", one_point + "[sweep]\nmap.resolution = [16, 32]\n" + held_bound);
   ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
   const std::string csv = without_times(folder_ / "out/results.csv");
   const auto edit = [&](const char* sql) {
