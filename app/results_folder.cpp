@@ -68,4 +68,17 @@ void ResultsFolder::remove_earlier_results() const {
   }
 }
 
+void EarlyFolder::open(const std::string& path) {
+  try {
+    folder_.emplace(path);
+  } catch (...) {
+    fault_ = std::current_exception();
+  }
+}
+
+const ResultsFolder& EarlyFolder::get() const {
+  if (fault_) std::rethrow_exception(fault_);
+  return *folder_;
+}
+
 }  // namespace noonmark

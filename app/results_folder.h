@@ -2,6 +2,8 @@
 //
 //   const ResultsFolder folder("out/cube-room");   // made, ours alone, and nothing in it says how an earlier run ended
 #pragma once
+#include <exception>
+#include <optional>
 #include <string>
 
 namespace noonmark {
@@ -33,6 +35,19 @@ class ResultsFolder {
  private:
   std::string path_;
   int descriptor_;  // the lock goes with it, also when the program is killed
+};
+
+// A results' folder that is opened before anything else can fail, because that removes an earlier verdict. What is
+// wrong with the folder itself is thrown only by get(): what is wrong with the experiment is to be said first.
+class EarlyFolder {
+ public:
+  void open(const std::string& path);
+  bool is_open() const { return folder_.has_value(); }
+  const ResultsFolder& get() const;  // after open(); throws what went wrong in it
+
+ private:
+  std::optional<ResultsFolder> folder_;
+  std::exception_ptr fault_;
 };
 
 }  // namespace noonmark

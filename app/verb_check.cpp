@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
-#include <optional>
 
 #include "app/experiment_arguments.h"
 #include "app/experiment_list.h"
@@ -24,10 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// folder: held before anything can fail; empty where it could not be had, which is said after what is wrong with the
-// experiment.
-int check_one(const ListedExperiment& listed, const ExperimentArguments& arguments,
-              const std::optional<ResultsFolder>& folder, const std::exception_ptr& why_no_folder) {
+int check_one(const ListedExperiment& listed, const ExperimentArguments& arguments, const EarlyFolder& folder) {
   const std::string &path = listed.file, &out = listed.out;
   std::error_code none;
   if (listed.in_folder && fs::exists(path, none) && !fs::is_regular_file(path, none))
@@ -40,8 +35,7 @@ int check_one(const ListedExperiment& listed, const ExperimentArguments& argumen
         fmt::format("{} has no [[bound]] and no [[law]], so there is nothing to check; add one, or use noonmark "
                     "run",
                     path));
-  if (why_no_folder) std::rethrow_exception(why_no_folder);
-  const SweepOutcome outcome = run_sweep(experiment, *folder, {arguments.overwrite, arguments.command});
+  const SweepOutcome outcome = run_sweep(experiment, folder.get(), {arguments.overwrite, arguments.command});
   write_file_atomically(out + "/junit.xml", to_junit(outcome.results));
   write_file_atomically(out + "/summary.md", to_summary(outcome.results));
   if (outcome.interrupted) {
@@ -92,20 +86,15 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     unreadable.push_back(one.folder);
   }
   for (const ListedExperiment& listed : list.experiments) {
-    std::optional<ResultsFolder> folder;
-    std::exception_ptr why_no_folder;
+    EarlyFolder folder;
+    folder.open(listed.out);
     try {
-      folder.emplace(listed.out);
-    } catch (...) {
-      why_no_folder = std::current_exception();
-    }
-    try {
-      worst = std::max(worst, check_one(listed, arguments, folder, why_no_folder));
+      worst = std::max(worst, check_one(listed, arguments, folder));
     } catch (...) {
       const Failure failure = current_failure();
       worst = std::max(worst, tell(failure));
       failed.push_back(listed.file);
-      if (folder) write_unjudged(listed.out, listed.file, failure, arguments.command);
+      if (folder.is_open()) write_unjudged(listed.out, listed.file, failure, arguments.command);
     }
     if (worst == static_cast<int>(ErrorKind::incomplete)) break;  // somebody asked to stop
   }
