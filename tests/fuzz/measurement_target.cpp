@@ -208,7 +208,8 @@ void require_metrics(const Measurement& m) {
       require(value >= 0 && std::isfinite(value), fmt::format("{} = {}", row.name, value));
   }
   double causes = 0;
-  for (const char* name : {"filter", "displacement", "aliasing", "acne", "peter_panning", "coverage", "precision"})
+  for (const char* name :
+       {"filter", "displacement", "aliasing", "acne", "peter_panning", "coverage", "undecided", "precision"})
     causes += metric(m, name);
   require(metric(m, "error") <= causes + rounding,
           fmt::format("error {} is more than its causes, {}", metric(m, "error"), causes));
