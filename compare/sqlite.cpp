@@ -35,6 +35,20 @@ std::string advice(int code, std::string_view way_out) {
   }
 }
 
+// SQLite opens these by itself, beside the file that a link leads to, and would wait without end for a pipe.
+void require_files_beside(const std::string& path, std::string_view way_out) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  for (const fs::path& file : {fs::path(path), fs::canonical(path, none)}) {
+    for (const char* ending : {"-journal", "-wal", "-shm"}) {
+      const std::string beside = file.native() + ending;
+      const fs::file_status status = fs::symlink_status(beside, none);
+      if (!file.empty() && fs::exists(status) && !fs::is_regular_file(status))
+        throw Error(ErrorKind::scene, fmt::format("{}: is not a regular file; {}", beside, way_out));
+    }
+  }
+}
+
 }  // namespace
 
 Database::Database(const std::string& path, Mode mode) : path_(path), mode_(mode) {
@@ -42,6 +56,7 @@ Database::Database(const std::string& path, Mode mode) : path_(path), mode_(mode
   const auto status = std::filesystem::status(path, none);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw Error(ErrorKind::scene, fmt::format("{}: is not a regular file; {}", path, way_out()));
+  require_files_beside(path, way_out());
   const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
   const int code = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
   if (code != SQLITE_OK) {

@@ -24,7 +24,8 @@ namespace noonmark::sqlite {
 class Database {
  public:
   enum class Mode { create, existing };
-  // Throws Error(scene) when the file cannot be opened, or is there and is no regular file (a pipe would never answer).
+  // Throws Error(scene) when the file cannot be opened, or is there and is no regular file (a pipe would never answer);
+  // the same of what SQLite keeps beside it, where a link is none either.
   Database(const std::string& path, Mode mode);
   ~Database();
   Database(const Database&) = delete;

@@ -174,6 +174,21 @@ TEST_F(Adversity, AStoreThatIsNoFileIsAnError) {
   expect_one_line("out/results.sqlite: is not a regular file");
 }
 
+TEST_F(Adversity, WhatIsNoFileBesideTheStoreIsAnError) {
+  const std::string experiment = write("x.toml", with_pictures + held_bound);
+  ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+  ASSERT_EQ(mkfifo((folder_ / "out/results.sqlite-journal").c_str(), 0600), 0);
+  const std::vector<std::vector<std::string>> verbs = {
+      {"report", "out"}, {"run", experiment, "--out", "out"}, {"check", experiment, "--out", "out"}};
+  for (const std::vector<std::string>& verb : verbs) {
+    SCOPED_TRACE(verb[0]);
+    EXPECT_EQ(run(verb, [] { alarm(60); }), 3);
+    expect_one_line("out/results.sqlite-journal: is not a regular file");
+    EXPECT_TRUE(says("--overwrite")) << output_;
+  }
+  EXPECT_EQ(run({"check", experiment, "--out", "out", "--overwrite"}, [] { alarm(60); }), 0) << output_;
+}
+
 TEST_F(Adversity, TemporaryFilesOfKilledRunsAreCleared) {
   const std::string experiment = write("x.toml", with_pictures);
   const pid_t dead = fork();
