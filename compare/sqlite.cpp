@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "scenes/digest.h"
 #include "scenes/error.h"
@@ -67,6 +68,11 @@ Database::Database(const std::string& path, Mode mode) : path_(path), mode_(mode
   }
   sqlite3_extended_result_codes(handle_, 1);
   sqlite3_busy_timeout(handle_, busy_timeout_ms);
+  // A file of unknown origin: nothing in it works by itself, and no statement can break it.
+  for (const auto& [option, on] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1},
+                                   {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
+                                   {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0}})
+    sqlite3_db_config(handle_, option, on, nullptr);
 }
 
 std::string_view Database::way_out() const {

@@ -12,6 +12,7 @@
 
 #include "compare/fingerprint.h"
 #include "compare/sqlite.h"
+#include "compare/store_check.h"
 #include "compare/store_schema.h"
 #include "compare/store_seals.h"
 #include "scenes/error.h"
@@ -54,21 +55,6 @@ void remove_store(const std::string& path) {
       throw Error(ErrorKind::scene,
                   fmt::format("{}: cannot be removed: {}; choose another --out", file, std::strerror(errno)));
   }
-}
-
-// Throws unless the file is a whole store of this version.
-void check_store(Database& db, const std::string& path) {
-  if (db.ask("PRAGMA application_id") != std::to_string(store_application_id))
-    throw Error(ErrorKind::scene,
-                fmt::format("{}: is a database, but not one of Noonmark's results; {}", path, db.way_out()));
-  if (const std::optional<std::string> version = db.ask("PRAGMA user_version");
-      version != std::to_string(store_version))
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: was written by another version of Noonmark (store version {}, not {}); {}", path,
-                            version.value_or("?"), store_version, db.way_out()));
-  const std::optional<std::string> damage = db.ask("PRAGMA quick_check(1)");
-  if (damage != "ok")
-    throw Error(ErrorKind::scene, fmt::format("{}: is damaged: {}; {}", path, damage.value_or("?"), db.way_out()));
 }
 
 void bind_setting_value(Statement& insert, int index, const std::string& name, const std::string& text) {
@@ -278,7 +264,7 @@ ResultStore::ResultStore(const std::string& path, const std::string& fingerprint
       return;
     }
   }
-  check_store(*db_, path);
+  check_store(*db_);
   db_->execute("PRAGMA journal_mode = DELETE");  // a person's tool may have left it otherwise
   const std::string there = this->fingerprint();
   if (there != fingerprint)
@@ -293,7 +279,7 @@ ResultStore& ResultStore::operator=(ResultStore&&) noexcept = default;
 
 ResultStore ResultStore::open(const std::string& path) {
   auto db = std::make_unique<Database>(path, Database::Mode::existing);
-  check_store(*db, path);
+  check_store(*db);
   return ResultStore(std::move(db));
 }
 

@@ -1,4 +1,6 @@
 // What is no whole store of ours is refused before anything in it is believed, or works.
+#include "compare/store_check.h"
+
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -6,6 +8,7 @@
 #include <filesystem>
 #include <string>
 
+#include "compare/sqlite.h"
 #include "compare/store.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -60,6 +63,55 @@ TEST_F(StoreCheck, RefusesWhatIsNoFileBesideIt) {
   ::alarm(60);
   EXPECT_NE(refusal().find("file.sqlite-journal: is not a regular file"), std::string::npos);
   ::alarm(0);
+}
+
+TEST_F(StoreCheck, RefusesASchemaThatIsNotItsOwn) {
+  struct Case {
+    const char *sql, *says;
+  };
+  const Case cases[] = {
+      {"CREATE TRIGGER t AFTER INSERT ON metrics WHEN new.name = 'error' BEGIN "
+       "UPDATE metrics SET value = 0 WHERE name = 'acne'; END",
+       "trigger t"},
+      {"CREATE TRIGGER t INSTEAD OF INSERT ON points BEGIN DELETE FROM metrics; END", "trigger t"},
+      {"CREATE VIEW mine AS SELECT 1 AS x", "view mine"},
+      {"CREATE TABLE mine (x)", "table mine"},
+      {"CREATE INDEX mine ON metrics (value)", "index mine"},
+      {"DROP TABLE curves", "table curves is lost"},
+      {"DROP VIEW points", "view points is lost"},
+      {"ALTER TABLE finished ADD COLUMN mine", "table finished"},
+      {"DROP TABLE info; CREATE VIEW info AS SELECT 'fingerprint' AS key, 'x' AS value", "view info"},
+      {"DROP VIEW points; CREATE VIEW points AS SELECT 0 AS acne", "view points"},
+  };
+  fresh().add(sample_point(1));
+  const std::string whole = read_file(path);
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.sql);
+    write_file_atomically(path, whole);
+    sqlite::Database(path, sqlite::Database::Mode::existing).execute(one.sql);
+    const std::string message = refusal();
+    EXPECT_NE(message.find(one.says), std::string::npos) << message;
+    EXPECT_NE(message.find("--overwrite"), std::string::npos) << message;
+    try {
+      ResultStore::open(path);
+      ADD_FAILURE() << "was opened";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::scene);
+      EXPECT_NE(std::string(error.what()).find("--overwrite"), std::string::npos) << error.what();
+    }
+  }
+  ResultStore(path, fingerprint, Existing::overwrite).add(sample_point(1));
+  EXPECT_EQ(fresh().finished().size(), 1u);
+}
+
+// A check is followed by statements, and somebody else may write in between.
+TEST_F(StoreCheck, LetsNoTriggerOfAFileFire) {
+  sqlite::Database db(path, sqlite::Database::Mode::create);
+  db.execute(
+      "CREATE TABLE a (x); CREATE TABLE b (x); "
+      "CREATE TRIGGER t AFTER INSERT ON a BEGIN INSERT INTO b VALUES (1); END; INSERT INTO a VALUES (1)");
+  EXPECT_EQ(db.ask("SELECT count(*) FROM a"), "1");
+  EXPECT_EQ(db.ask("SELECT count(*) FROM b"), "0");
 }
 
 }  // namespace
