@@ -179,6 +179,14 @@ void judge(const Experiment& experiment, Results& results) {
   }
 }
 
+// Whether a stored point has the numbers that a sweep itself reads (require_sound, points_with_pictures).
+bool has_what_a_sweep_reads(const PointRecord& point) {
+  const auto has = [&](std::string_view name) { return point.metrics.contains(std::string(name)); };
+  return has("facing") && has("error") &&
+         std::all_of(std::begin(sound_limits), std::end(sound_limits),
+                     [&](const SoundLimit& limit) { return has(limit.metric); });
+}
+
 }  // namespace
 
 void require_sound(const Results& results) {
@@ -207,7 +215,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   ResultStore store = open_store(folder, fingerprint(experiment, facts), options.overwrite);
   const auto expected = [&](const PointRecord& stored) {
     return stored.settings == settings_map(planned[static_cast<size_t>(stored.id)]) &&
-           stored.part == part_of_point(experiment, stored.id).part;
+           stored.part == part_of_point(experiment, stored.id).part && has_what_a_sweep_reads(stored);
   };
   const auto total = static_cast<int64_t>(planned.size());
   for (const std::string& repaired : store.repair(total, expected))

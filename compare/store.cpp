@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -245,6 +246,21 @@ std::vector<LawResult> load_laws(Database& db) {
   return laws;
 }
 
+// Rows that do not fit together, and text that is no JSON, are faults of the file.
+template <class Read>
+auto read_rows(const Database& db, const Read& read) {
+  try {
+    return read();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw Error(ErrorKind::scene,
+                fmt::format("{}: holds what Noonmark did not write ({}); {}", db.path(), error.what(), db.way_out()));
+  }
+}
+
 }  // namespace
 
 ResultStore::ResultStore(const std::string& path, const std::string& fingerprint, Existing existing) {
@@ -304,7 +320,7 @@ std::vector<std::string> ResultStore::repair(int64_t planned_points,
     remove_point(*db_, point);
     say(point, "not those that were stored (edited, lost, or of another store)");
   }
-  for (const auto& [id, point] : load_points(*db_)) {
+  for (const auto& [id, point] : read_rows(*db_, [&] { return load_points(*db_); })) {
     if (id >= 0 && id < planned_points && expected(point)) continue;
     remove_point(*db_, id);
     say(id, "of another experiment");
@@ -405,17 +421,15 @@ Results ResultStore::load() const {
   db_->execute("BEGIN");  // one moment of the store, whoever writes meanwhile
   try {
     require_sealed(*db_);
-    load_info(*db_, results);
-    for (auto& [id, point] : load_points(*db_)) results.points.push_back(std::move(point));
-    results.bounds = load_bounds(*db_);
-    results.laws = load_laws(*db_);
-  } catch (const Error&) {
+    read_rows(*db_, [&] {
+      load_info(*db_, results);
+      for (auto& [id, point] : load_points(*db_)) results.points.push_back(std::move(point));
+      results.bounds = load_bounds(*db_);
+      results.laws = load_laws(*db_);
+    });
+  } catch (...) {
     db_->execute("ROLLBACK");
     throw;
-  } catch (const std::exception& error) {  // rows that do not fit together, text that is no JSON
-    db_->execute("ROLLBACK");
-    throw Error(ErrorKind::scene, fmt::format("{}: holds what Noonmark did not write ({}); {}", db_->path(),
-                                              error.what(), db_->way_out()));
   }
   db_->execute("COMMIT");
   return results;

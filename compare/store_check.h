@@ -8,7 +8,7 @@ class Database;
 }
 
 // Throws Error(usage) for the store of another version; Error(scene) for a database of somebody else's, for tables,
-// indexes, views and triggers other than those that store_schema() makes, and for damage.
+// indexes, views and triggers other than those that store_schema() makes, and for damage, down to the order of rows.
 void check_store(sqlite::Database& db);
 
 }  // namespace noonmark

@@ -4,6 +4,7 @@
 
 #include "compare/sqlite.h"
 #include "compare/store.h"
+#include "compare/store_seals.h"
 #include "scenes/digest.h"
 #include "tests/program_fixture.h"
 
@@ -246,6 +247,24 @@ TEST_F(Stale, StoredNumbersThatWereEditedAreMeasuredAnew) {
                            "have; they are dropped"
                          : "it is measured anew"))
         << output_;
+    EXPECT_EQ(without_times(folder_ / "out/results.csv"), csv);
+  }
+}
+
+// Somebody who can edit rows can seal them too; what the sweep itself reads must still be there.
+TEST_F(Stale, AStoredPointThatLacksNumbersIsMeasuredAnew) {
+  const std::string experiment = write("x.toml", one_point + "[sweep]\nmap.resolution = [16, 32]\n" + held_bound);
+  ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+  const std::string csv = without_times(folder_ / "out/results.csv");
+  for (const char* lost : {"residual", "facing", "error"}) {
+    SCOPED_TRACE(lost);
+    {
+      sqlite::Database db((folder_ / "out/results.sqlite").string(), sqlite::Database::Mode::existing);
+      db.execute(std::string("DELETE FROM metrics WHERE point = 1 AND name = '") + lost + "'");
+      seal_point(db, 1);
+    }
+    EXPECT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+    EXPECT_TRUE(says("it is measured anew")) << output_;
     EXPECT_EQ(without_times(folder_ / "out/results.csv"), csv);
   }
 }

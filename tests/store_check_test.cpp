@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -112,6 +113,47 @@ TEST_F(StoreCheck, LetsNoTriggerOfAFileFire) {
       "CREATE TRIGGER t AFTER INSERT ON a BEGIN INSERT INTO b VALUES (1); END; INSERT INTO a VALUES (1)");
   EXPECT_EQ(db.ask("SELECT count(*) FROM a"), "1");
   EXPECT_EQ(db.ask("SELECT count(*) FROM b"), "0");
+}
+
+// Rows in the wrong order are missed by every search; SQLite's quick check does not look at the order.
+TEST_F(StoreCheck, RefusesAStoreWhosePagesWereExchanged) {
+  {
+    ResultStore store = fresh();
+    for (int id = 0; id < 20; ++id) store.add(sample_point(id));
+  }
+  const std::string whole = read_file(path);
+  constexpr size_t page = 4096;
+  constexpr char leaf_of_rows_by_key = 10;  // a page's type, in its first byte
+  const auto what_sqlite_says = [&](const char* pragma) {
+    return sqlite::Database(path, sqlite::Database::Mode::existing).ask(pragma);
+  };
+  int found = 0;
+  for (size_t at = page; at + 2 * page <= whole.size(); at += page) {
+    if (whole[at] != leaf_of_rows_by_key || whole[at + page] != leaf_of_rows_by_key) continue;
+    std::string bytes = whole;
+    std::swap_ranges(bytes.begin() + static_cast<ptrdiff_t>(at), bytes.begin() + static_cast<ptrdiff_t>(at + page),
+                     bytes.begin() + static_cast<ptrdiff_t>(at + page));
+    write_file_atomically(path, bytes);
+    // Of two tables, or both empty: of no interest here.
+    if (what_sqlite_says("PRAGMA quick_check") != "ok" || what_sqlite_says("PRAGMA integrity_check") == "ok") continue;
+    ++found;
+    const std::string message = refusal();
+    EXPECT_NE(message.find("is damaged: "), std::string::npos) << message;
+    EXPECT_NE(message.find("--overwrite"), std::string::npos) << message;
+    EXPECT_THROW(ResultStore::open(path), Error);
+  }
+  EXPECT_GT(found, 0);
+}
+
+TEST_F(StoreCheck, SaysOfDamageWhatSqliteFound) {
+  fresh().add(sample_point(1));
+  std::string bytes = read_file(path);
+  bytes[4096 + 7] ^= 5;  // of the second page: how many bytes lie between its rows
+  write_file_atomically(path, bytes);
+  const std::string message = refusal();
+  EXPECT_NE(message.find("is damaged: Fragmentation of "), std::string::npos) << "without its headline: " << message;
+  EXPECT_NE(message.find("--overwrite"), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
 }  // namespace

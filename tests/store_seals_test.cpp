@@ -139,6 +139,30 @@ TEST_F(StoreSeals, NoticeEditedFactsOfTheRun) {
   EXPECT_EQ(ResultStore::open(path).load().planned_points, 3);
 }
 
+// Somebody who can write rows can seal them too. Rows that belong to no point then are a damaged file's, not our
+// defect.
+TEST_F(StoreSeals, SealedRowsThatDoNotFitTogetherAreADamagedFile) {
+  for (const char* sql : {"INSERT INTO metrics VALUES (8, 'acne', 1)", "INSERT INTO curves (point) VALUES (8)",
+                          "INSERT INTO images VALUES (8, 0, 'a', 'b')"}) {
+    SCOPED_TRACE(sql);
+    afresh();
+    edit(sql);
+    {
+      sqlite::Database db(path, sqlite::Database::Mode::existing);
+      seal_point(db, 8);
+    }
+    EXPECT_NE(refusal().find("holds what Noonmark did not write"), std::string::npos);
+    ResultStore store(path, "x = 1\n", Existing::resume);
+    try {
+      store.repair(3, any_point);
+      ADD_FAILURE() << "was repaired";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::scene);
+      EXPECT_NE(std::string(error.what()).find("--overwrite"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST_F(StoreSeals, RemoveWhatTheExperimentDoesNotExpect) {
   ResultStore store(path, "x = 1\n", Existing::resume);
   const auto only_two = [](const PointRecord& point) { return point.id != 2; };
