@@ -24,6 +24,32 @@ void make_output_folder(const std::string& path) {
   }
 }
 
+namespace {
+
+void remove_verdict(const std::string& folder) {
+  for (const char* verdict : {"junit.xml", "summary.md"}) {
+    std::error_code error;
+    fs::remove(fs::path(folder) / verdict, error);
+    if (error)
+      throw Error(ErrorKind::scene,
+                  fmt::format("{}/{}: the verdict of an earlier run cannot be removed: {}; remove it, "
+                              "or give another --out",
+                              folder, verdict, error.message()));
+  }
+}
+
+// Through a link pictures would be written, and removed, in a folder that is not ours; and the report reads none there.
+void require_own_images(const std::string& folder) {
+  std::error_code none;
+  const fs::file_status images = fs::symlink_status(fs::path(folder) / "images", none);
+  if (fs::exists(images) && !fs::is_directory(images))
+    throw Error(ErrorKind::scene, fmt::format("{}/images: is {}, and pictures are written into a folder of that name; "
+                                              "remove it, or give another --out",
+                                              folder, fs::is_symlink(images) ? "a symbolic link" : "no folder"));
+}
+
+}  // namespace
+
 ResultsFolder::ResultsFolder(const std::string& path) : path_(path), descriptor_(-1) {
   make_output_folder(path);
   descriptor_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -33,16 +59,12 @@ ResultsFolder::ResultsFolder(const std::string& path) : path_(path), descriptor_
     throw Error(ErrorKind::usage,
                 fmt::format("another run is writing into {}; wait for it, or give another --out", path));
   }
-  for (const char* verdict : {"junit.xml", "summary.md"}) {
-    std::error_code error;
-    fs::remove(fs::path(path) / verdict, error);
-    if (error) {
-      if (descriptor_ >= 0) close(descriptor_);
-      throw Error(ErrorKind::scene,
-                  fmt::format("{}/{}: the verdict of an earlier run cannot be removed: {}; remove it, "
-                              "or give another --out",
-                              path, verdict, error.message()));
-    }
+  try {
+    remove_verdict(path);
+    require_own_images(path);
+  } catch (...) {
+    if (descriptor_ >= 0) close(descriptor_);
+    throw;
   }
   clear_abandoned_files(path);
   clear_abandoned_files(path + "/images");

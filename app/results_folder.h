@@ -18,7 +18,7 @@ class ResultsFolder {
   //   killed;
   // - temporary files of runs that were killed (clear_abandoned_files, scenes/file.h), in images/ too.
   // Throws Error(usage) when the folder cannot be made or another run is writing into it; Error(scene) when the verdict
-  // cannot be removed.
+  // cannot be removed, or when images/ is a link or a file.
   explicit ResultsFolder(const std::string& path);
   ~ResultsFolder();
   ResultsFolder(const ResultsFolder&) = delete;

@@ -189,6 +189,38 @@ TEST_F(Adversity, WhatIsNoFileBesideTheStoreIsAnError) {
   EXPECT_EQ(run({"check", experiment, "--out", "out", "--overwrite"}, [] { alarm(60); }), 0) << output_;
 }
 
+TEST_F(Adversity, NothingIsWrittenThroughALinkInTheImagesPlace) {
+  const std::string experiment = write("x.toml", with_pictures + held_bound);
+  fs::create_directories(folder_ / "out");
+  fs::create_directories(folder_ / "outside");
+  const std::string theirs = "p0000-truth.png";  // a name that --overwrite would remove
+  write("outside/" + theirs, "theirs");
+  for (const char* target : {"../outside", "../not-there"}) {
+    fs::remove(folder_ / "out/images");
+    fs::create_symlink(target, folder_ / "out/images");
+    for (const char* verb : {"run", "check"}) {
+      SCOPED_TRACE(verb);
+      for (const bool overwrite : {false, true}) {
+        write("out/junit.xml", "of an earlier run");
+        std::vector<std::string> words = {verb, experiment, "--out", "out"};
+        if (overwrite) words.emplace_back("--overwrite");
+        EXPECT_EQ(run(words), 3);
+        expect_one_line("out/images: is a symbolic link");
+        EXPECT_FALSE(fs::exists(folder_ / "out/results.sqlite")) << "said before anything is measured";
+        EXPECT_FALSE(fs::exists(folder_ / "out/junit.xml")) << "the verdict of an earlier run";
+      }
+    }
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "outside"), {}), 1);
+  EXPECT_EQ(text("outside/" + theirs), "theirs");
+  fs::remove(folder_ / "out/images");
+  write("out/images", "a file");
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 3);
+  expect_one_line("out/images: is no folder");
+  fs::remove(folder_ / "out/images");
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+}
+
 TEST_F(Adversity, TemporaryFilesOfKilledRunsAreCleared) {
   const std::string experiment = write("x.toml", with_pictures);
   const pid_t dead = fork();
