@@ -51,6 +51,8 @@ auto whole_number(long least, long most, const char* range) {
   };
 }
 
+std::string not_empty(const std::string& path) { return path.empty() ? "the path is empty" : ""; }
+
 // CLI11 writes to C++ streams; what is said here goes the way of everything else.
 int say(const CLI::App& app, const CLI::Error& result) {
   std::ostringstream output, errors;
@@ -125,7 +127,7 @@ int run(int argc, char** argv) {
   };
 
   CLI::App* run = app.add_subcommand("run", "Measure every point of an experiment and write its report");
-  run->add_option("experiment", experiment, "The experiment's TOML file")->required();
+  run->add_option("experiment", experiment, "The experiment's TOML file")->required()->check(not_empty);
   with_choices(run);
   with_out(run, "Where the results go (default: out/<name of the experiment>)");
   with_overwrite(run);
@@ -133,21 +135,22 @@ int run(int argc, char** argv) {
 
   CLI::App* check =
       app.add_subcommand("check", "Run experiments and judge their bounds and laws: the exit code is the verdict");
-  check->add_option("experiments", paths, "TOML files, or folders of them")->required();
+  check->add_option("experiments", paths, "TOML files, or folders of them")->required()->check(not_empty);
   with_choices(check);
   with_out(check,
            "Where the results go (default: out/<name of the experiment>); of several experiments, in a folder each");
   with_overwrite(check);
 
   CLI::App* render = app.add_subcommand("render", "Measure one point: pictures, its ladder, and all numbers behind it");
-  render->add_option("experiment", experiment, "The experiment's TOML file; without one, the default settings");
+  render->add_option("experiment", experiment, "The experiment's TOML file; without one, the default settings")
+      ->check(not_empty);
   render->add_option("--point", point, "Which point of the experiment's sweep, counted from 0")
       ->check(whole_number(0, std::numeric_limits<long>::max(), "from 0 on"));
   with_choices(render);
   with_out(render, "Where the files go (default: out/render)");
 
   CLI::App* report = app.add_subcommand("report", "Write report.html and results.csv again from stored results");
-  report->add_option("folder", folder, "The results' folder")->required();
+  report->add_option("folder", folder, "The results' folder")->required()->check(not_empty);
 
   CLI::App* scenes = app.add_subcommand("scenes", "List the built-in scenes and what each provokes");
   CLI::App* settings =

@@ -111,6 +111,16 @@ TEST_F(Messages, AReportSaysWhatIsWrongWithTheResults) {
   EXPECT_TRUE(says("choose another --out, or pass --overwrite")) << output_;
 }
 
+// As a shell leaves behind of a variable that is not set.
+TEST_F(Messages, AnEmptyPathIsNamedAsSuch) {
+  for (const char* verb : {"report", "run", "check", "render"}) {
+    EXPECT_EQ(run({verb, ""}), 2) << output_;
+    EXPECT_TRUE(says("the path is empty")) << output_;
+    EXPECT_EQ(output_.find(": :"), std::string::npos) << output_;
+    EXPECT_FALSE(fs::exists(folder_ / "out/render")) << "nothing was measured";
+  }
+}
+
 TEST_F(Messages, AnExperimentOfAByteOrderMarkIsEmpty) {
   for (const char* said : {"\xef\xbb\xbf", "\xef\xbb\xbf\r\n# nothing\n"}) {
     write("x.toml", said);
