@@ -25,11 +25,26 @@ double pixels_of(const PointRecord& point) {
   return pixels;
 }
 
+// view.fit_depths fits what the scene's file gives; what view.near_m and view.far_m give stands.
+std::string advice_on_depths(const PointRecord& point) {
+  const auto setting = [&](const char* name) {
+    const auto found = point.settings.find(name);
+    return found == point.settings.end() ? std::string() : found->second;
+  };
+  const bool fitted = setting("view.fit_depths") == "true";
+  std::string back;
+  for (const char* name : {"view.near_m", "view.far_m"})
+    if (const std::string given = setting(name); !given.empty() && given != "auto")
+      back += fmt::format("{}{} = auto", back.empty() ? "" : " and ", name);
+  if (back.empty())  // a fitted near plane cuts off what is much nearer than the rest (scenes/camera_fit.h)
+    return fitted ? "set view.near_m, or move the camera" : "set view.fit_depths = true, or view.near_m and view.far_m";
+  return fmt::format("set {}{}", back,
+                     fitted ? "" : " (with view.fit_depths = true, where the scene's file gives a near or far plane)");
+}
+
 std::string cut_off(const PointRecord& point) {
-  return fmt::format(
-      "at {:.0f} pixels the camera's near or far plane cuts the surface off; set view.fit_depths = true, or "
-      "view.near_m and view.far_m",
-      number(point, "clipped"));
+  return fmt::format("at {:.0f} pixels the camera's near or far plane cuts the surface off; {}",
+                     number(point, "clipped"), advice_on_depths(point));
 }
 
 // Of a picture with few surfaces: what is there and not seen, else where the camera looks.

@@ -1,6 +1,7 @@
 // What is said of a picture in which hardly anything can be judged.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "compare/poor_view.h"
@@ -41,6 +42,27 @@ TEST(PoorView, NamesTheReasonThatHidesMost) {
          "no pixel of 10000 can be judged: of 8000 that face the light the truth of 8000 is ambiguous");
   begins(with({}, {{"clipped", 100}}), "at 100 pixels the camera's near or far plane cuts the surface off");
   begins(with({}, {{"lit", 0}}), "all of the 7990 pixels that can be judged are in shadow");
+}
+
+// view.fit_depths fits what the scene's file gives; what the user gave stands until it is taken back.
+TEST(PoorView, AdvisesToTakeBackTheNearOrFarThatWasGiven) {
+  const auto advice = [](const std::string& near_m, const std::string& far_m, const std::string& fit_depths) {
+    PointRecord point = point_with({{"receivers", 0}, {"facing", 0}, {"counted", 0}, {"clipped", 700}});
+    point.settings["view.near_m"] = near_m;
+    point.settings["view.far_m"] = far_m;
+    point.settings["view.fit_depths"] = fit_depths;
+    const std::string text = why_poor_view(point);
+    return text.substr(std::min(text.size(), text.find("off; ") + 5));
+  };
+  EXPECT_EQ(advice("auto", "auto", "false"), "set view.fit_depths = true, or view.near_m and view.far_m");
+  EXPECT_EQ(advice("auto", "auto", "true"), "set view.near_m, or move the camera");
+  EXPECT_EQ(advice("auto", "0.001", "true"), "set view.far_m = auto");
+  EXPECT_EQ(advice("60", "auto", "true"), "set view.near_m = auto");
+  EXPECT_EQ(advice("auto", "0.001", "false"),
+            "set view.far_m = auto (with view.fit_depths = true, where the scene's file gives a near or far plane)");
+  EXPECT_EQ(advice("60", "70", "false"),
+            "set view.near_m = auto and view.far_m = auto (with view.fit_depths = true, where the scene's file gives a "
+            "near or far plane)");
 }
 
 TEST(PoorView, IsSilentOfAGoodOneAndOfOldRecords) {
