@@ -13,15 +13,24 @@
 namespace noonmark {
 namespace {
 
+// why: what the loader says, "/usr/lib/libX.so.1: cannot open shared object file: ...".
+std::string what_to_install(const std::string& why) {
+  const std::string path = why.substr(0, why.find(": "));
+  const std::string library = path.substr(path.rfind('/') + 1);  // npos + 1 is 0
+  if (library == image_module_file) return "it belongs beside the program; build or install Noonmark again";
+  if (library.starts_with("libOpenImageIO")) return "on Debian, apt install libopenimageio2.4";
+  return fmt::format("{} is a library that OpenImageIO needs; install the package that brings it", library);
+}
+
 // The loader looks in the program's RUNPATH, which names places beside the program (app/CMakeLists.txt).
 EncodeImage* load_encoder() {
   void* const module = dlopen(image_module_file, RTLD_NOW | RTLD_LOCAL);  // never closed
   void* const function = module ? dlsym(module, image_module_function) : nullptr;
-  if (!function)
-    throw Error(ErrorKind::device,
-                fmt::format("pictures cannot be written: {}; {} belongs beside the program, and it needs OpenImageIO "
-                            "(on Debian, apt install libopenimageio2.4)",
-                            dlerror(), image_module_file));
+  if (!function) {
+    const char* const said = dlerror();
+    const std::string why = said ? said : image_module_file;
+    throw Error(ErrorKind::device, fmt::format("pictures cannot be written: {}; {}", why, what_to_install(why)));
+  }
   return reinterpret_cast<EncodeImage*>(function);
 }
 

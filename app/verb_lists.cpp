@@ -65,7 +65,7 @@ int verb_doctor() {
     const ThreadLimit limit(0);
     require_room_to_start();
   } catch (const Error& error) {
-    fmt::print("Machine   NOT USABLE: {}\n", error.what());
+    fmt::print("Machine   NOT USABLE: {}\n", printable(error.what()));
     can_measure = false;
   }
   const bool room = can_measure;
@@ -77,14 +77,14 @@ int verb_doctor() {
                device.software ? "software" : "hardware", device.max_map_resolution);
     fmt::print("          times by {}\n", device.timer_queries ? "timer queries" : "glFinish and a steady clock");
   } catch (const Error& error) {
-    fmt::print("OpenGL    NOT USABLE: {}\n", error.what());
+    fmt::print("OpenGL    NOT USABLE: {}\n", printable(error.what()));
     can_measure = false;
   }
   try {
     const raytrace::TracerInfo tracer = raytrace::tracer_info();
     fmt::print("Embree    {}, ISA {} (pinned)\n", tracer.version, tracer.isa);
   } catch (const Error& error) {
-    fmt::print("Embree    NOT USABLE: {}\n", error.what());
+    fmt::print("Embree    NOT USABLE: {}\n", printable(error.what()));
     can_measure = false;
   }
   try {
@@ -93,7 +93,7 @@ int verb_doctor() {
       fmt::print("Pictures  OpenImageIO\n");
     }
   } catch (const Error& error) {
-    fmt::print("Pictures  NOT USABLE: {}\n", error.what());
+    fmt::print("Pictures  NOT USABLE: {}\n", printable(error.what()));
     can_write_pictures = false;
   }
   std::string libraries;

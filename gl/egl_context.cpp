@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "scenes/error.h"
@@ -65,33 +66,77 @@ std::vector<Candidate> candidates() {
   return found;
 }
 
-// EGL_NO_CONTEXT and a reason when this candidate cannot give an OpenGL 4.5 core context.
-EGLContext make_context(const Candidate& candidate, bool debug, EGLDisplay& display, std::string& reason) {
-  // Not eglGetPlatformDisplay: libepoxy aborts on it, because before there is a display it cannot know of EGL 1.5.
-  display = eglGetPlatformDisplayEXT(candidate.platform, candidate.native, nullptr);
-  EGLint major = 0, minor = 0;
-  if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor)) {
-    reason = fmt::format("eglInitialize fails (EGL error 0x{:x})", eglGetError());
-    return EGL_NO_CONTEXT;
-  }
-  const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
-  for (const char* needed : {"EGL_KHR_create_context", "EGL_KHR_surfaceless_context", "EGL_KHR_no_config_context"})
-    if (!has_word(extensions, needed)) {
-      reason = fmt::format("it lacks {}", needed);
-      return EGL_NO_CONTEXT;
-    }
+// Of at least this version; of a core profile.
+EGLContext core_context(EGLDisplay display, EGLint major, EGLint minor, bool debug) {
   const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
-                               4,
+                               major,
                                EGL_CONTEXT_MINOR_VERSION_KHR,
-                               5,
+                               minor,
                                EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
                                EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
                                EGL_CONTEXT_FLAGS_KHR,
                                debug ? EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR : 0,
                                EGL_NONE};
+  return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+}
+
+// "OpenGL 3.3 (Core Profile) Mesa 22.3.6 (softpipe)": the most that a driver without 4.5 offers; empty when it has
+// none.
+std::string offered(EGLDisplay display) {
+  // 3.1 is the first version that a context can be asked for; the driver gives the highest one that is compatible.
+  EGLContext context = core_context(display, 3, 1, false);
+  if (context == EGL_NO_CONTEXT) context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, nullptr);
+  if (context == EGL_NO_CONTEXT) return "";
+  std::string text;
+  if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+    const auto words = [](GLenum name) {
+      const auto* said = reinterpret_cast<const char*>(glGetString(name));
+      return std::string(said ? said : "?");
+    };
+    text = fmt::format("OpenGL {} ({})", words(GL_VERSION), words(GL_RENDERER));
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
+  eglDestroyContext(display, context);
+  return text;
+}
+
+// Mesa's and GLVND's, which choose a driver or what it says of itself: "GALLIUM_DRIVER=softpipe, ..."
+std::string choosing_variables() {
+  std::string set;
+  for (const char* name :
+       {"GALLIUM_DRIVER", "MESA_GL_VERSION_OVERRIDE", "MESA_LOADER_DRIVER_OVERRIDE", "MESA_EXTENSION_OVERRIDE",
+        "LIBGL_ALWAYS_SOFTWARE", "LIBGL_DRIVERS_PATH", "__EGL_VENDOR_LIBRARY_FILENAMES", "__EGL_VENDOR_LIBRARY_DIRS"})
+    if (const char* value = std::getenv(name)) set += fmt::format("{}{}={}", set.empty() ? "" : ", ", name, value);
+  return set;
+}
+
+struct Refusal {
+  std::string reason;
+  bool too_old = false;  // there is a driver, and nothing is missing
+};
+
+// EGL_NO_CONTEXT and a reason when this candidate cannot give an OpenGL 4.5 core context.
+EGLContext make_context(const Candidate& candidate, bool debug, EGLDisplay& display, Refusal& refusal) {
+  // Not eglGetPlatformDisplay: libepoxy aborts on it, because before there is a display it cannot know of EGL 1.5.
+  display = eglGetPlatformDisplayEXT(candidate.platform, candidate.native, nullptr);
+  EGLint major = 0, minor = 0;
+  if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor)) {
+    refusal.reason = fmt::format("eglInitialize fails (EGL error 0x{:x})", eglGetError());
+    return EGL_NO_CONTEXT;
+  }
+  const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
+  for (const char* needed : {"EGL_KHR_create_context", "EGL_KHR_surfaceless_context", "EGL_KHR_no_config_context"})
+    if (!has_word(extensions, needed)) {
+      refusal.reason = fmt::format("it lacks {}", needed);
+      return EGL_NO_CONTEXT;
+    }
   eglBindAPI(EGL_OPENGL_API);
-  EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-  if (context == EGL_NO_CONTEXT) reason = fmt::format("it has no OpenGL 4.5 core (EGL error 0x{:x})", eglGetError());
+  EGLContext context = core_context(display, 4, 5, debug);
+  if (context == EGL_NO_CONTEXT) {
+    refusal.reason = fmt::format("it has no OpenGL 4.5 core (EGL error 0x{:x})", eglGetError());
+    if (const std::string most = offered(display); !most.empty())
+      refusal = {fmt::format("its driver offers {} only", most), true};
+  }
   return context;
 }
 
@@ -100,12 +145,13 @@ EGLContext make_context(const Candidate& candidate, bool debug, EGLDisplay& disp
 EglContext::EglContext(DebugMode debug) {
   require_libraries();
   std::string refusals;
+  bool too_old = false;
   for (const Candidate& candidate : candidates()) {
     EGLDisplay display = EGL_NO_DISPLAY;
-    std::string reason;
-    EGLContext context = make_context(candidate, debug != DebugMode::off, display, reason);
+    Refusal refusal;
+    EGLContext context = make_context(candidate, debug != DebugMode::off, display, refusal);
     if (context != EGL_NO_CONTEXT && !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
-      reason = fmt::format("its context cannot be made current (EGL error 0x{:x})", eglGetError());
+      refusal.reason = fmt::format("its context cannot be made current (EGL error 0x{:x})", eglGetError());
       eglDestroyContext(display, context);
       context = EGL_NO_CONTEXT;
     }
@@ -116,12 +162,17 @@ EglContext::EglContext(DebugMode debug) {
       log_.install(debug);
       return;
     }
-    refusals += fmt::format("{}{}: {}", refusals.empty() ? "" : ", ", candidate.name, reason);
+    refusals += fmt::format("{}{}: {}", refusals.empty() ? "" : ", ", candidate.name, refusal.reason);
+    too_old |= refusal.too_old;
   }
-  throw Error(
-      ErrorKind::device,
-      fmt::format("no OpenGL 4.5 without a display: {}; {}",
-                  refusals.empty() ? "EGL offers no device and no surfaceless platform" : refusals, what_to_install));
+  std::string advice = what_to_install;
+  if (too_old) {
+    const std::string set = choosing_variables();
+    advice = set.empty() ? "install a newer driver" : fmt::format("what is set can be the reason: {}", set);
+  }
+  throw Error(ErrorKind::device,
+              fmt::format("no OpenGL 4.5 without a display: {}; {}",
+                          refusals.empty() ? "EGL offers no device and no surfaceless platform" : refusals, advice));
 }
 
 EglContext::~EglContext() {

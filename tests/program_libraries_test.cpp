@@ -1,7 +1,9 @@
 // Which shared libraries the program loads, and what it says where one is missing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <tuple>
 
 #include "tests/program_fixture.h"
 
@@ -61,12 +63,45 @@ TEST_F(Libraries, WithoutOpenImageIoMeasuresAndRefusesPictures) {
   const std::vector<std::string> missing = {"noonmark_images.so"};
   EXPECT_EQ(run_without(missing, {"doctor"}), 4) << output_;
   EXPECT_TRUE(says("Pictures  NOT USABLE") && says("noonmark_images.so")) << output_;
+  EXPECT_TRUE(says("it belongs beside the program") && !says("apt install")) << output_;
   EXPECT_EQ(run_without(missing, small_picture), 4) << output_;
-  EXPECT_TRUE(says("apt install libopenimageio")) << output_;
+  EXPECT_TRUE(says("it belongs beside the program")) << output_;
   EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
   EXPECT_EQ(run_without(missing, {"run", "pictures.toml", "--out", "out"}), 4) << output_;
   EXPECT_FALSE(fs::exists(folder_ / "out/results.sqlite")) << "said before anything is measured";
   EXPECT_EQ(run_without(missing, {"run", "none.toml", "--out", "out"}), 0) << output_;
+}
+
+TEST_F(Libraries, AdvisesOnTheOneThatIsMissing) {
+  EXPECT_EQ(run_without({"libOpenImageIO.so.2.4"}, {"doctor"}), 4) << output_;
+  EXPECT_TRUE(says("Pictures  NOT USABLE") && says("apt install libopenimageio2.4")) << output_;
+  EXPECT_TRUE(says("OpenGL    ") && !says("OpenGL    NOT USABLE")) << output_;
+  // Of what OpenImageIO needs, one that the program itself does not.
+  EXPECT_EQ(run_without({"libGLX.so.0"}, {"doctor"}), 4) << output_;
+  EXPECT_TRUE(says("libGLX.so.0 is a library that OpenImageIO needs")) << output_;
+  EXPECT_FALSE(says("apt install libopenimageio")) << output_;
+}
+
+// Nothing is missing there: the driver that was chosen has too little, or was told to say so.
+TEST_F(Libraries, ADriverOfAnOlderOpenGlSaysWhatItOffersAndWhoChoseIt) {
+  const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
+      {"GALLIUM_DRIVER", "softpipe", "(softpipe)"},
+      {"MESA_GL_VERSION_OVERRIDE", "3.0", "OpenGL 3.0"},
+      {"MESA_GL_VERSION_OVERRIDE", "4.4", "OpenGL 4.4"}};
+  for (const auto& [name, value, offers] : cases) {
+    SCOPED_TRACE(name + "=" + value);
+    const auto chosen = [&] {
+      setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);  // the variables are Mesa's, and a GPU may have another driver
+      setenv(name.c_str(), value.c_str(), 1);
+    };
+    EXPECT_EQ(run({"doctor"}, chosen), 4) << output_;
+    EXPECT_TRUE(says("its driver offers OpenGL ") && says(offers) && says(" only; what is set can be the reason: "))
+        << output_;
+    EXPECT_TRUE(says(name + "=" + value)) << output_;
+    EXPECT_FALSE(says("apt install")) << output_;
+    EXPECT_EQ(run(small_picture, chosen), 4) << output_;
+    EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+  }
 }
 
 }  // namespace
