@@ -2,13 +2,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cstdio>
 #include <cstdlib>
+#include <map>
+#include <regex>
 #include <tuple>
 
 #include "tests/program_fixture.h"
 
 namespace noonmark::acceptance {
 namespace {
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
 
 class Libraries : public Program {
  protected:
@@ -37,6 +47,35 @@ TEST_F(Libraries, StartsWithThoseAloneThatEveryMeasurementNeeds) {
   for (const char* later : {"OpenImageIO", "libGL.so", "libOpenGL.so", "libEGL.so"})
     EXPECT_FALSE(says(later)) << output_;
   EXPECT_LT(std::count(output_.begin(), output_.end(), '\n'), 30) << output_;
+}
+
+// Of one that is missing here the system's loader speaks, in words of its own, so README says which they are.
+TEST_F(Libraries, ReadmeNamesEveryOneThatTheProgramIsLinkedWith) {
+  if (sanitized) GTEST_SKIP() << "the sanitizers' libraries are linked as well";
+  FILE* const listing = popen("readelf -d '" NOONMARK_PROGRAM "' 2>/dev/null", "r");
+  ASSERT_NE(listing, nullptr);
+  std::string dynamic;
+  for (int c = 0; (c = std::fgetc(listing)) != EOF;) dynamic += static_cast<char>(c);
+  if (pclose(listing) != 0) GTEST_SKIP() << "no readelf here";
+  const std::string readme = read_file(NOONMARK_SOURCE_DIR "/README.md");
+  const size_t begin = readme.find("What the program is linked with"), end = readme.find("ends with 127", begin);
+  ASSERT_NE(end, std::string::npos);
+  const auto in_small_letters = [](std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
+  const std::string sentence = in_small_letters(readme.substr(begin, end - begin));
+  // Where README's word is not the file's name.
+  const std::map<std::string, std::string> words = {{"tbb", "onetbb"},  {"tomlplusplus", "toml++"}, {"stdc++", "c++"},
+                                                    {"m", "c and c++"}, {"c", "c and c++"},         {"gcc_s", "c++"}};
+  const std::regex needed("\\[lib([^\\]]+?)[0-9]*\\.so");
+  int count = 0;
+  for (std::sregex_iterator one(dynamic.begin(), dynamic.end(), needed), none; one != none; ++one, ++count) {
+    const auto other = words.find((*one)[1]);
+    const std::string word = other == words.end() ? (*one)[1].str() : other->second;
+    EXPECT_NE(sentence.find(in_small_letters(word)), std::string::npos) << word;
+  }
+  EXPECT_GT(count, 10);
 }
 
 TEST_F(Libraries, WithoutOpenGlSaysWhatToInstall) {
