@@ -233,13 +233,8 @@ MemoryEstimate Workbench::memory(const Settings& settings, bool curve, bool pict
   const LoadedScene& loaded = impl_->load(settings);
   const Scene& scene = *loaded.scene;
   const LightFrame frame = make_light_frame(scene, settings);
-  return estimate_memory({settings,
-                          frame.kind,
-                          {scene.positions.size(), scene.triangles.size()},
-                          loaded.open_edges,
-                          outside_texels(scene, frame, settings.filter),
-                          curve,
-                          pictures});
+  return estimate_memory({settings, frame.kind, scene_size(scene), loaded.open_edges,
+                          outside_texels(scene, frame, settings.filter), curve, pictures});
 }
 
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options) {

@@ -11,12 +11,12 @@
 
 #include "scenes/gltf_buffers.h"
 #include "scenes/gltf_document.h"
+#include "scenes/memory.h"
 
 namespace noonmark::gltf {
 
-// Of a whole scene, instances included; more are refused before anything is allocated (12 bytes each, and as much again
-// for their vertices, in every stage that follows).
-inline constexpr uint64_t max_triangles = uint64_t{1} << 26;
+// Of a whole scene, instances included.
+inline constexpr uint64_t max_triangles = max_scene_triangles;
 inline constexpr uint64_t max_vertices = 3 * max_triangles;
 
 class AccessorReader {

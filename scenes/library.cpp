@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <utility>
 #include <vector>
 
 #include "scenes/error.h"
+#include "scenes/memory.h"
 #include "scenes/remesh.h"
 #include "scenes/text.h"
 
@@ -31,6 +33,24 @@ Scene scene_as_built(const SceneSettings& settings) {
                   settings.name, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
 }
 
+// Of what remeshed makes, before it is made: tiles turn each triangle into 64.
+void require_room(const SceneSettings& settings, const Scene& scene) {
+  const SceneSize size = remeshed_size(scene, settings.mesh);
+  Settings all;
+  all.scene = settings;
+  const std::string what = fmt::format("{}: scene.mesh = {} makes {} triangles of its {}", settings.name,
+                                       find_setting("scene.mesh").get(all), size.triangles, scene.triangles.size());
+  const char* remedy = "choose another scene.mesh or a scene of fewer triangles";
+  if (size.triangles > max_scene_triangles)
+    throw Error(ErrorKind::usage,
+                fmt::format("{}, which are more than the {} allowed; {}", what, max_scene_triangles, remedy));
+  const double needed = scene_bytes(size);
+  if (const AvailableMemory available = available_memory(); needed > static_cast<double>(available.bytes))
+    throw Error(ErrorKind::usage, fmt::format("{}, which take at least {} of memory, and {}; {}, or use a machine with "
+                                              "more memory",
+                                              what, bytes_text(needed), available.text(), remedy));
+}
+
 }  // namespace
 
 bool names_file(std::string_view scene_name) {
@@ -42,8 +62,9 @@ std::string notes_line(const Scene& scene) {
 }
 
 Scene make_scene(const SceneSettings& settings) {
-  return remeshed(scene_as_built(settings), settings.mesh,
-                  {settings.turn_deg, settings.move_m.value_or(glm::dvec3(0))});
+  Scene scene = scene_as_built(settings);
+  if (settings.mesh != MeshForm::as_built) require_room(settings, scene);
+  return remeshed(std::move(scene), settings.mesh, {settings.turn_deg, settings.move_m.value_or(glm::dvec3(0))});
 }
 
 }  // namespace noonmark

@@ -26,7 +26,8 @@ std::span<const BuiltinScene> builtin_scenes();
 bool names_file(std::string_view scene_name);
 
 // A built-in name, or a path that ends in .gltf or .glb, in either case; in the triangles that settings.mesh names.
-// Throws Error(usage) for an unknown name (suggesting the nearest), Error(scene) for a file that cannot be used.
+// Throws Error(usage) for an unknown name (suggesting the nearest) and where settings.mesh makes more triangles than
+// are allowed or fit into memory, before they are made; Error(scene) for a file that cannot be used.
 Scene make_scene(const SceneSettings& settings);
 
 // "street: 2 animations at rest (...); 1 primitive of lines left out": the scene's notes as one line; empty without

@@ -10,6 +10,8 @@
 #include <sstream>
 #include <vector>
 
+#include "scenes/scene.h"
+
 namespace noonmark {
 namespace {
 
@@ -106,7 +108,21 @@ std::string bytes_text(double bytes) {
 // neighbours; of 70 for a vertex 24 are its place in the light's frame and 36 the scene's, OpenGL's and Embree's
 // copies.
 double scene_bytes(SceneSize size) {
-  return 250.0 * static_cast<double>(size.triangles) + 70.0 * static_cast<double>(size.vertices);
+  return 250.0 * static_cast<double>(size.triangles) + 70.0 * static_cast<double>(size.vertices) +
+         static_cast<double>(size.part_bytes);
+}
+
+uint64_t bytes_of_part(uint64_t name_length) {
+  // A short name stands in the part itself. Beside a longer one the C library keeps a head of 8 bytes and fills up to
+  // 16; one byte ends the name.
+  static const uint64_t short_name = std::string().capacity();
+  return sizeof(Part) + (name_length > short_name ? name_length + 1 + 8 + 15 : 0);
+}
+
+SceneSize scene_size(const Scene& scene) {
+  SceneSize size{scene.positions.size(), scene.triangles.size(), 0};
+  for (const Part& part : scene.parts) size.part_bytes += bytes_of_part(part.name.size());
+  return size;
 }
 
 }  // namespace noonmark

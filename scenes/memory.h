@@ -29,10 +29,20 @@ uint64_t resident_bytes();
 // "640 MB", "1.2 GB": two digits, in powers of 1000.
 std::string bytes_text(double bytes);
 
+// Of any scene, instances counted and cut as scene.mesh says; more are refused before anything is made of them (12
+// bytes each, and as much again for their vertices, in every stage that follows).
+inline constexpr uint64_t max_scene_triangles = uint64_t{1} << 26;
+
 struct SceneSize {
   uint64_t vertices = 0;
   uint64_t triangles = 0;
+  uint64_t part_bytes = 0;  // of the list of parts, with their names
 };
+
+struct Scene;
+SceneSize scene_size(const Scene& scene);
+// What a part takes whose name has so many characters.
+uint64_t bytes_of_part(uint64_t name_length);
 
 // What a scene of this size takes at the least in all that is made of it: OpenGL's buffers, Embree's tree, which
 // triangle is beside which, their planes as the light sees them. Edges that lie open cost more (app/memory_estimate.h).

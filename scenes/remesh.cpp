@@ -5,7 +5,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -78,6 +80,8 @@ void reverse(Scene& scene) {
   for (Part& part : scene.parts) part.first_triangle = count - part.first_triangle - part.triangle_count;
 }
 
+constexpr std::string_view again_suffix = " again";
+
 void double_up(Scene& scene) {
   const size_t vertices = scene.positions.size(), triangles = scene.triangles.size(), parts = scene.parts.size();
   for (size_t i = 0; i < vertices; ++i) scene.positions.push_back(glm::vec3(scene.positions[i]));
@@ -87,44 +91,38 @@ void double_up(Scene& scene) {
   scene.single_sided.insert(scene.single_sided.end(), sides.begin(), sides.end());
   for (size_t i = 0; i < parts; ++i) {
     Part again = scene.parts[i];
-    again.name += " again";
+    again.name += again_suffix;
     again.first_triangle += static_cast<uint32_t>(triangles);
     scene.parts.push_back(again);
   }
 }
 
-// Triangles with corners of their own, in double until the scene stands where it is to be.
+// The pieces of one triangle with corners of their own, in double until the scene stands where it is to be.
 struct Soup {
   std::vector<glm::dvec3> corners;  // three for each triangle
-  std::vector<uint32_t> source;     // of each triangle: which of the scene's it was cut from
   std::vector<Part> parts;
 
   void add(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) { corners.insert(corners.end(), {a, b, c}); }
   uint32_t triangles() const { return static_cast<uint32_t>(corners.size() / 3); }
+  void clear() {
+    corners.clear();
+    parts.clear();
+  }
 };
 
-template <class Cut>
-Soup cut_each(const Scene& scene, const Cut& cut) {
-  Soup soup;
-  for (const Part& part : scene.parts) {
-    for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
-      const glm::uvec3 v = scene.triangles[t];
-      cut(soup, part, scene.positions[v.x], scene.positions[v.y], scene.positions[v.z]);
-      soup.source.resize(soup.triangles(), t);
-    }
-  }
-  return soup;
-}
+constexpr int tiles_on_a_side = 8;
+constexpr uint64_t tiles_of_triangle = uint64_t{tiles_on_a_side} * tiles_on_a_side;
+constexpr std::string_view tile_suffix = " tile";
 
 void add_tiles(Soup& soup, const Part& part, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
-  constexpr int n = 8;  // on a side
+  constexpr int n = tiles_on_a_side;
   const auto at = [&](int i, int j) {
     return a + static_cast<double>(i) / n * (b - a) + static_cast<double>(j) / n * (c - a);
   };
   const auto tile = [&](glm::dvec3 p, glm::dvec3 q, glm::dvec3 r) {
     const glm::dvec3 origin = glm::vec3((p + q + r) / 3.0);
     const auto placed = [&](glm::dvec3 corner) { return origin + glm::dvec3(glm::vec3(corner - origin)); };
-    soup.parts.push_back({part.name + " tile", soup.triangles(), 1});
+    soup.parts.push_back({part.name + std::string(tile_suffix), soup.triangles(), 1});
     soup.add(placed(p), placed(q), placed(r));
   };
   for (int i = 0; i < n; ++i) {
@@ -135,13 +133,16 @@ void add_tiles(Soup& soup, const Part& part, glm::dvec3 a, glm::dvec3 b, glm::dv
   }
 }
 
+constexpr int strips = 6;
+constexpr int pieces_of_strip(int strip) { return 1 + strip % 3; }
+
 void add_strips(Soup& soup, const Part& part, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
-  constexpr int n = 6;
+  constexpr int n = strips;
   soup.parts.push_back({part.name, soup.triangles(), 0});
   for (int strip = 0; strip < n; ++strip) {  // from corner a to side bc
     const auto left = [&](int i) { return a + static_cast<double>(i) / n * (b - a); };
     const auto right = [&](int i) { return a + static_cast<double>(i) / n * (c - a); };
-    const int pieces = 1 + strip % 3;
+    const int pieces = pieces_of_strip(strip);
     const auto on = [&](int i, int piece) {
       return left(i) + static_cast<double>(piece) / pieces * (right(i) - left(i));
     };
@@ -153,13 +154,15 @@ void add_strips(Soup& soup, const Part& part, glm::dvec3 a, glm::dvec3 b, glm::d
   soup.parts.back().triangle_count = soup.triangles() - soup.parts.back().first_triangle;
 }
 
-// The scene with the soup's triangles, each with vertices of its own.
-void replace(Scene& scene, const Soup& soup, const auto& placed) {
-  const std::vector<bool> sides = std::move(scene.single_sided);
-  scene.positions.clear();
-  scene.triangles.clear();
-  scene.parts.clear();
-  scene.single_sided.clear();
+constexpr uint64_t strip_triangles() {
+  uint64_t count = 0;
+  for (int strip = 0; strip < strips; ++strip)
+    count += static_cast<uint64_t>(pieces_of_strip(strip)) * (strip > 0 ? 2 : 1);
+  return count;
+}
+
+// Appends the pieces of one triangle, each with vertices of its own. single_sided: of that triangle, where sides count.
+void append(Scene& scene, const Soup& soup, const std::optional<bool>& single_sided, const auto& placed) {
   for (Part part : soup.parts) {
     const uint32_t first = static_cast<uint32_t>(scene.triangles.size());
     for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
@@ -169,11 +172,33 @@ void replace(Scene& scene, const Soup& soup, const auto& placed) {
       const uint32_t at = static_cast<uint32_t>(scene.positions.size());
       scene.positions.insert(scene.positions.end(), {a, b, c});
       scene.triangles.emplace_back(at, at + 1, at + 2);
-      if (!sides.empty()) scene.single_sided.push_back(sides[soup.source[t]]);
+      if (single_sided) scene.single_sided.push_back(*single_sided);
     }
     part.first_triangle = first;
     part.triangle_count = static_cast<uint32_t>(scene.triangles.size()) - first;
     scene.parts.push_back(part);
+  }
+}
+
+// Triangle by triangle: of all at once, the pieces in double would take more than the scene.
+void cut_each(Scene& scene, MeshForm form, const auto& placed) {
+  const SceneSize size = remeshed_size(scene, form);
+  const std::vector<glm::vec3> positions = std::exchange(scene.positions, {});
+  const std::vector<glm::uvec3> triangles = std::exchange(scene.triangles, {});
+  const std::vector<bool> sides = std::exchange(scene.single_sided, {});
+  const std::vector<Part> uncut = std::exchange(scene.parts, {});
+  scene.positions.reserve(size.vertices);
+  scene.triangles.reserve(size.triangles);
+  scene.parts.reserve(triangles.size() * (form == MeshForm::tiles ? tiles_of_triangle : 1));
+  if (!sides.empty()) scene.single_sided.reserve(size.triangles);
+  Soup soup;
+  for (const Part& part : uncut) {
+    for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
+      const glm::uvec3 v = triangles[t];
+      soup.clear();
+      (form == MeshForm::tiles ? add_tiles : add_strips)(soup, part, positions[v.x], positions[v.y], positions[v.z]);
+      append(scene, soup, sides.empty() ? std::nullopt : std::optional<bool>(sides[t]), placed);
+    }
   }
 }
 
@@ -190,7 +215,7 @@ Scene remeshed(Scene scene, MeshForm form, const Placement& placement) {
   const bool stays = placement.turn_deg == 0 && placement.move_m == glm::dvec3(0);
   const auto placed = [&](glm::dvec3 p) { return stays ? p : glm::dvec3(motion * glm::dvec4(p, 1)); };
   if (form == MeshForm::tiles || form == MeshForm::t_junctions)
-    replace(scene, cut_each(scene, form == MeshForm::tiles ? add_tiles : add_strips), placed);
+    cut_each(scene, form, placed);
   else
     for (glm::vec3& p : scene.positions) p = glm::vec3(placed(p));
   for (glm::dvec3* p : {&scene.camera.eye_m, &scene.camera.target_m, &scene.light.position_m, &scene.light.target_m})
@@ -214,6 +239,40 @@ Scene remeshed(Scene scene, MeshForm form, const Placement& placement) {
     case MeshForm::doubled:
       double_up(scene);
       return scene;
+  }
+  throw std::logic_error("unknown mesh form");
+}
+
+SceneSize remeshed_size(const Scene& scene, MeshForm form) {
+  SceneSize size = scene_size(scene);
+  switch (form) {
+    case MeshForm::as_built:
+    case MeshForm::reversed:
+      return size;
+    case MeshForm::one_mesh:
+      size.part_bytes = bytes_of_part(scene.name.size());
+      return size;
+    case MeshForm::split:
+      size.vertices += 3 * size.triangles;  // where no triangles share an edge
+      size.triangles *= 4;
+      return size;
+    case MeshForm::doubled:
+      for (const Part& part : scene.parts) size.part_bytes += bytes_of_part(part.name.size() + again_suffix.size());
+      size.vertices *= 2;
+      size.triangles *= 2;
+      return size;
+    case MeshForm::tiles:
+    case MeshForm::t_junctions: {
+      const bool tiles = form == MeshForm::tiles;
+      const uint64_t pieces = tiles ? tiles_of_triangle : strip_triangles();
+      const uint64_t parts = tiles ? tiles_of_triangle : 1, suffix = tiles ? tile_suffix.size() : 0;
+      size.triangles *= pieces;
+      size.vertices = 3 * size.triangles;
+      size.part_bytes = 0;
+      for (const Part& part : scene.parts)
+        size.part_bytes += part.triangle_count * parts * bytes_of_part(part.name.size() + suffix);
+      return size;
+    }
   }
   throw std::logic_error("unknown mesh form");
 }

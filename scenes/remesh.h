@@ -5,6 +5,7 @@
 //   Scene again = remeshed(make_scene(settings), MeshForm::split);
 //   Scene far = remeshed(scene, MeshForm::tiles, {.turn_deg = 17, .move_m = {300, 0, 0}});
 #pragma once
+#include "scenes/memory.h"
 #include "scenes/scene.h"
 #include "scenes/settings.h"
 
@@ -32,6 +33,10 @@ struct Placement {
 //           edge.
 // Positions are rounded to float once, after the placement; tiles' parts once before it. What the rounding makes
 // degenerate is left out.
+// Their lists are made as long as remeshed_size says and piece by piece, so that nothing is held twice.
 Scene remeshed(Scene scene, MeshForm form, const Placement& placement = {});
+
+// How large that scene is at most, told from counts alone.
+SceneSize remeshed_size(const Scene& scene, MeshForm form);
 
 }  // namespace noonmark

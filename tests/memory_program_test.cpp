@@ -38,8 +38,8 @@ class Memory : public Program {
     output_ = read_file((folder_ / "output.txt").string());
     return code;
   }
-  // A bumpy square of 2 n^2 triangles, drawn `instances` times.
-  std::string grid(uint16_t n, int instances) {
+  // A bumpy square of 2 n^2 triangles, drawn `instances` times under this name.
+  std::string grid(uint16_t n, int instances, const std::string& name = "grid") {
     std::vector<float> positions;
     for (int y = 0; y <= n; ++y)
       for (int x = 0; x <= n; ++x)
@@ -64,7 +64,7 @@ class Memory : public Program {
     document["nodes"] = test::json::array();
     document["scenes"][0]["nodes"] = test::json::array();
     for (int i = 0; i < instances; ++i) {
-      document["nodes"].push_back({{"mesh", 0}, {"translation", {i % 16, i / 16, 0}}});
+      document["nodes"].push_back({{"mesh", 0}, {"name", name}, {"translation", {i % 16, i / 16, 0}}});
       document["scenes"][0]["nodes"].push_back(i);
     }
     return write("grid.gltf", document.dump());
@@ -94,6 +94,7 @@ class MemoryOf : public Memory, public testing::WithParamInterface<Case> {};
 // adds to a program that measures next to nothing, too.
 TEST_P(MemoryOf, APointIsPredicted) {
   if (std::string(GetParam().name) == "triangles") grid(100, 40);
+  if (std::string(GetParam().name) == "tiles") grid(40, 3, std::string(200, 'n'));  // each tile has it
   if (std::string(GetParam().name) == "overlapping") write("stack.gltf", stack(100000).dump());
   const std::string small =
       write("small.toml", "pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = 16\n");
@@ -120,6 +121,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"triangles",
              "scene = \"grid.gltf\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "
              "64\n"},
+        Case{"tiles",
+             "pictures = \"none\"\n[scene]\nname = \"grid.gltf\"\nmesh = \"tiles\"\n[view]\nwidth_px = 16\nheight_px "
+             "= 16\n[map]\nresolution = 64\n"},
         Case{"overlapping",
              "scene = \"stack.gltf\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "
              "64\n"}),
@@ -192,6 +196,28 @@ TEST_F(Memory, InstancesAreCountedBeforeTheyAreMade) {
   EXPECT_TRUE(
       std::regex_search(output_, std::regex("its 67000000 triangles, instances counted, take at least [0-9.]+ GB "
                                             "of memory and [0-9.]+ GB are available .*fewer instances")))
+      << output_;
+}
+
+TEST_F(Memory, OtherTrianglesAreCountedBeforeTheyAreMade) {
+  const auto render = [&](const std::string& scene, const char* mesh) {
+    return run_within(rlim_t{8} << 30, {"render", "--set", "scene.name=" + scene, "--set",
+                                        std::string("scene.mesh=") + mesh, "--out", "out"});
+  };
+  const std::string below = grid(100, 50);  // 64 million tiles
+  EXPECT_EQ(render(below, "tiles"), 2) << output_;
+  EXPECT_TRUE(std::regex_search(
+      output_, std::regex("noonmark: .*grid.gltf: scene.mesh = tiles makes 64000000 triangles of its 1000000, which "
+                          "take at least [0-9.]+ GB of memory, and [0-9.]+ GB are available \\(the limit of the "
+                          "address space, ulimit -v\\); choose another scene.mesh or ")))
+      << output_;
+  EXPECT_EQ(render(below, "t_junctions"), 2) << output_;
+  EXPECT_TRUE(says("scene.mesh = t_junctions makes 23000000 triangles of its 1000000")) << output_;
+  const std::string above = grid(100, 60);
+  EXPECT_EQ(render(above, "tiles"), 2) << output_;
+  EXPECT_TRUE(
+      says("scene.mesh = tiles makes 76800000 triangles of its 1200000, which are more than the 67108864 "
+           "allowed; choose another scene.mesh or "))
       << output_;
 }
 

@@ -150,6 +150,22 @@ TEST(RemeshSides, EachTriangleKeepsItsOwn) {
     EXPECT_TRUE(remeshed(two, form).single_sided.empty());
 }
 
+// What memory is asked about before anything is made.
+TEST_P(Remesh, IsAsLargeAsToldBefore) {
+  for (MeshForm form : {MeshForm::as_built, MeshForm::one_mesh, MeshForm::split, MeshForm::reversed, MeshForm::doubled,
+                        MeshForm::tiles, MeshForm::t_junctions}) {
+    SCOPED_TRACE(static_cast<int>(form));
+    const SceneSize told = remeshed_size(built, form), found = scene_size(made(form));
+    EXPECT_EQ(told.triangles, found.triangles);
+    EXPECT_EQ(told.part_bytes, found.part_bytes);
+    if (form == MeshForm::one_mesh || form == MeshForm::split)  // which vertices are one, nobody counts before
+      EXPECT_GE(told.vertices, found.vertices);
+    else
+      EXPECT_EQ(told.vertices, found.vertices);
+  }
+  EXPECT_EQ(remeshed_size(built, MeshForm::tiles).triangles, 64 * built.triangles.size());
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, Remesh, testing::Values("cube-room", "sphere", "bowl", "fence"),
                          [](const auto& named) {
                            std::string name = named.param;
