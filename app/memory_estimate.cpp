@@ -33,7 +33,9 @@ constexpr double per_outside_texel = 32;   // what is met at texels beside the m
 constexpr double per_open_edge = 240;      // as a shadow's edge: itself, its pieces, the cells that list it [220]
 constexpr double per_closed_edge = 70;     // a third of them may be such edges too, where the light sees a fold
 constexpr double per_kept_triangle = 150;  // the second tree of the rays, without the culled faces
-constexpr double per_grid_cell = 8;        // where a shadow's edges are listed, for each face of the map
+// point.json lists each part in up to 135 bytes and its name; of a part's own bytes, 40 and those of a long name.
+constexpr double per_listed_part_byte = 3.5;
+constexpr double per_grid_cell = 8;  // where a shadow's edges are listed, for each face of the map
 constexpr double least_grid_cells = 256 * 256, most_grid_cells = 2048 * 2048;
 
 }  // namespace
@@ -61,6 +63,8 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   double scene = scene_bytes(input.scene) + per_open_edge * open + per_closed_edge * (edges - open);
   scene += per_grid_cell * faces * std::clamp(16 * edges, least_grid_cells, most_grid_cells);
   if (s.map.cull != CulledFaces::none) scene += per_kept_triangle * static_cast<double>(input.scene.triangles);
+
+  if (input.pictures) scene += per_listed_part_byte * static_cast<double>(input.scene.part_bytes);
 
   double curve = 0;
   if (input.curve && curve_parameter(s.bias.form))

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "app/build_facts.h"
 #include "app/pictures.h"
@@ -133,6 +135,30 @@ nlohmann::ordered_json light_json(const Measurement& m) {
   return json;
 }
 
+// Paths and names may hold bytes that are no UTF-8; JSON may not.
+std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// Written as they come: scene.mesh = tiles makes each triangle a part, and as JSON values in memory they would take 400
+// bytes each.
+void append_parts(const std::vector<Part>& parts, size_t text_after, std::string& text) {
+  constexpr size_t most_of_part = 100;  // with numbers of ten digits and without the name
+  size_t size = text.size() + text_after + 64;
+  for (const Part& part : parts) size += most_of_part + part.name.size();
+  text.reserve(size);
+  if (parts.empty()) return;
+  text += ",\n  \"parts\": [";
+  const char* before = "\n";
+  for (const Part& part : parts) {
+    fmt::format_to(std::back_inserter(text),
+                   "{}    {{\n      \"name\": {},\n      \"first_primitive\": {},\n      \"primitives\": {}\n    }}",
+                   before, json_text(part.name), part.first_triangle, part.triangle_count);
+    before = ",\n";
+  }
+  text += "\n  ]";
+}
+
 }  // namespace
 
 std::vector<ImageRecord> write_images(const Measurement& m, const std::string& folder, const std::string& relative,
@@ -207,15 +233,19 @@ std::string point_json(const Measurement& m, const std::string& command) {
   json["primitive"] =
       "index of the triangle, counted from 0 in the order in which the scene's parts are drawn; of a file, triangles "
       "without an area are left out before counting (scene.notes says how many); -1 where there is no surface";
-  for (const Part& part : m.scene.parts)
-    json["parts"].push_back(
-        {{"name", part.name}, {"first_primitive", part.first_triangle}, {"primitives", part.triangle_count}});
+  std::string text = json_text(json);
+  json.clear();
   for (int c = 0; c < cause_count; ++c) json["causes"].push_back(cause_name(static_cast<Cause>(c)));
   json["flags"] = {
       {"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);
-  // Paths may hold bytes that are no UTF-8; JSON may not.
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const std::string rest = json_text(json);
+  text.resize(text.size() - std::string_view("\n}").size());  // the object goes on
+  append_parts(m.scene.parts, rest.size(), text);
+  text += ',';
+  text.append(rest, 1);  // without the brace that opens it
+  text += '\n';
+  return text;
 }
 
 }  // namespace noonmark

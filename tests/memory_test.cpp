@@ -122,6 +122,10 @@ TEST_F(Estimate, GrowsWithWhatIsAskedFor) {
   EXPECT_GT(bytes(LightKind::point), plain);
   EXPECT_GT(bytes(LightKind::directional, {100, 100}, true, true), plain);
   EXPECT_LT(bytes(LightKind::directional, {100, 100}, false), plain);
+  EXPECT_GE(bytes(LightKind::directional, {100, 100, 1'000'000}), plain + 1e6) << "tiles are parts";
+  EXPECT_GT(bytes(LightKind::directional, {100, 100, 1'000'000}, true, true),
+            bytes(LightKind::directional, {100, 100, 0}, true, true) + 4e6)
+      << "and point.json lists them";
   settings_.bias.form = BiasForm::normal_offset;  // has no curve
   EXPECT_EQ(bytes(), bytes(LightKind::directional, {100, 100}, false));
   settings_.map.cull = CulledFaces::front;
