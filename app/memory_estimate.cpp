@@ -76,7 +76,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   const double outside = per_outside_texel * std::min(taps, input.outside_texels);
   const double beside = strip < all_taps ? curve + outside : std::max(curve, outside);
   return {{
-      {"the program itself", "use a machine with more memory", program},
+      {"the program itself", "use a machine with more memory, or raise its limit", program},
       {"the scene", "take a scene of fewer triangles (scene.name, scene.mesh)", scene},
       {"the picture", "lower view.width_px and view.height_px",
        pixels * (per_pixel + (input.pictures ? per_picture_pixel : 0))},
@@ -116,17 +116,30 @@ double outside_texels(const Scene& scene, const LightFrame& frame, const FilterS
   return std::max(0.0, size.x * size.y - inside);
 }
 
-bool fits(const MemoryEstimate& estimate, const AvailableMemory& available) {
-  return estimate.bytes() - static_cast<double>(resident_bytes()) <= static_cast<double>(available.bytes);
+AvailableMemory memory_of_program(const AvailableMemory& space_at_start, uint64_t room) {
+  AvailableMemory memory = free_memory();
+  const uint64_t held = resident_bytes();
+  if (memory.bytes < UINT64_MAX - held) {
+    memory.bytes += held;
+    memory.limit += fmt::format(", with {} that the program holds already", bytes_text(static_cast<double>(held)));
+  }
+  if (space_at_start.bytes == UINT64_MAX) return memory;
+  const uint64_t left = space_at_start.bytes > room ? space_at_start.bytes - room : 0;
+  const uint64_t space = left + static_cast<uint64_t>(program);
+  if (space >= memory.bytes) return memory;
+  return {space, fmt::format("{}, less what libraries and threads set aside", space_at_start.limit)};
 }
 
-void require_memory(const MemoryEstimate& estimate, const std::string& point) {
-  const AvailableMemory available = available_memory();
-  if (fits(estimate, available)) return;
+bool fits(const MemoryEstimate& estimate, const AvailableMemory& of_program) {
+  return estimate.bytes() <= static_cast<double>(of_program.bytes);
+}
+
+void require_memory(const MemoryEstimate& estimate, const AvailableMemory& of_program, const std::string& point) {
+  if (fits(estimate, of_program)) return;
   const MemoryShare& most = estimate.largest();
   throw Error(ErrorKind::usage, fmt::format("{} would take about {} of memory, {} of it for {}, and {}; {}", point,
                                             bytes_text(estimate.bytes()), bytes_text(most.bytes), most.what,
-                                            available.text(), most.remedy));
+                                            of_program.text(), most.remedy));
 }
 
 }  // namespace noonmark

@@ -1,7 +1,7 @@
 // How much memory the measurement of a point takes at its peak, predicted from its settings before it starts.
 //
 //   const MemoryEstimate estimate = estimate_memory({settings, LightKind::point, scene_size, open_edges, true, false});
-//   require_memory(estimate, "point 3");            // throws where it would not fit
+//   require_memory(estimate, bench.memory_of_program(false), "point 3");   // throws where it would not fit
 //
 // The prediction is an upper bound that is made of constants per pixel, tap, texel, triangle and vertex. Where one of
 // them dominates it is at most estimate_factor times what is taken (tests/memory_test.cpp). A map that lives on a
@@ -54,10 +54,15 @@ inline constexpr double estimate_factor = 3;
 // How many texels beside a flat map the scene reaches, kernel included; a cube has no outside.
 double outside_texels(const Scene& scene, const LightFrame& frame, const FilterSettings& filter);
 
-// Whether it fits into what the process holds already and may still take.
-bool fits(const MemoryEstimate& estimate, const AvailableMemory& available);
+// What an estimate is compared with: what the whole program may hold, with what it holds already. Of the machine's
+// memory and the groups' that is so now. Of the address space it is told from what was left when the measurement began,
+// less what libraries and threads set aside (`room`), so that no point changes it for those after: the C library keeps
+// what was freed.
+AvailableMemory memory_of_program(const AvailableMemory& space_at_start, uint64_t room);
+
+bool fits(const MemoryEstimate& estimate, const AvailableMemory& of_program);
 
 // Throws Error(usage) where it does not, naming `point`, the largest share and the setting to change.
-void require_memory(const MemoryEstimate& estimate, const std::string& point);
+void require_memory(const MemoryEstimate& estimate, const AvailableMemory& of_program, const std::string& point);
 
 }  // namespace noonmark

@@ -132,10 +132,13 @@ std::vector<MemoryEstimate> survey(Workbench& bench, const Experiment& experimen
   return memory;
 }
 
-void require_memory_of(const Experiment& experiment, const std::vector<Settings>& points,
+bool writes_pictures(const Experiment& experiment) { return experiment.pictures != "none"; }
+
+void require_memory_of(const Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points,
                        const std::vector<MemoryEstimate>& memory, size_t id) {
   const Experiment& part = part_of_point(experiment, static_cast<int64_t>(id));
-  require_memory(memory[id], fmt::format("point {} ({})", id, swept_text(part, points[id])));
+  require_memory(memory[id], bench.memory_of_program(writes_pictures(experiment)),
+                 fmt::format("point {} ({})", id, swept_text(part, points[id])));
 }
 
 // Opens the store. It also removes the report and the table of an earlier run: they can show an old verdict, or other
@@ -205,8 +208,9 @@ void require_sound(const Results& results) {
 
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options) {
   const std::vector<Settings> planned = points(experiment);
+  require_room_to_start(writes_pictures(experiment));
   Workbench bench(gl::DebugMode::log);
-  if (experiment.pictures != "none") require_image_files();
+  if (writes_pictures(experiment)) require_image_files();
   const raytrace::TracerInfo tracer = raytrace::tracer_info();
   SceneDigests scenes;
   const std::vector<MemoryEstimate> memory = survey(bench, experiment, planned, scenes);
@@ -230,7 +234,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   // All of them, before the first is measured: hours later is too late to hear of it.
   const auto measured_before = [&](int64_t id) { return std::binary_search(before.begin(), before.end(), id); };
   for (int64_t id = 0; id < total; ++id)
-    if (!measured_before(id)) require_memory_of(experiment, planned, memory, static_cast<size_t>(id));
+    if (!measured_before(id)) require_memory_of(bench, experiment, planned, memory, static_cast<size_t>(id));
   SweepOutcome outcome;
   {
     const StopOnSignal guard;
@@ -239,7 +243,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     IdleNotes notes;
     for (int64_t id = 0; id < total && !outcome.interrupted; ++id) {
       if (measured_before(id)) continue;
-      require_memory_of(experiment, planned, memory, static_cast<size_t>(id));  // others may have taken it meanwhile
+      require_memory_of(bench, experiment, planned, memory,
+                        static_cast<size_t>(id));  // others may have taken it meanwhile
       const Experiment& part = part_of_point(experiment, id);
       scenes.require_unchanged(bench, planned[static_cast<size_t>(id)]);
       Measurement m = bench.measure(planned[static_cast<size_t>(id)],
@@ -270,7 +275,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
         fmt::print(stderr, "note: {}; the pictures of point {} are made again\n", printable(why), id);
       }
       const Settings& settings = planned[static_cast<size_t>(id)];
-      require_memory_of(experiment, planned, memory, static_cast<size_t>(id));
+      require_memory_of(bench, experiment, planned, memory, static_cast<size_t>(id));
       scenes.require_unchanged(bench, settings);
       store.set_pictures(id, keep_pictures(bench.measure(settings, std::nullopt), id, folder.path()));
     }
@@ -296,7 +301,10 @@ void print_plan(const Experiment& experiment) {
   const auto taps = [](const Settings& s) {
     return static_cast<double>(s.view.width_px) * s.view.height_px * tap_pattern(s.filter).taps;
   };
+  // All that run asks for, in the same order.
+  require_room_to_start(writes_pictures(experiment));
   Workbench bench(gl::DebugMode::log);
+  if (writes_pictures(experiment)) require_image_files();
   SceneDigests scenes;
   const std::vector<MemoryEstimate> memory = survey(bench, experiment, planned, scenes);
   double all_taps = 0;
@@ -313,8 +321,9 @@ void print_plan(const Experiment& experiment) {
                        [](const MemoryEstimate& a, const MemoryEstimate& b) { return a.bytes() < b.bytes(); });
   const MemoryShare& share = most->largest();
   fmt::print("memory: at most {}, by point {} ({} of it for {}); {}\n", bytes_text(most->bytes()),
-             most - memory.begin(), bytes_text(share.bytes), share.what, available_memory().text());
-  for (size_t i = 0; i < planned.size(); ++i) require_memory_of(experiment, planned, memory, i);
+             most - memory.begin(), bytes_text(share.bytes), share.what,
+             bench.memory_of_program(writes_pictures(experiment)).text());
+  for (size_t i = 0; i < planned.size(); ++i) require_memory_of(bench, experiment, planned, memory, i);
   // Time is close to a constant for each point plus a share for each tap: two small pictures of the first point tell
   // both.
   const auto seconds = [&](int divisor, double nudge) {

@@ -1,13 +1,11 @@
 #include "app/threads.h"
 
 #include <fmt/format.h>
+#include <pthread.h>
 
 #include <algorithm>
-#include <condition_variable>
 #include <cstdlib>
-#include <mutex>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -20,26 +18,28 @@ namespace {
 // thirds of it measured on Debian 12.
 constexpr int threads_of_libraries = 12;
 
-// How many threads can live at once, up to `most`.
+struct Gate {
+  pthread_mutex_t closed = PTHREAD_MUTEX_INITIALIZER;
+};
+
+// How many threads can live at once, up to `most`. Not std::thread, which frees memory as it ends: the C library then
+// sets aside 64 MB of address space for that thread, of some of them, by chance, and what is left under ulimit -v would
+// be another number in every run.
 int startable(int most) {
-  std::mutex mutex;
-  std::condition_variable ended;
-  bool end = false;
-  std::vector<std::thread> threads;
-  try {
-    for (int i = 0; i < most; ++i)
-      threads.emplace_back([&] {
-        std::unique_lock lock(mutex);
-        ended.wait(lock, [&] { return end; });
-      });
-  } catch (const std::system_error&) {  // the limit
-  }
-  {
-    const std::lock_guard lock(mutex);
-    end = true;
-  }
-  ended.notify_all();
-  for (std::thread& thread : threads) thread.join();
+  Gate gate;
+  pthread_mutex_lock(&gate.closed);
+  std::vector<pthread_t> threads;
+  threads.reserve(static_cast<size_t>(most));
+  const auto wait = [](void* at) -> void* {
+    pthread_mutex_lock(&static_cast<Gate*>(at)->closed);
+    pthread_mutex_unlock(&static_cast<Gate*>(at)->closed);
+    return nullptr;
+  };
+  for (pthread_t thread{}; std::ssize(threads) < most && pthread_create(&thread, nullptr, wait, &gate) == 0;)
+    threads.push_back(thread);
+  pthread_mutex_unlock(&gate.closed);
+  for (const pthread_t thread : threads) pthread_join(thread, nullptr);
+  pthread_mutex_destroy(&gate.closed);
   return static_cast<int>(threads.size());
 }
 

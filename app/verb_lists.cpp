@@ -63,7 +63,7 @@ int verb_doctor() {
   bool can_measure = true, can_write_pictures = true;
   try {
     const ThreadLimit limit(0);
-    require_room_to_start();
+    require_room_to_start(true);
   } catch (const Error& error) {
     fmt::print("Machine   NOT USABLE: {}\n", printable(error.what()));
     can_measure = false;

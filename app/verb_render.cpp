@@ -79,10 +79,11 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   const std::string out = arguments.out.empty() ? "out/render" : arguments.out;
   make_output_folder(out);
   clear_abandoned_files(out);
+  require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
   require_image_files();
   const Experiment& part = part_of_point(experiment, std::max(point, 0L));
-  require_memory(bench.memory(settings, part.curve_enabled, true), "this point");
+  require_memory(bench.memory(settings, part.curve_enabled, true), bench.memory_of_program(true), "this point");
   const Measurement m = bench.measure(settings, part.curve_enabled ? std::optional(part.curve) : std::nullopt);
   write_pictures(m, out, ".", "point");
   write_images(m, out, ".", "");

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <thread>
 
 #include "app/experiment.h"
 #include "app/view_shading.h"
@@ -199,6 +200,7 @@ struct Workbench::Impl {
 
   gl::Renderer renderer;
   size_t strip_bytes;
+  AvailableMemory space_at_start;
   Remembered<LoadedScene> scene;
   Remembered<View> view;
   Remembered<Truth> truth;
@@ -208,15 +210,31 @@ struct Workbench::Impl {
   std::string receivers_on_device;
 };
 
-void require_room_to_start() {
-  constexpr uint64_t base = uint64_t{384} << 20;  // libraries, shaders
-  const size_t rays = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  require_address_space(base + 2 * rays * address_space_of_a_thread, fmt::format("a measurement by {} threads", rays));
+namespace {
+
+size_t ray_threads() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
+
+// Bytes of address space. Held against the peaks (VmPeak) of runs by 2, 4 and 16 threads on Debian 12, of which what
+// was there before and the points' own share are taken off.
+uint64_t room_to_start(bool pictures) {
+  constexpr uint64_t base = uint64_t{384} << 20;  // libraries, shaders; with 2 threads it is 973 MB in all [880e6]
+  // OpenImageIO: 402 MB on 2 cores [386e6]. It starts a thread for each core and some more, of which each has a stack
+  // and 64 MB for its allocations.
+  const uint64_t images = (uint64_t{240} << 20) + std::thread::hardware_concurrency() * (uint64_t{72} << 20);
+  return base + (pictures ? images : 0) + 2 * ray_threads() * address_space_of_a_thread;
+}
+
+}  // namespace
+
+void require_room_to_start(bool pictures) {
+  require_address_space(room_to_start(pictures), fmt::format("a measurement by {} threads", ray_threads()));
 }
 
 Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders, size_t strip_bytes) {
-  require_room_to_start();
+  require_room_to_start(false);
+  const AvailableMemory space = free_address_space();  // before anything is taken of it
   impl_ = std::make_unique<Impl>(debug, std::move(shaders), strip_bytes);
+  impl_->space_at_start = space;
 }
 Workbench::~Workbench() = default;
 
@@ -235,6 +253,10 @@ MemoryEstimate Workbench::memory(const Settings& settings, bool curve, bool pict
   const LightFrame frame = make_light_frame(scene, settings);
   return estimate_memory({settings, frame.kind, scene_size(scene), loaded.open_edges,
                           outside_texels(scene, frame, settings.filter), curve, pictures});
+}
+
+AvailableMemory Workbench::memory_of_program(bool pictures) const {
+  return noonmark::memory_of_program(impl_->space_at_start, room_to_start(pictures));
 }
 
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options) {

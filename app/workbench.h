@@ -32,8 +32,8 @@ struct Measurement {
 };
 
 // Throws Error(device) where there is no room for what the driver, the rays and the image library take before anything
-// of a point's own: without it, what fails first is a library that cannot say so.
-void require_room_to_start();
+// of a point's own: without it, what fails first is a library that cannot say so. pictures: files of them are written.
+void require_room_to_start(bool pictures);
 
 class Workbench {
  public:
@@ -47,6 +47,9 @@ class Workbench {
 
   // What that would take of memory at its peak; pictures: with pictures and EXR files written of it. Throws Error.
   MemoryEstimate memory(const Settings& settings, bool curve, bool pictures);
+
+  // What such estimates are compared with.
+  AvailableMemory memory_of_program(bool pictures) const;
 
   const gl::DeviceInfo& device() const;
   // Of the scene that the settings name; loads it when it is not the one at hand.

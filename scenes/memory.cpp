@@ -54,7 +54,7 @@ std::string AvailableMemory::text() const {
   return fmt::format("{} are available ({})", bytes_text(static_cast<double>(bytes)), limit);
 }
 
-AvailableMemory available_memory(const std::string& root) {
+AvailableMemory free_memory(const std::string& root) {
   AvailableMemory least;
   const auto limit = [&](std::optional<uint64_t> bytes, const std::string& what) {
     if (bytes && *bytes < least.bytes) least = {*bytes, what};
@@ -79,14 +79,20 @@ AvailableMemory available_memory(const std::string& root) {
       if (path.rfind('/') == path.npos) break;
     }
   }
-
-  struct rlimit space {};
-  if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY) {
-    const uint64_t used =
-        first_number(root + "/proc/self/statm").value_or(0) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
-    limit(space.rlim_cur > used ? space.rlim_cur - used : 0, "the limit of the address space, ulimit -v");
-  }
   return least;
+}
+
+AvailableMemory free_address_space(const std::string& root) {
+  struct rlimit space {};
+  if (getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur == RLIM_INFINITY) return {};
+  const uint64_t used =
+      first_number(root + "/proc/self/statm").value_or(0) * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+  return {space.rlim_cur > used ? space.rlim_cur - used : 0, "the limit of the address space, ulimit -v"};
+}
+
+AvailableMemory available_memory(const std::string& root) {
+  const AvailableMemory memory = free_memory(root), space = free_address_space(root);
+  return space.bytes < memory.bytes ? space : memory;
 }
 
 uint64_t resident_bytes() {

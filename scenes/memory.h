@@ -23,6 +23,10 @@ struct AvailableMemory {
 // root: "/" but in tests, which bring proc/ and sys/fs/cgroup/ of their own.
 AvailableMemory available_memory(const std::string& root = "/");
 
+// The first two of them, and the third: those change with what others do, and this one with the process alone.
+AvailableMemory free_memory(const std::string& root = "/");
+AvailableMemory free_address_space(const std::string& root = "/");
+
 // What the process holds now.
 uint64_t resident_bytes();
 

@@ -171,7 +171,8 @@ TEST_F(Memory, ADryRunNamesIt) {
   EXPECT_TRUE(std::regex_search(output_, std::regex("map.resolution = 64  \\([0-9.]+ MB\\)"))) << output_;
   EXPECT_TRUE(
       std::regex_search(output_, std::regex("memory: at most [0-9.]+ MB, by point 1 \\([0-9.]+ MB of it for the "
-                                            "[a-z ]+\\); [0-9.]+ [MG]B are available")))
+                                            "[a-z ]+\\); [0-9.]+ [MG]B are available \\([a-z' ]+, with [0-9.]+ MB "
+                                            "that the program holds already\\)")))
       << output_;
 }
 
@@ -188,13 +189,41 @@ TEST_F(Memory, APointThatDoesNotFitIsRefusedBeforeAnyIsMeasured) {
         output_,
         std::regex("noonmark: point 1 \\(map.resolution=16384\\) would take about [0-9.]+ GB of memory, [0-9.]+ GB "
                    "of it for the shadow map, and [0-9.]+ GB are available \\(the limit of the address space, "
-                   "ulimit -v\\); lower map.resolution\n")))
+                   "ulimit -v, less what libraries and threads set aside\\); lower map.resolution\n")))
         << output_;
     EXPECT_FALSE(fs::exists(folder_ / "out/results.csv"));
   }
   EXPECT_EQ(run_within(space, {"render", file, "--point", "1", "--out", "out"}), 2) << output_;
   EXPECT_TRUE(says("lower map.resolution")) << output_;
   EXPECT_EQ(run_within(space, {"run", file, "--out", "small", "--set", "map.resolution=64"}), 0) << output_;
+}
+
+// At every limit of address space: a sweep is refused before its first point or measured whole, and a dry run says
+// which. Points of different kernels free and take memory between them, which the C library keeps.
+TEST_F(Memory, ADryRunSaysWhatARunWillSay) {
+  int refused = 0, measured = 0;
+  for (const char* pictures : {"none", "first"}) {
+    const std::string file = write("x.toml", "scene = \"cube-room\"\npictures = \"" + std::string(pictures) +
+                                                 "\"\n[view]\nwidth_px = 320\nheight_px = 180\n[filter]\nkind = "
+                                                 "\"box\"\n[sweep]\nfilter.size = [3, 5]\n");
+    for (rlim_t megabytes = 1060; megabytes <= 1660; megabytes += 120) {
+      SCOPED_TRACE(std::string(pictures) + " " + std::to_string(megabytes));
+      const auto code = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"run", file, "--threads", "2", "--out", "out"});
+        return run_within(megabytes * 1'000'000, more);
+      };
+      fs::remove_all(folder_ / "out");
+      const int dry = code({"--dry-run"});
+      const std::string said = output_;
+      EXPECT_EQ(code({}), dry) << said << output_;
+      EXPECT_TRUE(dry == 0 || dry == 2 || dry == 4) << said;
+      EXPECT_EQ(fs::exists(folder_ / "out/results.csv"), dry == 0) << output_;
+      EXPECT_FALSE(says("1/2") && dry != 0) << "a point was measured: " << output_;
+      ++(dry == 0 ? measured : refused);
+    }
+  }
+  EXPECT_GT(refused, 2);
+  EXPECT_GT(measured, 2);
 }
 
 TEST_F(Memory, InstancesAreCountedBeforeTheyAreMade) {

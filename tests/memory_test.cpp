@@ -137,10 +137,35 @@ TEST_F(Estimate, IsRefusedWithTheSettingToChange) {
   const MemoryEstimate cube = estimate(LightKind::point);
   EXPECT_TRUE(fits(cube, {UINT64_MAX, ""}));
   EXPECT_FALSE(fits(cube, {uint64_t{1} << 30, ""}));
-  const uint64_t held = resident_bytes();
   const auto needed = static_cast<uint64_t>(cube.bytes());
-  EXPECT_FALSE(fits(cube, {needed - held - 64 * MiB, ""}));
-  EXPECT_TRUE(fits(cube, {needed, ""})) << "what is held already is part of it";
+  EXPECT_FALSE(fits(cube, {needed - 64 * MiB, ""}));
+  EXPECT_TRUE(fits(cube, {needed + 1, ""}));
+  try {
+    require_memory(cube, {uint64_t{1} << 30, "a limit"}, "point 3");
+    ADD_FAILURE() << "it does not fit";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_TRUE(std::string(error.what()).ends_with("and 1.1 GB are available (a limit); lower map.resolution"));
+  }
+}
+
+// What the process holds is part of what it may hold, and is said where that decides.
+TEST(MemoryOfProgram, HoldsWhatItHasAlready) {
+  const AvailableMemory machine = memory_of_program({}, 0);
+  EXPECT_TRUE(machine.limit.ends_with(" that the program holds already")) << machine.limit;
+  EXPECT_GT(machine.bytes, resident_bytes());
+}
+
+// However much address space the process has taken since it was asked.
+TEST(MemoryOfProgram, OfAddressSpaceIsToldFromTheStart) {
+  const AvailableMemory start{1000 * MiB, "ulimit -v"};
+  const AvailableMemory space = memory_of_program(start, 800 * MiB);
+  EXPECT_EQ(space.limit, "ulimit -v, less what libraries and threads set aside");
+  EXPECT_EQ(memory_of_program(start, 700 * MiB).bytes - space.bytes, 100 * MiB);
+  EXPECT_EQ(memory_of_program(start, 2000 * MiB).bytes, memory_of_program(start, 1000 * MiB).bytes);
+  EXPECT_GT(space.bytes, 400 * MiB) << "200 MiB and the program itself, which an estimate holds too";
+  const std::vector<char> more(64 * MiB, 1);
+  EXPECT_EQ(memory_of_program(start, 800 * MiB).bytes, space.bytes);
 }
 
 // A texel beside the map costs more than one in it.
