@@ -51,6 +51,7 @@ class Threshold {
   }
   float operator()(const Tap& tap) const {
     if (tap.always_lit) return 0;
+    if (tap.reference == infinity) return infinity;  // dark whatever the bias
     const float needed = lit_threshold(tap.reference, tap.depth);
     const float in_units = unit_ == 1 ? needed : factor_threshold(needed, unit_);
     if (parameter_ == CurveParameter::constant) return in_units;

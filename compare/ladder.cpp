@@ -82,7 +82,8 @@ void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {
     ladder.flags[i] =
         static_cast<uint8_t>((e.truth.facing[i] ? flag_facing : 0) | (e.truth.ambiguous[i] ? flag_ambiguous : 0));
     if (!e.truth.facing[i]) return;
-    if (e.probe.reference[i] > 1.0f || !inside(e.probe, i, e.exact_map)) ladder.flags[i] |= flag_outside;
+    if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside(e.probe, i, e.exact_map))
+      ladder.flags[i] |= flag_outside;
 
     const float bias = e.bias.at(e.probe, i);
     double exact_lit = 0, moved_lit = 0, texel_lit = 0, all_lit = 0, unsure = 0;

@@ -12,7 +12,8 @@
 // V = V(P, c) and L = the tap's verdict at R4:
 // - displacement is the mean of D - F: what moving the lookup means to do, whatever the map holds.
 // - The other causes are booked tap by tap, on taps that are wrong: a tap counts only where L != D. It is coverage
-//   where its centre lies outside the map, its receiver beyond far, or its true blocker before near; else aliasing
+//   where its centre lies outside the map, its receiver beyond far or behind the light (a lookup that was moved there
+//   asks nothing and is dark), or its true blocker before near; else aliasing
 //   where V = L (the grid asked elsewhere and was answered truly); else acne (L dark) or Peter Panning (L lit).
 // So the classes sum to R4 - R2, and without displacement steps never cancel on pixels that are right.
 //
@@ -28,6 +29,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "scenes/depth_bias.h"
@@ -99,9 +101,9 @@ struct Tap {
   bool moved_lit = false;  // D
   bool texel_lit = false;  // V
   bool exact_sure = true, moved_sure = true, texel_sure = true;
-  bool covered = true;      // inside the map, before far, blocker not clipped
+  bool covered = true;      // asked, inside the map, before far, blocker not clipped
   bool always_lit = false;  // whatever the bias: beyond far, and the lookup says lit without comparing
-  float reference = 0;      // window depth that it compares
+  float reference = 0;      // window depth that it compares; infinity: it is dark whatever the map holds
   float depth = 1;          // of the map that it reads
   double weight = 1;        // a share of whole_weight()
 
@@ -129,6 +131,12 @@ inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSetti
   result.moved_sure = !(bits & tap_moved_unsure);
   result.texel_sure = !(bits & tap_texel_unsure);
   result.covered = inside_map(texel, size) && !beyond_far && !(bits & tap_near_clipped);
+  if (!probe.asks(i)) {
+    result.covered = false;
+    result.reference = std::numeric_limits<float>::infinity();
+    if (sampler_compares) result.weight = probe.weight(i, tap);
+    return result;
+  }
   result.reference = probe.tap_depth(i, tap);
   result.depth = read.x < 0 ? border_depth : map_depth.at(read.x, read.y);
   // A comparison sampler clamps what it compares to [0,1] where the format is fixed-point (OpenGL 4.5 core, 8.23.1), so

@@ -61,22 +61,45 @@ ProbeCheck::Place ProbeCheck::looked_up(size_t i) const {
   return place;
 }
 
-// Window coordinates: with S = sum |m_j p_j| of a row of the matrix, rounding the row is u S, four products and three
-// sums 4 u S, and P's own error |m_j| each. The division adds those of both its sides and its own rounding; halving and
-// adding one half round once, multiplying by the resolution once more. Where z / w is near 1 but z is a difference of
-// far larger numbers, S is what the error grows with. An orthographic w is exactly 1.
-void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) const {
-  const glm::dvec4 p(place.world, 1), clip = clip_ * p;
-  double row_error[4];
-  for (int row = 0; row < 4; ++row) {
-    double sum = std::abs(clip_[3][row]), moved = 0;
+// Clip coordinates: with S = sum |m_j p_j| of a row of the matrix, rounding the row is u S, four products and three
+// sums 4 u S, and P's own error |m_j| each. Where a coordinate is a difference of far larger numbers, S is what the
+// error grows with. What it is held to, the frame in double, rounds too: the matrix's last column (three products,
+// three sums), its product with P (four and three) and P's place in the light's frame (a difference, three products,
+// two sums), each of sum |m_j| (|p_j| + |origin_j|): that shows where a map of a million kilometres covers a scene of a
+// centimetre. An orthographic w is exactly 1.
+glm::dvec4 ProbeCheck::row_errors(const Place& place) const {
+  constexpr double in_double = (6 + 7 + 6) * 0x1p-53;
+  glm::dvec4 errors(0);
+  for (int row = 0; row < (frame_.parallel() ? 3 : 4); ++row) {
+    double sum = std::abs(clip_[3][row]), moved = 0, exact = 0;
     for (int j = 0; j < 3; ++j) {
-      sum += std::abs(clip_[j][row] * p[j]);
+      sum += std::abs(clip_[j][row] * place.world[j]);
       moved += std::abs(clip_[j][row]) * place.error[j];
+      exact += std::abs(clip_[j][row]) * (std::abs(place.world[j]) + std::abs(frame_.origin_m[j]));
     }
-    row_error[row] = 5 * u * sum + moved;
+    errors[row] = 5 * u * sum + moved + in_double * exact;
   }
-  if (frame_.parallel()) row_error[3] = 0;
+  return errors;
+}
+
+// Whether the lookup may take P for no place of the map: at the light, behind a spot light, or where floats end.
+bool ProbeCheck::may_ask_nothing(const Place& place) const {
+  constexpr double largest = std::numeric_limits<float>::max();
+  if (frame_.kind == LightKind::point) {
+    const double depth = frame_.window_depth(glm::length(place.light));
+    return !(depth > std::numeric_limits<float>::min() + glm::length(place.error) / frame_.far_m) || !(depth < largest);
+  }
+  const glm::dvec4 clip = clip_ * glm::dvec4(place.world, 1), error = row_errors(place);
+  if (!(clip.w > error.w)) return true;
+  for (int row = 0; row < 3; ++row)
+    if (!((std::abs(clip[row]) + error[row]) / (clip.w - error.w) < largest)) return true;
+  return false;
+}
+
+// Window coordinates: the division adds the errors of both its sides and its own rounding; halving and adding one half
+// round once, multiplying by the resolution once more.
+void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) const {
+  const glm::dvec4 clip = clip_ * glm::dvec4(place.world, 1), row_error = row_errors(place);
   const auto window = [&](int row) {
     const double ndc = clip[row] / clip.w;
     const double error = (row_error[row] + std::abs(ndc) * row_error[3]) / std::abs(clip.w) + division * std::abs(ndc);
@@ -210,6 +233,10 @@ void ProbeCheck::compare_gradient(size_t i, const Place& place, ProbeErrors& fou
 
 void ProbeCheck::compare(size_t i, ProbeErrors& found) const {
   const Place place = looked_up(i);
+  if (!e_.probe.asks(i)) {
+    raise_error(found.excess, may_ask_nothing(place) ? 0 : std::numeric_limits<double>::infinity());
+    return;
+  }
   if (frame_.kind == LightKind::point)
     compare_cube(i, place, found);
   else

@@ -190,6 +190,12 @@ TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Im
         at_offset(looked_up, moved);
       else
         std::copy_n(exact, active, moved);
+      // A lookup that was moved to behind a spot light asks for no place: D is F.
+      bool behind[packet_size];
+      for (int k = 0; k < active; ++k) {
+        behind[k] = frame.kind == LightKind::spot && !(looked_up[k].z > 0);
+        if (behind[k]) moved[k] = exact[k];
+      }
       for (int k = 0; k < active; ++k) {
         const size_t pixel = first + static_cast<size_t>(lanes[k]);
         const glm::ivec2 texel = probe.texel(pixel, tap);
@@ -203,7 +209,7 @@ TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Im
                                  (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
                                  (exact[k].sure ? 0 : tap_exact_unsure) | (moved[k].sure ? 0 : tap_moved_unsure) |
                                  (at_texel.sure ? 0 : tap_texel_unsure));
-        if (moved_lit != texel_lit) {
+        if (moved_lit != texel_lit && !behind[k]) {
           const glm::dvec3 from = view.normal_place(frame.tap_place(looked_up[k], offsets[k]));
           const double distance = surface.edge_distance_texels(points[k], from, centre, moved_lit, rays);
           edge_distance_texels[pixel] = std::max(edge_distance_texels[pixel], static_cast<float>(distance));

@@ -40,6 +40,10 @@ struct LookupProbe {
   std::vector<uint32_t> cube_texel;  // [(pixel - cube_first) * taps + tap], of a strip of the picture or of all of it
   size_t cube_first = 0;
 
+  // Whether the lookup asks the map at all. At a light, behind a spot light, and where floats end it does not, and is
+  // dark: there P has no depth, and the probe's numbers are 0.
+  bool asks(size_t i) const { return bias_unit[i] != 0; }
+
   int taps() const { return pattern.taps; }
   int middle_tap() const { return pattern.taps / 2; }  // a box's is the one at P
 

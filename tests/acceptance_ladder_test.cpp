@@ -108,6 +108,53 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
   }
 }
 
+// A wide map's texels are so large that an offset of one carries the lookup over to behind a spot light, where it asks
+// nothing: all of it is coverage, and the steps add up.
+TEST(Acceptance, ALookupMovedBehindTheLightIsCoverage) {
+  Workbench bench(gl::DebugMode::fatal);
+  for (const char* filter : {"none", "box", "hardware"}) {
+    const Settings settings = with({{"map.resolution", "32"},
+                                    {"map.extent_scale", "600"},
+                                    {"light.kind", "spot"},
+                                    {"bias.form", "normal_offset"},
+                                    {"bias.normal_offset", "1"},
+                                    {"filter.kind", filter}},
+                                   small("plate", 64, 48));
+    const Measurement m = bench.measure(settings, std::nullopt);
+    SCOPED_TRACE(filter);
+    EXPECT_GT(metric(m, "counted"), 100);
+    EXPECT_EQ(metric(m, "error"), metric(m, "lit")) << "what is lit in truth is dark";
+    // Under a filter a dark receiver has taps that are lit at their exact places.
+    EXPECT_GE(metric(m, "coverage_dark"), metric(m, "lit"));
+    EXPECT_EQ(metric(m, "acne") + metric(m, "aliasing") + metric(m, "peter_panning") + metric(m, "undecided"), 0);
+    EXPECT_EQ(metric(m, "displacement"), 0);
+    EXPECT_LE(metric(m, "residual"), rounding_of_steps);
+    EXPECT_LE(metric(m, "tap_residual"), rounding_of_steps);
+    EXPECT_EQ(metric(m, "contract"), 0);
+    EXPECT_LE(metric(m, "rounding_excess"), 1);
+  }
+}
+
+// A map of a million kilometres, moved by a texel of it, over a few centimetres: there the frame's own double shows.
+TEST(Acceptance, TheFramesOwnRoundingIsNoExcess) {
+  Workbench bench(gl::DebugMode::fatal);
+  const glm::dvec3 light(7.264404296875, 3.06494140625, -1.736572265625);
+  for (const double reach : {0.01, 0.003}) {
+    Settings settings = with({{"map.resolution", "32"},
+                              {"map.extent_m", "1e9"},
+                              {"map.shift_u_texels", "1"},
+                              {"scene.height_m", "0"},
+                              {"view.eye_m", "0.003,0.03,0.002"},
+                              {"view.target_m", "0,0,0"},
+                              {"view.fov_deg", "20"}},
+                             small("plate", 16, 12));
+    settings.light.position_m = light;
+    settings.map.near_m = glm::length(light) - reach;
+    settings.map.far_m = glm::length(light) + reach;
+    EXPECT_LE(metric(bench.measure(settings, std::nullopt), "rounding_excess"), 1) << reach;
+  }
+}
+
 // Law 8: without an occluder there is no Peter Panning and no aliasing, whatever the setting. Peter Panning is 0 on lit
 // unfiltered receivers always.
 TEST_P(EveryScene, LitReceiversHaveNoPeterPanning) {

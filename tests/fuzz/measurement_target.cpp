@@ -16,6 +16,7 @@
 #include "compare/metrics.h"
 #include "compare/soundness.h"
 #include "scenes/error.h"
+#include "scenes/file.h"
 #include "scenes/library.h"
 #include "tests/fuzz/targets.h"
 #include "tests/gltf_files.h"
@@ -280,6 +281,16 @@ std::optional<CurveOptions> curve_for(const Settings& settings, bool wanted) {
   return options;
 }
 
+// Every setting that is not its default, and the scene's file whole: what breaks can be tried by hand.
+std::string described(const Settings& settings) {
+  const Settings defaults;
+  std::string text;
+  for (const Setting& row : settings_table())
+    if (row.get(settings) != row.get(defaults)) text += fmt::format("\n  {} = {}", row.name, row.get(settings));
+  if (names_file(settings.scene.name)) text += "\n  " + read_file(settings.scene.name);
+  return text;
+}
+
 void measure(Benches& b, const Settings& settings, bool curve, bool compare) {
   const std::optional<CurveOptions> options = curve_for(settings, curve);
   const Measurement m = b.bench.measure(settings, options);
@@ -323,6 +334,8 @@ void run(const std::string& bytes) {
     choose(settings, i == 0 ? choices.below(16) : 1 + choices.below(3), choices);
     try {
       measure(benches, settings, curve, compare);
+    } catch (const Broken& broken) {
+      throw Broken(broken.what() + described(settings));
     } catch (const Error& error) {  // settings that do not go together, a scene without a triangle
       require(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::scene,
               std::string("an error of another kind: ") + error.what());

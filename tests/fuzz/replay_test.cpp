@@ -1,6 +1,7 @@
 // Every target over its seeds, over what once broke it (regressions/<target>/), and over a few hundred mutants that are
 // the same each time. scripts/fuzz goes on from here with clang's libFuzzer.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -25,7 +26,9 @@ class Fuzz : public ::testing::TestWithParam<Replay> {
     try {
       GetParam().target->run(bytes);
     } catch (const std::exception& error) {
-      const std::string file = testing::TempDir() + "fuzz-" + std::string(GetParam().target->name);
+      // Of its own name: several of these programs may run beside one another.
+      const std::string file =
+          testing::TempDir() + "fuzz-" + std::string(GetParam().target->name) + "-" + std::to_string(::getpid());
       std::ofstream(file, std::ios::binary) << bytes;
       ADD_FAILURE() << what << " (now " << file << "): " << error.what();
     }
