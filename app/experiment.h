@@ -57,7 +57,7 @@
 #include "compare/bounds.h"
 #include "compare/laws.h"
 #include "scenes/scene.h"
-#include "scenes/settings.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 

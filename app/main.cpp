@@ -22,8 +22,8 @@
 #include "app/threads.h"
 #include "app/verbs.h"
 #include "scenes/error.h"
-#include "scenes/settings.h"
 #include "scenes/text.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {

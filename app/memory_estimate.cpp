@@ -8,7 +8,7 @@
 
 #include "compare/bias_curves.h"
 #include "scenes/error.h"
-#include "scenes/tap_pattern.h"
+#include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "scenes/light_frame.h"
 #include "scenes/memory.h"
 #include "scenes/scene.h"
-#include "scenes/settings.h"
+#include "technique/light_frame.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 

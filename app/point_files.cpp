@@ -10,7 +10,7 @@
 #include "app/pictures.h"
 #include "compare/metrics.h"
 #include "scenes/camera_frame.h"
-#include "scenes/map_address.h"
+#include "technique/map_address.h"
 
 namespace noonmark {
 namespace {

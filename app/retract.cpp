@@ -10,8 +10,8 @@
 #include "compare/summary.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
-#include "scenes/settings.h"
 #include "scenes/text.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {

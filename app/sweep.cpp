@@ -27,10 +27,10 @@
 #include "raytrace/tracer.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
-#include "scenes/idle_settings.h"
 #include "scenes/library.h"
-#include "scenes/tap_pattern.h"
 #include "scenes/text.h"
+#include "technique/idle_settings.h"
+#include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {

@@ -14,7 +14,8 @@
 
 #include "app/experiment.h"
 #include "scenes/error.h"
-#include "scenes/settings.h"
+#include "scenes/text.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 

@@ -11,9 +11,9 @@
 #include "compare/undecided.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
-#include "scenes/idle_settings.h"
 #include "scenes/library.h"
 #include "scenes/text.h"
+#include "technique/idle_settings.h"
 
 namespace noonmark {
 namespace {

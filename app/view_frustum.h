@@ -4,8 +4,8 @@
 
 #include "app/image_file.h"
 #include "scenes/camera_frame.h"
-#include "scenes/light_frame.h"
 #include "scenes/receivers.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 

@@ -3,7 +3,7 @@
 #pragma once
 #include "app/image_file.h"
 #include "scenes/image.h"
-#include "scenes/light_frame.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 

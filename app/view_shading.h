@@ -8,8 +8,8 @@
 #pragma once
 #include "scenes/camera_frame.h"
 #include "scenes/image.h"
-#include "scenes/light_frame.h"
 #include "scenes/receivers.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 

@@ -22,7 +22,7 @@
 #include "scenes/error.h"
 #include "scenes/library.h"
 #include "scenes/scene_digest.h"
-#include "scenes/tap_pattern.h"
+#include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {

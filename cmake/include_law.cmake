@@ -4,14 +4,15 @@
 # tested by tests/include_law_test.cmake. A new module or a new guarded library is one entry below.
 cmake_minimum_required(VERSION 3.25)
 
-set(modules scenes gl raytrace compare app tests)
+set(modules scenes technique gl raytrace compare app tests)
 # What a folder may include beside its own headers: the table of modules in CONTRIBUTING.md.
 set(may_include_scenes)
-set(may_include_gl scenes)
-set(may_include_raytrace scenes)
-set(may_include_compare scenes)
-set(may_include_app scenes gl raytrace compare)
-set(may_include_tests scenes gl raytrace compare app)
+set(may_include_technique scenes)
+set(may_include_gl scenes technique)
+set(may_include_raytrace scenes technique)
+set(may_include_compare scenes technique)
+set(may_include_app scenes technique gl raytrace compare)
+set(may_include_tests scenes technique gl raytrace compare app)
 
 # Libraries whose types stay inside one folder and that folder's own tests (tests/<folder>_*), by the beginning of their
 # headers' paths.

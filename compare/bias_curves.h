@@ -18,8 +18,8 @@
 
 #include "compare/ladder.h"
 #include "compare/records.h"
-#include "scenes/light_frame.h"
 #include "scenes/receivers.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 

@@ -12,7 +12,8 @@
 #include "compare/quantities.h"
 #include "compare/undecided.h"
 #include "scenes/error.h"
-#include "scenes/settings.h"
+#include "scenes/text.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "scenes/error.h"
-#include "scenes/settings.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 

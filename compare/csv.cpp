@@ -10,7 +10,7 @@
 #include "compare/escape.h"
 #include "compare/metrics.h"
 #include "compare/quantities.h"
-#include "scenes/settings.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {

@@ -32,11 +32,11 @@
 #include <limits>
 #include <string_view>
 
-#include "scenes/depth_bias.h"
-#include "scenes/evidence.h"
 #include "scenes/image.h"
-#include "scenes/map_address.h"
-#include "scenes/settings.h"
+#include "technique/depth_bias.h"
+#include "technique/evidence.h"
+#include "technique/map_address.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 

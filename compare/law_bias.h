@@ -23,8 +23,8 @@
 #pragma once
 #include <glm/glm.hpp>
 
-#include "scenes/evidence.h"
-#include "scenes/light_frame.h"
+#include "technique/evidence.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 

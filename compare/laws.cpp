@@ -11,7 +11,8 @@
 #include "compare/metrics.h"
 #include "compare/quantities.h"
 #include "scenes/error.h"
-#include "scenes/settings.h"
+#include "scenes/text.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {

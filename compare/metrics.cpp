@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "scenes/error.h"
-#include "scenes/settings.h"
+#include "scenes/text.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {

@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 
 #include "compare/ladder.h"
-#include "scenes/light_frame.h"
 #include "scenes/receivers.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 

@@ -5,7 +5,8 @@
 #include "compare/metrics.h"
 #include "compare/poor_view.h"
 #include "scenes/error.h"
-#include "scenes/settings.h"
+#include "scenes/text.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {

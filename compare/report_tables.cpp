@@ -10,7 +10,7 @@
 #include "compare/metrics.h"
 #include "compare/report_sections.h"
 #include "compare/report_text.h"
-#include "scenes/settings.h"
+#include "technique/settings.h"
 
 namespace noonmark::report {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "scenes/settings.h"
 #include "scenes/text.h"
+#include "technique/settings.h"
 
 namespace noonmark::report {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "compare/ladder.h"
 #include "compare/probe_errors.h"
-#include "scenes/light_frame.h"
 #include "scenes/receivers.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 

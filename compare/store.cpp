@@ -17,7 +17,7 @@
 #include "compare/store_schema.h"
 #include "compare/store_seals.h"
 #include "scenes/error.h"
-#include "scenes/settings.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "compare/metrics.h"
 #include "compare/quantities.h"
-#include "scenes/settings.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {

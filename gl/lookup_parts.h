@@ -1,6 +1,6 @@
 // The lights, bias forms and filters of the lookup shader. To add one: its GLSL file, and its row in lookup_parts.cpp.
 #pragma once
-#include "scenes/settings.h"
+#include "technique/settings.h"
 
 namespace noonmark::gl {
 

@@ -16,13 +16,13 @@
 #include <span>
 #include <string>
 
-#include "scenes/depth_bias.h"
-#include "scenes/evidence.h"
 #include "scenes/image.h"
-#include "scenes/light_frame.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
-#include "scenes/settings.h"
+#include "technique/depth_bias.h"
+#include "technique/evidence.h"
+#include "technique/light_frame.h"
+#include "technique/settings.h"
 
 namespace noonmark::gl {
 

@@ -7,8 +7,8 @@
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
 #include "gl/tap_table.h"
-#include "scenes/depth_bias.h"
 #include "scenes/error.h"
+#include "technique/depth_bias.h"
 
 namespace noonmark::gl {
 namespace {

@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "gl/renderer_impl.h"
-#include "scenes/depth_bias.h"
 #include "scenes/error.h"
+#include "technique/depth_bias.h"
 
 namespace noonmark::gl {
 namespace {

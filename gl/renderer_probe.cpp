@@ -4,7 +4,7 @@
 
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
-#include "scenes/depth_bias.h"
+#include "technique/depth_bias.h"
 
 namespace noonmark::gl {
 namespace {
@@ -85,9 +85,9 @@ void Renderer::probe_strip(LookupProbe& probe, const LightFrame& frame, const Se
   if (strip.first % width != 0 || strip.end % width != 0) throw std::logic_error("a strip is of whole rows");
   r.context->make_current();
   std::vector<uint32_t>().swap(probe.cube_texel);  // before the next: it is large
-  probe.cube_texel = r.cube_texels(probe, frame, settings,
-                                   {static_cast<int>(strip.first / width), static_cast<int>(strip.end / width)}, 0,
-                                   probe.taps());
+  probe.cube_texel =
+      r.cube_texels(probe, frame, settings,
+                    {static_cast<int>(strip.first / width), static_cast<int>(strip.end / width)}, 0, probe.taps());
   probe.cube_first = strip.first;
   r.context->check("probe");
 }

@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "scenes/tap_pattern.h"
+#include "technique/tap_pattern.h"
 
 namespace noonmark::gl {
 

@@ -10,7 +10,7 @@
 
 #include "raytrace/shadow_start.h"
 #include "scenes/camera_frame.h"
-#include "scenes/tap_pattern.h"
+#include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "raytrace/embree_scene.h"
-#include "scenes/light_frame.h"
 #include "scenes/receivers.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 

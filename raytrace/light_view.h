@@ -1,5 +1,5 @@
 // A scene as its light sees it: every vertex in the light's frame, in double, and the plane of every triangle as a
-// function of the place (scenes/light_frame.h) that a light-side ray goes to. Depths are LightFrame::depth_m: metres
+// function of the place (technique/light_frame.h) that a light-side ray goes to. Depths are LightFrame::depth_m: metres
 // along the axis, or the distance from a point light.
 //
 // Places here are normal: of a directional light (u, v, 1), of a spot light (x / z, y / z, 1), of a point light a unit
@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "raytrace/embree_scene.h"
-#include "scenes/light_frame.h"
 #include "scenes/scene.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 

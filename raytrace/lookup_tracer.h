@@ -3,11 +3,11 @@
 #pragma once
 #include <memory>
 
-#include "scenes/depth_bias.h"
-#include "scenes/evidence.h"
-#include "scenes/light_frame.h"
 #include "scenes/receivers.h"
-#include "scenes/settings.h"
+#include "technique/depth_bias.h"
+#include "technique/evidence.h"
+#include "technique/light_frame.h"
+#include "technique/settings.h"
 
 namespace noonmark::raytrace {
 

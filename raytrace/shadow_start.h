@@ -7,9 +7,9 @@
 
 #include "raytrace/embree_scene.h"
 #include "scenes/camera_frame.h"
-#include "scenes/light_frame.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 

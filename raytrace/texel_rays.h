@@ -11,8 +11,8 @@
 
 #include "raytrace/embree_scene.h"
 #include "raytrace/light_view.h"
-#include "scenes/evidence.h"
-#include "scenes/map_address.h"
+#include "technique/evidence.h"
+#include "technique/map_address.h"
 
 namespace noonmark {
 

@@ -3,7 +3,7 @@
 //   Camera camera = effective_camera(scene, settings.view);   // has near and far
 #pragma once
 #include "scenes/scene.h"
-#include "scenes/settings.h"
+#include "scenes/scene_settings.h"
 
 namespace noonmark {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "scenes/scene.h"
-#include "scenes/settings.h"
+#include "scenes/scene_settings.h"
 
 namespace noonmark {
 
@@ -40,8 +40,8 @@ struct Pose {
   int animation = 0;
 };
 
-// scenes/gltf.cpp. Nothing outside the file's own folder is read; images are never loaded. A camera and a light are
-// fitted where the file has none. Throws Error(scene).
+// scenes/gltf/gltf.cpp. Nothing outside the file's own folder is read; images are never loaded. A camera and a light
+// are fitted where the file has none. Throws Error(scene).
 Scene load_gltf(const std::string& path, const Pose& pose = {});
 
 // scenes/fit.cpp: a perspective camera that sees the whole scene from outside, or stands inside a closed room

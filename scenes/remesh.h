@@ -7,7 +7,7 @@
 #pragma once
 #include "scenes/memory.h"
 #include "scenes/scene.h"
-#include "scenes/settings.h"
+#include "scenes/scene_settings.h"
 
 namespace noonmark {
 

@@ -3,8 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
+#include <vector>
 
 namespace noonmark {
+namespace {
+
+// Levenshtein distance, one row at a time.
+size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 0; i < a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (size_t j = 0; j < b.size(); ++j) {
+      const size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
 
 size_t utf8_length(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
@@ -55,6 +76,24 @@ bool ends_with_any_case(std::string_view text, std::string_view ending) {
   return text.size() >= ending.size() &&
          std::equal(ending.begin(), ending.end(), text.end() - static_cast<std::ptrdiff_t>(ending.size()),
                     [&](char e, char c) { return lower(c) == e; });
+}
+
+std::string nearest_name(std::string_view wrong, std::span<const std::string_view> names) {
+  std::string_view best;
+  size_t best_distance = std::max<size_t>(2, wrong.size() / 3) + 1;
+  for (std::string_view name : names) {
+    size_t distance = edit_distance(wrong, name);
+    // "resolution" is meant as "map.resolution".
+    if (name.size() > wrong.size() + 1 && name.ends_with(wrong) && name[name.size() - wrong.size() - 1] == '.')
+      distance = 0;
+    // "bias.const" is meant as "bias.constant", not as "bias.unit", though that is as few letters away.
+    if (2 * wrong.size() > name.size() && name.starts_with(wrong)) distance = std::min<size_t>(distance, 1);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = name;
+    }
+  }
+  return std::string(best);
 }
 
 }  // namespace noonmark

@@ -1,7 +1,8 @@
-// Text of unknown origin (paths, names in files) as people may meet it.
+// Text of unknown origin (paths, names in files) as people may meet it, and the name that was meant.
 //
 //   fmt::print(stderr, "noonmark: {}\n", printable(error.what()));
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -24,5 +25,8 @@ std::string printable(std::string_view text, Lines lines = Lines::one);
 
 // Whether text ends so, letters of ASCII in either case: file systems and tools write .GLTF too. ending: in lower case.
 bool ends_with_any_case(std::string_view text, std::string_view ending);
+
+// The name in `names` nearest to `wrong` by edit distance, or empty when nothing is near enough to be meant.
+std::string nearest_name(std::string_view wrong, std::span<const std::string_view> names);
 
 }  // namespace noonmark

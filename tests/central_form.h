@@ -1,6 +1,7 @@
 // The truth of spot and point lights by formula: scenes of rectangles, boxes and spheres as analytic shapes, in double,
 // under a light all of whose rays come from one point. No triangles, no rays through a tree, no code of raytrace/, and
-// of scenes/light_frame.h only the numbers that say where the light stands: what the tracer says is held against this.
+// of technique/light_frame.h only the numbers that say where the light stands: what the tracer says is held against
+// this.
 //
 //   CentralForm truth(shapes, frame);
 //   truth.lit({P, shape, face});                                        // R1

@@ -8,7 +8,7 @@
 #include "central_form_scenes.h"
 #include "raytrace_fixture.h"
 #include "scenes/camera_frame.h"
-#include "scenes/map_address.h"
+#include "technique/map_address.h"
 
 namespace noonmark::raytrace {
 namespace {

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenes/light_frame.h"
+#include "technique/light_frame.h"
 
 namespace noonmark::test {
 

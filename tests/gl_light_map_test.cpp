@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "gl_fixture.h"
-#include "scenes/light_frame.h"
+#include "technique/light_frame.h"
 
 namespace noonmark::gl {
 namespace {

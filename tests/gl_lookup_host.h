@@ -5,9 +5,9 @@
 
 #include "gl_fixture.h"
 #include "scenes/camera_fit.h"
-#include "scenes/depth_bias.h"
-#include "scenes/map_address.h"
 #include "scenes/receivers.h"
+#include "technique/depth_bias.h"
+#include "technique/map_address.h"
 
 namespace noonmark::gl {
 

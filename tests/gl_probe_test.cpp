@@ -1,6 +1,6 @@
 // What the shader computes before it compares, against the frame in double.
 #include "gl_lookup_host.h"
-#include "scenes/light_frame.h"
+#include "technique/light_frame.h"
 
 namespace noonmark::gl {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "scenes/camera_fit.h"
 #include "scenes/fit.h"
-#include "scenes/light_frame.h"
+#include "technique/light_frame.h"
 #include "tests/gltf_expect.h"
 #include "tests/gltf_files.h"
 

@@ -4,7 +4,7 @@ cmake_minimum_required(VERSION 3.25)
 set(failures)
 
 file(REMOVE_RECURSE "${WORK}")
-foreach(module scenes gl raytrace compare app tests)  # what the law reads, and no more
+foreach(module scenes technique gl raytrace compare app tests)  # what the law reads, and no more
   file(COPY "${ROOT}/${module}" DESTINATION "${WORK}" FILES_MATCHING
        PATTERN "*.h" PATTERN "*.hpp" PATTERN "*.cpp" PATTERN "*.cc" PATTERN "CMakeLists.txt")
 endforeach()
@@ -55,8 +55,8 @@ check("tinygltf in app" "tinygltf headers stay inside scenes/" app/planted.cpp "
 check("OpenGL in gl's public header" "gl/renderer.h is public, yet brings in OpenGL" gl/renderer.h "#include <epoxy/gl.h>")
 check("Embree in raytrace's public header" "raytrace/tracer.h is public, yet brings in Embree"
       raytrace/tracer.h "#include <embree3/rtcore.h>")
-check("tinygltf in a header that others include" "scenes/settings.h is public, yet brings in tinygltf"
-      scenes/settings.h "#include <tiny_gltf.h>")
+check("tinygltf in a header that others include" "technique/settings.h is public, yet brings in tinygltf"
+      technique/settings.h "#include <tiny_gltf.h>")
 check("Embree through a second header" "raytrace/tracer.h is public, yet brings in Embree (<embree3/rtcore.h> in raytrace/planted.h)"
       raytrace/tracer.h "#include \"raytrace/planted.h\"" raytrace/planted.h "#include <embree3/rtcore.h>")
 check("an inner header of gl that app includes" "gl/planted.h is public, yet brings in OpenGL"

@@ -14,9 +14,9 @@
 
 #include "raytrace/tracer.h"
 #include "scenes/library.h"
-#include "scenes/light_frame.h"
 #include "scenes/receivers.h"
 #include "scenes/shapes.h"
+#include "technique/light_frame.h"
 
 namespace noonmark::test {
 

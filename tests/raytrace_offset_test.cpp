@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "raytrace_fixture.h"
-#include "scenes/depth_bias.h"
+#include "technique/depth_bias.h"
 
 namespace noonmark::raytrace {
 namespace {

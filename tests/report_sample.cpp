@@ -9,7 +9,7 @@
 
 #include "compare/cause_colors.h"
 #include "scenes/error.h"
-#include "scenes/settings.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 namespace {

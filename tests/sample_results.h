@@ -9,7 +9,7 @@
 
 #include "compare/metrics.h"
 #include "compare/records.h"
-#include "scenes/settings.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 

@@ -11,8 +11,8 @@
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "scenes/library.h"
-#include "scenes/light_frame.h"
 #include "scenes/shapes.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 namespace {

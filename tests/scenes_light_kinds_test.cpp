@@ -7,7 +7,7 @@
 #include <random>
 
 #include "scenes/library.h"
-#include "scenes/light_frame.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 namespace {

@@ -5,8 +5,8 @@
 #include <random>
 #include <set>
 
-#include "scenes/evidence.h"
-#include "scenes/tap_pattern.h"
+#include "technique/evidence.h"
+#include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "scenes/depth_bias.h"
-#include "scenes/map_address.h"
+#include "technique/depth_bias.h"
+#include "technique/map_address.h"
 
 namespace noonmark {
 namespace {

@@ -1,5 +1,5 @@
 // The table of settings: one canonical text for each value, and nothing else accepted.
-#include "scenes/settings.h"
+#include "technique/settings.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -13,7 +13,8 @@
 #include <set>
 
 #include "scenes/error.h"
-#include "scenes/idle_settings.h"
+#include "scenes/text.h"
+#include "technique/idle_settings.h"
 
 namespace noonmark {
 namespace {

@@ -1,4 +1,4 @@
-// Where the taps lie: the table of scenes/tap_pattern.h.
+// Where the taps lie: the table of technique/tap_pattern.h.
 layout(std140, binding = 0) uniform TapPattern {
   vec4 tap_offsets[1024];  // [variant * taps + tap]; w: the tap's weight, where taps do not count alike
 };

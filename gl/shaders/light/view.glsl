@@ -14,7 +14,7 @@ struct LightView {
 
 uniform vec3 light_position;    // directional: of the map's middle
 uniform float light_texel_m;    // directional: of a texel; spot, point: for each metre along the axis
-uniform int bias_unit;          // BiasUnit (scenes/settings.h): 0 depth, 1 m, 2 texel
+uniform int bias_unit;          // BiasUnit (technique/settings.h): 0 depth, 1 m, 2 texel
 uniform float light_bias_unit;  // window depth of one of them; spot, point: at one metre along the axis
 uniform float light_far_m;
 

@@ -1,0 +1,71 @@
+// One accessor's elements, read straight from its buffer: tightly packed or strided, sparse, quantized, or all zero
+// where it has no view.
+//
+//   Readers readers(document, buffers);
+//   const AccessorReader& positions = readers(index);  // index is in range: check_structure has seen to it
+//   for (size_t i = 0; i < positions.count(); ++i) use(positions.vec3(i));
+#pragma once
+#include <glm/glm.hpp>
+#include <map>
+#include <span>
+
+#include "scenes/gltf/buffers.h"
+#include "scenes/gltf/document.h"
+#include "scenes/memory.h"
+
+namespace noonmark::gltf {
+
+// Of a whole scene, instances included.
+inline constexpr uint64_t max_triangles = max_scene_triangles;
+inline constexpr uint64_t max_vertices = 3 * max_triangles;
+
+class AccessorReader {
+ public:
+  // Throws Error(scene) when a buffer cannot be read or sparse indices are not strictly increasing and in range.
+  AccessorReader(const Document& document, Buffers& buffers, int accessor);
+  // Of an accessor whose elements stand elsewhere, packed: count times element_bytes, which stay where they are.
+  AccessorReader(const tinygltf::Accessor& accessor, std::span<const uint8_t> packed);
+
+  size_t count() const { return count_; }
+  // Component k of element i; normalized integers become [0,1] or [-1,1]. May not be finite.
+  double value(size_t i, size_t k) const;
+  glm::dvec3 vec3(size_t i) const;               // of a VEC3 or VEC4
+  glm::dmat4 mat4(size_t i) const;               // of a MAT4
+  uint32_t index(size_t i, size_t k = 0) const;  // of unsigned integers that are not normalized
+  // The value that OpenGL would take for "restart" rather than for an index.
+  uint32_t restart_index() const;
+
+ private:
+  const uint8_t* element(size_t i) const;  // null: zero
+  uint32_t sparse_index(size_t i) const;
+  void check_sparse(const Document& document, int accessor) const;
+  double component(const uint8_t* at) const;
+
+  size_t count_ = 0;
+  size_t stride_ = 0;
+  size_t component_bytes_ = 0;
+  int component_type_ = 0;
+  bool normalized_ = false;
+  std::span<const uint8_t> data_;
+  size_t sparse_count_ = 0;
+  int sparse_index_type_ = 0;
+  std::span<const uint8_t> sparse_indices_;
+  std::span<const uint8_t> sparse_values_;
+  size_t sparse_stride_ = 0;
+};
+
+// The readers of a file, one for each accessor that is used. Throws Error(scene) where its sparse lists together are
+// longer than any scene needs: many accessors may share one list, and each reader goes through the whole of it.
+class Readers {
+ public:
+  Readers(const Document& document, Buffers& buffers) : document_(document), buffers_(buffers) {}
+  const AccessorReader& operator()(int accessor);
+
+ private:
+  const Document& document_;
+  Buffers& buffers_;
+  std::map<int, AccessorReader> readers_;
+  uint64_t sparse_elements_ = 0;
+};
+
+}  // namespace noonmark::gltf

@@ -1,0 +1,32 @@
+// The bytes of the buffers, read when first asked for and only from the scene file's own folder.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scenes/gltf/document.h"
+
+namespace noonmark::gltf {
+
+class Buffers {
+ public:
+  explicit Buffers(const Document& document) : document_(document), loaded_(document.guarded.buffers.size()) {}
+
+  // Exactly byte_length bytes. Throws Error(scene): outside the folder, not a regular file, too short, not base64.
+  std::span<const uint8_t> bytes(size_t buffer);
+  // Of a view, decompressed where it is compressed (meshopt.h).
+  std::span<const uint8_t> view(int view);
+
+ private:
+  std::vector<uint8_t> load(size_t buffer, const std::string& place) const;
+  void count(uint64_t more, const std::string& place);
+
+  const Document& document_;
+  std::vector<std::optional<std::vector<uint8_t>>> loaded_;
+  std::map<int, std::vector<uint8_t>> decompressed_;  // views
+  uint64_t total_bytes_ = 0;
+};
+
+}  // namespace noonmark::gltf

@@ -1,0 +1,51 @@
+// load_gltf (scenes/library.h): container -> guard -> tinygltf -> structure -> pose -> nodes -> geometry -> camera and
+// light.
+// Each step is a file of its own, scenes/gltf/*.h, whose head says what it refuses.
+#include <filesystem>
+#include <new>
+#include <optional>
+
+#include "scenes/gltf/animation.h"
+#include "scenes/gltf/buffers.h"
+#include "scenes/gltf/document.h"
+#include "scenes/gltf/error.h"
+#include "scenes/gltf/mesh.h"
+#include "scenes/gltf/nodes.h"
+#include "scenes/gltf/notes.h"
+#include "scenes/gltf/view.h"
+#include "scenes/library.h"
+
+namespace noonmark {
+
+Scene load_gltf(const std::string& path, const Pose& pose) {
+  try {
+    std::optional<size_t> animation;
+    if (pose.time_s) animation = static_cast<size_t>(pose.animation);
+    gltf::Document document = gltf::read_document(path, animation);
+    gltf::Buffers buffers(document);
+    Scene scene;
+    scene.name = std::filesystem::path(path).stem().string();
+    scene.notes = document.guarded.notes;
+    if (pose.time_s) {
+      gltf::Readers readers(document, buffers);
+      gltf::pose(document, readers, *pose.time_s, scene.notes);
+    }
+    const gltf::Placement placement = gltf::place_nodes(document, scene.notes);
+    const uint64_t without_area = gltf::append_geometry(document, buffers, placement, scene);
+    if (scene.triangles.empty()) {
+      gltf::refuse(path, "",
+                   "the scene that it shows holds no triangles" +
+                       gltf::instead_of_triangles(document, placement.nodes, without_area),
+                   "export meshes of triangles, in the default scene and with an area");
+    }
+    gltf::note_contents(document, placement.nodes, scene.notes);
+    const std::optional<Camera> camera = gltf::find_camera(document, placement.nodes, scene);
+    scene.camera = camera ? *camera : fit_camera(scene);
+    scene.light = gltf::find_light(document, placement.nodes, scene).value_or(fit_light(scene));
+    return scene;
+  } catch (const std::bad_alloc&) {
+    gltf::refuse(path, "", "does not fit into memory", "simplify it, or use a machine with more");
+  }
+}
+
+}  // namespace noonmark

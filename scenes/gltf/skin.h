@@ -1,0 +1,63 @@
+// Skins: where a vertex goes is told by joints, and the node that holds the mesh has no say (glTF 2.0,
+// section 3.7.3.3).
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scenes/gltf/accessor.h"
+#include "scenes/gltf/nodes.h"
+
+namespace noonmark::gltf {
+
+// Of one primitive under one skin.
+class SkinnedVertices {
+ public:
+  // joints: world_from_joint times inverse bind matrix of each joint. attributes: pairs of JOINTS_n and WEIGHTS_n.
+  SkinnedVertices(const std::string& file, std::string place, const std::vector<glm::dmat4>& joints,
+                  std::vector<std::pair<const AccessorReader*, const AccessorReader*>> attributes)
+      : file_(file), place_(std::move(place)), joints_(joints), attributes_(std::move(attributes)) {}
+
+  // The blend of its joints, the weights scaled to a sum of 1: exporters round them, and a sum of 254 / 255 would
+  // shrink the mesh. Throws Error(scene) for a joint that the skin has not, and weights that are negative or add to
+  // nothing.
+  glm::dmat4 world_from_mesh(uint32_t vertex) const;
+  size_t sets() const { return attributes_.size(); }
+
+ private:
+  const std::string& file_;
+  std::string place_;
+  const std::vector<glm::dmat4>& joints_;
+  std::vector<std::pair<const AccessorReader*, const AccessorReader*>> attributes_;
+};
+
+// The skins of a file in the pose of its nodes.
+class Skins {
+ public:
+  Skins(const Document& document, Readers& readers, const std::vector<glm::dmat4>& world_from_node)
+      : document_(document), readers_(readers), world_from_node_(world_from_node) {}
+
+  const std::vector<glm::dmat4>& joints(int skin);
+  // read: the reader of an accessor of this primitive. Throws Error(scene) where the primitive is not made for a skin.
+  template <class Read>
+  SkinnedVertices vertices(int skin, int mesh, size_t primitive, size_t count, const Read& read) {
+    std::vector<std::pair<const AccessorReader*, const AccessorReader*>> attributes;
+    for (const auto& [joints, weights] : attribute_pairs(mesh, primitive, count))
+      attributes.emplace_back(&read(joints), &read(weights));
+    return SkinnedVertices(document_.file, place_of(mesh, primitive), joints(skin), std::move(attributes));
+  }
+
+ private:
+  static std::string place_of(int mesh, size_t primitive);
+  // The accessors of JOINTS_n and WEIGHTS_n, of the right types and for `count` vertices.
+  std::vector<std::pair<int, int>> attribute_pairs(int mesh, size_t primitive, size_t count) const;
+
+  const Document& document_;
+  Readers& readers_;
+  const std::vector<glm::dmat4>& world_from_node_;
+  std::map<int, std::vector<glm::dmat4>> joints_;
+};
+
+}  // namespace noonmark::gltf

@@ -1,0 +1,295 @@
+// check_structure, after scenes/gltf/precheck.h: every reference in range, every accessor inside its view, every view
+// inside its buffer. All sizes are at most 2^53 (guard.cpp), so sums of two cannot overflow; products are tested
+// by division.
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "scenes/gltf/document.h"
+#include "scenes/gltf/error.h"
+
+namespace noonmark::gltf {
+namespace {
+
+constexpr std::string_view remedy = "export the file again, or correct it";
+
+class Checker {
+ public:
+  explicit Checker(const Document& document) : d_(document), m_(document.model) {}
+
+  void all() const {
+    each(m_.bufferViews, "bufferViews", &Checker::view);
+    each(m_.accessors, "accessors", &Checker::accessor);
+    each(m_.materials, "materials", &Checker::material);
+    each(m_.meshes, "meshes", &Checker::mesh);
+    each(m_.skins, "skins", &Checker::skin);
+    each(m_.cameras, "cameras", &Checker::camera);
+    each(m_.lights, "extensions.KHR_lights_punctual.lights", &Checker::light);
+    each(m_.nodes, "nodes", &Checker::node);
+    each(m_.scenes, "scenes", &Checker::scene);
+    optional(m_.defaultScene, m_.scenes.size(), "scene", "scenes");
+  }
+
+ private:
+  template <class T>
+  void each(const std::vector<T>& items, std::string_view name,
+            void (Checker::*check)(const T&, const std::string&) const) const {
+    for (size_t i = 0; i < items.size(); ++i) (this->*check)(items[i], fmt::format("{}[{}]", name, i));
+  }
+
+  // An accessor that is used: there, and of a type that glTF knows.
+  const tinygltf::Accessor& used(int index, const std::string& place) const {
+    reference(index, m_.accessors.size(), place, "accessors");
+    const auto unknown = d_.guarded.unknown_accessors.find(static_cast<size_t>(index));
+    if (unknown != d_.guarded.unknown_accessors.end())
+      refuse(d_.file, fmt::format("accessors[{}]", index), unknown->second, remedy);
+    return m_.accessors[static_cast<size_t>(index)];
+  }
+
+  [[noreturn]] void fail(const std::string& place, const std::string& what) const {
+    refuse(d_.file, place, what, remedy);
+  }
+
+  void reference(int index, size_t size, const std::string& place, std::string_view list) const {
+    if (index < 0 || static_cast<size_t>(index) >= size) {
+      fail(place, fmt::format("{} refers beyond the {} {}", index, size, list));
+    }
+  }
+  void optional(int index, size_t size, const std::string& place, std::string_view list) const {
+    if (index != -1) reference(index, size, place, list);
+  }
+
+  void view(const tinygltf::BufferView& v, const std::string& place) const {
+    reference(v.buffer, d_.guarded.buffers.size(), place + ".buffer", "buffers");
+    const uint64_t length = d_.guarded.buffers[static_cast<size_t>(v.buffer)].byte_length;
+    if (v.byteOffset + v.byteLength > length) {
+      fail(place,
+           fmt::format("ends at byte {} of buffers[{}], which has {}", v.byteOffset + v.byteLength, v.buffer, length));
+    }
+  }
+
+  // `count` elements of `bytes` each, `stride` apart, from `offset` of the view on.
+  void fits(int view_index, size_t offset, size_t count, size_t stride, size_t bytes, size_t alignment,
+            const std::string& place) const {
+    reference(view_index, m_.bufferViews.size(), place + ".bufferView", "bufferViews");
+    const tinygltf::BufferView& v = m_.bufferViews[static_cast<size_t>(view_index)];
+    if ((offset % alignment != 0) || ((v.byteOffset + offset) % alignment != 0)) {
+      fail(place + ".byteOffset", fmt::format("is not aligned to its components of {} bytes", alignment));
+    }
+    const size_t room = offset <= v.byteLength ? v.byteLength - offset : 0;
+    const size_t most = room < bytes ? 0 : (room - bytes) / stride + 1;
+    if (count > most) {
+      fail(place + ".count", fmt::format("{} elements, but bufferViews[{}] has room for {}", count, view_index, most));
+    }
+  }
+
+  void accessor(const tinygltf::Accessor& a, const std::string& place) const {
+    switch (a.componentType) {
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        break;
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        if (a.normalized) fail(place + ".normalized", "is only for integers of 8 and 16 bits");
+        break;
+      default:
+        fail(place + ".componentType", "is none of glTF's");
+    }
+    if (a.count == 0) fail(place + ".count", "is 0");
+    const size_t component =
+        static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
+    const size_t bytes = element_bytes(a);
+    if (a.bufferView != -1) {
+      reference(a.bufferView, m_.bufferViews.size(), place + ".bufferView", "bufferViews");
+      const size_t stride = m_.bufferViews[static_cast<size_t>(a.bufferView)].byteStride;
+      if (stride != 0 && stride < bytes) {
+        fail(place, fmt::format("its elements have {} bytes, but the byteStride of bufferViews[{}] is {}", bytes,
+                                a.bufferView, stride));
+      }
+      fits(a.bufferView, a.byteOffset, a.count, element_stride(d_, a), bytes, component, place);
+    }
+    if (a.sparse.isSparse) sparse(a, component, place + ".sparse");
+  }
+
+  void sparse(const tinygltf::Accessor& a, size_t component, const std::string& place) const {
+    if (a.sparse.count < 1 || static_cast<size_t>(a.sparse.count) > a.count) {
+      fail(place + ".count", fmt::format("{} is not from 1 to the accessor's count, {}", a.sparse.count, a.count));
+    }
+    const int type = a.sparse.indices.componentType;
+    if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+        type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+      fail(place + ".indices.componentType", fmt::format("{} is not an unsigned integer type", type));
+    }
+    const size_t index_bytes = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(type)));
+    const size_t count = static_cast<size_t>(a.sparse.count);
+    fits(a.sparse.indices.bufferView, static_cast<size_t>(a.sparse.indices.byteOffset), count, index_bytes, index_bytes,
+         index_bytes, place + ".indices");
+    fits(a.sparse.values.bufferView, static_cast<size_t>(a.sparse.values.byteOffset), count, packed_stride(a),
+         element_bytes(a), component, place + ".values");
+    for (int view_index : {a.sparse.indices.bufferView, a.sparse.values.bufferView}) {
+      if (m_.bufferViews[static_cast<size_t>(view_index)].byteStride != 0) {
+        fail(place, fmt::format("bufferViews[{}] has a byteStride, which sparse data may not have", view_index));
+      }
+    }
+  }
+
+  void material(const tinygltf::Material& m, const std::string& place) const {
+    if (m.alphaMode != "OPAQUE" && m.alphaMode != "MASK" && m.alphaMode != "BLEND") {
+      fail(place + ".alphaMode", fmt::format("'{}' is none of OPAQUE, MASK, BLEND", printable(m.alphaMode)));
+    }
+  }
+
+  void mesh(const tinygltf::Mesh& m, const std::string& place) const {
+    for (size_t i = 0; i < m.primitives.size(); ++i) {
+      const tinygltf::Primitive& p = m.primitives[i];
+      const std::string here = fmt::format("{}.primitives[{}]", place, i);
+      optional(p.material, m_.materials.size(), here + ".material", "materials");
+      if (const auto found = p.attributes.find("POSITION"); found != p.attributes.end())
+        positions(used(found->second, here + ".attributes.POSITION"), fmt::format("accessors[{}]", found->second));
+      for (size_t k = 0; k < p.targets.size(); ++k) {
+        const auto found = p.targets[k].find("POSITION");
+        if (found == p.targets[k].end()) continue;
+        positions(used(found->second, fmt::format("{}.targets[{}].POSITION", here, k)),
+                  fmt::format("accessors[{}]", found->second));
+      }
+      if (const int index = indices_of(p); index != -1)
+        indices(used(index, here + ".indices"), fmt::format("accessors[{}]", index));
+    }
+  }
+
+  void skin(const tinygltf::Skin& s, const std::string& place) const {
+    if (s.joints.empty()) fail(place + ".joints", "is empty");
+    for (size_t i = 0; i < s.joints.size(); ++i) {
+      reference(s.joints[i], m_.nodes.size(), fmt::format("{}.joints[{}]", place, i), "nodes");
+    }
+    if (s.inverseBindMatrices == -1) return;
+    const std::string here = place + ".inverseBindMatrices";
+    const tinygltf::Accessor& a = used(s.inverseBindMatrices, here);
+    if (a.type != TINYGLTF_TYPE_MAT4 || a.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+      fail(here, fmt::format("accessors[{}] is no MAT4 of FLOAT", s.inverseBindMatrices));
+    if (a.count < s.joints.size())
+      fail(here, fmt::format("{} {} for {} joints", a.count, a.count == 1 ? "matrix" : "matrices", s.joints.size()));
+  }
+
+  void positions(const tinygltf::Accessor& a, const std::string& place) const {
+    if (a.type != TINYGLTF_TYPE_VEC3) fail(place + ".type", "positions are VEC3");
+    if (a.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return;
+    if (a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) fail(place + ".componentType", "positions are FLOAT");
+    if (!d_.guarded.quantized) {
+      refuse(d_.file, place + ".componentType", "integer positions without KHR_mesh_quantization",
+             "list that extension in extensionsUsed and extensionsRequired, or export floats");
+    }
+    if (a.bufferView != -1 && element_stride(d_, a) % 4 != 0) {
+      fail(place, "vertices that are no multiple of 4 bytes apart: their view needs a byteStride");
+    }
+  }
+
+  void indices(const tinygltf::Accessor& a, const std::string& place) const {
+    const bool type_is_right = a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                               a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+                               a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    if (a.type != TINYGLTF_TYPE_SCALAR || !type_is_right || a.normalized) {
+      fail(place, "indices are unsigned integer SCALARs, not normalized");
+    }
+    if (a.bufferView != -1 && m_.bufferViews[static_cast<size_t>(a.bufferView)].byteStride != 0) {
+      fail(place, fmt::format("indices, but bufferViews[{}] has a byteStride", a.bufferView));
+    }
+  }
+
+  void camera(const tinygltf::Camera& c, const std::string& place) const {
+    if (c.type == "perspective") {
+      const tinygltf::PerspectiveCamera& p = c.perspective;
+      const std::string here = place + ".perspective";
+      // Narrower or wider, the tangent of half the angle is no longer a number to divide by or to multiply with.
+      constexpr double least_yfov = 1e-4, largest_yfov = 3.1415;
+      if (!(p.yfov >= least_yfov && p.yfov <= largest_yfov)) {
+        fail(here + ".yfov",
+             fmt::format("{} is not an angle of view, from {} to {} radians", p.yfov, least_yfov, largest_yfov));
+      }
+      if (!(p.znear > 0)) fail(here + ".znear", fmt::format("{} is not positive", p.znear));
+      // 0: absent, an infinite projection.
+      if (p.zfar != 0 && !(p.zfar > p.znear))
+        fail(here + ".zfar", fmt::format("{} is not beyond znear {}", p.zfar, p.znear));
+    } else {
+      const tinygltf::OrthographicCamera& o = c.orthographic;
+      const std::string here = place + ".orthographic";
+      if (!(o.xmag > 0)) fail(here + ".xmag", fmt::format("{} is not positive", o.xmag));
+      if (!(o.ymag > 0)) fail(here + ".ymag", fmt::format("{} is not positive", o.ymag));
+      if (!(o.znear >= 0)) fail(here + ".znear", fmt::format("{} is negative", o.znear));
+      if (!(o.zfar > o.znear)) fail(here + ".zfar", fmt::format("{} is not beyond znear {}", o.zfar, o.znear));
+    }
+  }
+
+  void light(const tinygltf::Light& l, const std::string& place) const {
+    if (l.type != "spot") return;
+    const double inner = l.spot.innerConeAngle, outer = l.spot.outerConeAngle;
+    // Exporters write a right angle as a float, which is more than pi / 2 by 4e-8, or with five digits.
+    constexpr double right_angle = std::numbers::pi / 2 + 1e-5;
+    if (!(outer > 0 && outer <= right_angle))
+      fail(place + ".spot.outerConeAngle", fmt::format("{} is not from 0 to pi / 2 radians, without 0", outer));
+    if (!(inner >= 0 && inner < outer))
+      fail(place + ".spot.innerConeAngle", fmt::format("{} is not from 0 to below outerConeAngle, {}", inner, outer));
+  }
+
+  void node(const tinygltf::Node& n, const std::string& place) const {
+    optional(n.mesh, m_.meshes.size(), place + ".mesh", "meshes");
+    if (n.mesh != -1) optional(n.skin, m_.skins.size(), place + ".skin", "skins");
+    optional(n.camera, m_.cameras.size(), place + ".camera", "cameras");
+    for (size_t i = 0; i < n.children.size(); ++i) {
+      reference(n.children[i], m_.nodes.size(), fmt::format("{}.children[{}]", place, i), "nodes");
+    }
+    if (const auto found = n.extensions.find("KHR_lights_punctual"); found != n.extensions.end()) {
+      reference(found->second.Get("light").GetNumberAsInt(), m_.lights.size(),
+                place + ".extensions.KHR_lights_punctual.light", "lights");
+    }
+  }
+
+  void scene(const tinygltf::Scene& s, const std::string& place) const {
+    for (size_t i = 0; i < s.nodes.size(); ++i) {
+      reference(s.nodes[i], m_.nodes.size(), fmt::format("{}.nodes[{}]", place, i), "nodes");
+    }
+  }
+
+  const Document& d_;
+  const tinygltf::Model& m_;
+};
+
+}  // namespace
+
+namespace {
+
+size_t component_bytes(const tinygltf::Accessor& a) {
+  return static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
+}
+
+// Rows of a matrix type, 0 of the others; and bytes from one of its columns to the next, a multiple of 4 (glTF 2.0,
+// section 3.6.2.4).
+size_t matrix_rows(const tinygltf::Accessor& a) {
+  return a.type == TINYGLTF_TYPE_MAT2 ? 2 : a.type == TINYGLTF_TYPE_MAT3 ? 3 : a.type == TINYGLTF_TYPE_MAT4 ? 4 : 0;
+}
+size_t column_stride(const tinygltf::Accessor& a) { return (matrix_rows(a) * component_bytes(a) + 3) / 4 * 4; }
+
+}  // namespace
+
+// The last column needs no padding behind it.
+size_t element_bytes(const tinygltf::Accessor& a) {
+  const size_t rows = matrix_rows(a);
+  if (rows != 0) return (rows - 1) * column_stride(a) + rows * component_bytes(a);
+  return component_bytes(a) * static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(a.type)));
+}
+
+size_t element_stride(const Document& document, const tinygltf::Accessor& a) {
+  const size_t given =
+      a.bufferView == -1 ? 0 : document.model.bufferViews[static_cast<size_t>(a.bufferView)].byteStride;
+  return given != 0 ? given : packed_stride(a);
+}
+
+size_t packed_stride(const tinygltf::Accessor& a) {
+  return matrix_rows(a) != 0 ? matrix_rows(a) * column_stride(a) : element_bytes(a);
+}
+
+void check_structure(const Document& document) { Checker(document).all(); }
+
+}  // namespace noonmark::gltf

@@ -1,0 +1,116 @@
+#include "scenes/gltf/view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenes/fit.h"
+#include "scenes/gltf/error.h"
+#include "scenes/gltf/notes.h"
+
+namespace noonmark::gltf {
+namespace {
+
+// Cameras, directional lights and spots look along their node's -Z, up is +Y (glTF 2.0, section 3.10.1).
+glm::dvec3 forward_of(const PlacedNode& placed) { return -glm::normalize(glm::dvec3(placed.world_from_node[2])); }
+glm::dvec3 up_of(const PlacedNode& placed) { return glm::normalize(glm::dvec3(placed.world_from_node[1])); }
+glm::dvec3 origin_of(const PlacedNode& placed) { return glm::dvec3(placed.world_from_node[3]); }
+
+const tinygltf::Light* light_of(const Document& document, const PlacedNode& placed) {
+  const tinygltf::ExtensionMap& extensions = document.model.nodes[placed.node].extensions;
+  const auto found = extensions.find("KHR_lights_punctual");
+  if (found == extensions.end()) return nullptr;
+  return &document.model.lights[static_cast<size_t>(found->second.Get("light").GetNumberAsInt())];
+}
+
+// glTF counts from the axis. The default is pi / 4, of which tinygltf keeps ten digits.
+double cone_deg(const tinygltf::SpotLight& spot) {
+  const bool by_default = spot.outerConeAngle == tinygltf::SpotLight().outerConeAngle;
+  return by_default ? 90 : 2 * glm::degrees(spot.outerConeAngle);
+}
+
+}  // namespace
+
+std::optional<Camera> find_camera(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
+  const auto has_camera = [&](const PlacedNode& n) {
+    return !n.collapsed && document.model.nodes[n.node].camera != -1;
+  };
+  const auto found = std::find_if(nodes.begin(), nodes.end(), has_camera);
+  if (found == nodes.end()) return std::nullopt;
+  if (const auto more = static_cast<uint64_t>(std::count_if(found + 1, nodes.end(), has_camera)); more > 0)
+    scene.notes.push_back(fmt::format("{} after the first {} not used", counted(more, "camera"), is_or_are(more)));
+  const auto index = static_cast<size_t>(document.model.nodes[found->node].camera);
+  if (const auto unknown = document.guarded.unknown_cameras.find(index);
+      unknown != document.guarded.unknown_cameras.end()) {
+    refuse(document.file, fmt::format("cameras[{}]", index), unknown->second, "remove the camera, or correct it");
+  }
+  require_invertible(document, *found);
+  const tinygltf::Camera& from = document.model.cameras[index];
+  Camera camera;
+  camera.eye_m = origin_of(*found);
+  // Any point ahead will do for a target; the one nearest the scene's middle is the one that people expect.
+  const Sphere sphere = bounding_sphere(scene);
+  const glm::dvec3 forward = forward_of(*found);
+  // A transform that shears can lay the camera's up along its view; then the picture has no upright.
+  constexpr double least_sine = 1e-3;
+  if (!(glm::length(glm::cross(forward, up_of(*found))) > least_sine)) {
+    refuse(document.file, fmt::format("nodes[{}].camera", found->node), "its up and its view are almost parallel",
+           "give the camera's node a rotation and a translation only");
+  }
+  const double ahead = glm::dot(sphere.centre_m - camera.eye_m, forward);
+  camera.target_m = camera.eye_m + forward * std::max(ahead, 1.0);
+  camera.up = up_of(*found);
+  if (from.type == "orthographic") {
+    camera.projection = Projection::orthographic;
+    camera.height_m = 2 * from.orthographic.ymag;
+    camera.near_m = from.orthographic.znear;
+    camera.far_m = from.orthographic.zfar;
+  } else {
+    camera.fov_y_deg = glm::degrees(from.perspective.yfov);
+    camera.near_m = from.perspective.znear;
+    if (from.perspective.zfar != 0) camera.far_m = from.perspective.zfar;
+  }
+  return camera;
+}
+
+std::optional<Light> find_light(const Document& document, const std::vector<PlacedNode>& nodes, Scene& scene) {
+  const auto lights = [&](const PlacedNode& n) { return n.shown() && light_of(document, n) != nullptr; };
+  const auto found = std::find_if(nodes.begin(), nodes.end(), lights);
+  if (found == nodes.end()) return std::nullopt;
+  if (const auto more = static_cast<uint64_t>(std::count_if(found + 1, nodes.end(), lights)); more > 0)
+    scene.notes.push_back(fmt::format("{} after the first {} not used", counted(more, "light"), is_or_are(more)));
+  const tinygltf::Light& from = *light_of(document, *found);
+  if (from.type != "directional" && from.type != "point" && from.type != "spot") {
+    refuse(document.file, fmt::format("nodes[{}].extensions.KHR_lights_punctual.light", found->node),
+           fmt::format("its type '{}' is none of directional, point, spot", printable(from.type)),
+           "remove the light, or correct it");
+  }
+  require_invertible(document, *found);
+  const Sphere sphere = bounding_sphere(scene);
+  const glm::dvec3 forward = forward_of(*found);
+  if (from.type == "directional") return directional_light(sphere, forward);
+
+  Light light;
+  light.position_m = origin_of(*found);
+  const glm::dvec3 to_middle = sphere.centre_m - light.position_m;
+  if (from.type == "point") {
+    light.kind = LightKind::point;
+    // Means nothing, until somebody makes a spot of it (light.kind).
+    light.target_m = light.position_m + (glm::length(to_middle) > 0 ? to_middle : glm::dvec3(0, -1, 0));
+    return light;
+  }
+  light.kind = LightKind::spot;
+  light.target_m = light.position_m + forward * std::max(glm::dot(to_middle, forward), 1.0);
+  light.cone_deg = cone_deg(from.spot);
+  // The same range as the setting light.cone_deg.
+  constexpr double least_cone_deg = 1, largest_cone_deg = 170;
+  if (!(light.cone_deg >= least_cone_deg && light.cone_deg <= largest_cone_deg)) {
+    refuse(document.file, fmt::format("nodes[{}].extensions.KHR_lights_punctual.light", found->node),
+           fmt::format("a spot whose cone is {:.6g} degrees wide; a shadow map can serve {} to {}", light.cone_deg,
+                       least_cone_deg, largest_cone_deg),
+           "change its outerConeAngle, or make it a point light");
+  }
+  return light;
+}
+
+}  // namespace noonmark::gltf

@@ -1,0 +1,44 @@
+// What an experiment may say of the scene and of the camera; the rows that name these members are in
+// technique/settings.cpp.
+#pragma once
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "scenes/scene.h"
+
+namespace noonmark {
+
+enum class MeshForm { as_built, one_mesh, split, reversed, doubled, tiles, t_junctions };  // scenes/remesh.h
+// The choices of scene.mesh, in the order of the enumerators.
+inline constexpr std::string_view mesh_forms[] = {"as_built", "one_mesh", "split",       "reversed",
+                                                  "doubled",  "tiles",    "t_junctions"};
+
+struct SceneSettings {
+  std::string name = "cube-room";  // a built-in scene, or the path of a .gltf or .glb file
+  double theta_deg = 45;           // plane: the angle between its normal and the light
+  double phi_deg = 0;              // plane: azimuth of the slope in the light's plane, against the texel axes; plate:
+                                   // how far it is turned about the vertical
+  double thickness_m = 0.1;        // wall, plate
+  double height_m = 0.5;           // plate: of its lit face above the floor
+  MeshForm mesh = MeshForm::as_built;     // the same surface in other triangles
+  double turn_deg = 0;                    // the whole scene, camera and light with it, about the axis (1, 2, 3)
+  std::optional<glm::dvec3> move_m = {};  // and then moved; empty: not
+  std::optional<double> time_s = {};      // of a file's animation: the pose at that time; empty: at rest
+  int animation = 0;                      // which of the file's animations time_s is a time of
+};
+
+struct ViewSettings {
+  int width_px = 1280;
+  int height_px = 720;
+  std::optional<glm::dvec3> eye_m;     // empty: the scene's
+  std::optional<glm::dvec3> target_m;  // empty: the scene's
+  std::optional<glm::dvec3> up;        // of the picture, any length but 0; empty: the scene's
+  std::optional<double> fov_deg;       // whole vertical angle; empty: the scene's
+  std::optional<double> near_m;        // along the view; empty: the scene's, or fitted (scenes/camera_fit.h)
+  std::optional<double> far_m;
+  bool fit_depths = false;  // near and far fitted, also where the scene's file gives them
+};
+
+}  // namespace noonmark

@@ -1,0 +1,91 @@
+#include "technique/idle_settings.h"
+
+#include <fmt/format.h>
+
+#include "scenes/library.h"
+
+namespace noonmark {
+namespace {
+
+using S = const Settings&;
+
+// Which settings are read only sometimes, and when.
+struct Rule {
+  std::string_view name;
+  bool (*is_read)(LightKind light, S settings);
+};
+
+bool from_file(LightKind, S s) { return names_file(s.scene.name); }
+bool directional(LightKind light, S) { return light == LightKind::directional; }
+bool spot(LightKind light, S) { return light == LightKind::spot; }
+bool point(LightKind light, S) { return light == LightKind::point; }
+bool has_place(LightKind light, S) { return light != LightKind::directional; }
+bool flat(LightKind light, S) { return light != LightKind::point; }
+template <FilterKind... kinds>
+bool filter(LightKind, S s) {
+  return ((s.filter.kind == kinds) || ...);
+}
+template <BiasForm... forms>
+bool bias(LightKind, S s) {
+  return ((s.bias.form == forms) || ...);
+}
+
+constexpr Rule rules[] = {
+    {"scene.time_s", from_file},
+    {"scene.animation", [](LightKind, S s) { return names_file(s.scene.name) && s.scene.time_s.has_value(); }},
+    {"view.fit_depths", [](LightKind, S s) { return names_file(s.scene.name) && !(s.view.near_m && s.view.far_m); }},
+    {"light.angular_diameter_deg", directional},
+    {"light.radius_m", has_place},
+    {"light.shape", has_place},
+    {"light.cone_deg", spot},
+    {"map.extent_m", directional},
+    {"map.extent_scale", flat},
+    {"map.fov_deg", spot},
+    {"map.wrap", flat},
+    {"map.cube_pass", point},
+    {"filter.size", filter<FilterKind::box, FilterKind::gaussian>},
+    {"filter.step_texels", filter<FilterKind::box>},
+    {"filter.sigma_texels", filter<FilterKind::gaussian>},
+    {"filter.radius_texels", filter<FilterKind::poisson>},
+    {"filter.rotate", filter<FilterKind::poisson>},
+    {"filter.offset_m", filter<FilterKind::cube_grid>},
+    {"filter.disk", filter<FilterKind::cube_disk>},
+    {"filter.radius_m",
+     [](LightKind, S s) { return s.filter.kind == FilterKind::cube_disk && s.filter.disk == DiskRadius::fixed; }},
+    {"bias.constant", bias<BiasForm::constant, BiasForm::receiver_plane, BiasForm::tangent_plane>},
+    {"bias.slope", bias<BiasForm::slope>},
+    {"bias.floor", bias<BiasForm::slope, BiasForm::tan>},
+    {"bias.tan_scale", bias<BiasForm::tan>},
+    {"bias.cap", bias<BiasForm::tan>},
+    {"bias.factor", bias<BiasForm::polygon_offset>},
+    {"bias.units", bias<BiasForm::polygon_offset>},
+    {"bias.normal_offset", bias<BiasForm::normal_offset>},
+};
+
+std::string because(std::string_view name, LightKind light, S s) {
+  if (name.starts_with("scene.")) return names_file(s.scene.name) ? "without scene.time_s" : "in a built-in scene";
+  if (name == "view.fit_depths")
+    return names_file(s.scene.name) ? "with both view.near_m and view.far_m"
+                                    : "in a built-in scene, where near and far are always fitted";
+  if (name.starts_with("filter.")) return "with filter.kind = " + find_setting("filter.kind").get(s);
+  if (name.starts_with("bias.")) return "with bias.form = " + find_setting("bias.form").get(s);
+  constexpr std::string_view kinds[] = {"directional", "spot", "point"};
+  return fmt::format("on a {} light", kinds[static_cast<size_t>(light)]);
+}
+
+}  // namespace
+
+std::vector<IdleSetting> idle_settings(LightKind light, const Settings& settings) {
+  const Settings defaults;
+  std::vector<IdleSetting> idle;
+  for (const Rule& rule : rules) {
+    const Setting& row = find_setting(rule.name);
+    if (row.get(settings) != row.get(defaults) && !rule.is_read(light, settings))
+      idle.push_back({std::string(rule.name), because(rule.name, light, settings)});
+  }
+  if (light == LightKind::point && settings.bias.form == BiasForm::polygon_offset)
+    idle.push_back({"bias.form = polygon_offset", "on a point light, whose shader writes its depth itself"});
+  return idle;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,34 @@
+// What a lookup outside the map finds, for the two places that must agree with OpenGL's sampler: the exact map's texels
+// and the thresholds read off a map.
+#pragma once
+#include <algorithm>
+#include <glm/glm.hpp>
+
+#include "technique/settings.h"
+
+namespace noonmark {
+
+inline constexpr float border_depth = 1.0f;  // lit
+
+// size: of the map's image, LightFrame::map_size(). A cube's texels are always inside.
+inline bool inside_map(glm::ivec2 texel, glm::ivec2 size) {
+  return texel.x >= 0 && texel.y >= 0 && texel.x < size.x && texel.y < size.y;
+}
+
+// The texel that a sampler with this wrap mode reads; {-1, -1} for the border.
+inline glm::ivec2 wrapped(glm::ivec2 texel, glm::ivec2 size, Wrap wrap) {
+  if (inside_map(texel, size)) return texel;
+  switch (wrap) {
+    case Wrap::repeat: {
+      const auto modulo = [](int i, int n) { return ((i % n) + n) % n; };
+      return {modulo(texel.x, size.x), modulo(texel.y, size.y)};
+    }
+    case Wrap::clamp_to_edge:
+      return glm::clamp(texel, glm::ivec2(0), size - 1);
+    case Wrap::clamp_to_border:
+      break;
+  }
+  return {-1, -1};
+}
+
+}  // namespace noonmark

@@ -1,0 +1,407 @@
+#include "technique/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+#include "scenes/error.h"
+#include "scenes/text.h"
+
+namespace noonmark {
+namespace {
+
+template <class T>
+std::optional<T> parse_number(std::string_view text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+[[noreturn]] void refuse(const Setting& row, std::string_view text) {
+  throw Error(ErrorKind::usage,
+              fmt::format("{} = '{}' is not allowed; it takes {}", row.name, text, row.range_with_unit()));
+}
+
+// The shortest decimal that reads back as the same double. -0 becomes 0, so that equal values have equal keys.
+std::string number_text(double value) { return fmt::format("{}", value == 0 ? 0.0 : value); }
+
+double parse_real(const Setting& row, std::string_view text) {
+  const std::optional<double> value = parse_number<double>(text);
+  if (!value || !std::isfinite(*value) || *value < row.min || *value > row.max) refuse(row, text);
+  return *value;
+}
+
+glm::dvec3 parse_point(const Setting& row, std::string_view text) {
+  glm::dvec3 point;
+  std::string_view rest = text;
+  for (int axis = 0; axis < 3; ++axis) {
+    const size_t comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (axis == 2)) refuse(row, text);
+    std::string_view part = rest.substr(0, comma);
+    while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
+    const std::optional<double> value = parse_number<double>(part);
+    if (!value || !std::isfinite(*value)) refuse(row, text);
+    point[axis] = *value;
+    if (axis < 2) rest.remove_prefix(comma + 1);
+  }
+  return point;
+}
+
+std::string point_text(glm::dvec3 p) {
+  return fmt::format("{},{},{}", number_text(p.x), number_text(p.y), number_text(p.z));
+}
+
+// The rows below are built by these five, one for each kind of member. `member` maps Settings& to a reference.
+
+template <class Member>
+Setting integer(std::string_view name, std::string_view unit, double min, double max, std::string_view help,
+                Member member) {
+  Setting row{name, unit, ValueType::integer, min, max, false, {}, help, {}, {}};
+  row.get = [member](const Settings& s) { return fmt::format("{}", member(const_cast<Settings&>(s))); };
+  row.set = [member, row](Settings& s, std::string_view text) {
+    const std::optional<int> value = parse_number<int>(text);
+    if (!value || *value < row.min || *value > row.max) refuse(row, text);
+    member(s) = *value;
+  };
+  return row;
+}
+
+template <class Member>
+Setting real(std::string_view name, std::string_view unit, double min, double max, std::string_view help,
+             Member member) {
+  constexpr bool is_optional = std::is_same_v<std::invoke_result_t<Member, Settings&>, std::optional<double>&>;
+  Setting row{name, unit, ValueType::real, min, max, is_optional, {}, help, {}, {}};
+  row.get = [member](const Settings& s) {
+    const auto& value = member(const_cast<Settings&>(s));
+    if constexpr (is_optional)
+      return value ? number_text(*value) : std::string("auto");
+    else
+      return number_text(value);
+  };
+  row.set = [member, row](Settings& s, std::string_view text) {
+    if constexpr (is_optional) {
+      if (text == "auto") {
+        member(s).reset();
+        return;
+      }
+    }
+    member(s) = parse_real(row, text);
+  };
+  return row;
+}
+
+template <class Member>
+Setting point(std::string_view name, std::string_view unit, std::string_view help, Member member) {
+  Setting row{name, unit, ValueType::point, 0, 0, true, {}, help, {}, {}};
+  row.get = [member](const Settings& s) {
+    const auto& value = member(const_cast<Settings&>(s));
+    return value ? point_text(*value) : std::string("auto");
+  };
+  row.set = [member, row](Settings& s, std::string_view text) {
+    if (text == "auto")
+      member(s).reset();
+    else
+      member(s) = parse_point(row, text);
+  };
+  return row;
+}
+
+template <class Member>
+Setting flag(std::string_view name, std::string_view help, Member member) {
+  Setting row{name, "", ValueType::flag, 0, 0, false, {}, help, {}, {}};
+  row.get = [member](const Settings& s) { return std::string(member(const_cast<Settings&>(s)) ? "true" : "false"); };
+  row.set = [member, row](Settings& s, std::string_view text) {
+    if (text != "true" && text != "false") refuse(row, text);
+    member(s) = text == "true";
+  };
+  return row;
+}
+
+// choices: in the order of the enumerators.
+template <class Member>
+Setting choice(std::string_view name, std::vector<std::string_view> choices, std::string_view help, Member member) {
+  Setting row{name, "", ValueType::choice, 0, 0, false, choices, help, {}, {}};
+  row.get = [member, choices](const Settings& s) {
+    return std::string(choices[static_cast<size_t>(member(const_cast<Settings&>(s)))]);
+  };
+  row.set = [member, row](Settings& s, std::string_view text) {
+    const auto found = std::find(row.choices.begin(), row.choices.end(), text);
+    if (found == row.choices.end()) refuse(row, text);
+    using Enum = std::remove_reference_t<std::invoke_result_t<Member, Settings&>>;
+    member(s) = static_cast<Enum>(found - row.choices.begin());
+  };
+  return row;
+}
+
+template <class Member>
+Setting text(std::string_view name, std::string_view help, Member member) {
+  Setting row{name, "", ValueType::text, 0, 0, false, {}, help, {}, {}};
+  row.get = [member](const Settings& s) { return member(const_cast<Settings&>(s)); };
+  row.set = [member, row](Settings& s, std::string_view value) {
+    if (value.empty()) refuse(row, value);
+    member(s) = std::string(value);
+  };
+  return row;
+}
+
+#define MEMBER(path) [](Settings& s) -> decltype((s.path)) { return s.path; }
+
+std::vector<Setting> make_table() {
+  return {
+      text("scene.name", "A built-in scene, or the path of a .gltf or .glb file.", MEMBER(scene.name)),
+      real("scene.theta_deg", "deg", 0, 89.9, "plane: the angle between its normal and the light.",
+           MEMBER(scene.theta_deg)),
+      real("scene.phi_deg", "deg", -360, 360,
+           "plane: azimuth of its slope in the light's plane, against the texel axes; plate: its turn about the "
+           "vertical.",
+           MEMBER(scene.phi_deg)),
+      real("scene.thickness_m", "m", 1e-4, 10, "wall, plate: thickness.", MEMBER(scene.thickness_m)),
+      real("scene.height_m", "m", 0, 100, "plate: height of its lit face above the floor.", MEMBER(scene.height_m)),
+      choice("scene.mesh", {std::begin(mesh_forms), std::end(mesh_forms)},
+             "The scene's surface as built, or in other triangles: welded into one mesh, each triangle cut in four, "
+             "triangles and vertices in reverse order, each triangle there twice, in tiles that meet to rounding only, "
+             "in strips with corners on their neighbours' edges.",
+             MEMBER(scene.mesh)),
+      real("scene.turn_deg", "deg", -360, 360,
+           "Turns the whole scene, its camera and light with it, about the axis (1, 2, 3): then no plane is along an "
+           "axis.",
+           MEMBER(scene.turn_deg)),
+      point("scene.move_m", "m", "Moves the whole scene, its camera and light with it, after the turn; auto: not.",
+            MEMBER(scene.move_m)),
+      real("scene.time_s", "s", 0, 1e6,
+           "A glTF file's animation poses the scene at this time; before its first key and after its last it stands "
+           "still; auto: at rest, no animation.",
+           MEMBER(scene.time_s)),
+      integer("scene.animation", "", 0, 1e6, "Which of the file's animations scene.time_s speaks of, from 0.",
+              MEMBER(scene.animation)),
+      integer("view.width_px", "px", 1, 8192, "Width of the picture.", MEMBER(view.width_px)),
+      integer("view.height_px", "px", 1, 8192, "Height of the picture.", MEMBER(view.height_px)),
+      point("view.eye_m", "m", "Where the camera is; auto: the scene's.", MEMBER(view.eye_m)),
+      point("view.target_m", "m", "What the camera looks at; auto: the scene's.", MEMBER(view.target_m)),
+      point("view.up", "", "The direction that points up in the picture, of any length; auto: the scene's.",
+            MEMBER(view.up)),
+      real("view.fov_deg", "deg", 1, 170, "Whole vertical angle of view; auto: the scene's.", MEMBER(view.fov_deg)),
+      real("view.near_m", "m", 1e-6, 1e9,
+           "The camera's near plane, along the view; auto: that of the scene's file, or fitted so that nothing in view "
+           "is "
+           "cut off.",
+           MEMBER(view.near_m)),
+      real("view.far_m", "m", 1e-6, 1e9,
+           "The camera's far plane, along the view; auto: that of the scene's file, or fitted so that nothing in view "
+           "is "
+           "cut off.",
+           MEMBER(view.far_m)),
+      flag("view.fit_depths",
+           "Fits the near and far that are auto, so that nothing in view is cut off, also where the scene's file gives "
+           "them.",
+           MEMBER(view.fit_depths)),
+      choice("light.kind", {"auto", "directional", "spot", "point"},
+             "directional: parallel rays and one orthographic map; spot: one perspective map; point: a cube map of "
+             "distances; auto: the scene's.",
+             MEMBER(light.kind)),
+      point("light.position_m", "m",
+            "Where a spot or point light is; a directional light's map measures depth from there; auto: the scene's.",
+            MEMBER(light.position_m)),
+      point("light.target_m", "m", "What the light points at, the middle of its map; auto: the scene's.",
+            MEMBER(light.target_m)),
+      real("light.angular_diameter_deg", "deg", 0, 90,
+           "directional: of a sun with a size, for R0 (the real sun: 0.53); auto: the scene's.",
+           MEMBER(light.angular_diameter_deg)),
+      real("light.radius_m", "m", 0, 1e6, "spot, point: of a light with a size, for R0; auto: the scene's.",
+           MEMBER(light.radius_m)),
+      choice("light.shape", {"sphere", "disc"},
+             "spot, point: what a light with a size is, for R0: a sphere; or a disc, across a spot light's axis, and "
+             "facing each receiver for a point light.",
+             MEMBER(light.shape)),
+      real("light.cone_deg", "deg", 1, 170,
+           "spot: whole angle of the cone, beyond which nothing is lit; auto: the scene's.", MEMBER(light.cone_deg)),
+      integer("map.resolution", "texels", 1, 16384, "Texels on a side of the shadow map.", MEMBER(map.resolution)),
+      choice("map.format", {"16", "24", "32f"}, "Depth format of the shadow map.", MEMBER(map.format)),
+      choice("map.fit", {"scene", "tight"},
+             "Where extent, near and far are auto: the scene's own (fitted where it has none, and where the light is "
+             "another than the scene's), or fitted tightly around the scene.",
+             MEMBER(map.fit)),
+      real("map.extent_m", "m", 1e-6, 1e9, "directional: whole width of what the map covers; auto: by map.fit.",
+           MEMBER(map.extent_m)),
+      real("map.extent_scale", "", 1e-3, 1e3, "Multiplies the extent, however it came about.",
+           MEMBER(map.extent_scale)),
+      real("map.fov_deg", "deg", 1, 175, "spot: whole angle that the map covers; auto: the light's cone.",
+           MEMBER(map.fov_deg)),
+      flag(
+          "map.snap",
+          "directional: moves the map by less than a texel, so that its grid stays fixed in the world when the light's "
+          "position or target moves without turning it.",
+          MEMBER(map.snap)),
+      real("map.shift_u_texels", "texels", -1, 1,
+           "Moves the map and its grid to the light's right: another alignment of texels and edges.",
+           MEMBER(map.shift_u_texels)),
+      real("map.shift_v_texels", "texels", -1, 1, "Moves the map and its grid up, as the light sees it.",
+           MEMBER(map.shift_v_texels)),
+      real("map.near_m", "m", -1e9, 1e9,
+           "Near plane along the light's axis from its position (a point light: along each face's axis); auto: by "
+           "map.fit.",
+           MEMBER(map.near_m)),
+      real("map.far_m", "m", -1e9, 1e9,
+           "Far plane along the light's axis from its position; a point light's depth is distance / far; auto: by "
+           "map.fit.",
+           MEMBER(map.far_m)),
+      choice("map.wrap", {"repeat", "clamp_to_edge", "clamp_to_border"},
+             "What a lookup outside the map finds; the border is lit.", MEMBER(map.wrap)),
+      flag("map.lit_beyond_far", "Receivers beyond the far plane are lit without a comparison.",
+           MEMBER(map.lit_beyond_far)),
+      choice("map.cull", {"none", "back", "front"}, "Faces left out of the shadow map.", MEMBER(map.cull)),
+      flag("map.depth_clamp",
+           "Geometry before the near or beyond the far plane is drawn at depth 0 or 1 instead of clipped "
+           "(GL_DEPTH_CLAMP).",
+           MEMBER(map.depth_clamp)),
+      choice("map.cube_pass", {"layered", "six_passes"},
+             "point: all six faces in one pass through a geometry shader, or one pass for each; the map is the same, "
+             "the time is not.",
+             MEMBER(map.cube_pass)),
+      choice(
+          "bias.form",
+          {"none", "constant", "slope", "tan", "polygon_offset", "normal_offset", "receiver_plane", "tangent_plane"},
+          "none; constant; slope: max(bias.slope * (1 - N.L), bias.floor); tan: bias.tan_scale * tan(theta) between "
+          "bias.floor and bias.cap; polygon_offset: glPolygonOffset(bias.factor, bias.units) on the map; "
+          "normal_offset: the receiver is looked up bias.normal_offset along its normal; receiver_plane: each tap is "
+          "compared with the receiver's plane at the tap; tangent_plane: at the centre of the tap's texel; these two "
+          "with bias.constant on top.",
+          MEMBER(bias.form)),
+      choice("bias.unit", {"depth", "m", "texel"},
+             "Unit of bias.constant, slope, tan_scale, floor and cap: window depth, metres of the map's depth, or "
+             "texels of the map at the receiver.",
+             MEMBER(bias.unit)),
+      real("bias.constant", "bias.unit", 0, 1e6, "The bias of the constant, receiver_plane and tangent_plane forms.",
+           MEMBER(bias.constant)),
+      real("bias.slope", "bias.unit", 0, 1e6, "The slope form's factor of (1 - N.L).", MEMBER(bias.slope)),
+      real("bias.floor", "bias.unit", 0, 1e6, "The slope and tan forms' least bias.", MEMBER(bias.floor)),
+      real("bias.tan_scale", "bias.unit", 0, 1e6, "The tan form's factor of tan(theta).", MEMBER(bias.tan_scale)),
+      real("bias.cap", "bias.unit", 0, 1e6, "The tan form's greatest bias.", MEMBER(bias.cap)),
+      real("bias.factor", "", 0, 1e4, "polygon_offset: multiplies the steepest depth slope of each triangle in texels.",
+           MEMBER(bias.factor)),
+      real("bias.units", "", 0, 1e8, "polygon_offset: multiplies the smallest depth difference of the format.",
+           MEMBER(bias.units)),
+      real("bias.normal_offset", "texels", 0, 1e6,
+           "How far the normal_offset form moves a receiver along its normal before it is looked up; times texel_m, in "
+           "metres. It has no one-pass bias curve: sweep it.",
+           MEMBER(bias.normal_offset)),
+      choice("filter.kind", {"none", "box", "hardware", "gaussian", "poisson", "cube_grid", "cube_disk"},
+             "none: one nearest tap; box: the mean of N x N nearest taps; hardware: one linear tap of a comparison "
+             "sampler (2 x 2 texels); gaussian: N x N such taps; poisson: 16 nearest taps in a disk. For cube maps: "
+             "cube_grid: 4 x 4 x 4 taps around the receiver; cube_disk: 20 directions.",
+             MEMBER(filter.kind)),
+      integer("filter.size", "taps", 1, 31, "box, gaussian: taps on a side, odd.", MEMBER(filter.size)),
+      real("filter.step_texels", "texels", 0, 64, "box: from tap to tap.", MEMBER(filter.step_texels)),
+      real("filter.sigma_texels", "texels", 0.1, 64, "gaussian: standard deviation of the weights.",
+           MEMBER(filter.sigma_texels)),
+      real("filter.radius_texels", "texels", 0, 256, "poisson: radius of the disk.", MEMBER(filter.radius_texels)),
+      flag("filter.rotate", "poisson: the disk is turned by another angle at each pixel.", MEMBER(filter.rotate)),
+      real("filter.offset_m", "m", 0, 1e3,
+           "cube_grid: taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world.",
+           MEMBER(filter.offset_m)),
+      choice("filter.disk", {"fixed", "view_distance"},
+             "cube_disk: how far its taps reach: filter.radius_m, or (1 + distance to the camera / far) / 25 metres.",
+             MEMBER(filter.disk)),
+      real("filter.radius_m", "m", 0, 1e3, "cube_disk: multiplies the 20 directions (1,1,1), (1,1,0) and their kin.",
+           MEMBER(filter.radius_m)),
+      real("truth.standard_error", "", 1e-3, 0.5,
+           "Largest standard error of R0 at a receiver, for a light with a size.", MEMBER(truth.standard_error)),
+  };
+}
+
+#undef MEMBER
+
+}  // namespace
+
+std::string Setting::range_text() const { return may_be_auto ? bare_range() + " or auto" : bare_range(); }
+
+std::string Setting::range_with_unit() const {
+  std::string range = bare_range();
+  if (!unit.empty()) range += fmt::format(" {}", unit);
+  return may_be_auto ? range + ", or auto" : range;
+}
+
+std::string Setting::bare_range() const {
+  switch (type) {
+    case ValueType::integer:
+    case ValueType::real:
+      return fmt::format("{:g} ... {:g}", min, max);
+    case ValueType::flag:
+      return "true | false";
+    case ValueType::choice:
+      return fmt::format("{}", fmt::join(choices, " | "));
+    case ValueType::text:
+      return "a name or a path";
+    case ValueType::point:
+      return "x,y,z";
+  }
+  throw std::logic_error("unknown value type");
+}
+
+std::span<const Setting> settings_table() {
+  static const std::vector<Setting> table = make_table();
+  return table;
+}
+
+const Setting& find_setting(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const Setting& row : settings_table()) {
+    if (row.name == name) return row;
+    names.push_back(row.name);
+  }
+  const std::string near = nearest_name(name, names);
+  throw Error(ErrorKind::usage, fmt::format("there is no setting '{}'{} (noonmark settings lists them)", name,
+                                            near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+void validate(const Settings& s) {
+  if (s.filter.size % 2 == 0)
+    throw Error(ErrorKind::usage,
+                fmt::format("filter.size = {} is even; a box and a Gaussian have an odd number of taps on a side, so "
+                            "that one is at the receiver",
+                            s.filter.size));
+  if (s.bias.form == BiasForm::tan && s.bias.floor > s.bias.cap)
+    throw Error(ErrorKind::usage, fmt::format("bias.floor = {} is more than bias.cap = {}", s.bias.floor, s.bias.cap));
+  const auto require_order = [](std::string_view group, std::optional<double> near_m, std::optional<double> far_m) {
+    if (near_m && far_m && *near_m >= *far_m)
+      throw Error(ErrorKind::usage,
+                  fmt::format("{0}.near_m = {1} is not less than {0}.far_m = {2}", group, *near_m, *far_m));
+  };
+  require_order("map", s.map.near_m, s.map.far_m);
+  require_order("view", s.view.near_m, s.view.far_m);
+  if (s.view.up && *s.view.up == glm::dvec3(0))
+    throw Error(ErrorKind::usage, "view.up = 0,0,0 is no direction; give another, or auto");
+}
+
+void validate_for(LightKind kind, const Settings& s) {
+  const auto value = [&](std::string_view name) { return find_setting(name).get(s); };
+  const auto refuse_pair = [&](std::string_view name, std::string_view why) {
+    throw Error(ErrorKind::usage, fmt::format("{} = {} {}", name, value(name), why));
+  };
+  const bool cube_filter = s.filter.kind == FilterKind::cube_grid || s.filter.kind == FilterKind::cube_disk;
+  const bool plane_bias = s.bias.form == BiasForm::receiver_plane || s.bias.form == BiasForm::tangent_plane;
+  const bool linear_taps = s.filter.kind == FilterKind::hardware || s.filter.kind == FilterKind::gaussian;
+  if (kind == LightKind::point) {
+    if (!cube_filter && s.filter.kind != FilterKind::none)
+      refuse_pair("filter.kind", "needs a flat map; a point light's cube map takes none, cube_grid and cube_disk");
+    if (plane_bias)
+      refuse_pair("bias.form",
+                  "needs a flat map; for a point light's cube map take another form, or another light.kind");
+    if (s.map.shift_u_texels != 0 || s.map.shift_v_texels != 0)
+      throw Error(ErrorKind::usage, "map.shift_*_texels needs a flat map; move the point light instead");
+  } else if (cube_filter) {
+    refuse_pair("filter.kind", "needs a cube map; set light.kind = point, or take another filter");
+  }
+  if (plane_bias && linear_taps)
+    refuse_pair("bias.form",
+                "gives each texel a depth of its own, and a hardware comparison has one for the four texels that it "
+                "reads; take filter.kind none, box or poisson");
+  if (s.map.snap && kind != LightKind::directional)
+    throw Error(ErrorKind::usage, "map.snap needs a directional light: only its texels have one size everywhere");
+}
+
+}  // namespace noonmark

@@ -1,0 +1,143 @@
+// Every setting of a measurement: a struct member with a default, and one row in the table of settings.cpp (name, unit,
+// range, help). The command line, the experiment file, the sweep, the result store and the report all read that row.
+// Adding a setting is one member here and one row there.
+//
+//   Settings s;
+//   find_setting("map.resolution").set(s, "2048");       // throws Error(usage) naming the range
+//   for (const Setting& row : settings_table()) print(row.name, row.get(s));
+#pragma once
+#include <functional>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/scene_settings.h"
+
+namespace noonmark {
+
+enum class DepthFormat { d16, d24, d32f };
+enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
+enum class CulledFaces { none, back, front };
+enum class MapFit { scene, tight };
+enum class CubePass { layered, six_passes };
+enum class BiasForm {
+  none,
+  constant,
+  slope,
+  tan,
+  polygon_offset,
+  normal_offset,
+  receiver_plane,
+  tangent_plane,
+};
+enum class BiasUnit { depth, m, texel };
+enum class FilterKind { none, box, hardware, gaussian, poisson, cube_grid, cube_disk };
+enum class DiskRadius { fixed, view_distance };
+enum class LightChoice { automatic, directional, spot, point };
+
+struct LightSettings {  // automatic and empty: the scene's
+  LightChoice kind = LightChoice::automatic;
+  std::optional<glm::dvec3> position_m;
+  std::optional<glm::dvec3> target_m;
+  std::optional<double> angular_diameter_deg;
+  std::optional<double> radius_m;
+  LightShape shape = LightShape::sphere;
+  std::optional<double> cone_deg;
+};
+
+struct MapSettings {
+  int resolution = 1024;  // texels on a side
+  DepthFormat format = DepthFormat::d24;
+  MapFit fit = MapFit::scene;      // where extent, near and far are empty: the scene's own, or fitted tightly
+  std::optional<double> extent_m;  // directional: whole width; empty: by `fit`
+  double extent_scale = 1;         // multiplies the extent, however it came about
+  std::optional<double> fov_deg;   // spot: whole angle of the map; empty: the light's cone
+  bool snap = false;               // directional: the grid stays fixed in the world when the light's position moves
+  double shift_u_texels = 0;       // moves the whole grid in the light's plane, along its right ...
+  double shift_v_texels = 0;       // ... and its up
+  std::optional<double> near_m;    // along the light's axis from its position; empty: the scene's, or fitted
+  std::optional<double> far_m;
+  Wrap wrap = Wrap::clamp_to_border;  // the border's depth is 1: lit
+  bool lit_beyond_far = true;
+  CulledFaces cull = CulledFaces::none;
+  bool depth_clamp = false;  // geometry before near or beyond far is kept, at depth 0 or 1, instead of clipped
+  CubePass cube_pass = CubePass::layered;  // point: how the six faces are drawn; the map is the same
+};
+
+struct BiasSettings {
+  BiasForm form = BiasForm::constant;
+  BiasUnit unit = BiasUnit::depth;  // of constant, slope, tan_scale, floor and cap
+  double constant = 0.005;          // constant, receiver_plane and tangent_plane forms
+  double slope = 0.05;              // slope form: max(slope * (1 - N.L), floor)
+  double floor = 0.005;             // slope and tan forms
+  double tan_scale = 0.005;         // tan form: clamp(tan_scale * tan(theta), floor, cap)
+  double cap = 0.05;
+  double factor = 1;  // polygon_offset form: glPolygonOffset(factor, units) while the map is drawn
+  double units = 1;
+  // Along the receiver's normal, so that no depth can be its unit: in texels whatever `unit` says, as engines have it.
+  double normal_offset = 1;
+};
+
+struct FilterSettings {
+  FilterKind kind = FilterKind::none;
+  int size = 3;              // box, gaussian: taps on a side, odd
+  double step_texels = 1;    // box: from tap to tap
+  double sigma_texels = 1;   // gaussian: standard deviation
+  double radius_texels = 2;  // poisson: of the disk
+  bool rotate = false;       // poisson: another rotation of the disk at each pixel
+  double offset_m = 0.1;     // cube_grid: taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world
+  DiskRadius disk = DiskRadius::fixed;  // cube_disk: radius_m, or (1 + view distance / far) / 25 metres
+  double radius_m = 0.05;
+};
+
+struct TruthSettings {
+  double standard_error = 0.01;  // of R0 at each receiver, for a light with a size
+};
+
+struct Settings {
+  SceneSettings scene;
+  ViewSettings view;
+  LightSettings light;
+  MapSettings map;
+  BiasSettings bias;
+  FilterSettings filter;
+  TruthSettings truth;
+};
+
+enum class ValueType { integer, real, flag, choice, text, point };
+
+// One row. Values travel as text in one canonical form each ("auto" for an empty optional, "x,y,z" for a point, the
+// shortest decimal that reads back as the same double), so that the same value always has the same key in the store.
+struct Setting {
+  std::string_view name;  // "map.resolution"
+  std::string_view unit;  // "texels", "m", "deg", "" ...
+  ValueType type;
+  double min = 0, max = 0;                // integer, real: inclusive
+  bool may_be_auto = false;               // "auto" is a value
+  std::vector<std::string_view> choices;  // choice
+  std::string_view help;                  // one sentence
+  std::function<std::string(const Settings&)> get;
+  std::function<void(Settings&, std::string_view)> set;  // throws Error(usage): what, range
+
+  std::string range_text() const;       // "1 ... 170 or auto", "16 | 24 | 32f", "x,y,z" ...
+  std::string range_with_unit() const;  // "1 ... 170 deg, or auto"
+
+ private:
+  std::string bare_range() const;
+};
+
+std::span<const Setting> settings_table();
+
+// Throws Error(usage) that suggests the nearest name.
+const Setting& find_setting(std::string_view name);
+
+// What no single row can see: near < far, kernel odd and the like. Throws Error(usage).
+void validate(const Settings& settings);
+
+// What only the kind of light can tell: filters and biases that need a flat map, or a cube. Throws Error(usage).
+void validate_for(LightKind kind, const Settings& settings);
+
+}  // namespace noonmark
