@@ -67,7 +67,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   if (input.pictures) scene += per_listed_part_byte * static_cast<double>(input.scene.part_bytes);
 
   double curve = 0;
-  if (input.curve && curve_parameter(s.bias.form))
+  if (input.curve && curve_part(s.bias))
     curve = std::min<double>(taps, curve_batch_taps) * (pattern.bilinear() ? per_blended_tap : per_curve_tap) +
             std::min(taps * per_summed_tap, most_sums);
   const double all_taps = taps * static_cast<double>(bytes_per_tap(input.light)), row = all_taps / s.view.height_px;

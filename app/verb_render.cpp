@@ -46,7 +46,7 @@ void print_ladder(const Measurement& m) {
   for (const char* name : {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "residual",
                            "tap_residual", "rounding_excess", "map_ms", "lookup_ms"})
     fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);
-  if (const std::string_view why = why_no_curve(m.record); !why.empty()) fmt::print("\n  no bias curve: {}\n", why);
+  if (const std::string why = why_no_curve(m.record); !why.empty()) fmt::print("\n  no bias curve: {}\n", why);
   if (!m.record.curve) return;
   const BiasCurve& c = *m.record.curve;
   const char* there = m.frame.parallel() ? "" : " (m and texels at the median receiver)";

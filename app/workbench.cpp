@@ -137,32 +137,37 @@ struct Lookup {
   StageTime texel_stage, tap_stage;
 };
 
-// The settings that change what the probe and the truth of the taps are, beside scene, view, light and map: a form
-// that only subtracts another number shares them with the others. A polygon offset is in the map, exact and drawn.
-std::string offset_key(const Settings& settings) {
-  return settings.bias.form == BiasForm::polygon_offset
-             ? key_of(settings, {"bias.form", "bias.factor", "bias.units", "map.format"})
-             : "";
-}
-std::string lookup_key_of(const Settings& settings, const DepthBias& bias) {
-  std::string key = key_of(settings, {"scene.", "view.", "light.", "map.", "filter.", "bias.unit"},
-                           {"map.lit_beyond_far", "map.format", "map.cube_pass"}) +
-                    offset_key(settings);
-  // What the probe has for these forms alone.
-  if (bias.moves_lookup() || bias.form == BiasForm::tan || bias.tap_reference() != TapReference::own_depth)
-    key += key_of(settings, {"bias.form"});
-  return key + fmt::format("{}", bias.normal_offset_texels);
+// The settings of the bias's parts that act at one of these places.
+std::string bias_key(const Settings& settings, std::initializer_list<BiasPlace> places) {
+  std::string key;
+  for (const BiasParameter& parameter : bias_parameters())
+    if (std::find(places.begin(), places.end(), parameter.part->acts_on) != places.end())
+      key += fmt::format("{}={}\n", parameter.name, settings.bias[parameter.name]);
+  return key;
 }
 
-std::string curve_key_of(const Settings& settings, const std::string& lookup_key, CurveParameter parameter,
+// What acts on the caster is in the map, exact and drawn. A polygon offset is in units of the map's format.
+std::string caster_key(const Settings& settings) {
+  const std::string key = bias_key(settings, {BiasPlace::caster});
+  return Bias(settings.bias).polygon_offset() ? key + key_of(settings, {"map.format"}) : key;
+}
+
+// The settings that change what the probe and the truth of the taps are: not those that only subtract another number.
+std::string lookup_key_of(const Settings& settings) {
+  return key_of(settings,
+                {"scene.", "view.", "light.", "map.", "filter.", "bias.unit", "bias.reference", "bias.plane_cap"},
+                {"map.lit_beyond_far", "map.format", "map.cube_pass"}) +
+         bias_key(settings, {BiasPlace::place_looked_up}) + caster_key(settings);
+}
+
+std::string curve_key_of(const Settings& settings, const std::string& lookup_key, const BiasPart& varied,
                          const CurveOptions& options) {
-  // What the form holds while its parameter runs stays in the key.
-  std::string key =
-      lookup_key + key_of(settings, {"map.", "truth.", "bias.form"}) +
-      fmt::format("{} {} {}", options.acne_bound, options.peter_panning_bound, fmt::join(options.bias_depth, " "));
-  if (parameter != CurveParameter::constant) key += key_of(settings, {"bias.floor"});
-  if (parameter == CurveParameter::tan_scale) key += key_of(settings, {"bias.cap"});
-  return key;
+  // What is held while the part's amount runs stays in the key.
+  Settings held = settings;
+  held.bias[varied.name] = 0;
+  return lookup_key + key_of(held, {"map.", "truth."}) + bias_key(held, {BiasPlace::compared_depth}) +
+         fmt::format("{} {} {} {}", varied.name, options.acne_bound, options.peter_panning_bound,
+                     fmt::join(options.bias_depth, " "));
 }
 
 // Whole rows of the picture, as many as have their taps in so many bytes; one at least.
@@ -282,20 +287,19 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   }
 
   const std::string map_key =
-      key_of(settings, {"scene.", "light.", "map."}, {"map.lit_beyond_far"}) + offset_key(settings);
+      key_of(settings, {"scene.", "light.", "map."}, {"map.lit_beyond_far"}) + caster_key(settings);
   const RenderedMap& map = b.map.get(map_key, [&] {
     std::optional<gl::ShadowMap> rendered;
     const double time = median_time([&](double* ms) { rendered.emplace(b.renderer.render_map(frame, settings, ms)); });
     Image<float> depth = b.renderer.read_map(*rendered);
     return RenderedMap{std::move(*rendered), std::move(depth), time};
   });
-  const DepthBias bias = depth_bias(settings.bias);
-  const std::string lookup_key = lookup_key_of(settings, bias);
+  const Bias bias(settings.bias);
+  const std::string lookup_key = lookup_key_of(settings);
   const std::vector<PixelRange> strips = strips_of(settings, frame.kind, b.strip_bytes);
   Lookup& lookup = b.lookup.get(lookup_key, [&] {
     LookupProbe probe = b.renderer.probe(frame, settings, gl::ProbeTaps::none);
-    const double offset_unit =
-        bias.form == BiasForm::polygon_offset ? b.renderer.polygon_offset_unit(settings.map.format) : 0;
+    const double offset_unit = bias.polygon_offset() ? b.renderer.polygon_offset_unit(settings.map.format) : 0;
     raytrace::LookupTracer rays =
         loaded.tracer->lookup(view.receivers, truth.receivers, frame, settings.map, bias, offset_unit);
     StageTime texel_stage;
@@ -341,11 +345,10 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
                 lookup.probe,
                 map.depth,
                 lookup.exact_depth};
-  // A form that moves the lookup or draws another map has no threshold for each tap.
-  const std::optional<CurveParameter> parameter = curve_options ? curve_parameter(settings.bias.form) : std::nullopt;
-  const std::string curve_key = parameter ? curve_key_of(settings, lookup_key, *parameter, *curve_options) : "";
+  const BiasPart* const varied = curve_options ? curve_part(settings.bias) : nullptr;
+  const std::string curve_key = varied ? curve_key_of(settings, lookup_key, *varied, *curve_options) : "";
   std::optional<BiasCounts> counts;
-  if (parameter && !b.curve.has(curve_key)) counts.emplace(lookup.probe, *parameter);
+  if (varied && !b.curve.has(curve_key)) counts.emplace(lookup.probe, *varied);
   if (!lookup.taps) lookup.tap_stage = {};
   for (const PixelRange& strip : strips) {
     if (!lookup.taps) {
@@ -379,7 +382,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       {"texel_ms", lookup.texel_stage.milliseconds}, {"texel_rays", static_cast<double>(lookup.texel_stage.rays)},
       {"tap_ms", lookup.tap_stage.milliseconds},     {"tap_rays", static_cast<double>(lookup.tap_stage.rays)}};
 
-  if (parameter && !nothing_judged(m.record))
+  if (varied && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
       const BiasScale scale = bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit);
       return summarise(*counts, scale, *curve_options);

@@ -42,7 +42,7 @@ class Workbench {
   explicit Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders = {}, size_t strip_bytes = most_strip_bytes);
   ~Workbench();
 
-  // curve: none when empty or when the settings' filter or bias form cannot be read off one pass. Throws Error.
+  // curve: none when empty, and where no part of the bias has one (curve_part). Throws Error.
   Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve);
 
   // What that would take of memory at its peak; pictures: with pictures and EXR files written of it. Throws Error.

@@ -40,35 +40,43 @@ void append(Taps& to, Taps& from) {
   append(to.weights, from.weights);
 }
 
-// The least value of the parameter from which a tap of receiver i is lit. All of the form's float steps are monotone in
-// the one before, so that the thresholds of the steps are followed back one by one.
+// The least amount of the varied part from which a tap of receiver i is lit. Every float step from the amount to the
+// bias is monotone in the one before, so that the thresholds of the steps are followed back one by one.
 class Threshold {
  public:
-  Threshold(const LookupEvidence& e, CurveParameter parameter, size_t i)
-      : bias_(e.bias), parameter_(parameter), unit_(e.probe.bias_unit[i]) {
-    if (parameter == CurveParameter::slope) factor_ = 1.0f - e.probe.n_dot_l[i];  // the shader's own
-    if (parameter == CurveParameter::tan_scale) factor_ = e.probe.tan_theta[i];
+  Threshold(const LookupEvidence& e, const BiasPart& varied, size_t i) : unit_(e.probe.bias_unit[i]) {
+    const in_float::Surface surface = surface_of(e.probe, i);
+    factor_ = varied.formula.factor(surface);
+    for (const ActivePart& active : e.bias.compared()) {
+      if (active.part == &varied)
+        varied_ = active;
+      else if (active.part < &varied)  // rows of one table, added in its order
+        before_ += active.held(active.part->formula.factor(surface));
+      else
+        after_.push_back(active.held(active.part->formula.factor(surface)));
+    }
   }
   float operator()(const Tap& tap) const {
     if (tap.always_lit) return 0;
     if (tap.reference == infinity) return infinity;  // dark whatever the bias
     const float needed = lit_threshold(tap.reference, tap.depth);
-    const float in_units = unit_ == 1 ? needed : factor_threshold(needed, unit_);
-    if (parameter_ == CurveParameter::constant) return in_units;
-    if (parameter_ == CurveParameter::tan_scale && !(bias_.cap >= in_units)) return infinity;
-    return bias_.floor >= in_units ? 0.0f : factor_threshold(in_units, factor_);
+    float sum = unit_ == 1 ? needed : factor_threshold(needed, unit_);
+    for (auto part = after_.rbegin(); part != after_.rend(); ++part) sum = addend_threshold(sum, *part);
+    const float held = addend_threshold(sum, before_);
+    if (!(varied_.cap >= held)) return infinity;
+    return varied_.floor >= held ? 0.0f : factor_threshold(held, factor_);
   }
 
  private:
-  const DepthBias& bias_;
-  CurveParameter parameter_;
   float unit_, factor_ = 1;
+  ActivePart varied_{};  // its floor and cap
+  float before_ = 0;     // the sum of the parts before it
+  std::vector<float> after_;
 };
 
-void receiver(const LookupEvidence& e, const Image<float>& stored_map, CurveParameter parameter, size_t i,
-              Lists& lists) {
+void receiver(const LookupEvidence& e, const Image<float>& stored_map, const BiasPart& varied, size_t i, Lists& lists) {
   const bool blended = e.probe.pattern.bilinear();
-  const Threshold threshold(e, parameter, i);
+  const Threshold threshold(e, varied, i);
   const auto list = [&](Taps& to, float at, double weight) {
     to.thresholds.push_back(at);
     if (blended) to.weights.push_back(weight);
@@ -80,10 +88,10 @@ void receiver(const LookupEvidence& e, const Image<float>& stored_map, CurvePara
     if (exact.weight == 0) continue;  // P is right on a texel's centre: the sampler reads no other
     const float at_r4 = threshold(exact);
     // Wrong on one side of its threshold only: when dark if it should be lit, when lit if it should be dark. What it
-    // should be is F, or where F is unsure the receiver's own truth.
-    const bool right = exact.exact_sure ? exact.moved_lit : e.truth.lit[i] != 0;
+    // should be is D (compare/ladder.h), or where D is unsure the receiver's own truth.
+    const bool right = exact.moved_sure ? exact.moved_lit : e.truth.lit[i] != 0;
     if (!right || at_r4 > 0) {
-      const Cause cause = exact.exact_sure ? tap_cause(exact, !right) : Cause::undecided;
+      const Cause cause = exact.moved_sure ? tap_cause(exact, !right) : Cause::undecided;
       Taps& undecided = right ? lists.undecided_dark : lists.undecided_light;
       list(cause == Cause::undecided ? undecided : lists.by_cause[static_cast<size_t>(cause)], at_r4, exact.weight);
     }
@@ -109,24 +117,6 @@ double share_of(double part, double whole) {
 }
 
 }  // namespace
-
-std::optional<CurveParameter> curve_parameter(BiasForm form) {
-  switch (form) {
-    case BiasForm::none:
-    case BiasForm::constant:
-    case BiasForm::receiver_plane:
-    case BiasForm::tangent_plane:
-      return CurveParameter::constant;
-    case BiasForm::slope:
-      return CurveParameter::slope;
-    case BiasForm::tan:
-      return CurveParameter::tan_scale;
-    case BiasForm::polygon_offset:
-    case BiasForm::normal_offset:
-      break;
-  }
-  return std::nullopt;
-}
 
 void ThresholdSums::add(std::vector<float>& thresholds, std::vector<double>& weights) {
   if (thresholds.empty()) return;
@@ -172,11 +162,11 @@ double ThresholdSums::up_to(float x) const {
   return before(static_cast<size_t>(std::upper_bound(at_.begin(), at_.end(), x) - at_.begin()));
 }
 
-BiasCounts::BiasCounts(const LookupProbe& probe, CurveParameter parameter)
-    : parameter_(parameter), blended_(probe.pattern.bilinear()), whole_(whole_weight(probe)) {}
+BiasCounts::BiasCounts(const LookupProbe& probe, const BiasPart& varied)
+    : varied_(&varied), blended_(probe.pattern.bilinear()), whole_(whole_weight(probe)) {}
 
-BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, CurveParameter parameter)
-    : BiasCounts(e.probe, parameter) {
+BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, const BiasPart& varied)
+    : BiasCounts(e.probe, varied) {
   add(e, stored_map, {0, e.truth.facing.size()});
 }
 
@@ -193,7 +183,7 @@ void BiasCounts::add_batch(const LookupEvidence& e, const Image<float>& stored_m
                     [&](const tbb::blocked_range<size_t>& range) {
                       Lists& lists = parts.local();
                       for (size_t i = range.begin(); i != range.end(); ++i)
-                        if (e.truth.facing[i] && !e.truth.ambiguous[i]) receiver(e, stored_map, parameter_, i, lists);
+                        if (e.truth.facing[i] && !e.truth.ambiguous[i]) receiver(e, stored_map, *varied_, i, lists);
                     });
   Lists all;
   parts.combine_each([&](Lists& part) {
@@ -318,9 +308,7 @@ std::vector<double> default_bias_grid() {
 
 BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const CurveOptions& options) {
   BiasCurve curve;
-  curve.parameter = counts.parameter() == CurveParameter::constant ? "bias.constant"
-                    : counts.parameter() == CurveParameter::slope  ? "bias.slope"
-                                                                   : "bias.tan_scale";
+  curve.parameter = "bias." + std::string(counts.varied().name);
   curve.made = counts.blended() ? "one pass, but for the sampler's weights" : "one pass";
   curve.bias_depth = options.bias_depth.empty() ? default_bias_grid() : options.bias_depth;
   const auto in_depth = [&](float x) { return x * scale.depth_per_unit; };

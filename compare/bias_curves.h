@@ -3,14 +3,15 @@
 // are sorted, and every sum is read off exactly. Memory grows with the different thresholds that there are, which float
 // depths have a limited number of, and not with the taps.
 //
-//   BiasCounts curves(evidence, stored_map, *curve_parameter(settings.bias.form));
+//   BiasCounts curves(evidence, stored_map, *curve_part(settings.bias));
 //   curves.caused(Cause::acne, 0.005f);                   // taps, exactly as rendering with that bias would book
 //   BiasCurve curve = summarise(curves, bias_scale(...), options);
 //
-// Exact for filters that are means of comparisons and for forms that only change the number subtracted: none, constant,
-// slope, tan, receiver plane, tangent plane. Of a filter whose taps a sampler blends (hardware, gaussian) it is exact
-// but for the sampler's rounding of weights. Thresholds are float because the shader's comparison is, and in the
-// parameter's own unit: what one of it is in depth differs from receiver to receiver (LookupProbe::bias_unit).
+// A curve runs through the amount of one part of the compared depth (technique/bias_parts.h); the other parts, on
+// whatever they act, are held. Exact for filters that are means of comparisons. Of a filter whose taps a sampler blends
+// (hardware, gaussian) it is exact but for the sampler's rounding of weights. Thresholds are float because the shader's
+// comparison is, and in the parameter's own unit: what one of it is in depth differs from receiver to receiver
+// (LookupProbe::bias_unit).
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -22,15 +23,6 @@
 #include "technique/light_frame.h"
 
 namespace noonmark {
-
-enum class CurveParameter {
-  constant,   // bias = x; of the plane forms, over each tap's own reference
-  slope,      // bias = max(x * (1 - N.L), evidence.bias.floor)
-  tan_scale,  // bias = clamp(x * tan theta, evidence.bias.floor, evidence.bias.cap)
-};
-
-// None for forms that no one pass can read off: those that move the lookup or draw another map.
-std::optional<CurveParameter> curve_parameter(BiasForm form);
 
 // Weights of thresholds, summed in ascending order; it holds each different threshold once.
 class ThresholdSums {
@@ -56,16 +48,16 @@ inline constexpr size_t curve_batch_taps = size_t{1} << 24;
 
 class BiasCounts {
  public:
-  // Of no receiver yet.
-  BiasCounts(const LookupProbe& probe, CurveParameter parameter);
+  // Of no receiver yet. varied: a part of evidence.bias, or one that is 0 there and has neither floor nor cap.
+  BiasCounts(const LookupProbe& probe, const BiasPart& varied);
   // Adds a strip of the picture, where the evidence holds the taps of one strip at a time. stored_map: the GPU's map as
   // its sampler returns it. evidence.r4 and r5 are not read. Only counted receivers (facing, not ambiguous) take part.
   void add(const LookupEvidence& evidence, const Image<float>& stored_map, PixelRange strip);
 
   // Of the whole picture.
-  BiasCounts(const LookupEvidence& evidence, const Image<float>& stored_map, CurveParameter parameter);
+  BiasCounts(const LookupEvidence& evidence, const Image<float>& stored_map, const BiasPart& varied);
 
-  CurveParameter parameter() const { return parameter_; }
+  const BiasPart& varied() const { return *varied_; }
   bool blended() const { return blended_; }  // by a sampler
   uint64_t receivers() const { return receivers_; }
   // Every sum of taps below is in these: whole numbers of taps, or where a sampler blends them, weights of which each
@@ -103,7 +95,7 @@ class BiasCounts {
 
   // Taps that should be lit are wrong below their threshold; taps that should be dark are wrong from it on.
   uint64_t receivers_ = 0;
-  CurveParameter parameter_;
+  const BiasPart* varied_;
   bool blended_ = false;
   double whole_ = 1;
   float stored_acne_free_from_ = 0;

@@ -33,7 +33,7 @@
 #include <string_view>
 
 #include "scenes/image.h"
-#include "technique/depth_bias.h"
+#include "technique/bias.h"
 #include "technique/evidence.h"
 #include "technique/map_address.h"
 #include "technique/settings.h"
@@ -64,7 +64,7 @@ struct LookupEvidence {
   const TapTruth& taps;
   const Image<float>& exact_map;
   const MapSettings& map;
-  DepthBias bias;
+  Bias bias;
   const Image<float>& r4;  // as OpenGL gave it on the exact map; where a sampler blends the taps, not read by climb()
   const Image<float>& r5;
 };

@@ -13,20 +13,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // NaN where the taps are no square, so that it takes each of them.
 double reach(const LookupProbe& probe) {
-  switch (probe.tap_reference) {
-    case TapReference::own_depth: {
-      const double k = probe.pattern.reach_texels();
-      const auto corner = [&](const glm::vec3& o) { return std::abs(o.x) == k - 0.5 && std::abs(o.y) == k - 0.5; };
-      const auto& offsets = probe.pattern.offsets;
-      const bool square = std::count_if(offsets.begin(), offsets.end(), corner) == (k == 0.5 ? 1 : 4);
-      return square ? k : std::numeric_limits<double>::quiet_NaN();
-    }
-    case TapReference::plane_at_tap:
-      return 0.5;
-    case TapReference::plane_at_texel:
-      return 0;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
+  if (probe.tap_reference->at_texel) return 0;
+  if (probe.tap_reference->plane) return 0.5;
+  const double k = probe.pattern.reach_texels();
+  const auto corner = [&](const glm::vec3& o) { return std::abs(o.x) == k - 0.5 && std::abs(o.y) == k - 0.5; };
+  const auto& offsets = probe.pattern.offsets;
+  const bool square = std::count_if(offsets.begin(), offsets.end(), corner) == (k == 0.5 ? 1 : 4);
+  return square ? k : std::numeric_limits<double>::quiet_NaN();
 }
 
 // What the plane rises towards the light up to the furthest of these taps, and half a texel more.

@@ -55,7 +55,7 @@ double bias_m(const LightFrame& frame, double bias, double depth_m) {
 }  // namespace
 
 double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
-  if (in.bias.form == BiasForm::polygon_offset) return std::numeric_limits<double>::infinity();
+  if (in.bias.polygon_offset()) return std::numeric_limits<double>::infinity();
   const LightFrame& frame = in.frame;
   const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
   const double sine = std::sqrt(1 - cosine * cosine);
@@ -71,7 +71,8 @@ double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
     across += longest;
   }
   // Along the normal; along the light it reaches offset / cosine.
-  const double offset = in.bias.normal_offset_m(frame, in.receivers.position[i]);
+  const glm::dvec3 normal(in.receivers.normal[i]);
+  const double offset = glm::dot(in.bias.moved_m(frame, in.receivers.position[i], normal), normal);
   const double bias = bias_m(frame, in.bias.at(in.probe, i), frame.depth_m(light));
   if (frame.parallel()) return bias + (across * sine + offset) / cosine;
   // Rays spread: one at an angle to P's meets P's plane, which stands at the angle theta to P's ray, at the distance

@@ -15,7 +15,7 @@ struct MeasureInput {
   const ReceiverImage& receivers;
   const LightFrame& frame;
   const LookupProbe& probe;
-  const DepthBias& bias;
+  const Bias& bias;
   const Image<float>& edge_distance_texels;  // raytrace::LookupTruth
   const Image<float>& occluder_distance_m;   // of the pixels in peter_panning_mask; others are not read
 };

@@ -8,11 +8,9 @@
 namespace noonmark {
 namespace {
 
-// Relative errors. GLSL 4.50, 4.7.1: sums and products are correctly rounded, a division is within 2.5 units in the
-// last place of 2 u each, sqrt is 1 / inversesqrt, which is within 2. No factor is added for comfort anywhere below.
-constexpr double u = 0x1p-24;
-constexpr double division = 5 * u;
-constexpr double square_root = 4 * u + division;
+constexpr double u = float_rounding;
+constexpr double division = float_division;
+constexpr double square_root = float_square_root;
 // length(): three squares of rounded differences (2 u each), their rounding and two sums, halved by the root.
 constexpr double length_of_difference = (2 * u + u + 2 * u) / 2 + square_root;
 
@@ -41,24 +39,55 @@ ProbeCheck::ProbeCheck(const LookupEvidence& evidence, const ReceiverImage& rece
   planes_ = glm::transpose(glm::inverse(glm::translate(clip_, light_position_)));
 }
 
-// P + d N: a rounded product in a rounded sum, and the offset's own error: the texel's size at P is a number of its
-// own (directional), that times the axis' rounded product with rounded differences (spot), or times the largest of
-// those (point).
+// P and the sum of offsets on it: each a rounded amount in metres times a direction of the formula's own. The amount:
+// the texel's size at P is a number of its own (directional), that times the axis' rounded product with rounded
+// differences (spot), or times the largest of those (point).
 ProbeCheck::Place ProbeCheck::looked_up(size_t i) const {
   const glm::dvec3 at(receivers_.position[i]), normal(receivers_.normal[i]);
   Place place{at, {}, glm::dvec3(0)};
   if (e_.bias.moves_lookup()) {
-    place.world = e_.bias.looked_up(frame_, at, normal);
-    double offset = 2 * u;
-    if (frame_.kind == LightKind::point) offset = 4 * u;
+    double amount = 2 * u;
+    if (frame_.kind == LightKind::point) amount = 4 * u;
     if (frame_.kind == LightKind::spot) {
       const glm::dvec3 light = frame_.to_light(at);
-      offset = 3 * u + 5 * u * sum_of(glm::abs((at - frame_.origin_m) * frame_.forward)) / std::abs(light.z);
+      amount = 3 * u + 5 * u * sum_of(glm::abs((at - frame_.origin_m) * frame_.forward)) / std::abs(light.z);
     }
-    place.error = glm::abs(place.world - at) * (offset + u) + glm::abs(place.world) * u;
+    const in_bounds::Surface surface = bounded_surface(at, normal);
+    const double texel_m = frame_.texel_m(frame_.to_light(at));
+    for (const ActivePart& active : e_.bias.moving()) {
+      const double amount_m = active.amount * texel_m;
+      const bounded::vec3 way = active.part->formula.bounded_way(surface);
+      const glm::dvec3 offset = amount_m * glm::dvec3(way.x.value, way.y.value, way.z.value);
+      place.world += offset;
+      place.error += glm::abs(offset) * (amount + u) + amount_m * glm::dvec3(way.x.error, way.y.error, way.z.error) +
+                     glm::abs(place.world) * u;
+    }
   }
   place.light = frame_.to_light(place.world);
   return place;
+}
+
+// Of a component of the direction to the light. One that the shader makes: a rounded difference over a length, or times
+// its inverse. The directional light's is a uniform.
+double ProbeCheck::direction_error() const {
+  return frame_.parallel() ? 2 * u : u + length_of_difference + division + u;
+}
+
+// What the formulas of the moving parts read, with what float makes of it.
+in_bounds::Surface ProbeCheck::bounded_surface(glm::dvec3 position, glm::dvec3 normal) const {
+  const in_double::Surface exact = surface_at(frame_, position, normal);
+  const auto off_by = [](glm::dvec3 v, double relative) {
+    const auto of = [&](double x) { return Bounded(x, relative * std::abs(x)); };
+    return bounded::vec3{of(v.x), of(v.y), of(v.z)};
+  };
+  in_bounds::Surface surface{};
+  surface.normal = off_by(exact.normal, 0);
+  surface.to_light = off_by(exact.to_light, direction_error());
+  surface.texel_right = off_by(exact.texel_right, u);
+  surface.texel_up = off_by(exact.texel_up, u);
+  surface.n_dot_l = bounded::dot(surface.normal, surface.to_light);
+  surface.tan_theta = Bounded(exact.tan_theta, std::numeric_limits<double>::infinity());
+  return surface;
 }
 
 // Clip coordinates: with S = sum |m_j p_j| of a row of the matrix, rounding the row is u S, four products and three
@@ -122,14 +151,14 @@ void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) 
     raise_error(found.excess, std::abs(beside) / (frame_.resolution * (error + u * std::abs(at))));
   }
 
-  if (frame_.kind == LightKind::spot && e_.bias.unit != BiasUnit::depth) {
-    const double expected = frame_.depth_per_bias_unit(e_.bias.unit, place.light);
+  if (frame_.kind == LightKind::spot && e_.bias.unit() != BiasUnit::depth) {
+    const double expected = frame_.depth_per_bias_unit(e_.bias.unit(), place.light);
     const double axis = row_error[3] / std::abs(clip.w);  // w is the depth along the axis
     // A rounded constant over w, or over its rounded square.
-    const double error = u + division + (e_.bias.unit == BiasUnit::m ? 2 * axis + u : axis);
+    const double error = u + division + (e_.bias.unit() == BiasUnit::m ? 2 * axis + u : axis);
     raise_error(found.excess, std::abs(probe.bias_unit[i] - expected) / (expected * error));
   } else {
-    const double expected = frame_.depth_per_bias_unit(e_.bias.unit, place.light);
+    const double expected = frame_.depth_per_bias_unit(e_.bias.unit(), place.light);
     raise_error(found.excess, std::abs(probe.bias_unit[i] - expected) / (expected * u));
   }
 }
@@ -148,8 +177,8 @@ void ProbeCheck::compare_cube(size_t i, const Place& place, ProbeErrors& found) 
   const glm::dvec3 error = place.error + glm::abs(place.light) * u;
   const glm::dvec3 a = glm::abs(place.light);
   const int major = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-  const double unit = frame_.depth_per_bias_unit(e_.bias.unit, place.light);
-  const double unit_error = e_.bias.unit == BiasUnit::texel ? 2 * u + error[major] / a[major] : u;
+  const double unit = frame_.depth_per_bias_unit(e_.bias.unit(), place.light);
+  const double unit_error = e_.bias.unit() == BiasUnit::texel ? 2 * u + error[major] / a[major] : u;
   raise_error(found.excess, std::abs(probe.bias_unit[i] - unit) / (unit * unit_error));
 
   for (int t = 0; t < probe.taps(); ++t) {
@@ -179,19 +208,17 @@ void ProbeCheck::compare_shading(size_t i, const Place&, ProbeErrors& found) con
   const LookupProbe& probe = e_.probe;
   const glm::dvec3 at(receivers_.position[i]);
   const glm::dvec3 products = glm::dvec3(receivers_.normal[i]) * frame_.direction_to_light(at);
-  // Three products, of which the light's component is rounded, and two sums. A component of a direction that the shader
-  // makes: a rounded difference over a length, or times its inverse.
-  const double component = frame_.parallel() ? 2 * u : u + length_of_difference + division + u;
-  raise_error(found.excess,
-              std::abs(probe.n_dot_l[i] - sum_of(products)) / ((component + 3 * u) * sum_of(glm::abs(products))));
+  // Three products, of which the light's component is rounded, and two sums.
+  raise_error(found.excess, std::abs(probe.n_dot_l[i] - sum_of(products)) /
+                                ((direction_error() + 3 * u) * sum_of(glm::abs(products))));
 
-  if (e_.bias.form == BiasForm::tan) {
-    // Of the probe's own cosine c: 1 - c c rounds twice, near 0 too; then a root and a division.
+  if (e_.bias.reads_tan()) {
+    // tan(theta) of the probe's own cosine c: 1 - c c rounds twice, near 0 too; then a root and a division.
     const double c = std::min(1.0, static_cast<double>(probe.n_dot_l[i])), squared = 1 - c * c;
     const double root = std::sqrt(squared);
     const double lost = squared > 0 ? std::min(std::sqrt(2 * u), 2 * u / root) : 0;
     // Where N is all but across L the shader may end it at a number of its own.
-    if (c > 1e-6)
+    if (c > least_cosine)
       raise_error(found.excess, std::abs(probe.tan_theta[i] - root / c) /
                                     ((lost + (square_root + division) * root) / c + std::numeric_limits<float>::min()));
   }
@@ -242,7 +269,7 @@ void ProbeCheck::compare(size_t i, ProbeErrors& found) const {
   else
     compare_flat(i, place, found);
   compare_shading(i, place, found);
-  if (e_.probe.tap_reference != TapReference::own_depth) compare_gradient(i, place, found);
+  if (e_.probe.tap_reference->plane) compare_gradient(i, place, found);
 }
 
 }  // namespace noonmark

@@ -29,6 +29,8 @@ class ProbeCheck {
  private:
   struct Place;  // where receiver i is looked up, and how far float may have it off
   Place looked_up(size_t i) const;
+  double direction_error() const;  // relative, of the direction to the light as the shader has it
+  in_bounds::Surface bounded_surface(glm::dvec3 position, glm::dvec3 normal) const;
   glm::dvec4 row_errors(const Place& place) const;
   bool may_ask_nothing(const Place& place) const;
   void compare_flat(size_t i, const Place& place, ProbeErrors& found) const;

@@ -53,7 +53,7 @@ constexpr CurveQuantity table[] = {
     {"flat_max_depth", "depth", "Up to here the error is within 10% of the best.",
      [](const BiasCurve& c) { return Value(c.flat_max_depth); }},
     {"acne_free_bias_depth", "depth",
-     "Least bias without any acne, on an exact map; of the form slope: least bias.slope, over the set floor.",
+     "Least bias without any acne, on an exact map; least amount of the part that the curve varies.",
      [](const BiasCurve& c) { return c.acne_free_bias_depth; }},
     {"acne_free_bias_m", "m", "Least bias without any acne, along the light.",
      [](const BiasCurve& c) { return scaled(c.acne_free_bias_depth, c.m_per_depth); }},
@@ -85,17 +85,17 @@ QuantityInfo find_quantity(std::string_view name) {
                                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
-std::string_view why_no_curve(const PointRecord& point) {
-  const auto form = point.settings.find("bias.form");
-  if (point.curve || form == point.settings.end()) return "";
+std::string why_no_curve(const PointRecord& point) {
+  if (point.curve) return "";
   if (nothing_judged(point)) return "no pixel can be judged";
-  if (form->second == "normal_offset")
-    return "bias.form normal_offset moves the lookup, so that no one pass knows its every value: sweep "
-           "bias.normal_offset instead";
-  if (form->second == "polygon_offset")
-    return "bias.form polygon_offset is in the map as it is drawn, so that no one pass knows its every value: sweep "
-           "bias.factor and bias.units instead";
-  return "";
+  std::string why;
+  for (const BiasPart& part : bias_parts()) {
+    const auto amount = point.settings.find("bias." + std::string(part.name));
+    if (amount == point.settings.end() || amount->second == "0") continue;
+    if (part.no_curve.empty()) return "";
+    if (why.empty()) why = fmt::format("bias.{} {}; sweep it instead", part.name, part.no_curve);
+  }
+  return why;
 }
 
 std::optional<double> quantity(const PointRecord& point, std::string_view name) {

@@ -33,8 +33,8 @@ std::optional<double> quantity(const PointRecord& point, std::string_view name);
 // In text, for a number that is NaN: there was nothing to measure it on.
 inline constexpr std::string_view not_measured = "not measured";
 
-// Why a point has no bias curve, as a sentence's end ("bias.form normal_offset ..."); empty when it has one, and when
+// Why a point has no bias curve, as a sentence's end ("bias.normal_offset moves ..."); empty when it has one, and when
 // its settings do not say.
-std::string_view why_no_curve(const PointRecord& point);
+std::string why_no_curve(const PointRecord& point);
 
 }  // namespace noonmark

@@ -9,11 +9,10 @@
 
 namespace noonmark {
 
-// Error as a function of the bias, from one lookup pass (design: all biases for the price of one), for the swept
-// parameter of the point's bias form: `bias.constant`; `bias.slope` with the point's floor held; `bias.tan_scale` with
-// the point's floor and cap held. Forms that draw another map or move the lookup (polygon_offset, normal_offset) have
-// no curve.
-// Every series has one value per entry of bias_depth: a fraction of the counted receivers (facing and not ambiguous).
+// Error as a function of the bias, from one lookup pass (design: all biases for the price of one), for the amount of
+// one part of the bias; all else, the part's own floor and cap too, is as the point has it. Parts that draw another map
+// or move the lookup have no curve. Every series has one value per entry of bias_depth: a fraction of the counted
+// receivers (facing and not ambiguous).
 //
 // The axis is window depth, and m_per_depth and texels_per_depth turn it into metres and texels. Under a spot light,
 // and a point light's texels, what a metre or a texel is in depth differs from receiver to receiver: then the two are
@@ -21,7 +20,7 @@ namespace noonmark {
 // parameter itself times that receiver's depth per unit. So metres and texels are always the parameter's own where that
 // is its unit, and a value read off the axis and set again gives what the curve says.
 struct BiasCurve {
-  std::string parameter;  // "bias.constant", "bias.slope" or "bias.tan_scale"
+  std::string parameter;  // "bias.constant": the setting that is varied
   std::string made;       // "one pass": read off thresholds, exactly; "one pass, but for the sampler's weights"
   std::vector<double> bias_depth;  // ascending, window depth; the first is 0
   std::vector<double> error;       // mean |R5 - R1|

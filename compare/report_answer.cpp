@@ -95,7 +95,7 @@ std::string window_items(const Results& results) {
   const std::string why =
       without == results.points.end() || why_no_curve(*without).empty()
           ? ""
-          : item("note", fmt::format("Points without a bias curve: {}.", html(std::string(why_no_curve(*without)))));
+          : item("note", fmt::format("Points without a bias curve: {}.", html(why_no_curve(*without))));
   if (curved == results.points.end())
     return item("note", "No bias curve was measured, so no usable window can be given.") + why;
   const BiasCurve& first = *curved->curve;

@@ -85,8 +85,7 @@ std::optional<double> curve_value(const BiasCurve& curve, const std::string& met
 
 std::optional<double> bias_as_set(const PointRecord& point) {
   if (!point.curve) return std::nullopt;
-  const std::string form = setting_of(point, "bias.form"), unit = setting_of(point, "bias.unit");
-  if (form == "none") return 0.0;
+  const std::string unit = setting_of(point, "bias.unit");
   const std::optional<double> value = number_of(setting_of(point, point.curve->parameter));
   if (!value) return std::nullopt;
   if (unit == "depth") return *value;

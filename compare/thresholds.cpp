@@ -38,4 +38,11 @@ float factor_threshold(float product, float factor) {
   return smallest(static_cast<float>(guess), [&](float x) { return x * factor >= product; });
 }
 
+float addend_threshold(float sum, float addend) {
+  if (sum == infinity) return infinity;
+  if (addend >= sum) return 0;
+  const double midpoint = (static_cast<double>(sum) + std::nextafter(sum, -infinity)) / 2;
+  return smallest(static_cast<float>(midpoint - addend), [&](float x) { return addend + x >= sum; });
+}
+
 }  // namespace noonmark

@@ -13,4 +13,8 @@ float lit_threshold(float reference, float stored);
 // product is denormal, walking from product / factor can take millions of steps too.
 float factor_threshold(float product, float factor);
 
+// The smallest float x >= 0 for which addend + x >= sum in float arithmetic; infinity when there is none. addend:
+// finite, at least 0; sum: not NaN, for instance a lit_threshold.
+float addend_threshold(float sum, float addend);
+
 }  // namespace noonmark

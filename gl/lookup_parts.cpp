@@ -15,21 +15,6 @@ constexpr LightRow light_rows[] = {
     {LightKind::point, "shaders/light/point.glsl"},
 };
 
-struct BiasRow {
-  BiasForm form;
-  const char* file;
-};
-constexpr BiasRow bias_rows[] = {
-    {BiasForm::none, "shaders/bias/none.glsl"},
-    {BiasForm::constant, "shaders/bias/constant.glsl"},
-    {BiasForm::slope, "shaders/bias/slope.glsl"},
-    {BiasForm::tan, "shaders/bias/tan.glsl"},
-    {BiasForm::polygon_offset, "shaders/bias/polygon_offset.glsl"},
-    {BiasForm::normal_offset, "shaders/bias/normal_offset.glsl"},
-    {BiasForm::receiver_plane, "shaders/bias/receiver_plane.glsl"},
-    {BiasForm::tangent_plane, "shaders/bias/tangent_plane.glsl"},
-};
-
 struct FilterRow {
   FilterKind kind;
   const char* file;
@@ -47,12 +32,6 @@ const char* light_file(LightKind kind) {
   for (const LightRow& row : light_rows)
     if (row.kind == kind) return row.file;
   throw std::logic_error("a kind of light without a row in gl/lookup_parts.cpp");
-}
-
-const char* bias_file(BiasForm form) {
-  for (const BiasRow& row : bias_rows)
-    if (row.form == form) return row.file;
-  throw std::logic_error("a bias form without a row in gl/lookup_parts.cpp");
 }
 
 const char* filter_file(FilterKind kind) {

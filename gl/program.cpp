@@ -7,6 +7,7 @@
 #include "gl/renderer.h"
 #include "gl_shaders.h"
 #include "scenes/error.h"
+#include "technique_files.h"
 
 namespace noonmark::gl {
 namespace {
@@ -75,8 +76,18 @@ void Program::set_if_used(const char* uniform, const glm::mat4& value) {
   glProgramUniformMatrix4fv(id(), glGetUniformLocation(id(), uniform), 1, GL_FALSE, &value[0][0]);
 }
 
+namespace {
+
+// The files of gl/shaders, and of technique/ those that C++ compiles too; empty when there is no such file.
+std::string_view embedded(std::string_view name) {
+  constexpr std::string_view shared = "technique/";
+  return name.starts_with(shared) ? technique_files::embedded(name.substr(shared.size())) : shaders::embedded(name);
+}
+
+}  // namespace
+
 std::string shader_file(const std::string& name) {
-  const std::string_view text = shaders::embedded(name);
+  const std::string_view text = embedded(name);
   if (text.empty())
     throw Error(ErrorKind::usage,
                 fmt::format("there is no shader file '{}'; gl/CMakeLists.txt lists those of the program", name));
@@ -87,14 +98,17 @@ ProgramCache::ProgramCache(std::map<std::string, std::string> replaced) : replac
   for (const auto& [name, text] : replaced_) shader_file(name);
 }
 
+void ProgramCache::define(const std::string& name, std::string text) { made_.try_emplace(name, std::move(text)); }
+
 Program& ProgramCache::get(const ShaderStages& stages, const ShaderSlots& slots) {
   std::string key = stages.vertex + '\n' + stages.geometry + '\n' + stages.fragment;
   for (const auto& [slot, file] : slots) key += '\n' + slot + '=' + file;
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second;
   const ShaderFiles files = [&](std::string_view name) {
-    const auto replacement = replaced_.find(std::string(name));
-    return replacement == replaced_.end() ? shaders::embedded(name) : std::string_view(replacement->second);
+    for (const auto* texts : {&replaced_, &made_})
+      if (const auto text = texts->find(std::string(name)); text != texts->end()) return std::string_view(text->second);
+    return embedded(name);
   };
   return programs_.emplace(key, Program(stages, slots, files)).first->second;
 }

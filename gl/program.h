@@ -1,7 +1,9 @@
 // OpenGL programs made of the embedded GLSL files (gl/shaders), each built once per context.
 //
-//   Program& lookup = programs.get({"shaders/screen.vert", "shaders/lookup.frag"}, {{"bias",
-//   "shaders/bias/slope.glsl"}}); lookup.set("resolution", 1024); glUseProgram(lookup.id());
+//   Program& lookup = programs.get({"shaders/screen.vert", "shaders/lookup.frag"},
+//                                  {{"filter", "shaders/filter/box.glsl"}, ...});
+//   lookup.set("resolution", 1024);
+//   glUseProgram(lookup.id());
 #pragma once
 #include <glm/glm.hpp>
 #include <map>
@@ -47,10 +49,13 @@ class ProgramCache {
   // replaced: texts that stand in for embedded files. Throws Error(usage) when one of them is not embedded.
   explicit ProgramCache(std::map<std::string, std::string> replaced = {});
 
+  // A text that slots and includes may name as they name a file. One that is defined already stays as it is.
+  void define(const std::string& name, std::string text);
+
   Program& get(const ShaderStages& stages, const ShaderSlots& slots = {});
 
  private:
-  std::map<std::string, std::string> replaced_;
+  std::map<std::string, std::string> replaced_, made_;
   std::map<std::string, Program> programs_;
 };
 

@@ -19,7 +19,6 @@
 #include "scenes/image.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
-#include "technique/depth_bias.h"
 #include "technique/evidence.h"
 #include "technique/light_frame.h"
 #include "technique/settings.h"
@@ -85,7 +84,7 @@ class Renderer {
   // Uploads P and N. eye_m: the camera, for filters that grow with the view distance.
   void load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m);
 
-  // Renders the scene's depth from the light: settings.map, and settings.bias where its form is the polygon offset.
+  // Renders the scene's depth from the light: settings.map, and of settings.bias what acts on the caster.
   // time_ms, when given, gets the pass's own time (device or glFinish clock).
   ShadowMap render_map(const LightFrame& frame, const Settings& settings, double* time_ms = nullptr);
 
@@ -107,8 +106,8 @@ class Renderer {
   Image<float> lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings,
                       double* time_ms = nullptr);
 
-  // What lookup computes before it compares. Independent of the map's contents and of the bias's value, but for forms
-  // that move the lookup.
+  // What lookup computes before it compares. Independent of the map's contents and of the bias, but for parts that move
+  // the lookup.
   LookupProbe probe(const LightFrame& frame, const Settings& settings, ProbeTaps taps = ProbeTaps::all);
 
   // Puts these pixels' taps, whole rows of the picture, in the place of those that the probe holds. Only a cube's

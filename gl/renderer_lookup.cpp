@@ -4,11 +4,12 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "gl/bias_text.h"
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
 #include "gl/tap_table.h"
 #include "scenes/error.h"
-#include "technique/depth_bias.h"
+#include "technique/bias.h"
 
 namespace noonmark::gl {
 namespace {
@@ -64,19 +65,20 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
     program.set("resolution", frame.resolution);
     if (frame.parallel()) program.set_if_used("direction_to_light", glm::vec3(frame.direction_to_light()));
     program.set_if_used("light_axis", glm::vec3(frame.forward));
+    program.set_if_used("light_right", glm::vec3(frame.right));
+    program.set_if_used("light_up", glm::vec3(frame.up));
   }
-  // The bias: what a form does not use stays 0.
-  const DepthBias bias = depth_bias(settings.bias);
-  set("bias_constant", bias.constant);
-  set("bias_slope", bias.slope);
-  set("bias_tan_scale", bias.tan_scale);
-  set("bias_floor", bias.floor);
-  set("bias_cap", bias.cap);
-  set("normal_offset_texels", bias.normal_offset_texels);
+  set_bias_uniforms(program, Bias(settings.bias));
   // The receivers.
   program.set_if_used("eye_m", eye_m);
   glBindTextureUnit(0, position_image.texture.id());
   glBindTextureUnit(1, normal_image.texture.id());
+}
+
+std::string Renderer::Impl::bias_slot(const Bias& bias) {
+  const std::string name = bias_text_name(bias);
+  programs.define(name, bias_text(bias));
+  return name;
 }
 
 void Renderer::Impl::set_pattern(Program& program, const TapPattern& pattern) {
@@ -106,7 +108,7 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
                             frame.faces(), frame.resolution, map.impl_->cube ? 6 : 1, map.resolution()));
   const TapPattern pattern = tap_pattern(settings.filter);
   const ShaderSlots slots = {{"light", light_file(frame.kind)},
-                             {"bias", bias_file(settings.bias.form)},
+                             {"bias", r.bias_slot(Bias(settings.bias))},
                              {"filter", filter_file(settings.filter.kind)}};
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/lookup.frag"}, slots);
   r.set_receiver_uniforms(program, frame, settings);

@@ -7,7 +7,7 @@
 
 #include "gl/renderer_impl.h"
 #include "scenes/error.h"
-#include "technique/depth_bias.h"
+#include "technique/bias.h"
 
 namespace noonmark::gl {
 namespace {
@@ -85,15 +85,15 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
     program.set("clip_from_world", clip_from_world[0]);
 
   r.draw_into({}, depth.id(), side, side);  // of a cube all layers
-  const DepthBias bias = depth_bias(settings.bias);
+  const std::optional<Bias::PolygonOffset> offset = Bias(settings.bias).polygon_offset();
   glDepthMask(GL_TRUE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   set_culling(settings.map.cull);
   set_enabled(GL_DEPTH_CLAMP, settings.map.depth_clamp);
   // Where the shader writes its depth, as a cube's does, OpenGL has no use for the offset.
-  set_enabled(GL_POLYGON_OFFSET_FILL, bias.form == BiasForm::polygon_offset);
-  glPolygonOffset(bias.factor, bias.units);
+  set_enabled(GL_POLYGON_OFFSET_FILL, offset.has_value());
+  if (offset) glPolygonOffset(offset->factor, offset->units);
   // An engine's map has been written before; the first touch of fresh memory is not the pass's cost.
   if (time_ms) glClearBufferfv(GL_DEPTH, 0, &far_depth);
   const std::string key = fmt::format("map {} {} {} {}", static_cast<int>(settings.map.format),
@@ -132,7 +132,7 @@ double Renderer::polygon_offset_unit(DepthFormat format) {
   r.context->check("polygon_offset_unit");
   if (!(unit > 0))
     throw Error(ErrorKind::device, fmt::format("glPolygonOffset moves no depth of a map of {} bits on this OpenGL "
-                                               "device ({}); take another bias.form",
+                                               "device ({}); set bias.polygon_factor and bias.polygon_units to 0",
                                                format == DepthFormat::d16 ? 16 : 24, r.info.renderer));
   r.polygon_offset_units[format] = unit;
   return unit;

@@ -4,7 +4,6 @@
 
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
-#include "technique/depth_bias.h"
 
 namespace noonmark::gl {
 namespace {
@@ -39,9 +38,9 @@ LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings, P
   validate_for(frame.kind, settings);
   const bool cube = frame.kind == LightKind::point;
   r.check_resolution(frame.resolution, cube);
-  const DepthBias bias = depth_bias(settings.bias);
+  const Bias bias(settings.bias);
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/probe.frag"},
-                                    {{"light", light_file(frame.kind)}, {"bias", bias_file(bias.form)}});
+                                    {{"light", light_file(frame.kind)}, {"bias", r.bias_slot(bias)}});
   r.set_receiver_uniforms(program, frame, settings);
   const int width = r.position_image.width, height = r.position_image.height;
   r.require(r.probe_scalars, GL_RGBA32F, width, height);
@@ -54,16 +53,17 @@ LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings, P
 
   LookupProbe probe;
   probe.pattern = tap_pattern(settings.filter);
-  probe.tap_reference = bias.tap_reference();
+  probe.tap_reference = &bias.reference();
+  probe.plane_cap = bias.plane_cap();
   const auto scalars = read_back<glm::vec4>(r.probe_scalars, GL_RGBA, GL_FLOAT);
   probe.reference = each<float>(scalars, [](glm::vec4 s) { return s.x; });
   probe.n_dot_l = each<float>(scalars, [](glm::vec4 s) { return s.y; });
   probe.bias_unit = each<float>(scalars, [](glm::vec4 s) { return s.z; });
-  if (bias.form == BiasForm::tan) probe.tan_theta = each<float>(scalars, [](glm::vec4 s) { return s.w; });
+  probe.tan_theta = each<float>(scalars, [](glm::vec4 s) { return s.w; });
   if (!cube) {
     const auto texels = read_back<glm::vec4>(r.probe_texels, GL_RGBA, GL_FLOAT);
     probe.map_texels = each<glm::vec2>(texels, [](glm::vec4 t) { return glm::vec2(t.x, t.y); });
-    if (probe.tap_reference != TapReference::own_depth)
+    if (probe.tap_reference->plane)
       probe.gradient = each<glm::vec2>(texels, [](glm::vec4 t) { return glm::vec2(t.z, t.w); });
   }
   if (probe.pattern.scaled_by_view) probe.radius = read_back<float>(r.probe_radius, GL_RED, GL_FLOAT);
@@ -102,7 +102,7 @@ std::vector<uint32_t> Renderer::Impl::cube_texels(const LookupProbe& probe, cons
     cube_index_resolution = frame.resolution;
   }
   Program& program = programs.get({"shaders/screen.vert", "shaders/probe_cube.frag"},
-                                  {{"light", light_file(frame.kind)}, {"bias", bias_file(settings.bias.form)}});
+                                  {{"light", light_file(frame.kind)}, {"bias", bias_slot(Bias(settings.bias))}});
   set_receiver_uniforms(program, frame, settings);
   set_pattern(program, probe.pattern);
   program.set("tap_begin", tap_begin);

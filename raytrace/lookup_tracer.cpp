@@ -102,7 +102,7 @@ struct LookupTracer::Impl {
   const ReceiverImage& receivers;
   const ReceiverTruth& truth;
   MapSettings map;
-  DepthBias bias;
+  Bias bias;
   std::optional<PolygonOffset> offset;
   LightView view;
   TexelRays texels{traced.embree, view, map.wrap};
@@ -110,10 +110,11 @@ struct LookupTracer::Impl {
 };
 
 LookupTracer::LookupTracer(const TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
-                           const LightFrame& frame, const MapSettings& map, const DepthBias& bias, double offset_unit) {
+                           const LightFrame& frame, const MapSettings& map, const Bias& bias, double offset_unit) {
   std::optional<PolygonOffset> offset;  // a fragment shader that writes its own depth, a point light's, has none
-  if (bias.form == BiasForm::polygon_offset && frame.kind != LightKind::point)
-    offset.emplace(PolygonOffset{bias.factor, bias.units, map.format == DepthFormat::d32f ? 0 : offset_unit});
+  if (bias.polygon_offset() && frame.kind != LightKind::point)
+    offset.emplace(PolygonOffset{bias.polygon_offset()->factor, bias.polygon_offset()->units,
+                                 map.format == DepthFormat::d32f ? 0 : offset_unit});
   impl_.reset(new Impl{traced, receivers, truth, map, bias, offset, LightView(traced.scene, frame)});
 }
 LookupTracer::LookupTracer(LookupTracer&&) noexcept = default;
@@ -154,7 +155,7 @@ TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Im
     uint64_t rays = 0;
     SurfacePoint points[packet_size];
     glm::dvec3 at[packet_size];          // P in the light's frame
-    glm::dvec3 looked_up[packet_size];   // P' there; P but for forms that move the lookup
+    glm::dvec3 looked_up[packet_size];   // P' there; P unless a part moves the lookup
     int lanes[packet_size], active = 0;  // the facing ones among the packet's pixels
     for (int i = 0; i < n; ++i) {
       if (!l.truth.facing[first + i]) continue;

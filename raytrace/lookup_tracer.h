@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "scenes/receivers.h"
-#include "technique/depth_bias.h"
+#include "technique/bias.h"
 #include "technique/evidence.h"
 #include "technique/light_frame.h"
 #include "technique/settings.h"
@@ -25,7 +25,7 @@ class LookupTracer {
  public:
   // What Tracer::lookup() is given.
   LookupTracer(const TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
-               const LightFrame& frame, const MapSettings& map, const DepthBias& bias, double offset_unit);
+               const LightFrame& frame, const MapSettings& map, const Bias& bias, double offset_unit);
   ~LookupTracer();
   LookupTracer(LookupTracer&&) noexcept;
   LookupTracer& operator=(LookupTracer&&) noexcept;

@@ -98,12 +98,12 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
 }
 
 LookupTracer Tracer::lookup(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
-                            const MapSettings& map, const DepthBias& bias, double offset_unit) const {
+                            const MapSettings& map, const Bias& bias, double offset_unit) const {
   return LookupTracer(*traced_, receivers, truth, frame, map, bias, offset_unit);
 }
 
 LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
-                                 const LightFrame& frame, const MapSettings& map, const DepthBias& bias,
+                                 const LightFrame& frame, const MapSettings& map, const Bias& bias,
                                  double offset_unit) const {
   LookupTracer rays = lookup(receivers, truth, frame, map, bias, offset_unit);
   const PixelRange all{0, receivers.primitive.size()};

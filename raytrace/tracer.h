@@ -14,7 +14,7 @@
 #include "raytrace/lookup_tracer.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
-#include "technique/depth_bias.h"
+#include "technique/bias.h"
 #include "technique/evidence.h"
 #include "technique/light_frame.h"
 #include "technique/settings.h"
@@ -50,10 +50,10 @@ class Tracer {
   // with; forms that move the lookup cost one ray more for each tap, a polygon offset is in the exact map.
   // offset_unit: gl::Renderer::polygon_offset_unit. The tracer, receivers and truth must outlive what it returns.
   LookupTracer lookup(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
-                      const MapSettings& map, const DepthBias& bias = {}, double offset_unit = 0) const;
+                      const MapSettings& map, const Bias& bias = {}, double offset_unit = 0) const;
   // The whole picture's at once.
   LookupTruth lookup_truth(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
-                           const LightFrame& frame, const MapSettings& map, const DepthBias& bias = {},
+                           const LightFrame& frame, const MapSettings& map, const Bias& bias = {},
                            double offset_unit = 0) const;
 
   // How many edges of triangles have no other triangle beside them: each is a shadow's edge under every light.

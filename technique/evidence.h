@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <vector>
 
 #include "scenes/image.h"
+#include "technique/bias_parts.h"
 #include "technique/tap_pattern.h"
 
 namespace noonmark {
@@ -18,23 +20,21 @@ struct PixelRange {
   size_t size() const { return end - first; }
 };
 
-// What a tap's texel is compared with: the receiver's own depth; its plane's depth at the tap's exact place; its
-// plane's depth at the centre of the tap's texel.
-enum class TapReference { own_depth, plane_at_tap, plane_at_texel };
-
 // What the lookup shader computed before comparing, read back from it.
-// P: where the receiver is looked up, which is where it is but for bias forms that move it.
+// P: where the receiver is looked up, which is where it is unless a part of the bias moves it.
 struct LookupProbe {
   Image<float> reference;       // window depth of P as the shader has it; not clamped
   Image<glm::vec2> map_texels;  // flat maps: where P lies in the map, in texels; floor() of it is its texel
   Image<float> n_dot_l;         // as the shader has it
   Image<float> bias_unit;       // window depth of one bias.unit at P
-  Image<float> tan_theta;       // of the angle between N and the light; only of the tan form, otherwise empty
-  Image<glm::vec2> gradient;    // flat maps: window depth per texel of the receiver's plane; only of forms that use it
+  Image<float> tan_theta;       // of the angle between N and the light
+  Image<glm::vec2> gradient;    // flat maps: window depth per texel of the receiver's plane; only where taps are
+                                // compared with that plane, otherwise empty
   Image<float> radius;          // metres; only of patterns that are scaled by view
   TapPattern pattern;
-  TapReference tap_reference = TapReference::own_depth;
-  int cube_resolution = 0;  // of a cube map; 0: the map is flat
+  const TapReference* tap_reference = tap_references().data();
+  float plane_cap = std::numeric_limits<float>::max();  // bias.plane_cap, in units of bias.unit
+  int cube_resolution = 0;                              // of a cube map; 0: the map is flat
   // Cube maps: j * resolution + i, where (i, j) is the texel in the map's image, as the sampler itself chose it.
   Image<uint32_t> cube_middle;       // of the middle tap
   std::vector<uint32_t> cube_texel;  // [(pixel - cube_first) * taps + tap], of a strip of the picture or of all of it
@@ -79,11 +79,10 @@ struct LookupProbe {
 
   // What it is compared with, before the bias.
   float tap_depth(size_t i, int tap) const {
-    if (tap_reference == TapReference::own_depth) return reference[i];
-    glm::vec2 way(offset(i, tap));
-    if (tap_reference == TapReference::plane_at_texel) way = (glm::vec2(texel(i, tap)) + 0.5f) - map_texels[i];
-    const float along = gradient[i].x * way.x, across = gradient[i].y * way.y;
-    return reference[i] + (along + across);
+    if (!tap_reference->plane) return reference[i];
+    const glm::vec2 way =
+        tap_reference->at_texel ? (glm::vec2(texel(i, tap)) + 0.5f) - map_texels[i] : glm::vec2(offset(i, tap));
+    return tap_reference->depth({reference[i], gradient[i], way, plane_cap * bias_unit[i]});
   }
 
   // Weights sum to 1.

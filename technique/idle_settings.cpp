@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "scenes/library.h"
 
 namespace noonmark {
@@ -25,12 +27,9 @@ template <FilterKind... kinds>
 bool filter(LightKind, S s) {
   return ((s.filter.kind == kinds) || ...);
 }
-template <BiasForm... forms>
-bool bias(LightKind, S s) {
-  return ((s.bias.form == forms) || ...);
-}
 
 constexpr Rule rules[] = {
+    {"bias.plane_cap", [](LightKind, S s) { return tap_reference(s.bias.reference).reads_cap; }},
     {"scene.time_s", from_file},
     {"scene.animation", [](LightKind, S s) { return names_file(s.scene.name) && s.scene.time_s.has_value(); }},
     {"view.fit_depths", [](LightKind, S s) { return names_file(s.scene.name) && !(s.view.near_m && s.view.far_m); }},
@@ -52,14 +51,6 @@ constexpr Rule rules[] = {
     {"filter.disk", filter<FilterKind::cube_disk>},
     {"filter.radius_m",
      [](LightKind, S s) { return s.filter.kind == FilterKind::cube_disk && s.filter.disk == DiskRadius::fixed; }},
-    {"bias.constant", bias<BiasForm::constant, BiasForm::receiver_plane, BiasForm::tangent_plane>},
-    {"bias.slope", bias<BiasForm::slope>},
-    {"bias.floor", bias<BiasForm::slope, BiasForm::tan>},
-    {"bias.tan_scale", bias<BiasForm::tan>},
-    {"bias.cap", bias<BiasForm::tan>},
-    {"bias.factor", bias<BiasForm::polygon_offset>},
-    {"bias.units", bias<BiasForm::polygon_offset>},
-    {"bias.normal_offset", bias<BiasForm::normal_offset>},
 };
 
 std::string because(std::string_view name, LightKind light, S s) {
@@ -68,7 +59,7 @@ std::string because(std::string_view name, LightKind light, S s) {
     return names_file(s.scene.name) ? "with both view.near_m and view.far_m"
                                     : "in a built-in scene, where near and far are always fitted";
   if (name.starts_with("filter.")) return "with filter.kind = " + find_setting("filter.kind").get(s);
-  if (name.starts_with("bias.")) return "with bias.form = " + find_setting("bias.form").get(s);
+  if (name == "bias.plane_cap") return "with bias.reference = " + s.bias.reference;
   constexpr std::string_view kinds[] = {"directional", "spot", "point"};
   return fmt::format("on a {} light", kinds[static_cast<size_t>(light)]);
 }
@@ -83,8 +74,16 @@ std::vector<IdleSetting> idle_settings(LightKind light, const Settings& settings
     if (row.get(settings) != row.get(defaults) && !rule.is_read(light, settings))
       idle.push_back({std::string(rule.name), because(rule.name, light, settings)});
   }
-  if (light == LightKind::point && settings.bias.form == BiasForm::polygon_offset)
-    idle.push_back({"bias.form = polygon_offset", "on a point light, whose shader writes its depth itself"});
+  for (const BiasPart& part : bias_parts()) {
+    const std::string name(part.name);
+    if (part.cap_help.empty() || settings.bias[name] != 0) continue;
+    if (settings.bias[name + "_floor"] == 0 && !std::isinf(settings.bias[name + "_cap"]))
+      idle.push_back({"bias." + name + "_cap", "with bias." + name + " = 0"});
+  }
+  if (light == LightKind::point)
+    for (const char* name : {"polygon_factor", "polygon_units"})
+      if (settings.bias[name] != 0)
+        idle.push_back({std::string("bias.") + name, "on a point light, whose shader writes its depth itself"});
   return idle;
 }
 

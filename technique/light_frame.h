@@ -20,6 +20,9 @@
 
 namespace noonmark {
 
+// Where N is across L, tan(theta) ends at this cosine of theta and stays a number.
+inline constexpr double least_cosine = 1e-6;
+
 struct LightFrame {
   LightKind kind = LightKind::directional;
   glm::dvec3 origin_m{

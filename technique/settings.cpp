@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "scenes/error.h"
@@ -150,8 +151,48 @@ Setting text(std::string_view name, std::string_view help, Member member) {
 
 #define MEMBER(path) [](Settings& s) -> decltype((s.path)) { return s.path; }
 
+// bias.reference, whose choices are the rows of tap_references().
+Setting reference_row() {
+  static const std::string help = [] {
+    std::string text = "What a tap of the map is compared with, before the bias is subtracted: ";
+    for (const TapReference& row : tap_references())
+      text += fmt::format("{}{} ({})", &row == tap_references().data() ? "" : ", ", row.name, row.help);
+    return text + ".";
+  }();
+  Setting row{"bias.reference", "", ValueType::choice, 0, 0, false, {}, help, {}, {}};
+  for (const TapReference& reference : tap_references()) row.choices.push_back(reference.name);
+  row.get = [](const Settings& s) { return s.bias.reference; };
+  row.set = [row](Settings& s, std::string_view text) {
+    if (std::find(row.choices.begin(), row.choices.end(), text) == row.choices.end()) refuse(row, text);
+    s.bias.reference = std::string(text);
+  };
+  return row;
+}
+
+// A parameter of a part of the bias.
+Setting bias_row(const BiasParameter& parameter) {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const BiasParameter& p : bias_parameters()) all.push_back("bias." + p.name);
+    return all;
+  }();
+  const size_t index = bias_parameter_index(parameter.name);
+  const bool is_cap = parameter.role == BiasParameter::Role::cap;
+  Setting row{
+      names[index], parameter.part->unit, ValueType::real, 0, parameter.part->most, is_cap, {}, parameter.help, {}, {}};
+  row.get = [&parameter](const Settings& s) {
+    const double value = s.bias[parameter.name];
+    return std::isinf(value) ? std::string("auto") : number_text(value);
+  };
+  row.set = [&parameter, row](Settings& s, std::string_view text) {
+    s.bias[parameter.name] =
+        row.may_be_auto && text == "auto" ? std::numeric_limits<double>::infinity() : parse_real(row, text);
+  };
+  return row;
+}
+
 std::vector<Setting> make_table() {
-  return {
+  std::vector<Setting> table = {
       text("scene.name", "A built-in scene, or the path of a .gltf or .glb file.", MEMBER(scene.name)),
       real("scene.theta_deg", "deg", 0, 89.9, "plane: the angle between its normal and the light.",
            MEMBER(scene.theta_deg)),
@@ -262,33 +303,14 @@ std::vector<Setting> make_table() {
              "point: all six faces in one pass through a geometry shader, or one pass for each; the map is the same, "
              "the time is not.",
              MEMBER(map.cube_pass)),
-      choice(
-          "bias.form",
-          {"none", "constant", "slope", "tan", "polygon_offset", "normal_offset", "receiver_plane", "tangent_plane"},
-          "none; constant; slope: max(bias.slope * (1 - N.L), bias.floor); tan: bias.tan_scale * tan(theta) between "
-          "bias.floor and bias.cap; polygon_offset: glPolygonOffset(bias.factor, bias.units) on the map; "
-          "normal_offset: the receiver is looked up bias.normal_offset along its normal; receiver_plane: each tap is "
-          "compared with the receiver's plane at the tap; tangent_plane: at the centre of the tap's texel; these two "
-          "with bias.constant on top.",
-          MEMBER(bias.form)),
       choice("bias.unit", {"depth", "m", "texel"},
-             "Unit of bias.constant, slope, tan_scale, floor and cap: window depth, metres of the map's depth, or "
-             "texels of the map at the receiver.",
+             "Unit of the biases that have no other: window depth, metres of the map's depth, or texels of the map at "
+             "the receiver.",
              MEMBER(bias.unit)),
-      real("bias.constant", "bias.unit", 0, 1e6, "The bias of the constant, receiver_plane and tangent_plane forms.",
-           MEMBER(bias.constant)),
-      real("bias.slope", "bias.unit", 0, 1e6, "The slope form's factor of (1 - N.L).", MEMBER(bias.slope)),
-      real("bias.floor", "bias.unit", 0, 1e6, "The slope and tan forms' least bias.", MEMBER(bias.floor)),
-      real("bias.tan_scale", "bias.unit", 0, 1e6, "The tan form's factor of tan(theta).", MEMBER(bias.tan_scale)),
-      real("bias.cap", "bias.unit", 0, 1e6, "The tan form's greatest bias.", MEMBER(bias.cap)),
-      real("bias.factor", "", 0, 1e4, "polygon_offset: multiplies the steepest depth slope of each triangle in texels.",
-           MEMBER(bias.factor)),
-      real("bias.units", "", 0, 1e8, "polygon_offset: multiplies the smallest depth difference of the format.",
-           MEMBER(bias.units)),
-      real("bias.normal_offset", "texels", 0, 1e6,
-           "How far the normal_offset form moves a receiver along its normal before it is looked up; times texel_m, in "
-           "metres. It has no one-pass bias curve: sweep it.",
-           MEMBER(bias.normal_offset)),
+      reference_row(),
+      real("bias.plane_cap", "bias.unit", 0, 1e6,
+           "receiver_plane: no tap is compared with a depth farther from the receiver's own than this; auto: no limit.",
+           MEMBER(bias.plane_cap)),
       choice("filter.kind", {"none", "box", "hardware", "gaussian", "poisson", "cube_grid", "cube_disk"},
              "none: one nearest tap; box: the mean of N x N nearest taps; hardware: one linear tap of a comparison "
              "sampler (2 x 2 texels); gaussian: N x N such taps; poisson: 16 nearest taps in a disk. For cube maps: "
@@ -311,11 +333,22 @@ std::vector<Setting> make_table() {
       real("truth.standard_error", "", 1e-3, 0.5,
            "Largest standard error of R0 at a receiver, for a light with a size.", MEMBER(truth.standard_error)),
   };
+  // After the other settings of the bias.
+  auto at = std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "bias.plane_cap"; });
+  for (const BiasParameter& parameter : bias_parameters()) at = table.insert(at + 1, bias_row(parameter));
+  return table;
 }
 
 #undef MEMBER
 
 }  // namespace
+
+std::vector<double> BiasSettings::no_bias() {
+  std::vector<double> values;
+  for (const BiasParameter& parameter : bias_parameters())
+    values.push_back(parameter.role == BiasParameter::Role::cap ? std::numeric_limits<double>::infinity() : 0);
+  return values;
+}
 
 std::string Setting::range_text() const { return may_be_auto ? bare_range() + " or auto" : bare_range(); }
 
@@ -364,8 +397,14 @@ void validate(const Settings& s) {
                 fmt::format("filter.size = {} is even; a box and a Gaussian have an odd number of taps on a side, so "
                             "that one is at the receiver",
                             s.filter.size));
-  if (s.bias.form == BiasForm::tan && s.bias.floor > s.bias.cap)
-    throw Error(ErrorKind::usage, fmt::format("bias.floor = {} is more than bias.cap = {}", s.bias.floor, s.bias.cap));
+  for (const BiasPart& part : bias_parts()) {
+    if (part.floor_help.empty() || part.cap_help.empty()) continue;
+    const std::string name(part.name);
+    const double floor = s.bias[name + "_floor"], cap = s.bias[name + "_cap"];
+    if (floor > cap)
+      throw Error(ErrorKind::usage,
+                  fmt::format("bias.{0}_floor = {1} is more than bias.{0}_cap = {2}", name, floor, cap));
+  }
   const auto require_order = [](std::string_view group, std::optional<double> near_m, std::optional<double> far_m) {
     if (near_m && far_m && *near_m >= *far_m)
       throw Error(ErrorKind::usage,
@@ -383,21 +422,19 @@ void validate_for(LightKind kind, const Settings& s) {
     throw Error(ErrorKind::usage, fmt::format("{} = {} {}", name, value(name), why));
   };
   const bool cube_filter = s.filter.kind == FilterKind::cube_grid || s.filter.kind == FilterKind::cube_disk;
-  const bool plane_bias = s.bias.form == BiasForm::receiver_plane || s.bias.form == BiasForm::tangent_plane;
+  const bool plane_bias = tap_reference(s.bias.reference).plane;
   const bool linear_taps = s.filter.kind == FilterKind::hardware || s.filter.kind == FilterKind::gaussian;
   if (kind == LightKind::point) {
     if (!cube_filter && s.filter.kind != FilterKind::none)
       refuse_pair("filter.kind", "needs a flat map; a point light's cube map takes none, cube_grid and cube_disk");
-    if (plane_bias)
-      refuse_pair("bias.form",
-                  "needs a flat map; for a point light's cube map take another form, or another light.kind");
+    if (plane_bias) refuse_pair("bias.reference", "needs a flat map; a point light's cube map has own_depth alone");
     if (s.map.shift_u_texels != 0 || s.map.shift_v_texels != 0)
       throw Error(ErrorKind::usage, "map.shift_*_texels needs a flat map; move the point light instead");
   } else if (cube_filter) {
     refuse_pair("filter.kind", "needs a cube map; set light.kind = point, or take another filter");
   }
   if (plane_bias && linear_taps)
-    refuse_pair("bias.form",
+    refuse_pair("bias.reference",
                 "gives each texel a depth of its own, and a hardware comparison has one for the four texels that it "
                 "reads; take filter.kind none, box or poisson");
   if (s.map.snap && kind != LightKind::directional)

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "scenes/scene_settings.h"
+#include "technique/bias_parts.h"
 
 namespace noonmark {
 
@@ -23,16 +24,6 @@ enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
 enum class CulledFaces { none, back, front };
 enum class MapFit { scene, tight };
 enum class CubePass { layered, six_passes };
-enum class BiasForm {
-  none,
-  constant,
-  slope,
-  tan,
-  polygon_offset,
-  normal_offset,
-  receiver_plane,
-  tangent_plane,
-};
 enum class BiasUnit { depth, m, texel };
 enum class FilterKind { none, box, hardware, gaussian, poisson, cube_grid, cube_disk };
 enum class DiskRadius { fixed, view_distance };
@@ -67,18 +58,19 @@ struct MapSettings {
   CubePass cube_pass = CubePass::layered;  // point: how the six faces are drawn; the map is the same
 };
 
+// A bias is what its parts add up to (technique/bias_parts.h); each is 0 unless it is set.
 struct BiasSettings {
-  BiasForm form = BiasForm::constant;
-  BiasUnit unit = BiasUnit::depth;  // of constant, slope, tan_scale, floor and cap
-  double constant = 0.005;          // constant, receiver_plane and tangent_plane forms
-  double slope = 0.05;              // slope form: max(slope * (1 - N.L), floor)
-  double floor = 0.005;             // slope and tan forms
-  double tan_scale = 0.005;         // tan form: clamp(tan_scale * tan(theta), floor, cap)
-  double cap = 0.05;
-  double factor = 1;  // polygon_offset form: glPolygonOffset(factor, units) while the map is drawn
-  double units = 1;
-  // Along the receiver's normal, so that no depth can be its unit: in texels whatever `unit` says, as engines have it.
-  double normal_offset = 1;
+  BiasUnit unit = BiasUnit::depth;       // of the parts whose unit is bias.unit
+  std::string reference = "own_depth";   // of tap_references()
+  std::optional<double> plane_cap = {};  // bias.unit; empty: none
+
+  // A parameter of a part: its amount ("slope"), floor ("slope_floor") or cap ("tan_cap"; infinity: none).
+  double& operator[](std::string_view parameter) { return values_[bias_parameter_index(parameter)]; }
+  double operator[](std::string_view parameter) const { return values_[bias_parameter_index(parameter)]; }
+
+ private:
+  static std::vector<double> no_bias();
+  std::vector<double> values_ = no_bias();  // in the order of bias_parameters()
 };
 
 struct FilterSettings {

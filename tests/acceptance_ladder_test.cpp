@@ -32,11 +32,20 @@ class EveryScene : public testing::TestWithParam<std::string> {
 };
 
 const std::vector<std::vector<Assignment>> techniques = {
-    {{"bias.form", "none"}},
+    {{"bias.constant", "0"}},
     {{"bias.constant", "0.005"}},
     {{"bias.constant", "0.02"}, {"filter.kind", "box"}},
-    {{"bias.form", "slope"}, {"filter.kind", "box"}, {"filter.size", "5"}, {"map.format", "16"}},
-    {{"bias.form", "slope"}, {"map.format", "32f"}, {"map.cull", "back"}},
+    {{"bias.constant", "0"},
+     {"bias.slope", "0.05"},
+     {"bias.slope_floor", "0.005"},
+     {"filter.kind", "box"},
+     {"filter.size", "5"},
+     {"map.format", "16"}},
+    {{"bias.constant", "0"},
+     {"bias.slope", "0.05"},
+     {"bias.slope_floor", "0.005"},
+     {"map.format", "32f"},
+     {"map.cull", "back"}},
     {{"bias.constant", "0"}, {"map.cull", "front"}},
     {{"bias.constant", "0.003"}, {"map.wrap", "repeat"}, {"map.lit_beyond_far", "false"}, {"map.extent_scale", "0.4"}},
     {{"bias.constant", "1.5"},
@@ -45,11 +54,8 @@ const std::vector<std::vector<Assignment>> techniques = {
      {"map.extent_scale", "0.4"},
      {"filter.kind", "box"}},
     {{"bias.constant", "0.002"}, {"light.angular_diameter_deg", "2"}, {"truth.standard_error", "0.1"}},
-    {{"bias.form", "normal_offset"}},
-    {{"bias.form", "normal_offset"},
-     {"bias.normal_offset", "2.2"},
-     {"filter.kind", "box"},
-     {"map.extent_scale", "0.4"}},
+    {{"bias.constant", "0"}, {"bias.normal_offset", "1"}},
+    {{"bias.constant", "0"}, {"bias.normal_offset", "2.2"}, {"filter.kind", "box"}, {"map.extent_scale", "0.4"}},
 };
 
 TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
@@ -116,8 +122,7 @@ TEST(Acceptance, ALookupMovedBehindTheLightIsCoverage) {
     const Settings settings = with({{"map.resolution", "32"},
                                     {"map.extent_scale", "600"},
                                     {"light.kind", "spot"},
-                                    {"bias.form", "normal_offset"},
-                                    {"bias.normal_offset", "1"},
+                                    {"bias.constant", "0"}, {"bias.normal_offset", "1"},
                                     {"filter.kind", filter}},
                                    small("plate", 64, 48));
     const Measurement m = bench.measure(settings, std::nullopt);
@@ -196,27 +201,26 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
   std::mt19937 random(20260301);
 
   for (const char* kind : {"none", "box"}) {
-    for (const char* form : {"constant", "slope"}) {
-      SCOPED_TRACE(std::string(kind) + " " + form);
-      Settings settings = with({{"filter.kind", kind}, {"bias.form", form}, {"bias.floor", "0.0007"}}, base);
+    for (const char* varied : {"constant", "slope"}) {
+      SCOPED_TRACE(std::string(kind) + " " + varied);
+      Settings settings = with({{"filter.kind", kind}, {"bias.slope_floor", "0.0007"}}, base);
       const LookupProbe probe = renderer.probe(frame, settings);
       const raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, probe, frame, settings.map);
       const gl::ShadowMap exact = renderer.upload_map(taps.exact_map, settings.map);
       const Image<float> nothing;
-      const LookupEvidence evidence{truth,   probe,  taps.taps, taps.exact_map, settings.map, depth_bias(settings.bias),
+      const LookupEvidence evidence{truth,   probe,  taps.taps, taps.exact_map, settings.map, Bias(settings.bias),
                                     nothing, nothing};
-      const bool slope = settings.bias.form == BiasForm::slope;
-      const BiasCounts counts(evidence, stored, slope ? CurveParameter::slope : CurveParameter::constant);
+      const BiasCounts counts(evidence, stored, bias_part(varied));
       ASSERT_GT(counts.receivers(), 10000u);
 
       uint64_t different_counts = 0;
       for (int trial = 0; trial < 100; ++trial) {
         const float x = static_cast<float>(std::pow(10.0, std::uniform_real_distribution<>(-5, 0)(random)));
-        (slope ? settings.bias.slope : settings.bias.constant) = x;
+        settings.bias[varied] = x;
         const Image<float> r5 = renderer.lookup(map, frame, settings);
         const Image<float> r4 = renderer.lookup(exact, frame, settings);
         const Ladder ladder =
-            climb({truth, probe, taps.taps, taps.exact_map, settings.map, depth_bias(settings.bias), r4, r5});
+            climb({truth, probe, taps.taps, taps.exact_map, settings.map, Bias(settings.bias), r4, r5});
         uint64_t wrong_receivers = 0;
         double wrong_taps = 0;
         std::array<double, cause_count> booked{};

@@ -129,8 +129,8 @@ TEST(Bounds, QuantitiesOfTheCurveCanBeBounded) {
   const BoundResult without = evaluate_bounds(points, std::span(&usable, 1), command_of).at(0);
   expect(without, false, nan_value, 0);
   EXPECT_EQ(describe(without, &points[0]).find("bias curve"), std::string::npos) << "why, nothing says";
-  points[0].settings["bias.form"] = "normal_offset";
-  EXPECT_NE(describe(without, &points[0]).find("this point has none: bias.form normal_offset moves the lookup"),
+  points[0].settings["bias.normal_offset"] = "1";
+  EXPECT_NE(describe(without, &points[0]).find("this point has none: bias.normal_offset moves the lookup"),
             std::string::npos)
       << describe(without, &points[0]);
 }

@@ -244,10 +244,9 @@ TEST(PolygonOffsetMap, IsThePlanePlusFactorTimesItsSteepestTexelStep) {
             MapSettings map;
             map.resolution = 64;
             BiasSettings bias;
-            bias.form = BiasForm::polygon_offset, bias.factor = factor, bias.units = units;
+            bias["polygon_factor"] = factor, bias["polygon_units"] = units;
             const LookupProbe probe = probe_of(receivers, plane.frame);
-            const LookupTruth lookup =
-                tracer.lookup_truth(receivers, truth, probe, plane.frame, map, depth_bias(bias), unit);
+            const LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe, plane.frame, map, Bias(bias), unit);
             for (size_t i = 0; i < receivers.primitive.size(); ++i) {
               const glm::ivec2 texel = probe.texel(i, 0);
               if (!truth.facing[i] || texel.x < 0 || texel.y < 0 || texel.x > 63 || texel.y > 63) continue;

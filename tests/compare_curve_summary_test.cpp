@@ -20,13 +20,12 @@ Synthetic row_of(int count) {
   s.map.resolution = count;
   s.truth.facing = s.truth.lit = Image<uint8_t>(count, 1, 1);
   s.truth.ambiguous = Image<uint8_t>(count, 1, 0);
-  s.truth.soft = s.probe.reference = s.probe.n_dot_l = Image<float>(count, 1, 0.5f);
+  s.truth.soft = s.probe.reference = s.probe.n_dot_l = s.probe.tan_theta = Image<float>(count, 1, 0.5f);
   s.probe.bias_unit = Image<float>(count, 1, 1);
   s.probe.pattern.offsets = {glm::vec3(0)};
   s.probe.map_texels = Image<glm::vec2>(count, 1);
   for (int i = 0; i < count; ++i) s.probe.map_texels[static_cast<size_t>(i)] = {static_cast<float>(i) + 0.5f, 0.5f};
   s.taps.taps.assign(static_cast<size_t>(count), tap_exact_lit | tap_texel_lit);
-  s.bias.form = BiasForm::constant;
   s.stored = s.exact;
   return s;
 }
@@ -56,7 +55,7 @@ TEST(Summarise, GivesSharesUnitsAndTheWindow) {
   make_acne(s, 1, 0x1p-5f);
   make_shadow(s, 2, 0x1p-3f);
   make_shadow(s, 3, 0x1p-2f);
-  const BiasCounts counts(s.evidence(), s.stored, CurveParameter::constant);
+  const BiasCounts counts(s.evidence(), s.stored, bias_part("constant"));
   BiasCurve c = summarise(counts, test_scale(), {0, 0, {0, 0x1p-6, 0x1p-4, 0x1p-3, 1}});
   EXPECT_EQ(c.parameter, "bias.constant");
   EXPECT_EQ(c.made, "one pass");
@@ -100,7 +99,7 @@ TEST(Summarise, HasNoWindowWhereTheCausesOverlap) {
   Synthetic s = row_of(4);
   make_acne(s, 0, 0x1p-3f);
   make_shadow(s, 1, 0x1p-4f);
-  const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored, CurveParameter::constant), test_scale(), {0, 0, {}});
+  const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored, bias_part("constant")), test_scale(), {0, 0, {}});
   EXPECT_FALSE(c.window_min_depth);
   EXPECT_FALSE(c.window_max_depth);
   EXPECT_EQ(c.best_error, 0.25);
@@ -110,13 +109,12 @@ TEST(Summarise, HasNoWindowWhereNoSlopeReaches) {
   Synthetic s = row_of(4);
   make_acne(s, 0, 0x1p-3f);
   s.probe.n_dot_l[0] = 1;  // 1 - N.L = 0: no slope gives it a bias
-  s.bias.form = BiasForm::slope;
-  const BiasCounts counts(s.evidence(), s.stored, CurveParameter::slope);
+  const BiasCounts counts(s.evidence(), s.stored, bias_part("slope"));
   EXPECT_EQ(counts.acne_free_from(0), infinity);
   EXPECT_FALSE(summarise(counts, test_scale(), {0, 0, {}}).window_min_depth);
   EXPECT_TRUE(summarise(counts, test_scale(), {0.25, 0, {}}).window_min_depth);
   make_shadow(s, 0, 0x1p-3f);
-  EXPECT_EQ(BiasCounts(s.evidence(), s.stored, CurveParameter::slope).peter_panning_free_to(0), infinity);
+  EXPECT_EQ(BiasCounts(s.evidence(), s.stored, bias_part("slope")).peter_panning_free_to(0), infinity);
 }
 
 TEST(Summarise, AllowsWhatTheMetricCallsWithinTheBound) {
@@ -126,7 +124,7 @@ TEST(Summarise, AllowsWhatTheMetricCallsWithinTheBound) {
       Synthetic s = row_of(of);
       for (int i = 0; i < n; ++i) make_acne(s, static_cast<size_t>(i), 0x1p-4f);
       const double share = static_cast<double>(n) / of;
-      const BiasCounts counts(s.evidence(), s.stored, CurveParameter::constant);
+      const BiasCounts counts(s.evidence(), s.stored, bias_part("constant"));
       EXPECT_EQ(summarise(counts, test_scale(), {share, 0, {}}).window_min_depth, 0) << n << " of " << of;
       if (n > 0) {
         EXPECT_GT(summarise(counts, test_scale(), {std::nextafter(share, 0), 0, {}}).window_min_depth, 0) << n;
@@ -142,7 +140,7 @@ TEST(Summarise, SaysNaNWhereThereAreNoReceivers) {
   Synthetic nothing;
   nothing.exact = nothing.stored = Image<float>(1, 1, 1);
   for (const Synthetic& s : {empty, nothing}) {
-    const BiasCounts counts(s.evidence(), s.stored, CurveParameter::constant);
+    const BiasCounts counts(s.evidence(), s.stored, bias_part("constant"));
     EXPECT_EQ(counts.receivers(), 0);
     EXPECT_EQ(counts.wrong_taps(0.5f), 0);
     EXPECT_EQ(counts.best().wrong_taps, 0);
@@ -165,7 +163,7 @@ TEST(Summarise, TurnsTheParametersUnitIntoDepth) {
   const auto curve = [&](BiasUnit unit) {
     const BiasScale scale = test_scale(unit);
     for (float& of_receiver : s.probe.bias_unit.pixels) of_receiver = static_cast<float>(scale.depth_per_unit);
-    return summarise(BiasCounts(s.evidence(), s.stored, CurveParameter::constant), scale, {0, 0, {0, 0x1p-4, 0.2}});
+    return summarise(BiasCounts(s.evidence(), s.stored, bias_part("constant")), scale, {0, 0, {0, 0x1p-4, 0.2}});
   };
   const BiasCurve depth = curve(BiasUnit::depth);
   for (const BiasUnit unit : {BiasUnit::m, BiasUnit::texel}) {
@@ -181,14 +179,14 @@ TEST(Summarise, TurnsTheParametersUnitIntoDepth) {
   }
   s.probe.bias_unit[0] /= 2;  // a receiver that needs the double of the parameter
   const BiasCurve apart =
-      summarise(BiasCounts(s.evidence(), s.stored, CurveParameter::constant), test_scale(BiasUnit::texel), {0, 0, {}});
+      summarise(BiasCounts(s.evidence(), s.stored, bias_part("constant")), test_scale(BiasUnit::texel), {0, 0, {}});
   EXPECT_NEAR(*apart.acne_free_bias_depth / (2 * *depth.acne_free_bias_depth), 1, 0x1p-22);
 }
 
 TEST(Summarise, SaysWhenASamplerWeighsTheTaps) {
-  const Synthetic s = evidence_for(CurveParameter::tan_scale, 3, {12, 9, 6, 1, true, Lookup::linear});
-  const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored, CurveParameter::tan_scale), {}, {});
-  EXPECT_EQ(c.parameter, "bias.tan_scale");
+  const Synthetic s = random_evidence(3, {12, 9, 6, 1, true, Lookup::linear});
+  const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored, bias_part("tan")), {}, {});
+  EXPECT_EQ(c.parameter, "bias.tan");
   EXPECT_EQ(c.made, "one pass, but for the sampler's weights");
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "compare/bias_curves.h"
+#include "tests/bias_of.h"
 #include "tests/compare_evidence.h"
 
 namespace noonmark {
@@ -30,25 +31,19 @@ std::ostream& operator<<(std::ostream& out, const Counts& c) {
   return out;
 }
 
-// What a tap's bias is at the swept parameter's value x.
-float swept_bias(const Synthetic& s, CurveParameter parameter, size_t receiver, float x) {
-  float units = x;
-  if (parameter == CurveParameter::slope) units = naive::turned(x, 1.0f - s.probe.n_dot_l[receiver], s.bias.floor);
-  if (parameter == CurveParameter::tan_scale) {
-    units = naive::turned(x, s.probe.tan_theta[receiver], s.bias.floor);
-    if (units > s.bias.cap) units = s.bias.cap;
-  }
-  return units * s.probe.bias_unit[receiver];
+// What a tap's bias is where the varied part has the amount x.
+float swept_bias(const Synthetic& s, const BiasPart& varied, size_t receiver, float x) {
+  return naive::bias_at(s, receiver, varied.name, x);
 }
 
-Counts counted_at(const Synthetic& s, CurveParameter parameter, float x) {
+Counts counted_at(const Synthetic& s, const BiasPart& varied, float x) {
   Counts c;
   for (size_t i = 0; i < s.truth.facing.size(); ++i) {
     if (!s.truth.facing[i] || naive::ambiguous(s, i)) continue;
     ++c.receivers;
-    const float bias = swept_bias(s, parameter, i, x);
+    const float bias = swept_bias(s, varied, i, x);
     for (const naive::Tap& tap : naive::taps_of(s, s.exact, i))
-      if (tap.exact_sure)
+      if (tap.moved_sure)
         c.caused[static_cast<size_t>(naive::cause_of(tap, naive::verdict(s, tap, bias)))] += tap.weight;
       else if (naive::verdict(s, tap, bias) != (s.truth.lit[i] != 0))
         c.caused[static_cast<size_t>(Cause::undecided)] += tap.weight;
@@ -69,14 +64,14 @@ Counts read_off(const BiasCounts& counts, float x) {
 }
 
 // Every x at which some tap of either map changes its verdict, found by bisecting the verdict itself.
-std::set<float> breakpoints(const Synthetic& s, CurveParameter parameter, bool exact = true, bool stored = true) {
+std::set<float> breakpoints(const Synthetic& s, const BiasPart& varied, bool exact = true, bool stored = true) {
   std::set<float> all;
   const auto add = [&](const Image<float>& map) {
     for (size_t i = 0; i < s.truth.facing.size(); ++i) {
       if (!s.truth.facing[i] || naive::ambiguous(s, i)) continue;
       for (const naive::Tap& tap : naive::taps_of(s, map, i)) {
         if (tap.weight == 0) continue;
-        const auto lit = [&](float x) { return naive::verdict(s, tap, swept_bias(s, parameter, i, x)); };
+        const auto lit = [&](float x) { return naive::verdict(s, tap, swept_bias(s, varied, i, x)); };
         uint32_t dark = 0, at = std::bit_cast<uint32_t>(infinity);
         if (lit(0)) continue;
         while (at - dark > 1) {
@@ -93,8 +88,10 @@ std::set<float> breakpoints(const Synthetic& s, CurveParameter parameter, bool e
   return all;
 }
 
+constexpr const char* varied_names[] = {"constant", "slope", "tan"};
+
 struct Case {
-  CurveParameter parameter;
+  const char* varied;
   Lookup lookup;
   int kernel;
   bool lattice;
@@ -102,7 +99,7 @@ struct Case {
 
 class Curves : public testing::TestWithParam<Case> {
  protected:
-  const CurveParameter parameter = GetParam().parameter;
+  const BiasPart& varied = bias_part(GetParam().varied);
   const int kernel = GetParam().kernel;
   const bool lattice = GetParam().lattice;
   const Shape shape{lattice ? 12 : 5, lattice ? 9 : 4, 6, kernel, lattice, GetParam().lookup};
@@ -110,11 +107,11 @@ class Curves : public testing::TestWithParam<Case> {
 
 TEST_P(Curves, CountWhatRenderingWouldAtEveryBreakpointAndBetween) {
   for (uint64_t seed = 1; seed <= 12; ++seed) {
-    const Synthetic s = evidence_for(parameter, seed, shape);
-    const BiasCounts counts(s.evidence(), s.stored, parameter);
+    const Synthetic s = random_evidence(seed, shape);
+    const BiasCounts counts(s.evidence(), s.stored, varied);
     std::set<float> tried = {0.0f, std::numeric_limits<float>::denorm_min(), 1.0f, 3.0f,
                              std::numeric_limits<float>::max()};
-    for (float x : breakpoints(s, parameter)) {
+    for (float x : breakpoints(s, varied)) {
       // Without a lattice there are thousands: every eleventh of them.
       if (!lattice && std::bit_cast<uint32_t>(x) % 11 != 0) continue;
       tried.insert({std::nextafter(x, 0.0f), x, std::nextafter(x, infinity)});
@@ -124,7 +121,7 @@ TEST_P(Curves, CountWhatRenderingWouldAtEveryBreakpointAndBetween) {
       tried.insert(std::ldexp(1.0f, -static_cast<int>(random() % 20)) *
                    std::uniform_real_distribution<float>(0, 2)(random));
     for (float x : tried)
-      ASSERT_EQ(read_off(counts, x), counted_at(s, parameter, x)) << "seed " << seed << " at " << std::hexfloat << x;
+      ASSERT_EQ(read_off(counts, x), counted_at(s, varied, x)) << "seed " << seed << " at " << std::hexfloat << x;
     EXPECT_EQ(counts.taps(),
               static_cast<double>(counts.receivers()) * (shape.lookup == Lookup::linear ? 1 : kernel * kernel));
   }
@@ -132,10 +129,10 @@ TEST_P(Curves, CountWhatRenderingWouldAtEveryBreakpointAndBetween) {
 
 TEST_P(Curves, NameTheExactEndsOfTheWindow) {
   for (uint64_t seed = 20; seed <= 32; ++seed) {
-    const Synthetic s = evidence_for(parameter, seed, shape);
-    const BiasCounts counts(s.evidence(), s.stored, parameter);
+    const Synthetic s = random_evidence(seed, shape);
+    const BiasCounts counts(s.evidence(), s.stored, varied);
     const auto caused = [&](Cause cause, float x) {
-      return counted_at(s, parameter, x).caused[static_cast<size_t>(cause)];
+      return counted_at(s, varied, x).caused[static_cast<size_t>(cause)];
     };
     for (double allowed : {0, 1, 2, 3, 5, 10, 40, 1000000}) {
       const float from = counts.acne_free_from(allowed / counts.taps());
@@ -162,30 +159,30 @@ TEST_P(Curves, NameTheExactEndsOfTheWindow) {
 }
 
 // Taps of the stored map that are dark at x though they are covered and both their truths are lit.
-uint64_t stored_acne(const Synthetic& s, CurveParameter parameter, float x) {
+uint64_t stored_acne(const Synthetic& s, const BiasPart& varied, float x) {
   uint64_t count = 0;
   for (size_t i = 0; i < s.truth.facing.size(); ++i) {
     if (!s.truth.facing[i] || naive::ambiguous(s, i)) continue;
     for (const naive::Tap& tap : naive::taps_of(s, s.stored, i))
       count += tap.weight > 0 &&  // a tap of none is not read
                tap.covered && tap.moved_sure && tap.texel_sure && tap.moved_lit && tap.texel_lit &&
-               !naive::verdict(s, tap, swept_bias(s, parameter, i, x));
+               !naive::verdict(s, tap, swept_bias(s, varied, i, x));
   }
   return count;
 }
 
 TEST_P(Curves, NameTheExactEndOfTheStoredMapsAcne) {
   for (uint64_t seed = 20; seed <= 32; ++seed) {
-    const Synthetic s = evidence_for(parameter, seed, shape);
-    const BiasCounts counts(s.evidence(), s.stored, parameter);
+    const Synthetic s = random_evidence(seed, shape);
+    const BiasCounts counts(s.evidence(), s.stored, varied);
     const float from = counts.stored_acne_free_from();
     if (from < infinity) {
-      EXPECT_EQ(stored_acne(s, parameter, from), 0);
+      EXPECT_EQ(stored_acne(s, varied, from), 0);
     } else {
-      EXPECT_GT(stored_acne(s, parameter, std::numeric_limits<float>::max()), 0);
+      EXPECT_GT(stored_acne(s, varied, std::numeric_limits<float>::max()), 0);
     }
     if (from > 0) {
-      EXPECT_GT(stored_acne(s, parameter, std::nextafter(from, 0.0f)), 0) << seed << " from " << from;
+      EXPECT_GT(stored_acne(s, varied, std::nextafter(from, 0.0f)), 0) << seed << " from " << from;
     }
     // The record has both ends whatever its bounds are, and none where no bias is enough.
     const BiasCurve curve = summarise(counts, {}, {1, 1, {}});
@@ -197,13 +194,13 @@ TEST_P(Curves, NameTheExactEndOfTheStoredMapsAcne) {
 
 TEST_P(Curves, FindTheBestBiasByTryingAll) {
   for (uint64_t seed = 40; seed <= 52; ++seed) {
-    const Synthetic s = evidence_for(parameter, seed, shape);
-    const BiasCounts::Best best = BiasCounts(s.evidence(), s.stored, parameter).best();
+    const Synthetic s = random_evidence(seed, shape);
+    const BiasCounts::Best best = BiasCounts(s.evidence(), s.stored, varied).best();
     std::vector<float> starts = {0};
-    for (float x : breakpoints(s, parameter, false, true))
+    for (float x : breakpoints(s, varied, false, true))
       if (x <= 1) starts.push_back(x);
     std::vector<double> wrong;
-    for (float x : starts) wrong.push_back(counted_at(s, parameter, x).wrong_taps);
+    for (float x : starts) wrong.push_back(counted_at(s, varied, x).wrong_taps);
     const size_t at = static_cast<size_t>(std::min_element(wrong.begin(), wrong.end()) - wrong.begin());
     const auto end_of = [&](size_t i) { return i + 1 < starts.size() ? std::nextafter(starts[i + 1], 0.0f) : 1.0f; };
     size_t first = at, last = at;
@@ -220,69 +217,76 @@ TEST_P(Curves, FindTheBestBiasByTryingAll) {
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (CurveParameter parameter : {CurveParameter::constant, CurveParameter::slope, CurveParameter::tan_scale})
+  for (const char* varied : varied_names)
     for (bool lattice : {true, false}) {
-      for (int kernel : {1, 3, 5}) all.push_back({parameter, Lookup::box, kernel, lattice});
-      for (int kernel : {1, 3}) all.push_back({parameter, Lookup::linear, kernel, lattice});
-      all.push_back({parameter, Lookup::cube, 3, lattice});
+      for (int kernel : {1, 3, 5}) all.push_back({varied, Lookup::box, kernel, lattice});
+      for (int kernel : {1, 3}) all.push_back({varied, Lookup::linear, kernel, lattice});
+      all.push_back({varied, Lookup::cube, 3, lattice});
     }
   return all;
 }
 
 std::string case_name(const testing::TestParamInfo<Case>& named) {
-  constexpr const char* parameters[] = {"Constant", "Slope", "Tan"};
   constexpr const char* lookups[] = {"Box", "Linear", "Cube"};
   const Case& c = named.param;
-  return parameters[static_cast<int>(c.parameter)] + std::string(lookups[static_cast<int>(c.lookup)]) +
-         std::to_string(c.kernel) + (c.lattice ? "Lattice" : "");
+  return c.varied + std::string(lookups[static_cast<int>(c.lookup)]) + std::to_string(c.kernel) +
+         (c.lattice ? "Lattice" : "");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Curves, testing::ValuesIn(cases()), case_name);
 
-// Every form that has a curve, with units that differ from receiver to receiver, at 100 biases of any size.
+// Every part that has a curve, among others that are held, with units that differ from receiver to receiver, at 100
+// amounts of any size.
 RC_GTEST_PROP(BiasCounts, AreDirectEvaluationBitForBit, ()) {
-  const auto parameter = *rc::gen::element(CurveParameter::constant, CurveParameter::slope, CurveParameter::tan_scale);
+  const BiasPart& varied = bias_part(varied_names[*rc::gen::inRange(0, 3)]);
   const auto lookup = *rc::gen::element(Lookup::box, Lookup::linear, Lookup::cube);
-  const Synthetic s = evidence_for(parameter, *rc::gen::arbitrary<uint64_t>(),
-                                   {7, 5, 6, *rc::gen::element(1, 3), *rc::gen::arbitrary<bool>(), lookup});
-  const BiasCounts counts(s.evidence(), s.stored, parameter);
+  const Synthetic s = random_evidence(*rc::gen::arbitrary<uint64_t>(),
+                                      {7, 5, 6, *rc::gen::element(1, 3), *rc::gen::arbitrary<bool>(), lookup});
+  const BiasCounts counts(s.evidence(), s.stored, varied);
   for (int i = 0; i < 100; ++i) {
     const float x = std::bit_cast<float>(*rc::gen::inRange<uint32_t>(0, std::bit_cast<uint32_t>(64.0f)));
-    RC_ASSERT(read_off(counts, x) == counted_at(s, parameter, x));
+    RC_ASSERT(read_off(counts, x) == counted_at(s, varied, x));
   }
 }
 
-TEST(CurveParameterOf, IsWhatTheFormTurnsIntoABias) {
-  EXPECT_EQ(curve_parameter(BiasForm::none), CurveParameter::constant);
-  EXPECT_EQ(curve_parameter(BiasForm::constant), CurveParameter::constant);
-  EXPECT_EQ(curve_parameter(BiasForm::slope), CurveParameter::slope);
-  EXPECT_EQ(curve_parameter(BiasForm::tan), CurveParameter::tan_scale);
-  EXPECT_EQ(curve_parameter(BiasForm::receiver_plane), CurveParameter::constant);
-  EXPECT_EQ(curve_parameter(BiasForm::tangent_plane), CurveParameter::constant);
-  EXPECT_EQ(curve_parameter(BiasForm::normal_offset), std::nullopt);
-  EXPECT_EQ(curve_parameter(BiasForm::polygon_offset), std::nullopt);
+std::string curve_through(BiasValues parts) {
+  const BiasPart* part = curve_part(bias_settings_of(parts));
+  return part ? std::string(part->name) : "";
+}
+
+TEST(CurvePart, IsTheFirstThatActsAndHasACurve) {
+  EXPECT_EQ(curve_through({}), "constant");
+  EXPECT_EQ(curve_through({{"constant", 1}}), "constant");
+  EXPECT_EQ(curve_through({{"slope", 1}}), "slope");
+  EXPECT_EQ(curve_through({{"slope_floor", 1}}), "slope");
+  EXPECT_EQ(curve_through({{"slope", 1}, {"constant", 1}}), "constant");
+  EXPECT_EQ(curve_through({{"tan", 1}, {"tan_cap", 2}}), "tan");
+  EXPECT_EQ(curve_through({{"normal_offset", 1}}), "");
+  EXPECT_EQ(curve_through({{"polygon_units", 1}}), "");
+  EXPECT_EQ(curve_through({{"normal_offset", 1}, {"constant", 1}}), "constant");
 }
 
 TEST(BiasCounts, AreTheSameOverManyBlocks) {
-  for (CurveParameter parameter : {CurveParameter::constant, CurveParameter::slope, CurveParameter::tan_scale}) {
+  for (const char* name : varied_names) {
+    const BiasPart& varied = bias_part(name);
     const Synthetic s =
-        evidence_for(parameter, 5, {220, 170, 64, 1, false, Lookup::linear});  // several of the loop's blocks of 8192
-    const BiasCounts counts(s.evidence(), s.stored, parameter);
+        random_evidence(5, {220, 170, 64, 1, false, Lookup::linear});  // several of the loop's blocks of 8192
+    const BiasCounts counts(s.evidence(), s.stored, varied);
     for (int i = 0; i <= 40; ++i)
-      ASSERT_EQ(read_off(counts, static_cast<float>(i) / 32), counted_at(s, parameter, static_cast<float>(i) / 32));
+      ASSERT_EQ(read_off(counts, static_cast<float>(i) / 32), counted_at(s, varied, static_cast<float>(i) / 32));
   }
 }
 
 // Sums of the synthetic weights are exact in any order; see fetch_weights().
 TEST(BiasCounts, AreTheSameInStrips) {
   for (uint64_t seed = 0; seed < 90; ++seed) {
-    const auto parameter = static_cast<CurveParameter>(seed % 3);
-    const Synthetic s = evidence_for(parameter, seed, {12, 9, 6, 3, seed % 2 == 0, static_cast<Lookup>(seed / 3 % 3)});
-    const BiasCounts whole(s.evidence(), s.stored, parameter);
-    BiasCounts counts(s.probe, parameter);
+    const BiasPart& varied = bias_part(varied_names[seed % 3]);
+    const Synthetic s = random_evidence(seed, {12, 9, 6, 3, seed % 2 == 0, static_cast<Lookup>(seed / 3 % 3)});
+    const BiasCounts whole(s.evidence(), s.stored, varied);
+    BiasCounts counts(s.probe, varied);
     for_each_strip(s, seed,
                    [&](const Synthetic& part, PixelRange strip) { counts.add(part.evidence(), part.stored, strip); });
-    for (float x : breakpoints(s, parameter))
+    for (float x : breakpoints(s, varied))
       for (float beside : {std::nextafter(x, 0.0f), x})
         ASSERT_EQ(read_off(counts, beside), read_off(whole, beside)) << seed;
     for (double share : {0.0, 0.001, 0.01, 0.1, 1.0}) {
@@ -300,14 +304,12 @@ TEST(BiasCounts, AreWhatTheLadderBooksAtThatBias) {
   for (uint64_t seed = 60; seed < 120; ++seed) {
     Synthetic s =
         random_evidence(seed, {12, 9, 6, static_cast<int>(seed % 3) * 2 + 1, true, static_cast<Lookup>(seed / 3 % 3)});
-    const std::optional<CurveParameter> parameter = curve_parameter(s.bias.form);
-    if (s.bias.form == BiasForm::none || !parameter) continue;
+    const BiasPart* const varied = curve_part(s.bias);
+    if (!varied) continue;
     set_verdicts(s);
     const Ladder ladder = climb(s.evidence());
-    const BiasCounts counts(s.evidence(), s.stored, *parameter);
-    const float x = *parameter == CurveParameter::slope       ? s.bias.slope
-                    : *parameter == CurveParameter::tan_scale ? s.bias.tan_scale
-                                                              : s.bias.constant;
+    const BiasCounts counts(s.evidence(), s.stored, *varied);
+    const auto x = static_cast<float>(s.bias[varied->name]);
     const double whole = s.lookup == Lookup::linear ? 1 : s.taps.taps_per_receiver;
     for (Cause cause : booked) {
       if (cause == Cause::undecided) continue;  // what darkens and what lightens cancel in a pixel, not in the counts
@@ -315,7 +317,8 @@ TEST(BiasCounts, AreWhatTheLadderBooksAtThatBias) {
       for (size_t i = 0; i < s.r4.size(); ++i)
         if (s.truth.facing[i] && !naive::ambiguous(s, i))
           sum += std::abs(static_cast<double>(ladder.step[static_cast<size_t>(cause)][i]));
-      EXPECT_NEAR(sum * whole, counts.caused(cause, x), 1e-3) << cause_name(cause);
+      EXPECT_NEAR(sum * whole, counts.caused(cause, x), 1e-3)
+          << cause_name(cause) << " through " << varied->name << " of seed " << seed;
     }
   }
 }

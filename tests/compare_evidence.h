@@ -20,13 +20,13 @@ struct Synthetic {
   TapTruth taps;
   Image<float> exact, stored;
   MapSettings map;
-  DepthBias bias;
+  BiasSettings bias;
   Image<float> r4, r5;  // as set_verdicts() reads them off the maps
   Lookup lookup = Lookup::box;
   int kernel = 1;  // box, cube: taps on a side; linear: fetches of 2 x 2 texels on a side
 
   int side() const { return lookup == Lookup::linear ? kernel + 1 : kernel; }
-  LookupEvidence evidence() const { return {truth, probe, taps, exact, map, bias, r4, r5}; }
+  LookupEvidence evidence() const { return {truth, probe, taps, exact, map, Bias(bias), r4, r5}; }
 };
 
 // The same evidence with the taps of one strip alone, as a measurement of many taps goes through it.
@@ -83,8 +83,8 @@ inline TapPattern pattern_of(const Shape& shape) {
 }
 
 // Any evidence that gl and raytrace could hand over, and more: receivers in and outside the map, at and beyond far,
-// ambiguous ones, ones that face away (whose numbers are rubbish), every wrap mode, every form of bias that the lookup
-// takes, units that differ from receiver to receiver.
+// ambiguous ones, ones that face away (whose numbers are rubbish), every wrap mode, any sum of biases over any
+// reference that the lookup takes, units that differ from receiver to receiver.
 inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
   std::mt19937_64 random(seed);
   const auto chance = [&](int percent) { return static_cast<int>(random() % 100) < percent; };
@@ -104,15 +104,18 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
   s.map.format = chance(50) ? DepthFormat::d24 : DepthFormat::d32f;
   s.map.wrap = static_cast<Wrap>(random() % 3);
   s.map.lit_beyond_far = chance(50);
-  s.bias.form = static_cast<BiasForm>(random() % (shape.lookup == Lookup::box ? 8 : 6));
-  s.bias.constant = depth() / 4;
-  s.bias.slope = depth();
-  s.bias.floor = chance(50) ? 0 : depth() / 4;
-  s.bias.tan_scale = depth();
-  s.bias.cap = s.bias.floor + depth() / 2;
-  if (s.bias.form == BiasForm::normal_offset) s.bias.normal_offset_texels = 0.25f;
-  if (s.bias.form == BiasForm::receiver_plane) s.probe.tap_reference = TapReference::plane_at_tap;
-  if (s.bias.form == BiasForm::tangent_plane) s.probe.tap_reference = TapReference::plane_at_texel;
+  if (chance(50)) s.bias["constant"] = depth() / 4;
+  if (chance(50)) s.bias["slope"] = depth();
+  if (chance(25)) s.bias["slope_floor"] = depth() / 4;
+  if (chance(50)) s.bias["tan"] = depth();
+  if (chance(25)) s.bias["tan_floor"] = depth() / 4;
+  if ((s.bias["tan"] > 0 || s.bias["tan_floor"] > 0) && chance(50))
+    s.bias["tan_cap"] = s.bias["tan_floor"] + depth() / 2;
+  if (chance(12)) s.bias["normal_offset"] = 0.25;
+  if (shape.lookup == Lookup::box) s.bias.reference = std::string(tap_references()[random() % 3].name);
+  if (chance(30)) s.bias.plane_cap = depth() / 8;
+  s.probe.tap_reference = &Bias(s.bias).reference();
+  s.probe.plane_cap = Bias(s.bias).plane_cap();
   s.truth.facing = s.truth.lit = s.truth.ambiguous = Image<uint8_t>(w, h, 0);
   s.truth.soft = s.probe.reference = s.probe.n_dot_l = s.probe.tan_theta = Image<float>(w, h, 0);
   s.probe.bias_unit = Image<float>(w, h, 1);
@@ -151,7 +154,7 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
       if (taps == 1 ? s.truth.lit[i] != 0 : chance(s.truth.lit[i] ? 80 : 20)) bits |= tap_exact_lit;
       if (chance(75) ? (bits & tap_exact_lit) != 0 : chance(50)) bits |= tap_texel_lit;
       if (chance(10)) bits |= tap_near_clipped;
-      const bool moves = s.bias.form == BiasForm::normal_offset;
+      const bool moves = s.bias["normal_offset"] != 0;
       if (moves && chance(20)) bits |= tap_displaced;
       if (chance(5)) bits |= tap_texel_unsure;
       if (taps > 1 && chance(5)) bits |= moves ? tap_exact_unsure : tap_exact_unsure | tap_moved_unsure;
@@ -220,9 +223,15 @@ inline std::vector<Tap> taps_of(const Synthetic& s, const Image<float>& map, siz
       const bool exact = (bits & 1) != 0, moved = (bits & 16) != 0 ? !exact : exact;
       float reference = s.probe.reference[receiver];
       const glm::vec2 slope = s.probe.gradient[receiver];
-      if (s.bias.form == BiasForm::receiver_plane)
-        reference += slope.x * static_cast<float>(i - s.kernel / 2) + slope.y * static_cast<float>(j - s.kernel / 2);
-      if (s.bias.form == BiasForm::tangent_plane)
+      if (s.bias.reference == "receiver_plane") {
+        float rise = slope.x * static_cast<float>(i - s.kernel / 2) + slope.y * static_cast<float>(j - s.kernel / 2);
+        if (s.bias.plane_cap) {
+          const float most = static_cast<float>(*s.bias.plane_cap) * s.probe.bias_unit[receiver];
+          rise = rise > most ? most : rise < -most ? -most : rise;
+        }
+        reference += rise;
+      }
+      if (s.bias.reference == "texel_plane")
         reference += slope.x * (static_cast<float>(x) + 0.5f - u) + slope.y * (static_cast<float>(y) + 0.5f - v);
       result.push_back({exact, moved, (bits & 2) != 0, (bits & 8) == 0, (bits & 32) == 0, (bits & 64) == 0,
                         inside && !beyond && (bits & 4) == 0, beyond, reference, depth, weight(i, u) * weight(j, v)});
@@ -255,16 +264,15 @@ inline float turned(float scale, float by, float floor) {
   return scaled > floor ? scaled : floor;
 }
 
-inline float bias_at(const Synthetic& s, size_t i) {
-  const DepthBias& b = s.bias;
-  float units = 0;
-  if (b.form == BiasForm::constant || b.form == BiasForm::receiver_plane || b.form == BiasForm::tangent_plane)
-    units = b.constant;
-  if (b.form == BiasForm::slope) units = turned(b.slope, 1.0f - s.probe.n_dot_l[i], b.floor);
-  if (b.form == BiasForm::tan) {
-    units = turned(b.tan_scale, s.probe.tan_theta[i], b.floor);
-    if (units > b.cap) units = b.cap;
-  }
+// The parts added up, one after the other; `varied` has the amount x in place of its own.
+inline float bias_at(const Synthetic& s, size_t i, std::string_view varied = "", float x = 0) {
+  const auto value = [&](std::string_view name) {
+    return name == varied ? x : static_cast<float>(std::min(s.bias[name], 1e30));
+  };
+  float units = value("constant");
+  units += turned(value("slope"), 1.0f - s.probe.n_dot_l[i], value("slope_floor"));
+  const float by_tan = turned(value("tan"), s.probe.tan_theta[i], value("tan_floor"));
+  units += by_tan > value("tan_cap") ? value("tan_cap") : by_tan;
   return units * s.probe.bias_unit[i];
 }
 
@@ -297,15 +305,6 @@ inline void set_verdicts(Synthetic& s) {
   for (size_t i = 0; i < s.r4.size(); ++i) {
     s.r4[i] = naive::visibility(s, s.exact, i, DepthFormat::d32f);
     s.r5[i] = naive::visibility(s, s.stored, i, s.map.format);
-  }
-}
-
-// The settings' form goes with the curve's parameter, as the program has it.
-inline Synthetic evidence_for(CurveParameter parameter, uint64_t seed, const Shape& shape) {
-  Synthetic s;
-  for (uint64_t other = seed;; other += 1000) {  // until the form is one that moves and draws nothing
-    s = random_evidence(other, shape);
-    if (curve_parameter(s.bias.form) == parameter) return s;
   }
 }
 

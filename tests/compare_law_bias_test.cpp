@@ -67,10 +67,10 @@ double depth_at(const LightFrame& f, const Plane& plane, glm::dvec3 place) {
   return f.window_depth(f.depth_m(f.to_light(from + t * way)));
 }
 
-LookupProbe probe_of(const FilterSettings& filter, TapReference reference = TapReference::own_depth) {
+LookupProbe probe_of(const FilterSettings& filter, std::string_view reference = "own_depth") {
   LookupProbe probe;
   probe.pattern = tap_pattern(filter);
-  probe.tap_reference = reference;
+  probe.tap_reference = &tap_reference(reference);
   return probe;
 }
 FilterSettings filter_of(FilterKind kind, int size = 3) {
@@ -117,7 +117,7 @@ double need(const LightFrame& f, const Plane& plane, const LookupProbe& probe) {
     if (!f.parallel() &&
         glm::dot(plane.point - f.origin_m, plane.normal) / glm::dot(f.to_world(centre) - f.origin_m, plane.normal) <= 0)
       continue;
-    const double reference = probe.tap_reference == TapReference::plane_at_tap
+    const double reference = probe.tap_reference->name == "receiver_plane"
                                  ? f.window_depth(f.depth_m(light)) +
                                        glm::dot(depth_gradient(f, plane.point, plane.normal), glm::dvec2(offset))
                                  : f.window_depth(f.depth_m(light));
@@ -133,7 +133,7 @@ TEST(AcneLaw, IsTheLeastUpperBoundOverAlignmentsOfAFlatMap) {
     for (const LookupProbe& probe :
          {probe_of(filter_of(FilterKind::none)), probe_of(filter_of(FilterKind::box, 5)),
           probe_of(filter_of(FilterKind::hardware)), probe_of(filter_of(FilterKind::gaussian, 3)),
-          probe_of(filter_of(FilterKind::box, 5), TapReference::plane_at_tap)}) {
+          probe_of(filter_of(FilterKind::box, 5), "receiver_plane")}) {
       for (int plane_number = 0; plane_number < 10; ++plane_number) {
         LightFrame f = random_frame(random, kind);
         const Plane plane = random_plane(random, f);
@@ -160,9 +160,9 @@ TEST(AcneLaw, IsTheLeastUpperBoundOverAlignmentsOfAFlatMap) {
   }
 }
 
-TEST(AcneLaw, AsksNothingOfTheTangentPlane) {
+TEST(AcneLaw, AsksNothingOfTheTexelPlane) {
   std::mt19937 random(3);
-  const LookupProbe probe = probe_of(filter_of(FilterKind::box, 5), TapReference::plane_at_texel);
+  const LookupProbe probe = probe_of(filter_of(FilterKind::box, 5), "texel_plane");
   const LightFrame f = random_frame(random, LightKind::spot);
   const Plane plane = random_plane(random, f);
   EXPECT_EQ(AcneLaw(f, probe).at(0, plane.point, plane.normal), 0);

@@ -12,6 +12,7 @@
 #include "compare/metrics.h"
 #include "scenes/error.h"
 #include "scenes/receivers.h"
+#include "tests/bias_of.h"
 
 namespace noonmark {
 namespace {
@@ -27,10 +28,10 @@ struct Picture {
     ladder.cause = Image<uint8_t>(width, height, 0);
     ladder.flags = Image<uint8_t>(width, height, flag_facing);
     ladder.doubt = Image<float>(width, height, 0);
-    receivers = {Image<glm::vec3>(width, height, glm::vec3(0, 0, -2)), Image<glm::vec3>(width, height),
-                 Image<uint32_t>(width, height, 0)};
+    receivers = {Image<glm::vec3>(width, height, glm::vec3(0, 0, -2)),
+                 Image<glm::vec3>(width, height, glm::vec3(0, 0, 1)), Image<uint32_t>(width, height, 0)};
     edge = occluder = Image<float>(width, height, nan_float);  // not to be read where nothing is wrong
-    probe.n_dot_l = probe.bias_unit = Image<float>(width, height, 1);
+    probe.n_dot_l = probe.bias_unit = probe.tan_theta = Image<float>(width, height, 1);
     probe.pattern.offsets = {glm::vec3(0)};
     frame.extent_m = 5;
     frame.resolution = 10;
@@ -52,8 +53,8 @@ struct Picture {
   ReceiverImage receivers;
   LookupProbe probe;
   Image<float> edge, occluder;
-  LightFrame frame;                                           // texels of 0.5 m
-  DepthBias bias{.form = BiasForm::constant, .constant = 1};  // of 10 m: nearly every occluder is within its reach
+  LightFrame frame;                        // texels of 0.5 m
+  Bias bias = bias_of({{"constant", 1}});  // of 10 m: nearly every occluder is within its reach
 };
 
 void attach(Picture& p, int x, int y) {
@@ -166,7 +167,7 @@ TEST(Measure, GapEndsWhereTheBiasCannotReach) {
   p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
   p.step(0, 0, Cause::peter_panning, 1);
   p.probe.n_dot_l.at(0, 0) = std::sqrt(0.5f);  // 45 degrees: a texel of 0.5 m adds at most 0.5 / sqrt(2) m of depth
-  p.bias.constant = 0.1f;                      // 1 m
+  p.bias = bias_of({{"constant", 0.1}});       // 1 m
   p.occluder.at(0, 0) = 1.3f;
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), 1.3 * std::sqrt(0.5), 1e-6);
   p.occluder.at(0, 0) = 1.4f;  // a steep receiver at the edge of a distant shadow
@@ -179,7 +180,7 @@ TEST(Measure, GapEndsWhereTheNormalOffsetCannotReach) {
   p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
   p.step(0, 0, Cause::peter_panning, 1);
   p.probe.n_dot_l.at(0, 0) = 0.5f;  // 60 degrees: a texel of 0.5 m adds at most 0.5 / sqrt(2) m times tan(theta)
-  p.bias = {.form = BiasForm::normal_offset, .normal_offset_texels = 1.5f};
+  p.bias = bias_of({{"normal_offset", 1.5}});
   const float reach = 0.75f / 0.5f + static_cast<float>(0.5 * std::sqrt(0.5) * std::sqrt(3.0));
   p.occluder.at(0, 0) = reach - 0.01f;
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), (reach - 0.01) * std::sqrt(0.75), 1e-6);
@@ -200,7 +201,7 @@ TEST(Measure, GapUnderASpotLightEndsWhereTheDepthDoes) {
   p.step(0, 0, Cause::peter_panning, 1);
   p.receivers.position[0] = {3, 0, -6};
   const double bias = 0.02, z = 6;
-  p.bias.constant = static_cast<float>(bias);
+  p.bias = bias_of({{"constant", bias}});
   // A receiver across its ray: within a texel its depth hardly changes.
   double low = p.frame.near_m, high = z;  // the depth that is bias before, by halving
   while (high - low > 1e-12)
@@ -227,7 +228,7 @@ TEST(Measure, GapUnderAPointLightEndsWhereTheTapsDo) {
   p.frame.resolution = 1 << 14;
   p.probe.pattern.offsets = {glm::vec3(0.3f, 0, 0.4f)};
   p.probe.pattern.in_world = true;
-  p.bias.constant = 0.01f;  // 0.2 m
+  p.bias = bias_of({{"constant", 0.01}});  // 0.2 m
   p.receivers.position[0] = {0, 0, -4};
   p.probe.n_dot_l[0] = 0.6f;
   const double theta = std::acos(0.6f), turned = theta + std::asin((0.5 + 0.5 * std::sqrt(2.0) * 8 / (1 << 14)) / 4);
@@ -244,7 +245,7 @@ TEST(Measure, APolygonOffsetReachesAnywhere) {
   Picture p(1, 1);
   p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
   p.step(0, 0, Cause::peter_panning, 1);
-  p.bias = {.form = BiasForm::polygon_offset, .factor = 1, .units = 1};
+  p.bias = bias_of({{"polygon_factor", 1}, {"polygon_units", 1}});
   p.probe.n_dot_l[0] = 0.6f;
   p.occluder[0] = 100;
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), 80, 1e-4);

@@ -20,13 +20,15 @@ width_px = 240
 height_px = 135
 [light]
 angular_diameter_deg = 2
+[bias]
+slope_floor = 0.005
 [truth]
 standard_error = 0.05
 [sweep]
 map.resolution = [100, 256]
 map.format = ["16", "32f"]
 map.cull = ["none", "front"]
-bias.form = ["constant", "slope"]
+bias.slope = [0, 0.05]
 filter.kind = ["none", "box"]
 [[bound]]
 metric = "residual"
@@ -97,7 +99,7 @@ TEST_F(Determinism, APointDoesNotDependOnThoseBefore) {
   };
   swap_values("[100, 256]", "[256, 100]");
   swap_values("[\"16\", \"32f\"]", "[\"32f\", \"16\"]");
-  swap_values("[\"constant\", \"slope\"]", "[\"slope\", \"constant\"]");
+  swap_values("bias.slope = [0, 0.05]", "bias.slope = [0.05, 0]");
   write("r.toml", reversed);
   ASSERT_EQ(run({"run", "x.toml", "--out", "a"}), 0) << output_;
   ASSERT_EQ(run({"run", "r.toml", "--out", "b"}), 0) << output_;

@@ -117,7 +117,7 @@ TEST(Experiment, RangesHoldBothEnds) {
   Texts expected;
   for (double v : {0.0, step, 2 * step, 0.3}) {
     Settings settings;
-    settings.bias.constant = v;
+    settings.bias["constant"] = v;
     expected.push_back(find_setting("bias.constant").get(settings));
   }
   EXPECT_EQ(values_of(linear, "bias.constant"), expected);
@@ -129,8 +129,8 @@ TEST(Experiment, RangesHoldBothEnds) {
       points(parse("[sweep]\nbias.constant = {min = 1e-4, max = 1e-1, steps = 7, scale = \"log\"}\n"));
   ASSERT_EQ(logarithmic.size(), 7u);
   for (int i = 0; i < 7; ++i)  // 4 units in the last place: pow() and one product
-    EXPECT_NEAR(logarithmic[i].bias.constant / std::pow(10.0, -4 + i / 2.0), 1, 1e-15);
-  EXPECT_EQ(logarithmic.back().bias.constant, 1e-1);
+    EXPECT_NEAR(logarithmic[i].bias["constant"] / std::pow(10.0, -4 + i / 2.0), 1, 1e-15);
+  EXPECT_EQ(logarithmic.back().bias["constant"], 1e-1);
 }
 
 TEST(Experiment, ScenePathsStartAtTheFilesFolder) {
@@ -221,8 +221,8 @@ RC_GTEST_PROP(ExperimentProperty, PointsAreTheProductOfTheLists, ()) {
       if (row.name == "view.near_m" && text != "auto") text = std::to_string(0.1 * (i + 1));
       if (row.name == "view.far_m" && text != "auto") text = std::to_string(i + 1);
       // And floor <= cap.
-      if (row.name == "bias.floor") text = std::to_string(0.001 * (i + 1));
-      if (row.name == "bias.cap") text = std::to_string(0.1 * (i + 1));
+      if (row.name == "bias.tan_floor") text = std::to_string(0.001 * (i + 1));
+      if (row.name == "bias.tan_cap" && text != "auto") text = std::to_string(0.1 * (i + 1));
       Settings settings;
       row.set(settings, text);
       const std::string canonical = row.get(settings);

@@ -6,7 +6,7 @@
 #include "gl_fixture.h"
 #include "scenes/camera_fit.h"
 #include "scenes/receivers.h"
-#include "technique/depth_bias.h"
+#include "technique/bias.h"
 #include "technique/map_address.h"
 
 namespace noonmark::gl {
@@ -24,7 +24,7 @@ inline float stored_at(const Image<float>& map, Wrap wrap, glm::ivec2 texel) {
 // In the shader's floats; of bilinear patterns in double.
 inline Image<double> lookup_on_host(const LookupProbe& probe, const ReceiverImage& receivers, const Image<float>& map,
                                     const Settings& s, Met& met) {
-  const DepthBias bias = depth_bias(s.bias);
+  const Bias bias(s.bias);
   Image<double> visibility(receivers.width(), receivers.height());
   for (size_t i = 0; i < visibility.size(); ++i) {
     // The probe of what is no receiver, or lies behind the light, is all zeros.
@@ -93,14 +93,18 @@ inline Settings random_settings(std::mt19937& random, LightKind kind) {
   s.map.near_m = 1 + unit(random);
   s.map.far_m = one_of(random, {6.0, 9.0, 30.0});
   s.bias.unit = one_of(random, {BiasUnit::depth, BiasUnit::m, BiasUnit::texel});
-  s.bias.constant = 0.02 * unit(random);
-  s.bias.slope = 0.1 * unit(random);
-  s.bias.floor = 0.01 * unit(random);
-  s.bias.tan_scale = 0.02 * unit(random);
-  s.bias.cap = s.bias.floor + 0.05 * unit(random);
-  s.bias.factor = 2 * unit(random);
-  s.bias.units = 10 * unit(random);
-  s.bias.normal_offset = 3 * unit(random);
+  const auto maybe = [&](double most) { return random() % 2 ? most * unit(random) : 0; };
+  s.bias["constant"] = maybe(0.02);
+  s.bias["slope"] = maybe(0.1);
+  s.bias["slope_floor"] = maybe(0.01);
+  s.bias["tan"] = maybe(0.02);
+  s.bias["tan_floor"] = maybe(0.01);
+  if (random() % 2) s.bias["tan_cap"] = s.bias["tan_floor"] + 0.05 * unit(random);
+  s.bias["polygon_factor"] = maybe(2);
+  s.bias["polygon_units"] = maybe(10);
+  for (const BiasPart& part : bias_parts())
+    if (part.acts_on == BiasPlace::place_looked_up && random() % 8 == 0) s.bias[part.name] = 3 * unit(random);
+  if (random() % 2) s.bias.plane_cap = 0.01 * unit(random);
   s.filter.size = one_of(random, {1, 3, 3, 5, 5, 7, 31});
   s.filter.step_texels = one_of(random, {0.5, 1.0, 1.7, 3.0});
   s.filter.sigma_texels = one_of(random, {0.5, 1.0, 4.0});
@@ -110,7 +114,7 @@ inline Settings random_settings(std::mt19937& random, LightKind kind) {
   s.filter.disk = one_of(random, {DiskRadius::fixed, DiskRadius::view_distance});
   s.filter.radius_m = 0.01 + 0.1 * unit(random);
   do {
-    s.bias.form = static_cast<BiasForm>(random() % find_setting("bias.form").choices.size());
+    s.bias.reference = std::string(tap_references()[random() % tap_references().size()].name);
     s.filter.kind = static_cast<FilterKind>(random() % find_setting("filter.kind").choices.size());
   } while (kind_thrown([&] { validate_for(kind, s); }));
   return s;

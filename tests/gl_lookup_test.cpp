@@ -17,7 +17,8 @@ double sampler_error(const DeviceInfo& info) { return 6 * 0x1p-15 + (info.softwa
 TEST_F(GlLookupTest, EqualsTheHost) {
   std::mt19937 random(1978);
   double worst_blend = 0;
-  std::set<std::pair<BiasForm, FilterKind>> pairs;
+  std::set<std::string> parts_met, references_met;
+  std::set<FilterKind> filters_met;
   for (const LightKind kind : kinds) {
     Met met;
     for (int k = 0; k < 4; ++k) {
@@ -31,7 +32,10 @@ TEST_F(GlLookupTest, EqualsTheHost) {
         const Image<double> host = lookup_on_host(probe, receivers, renderer.read_map(map), settings, met);
         const Image<float> gpu = renderer.lookup(map, frame, settings);
         const double allowed = probe.pattern.bilinear() ? sampler_error(renderer.info()) : 0;
-        pairs.emplace(settings.bias.form, settings.filter.kind);
+        for (const BiasPart& part : bias_parts())
+          if (settings.bias[part.name] != 0) parts_met.emplace(part.name);
+        references_met.insert(settings.bias.reference);
+        filters_met.insert(settings.filter.kind);
         ASSERT_EQ(gpu.size(), host.size());
         size_t different = 0, first = 0;
         for (size_t i = gpu.size(); i-- > 0;) {
@@ -54,11 +58,9 @@ TEST_F(GlLookupTest, EqualsTheHost) {
     EXPECT_GT(met.background, enough);
   }
   RecordProperty("worst_blend", std::to_string(worst_blend));
-  for (size_t b = 0; b < find_setting("bias.form").choices.size(); ++b)
-    EXPECT_TRUE(std::any_of(pairs.begin(), pairs.end(), [&](auto p) { return p.first == static_cast<BiasForm>(b); }));
-  for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f)
-    EXPECT_TRUE(
-        std::any_of(pairs.begin(), pairs.end(), [&](auto p) { return p.second == static_cast<FilterKind>(f); }));
+  EXPECT_EQ(parts_met.size(), bias_parts().size());
+  EXPECT_EQ(references_met.size(), tap_references().size());
+  EXPECT_EQ(filters_met.size(), find_setting("filter.kind").choices.size());
 }
 
 // Lit and dark are exactly 1 and 0 whatever the filter, its size and its weights.
@@ -74,7 +76,7 @@ TEST_F(GlLookupTest, AllLitIsOneAndAllDarkIsNought) {
         settings.map.resolution = 64;
         settings.map.wrap = Wrap::clamp_to_edge;
         settings.map.far_m = 30;
-        settings.bias.form = BiasForm::none;
+        settings.bias = {};
         settings.filter.kind = static_cast<FilterKind>(f);
         settings.filter.size = size;
         settings.filter.sigma_texels = 0.3 * size;
@@ -105,7 +107,7 @@ TEST_F(GlLookupTest, ATieIsLit) {
       settings.map.resolution = 8;
       settings.map.wrap = Wrap::clamp_to_edge;
       settings.map.far_m = 40;
-      settings.bias.form = BiasForm::none;
+      settings.bias = {};
       settings.filter.kind = static_cast<FilterKind>(f);
       if (kind_thrown([&] { validate_for(kind, settings); })) continue;
       load(scene, 1, 1);
@@ -135,7 +137,7 @@ TEST_F(GlLookupTest, AnEdgeThroughEachFilter) {
   settings.map.near_m = 0;
   settings.map.far_m = 20;
   settings.map.wrap = Wrap::clamp_to_edge;
-  settings.bias.form = BiasForm::none;
+  settings.bias = {};
   Image<float> half(16, 16, 1.0f);
   const LightFrame frame = make_light_frame(scene, settings);
   const bool right_is_plus_x = frame.right.x > 0;
@@ -194,16 +196,16 @@ TEST_F(GlLookupTest, PlaneFormsFreeAPlaneOfAcne) {
     settings.filter.size = 5;
     const LightFrame frame = make_light_frame(scene, settings);
     const ShadowMap map = renderer.render_map(frame, settings);
-    const auto dark_share = [&](BiasForm form, double constant) {
-      settings.bias.form = form;
-      settings.bias.constant = constant;
+    const auto dark_share = [&](const char* reference, double constant) {
+      settings.bias.reference = reference;
+      settings.bias["constant"] = constant;
       const Image<float> seen = renderer.lookup(map, frame, settings);
       double dark = 0;
       for (float s : seen.pixels) dark += 1 - static_cast<double>(s);
       return dark / static_cast<double>(seen.size());
     };
     // Half a texel of the steepest depth gradient that any receiver has, along both axes.
-    settings.bias.form = BiasForm::receiver_plane;
+    settings.bias.reference = "receiver_plane";
     const LookupProbe probe = renderer.probe(frame, settings);
     double half_texel = 0;
     for (size_t i = 0; i < probe.gradient.size(); ++i) {
@@ -213,13 +215,13 @@ TEST_F(GlLookupTest, PlaneFormsFreeAPlaneOfAcne) {
     // The rasteriser's 2 places and a handful of the shader's (2^-24 each), times the kernel's reach.
     constexpr double float_error = 32 * 0x1p-24;
     EXPECT_GT(half_texel, 100 * float_error);
-    EXPECT_GT(dark_share(BiasForm::constant, 0), 0.3) << "two fifths of the taps lie uphill";
-    EXPECT_GT(dark_share(BiasForm::constant, 4 * half_texel), 0.01) << "its kernel wants five times as much";
-    EXPECT_EQ(dark_share(BiasForm::constant, 5 * half_texel + float_error), 0);
-    EXPECT_GT(dark_share(BiasForm::receiver_plane, 0), 0.3);
-    EXPECT_GT(dark_share(BiasForm::receiver_plane, 0.7 * half_texel), 0.001);
-    EXPECT_EQ(dark_share(BiasForm::receiver_plane, half_texel + float_error), 0);
-    EXPECT_EQ(dark_share(BiasForm::tangent_plane, float_error), 0);
+    EXPECT_GT(dark_share("own_depth", 0), 0.3) << "two fifths of the taps lie uphill";
+    EXPECT_GT(dark_share("own_depth", 4 * half_texel), 0.01) << "its kernel wants five times as much";
+    EXPECT_EQ(dark_share("own_depth", 5 * half_texel + float_error), 0);
+    EXPECT_GT(dark_share("receiver_plane", 0), 0.3);
+    EXPECT_GT(dark_share("receiver_plane", 0.7 * half_texel), 0.001);
+    EXPECT_EQ(dark_share("receiver_plane", half_texel + float_error), 0);
+    EXPECT_EQ(dark_share("texel_plane", float_error), 0);
   }
 }
 
@@ -244,9 +246,9 @@ TEST_F(GlLookupTest, TurnsAtTheExactFloat) {
     float bias = reference - z;  // near the least one that lights the pixel; then walk to it
     while (reference - bias > z) bias = std::nextafter(bias, 1.0f);
     while (!(reference - std::nextafter(bias, 0.0f) > z)) bias = std::nextafter(bias, 0.0f);
-    settings.bias.constant = bias;
+    settings.bias["constant"] = bias;
     EXPECT_EQ(renderer.lookup(map, frame, settings)[i], 1.0f) << bias;
-    settings.bias.constant = std::nextafter(bias, 0.0f);
+    settings.bias["constant"] = std::nextafter(bias, 0.0f);
     EXPECT_EQ(renderer.lookup(map, frame, settings)[i], 0.0f) << bias;
     ++turned;
   }

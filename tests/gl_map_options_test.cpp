@@ -72,8 +72,7 @@ TEST_F(GlTest, AMapsOptionsEndWithItsPass) {
   Settings settings;
   settings.map.resolution = 4;
   settings.map.depth_clamp = true;
-  settings.bias.form = BiasForm::polygon_offset;
-  settings.bias.factor = 1000;
+  settings.bias["polygon_factor"] = 1000;
   renderer.render_map(make_light_frame(scene, settings), settings);
   EXPECT_TRUE(renderer.render_primitives(camera_from_above(2), 8, 8).pixels == before);
   EXPECT_EQ(std::count(before.begin(), before.end(), 2u) + std::count(before.begin(), before.end(), 3u), 64)
@@ -113,12 +112,11 @@ TEST_F(GlTest, PolygonOffsetFollowsItsFormula) {
       for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
         settings.map.format = format;
         const double quantum = format == DepthFormat::d16 ? 1.0 / 65535 : 1.0 / 16777215;
-        settings.bias.form = BiasForm::none;
+        settings.bias = {};
         const Image<float> plain = renderer.read_map(renderer.render_map(frame, settings));
-        settings.bias.form = BiasForm::polygon_offset;
         for (const auto& [factor, units] : {std::pair(0.0, 40.0), {3.0, 0.0}, {1.5, 70.0}, {0.0, 0.0}}) {
-          settings.bias.factor = factor;
-          settings.bias.units = units;
+          settings.bias["polygon_factor"] = factor;
+          settings.bias["polygon_units"] = units;
           const Image<float> moved = renderer.read_map(renderer.render_map(frame, settings));
           double worst = 0, steepest = 0;
           for (int j = 1; j < 63; ++j)
@@ -152,11 +150,10 @@ TEST_F(GlTest, PolygonOffsetLeavesACubeAlone) {
   Settings settings;
   settings.map.resolution = 32;
   const LightFrame frame = make_light_frame(scene, settings);
-  settings.bias.form = BiasForm::none;
+  settings.bias = {};
   const Image<float> plain = renderer.read_map(renderer.render_map(frame, settings));
-  settings.bias.form = BiasForm::polygon_offset;
-  settings.bias.factor = 10;
-  settings.bias.units = 1000;
+  settings.bias["polygon_factor"] = 10;
+  settings.bias["polygon_units"] = 1000;
   EXPECT_TRUE(renderer.read_map(renderer.render_map(frame, settings)).pixels == plain.pixels);
   EXPECT_LT(*std::min_element(plain.pixels.begin(), plain.pixels.end()), 1.0f);
 }

@@ -1,6 +1,8 @@
 // What the shader computes before it compares, against the frame in double.
+#include "gl/bias_text.h"
 #include "gl_lookup_host.h"
 #include "technique/light_frame.h"
+#include "tests/bias_of.h"
 
 namespace noonmark::gl {
 namespace {
@@ -15,7 +17,7 @@ bool same_probe(const LookupProbe& a, const LookupProbe& b, size_t i) {
           (same_bits(a.map_texels[i].x, b.map_texels[i].x) && same_bits(a.map_texels[i].y, b.map_texels[i].y)));
 }
 
-// The probe of a moved lookup is that of receivers which lie there; and no other form moves it, not even by a bit.
+// The probe of a moved lookup is that of receivers which lie there; and no other part moves it, not even by a bit.
 TEST_F(GlProbeTest, MovesWithTheNormalOffsetAlone) {
   std::mt19937 random(2011);
   for (const LightKind kind : kinds) {
@@ -23,28 +25,25 @@ TEST_F(GlProbeTest, MovesWithTheNormalOffsetAlone) {
     const ReceiverImage receivers = load(scene, 96, 64);
     Settings settings;
     settings.map.resolution = 64;
-    settings.bias.form = BiasForm::none;
     const LightFrame frame = make_light_frame(scene, settings);
     const LookupProbe unmoved = renderer.probe(frame, settings);
-    for (size_t b = 0; b < find_setting("bias.form").choices.size(); ++b) {
-      settings.bias.form = static_cast<BiasForm>(b);
-      if (kind_thrown([&] { validate_for(kind, settings); })) continue;
-      settings.bias.normal_offset = 0;
+    for (const BiasSettings& bias : every_bias()) {
+      settings.bias = bias;
+      if (kind_thrown([&] { validate_for(kind, settings); }) || Bias(bias).moves_lookup()) continue;
       const LookupProbe probe = renderer.probe(frame, settings);
       for (size_t i = 0; i < receivers.primitive.size(); ++i) {
-        ASSERT_TRUE(same_probe(probe, unmoved, i)) << "form " << b;
-        ASSERT_TRUE(same_bits(probe.n_dot_l[i], unmoved.n_dot_l[i])) << "form " << b;
+        ASSERT_TRUE(same_probe(probe, unmoved, i)) << bias_text_name(Bias(bias));
+        ASSERT_TRUE(same_bits(probe.n_dot_l[i], unmoved.n_dot_l[i])) << bias_text_name(Bias(bias));
       }
     }
-    settings.bias.form = BiasForm::normal_offset;
-    settings.bias.normal_offset = 3;
+    settings.bias = bias_settings_of({{"normal_offset", 3}});
     const LookupProbe moved = renderer.probe(frame, settings);
     ReceiverImage there = receivers;
-    const DepthBias bias = depth_bias(settings.bias);
+    const Bias bias(settings.bias);
     for (size_t i = 0; i < there.position.size(); ++i)
       there.position[i] = glm::vec3(bias.looked_up(frame, receivers.position[i], receivers.normal[i]));
     renderer.load_receivers(there, scene.camera.eye_m);
-    settings.bias.form = BiasForm::none;
+    settings.bias = {};
     const LookupProbe expected = renderer.probe(frame, settings);
     // Both places are floats of a few metres, off by a few of their last places (2^-22 m); the map's 64 texels and its
     // depth are steeper than 1 / m by less than 64.
@@ -77,7 +76,6 @@ TEST_F(GlProbeTest, IsNearTheExactPlaces) {
       // So that there are receivers on all sides of the map, at negative texels too.
       settings.map.extent_scale = kind == LightKind::point ? 1 : 0.3;
       settings.bias.unit = unit;
-      settings.bias.form = BiasForm::tan;
       if (kind == LightKind::point) {
         settings.filter.kind = FilterKind::cube_disk;
         settings.filter.disk = DiskRadius::view_distance;
@@ -147,11 +145,11 @@ TEST_F(GlProbeTest, GradientIsThePlanes) {
     const ReceiverImage receivers = load(scene, 96, 64);
     Settings settings;
     settings.map.resolution = 300;
-    settings.bias.form = BiasForm::tangent_plane;
+    settings.bias.reference = "texel_plane";
     const LightFrame frame = make_light_frame(scene, settings);
     const LookupProbe probe = renderer.probe(frame, settings);
     ASSERT_EQ(probe.gradient.size(), receivers.primitive.size());
-    EXPECT_EQ(probe.tap_reference, TapReference::plane_at_texel);
+    EXPECT_EQ(probe.tap_reference->name, "texel_plane");
     size_t seen = 0, tilted = 0;
     for (size_t i = 0; i < receivers.primitive.size(); ++i) {
       const glm::dvec3 P = receivers.position[i], N = receivers.normal[i];

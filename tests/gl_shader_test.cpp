@@ -1,11 +1,13 @@
 // Includes in GLSL files, and errors that name the file and line they came from.
 #include <map>
 
+#include "gl/bias_text.h"
 #include "gl/egl_context.h"
 #include "gl/lookup_parts.h"
 #include "gl/program.h"
 #include "gl/shader_text.h"
 #include "gl_fixture.h"
+#include "tests/bias_of.h"
 
 namespace noonmark::gl {
 namespace {
@@ -88,27 +90,30 @@ TEST(LookupParts, EveryLightBiasAndFilterBuilds) {
   int built = 0, refused = 0;
   // One enumerator for each choice in the table of settings; light.kind's first is `auto`.
   for (size_t l = 0; l + 1 < find_setting("light.kind").choices.size(); ++l)
-    for (size_t b = 0; b < find_setting("bias.form").choices.size(); ++b)
+    for (const BiasSettings& bias : every_bias())
       for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f) {
         Settings settings;
-        settings.bias.form = static_cast<BiasForm>(b);
+        settings.bias = bias;
         settings.filter.kind = static_cast<FilterKind>(f);
         if (kind_thrown([&] { validate_for(static_cast<LightKind>(l), settings); })) {
           ++refused;
           continue;
         }
+        const Bias of(bias);
+        programs.define(bias_text_name(of), bias_text(of));
         const ShaderSlots slots = {{"light", light_file(static_cast<LightKind>(l))},
-                                   {"bias", bias_file(settings.bias.form)},
+                                   {"bias", bias_text_name(of)},
                                    {"filter", filter_file(settings.filter.kind)}};
         const ShaderStages stages{"shaders/screen.vert", "shaders/lookup.frag"};
         const Program& first = programs.get(stages, slots);
         EXPECT_EQ(&first, &programs.get(stages, slots)) << "built once";
         ++built;
       }
-  // Of 3 lights, 8 bias forms and 7 filters; flat maps refuse 2 filters, and 2 forms with 2 others; cubes refuse 4
-  // filters, and 2 forms with the rest.
-  EXPECT_EQ(built, 2 * (8 * 5 - 4) + 6 * 3);
-  EXPECT_EQ(refused, 3 * 8 * 7 - built);
+  // Of 3 lights and 7 filters; flat maps refuse 2 filters, and 2 references with 2 others; cubes refuse 4 filters, and
+  // 2 references with the rest.
+  const int biases = static_cast<int>(every_bias().size());
+  EXPECT_EQ(built, 2 * (biases * 5 - 4) + (biases - 2) * 3);
+  EXPECT_EQ(refused, 3 * biases * 7 - built);
   EXPECT_EQ(kind_thrown([&] { context.check("building"); }), 0);
 }
 

@@ -409,7 +409,7 @@ TEST_F(Pictures, PointHoldsEverySettingAndWhatIsNotFinite) {
   EXPECT_EQ(json.at("times").at("map_ms"), "-inf");
   EXPECT_EQ(json.at("settings").at("map.resolution"), 1024);
   EXPECT_EQ(json.at("settings").at("map.extent_m"), "auto");
-  EXPECT_EQ(json.at("settings").at("bias.constant"), 0.005);
+  EXPECT_EQ(json.at("settings").at("bias.constant"), 0);
   EXPECT_EQ(json.at("settings").at("map.lit_beyond_far"), true);
   ASSERT_EQ(json.at("causes").size(), cause_count);
   for (int c = 0; c < cause_count; ++c)

@@ -15,6 +15,7 @@
 #include "compare/ladder.h"
 #include "raytrace/light_view.h"
 #include "tests/acceptance_support.h"
+#include "tests/bias_of.h"
 #include "tests/raytrace_fixture.h"
 
 namespace noonmark {
@@ -84,9 +85,7 @@ void add_acne(const Valley& v, double offset_m, std::mt19937& random, Acne& foun
     points.push_back({p, v.holds(first, p) ? first : first + 1});
   }
   const ReceiverImage receivers = test::receivers_at(v.scene, points, {0, 1, 0}, true);
-  DepthBias bias;
-  bias.form = BiasForm::normal_offset;
-  bias.normal_offset_texels = static_cast<float>(offset_m / v.frame.texel_m());
+  const Bias bias = bias_of({{"normal_offset", offset_m / v.frame.texel_m()}});
   ReceiverImage moved = receivers;
   for (size_t i = 0; i < moved.position.size(); ++i)
     moved.position[i] = glm::vec3(bias.looked_up(v.frame, receivers.position[i], receivers.normal[i]));
@@ -171,7 +170,7 @@ TEST(Law3Crease, LeavesAStripAtTheLitFootOfAWall) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* offset : {"1", "2", "4"}) {
     const Measurement m =
-        bench.measure(with({{"map.resolution", "256"}, {"bias.form", "normal_offset"}, {"bias.normal_offset", offset}},
+        bench.measure(with({{"map.resolution", "256"}, {"bias.constant", "0"}, {"bias.normal_offset", offset}},
                            small("wall", 640, 360)),
                       std::nullopt);
     const glm::dvec3 wall_normal(0, 0, -1), floor_normal(0, 1, 0);

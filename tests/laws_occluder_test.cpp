@@ -117,11 +117,10 @@ Settings any_settings(const std::string& scene) {
                      {"map.shift_v_texels", text(between(-10, 10) / 10.0)},
                      {"filter.kind", "box"},
                      {"filter.size", one_of({"1", "3", "7"})},
-                     {"bias.form", one_of({"none", "constant", "slope"})},
                      {"bias.unit", one_of({"m", "texel", "depth"})},
-                     {"bias.constant", text(std::pow(10.0, between(-6, 1)))},
-                     {"bias.slope", text(std::pow(10.0, between(-6, 1)))},
-                     {"bias.floor", text(std::pow(10.0, between(-6, 1)))},
+                     {"bias.constant", text(between(0, 1) * std::pow(10.0, between(-6, 1)))},
+                     {"bias.slope", text(between(0, 1) * std::pow(10.0, between(-6, 1)))},
+                     {"bias.slope_floor", text(between(0, 1) * std::pow(10.0, between(-6, 1)))},
                      {"scene.theta_deg", std::to_string(between(0, 89))},
                      {"scene.phi_deg", std::to_string(between(-180, 180))},
                      {"scene.mesh", one_of({"as_built", "one_mesh"})}},
@@ -222,7 +221,7 @@ TEST(Law10, NeedsThicknessWhereFrontFacesAreCulled) {
     const Settings base = with({{"map.cull", "front"},
                                 {"map.format", "32f"},
                                 {"map.resolution", "160"},
-                                {"bias.form", "none"},
+                                {"bias.constant", "0"},
                                 {"scene.height_m", "1"}},
                                small("plate", 640, 360));
     const Scene scene = make_scene(base.scene);
@@ -263,7 +262,7 @@ TEST(Law10, LeaksAtContacts) {
   const auto leak = [&](const char* cull) {
     return metric(bench.measure(with({{"map.cull", cull},
                                       {"map.format", "32f"},
-                                      {"bias.form", "none"},
+                                      {"bias.constant", "0"},
                                       {"map.resolution", "256"},
                                       {"view.eye_m", "1.2,0.8,1.5"},
                                       {"view.target_m", "0.1,0,1.5"},

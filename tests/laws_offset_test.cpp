@@ -17,6 +17,7 @@
 
 #include "compare/law_metrics.h"
 #include "tests/acceptance_support.h"
+#include "tests/bias_of.h"
 
 namespace noonmark::acceptance {
 namespace {
@@ -33,7 +34,8 @@ Settings plane_settings(double theta, double phi, int size) {
   return with({{"scene.theta_deg", text(theta)},
                {"scene.phi_deg", text(phi)},
                {"map.resolution", "128"},
-               {"bias.form", "normal_offset"},
+               {"bias.constant", "0"},
+               {"bias.normal_offset", "1"},
                {"filter.kind", "box"},
                {"filter.size", std::to_string(size)}},
               small("plane", 240, 136));
@@ -45,7 +47,7 @@ double plane_law(double theta, double phi, int size) {
 }
 
 double acne_at(Workbench& bench, Settings settings, double offset_texels) {
-  settings.bias.normal_offset = offset_texels;
+  settings.bias["normal_offset"] = offset_texels;
   return metric(bench.measure(settings, std::nullopt), "acne");
 }
 
@@ -111,7 +113,7 @@ TEST(Law3, MovesShadowsTowardsTheLight) {
   for (const char* offset : {"0.5", "1"}) {
     const Measurement m = bench.measure(with({{"scene.height_m", text(height_m)},
                                               {"map.resolution", "128"},
-                                              {"bias.form", "normal_offset"},
+                                              {"bias.constant", "0"},
                                               {"bias.normal_offset", offset}},
                                              small("plate", 640, 360)),
                                         std::nullopt);
@@ -192,20 +194,18 @@ TEST(Law3, LeavesNoGapAtAFoot) {
     Settings settings = foot(thickness);
     const LightFrame frame = make_light_frame(make_scene(settings.scene), settings);
     const double law_texels = 0.5 * texel_axes_1(frame, {0, 1, 0}), cosine = frame.direction_to_light().y;
-    settings.bias.form = BiasForm::constant;
+    settings.bias = bias_settings_of({{"constant", law_texels / cosine}});
     settings.bias.unit = BiasUnit::texel;
-    settings.bias.constant = law_texels / cosine;
     const Measurement with_bias = bench.measure(settings, std::nullopt);
     const double gap = metric(with_bias, "peter_panning_gap_m"), panning = metric(with_bias, "peter_panning");
     // Law 2's, to one texel on the floor.
     const glm::dvec3 light = frame.direction_to_light();
     const double sine = std::sqrt(1 - cosine * cosine), cos_psi = std::abs(light.x) / sine;
-    EXPECT_NEAR(gap, settings.bias.constant * frame.texel_m() * sine - thickness / cos_psi, frame.texel_m());
+    EXPECT_NEAR(gap, settings.bias["constant"] * frame.texel_m() * sine - thickness / cos_psi, frame.texel_m());
     EXPECT_GT(panning, 0.005);
 
-    settings.bias.form = BiasForm::normal_offset;
     for (double times : {1.02, 3.0}) {
-      settings.bias.normal_offset = times * law_texels;
+      settings.bias = bias_settings_of({{"normal_offset", times * law_texels}});
       const Measurement m = bench.measure(settings, std::nullopt);
       EXPECT_EQ(metric(m, "acne"), 0);
       EXPECT_EQ(metric(m, "peter_panning"), 0) << "thickness " << thickness << ", " << times << " times the law";
@@ -225,7 +225,7 @@ TEST(Law3, DisplacesACubesShadowAndNothingElse) {
                                   {"view.eye_m", "5.2,2.5,4.4"},
                                   {"view.target_m", "2.9,-0.4,1.4"},
                                   {"view.fov_deg", "22"},
-                                  {"bias.form", "normal_offset"},
+                                  {"bias.constant", "0"},
                                   {"bias.normal_offset", "0.7072"}},  // sqrt(1/2): enough for any unfiltered face
                                  small("cube-room", 480, 270));
   const Measurement m = bench.measure(settings, std::nullopt);
@@ -247,7 +247,7 @@ TEST(Law3, DisplacesACubesShadowAndNothingElse) {
   EXPECT_LE(panning, 10u);
   // A bias lights the corners too, as deep as it reaches (law 2); 4 texels free the lit sides as well.
   const Measurement b = bench.measure(
-      with({{"bias.form", "constant"}, {"bias.unit", "texel"}, {"bias.constant", "4"}}, settings), std::nullopt);
+      with({{"bias.normal_offset", "0"}, {"bias.constant", "4"}, {"bias.unit", "texel"}}, settings), std::nullopt);
   EXPECT_GT(metric(b, "peter_panning"), 10 * metric(m, "peter_panning"));
   EXPECT_EQ(metric(b, "displacement"), 0);
   std::cout << "displacement " << metric(m, "displacement") << ", aliasing " << metric(m, "aliasing") << ", " << panning
@@ -260,11 +260,9 @@ TEST(Law3, DisplacesACubesShadowAndNothingElse) {
 // of.
 TEST(Law3, LosesAPlateBelowItsOffset) {
   Workbench bench(gl::DebugMode::fatal);
-  const Settings base = with({{"map.resolution", "1024"},
-                              {"scene.thickness_m", "0.01"},
-                              {"bias.form", "normal_offset"},
-                              {"bias.normal_offset", "8"}},
-                             small("plate", 640, 360));
+  const Settings base = with(
+      {{"map.resolution", "1024"}, {"scene.thickness_m", "0.01"}, {"bias.constant", "0"}, {"bias.normal_offset", "8"}},
+      small("plate", 640, 360));
   const double offset_m = 8 * make_light_frame(make_scene(base.scene), base).texel_m();
   const auto lost = [&](double share) {
     const Measurement m = bench.measure(with({{"scene.height_m", text(share * offset_m)}}, base), std::nullopt);

@@ -126,7 +126,7 @@ TEST_F(Estimate, GrowsWithWhatIsAskedFor) {
   EXPECT_GT(bytes(LightKind::directional, {100, 100, 1'000'000}, true, true),
             bytes(LightKind::directional, {100, 100, 0}, true, true) + 4e6)
       << "and point.json lists them";
-  settings_.bias.form = BiasForm::normal_offset;  // has no curve
+  settings_.bias["normal_offset"] = 1;  // has no curve
   EXPECT_EQ(bytes(), bytes(LightKind::directional, {100, 100}, false));
   settings_.map.cull = CulledFaces::front;
   EXPECT_GT(bytes(), bytes(LightKind::directional, {100, 100}, false) - 1);

@@ -15,7 +15,7 @@
 namespace noonmark::planted {
 namespace {
 
-Settings offset_cubes() { return cubes({{"bias.form", "normal_offset"}, {"bias.normal_offset", "0.7"}}); }
+Settings offset_cubes() { return cubes({{"bias.constant", "0"}, {"bias.normal_offset", "0.7"}}); }
 // The map covers two fifths of what it should, so that many receivers fall outside.
 Settings narrow() { return cubes({{"map.extent_scale", "0.4"}}); }
 
@@ -63,7 +63,7 @@ std::vector<Planted> defects() {
   all.push_back({"BiasWithTheWrongSignAsClaimed",
                  cubes(),
                  {.shaders = patched("shaders/compare.glsl", "reference - bias", "reference + bias"),
-                  .believed_bias = [](DepthBias& bias) { bias.constant = -bias.constant; }},
+                  .believed_bias = [](BiasSettings& bias) { bias["constant"] = -bias["constant"]; }},
                  {{"acne", 0.01, 0.5}, {"error", 0.01, 0.5}},
                  {"contract", "tap_residual", "rounding_excess"}});
   // Ties are too rare to show in a picture of this scene; on the map of ties every second texel has one.
@@ -74,7 +74,7 @@ std::vector<Planted> defects() {
   // for what falls into texels whose centre lies beyond its rim.
   all.push_back(
       {"GreaterOrEqualOnAPlaneSquareToTheLight",
-       with({{"scene.theta_deg", "0"}, {"bias.form", "none"}, {"map.format", "32f"}}, small("plane", 160, 90)),
+       with({{"scene.theta_deg", "0"}, {"bias.constant", "0"}, {"map.format", "32f"}}, small("plane", 160, 90)),
        {.shaders = or_equal},
        {{"contract", 0, 0.99}, {"error", 0, 0.99}, {"tap_residual", 0, 1}}});
   // One tap of nine dropped: what is lit, four fifths of the picture, is 8/9 lit.
@@ -103,8 +103,8 @@ std::vector<Planted> defects() {
                  {.asked = [](Settings& s) { s.bias.unit = BiasUnit::m; }},
                  {{"contract", 0, 0.1}, {"tap_residual", 1e-6, 1}}});
   all.push_back({"SlopeWithoutItsFloor",
-                 cubes({{"bias.form", "slope"}, {"bias.slope", "0.001"}, {"bias.floor", "0.0025"}}),
-                 {.shaders = patched("shaders/bias/slope.glsl", "max(scaled, bias_floor)", "scaled")},
+                 cubes({{"bias.constant", "0"}, {"bias.slope", "0.001"}, {"bias.slope_floor", "0.0025"}}),
+                 {.asked = [](Settings& s) { s.bias["slope_floor"] = 0; }},
                  {{"contract", 0, 0.1}, {"tap_residual", 1e-6, 1}}});
   // The wrap mode of every map made; the truth counts on the lit border.
   all.push_back({"WrapRepeatInPlaceOfBorder",
@@ -167,12 +167,11 @@ std::vector<Planted> defects() {
                  {{"address_error_texels", 1e-4, 5}, {"rounding_excess", 1, 1000}}});
   // 1 - N.L becomes 1 + N.L: on the floor 15 times the bias, 0.6 m along the light, and at the foot of the
   // standing cubes a gap of 0.3 m.
-  all.push_back(
-      {"LightNegatedInNDotL",
-       cubes({{"bias.form", "slope"}, {"bias.slope", "0.05"}, {"bias.floor", "0"}}),
-       {.shaders = patched(receiver, "dot(normal, to_light(position.xyz))", "-dot(normal, to_light(position.xyz))")},
-       {{"rounding_excess", 1, 1000}, {"peter_panning", 1e-4, 1e-3}},
-       {"contract", "address_error_texels", "reference_error_m"}});
+  all.push_back({"LightNegatedInNDotL",
+                 cubes({{"bias.constant", "0"}, {"bias.slope", "0.05"}, {"bias.slope_floor", "0"}}),
+                 {.shaders = patched(receiver, "dot(normal, at.to_light)", "-dot(normal, to_light(position.xyz))")},
+                 {{"rounding_excess", 1, 1000}, {"peter_panning", 1e-4, 1e-3}},
+                 {"contract", "address_error_texels", "reference_error_m"}});
   // What lies beyond far is taken for what lies at far.
   all.push_back({"ReferenceClamped",
                  cubes(),
@@ -189,16 +188,16 @@ std::vector<Planted> defects() {
 
   // --- The normal offset. It moves the address and the depth: the contract cannot see what the probe shares. ---------
 
-  const char* const offset = "shaders/bias/normal_offset.glsl";
+  const char* const offset = "technique/bias/normal_offset.glsl";
   all.push_back({"NormalOffsetInwards",
                  offset_cubes(),
-                 {.shaders = patched(offset, "position + offset", "position - offset")},
+                 {.shaders = patched(offset, "return at.normal", "return -at.normal")},
                  {{"rounding_excess", 1, 1000}, {"address_error_texels", 1e-4, 0.3}, {"acne", 1e-3, 0.5}},
                  {"contract"}});
   // Half of what was asked.
   all.push_back({"NormalOffsetHalved",
                  offset_cubes(),
-                 {.shaders = patched(offset, "offset_m * normal", "0.5 * offset_m * normal")},
+                 {.shaders = patched(offset, "return at.normal", "return 0.5 * at.normal")},
                  {{"rounding_excess", 1, 1000}},
                  {"contract"}});
   // The depth of the moved place at the texel of the unmoved one: what "offset the depth only" does.
@@ -211,7 +210,7 @@ std::vector<Planted> defects() {
   // The truth believes in an offset that the lookup was never given.
   all.push_back({"NormalOffsetForgotten",
                  offset_cubes(),
-                 {.asked = [](Settings& s) { s.bias.normal_offset = 0; }},
+                 {.asked = [](Settings& s) { s.bias["normal_offset"] = 0; }},
                  {{"contract", 0, 0.1}, {"tap_residual", 1e-6, 1}}});
 
   // --- The map. R4 is right and R5 is not: precision, of the size of what is wrong. ---------------------------------
@@ -232,7 +231,7 @@ std::vector<Planted> defects() {
   // 256 quanta of 24 bits make one of 16, and rounding is off by a quarter of it in the middle: 64, as far as the
   // few hundred depths of this picture are spread evenly.
   all.push_back({"Depth16For24",
-                 cubes({{"bias.form", "none"}}),
+                 cubes({{"bias.constant", "0"}}),
                  {.drawn_map = [](LightFrame&, MapSettings& map) { map.format = DepthFormat::d16; }},
                  {{"map_error_quanta", 2, 40}, {"map_bits", 24, 16, true}, {"precision", 1e-4, 5e-4}},
                  {"contract"}});

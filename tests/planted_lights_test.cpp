@@ -62,7 +62,7 @@ std::vector<Planted> defects() {
        {{"address_error_texels", 1e-3, 100}, {"reference_error_m", 1e-3, 0.5}, {"rounding_excess", 1, 1000}}});
   // A directional light's N.L in place of a spot light's.
   all.push_back({"SpotDirectionOfTheAxis",
-                 spot_room({{"bias.form", "slope"}, {"bias.slope", "0.3"}, {"bias.floor", "0.02"}}),
+                 spot_room({{"bias.constant", "0"}, {"bias.slope", "0.3"}, {"bias.slope_floor", "0.02"}}),
                  {.shaders = patched("shaders/light/spot.glsl", "normalize(light_position - place_m)", "-light_axis")},
                  {{"rounding_excess", 1, 1000}},
                  {"contract", "address_error_texels", "reference_error_m"}});

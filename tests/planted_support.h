@@ -27,7 +27,7 @@ struct Defect {
   std::function<Image<float>(const Image<float>&)> edited_map{};  // its pixels, before the lookup
   bool every_map = false;                                         // drawn_map's wrap is R4's map's too
   std::function<void(Settings&)> asked{};                         // the settings that the lookup runs with
-  std::function<void(DepthBias&)> believed_bias{};                // what the ladder takes the bias for
+  std::function<void(BiasSettings&)> believed_bias{};             // what the ladder takes the bias for
 };
 
 using Figures = std::map<std::string, double>;
@@ -68,9 +68,9 @@ inline Figures measure(const Settings& settings, const Defect& defect = {}) {
   if (defect.edited_map) map = renderer.upload_map(defect.edited_map(renderer.read_map(map)), settings.map);
   const Image<float> stored = renderer.read_map(map);
 
-  DepthBias bias = depth_bias(settings.bias);
+  Bias bias(settings.bias);
   const LookupProbe probe = renderer.probe(frame, settings);
-  const double offset_unit = bias.form == BiasForm::polygon_offset ? sound.polygon_offset_unit(settings.map.format) : 0;
+  const double offset_unit = bias.polygon_offset() ? sound.polygon_offset_unit(settings.map.format) : 0;
   const raytrace::LookupTruth taps =
       tracer.lookup_truth(receivers, truth, probe, frame, settings.map, bias, offset_unit);
   Settings asked = settings;
@@ -79,7 +79,11 @@ inline Figures measure(const Settings& settings, const Defect& defect = {}) {
   const Image<float> r5 = renderer.lookup(map, frame, asked);
   const Image<float> r4 = renderer.lookup(renderer.upload_map(taps.exact_map, uploaded), frame, asked);
 
-  if (defect.believed_bias) defect.believed_bias(bias);
+  if (defect.believed_bias) {
+    BiasSettings believed = settings.bias;
+    defect.believed_bias(believed);
+    bias = Bias(believed);
+  }
   const LookupEvidence evidence{truth, probe, taps.taps, taps.exact_map, settings.map, bias, r4, r5};
   const Ladder ladder = climb(evidence);
   const Image<float> occluders = tracer.occluder_distance(receivers, frame, peter_panning_mask(ladder));

@@ -57,11 +57,10 @@ std::vector<Planted> defects() {
   // --- Bias forms. --------------------------------------------------------------------------------------------------
 
   const Settings tan =
-      cubes({{"bias.form", "tan"}, {"bias.tan_scale", "0.01"}, {"bias.floor", "0"}, {"bias.cap", "0.004"}});
+      cubes({{"bias.constant", "0"}, {"bias.tan", "0.01"}, {"bias.tan_floor", "0"}, {"bias.tan_cap", "0.004"}});
   all.push_back({"TanWithoutItsCap",
                  tan,
-                 {.shaders = patched("shaders/bias/tan.glsl", "min(max(scaled, bias_floor), bias_cap)",
-                                     "max(scaled, bias_floor)")},
+                 {.asked = [](Settings& s) { s.bias["tan_cap"] = 1; }},
                  {{"contract", 0, 0.01}, {"tap_residual", 1e-6, 1}},
                  {"rounding_excess"}});
   // tan(theta) from the cosine alone: 1 / cos.
@@ -71,13 +70,13 @@ std::vector<Planted> defects() {
                  {{"rounding_excess", 1, 1000}},
                  {"contract", "address_error_texels", "reference_error_m"}});
   // With a box a receiver plane needs what one tap needs without; its sign turned, more than without it.
-  const Settings plane = cubes_3x3({{"bias.form", "receiver_plane"}, {"bias.constant", "0.003"}});
-  all.push_back({"ReceiverPlaneTurnedInTheLookup",
-                 plane,
-                 {.shaders = patched("shaders/bias/receiver_plane.glsl", "receiver.reference + (along + across)",
-                                     "receiver.reference - (along + across)")},
-                 {{"contract", 0, 0.1}, {"tap_residual", 1e-6, 0.3}},
-                 {"rounding_excess"}});
+  const Settings plane = cubes_3x3({{"bias.reference", "receiver_plane"}, {"bias.constant", "0.003"}});
+  all.push_back(
+      {"ReceiverPlaneTurnedInTheLookup",
+       plane,
+       {.shaders = patched("technique/bias/receiver_plane.glsl", "at.reference + rise", "at.reference - rise")},
+       {{"contract", 0, 0.1}, {"tap_residual", 1e-6, 0.3}},
+       {"rounding_excess"}});
   all.push_back({"ReceiverPlaneTurned",
                  plane,
                  {.shaders = patched(projected, "-plane.xy / plane.z", "plane.xy / plane.z")},
@@ -89,23 +88,22 @@ std::vector<Planted> defects() {
                  {.shaders = patched(projected, "(-plane.xy / plane.z) / float(resolution)", "-plane.xy / plane.z")},
                  {{"rounding_excess", 1, 1000}, {"acne", 0.005, 0.2}},
                  {"contract"}});
-  // The receiver-plane form under the tangent plane's name: what the grid needs is missing.
-  all.push_back({"TangentPlaneAtTheTap",
-                 cubes_3x3({{"bias.form", "tangent_plane"}, {"bias.constant", "0.0001"}}),
-                 {.shaders = patched("shaders/bias/tangent_plane.glsl", "way_to_centre(texel, receiver.map_texels)",
-                                     "offset.xy")},
+  // The receiver plane in the place of the texel's: what the grid needs is missing.
+  all.push_back({"TexelPlaneAtTheTap",
+                 cubes_3x3({{"bias.reference", "texel_plane"}, {"bias.constant", "0.0001"}}),
+                 {.asked = [](Settings& s) { s.bias.reference = "receiver_plane"; }},
                  {{"contract", 0, 0.3}, {"tap_residual", 1e-6, 0.3}, {"error", 0.03, 0.1}},
                  {"rounding_excess"}});
   // glEnable(GL_POLYGON_OFFSET_FILL) forgotten: the map is the scene's own, and all slopes have acne.
-  const Settings offset = cubes({{"bias.form", "polygon_offset"}, {"bias.factor", "1.1"}, {"bias.units", "4"}});
+  const Settings offset = cubes({{"bias.constant", "0"}, {"bias.polygon_factor", "1.1"}, {"bias.polygon_units", "4"}});
   all.push_back({"PolygonOffsetNotEnabled",
                  offset,
-                 {.drawn_bias = [](BiasSettings& bias) { bias.form = BiasForm::none; }},
+                 {.drawn_bias = [](BiasSettings& bias) { bias = {}; }},
                  {{"precision", 1e-3, 0.2}, {"map_error_quanta", 50, 1000}},
                  {"contract", "rounding_excess", "acne"}});
   all.push_back({"PolygonOffsetsSwapped",
                  offset,
-                 {.drawn_bias = [](BiasSettings& bias) { std::swap(bias.factor, bias.units); }},
+                 {.drawn_bias = [](BiasSettings& bias) { std::swap(bias["polygon_factor"], bias["polygon_units"]); }},
                  {{"precision", 1e-6, 1e-4}, {"map_error_quanta", 50, 1000}},
                  {"contract", "rounding_excess"}});
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "raytrace_fixture.h"
+#include "tests/bias_of.h"
 
 namespace noonmark::raytrace {
 namespace {
@@ -10,7 +11,7 @@ using namespace test;
 
 // Looks up exactly these texels, one receiver for each.
 LookupTruth look_up(const Scene& scene, const LightFrame& frame, const std::vector<glm::ivec2>& texels,
-                    const MapSettings& map, int kernel = 1, const DepthBias& bias = {}, double offset_unit = 0) {
+                    const MapSettings& map, int kernel = 1, const Bias& bias = {}, double offset_unit = 0) {
   const std::vector<Placed> points(texels.size(), points_on(scene, frame.direction_to_light(), true, 1, 1)[0]);
   const ReceiverImage receivers = receivers_at(scene, points, frame.direction_to_light(), true);
   LookupProbe probe = probe_of(receivers, frame, box(kernel));
@@ -22,8 +23,8 @@ LookupTruth look_up(const Scene& scene, const LightFrame& frame, const std::vect
   return Tracer(scene).lookup_truth(receivers, truth, probe, frame, map, bias, offset_unit);
 }
 
-Image<float> whole_map(const Scene& scene, const LightFrame& frame, const MapSettings& map = {},
-                       const DepthBias& bias = {}, double offset_unit = 0) {
+Image<float> whole_map(const Scene& scene, const LightFrame& frame, const MapSettings& map = {}, const Bias& bias = {},
+                       double offset_unit = 0) {
   std::vector<glm::ivec2> texels;
   for (int y = 0; y < frame.resolution; ++y)
     for (int x = 0; x < frame.resolution; ++x) texels.push_back({x, y});
@@ -75,10 +76,7 @@ TEST(ExactMap, PolygonOffsetOfAPlaneIsItsFormula) {
     for (double phi : {0.0, 33.0, 135.0}) {
       const Scene scene = make_scene({.name = "plane", .theta_deg = theta, .phi_deg = phi});
       const LightFrame frame = frame_of(scene, 50);
-      DepthBias bias;
-      bias.form = BiasForm::polygon_offset;
-      bias.factor = 1.5f;
-      bias.units = 8;
+      const Bias bias = bias_of({{"polygon_factor", 1.5}, {"polygon_units", 8}});
       const double unit = 0x1p-16;
       const double steepest = std::tan(glm::radians(theta)) *
                               std::max(std::abs(std::cos(glm::radians(phi))), std::abs(std::sin(glm::radians(phi))));

@@ -2,26 +2,19 @@
 #include <gtest/gtest.h>
 
 #include "raytrace_fixture.h"
-#include "technique/depth_bias.h"
+#include "technique/bias.h"
+#include "tests/bias_of.h"
 
 namespace noonmark::raytrace {
 namespace {
 
 using namespace test;
 
-DepthBias offset_by(const LightFrame& frame, double metres) {
-  DepthBias bias;
-  bias.form = BiasForm::normal_offset;
-  bias.normal_offset_texels = static_cast<float>(metres / frame.texel_m());
-  return bias;
+Bias offset_by(const LightFrame& frame, double metres) {
+  return bias_of({{"normal_offset", metres / frame.texel_m()}});
 }
 
-DepthBias constant_of(float depth) {
-  DepthBias bias;
-  bias.form = BiasForm::constant;
-  bias.constant = depth;
-  return bias;
-}
+Bias constant_of(float depth) { return bias_of({{"constant", depth}}); }
 
 struct Looked {
   ReceiverTruth truth;
@@ -36,7 +29,7 @@ struct Looked {
 };
 
 Looked look_up(const Scene& scene, const LightFrame& frame, const ReceiverImage& receivers, int kernel,
-               const DepthBias& bias) {
+               const Bias& bias) {
   const Tracer tracer(scene);
   ReceiverImage moved = receivers;
   for (size_t i = 0; i < moved.position.size(); ++i)
@@ -136,7 +129,7 @@ TEST_F(PlateOnFloor, MovedTapsAreThoseOfTheClosedForm) {
   for (int i = 0; i < 4000; ++i) points.push_back({x(random), 0, z(random)});
   const ReceiverImage receivers = on_floor(points);
   for (double offset_m : {0.05, 0.3}) {
-    const DepthBias bias = offset_by(frame, offset_m);
+    const Bias bias = offset_by(frame, offset_m);
     const Looked looked = look_up(scene, frame, receivers, 3, bias);
     int checked = 0, displaced = 0;
     for (size_t i = 0; i < points.size(); ++i) {

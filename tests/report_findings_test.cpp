@@ -22,10 +22,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 PointRecord point_with(int64_t id, double cost, std::optional<double> low, std::optional<double> high) {
   PointRecord point;
   point.id = id;
-  point.settings = {{"bias.form", "constant"},
-                    {"bias.unit", "depth"},
-                    {"bias.constant", "0.25"},
-                    {"map.resolution", fmt::format("{}", 256 << id)}};
+  point.settings = {
+      {"bias.constant", "0.25"}, {"bias.unit", "depth"}, {"map.resolution", fmt::format("{}", 256 << id)}};
   point.metrics = {{"error", 0.5}, {"acne", 0.5}, {"shadow_ms", cost}};
   BiasCurve curve;
   curve.parameter = "bias.constant";
@@ -160,7 +158,7 @@ TEST(BiasAsSet, IsInWindowDepth) {
   EXPECT_EQ(bias_as_set(point), 0.05);
   point.settings["bias.unit"] = "texel";
   EXPECT_EQ(bias_as_set(point), 0.0025);
-  point.settings["bias.form"] = "none";
+  point.settings["bias.constant"] = "0";
   EXPECT_EQ(bias_as_set(point), 0.0);
 }
 

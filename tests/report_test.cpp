@@ -210,13 +210,14 @@ TEST(Report, SameResultsSameBytes) {
   EXPECT_EQ(render_report(sample_results(), sample_picture), render_report(sample_results(), sample_picture));
 }
 
-// A form whose lookup moves has no curve: some points with and some without, and all without.
+// A bias that moves the lookup has no curve: some points with and some without, and all without.
 TEST(Report, SaysWhyPointsHaveNoCurve) {
   Results results = sample_results();
-  const char* const why = "bias.form normal_offset moves the lookup";
+  const char* const why = "bias.normal_offset moves the lookup";
   EXPECT_EQ(render_report(results, sample_picture).find(why), std::string::npos);
   results.points[6].curve.reset();
-  results.points[6].settings["bias.form"] = "normal_offset";
+  results.points[6].settings["bias.constant"] = "0";
+  results.points[6].settings["bias.normal_offset"] = "1";
   results.points[6].metrics["displacement"] = 0.002;
   const std::string some = render_report(results, sample_picture);
   EXPECT_NE(some.find(why), std::string::npos);
@@ -224,7 +225,8 @@ TEST(Report, SaysWhyPointsHaveNoCurve) {
   EXPECT_EQ(some.find("A usable bias exists at every point:"), std::string::npos);
   for (PointRecord& point : results.points) {
     point.curve.reset();
-    point.settings["bias.form"] = "normal_offset";
+    point.settings["bias.constant"] = "0";
+    point.settings["bias.normal_offset"] = "1";
   }
   const std::string none = render_report(results, sample_picture);
   EXPECT_NE(none.find(why), std::string::npos);
@@ -377,16 +379,16 @@ TEST(Report, Written) {
   write("broken", results);
 
   results = sample;
-  results.info.swept.push_back("bias.form");
+  results.info.swept.push_back("bias.reference");
   results.info.swept.push_back("map.cull");
-  for (const char* form : {"constant", "slope"})
+  for (const char* form : {"own_depth", "receiver_plane"})
     for (const char* cull : {"none", "back", "front"})
       for (const PointRecord& point : sample.points) {
-        if (*form == 'c' && *cull == 'n') continue;
+        if (*form == 'o' && *cull == 'n') continue;
         results.points.push_back(point);
         results.points.back().id = static_cast<int64_t>(results.points.size() - 1);
-        results.points.back().metrics["error"] *= *form == 's' ? 0.7 : 1.1;
-        results.points.back().settings["bias.form"] = form;
+        results.points.back().metrics["error"] *= *form == 'r' ? 0.7 : 1.1;
+        results.points.back().settings["bias.reference"] = form;
         results.points.back().settings["map.cull"] = cull;
         results.points.back().pictures.clear();
       }

@@ -3,8 +3,9 @@
 
 #include <cmath>
 
-#include "technique/depth_bias.h"
+#include "technique/bias.h"
 #include "technique/map_address.h"
+#include "tests/bias_of.h"
 
 namespace noonmark {
 namespace {
@@ -53,76 +54,54 @@ LookupProbe probe_of(float n_dot_l, float bias_unit, float tan_theta = 0) {
   return probe;
 }
 
-BiasSettings every_value(BiasForm form) {
-  BiasSettings s;
-  s.form = form;
-  s.constant = 0.3;
-  s.slope = 0.7;
-  s.floor = 0.9;
-  s.tan_scale = 1.1;
-  s.cap = 1.3;
-  s.factor = 1.5;
-  s.units = 1.7;
-  s.normal_offset = 1.9;
-  return s;
+std::vector<std::string> names_of(std::span<const ActivePart> parts) {
+  std::vector<std::string> names;
+  for (const ActivePart& active : parts) names.emplace_back(active.part->name);
+  return names;
 }
 
-TEST(DepthBias, LeavesWhatItsFormDoesNotUse) {
-  struct Row {
-    BiasForm form;
-    std::vector<float> used;  // in the order of the members
-  };
-  const float c = 0.3f, s = 0.7f, f = 0.9f, t = 1.1f, cap = 1.3f, factor = 1.5f, units = 1.7f, offset = 1.9f;
-  for (const Row& row : std::vector<Row>{{BiasForm::none, {0, 0, 0, 0, 0, 0, 0, 0}},
-                                         {BiasForm::constant, {c, 0, 0, 0, 0, 0, 0, 0}},
-                                         {BiasForm::slope, {0, s, f, 0, 0, 0, 0, 0}},
-                                         {BiasForm::tan, {0, 0, f, t, cap, 0, 0, 0}},
-                                         {BiasForm::polygon_offset, {0, 0, 0, 0, 0, factor, units, 0}},
-                                         {BiasForm::normal_offset, {0, 0, 0, 0, 0, 0, 0, offset}},
-                                         {BiasForm::receiver_plane, {c, 0, 0, 0, 0, 0, 0, 0}},
-                                         {BiasForm::tangent_plane, {c, 0, 0, 0, 0, 0, 0, 0}}}) {
-    const DepthBias b = depth_bias(every_value(row.form));
-    EXPECT_EQ(b.form, row.form);
-    EXPECT_EQ((std::vector<float>{b.constant, b.slope, b.floor, b.tan_scale, b.cap, b.factor, b.units,
-                                  b.normal_offset_texels}),
-              row.used)
-        << static_cast<int>(row.form);
-    EXPECT_EQ(b.moves_lookup(), row.form == BiasForm::normal_offset);
-    EXPECT_EQ(b.tap_reference(), row.form == BiasForm::receiver_plane  ? TapReference::plane_at_tap
-                                 : row.form == BiasForm::tangent_plane ? TapReference::plane_at_texel
-                                                                       : TapReference::own_depth);
-  }
+TEST(Bias, HasThePartsThatAreSet) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names_of(bias_of({}).compared()), Names{});
+  EXPECT_FALSE(bias_of({}).moves_lookup());
+  EXPECT_FALSE(bias_of({}).polygon_offset());
+  EXPECT_EQ(bias_of({}).reference().name, "own_depth");
+  const Bias all =
+      bias_of({{"tan", 1}, {"constant", 1}, {"slope_floor", 1}, {"normal_offset", 1}, {"polygon_units", 2}});
+  EXPECT_EQ(names_of(all.compared()), (Names{"constant", "slope", "tan"})) << "in the table's order";
+  EXPECT_EQ(names_of(all.moving()), Names{"normal_offset"});
+  EXPECT_EQ(all.polygon_offset()->factor, 0);
+  EXPECT_EQ(all.polygon_offset()->units, 2);
+  EXPECT_EQ(names_of(bias_of({{"tan_cap", 1}}).compared()), Names{}) << "a cap alone does nothing";
 }
 
-TEST(DepthBias, IsInTheReceiversOwnUnit) {
-  for (const BiasForm form : {BiasForm::constant, BiasForm::receiver_plane, BiasForm::tangent_plane})
-    EXPECT_EQ(depth_bias(every_value(form)).at(probe_of(0.5f, 0.125f), 0), 0.3f * 0.125f);
-  for (const BiasForm form : {BiasForm::none, BiasForm::polygon_offset, BiasForm::normal_offset})
-    EXPECT_EQ(depth_bias(every_value(form)).at(probe_of(0.5f, 0.125f), 0), 0);
+TEST(Bias, IsTheSumOfItsPartsInTheReceiversOwnUnit) {
+  const LookupProbe probe = probe_of(0.5f, 0.125f, 2);
+  EXPECT_EQ(bias_of({{"constant", 0.3}}).at(probe, 0), 0.3f * 0.125f);
+  EXPECT_EQ(bias_of({{"normal_offset", 1}, {"polygon_factor", 1}}).at(probe, 0), 0);
+  const float slope = 0.7f * 0.5f, tan = 0.1f * 2;
+  EXPECT_EQ(bias_of({{"constant", 0.3}, {"slope", 0.7}, {"tan", 0.1}}).at(probe, 0), ((0.3f + slope) + tan) * 0.125f);
 }
 
-TEST(DepthBias, OfANormalOffsetIsALengthAndNoDepth) {
+TEST(Bias, OfANormalOffsetIsALengthAndNoDepth) {
   LightFrame frame;
   frame.extent_m = 20;
   frame.resolution = 1000;
-  BiasSettings settings = every_value(BiasForm::normal_offset);
-  settings.normal_offset = 1.5;
+  BiasSettings settings = bias_settings_of({{"normal_offset", 1.5}});
   for (const BiasUnit unit : {BiasUnit::depth, BiasUnit::m, BiasUnit::texel}) {
     settings.unit = unit;
-    const DepthBias bias = depth_bias(settings);
+    const Bias bias(settings);
     // 1.5 texels of 20 mm, whatever the unit of the others.
-    EXPECT_DOUBLE_EQ(bias.normal_offset_m(frame, {1, 2, 3}), 0.03);
+    EXPECT_EQ(bias.moved_m(frame, {1, 2, 3}, {0, -1, 0}), glm::dvec3(0, -0.03, 0));
     EXPECT_LT(glm::length(bias.looked_up(frame, {1, 2, 3}, {0, -1, 0}) - glm::dvec3(1, 1.97, 3)), 1e-15);
   }
   // Of a point light, of a texel at the receiver: 2 z / resolution with z along the face's axis.
   frame.kind = LightKind::point;
-  EXPECT_DOUBLE_EQ(depth_bias(settings).normal_offset_m(frame, {1, 2, -3}), 1.5 * 2 * 3 / 1000);
-  settings.normal_offset = 0;
-  EXPECT_FALSE(depth_bias(settings).moves_lookup());
+  EXPECT_DOUBLE_EQ(Bias(settings).moved_m(frame, {1, 2, -3}, {0, 0, 1}).z, 1.5 * 2 * 3 / 1000);
 }
 
-TEST(DepthBias, OfASlopeIsTheShadersFloatArithmetic) {
-  const DepthBias bias{.form = BiasForm::slope, .slope = 0.05f, .floor = 0.005f};
+TEST(Bias, OfASlopeIsTheShadersFloatArithmetic) {
+  const Bias bias = bias_of({{"slope", 0.05}, {"slope_floor", 0.005}});
   const auto at = [&](float n_dot_l) { return bias.at(probe_of(n_dot_l, 1), 0); };
   EXPECT_EQ(at(1), 0.005f);
   EXPECT_EQ(at(1 + 0x1p-23f), 0.005f);  // a cosine above 1 by rounding
@@ -135,8 +114,8 @@ TEST(DepthBias, OfASlopeIsTheShadersFloatArithmetic) {
   }
 }
 
-TEST(DepthBias, OfATanIsHeldBetweenItsFloorAndItsCap) {
-  const DepthBias bias{.form = BiasForm::tan, .floor = 0.005f, .tan_scale = 0.01f, .cap = 0.05f};
+TEST(Bias, OfATanIsHeldBetweenItsFloorAndItsCap) {
+  const Bias bias = bias_of({{"tan_floor", 0.005}, {"tan", 0.01}, {"tan_cap", 0.05}});
   for (int i = 0; i <= 1000; ++i) {
     const float tan = static_cast<float>(i) / 100;
     const volatile float scaled = 0.01f * tan;

@@ -8,7 +8,9 @@ layout(location = 2) out float radius;
 
 void main() {
   Receiver receiver = receiver_at(ivec2(gl_FragCoord.xy));
-  scalars = vec4(receiver.reference, receiver.n_dot_l, receiver.bias_unit, receiver.tan_theta);
+  scalars = receiver.present ? vec4(receiver.reference, receiver.surface.n_dot_l, receiver.bias_unit,
+                                    receiver.surface.tan_theta)
+                             : vec4(0.0);
   texels = vec4(receiver.map_texels, receiver.gradient);
   radius = receiver.radius;
 }

@@ -228,9 +228,9 @@ void require_curve(const Measurement& m) {
       require(value >= 0 && value <= 1 + rounding, fmt::format("a curve's value is {}", value));
   if (curve.window_min_depth)
     require(*curve.window_min_depth <= *curve.window_max_depth, "a window that ends before it begins");
-  if (m.settings.bias.form != BiasForm::constant || m.settings.bias.unit != BiasUnit::depth) return;
+  if (curve.parameter != "bias.constant" || m.settings.bias.unit != BiasUnit::depth) return;
   // The point's own bias is the last one asked for (below): there the curve is the measurement.
-  const auto at_bias = std::find(curve.bias_depth.begin(), curve.bias_depth.end(), m.settings.bias.constant);
+  const auto at_bias = std::find(curve.bias_depth.begin(), curve.bias_depth.end(), m.settings.bias["constant"]);
   if (at_bias == curve.bias_depth.end()) return;
   const auto i = static_cast<size_t>(at_bias - curve.bias_depth.begin());
   const auto same = [&](const char* name, double found) {
@@ -276,8 +276,7 @@ struct Benches {
 std::optional<CurveOptions> curve_for(const Settings& settings, bool wanted) {
   if (!wanted) return std::nullopt;
   CurveOptions options;
-  if (settings.bias.form == BiasForm::constant && settings.bias.constant > 0)
-    options.bias_depth = {0, settings.bias.constant};
+  if (const double constant = settings.bias["constant"]; constant > 0) options.bias_depth = {0, constant};
   return options;
 }
 

@@ -5,6 +5,8 @@
 uniform mat4 clip_from_world;
 uniform mat4 clip_from_world_planes;  // carries planes, (normal, offset from light_position), to clip space
 uniform int resolution;
+uniform vec3 light_right;  // unit, in the world: along the rows of the map's texels
+uniform vec3 light_up;
 
 LightView seen_by_light(vec3 place_m) {
   precise vec4 clip = clip_from_world * vec4(place_m, 1.0);
@@ -21,3 +23,6 @@ vec2 plane_gradient(vec3 normal, LightView view) {
   precise vec2 gradient = (-plane.xy / plane.z) / float(resolution);
   return is_finite(vec3(gradient, 0.0)) ? gradient : vec2(0.0);
 }
+
+vec3 texel_right_at(vec3 place_m) { return light_right; }
+vec3 texel_up_at(vec3 place_m) { return light_up; }

@@ -3,6 +3,8 @@
 //   vec3 to_light(vec3 place_m)                    unit
 //   float texel_m_at(vec3 place_m)                 the world size of a texel there
 //   float bias_unit_at(LightView view)             one unit of bias, in window depth
+//   vec3 texel_right_at(vec3 place_m)              unit: along the rows of the map's texels there, in the world; of a
+//   vec3 texel_up_at(vec3 place_m)                 cube's face without sign; and along the columns
 //   vec2 plane_gradient(vec3 normal, LightView view)  window depth per texel of the plane through the place
 struct LightView {
   bool valid;       // false at the light, behind a spot light, and where the place leaves the floats

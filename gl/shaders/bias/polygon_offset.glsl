@@ -1,2 +1,0 @@
-// glPolygonOffset has moved what the map holds; the lookup subtracts nothing.
-#include "shaders/bias/none.glsl"

@@ -1,0 +1,129 @@
+#include "technique/bias_parts.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#define precise
+namespace noonmark::in_float {
+#include "bias_formulas.inc"
+}
+namespace noonmark::in_double {
+#include "bias_formulas.inc"
+}
+namespace noonmark::in_bounds {
+#include "bias_formulas.inc"
+}
+#undef precise
+
+namespace noonmark {
+namespace {
+
+constexpr std::string_view moves_the_lookup = "moves the lookup, so that no one pass knows its every value";
+constexpr std::string_view is_in_the_map = "is in the map as it is drawn, so that no one pass knows its every value";
+
+constexpr double most_units = 1e6;
+
+#define FACTOR(name) \
+  { in_float::name##_factor, nullptr, nullptr }
+#define WAY(name) \
+  { nullptr, in_double::name##_way, in_bounds::name##_way }
+
+constexpr BiasPart parts[] = {
+    {.name = "constant",
+     .acts_on = BiasPlace::compared_depth,
+     .unit = "bias.unit",
+     .most = most_units,
+     .help = "The same bias everywhere.",
+     .formula = FACTOR(constant)},
+    {.name = "slope",
+     .acts_on = BiasPlace::compared_depth,
+     .unit = "bias.unit",
+     .most = most_units,
+     .help = "Slope-scaled bias: max(bias.slope * (1 - N.L), bias.slope_floor).",
+     .floor_help = "Least slope-scaled bias.",
+     .formula = FACTOR(slope)},
+    {.name = "tan",
+     .acts_on = BiasPlace::compared_depth,
+     .unit = "bias.unit",
+     .most = most_units,
+     .help = "Bias by the slope itself: bias.tan * tan(theta), between bias.tan_floor and bias.tan_cap.",
+     .floor_help = "Least bias by tan(theta).",
+     .cap_help = "Greatest bias by tan(theta); auto: none.",
+     .formula = FACTOR(tan)},
+    {.name = "normal_offset",
+     .acts_on = BiasPlace::place_looked_up,
+     .unit = "texels",
+     .most = 1e6,
+     .help = "The receiver is looked up this far along its normal; times texel_m, in metres.",
+     .no_curve = moves_the_lookup,
+     .formula = WAY(normal_offset)},
+    {.name = "polygon_factor",
+     .acts_on = BiasPlace::caster,
+     .unit = "",
+     .most = 1e4,
+     .help =
+         "Polygon offset: glPolygonOffset(bias.polygon_factor, bias.polygon_units) while the map is drawn; multiplies "
+         "the steepest depth slope of each triangle in texels.",
+     .no_curve = is_in_the_map},
+    {.name = "polygon_units",
+     .acts_on = BiasPlace::caster,
+     .unit = "",
+     .most = 1e8,
+     .help = "Polygon offset: multiplies the smallest depth difference of the map's format.",
+     .no_curve = is_in_the_map},
+};
+
+constexpr TapReference references[] = {
+    {.name = "own_depth", .help = "the receiver's own depth", .depth = in_float::own_depth},
+    {.name = "receiver_plane",
+     .help = "its plane's depth at the tap",
+     .depth = in_float::receiver_plane,
+     .plane = true,
+     .reads_cap = true},
+    {.name = "texel_plane",
+     .help = "its plane's depth at the centre of the tap's texel",
+     .depth = in_float::texel_plane,
+     .plane = true,
+     .at_texel = true},
+};
+
+#undef FACTOR
+#undef WAY
+
+std::vector<BiasParameter> make_parameters() {
+  std::vector<BiasParameter> all;
+  for (const BiasPart& part : parts) {
+    const std::string name(part.name);
+    all.push_back({&part, BiasParameter::Role::amount, name, part.help});
+    if (!part.floor_help.empty()) all.push_back({&part, BiasParameter::Role::floor, name + "_floor", part.floor_help});
+    if (!part.cap_help.empty()) all.push_back({&part, BiasParameter::Role::cap, name + "_cap", part.cap_help});
+  }
+  return all;
+}
+
+template <class Rows>
+const auto& row_of(const Rows& rows, std::string_view name, const char* what) {
+  for (const auto& row : rows)
+    if (row.name == name) return row;
+  throw std::logic_error("there is no " + std::string(what) + " '" + std::string(name) + "'");
+}
+
+}  // namespace
+
+std::span<const BiasPart> bias_parts() { return parts; }
+const BiasPart& bias_part(std::string_view name) { return row_of(parts, name, "part of a bias"); }
+
+std::span<const BiasParameter> bias_parameters() {
+  static const std::vector<BiasParameter> all = make_parameters();
+  return all;
+}
+
+size_t bias_parameter_index(std::string_view name) {
+  const std::span<const BiasParameter> all = bias_parameters();
+  return static_cast<size_t>(&row_of(all, name, "parameter of a bias") - all.data());
+}
+
+std::span<const TapReference> tap_references() { return references; }
+const TapReference& tap_reference(std::string_view name) { return row_of(references, name, "reference of a tap"); }
+
+}  // namespace noonmark

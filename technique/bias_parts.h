@@ -1,0 +1,80 @@
+// The parts that a bias is the sum of. A part is one file, technique/bias/<name>.glsl, which the shader and the host
+// compile, and one row of the table in bias_parts.cpp. Settings, uniforms, the shader's text, cache keys, idle settings
+// and the bias curve are read off the rows.
+//
+//   for (const BiasPart& part : bias_parts()) print(part.name, part.help);
+//   settings.bias["normal_offset"] = 1.5;   // technique/settings.h
+//
+// A part acts at one of three places:
+// - the compared depth: amount * <name>_factor(Surface), held between the part's floor and cap where it has them. The
+// sum
+//   of these parts, in units of bias.unit, is subtracted from the depth that a tap is compared with;
+// - the place looked up: amount * <name>_way(Surface), a vector of the world. The receiver is looked up as if it lay
+// that
+//   far from where it is;
+// - the caster: what the map holds is moved.
+// And beside the sum there is a choice, the reference: what a tap is compared with before the bias is subtracted.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "technique/formulas.h"
+
+namespace noonmark {
+
+enum class BiasPlace { compared_depth, place_looked_up, caster };
+
+// A formula as the host has it.
+struct BiasFormula {
+  float (*factor)(in_float::Surface) = nullptr;          // compared_depth
+  in_double::vec3 (*way)(in_double::Surface) = nullptr;  // place_looked_up
+  in_bounds::vec3 (*bounded_way)(in_bounds::Surface) = nullptr;
+};
+
+struct BiasPart {
+  std::string_view name;  // of its setting, bias.<name>; and of its file, where it has one
+  BiasPlace acts_on = BiasPlace::compared_depth;
+  std::string_view unit;  // of the amount: "bias.unit"; "texels" of the map at the receiver; "" ...
+  double most = 0;        // the amount is 0 ... most
+  std::string_view help;
+  std::string_view floor_help = {};  // where it has a floor: setting bias.<name>_floor
+  std::string_view cap_help = {};    // where it has a cap: setting bias.<name>_cap
+  std::string_view no_curve = {};    // why no one lookup pass gives the error at its every amount; empty: one does
+  BiasFormula formula = {};          // empty: OpenGL's own polygon offset
+};
+
+std::span<const BiasPart> bias_parts();
+
+// Throws std::logic_error where there is none of that name.
+const BiasPart& bias_part(std::string_view name);
+
+// One number of a part, which is a setting: its amount, floor or cap.
+struct BiasParameter {
+  enum class Role { amount, floor, cap };
+  const BiasPart* part;
+  Role role;
+  std::string name;  // without "bias."
+  std::string_view help;
+};
+
+// In the order of the parts: amount, floor, cap of each.
+std::span<const BiasParameter> bias_parameters();
+size_t bias_parameter_index(std::string_view name);  // throws std::logic_error where there is none
+
+// What a tap is compared with, before the bias: a file technique/bias/<name>.glsl with the function <name>(TapPlace).
+struct TapReference {
+  std::string_view name;  // a choice of bias.reference
+  std::string_view help;
+  float (*depth)(in_float::TapPlace) = nullptr;
+  bool plane = false;      // of the receiver's plane: needs a flat map, and a depth of its own for each texel read
+  bool at_texel = false;   // the way that it is given leads to the centre of the tap's texel, not to its exact place
+  bool reads_cap = false;  // bias.plane_cap
+};
+
+std::span<const TapReference> tap_references();  // the first is own_depth
+// Throws std::logic_error where there is none of that name.
+const TapReference& tap_reference(std::string_view name);
+
+}  // namespace noonmark

@@ -1,0 +1,31 @@
+// The formulas of technique/bias/*.glsl on the host, compiled three times: in float, as the shader computes (the host
+// is built without contraction); in double, for the truth; and with error bounds (technique/bounded.h), for the
+// contract check. The files use the words that GLSL and C++ share: vec2, vec3, dot, abs, min, max, clamp, sqrt; `real`
+// is the number, `precise` is GLSL's, and a constant is written real(1).
+#pragma once
+#include <glm/glm.hpp>
+
+#include "technique/bounded.h"
+
+#define precise
+namespace noonmark::in_float {
+using real = float;
+using glm::abs, glm::clamp, glm::dot, glm::max, glm::min, glm::sqrt;
+using glm::vec2, glm::vec3;
+#include "technique/surface.glsl"
+}  // namespace noonmark::in_float
+
+namespace noonmark::in_double {
+using real = double;
+using vec2 = glm::dvec2;
+using vec3 = glm::dvec3;
+using glm::abs, glm::clamp, glm::dot, glm::max, glm::min, glm::sqrt;
+#include "technique/surface.glsl"
+}  // namespace noonmark::in_double
+
+namespace noonmark::in_bounds {
+using real = Bounded;
+using namespace bounded;
+#include "technique/surface.glsl"
+}  // namespace noonmark::in_bounds
+#undef precise
