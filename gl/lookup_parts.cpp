@@ -1,6 +1,10 @@
 #include "gl/lookup_parts.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
+
+#include "gl/bias_text.h"
 
 namespace noonmark::gl {
 namespace {
@@ -15,17 +19,6 @@ constexpr LightRow light_rows[] = {
     {LightKind::point, "shaders/light/point.glsl"},
 };
 
-struct FilterRow {
-  FilterKind kind;
-  const char* file;
-};
-constexpr FilterRow filter_rows[] = {
-    {FilterKind::none, "shaders/filter/none.glsl"},         {FilterKind::box, "shaders/filter/box.glsl"},
-    {FilterKind::hardware, "shaders/filter/bilinear.glsl"}, {FilterKind::gaussian, "shaders/filter/bilinear.glsl"},
-    {FilterKind::poisson, "shaders/filter/mean.glsl"},      {FilterKind::cube_grid, "shaders/filter/mean.glsl"},
-    {FilterKind::cube_disk, "shaders/filter/mean.glsl"},
-};
-
 }  // namespace
 
 const char* light_file(LightKind kind) {
@@ -34,10 +27,20 @@ const char* light_file(LightKind kind) {
   throw std::logic_error("a kind of light without a row in gl/lookup_parts.cpp");
 }
 
-const char* filter_file(FilterKind kind) {
-  for (const FilterRow& row : filter_rows)
-    if (row.kind == kind) return row.file;
-  throw std::logic_error("a filter without a row in gl/lookup_parts.cpp");
+ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bias, const Filter& filter) {
+  const std::string bias_name = bias_text_name(bias), name(filter.name);
+  programs.define(bias_name, bias_text(bias));
+  ShaderSlots slots = {{"light", light_file(light)},
+                       {"bias", bias_name},
+                       {"filter", fmt::format("shaders/filter/{}.glsl", filter.shader)}};
+  if (!filter.sizes.empty()) {
+    slots["weights"] = "weights of " + name;
+    programs.define(slots["weights"], fmt::format("#include \"technique/filters/{0}.glsl\"\nuniform int filter_size;\n"
+                                                  "float filter_weight(int texel, float s) {{ return {0}_weight(texel, "
+                                                  "s, filter_size); }}\n",
+                                                  name));
+  }
+  return slots;
 }
 
 }  // namespace noonmark::gl

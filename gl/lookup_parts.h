@@ -1,5 +1,9 @@
-// The lights and filters of the lookup shader. To add one: its GLSL file, and its row in lookup_parts.cpp.
+// The lights and filters of the lookup shader. To add a light: its GLSL file, and its row in lookup_parts.cpp. A filter
+// names its GLSL file in its own row (technique/filters.cpp).
 #pragma once
+#include "gl/program.h"
+#include "technique/bias.h"
+#include "technique/filters.h"
 #include "technique/settings.h"
 
 namespace noonmark::gl {
@@ -7,9 +11,12 @@ namespace noonmark::gl {
 // Defines what gl/shaders/light/view.glsl lists, and includes the kind of map that the light has.
 const char* light_file(LightKind kind);
 
-// Defines
-//   float lit(Receiver receiver, float bias)  the number of lit taps; of bilinear patterns their weighted mean
+// The slots of a lookup program: <light>, <bias> (gl/bias_text.h), and <filter>, a file that defines
+//   float lit(Receiver receiver, float bias)  the number of lit taps; of blended ones their weighted mean
 //   float all_lit()                           its greatest value
-const char* filter_file(FilterKind kind);
+// and, for a filter whose taps have weights by a formula, <weights>:
+//   float filter_weight(int texel, float s)   of texel 0 ... filter_size along one axis
+// Texts that are made and not files it defines in `programs`.
+ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bias, const Filter& filter);
 
 }  // namespace noonmark::gl

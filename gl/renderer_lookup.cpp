@@ -107,13 +107,13 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
                             "{} of {}",
                             frame.faces(), frame.resolution, map.impl_->cube ? 6 : 1, map.resolution()));
   const TapPattern pattern = tap_pattern(settings.filter);
-  const ShaderSlots slots = {{"light", light_file(frame.kind)},
-                             {"bias", r.bias_slot(Bias(settings.bias))},
-                             {"filter", filter_file(settings.filter.kind)}};
+  const Filter& filter = find_filter(settings.filter.kind);
+  const ShaderSlots slots = lookup_slots(r.programs, frame.kind, Bias(settings.bias), filter);
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/lookup.frag"}, slots);
   r.set_receiver_uniforms(program, frame, settings);
   r.set_pattern(program, pattern);
   program.set_if_used("box_radius", settings.filter.size / 2);
+  program.set_if_used("filter_size", settings.filter.size);
   program.set_if_used("box_step", static_cast<float>(settings.filter.step_texels));
   program.set("lit_beyond_far", settings.map.lit_beyond_far ? 1 : 0);
   glBindTextureUnit(2, map.impl_->depth.id());
@@ -127,7 +127,7 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
   const int width = r.position_image.width, height = r.position_image.height;
   r.require(r.lit, GL_R32F, width, height);
   r.draw_into({r.lit.texture.id()}, 0, width, height);
-  const std::string key = fmt::format("lookup {} {} {}", slots.at("light"), slots.at("bias"), slots.at("filter"));
+  const std::string key = fmt::format("lookup {} {} {}", slots.at("light"), slots.at("bias"), settings.filter.kind);
   r.run(key, time_ms, [&] { r.draw_screen(program); });
   r.detach(1);
   glBindTextureUnit(2, 0);

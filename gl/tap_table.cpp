@@ -34,6 +34,7 @@ std::vector<glm::vec4> tap_table(const TapPattern& pattern) {
     for (const glm::vec3& offset : pattern.offsets) table.emplace_back(offset, 0);
     return table;
   }
+  if (pattern.axis_weight) return table;  // by a formula of the shader's own
   const size_t n = pattern.kernel.size();
   std::vector<double> weights;
   for (size_t y = 0; y < n; ++y)

@@ -59,7 +59,7 @@ struct LookupProbe {
       return cube_place(cube_texel[(i - cube_first) * static_cast<size_t>(taps()) + static_cast<size_t>(tap)]);
     const glm::vec2 at = map_texels[i];
     if (pattern.bilinear()) {  // the fetch of 2 x 2 texels begins at the one whose centre is to the lower left of P
-      const int side = static_cast<int>(pattern.kernel.size()) + 1, before = (side - 2) / 2;
+      const int side = pattern.blended_side, before = (side - 2) / 2;
       return floored(at - 0.5f) + glm::ivec2(tap % side - before, tap / side - before);
     }
     const glm::vec3 o = offset(i, tap);

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenes/library.h"
+#include "technique/filters.h"
 
 namespace noonmark {
 namespace {
@@ -23,10 +25,6 @@ bool spot(LightKind light, S) { return light == LightKind::spot; }
 bool point(LightKind light, S) { return light == LightKind::point; }
 bool has_place(LightKind light, S) { return light != LightKind::directional; }
 bool flat(LightKind light, S) { return light != LightKind::point; }
-template <FilterKind... kinds>
-bool filter(LightKind, S s) {
-  return ((s.filter.kind == kinds) || ...);
-}
 
 constexpr Rule rules[] = {
     {"bias.plane_cap", [](LightKind, S s) { return tap_reference(s.bias.reference).reads_cap; }},
@@ -42,15 +40,8 @@ constexpr Rule rules[] = {
     {"map.fov_deg", spot},
     {"map.wrap", flat},
     {"map.cube_pass", point},
-    {"filter.size", filter<FilterKind::box, FilterKind::gaussian>},
-    {"filter.step_texels", filter<FilterKind::box>},
-    {"filter.sigma_texels", filter<FilterKind::gaussian>},
-    {"filter.radius_texels", filter<FilterKind::poisson>},
-    {"filter.rotate", filter<FilterKind::poisson>},
-    {"filter.offset_m", filter<FilterKind::cube_grid>},
-    {"filter.disk", filter<FilterKind::cube_disk>},
     {"filter.radius_m",
-     [](LightKind, S s) { return s.filter.kind == FilterKind::cube_disk && s.filter.disk == DiskRadius::fixed; }},
+     [](LightKind, S s) { return s.filter.kind != "cube_disk" || s.filter.disk == DiskRadius::fixed; }},
 };
 
 std::string because(std::string_view name, LightKind light, S s) {
@@ -69,10 +60,18 @@ std::string because(std::string_view name, LightKind light, S s) {
 std::vector<IdleSetting> idle_settings(LightKind light, const Settings& settings) {
   const Settings defaults;
   std::vector<IdleSetting> idle;
-  for (const Rule& rule : rules) {
-    const Setting& row = find_setting(rule.name);
-    if (row.get(settings) != row.get(defaults) && !rule.is_read(light, settings))
+  const auto changed = [&](std::string_view name) {
+    const Setting& row = find_setting(name);
+    return row.get(settings) != row.get(defaults);
+  };
+  for (const Rule& rule : rules)
+    if (changed(rule.name) && !rule.is_read(light, settings))
       idle.push_back({std::string(rule.name), because(rule.name, light, settings)});
+  const Filter& filter = find_filter(settings.filter.kind);
+  for (const Setting& row : settings_table()) {
+    if (!row.name.starts_with("filter.") || row.name == "filter.kind" || !changed(row.name)) continue;
+    if (std::find(filter.reads.begin(), filter.reads.end(), row.name) == filter.reads.end())
+      idle.push_back({std::string(row.name), because(row.name, light, settings)});
   }
   for (const BiasPart& part : bias_parts()) {
     const std::string name(part.name);

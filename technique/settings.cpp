@@ -1,15 +1,18 @@
 #include "technique/settings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numeric>
 
 #include "scenes/error.h"
 #include "scenes/text.h"
+#include "technique/filters.h"
 
 namespace noonmark {
 namespace {
@@ -151,20 +154,22 @@ Setting text(std::string_view name, std::string_view help, Member member) {
 
 #define MEMBER(path) [](Settings& s) -> decltype((s.path)) { return s.path; }
 
-// bias.reference, whose choices are the rows of tap_references().
-Setting reference_row() {
-  static const std::string help = [] {
-    std::string text = "What a tap of the map is compared with, before the bias is subtracted: ";
-    for (const TapReference& row : tap_references())
-      text += fmt::format("{}{} ({})", &row == tap_references().data() ? "" : ", ", row.name, row.help);
-    return text + ".";
-  }();
-  Setting row{"bias.reference", "", ValueType::choice, 0, 0, false, {}, help, {}, {}};
-  for (const TapReference& reference : tap_references()) row.choices.push_back(reference.name);
-  row.get = [](const Settings& s) { return s.bias.reference; };
-  row.set = [row](Settings& s, std::string_view text) {
-    if (std::find(row.choices.begin(), row.choices.end(), text) == row.choices.end()) refuse(row, text);
-    s.bias.reference = std::string(text);
+// A choice by the name of a row of a table. help: of the setting; the rows' own is added.
+template <class Rows, class Member>
+Setting named(std::string_view name, std::string_view help, const Rows& rows, Member member) {
+  static std::deque<std::string> texts;  // rows refer to their help
+  std::string& text = texts.emplace_back(help);
+  Setting row{name, "", ValueType::choice, 0, 0, false, {}, {}, {}, {}};
+  for (const auto& choice : rows) {
+    text += fmt::format("{}{}: {}", row.choices.empty() ? " " : "; ", choice.name, choice.help);
+    row.choices.push_back(choice.name);
+  }
+  text += ".";
+  row.help = text;
+  row.get = [member](const Settings& s) { return member(const_cast<Settings&>(s)); };
+  row.set = [member, row](Settings& s, std::string_view value) {
+    if (std::find(row.choices.begin(), row.choices.end(), value) == row.choices.end()) refuse(row, value);
+    member(s) = std::string(value);
   };
   return row;
 }
@@ -307,15 +312,12 @@ std::vector<Setting> make_table() {
              "Unit of the biases that have no other: window depth, metres of the map's depth, or texels of the map at "
              "the receiver.",
              MEMBER(bias.unit)),
-      reference_row(),
+      named("bias.reference", "What a tap of the map is compared with, before the bias is subtracted.",
+            tap_references(), MEMBER(bias.reference)),
       real("bias.plane_cap", "bias.unit", 0, 1e6,
            "receiver_plane: no tap is compared with a depth farther from the receiver's own than this; auto: no limit.",
            MEMBER(bias.plane_cap)),
-      choice("filter.kind", {"none", "box", "hardware", "gaussian", "poisson", "cube_grid", "cube_disk"},
-             "none: one nearest tap; box: the mean of N x N nearest taps; hardware: one linear tap of a comparison "
-             "sampler (2 x 2 texels); gaussian: N x N such taps; poisson: 16 nearest taps in a disk. For cube maps: "
-             "cube_grid: 4 x 4 x 4 taps around the receiver; cube_disk: 20 directions.",
-             MEMBER(filter.kind)),
+      named("filter.kind", "Where the lookup reads the map.", filters(), MEMBER(filter.kind)),
       integer("filter.size", "taps", 1, 31, "box, gaussian: taps on a side, odd.", MEMBER(filter.size)),
       real("filter.step_texels", "texels", 0, 64, "box: from tap to tap.", MEMBER(filter.step_texels)),
       real("filter.sigma_texels", "texels", 0.1, 64, "gaussian: standard deviation of the weights.",
@@ -391,12 +393,31 @@ const Setting& find_setting(std::string_view name) {
                                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
+namespace {
+
+// "none, box and poisson": the names of the rows that are meant.
+template <class Rows, class Meant>
+std::string names_of(const Rows& rows, const Meant& meant) {
+  std::vector<std::string_view> names;
+  for (const auto& row : rows)
+    if (meant(row)) names.push_back(row.name);
+  const std::string_view last = names.back();
+  names.pop_back();
+  return names.empty() ? std::string(last) : fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
+}  // namespace
+
 void validate(const Settings& s) {
   if (s.filter.size % 2 == 0)
     throw Error(ErrorKind::usage,
                 fmt::format("filter.size = {} is even; a box and a Gaussian have an odd number of taps on a side, so "
                             "that one is at the receiver",
                             s.filter.size));
+  if (const std::vector<int>& sizes = find_filter(s.filter.kind).sizes;
+      !sizes.empty() && std::find(sizes.begin(), sizes.end(), s.filter.size) == sizes.end())
+    throw Error(ErrorKind::usage, fmt::format("filter.size = {}: the filter {} has a size of {}", s.filter.size,
+                                              s.filter.kind, fmt::join(sizes, ", ")));
   for (const BiasPart& part : bias_parts()) {
     if (part.floor_help.empty() || part.cap_help.empty()) continue;
     const std::string name(part.name);
@@ -418,25 +439,28 @@ void validate(const Settings& s) {
 
 void validate_for(LightKind kind, const Settings& s) {
   const auto value = [&](std::string_view name) { return find_setting(name).get(s); };
-  const auto refuse_pair = [&](std::string_view name, std::string_view why) {
+  const auto refuse_pair = [&](std::string_view name, const std::string& why) {
     throw Error(ErrorKind::usage, fmt::format("{} = {} {}", name, value(name), why));
   };
-  const bool cube_filter = s.filter.kind == FilterKind::cube_grid || s.filter.kind == FilterKind::cube_disk;
+  const Filter& filter = find_filter(s.filter.kind);
   const bool plane_bias = tap_reference(s.bias.reference).plane;
-  const bool linear_taps = s.filter.kind == FilterKind::hardware || s.filter.kind == FilterKind::gaussian;
   if (kind == LightKind::point) {
-    if (!cube_filter && s.filter.kind != FilterKind::none)
-      refuse_pair("filter.kind", "needs a flat map; a point light's cube map takes none, cube_grid and cube_disk");
+    if (filter.map == FilterMap::flat)
+      refuse_pair("filter.kind",
+                  fmt::format("needs a flat map; a point light's cube map takes {}",
+                              names_of(filters(), [](const Filter& f) { return f.map != FilterMap::flat; })));
     if (plane_bias) refuse_pair("bias.reference", "needs a flat map; a point light's cube map has own_depth alone");
     if (s.map.shift_u_texels != 0 || s.map.shift_v_texels != 0)
       throw Error(ErrorKind::usage, "map.shift_*_texels needs a flat map; move the point light instead");
-  } else if (cube_filter) {
+  } else if (filter.map == FilterMap::cube) {
     refuse_pair("filter.kind", "needs a cube map; set light.kind = point, or take another filter");
   }
-  if (plane_bias && linear_taps)
-    refuse_pair("bias.reference",
-                "gives each texel a depth of its own, and a hardware comparison has one for the four texels that it "
-                "reads; take filter.kind none, box or poisson");
+  if (plane_bias && filter.blended)
+    refuse_pair(
+        "bias.reference",
+        fmt::format("gives each texel a depth of its own, and a hardware comparison has one for the four texels "
+                    "that it reads; take filter.kind {}",
+                    names_of(filters(), [](const Filter& f) { return !f.blended && f.map != FilterMap::cube; })));
   if (s.map.snap && kind != LightKind::directional)
     throw Error(ErrorKind::usage, "map.snap needs a directional light: only its texels have one size everywhere");
 }

@@ -25,7 +25,6 @@ enum class CulledFaces { none, back, front };
 enum class MapFit { scene, tight };
 enum class CubePass { layered, six_passes };
 enum class BiasUnit { depth, m, texel };
-enum class FilterKind { none, box, hardware, gaussian, poisson, cube_grid, cube_disk };
 enum class DiskRadius { fixed, view_distance };
 enum class LightChoice { automatic, directional, spot, point };
 
@@ -74,13 +73,13 @@ struct BiasSettings {
 };
 
 struct FilterSettings {
-  FilterKind kind = FilterKind::none;
-  int size = 3;              // box, gaussian: taps on a side, odd
-  double step_texels = 1;    // box: from tap to tap
-  double sigma_texels = 1;   // gaussian: standard deviation
-  double radius_texels = 2;  // poisson: of the disk
-  bool rotate = false;       // poisson: another rotation of the disk at each pixel
-  double offset_m = 0.1;     // cube_grid: taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world
+  std::string kind = "none";  // of filters()
+  int size = 3;               // box, gaussian: taps on a side, odd
+  double step_texels = 1;     // box: from tap to tap
+  double sigma_texels = 1;    // gaussian: standard deviation
+  double radius_texels = 2;   // poisson: of the disk
+  bool rotate = false;        // poisson: another rotation of the disk at each pixel
+  double offset_m = 0.1;      // cube_grid: taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world
   DiskRadius disk = DiskRadius::fixed;  // cube_disk: radius_m, or (1 + view distance / far) / 25 metres
   double radius_m = 0.05;
 };

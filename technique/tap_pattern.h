@@ -19,10 +19,15 @@ struct TapPattern {
   std::vector<glm::vec3> offsets;  // [variant * taps + tap]; of a flat map z is 0. Where the taps are bilinear: of the
                                    // place whose nearest texel is the tap, (-1/2, -1/2) to (1/2, 1/2) for one fetch
 
-  // Bilinear: the weights of the N fetches along one axis (sum 1), each of which blends 2 x 2 texels by where P lies
-  // between their centres; (N + 1)^2 taps. Empty: all taps count the same.
+  // Bilinear: a comparison sampler blends this many texels along each axis, and the taps are their square. 0: all taps
+  // count the same.
+  int blended_side = 0;
+  bool bilinear() const { return blended_side > 0; }
+  // How: the weights of blended_side - 1 fetches along one axis (sum 1), each of which blends 2 x 2 texels by where P
+  // lies between their centres; or, where there are none, the weight of each texel along one axis (sum 1). s: the
+  // fraction.
   std::vector<double> kernel;
-  bool bilinear() const { return !kernel.empty(); }
+  double (*axis_weight)(int texel, double s, int size) = nullptr;
 
   glm::vec3 offset(int variant, int tap) const { return offsets[static_cast<size_t>(variant * taps + tap)]; }
 

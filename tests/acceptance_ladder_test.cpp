@@ -64,8 +64,8 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
     Settings settings = with({{"map.resolution", "300"}}, small(GetParam()));
     for (const auto& [name, value] : technique) find_setting(name).set(settings, value);
     // A cube map has filters of its own.
-    if (settings.filter.kind == FilterKind::box && bench.scene(settings.scene).light.kind == LightKind::point)
-      settings.filter.kind = FilterKind::cube_disk;
+    if (settings.filter.kind == "box" && bench.scene(settings.scene).light.kind == LightKind::point)
+      settings.filter.kind = "cube_disk";
     SCOPED_TRACE(testing::PrintToString(technique));
     const Measurement m = bench.measure(settings, std::nullopt);
     const Ladder& ladder = m.ladder;
@@ -122,7 +122,8 @@ TEST(Acceptance, ALookupMovedBehindTheLightIsCoverage) {
     const Settings settings = with({{"map.resolution", "32"},
                                     {"map.extent_scale", "600"},
                                     {"light.kind", "spot"},
-                                    {"bias.constant", "0"}, {"bias.normal_offset", "1"},
+                                    {"bias.constant", "0"},
+                                    {"bias.normal_offset", "1"},
                                     {"filter.kind", filter}},
                                    small("plate", 64, 48));
     const Measurement m = bench.measure(settings, std::nullopt);

@@ -91,16 +91,16 @@ inline Settings settings_of(const CentralSpec& spec) {
       case 1:
         break;
       case 2:
-        f = {.kind = FilterKind::cube_grid, .offset_m = 0.1};
+        f = {.kind = "cube_grid", .offset_m = 0.1};
         break;
       case 3:
-        f = {.kind = FilterKind::cube_disk, .radius_m = 0.02};
+        f = {.kind = "cube_disk", .radius_m = 0.02};
         break;
       case 4:
-        f = {.kind = FilterKind::cube_disk, .radius_m = 0.5};
+        f = {.kind = "cube_disk", .radius_m = 0.5};
         break;
       case 5:
-        f = {.kind = FilterKind::cube_disk, .disk = DiskRadius::view_distance};
+        f = {.kind = "cube_disk", .disk = DiskRadius::view_distance};
         break;
     }
     return s;
@@ -109,19 +109,19 @@ inline Settings settings_of(const CentralSpec& spec) {
     case 0:
       break;
     case 1:
-      f = {.kind = FilterKind::box, .size = size};
+      f = {.kind = "box", .size = size};
       break;
     case 2:
-      f = {.kind = FilterKind::box, .size = size, .step_texels = 1.5};
+      f = {.kind = "box", .size = size, .step_texels = 1.5};
       break;
     case 3:
-      f.kind = FilterKind::hardware;
+      f.kind = "hardware";
       break;
     case 4:
-      f = {.kind = FilterKind::gaussian, .size = size};
+      f = {.kind = "gaussian", .size = size};
       break;
     case 5:
-      f = {.kind = FilterKind::poisson, .radius_texels = 3, .rotate = true};
+      f = {.kind = "poisson", .radius_texels = 3, .rotate = true};
       break;
   }
   return s;

@@ -46,7 +46,7 @@ struct Sight {
   std::map<std::string, double> metrics(DepthFormat format = DepthFormat::d24, int kernel = 1) const {
     LookupProbe probe;
     FilterSettings box;
-    box.kind = FilterKind::box;
+    box.kind = "box";
     box.size = kernel;
     probe.pattern = tap_pattern(box);
     probe.tap_reference = &tap_reference(reference);

@@ -76,7 +76,7 @@ TEST(GlLife, CallsLeaveNothingBehind) {
   add_floor(scene, 0, 4);
   Settings settings;
   settings.map.resolution = 16;
-  settings.filter.kind = FilterKind::box;
+  settings.filter.kind = "box";
   const LightFrame frame = make_light_frame(scene, settings);
   const auto everything = [&](int width) {
     renderer.load_scene(scene);

@@ -223,7 +223,7 @@ TEST_F(GlTest, AMapOfAnotherKindIsADefect) {
   EXPECT_EQ(kind_thrown([&] { renderer.lookup(flat, frame, settings); }), static_cast<int>(ErrorKind::defect));
   EXPECT_EQ(kind_thrown([&] { renderer.upload_map(Image<float>(8, 40, 1.0f), settings.map); }),
             static_cast<int>(ErrorKind::defect));
-  settings.filter.kind = FilterKind::box;
+  settings.filter.kind = "box";
   EXPECT_EQ(kind_thrown([&] { renderer.probe(frame, settings); }), static_cast<int>(ErrorKind::usage));
 }
 

@@ -7,6 +7,7 @@
 #include "scenes/camera_fit.h"
 #include "scenes/receivers.h"
 #include "technique/bias.h"
+#include "technique/filters.h"
 #include "technique/map_address.h"
 
 namespace noonmark::gl {
@@ -115,7 +116,9 @@ inline Settings random_settings(std::mt19937& random, LightKind kind) {
   s.filter.radius_m = 0.01 + 0.1 * unit(random);
   do {
     s.bias.reference = std::string(tap_references()[random() % tap_references().size()].name);
-    s.filter.kind = static_cast<FilterKind>(random() % find_setting("filter.kind").choices.size());
+    s.filter.kind = std::string(filters()[random() % filters().size()].name);
+    if (const std::vector<int>& sizes = find_filter(s.filter.kind).sizes; !sizes.empty())
+      s.filter.size = sizes[random() % sizes.size()];
   } while (kind_thrown([&] { validate_for(kind, s); }));
   return s;
 }

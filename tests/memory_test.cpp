@@ -101,7 +101,7 @@ TEST_F(Estimate, SeesWhatTakesTooMuch) {
 
 // 31 x 31 taps took 6.7 kB a pixel before they were traced in strips.
 TEST_F(Estimate, DoesNotGrowWithTheKernelBeyondAStrip) {
-  settings_.filter.kind = FilterKind::box;
+  settings_.filter.kind = "box";
   settings_.filter.size = 31;
   const double most = bytes();
   EXPECT_EQ(estimate().largest().what, std::string("the taps"));

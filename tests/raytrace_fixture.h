@@ -242,7 +242,7 @@ inline raytrace::SoftTruth sun(double diameter_deg, double standard_error = 0.01
 // A box of size x size nearest taps.
 inline FilterSettings box(int size) {
   FilterSettings filter;
-  filter.kind = FilterKind::box;
+  filter.kind = "box";
   filter.size = size;
   return filter;
 }

@@ -11,7 +11,7 @@
 namespace noonmark {
 namespace {
 
-FilterSettings filter(FilterKind kind, int size = 3) {
+FilterSettings filter(const std::string& kind, int size = 3) {
   FilterSettings f;
   f.kind = kind;
   f.size = size;
@@ -28,22 +28,22 @@ TEST(TapPattern, HasAsManyTapsAsTheFilterSays) {
     EXPECT_EQ(p.bilinear(), bilinear);
     for (const glm::vec3& o : p.offsets) EXPECT_TRUE(in_world || o.z == 0);
   };
-  expect(filter(FilterKind::none), 1, 1, false, false);
+  expect(filter("none"), 1, 1, false, false);
   for (int n : {1, 3, 5, 31}) {
-    expect(filter(FilterKind::box, n), n * n, 1, false, false);
-    expect(filter(FilterKind::gaussian, n), (n + 1) * (n + 1), 1, false, true);
+    expect(filter("box", n), n * n, 1, false, false);
+    expect(filter("gaussian", n), (n + 1) * (n + 1), 1, false, true);
   }
-  expect(filter(FilterKind::hardware), 4, 1, false, true);
-  expect(filter(FilterKind::poisson), 16, 1, false, false);
-  FilterSettings turned = filter(FilterKind::poisson);
+  expect(filter("hardware"), 4, 1, false, true);
+  expect(filter("poisson"), 16, 1, false, false);
+  FilterSettings turned = filter("poisson");
   turned.rotate = true;
   expect(turned, 16, 64, false, false);
-  expect(filter(FilterKind::cube_grid), 64, 1, true, false);
-  expect(filter(FilterKind::cube_disk), 20, 1, true, false);
+  expect(filter("cube_grid"), 64, 1, true, false);
+  expect(filter("cube_disk"), 20, 1, true, false);
 }
 
 TEST(TapPattern, OfABoxHasItsStepAndItsMiddle) {
-  FilterSettings f = filter(FilterKind::box, 5);
+  FilterSettings f = filter("box", 5);
   f.step_texels = 1.5;
   const TapPattern p = tap_pattern(f);
   std::set<std::pair<float, float>> places;
@@ -54,16 +54,15 @@ TEST(TapPattern, OfABoxHasItsStepAndItsMiddle) {
   }
   EXPECT_EQ(places.size(), 25);
   EXPECT_EQ(p.reach_texels(), 3.5);
-  EXPECT_EQ(tap_pattern(filter(FilterKind::none)).reach_texels(), 0.5);
-  EXPECT_EQ(tap_pattern(filter(FilterKind::hardware)).reach_texels(), 1);
-  EXPECT_EQ(tap_pattern(filter(FilterKind::gaussian, 5)).reach_texels(), 3);
+  EXPECT_EQ(tap_pattern(filter("none")).reach_texels(), 0.5);
+  EXPECT_EQ(tap_pattern(filter("hardware")).reach_texels(), 1);
+  EXPECT_EQ(tap_pattern(filter("gaussian", 5)).reach_texels(), 3);
 }
 
 TEST(TapPattern, WeightsSumToOneWhereverPLies) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0, 1);
-  for (const FilterKind kind : {FilterKind::none, FilterKind::box, FilterKind::hardware, FilterKind::gaussian,
-                                FilterKind::poisson, FilterKind::cube_grid, FilterKind::cube_disk}) {
+  for (const char* kind : {"none", "box", "hardware", "gaussian", "poisson", "cube_grid", "cube_disk"}) {
     for (int size : {1, 3, 7}) {
       const TapPattern p = tap_pattern(filter(kind, size));
       for (int i = 0; i < 50; ++i) {
@@ -86,7 +85,7 @@ TEST(TapPattern, OfFetchesWeighsTexelsAsTheSamplerDoes) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> somewhere(20, 30);
   for (int size : {1, 3, 5}) {
-    FilterSettings f = filter(size == 1 ? FilterKind::hardware : FilterKind::gaussian, size);
+    FilterSettings f = filter(size == 1 ? "hardware" : "gaussian", size);
     f.sigma_texels = 1.25;
     LookupProbe probe;
     probe.pattern = tap_pattern(f);
@@ -124,7 +123,7 @@ TEST(TapPattern, OfFetchesReadsTheTexelNearestToEachTapsPlace) {
   std::mt19937 random(3);
   for (int size : {1, 3, 5}) {
     LookupProbe probe;
-    probe.pattern = tap_pattern(filter(size == 1 ? FilterKind::hardware : FilterKind::gaussian, size));
+    probe.pattern = tap_pattern(filter(size == 1 ? "hardware" : "gaussian", size));
     for (int i = 0; i < 500; ++i) {
       // In 1/64 of a texel but for ties, so that float sums are exact.
       const auto place = [&] { return static_cast<float>(2 * (random() % 3200) + 1) / 128; };
@@ -137,7 +136,7 @@ TEST(TapPattern, OfFetchesReadsTheTexelNearestToEachTapsPlace) {
 }
 
 TEST(TapPattern, OfAPoissonDiskIsSpreadOverIt) {
-  FilterSettings f = filter(FilterKind::poisson);
+  FilterSettings f = filter("poisson");
   f.radius_texels = 2.5;
   const TapPattern p = tap_pattern(f);
   for (int a = 0; a < p.taps; ++a) {
@@ -173,7 +172,7 @@ TEST(TapPattern, VariantsAreAllUsedAndNeighboursDiffer) {
 
 // The tutorials' loops run from -offset up to but without +offset, in steps of offset / 2.
 TEST(TapPattern, OfACubeGridIsTheTutorials) {
-  FilterSettings f = filter(FilterKind::cube_grid);
+  FilterSettings f = filter("cube_grid");
   f.offset_m = 0.1;
   const TapPattern p = tap_pattern(f);
   std::set<std::array<float, 3>> places;
@@ -185,7 +184,7 @@ TEST(TapPattern, OfACubeGridIsTheTutorials) {
 }
 
 TEST(TapPattern, OfACubeDiskIsTheTutorials20Directions) {
-  FilterSettings f = filter(FilterKind::cube_disk);
+  FilterSettings f = filter("cube_disk");
   f.radius_m = 0.5;
   int corners = 0, edges = 0;
   std::set<std::array<float, 3>> places;

@@ -1,0 +1,83 @@
+#include "technique/filters.h"
+
+#include <stdexcept>
+
+#include "technique/filters/patterns.h"
+
+namespace noonmark {
+
+#include "filter_declarations.inc"
+
+namespace filter_formulas {
+
+#define precise
+using real = double;
+using glm::abs, glm::clamp;
+#include "filter_formulas.inc"
+#undef precise
+
+}  // namespace filter_formulas
+
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+// The taps of a filter whose formula gives each texel's weight.
+template <double (*weight)(int, double, int)>
+TapPattern weighted(const FilterSettings& settings) {
+  return weighted_texels(settings.size, weight);
+}
+
+std::vector<Filter> make_filters() {
+  return {
+      {.name = "none", .help = "one nearest tap", .map = FilterMap::any, .shader = "none", .taps = none_taps},
+      {.name = "box",
+       .help = "the mean of N x N nearest taps",
+       .shader = "box",
+       .taps = box_taps,
+       .reads = Names{"filter.size", "filter.step_texels"}},
+      {.name = "hardware",
+       .help = "one linear tap of a comparison sampler (2 x 2 texels)",
+       .shader = "bilinear",
+       .taps = hardware_taps,
+       .blended = true},
+      {.name = "gaussian",
+       .help = "N x N such taps",
+       .shader = "bilinear",
+       .taps = gaussian_taps,
+       .reads = Names{"filter.size", "filter.sigma_texels"},
+       .blended = true},
+      {.name = "poisson",
+       .help = "16 nearest taps in a disk",
+       .shader = "mean",
+       .taps = poisson_taps,
+       .reads = Names{"filter.radius_texels", "filter.rotate"}},
+      {.name = "cube_grid",
+       .help = "4 x 4 x 4 taps around the receiver",
+       .map = FilterMap::cube,
+       .shader = "mean",
+       .taps = cube_grid_taps,
+       .reads = Names{"filter.offset_m"}},
+      {.name = "cube_disk",
+       .help = "20 directions",
+       .map = FilterMap::cube,
+       .shader = "mean",
+       .taps = cube_disk_taps,
+       .reads = Names{"filter.disk", "filter.radius_m"}},
+  };
+}
+
+}  // namespace
+
+std::span<const Filter> filters() {
+  static const std::vector<Filter> all = make_filters();
+  return all;
+}
+
+const Filter& find_filter(std::string_view name) {
+  for (const Filter& filter : filters())
+    if (filter.name == name) return filter;
+  throw std::logic_error("there is no filter '" + std::string(name) + "'");
+}
+
+}  // namespace noonmark

@@ -1,0 +1,7 @@
+#include "technique/filters/patterns.h"
+
+namespace noonmark {
+
+TapPattern gaussian_taps(const FilterSettings& f) { return linear_fetches(f.size, f.sigma_texels); }
+
+}  // namespace noonmark

@@ -1,0 +1,11 @@
+#include "technique/filters/patterns.h"
+
+namespace noonmark {
+
+TapPattern none_taps(const FilterSettings&) {
+  TapPattern pattern;
+  pattern.offsets = {glm::vec3(0)};
+  return pattern;
+}
+
+}  // namespace noonmark
