@@ -85,7 +85,7 @@ void Renderer::Impl::set_pattern(Program& program, const TapPattern& pattern) {
   std::vector<glm::vec4> rows = tap_table(pattern);
   const int taps = static_cast<int>(rows.size()) / pattern.variants;
   // A uniform block of 16 KiB is what every OpenGL has.
-  constexpr size_t block_rows = 1024;
+  constexpr size_t block_rows = most_listed_taps;
   if (rows.size() > block_rows) throw std::logic_error("a pattern of more taps than shaders/pattern.glsl holds");
   rows.resize(block_rows, glm::vec4(0));
   tap_rows = {};

@@ -77,8 +77,9 @@ struct FilterSettings {
   int size = 3;               // box, gaussian: taps on a side, odd
   double step_texels = 1;     // box: from tap to tap
   double sigma_texels = 1;    // gaussian: standard deviation
-  double radius_texels = 2;   // poisson: of the disk
-  bool rotate = false;        // poisson: another rotation of the disk at each pixel
+  double radius_texels = 2;   // poisson, vogel: of the disk
+  int taps = 16;              // vogel
+  bool rotate = false;        // poisson, vogel: another rotation of the disk at each pixel
   double offset_m = 0.1;      // cube_grid: taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world
   DiskRadius disk = DiskRadius::fixed;  // cube_disk: radius_m, or (1 + view distance / far) / 25 metres
   double radius_m = 0.05;

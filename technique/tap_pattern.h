@@ -11,6 +11,9 @@
 
 namespace noonmark {
 
+// What the shader has room for: taps of all variants together.
+inline constexpr int most_listed_taps = 1024;
+
 struct TapPattern {
   int taps = 1;
   int variants = 1;                // another one at each pixel: tap_variant()
