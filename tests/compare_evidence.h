@@ -74,7 +74,10 @@ inline TapPattern pattern_of(const Shape& shape) {
   const int side = shape.lookup == Lookup::linear ? shape.kernel + 1 : shape.kernel;
   pattern.taps = side * side;
   pattern.in_world = shape.lookup == Lookup::cube;
-  if (shape.lookup == Lookup::linear) pattern.kernel = fetch_weights(shape.kernel);
+  if (shape.lookup == Lookup::linear) {
+    pattern.blended_side = side;
+    pattern.kernel = fetch_weights(shape.kernel);
+  }
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x)
       pattern.offsets.emplace_back(static_cast<float>(2 * x + 1 - side) / 2, static_cast<float>(2 * y + 1 - side) / 2,
