@@ -189,7 +189,7 @@ std::string recommendation_box(const Results& results) {
     return "<div class=\"recommend broken\"><h3>What to set</h3><p><b>None of the swept settings is good enough.</b> "
            "No point has a usable "
            "bias window and holds every bound that speaks of it. Sweep a higher resolution, a smaller extent or "
-           "another form of bias, or "
+           "another bias, or "
            "loosen a bound.</p></div>\n";
   const PointRecord& point = *found.point;
   std::string rows;

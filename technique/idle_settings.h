@@ -1,4 +1,4 @@
-// Settings that were given and change nothing: of another light, filter or bias form than the one at hand.
+// Settings that were given and change nothing: of another light, filter or bias than the one at hand.
 #pragma once
 #include <string>
 #include <vector>

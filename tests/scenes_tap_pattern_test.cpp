@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <random>
 #include <set>
 
 #include "technique/evidence.h"
+#include "technique/filters.h"
 #include "technique/tap_pattern.h"
 
 namespace noonmark {
@@ -59,11 +61,72 @@ TEST(TapPattern, OfABoxHasItsStepAndItsMiddle) {
   EXPECT_EQ(tap_pattern(filter("gaussian", 5)).reach_texels(), 3);
 }
 
+// The bilinear blend of the kernel that the texels' weights make where P is on a texel's centre.
+TEST(TapPattern, CastanosWeightsAreItsKernelBlended) {
+  const std::map<int, std::vector<double>> kernels = {
+      {3, {1, 2, 1}}, {5, {1, 3, 4, 3, 1}}, {7, {1, 5, 12, 16, 12, 5, 1}}};
+  for (const auto& [size, kernel] : kernels) {
+    const TapPattern p = tap_pattern(filter("castano", size));
+    double sum = 0;
+    for (double k : kernel) sum += k;
+    const auto at = [&](int i) { return i < 0 || i >= size ? 0 : kernel[static_cast<size_t>(i)] / sum; };
+    for (double s : {0.0, 0.25, 0.75})
+      for (int texel = 0; texel <= size; ++texel)
+        EXPECT_NEAR(p.axis_weight(texel, s, size), (1 - s) * at(texel) + s * at(texel - 1), 1e-15) << size;
+    EXPECT_EQ(p.taps, (size + 1) * (size + 1));
+    EXPECT_EQ(p.reach_texels(), (size + 1) / 2.0);
+  }
+}
+
+// Its integral over each texel, summed up in a thousand steps.
+TEST(TapPattern, ATentIsIntegratedOverEachTexel) {
+  for (int size : {3, 5, 7}) {
+    const TapPattern p = tap_pattern(filter("tent", size));
+    const double half_base = size / 2.0;
+    for (double s : {0.0, 0.3, 0.9})
+      for (int texel = 0; texel <= size; ++texel) {
+        const double left = texel - size / 2 - 0.5 - s;  // of the texel, from P
+        double area = 0;
+        for (int step = 0; step < 1000; ++step)
+          area += std::max(0.0, 1 - std::abs(left + (step + 0.5) / 1000) / half_base) / half_base / 1000;
+        EXPECT_NEAR(p.axis_weight(texel, s, size), area, 1e-6) << size << " " << texel << " " << s;
+      }
+    EXPECT_EQ(p.reach_texels(), (size + 1) / 2.0);
+  }
+}
+
+TEST(TapPattern, VogelsTapsFillADiskEvenly) {
+  FilterSettings settings = filter("vogel");
+  settings.taps = 40;
+  settings.radius_texels = 3;
+  for (const bool rotate : {false, true}) {
+    settings.rotate = rotate;
+    const TapPattern p = tap_pattern(settings);
+    EXPECT_EQ(p.taps, 40);
+    EXPECT_EQ(p.variants, rotate ? 25 : 1) << "as many as the shader has room for";
+    ASSERT_EQ(p.offsets.size(), static_cast<size_t>(p.taps * p.variants));
+    for (int v = 0; v < p.variants; ++v) {
+      // A disk of a share of the area has that share of the taps, and the taps' middle is the disk's.
+      int inner = 0;
+      glm::dvec2 middle(0);
+      for (int t = 0; t < p.taps; ++t) {
+        const glm::dvec2 o(p.offset(v, t));
+        EXPECT_LE(glm::length(o), 3);
+        inner += glm::length(o) < 1.5;
+        middle += o / 40.0;
+      }
+      EXPECT_EQ(inner, 10);
+      EXPECT_LT(glm::length(middle), 0.1);
+    }
+  }
+}
+
 TEST(TapPattern, WeightsSumToOneWhereverPLies) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0, 1);
-  for (const char* kind : {"none", "box", "hardware", "gaussian", "poisson", "cube_grid", "cube_disk"}) {
-    for (int size : {1, 3, 7}) {
+  for (const Filter& row : filters()) {
+    const std::string kind(row.name);
+    for (int size : row.sizes.empty() ? std::vector<int>{1, 3, 7} : row.sizes) {
       const TapPattern p = tap_pattern(filter(kind, size));
       for (int i = 0; i < 50; ++i) {
         // The corners too; there a row of taps weighs nothing.
