@@ -154,11 +154,16 @@ Setting text(std::string_view name, std::string_view help, Member member) {
 
 #define MEMBER(path) [](Settings& s) -> decltype((s.path)) { return s.path; }
 
+// Made help: rows refer to it.
+std::deque<std::string>& kept_texts() {
+  static std::deque<std::string> texts;
+  return texts;
+}
+
 // A choice by the name of a row of a table. help: of the setting; the rows' own is added.
 template <class Rows, class Member>
 Setting named(std::string_view name, std::string_view help, const Rows& rows, Member member) {
-  static std::deque<std::string> texts;  // rows refer to their help
-  std::string& text = texts.emplace_back(help);
+  std::string& text = kept_texts().emplace_back(help);
   Setting row{name, "", ValueType::choice, 0, 0, false, {}, {}, {}, {}};
   for (const auto& choice : rows) {
     text += fmt::format("{}{}: {}", row.choices.empty() ? " " : "; ", choice.name, choice.help);
@@ -318,22 +323,18 @@ std::vector<Setting> make_table() {
            "receiver_plane: no tap is compared with a depth farther from the receiver's own than this; auto: no limit.",
            MEMBER(bias.plane_cap)),
       named("filter.kind", "Where the lookup reads the map.", filters(), MEMBER(filter.kind)),
-      integer("filter.size", "taps", 1, 31, "box, gaussian: taps on a side, odd.", MEMBER(filter.size)),
-      real("filter.step_texels", "texels", 0, 64, "box: from tap to tap.", MEMBER(filter.step_texels)),
-      real("filter.sigma_texels", "texels", 0.1, 64, "gaussian: standard deviation of the weights.",
-           MEMBER(filter.sigma_texels)),
-      integer("filter.taps", "taps", 1, 64, "vogel: how many taps.", MEMBER(filter.taps)),
-      real("filter.radius_texels", "texels", 0, 256, "poisson, vogel: radius of the disk.",
-           MEMBER(filter.radius_texels)),
-      flag("filter.rotate", "poisson, vogel: the disk is turned by another angle at each pixel.",
-           MEMBER(filter.rotate)),
+      integer("filter.size", "taps", 1, 31, "taps on a side, odd.", MEMBER(filter.size)),
+      real("filter.step_texels", "texels", 0, 64, "from tap to tap.", MEMBER(filter.step_texels)),
+      real("filter.sigma_texels", "texels", 0.1, 64, "standard deviation of the weights.", MEMBER(filter.sigma_texels)),
+      integer("filter.taps", "taps", 1, 64, "how many taps.", MEMBER(filter.taps)),
+      real("filter.radius_texels", "texels", 0, 256, "radius of the disk.", MEMBER(filter.radius_texels)),
+      flag("filter.rotate", "the disk is turned by another angle at each pixel.", MEMBER(filter.rotate)),
       real("filter.offset_m", "m", 0, 1e3,
-           "cube_grid: taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world.",
-           MEMBER(filter.offset_m)),
+           "taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world.", MEMBER(filter.offset_m)),
       choice("filter.disk", {"fixed", "view_distance"},
-             "cube_disk: how far its taps reach: filter.radius_m, or (1 + distance to the camera / far) / 25 metres.",
+             "how far its taps reach: filter.radius_m, or (1 + distance to the camera / far) / 25 metres.",
              MEMBER(filter.disk)),
-      real("filter.radius_m", "m", 0, 1e3, "cube_disk: multiplies the 20 directions (1,1,1), (1,1,0) and their kin.",
+      real("filter.radius_m", "m", 0, 1e3, "multiplies the 20 directions (1,1,1), (1,1,0) and their kin.",
            MEMBER(filter.radius_m)),
       real("truth.standard_error", "", 1e-3, 0.5,
            "Largest standard error of R0 at a receiver, for a light with a size.", MEMBER(truth.standard_error)),
@@ -341,6 +342,15 @@ std::vector<Setting> make_table() {
   // After the other settings of the bias.
   auto at = std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "bias.plane_cap"; });
   for (const BiasParameter& parameter : bias_parameters()) at = table.insert(at + 1, bias_row(parameter));
+  // "box, gaussian: ...": the filters that read a setting of filters.
+  for (Setting& row : table) {
+    std::vector<std::string_view> readers;
+    for (const Filter& filter : filters())
+      if (std::find(filter.reads.begin(), filter.reads.end(), row.name) != filter.reads.end())
+        readers.push_back(filter.name);
+    if (!readers.empty())
+      row.help = kept_texts().emplace_back(fmt::format("{}: {}", fmt::join(readers, ", "), row.help));
+  }
   return table;
 }
 
