@@ -142,6 +142,8 @@ void load_curves(Database& db, std::map<int64_t, PointRecord>& points) {
     if (rows.integer(7) != 0) {
       curve.window_min_depth = rows.real(8);
       curve.window_max_depth = rows.real(9);
+      if (*curve.window_min_depth > *curve.window_max_depth)
+        throw std::runtime_error("a usable window that ends before it begins");
     }
     curve.best_bias_depth = rows.real(10);
     curve.best_error = rows.real(11);

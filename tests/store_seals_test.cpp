@@ -142,14 +142,17 @@ TEST_F(StoreSeals, NoticeEditedFactsOfTheRun) {
 // Somebody who can write rows can seal them too. Rows that belong to no point then are a damaged file's, not our
 // defect.
 TEST_F(StoreSeals, SealedRowsThatDoNotFitTogetherAreADamagedFile) {
-  for (const char* sql : {"INSERT INTO metrics VALUES (8, 'acne', 1)", "INSERT INTO curves (point) VALUES (8)",
-                          "INSERT INTO images VALUES (8, 0, 'a', 'b')"}) {
+  for (const auto& [point, sql] :
+       {std::pair(8, "INSERT INTO metrics VALUES (8, 'acne', 1)"),
+        {8, "INSERT INTO curves (point) VALUES (8)"},
+        {8, "INSERT INTO images VALUES (8, 0, 'a', 'b')"},
+        {1, "UPDATE curves SET has_window = 1, window_min_depth = 2, window_max_depth = 1 WHERE point = 1"}}) {
     SCOPED_TRACE(sql);
     afresh();
     edit(sql);
     {
       sqlite::Database db(path, sqlite::Database::Mode::existing);
-      seal_point(db, 8);
+      seal_point(db, point);
     }
     EXPECT_NE(refusal().find("holds what Noonmark did not write"), std::string::npos);
     ResultStore store(path, "x = 1\n", Existing::resume);
