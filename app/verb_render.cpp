@@ -13,6 +13,7 @@
 #include "scenes/file.h"
 #include "scenes/library.h"
 #include "scenes/text.h"
+#include "technique/bias.h"
 #include "technique/idle_settings.h"
 
 namespace noonmark {
@@ -61,8 +62,12 @@ void print_ladder(const Measurement& m) {
   if (c.acne_free_bias_depth && c.parameter == "bias.constant") {
     fmt::print("  free of acne from: {:.6g} depth = {:.4g} m{}", *c.acne_free_bias_depth,
                *c.acne_free_bias_depth * c.m_per_depth, m.frame.parallel() ? "" : " at the median receiver");
-    // The law in the parameter's own unit, which each receiver turns into depth for itself.
-    if (m.frame.parallel() || m.settings.bias.unit == BiasUnit::m)
+    // The law in the parameter's own unit, which each receiver turns into depth for itself. Of what other parts of the
+    // bias gain it knows nothing.
+    const Bias bias(m.settings.bias);
+    if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset())
+      fmt::print(", on top of the other parts");
+    else if (m.frame.parallel() || m.settings.bias.unit == BiasUnit::m)
       fmt::print("; by law 1 the planes in the picture ask for {:.4g} m", value("acne_free_bias_law_m"));
     else if (m.settings.bias.unit == BiasUnit::depth)
       fmt::print("; by law 1 the planes in the picture ask for {:.4g} depth", value("acne_free_bias_law_depth"));
