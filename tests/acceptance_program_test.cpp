@@ -130,6 +130,21 @@ TEST_F(Program, ChecksTheExperimentOfTheDemo) {
   EXPECT_NE(read_file((folder_ / "out/junit.xml").string()).find("<failure"), std::string::npos);
 }
 
+// What a constant has to add to an offset is not what the law says of a constant alone.
+TEST_F(Program, RenderNamesTheLawsBiasOnlyWhereAConstantIsAlone) {
+  write("x.toml", one_point);
+  const std::vector<std::string> render = {"render", "x.toml", "--out", "o", "--set", "bias.constant=0.001"};
+  ASSERT_EQ(run(render), 0) << output_;
+  EXPECT_NE(output_.find("; by law 1 the planes in the picture ask for"), std::string::npos) << output_;
+  for (const char* other : {"bias.normal_offset_sin=0.3", "bias.slope=0.01", "bias.polygon_units=1"}) {
+    std::vector<std::string> with_other = render;
+    with_other.insert(with_other.end(), {"--set", other});
+    ASSERT_EQ(run(with_other), 0) << output_;
+    EXPECT_EQ(output_.find("by law 1"), std::string::npos) << output_;
+    EXPECT_NE(output_.find("on top of the other parts"), std::string::npos) << output_;
+  }
+}
+
 TEST_F(Program, RendersOnePointWithAllThatASecondOpinionNeeds) {
   ASSERT_EQ(run({"render", "--set", "view.width_px=160", "--set", "view.height_px=90", "--set", "map.resolution=128",
                  "--out", "one"}),
