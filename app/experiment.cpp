@@ -7,6 +7,7 @@
 
 #include "scenes/error.h"
 #include "scenes/text.h"
+#include "technique/validate.h"
 
 namespace noonmark {
 namespace {

@@ -43,7 +43,7 @@ class EarlyFolder {
  public:
   void open(const std::string& path);
   bool is_open() const { return folder_.has_value(); }
-  const ResultsFolder& get() const;  // after open(); throws what went wrong in it
+  const ResultsFolder& get() const;  // call open() first; throws the error that open() met
 
  private:
   std::optional<ResultsFolder> folder_;

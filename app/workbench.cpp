@@ -23,6 +23,7 @@
 #include "scenes/library.h"
 #include "scenes/scene_digest.h"
 #include "technique/tap_pattern.h"
+#include "technique/validate.h"
 
 namespace noonmark {
 namespace {

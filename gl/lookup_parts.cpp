@@ -27,12 +27,16 @@ const char* light_file(LightKind kind) {
   throw std::logic_error("a kind of light without a row in gl/lookup_parts.cpp");
 }
 
-ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bias, const Filter& filter) {
-  const std::string bias_name = bias_text_name(bias), name(filter.name);
+ShaderSlots receiver_slots(ProgramCache& programs, LightKind light, const Bias& bias) {
+  const std::string bias_name = bias_text_name(bias);
   programs.define(bias_name, bias_text(bias));
-  ShaderSlots slots = {{"light", light_file(light)},
-                       {"bias", bias_name},
-                       {"filter", fmt::format("shaders/filter/{}.glsl", filter.shader)}};
+  return {{"light", light_file(light)}, {"bias", bias_name}};
+}
+
+ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bias, const Filter& filter) {
+  const std::string name(filter.name);
+  ShaderSlots slots = receiver_slots(programs, light, bias);
+  slots["filter"] = fmt::format("shaders/filter/{}.glsl", filter.shader);
   if (!filter.sizes.empty()) {
     slots["weights"] = "weights of " + name;
     programs.define(slots["weights"], fmt::format("#include \"technique/filters/{0}.glsl\"\nuniform int filter_size;\n"

@@ -11,12 +11,15 @@ namespace noonmark::gl {
 // Defines what gl/shaders/light/view.glsl lists, and includes the kind of map that the light has.
 const char* light_file(LightKind kind);
 
-// The slots of a lookup program: <light>, <bias> (gl/bias_text.h), and <filter>, a file that defines
+// The slots of a program that includes shaders/receiver.glsl: <light>, and <bias> (gl/bias_text.h), whose text it
+// defines in `programs`.
+ShaderSlots receiver_slots(ProgramCache& programs, LightKind light, const Bias& bias);
+
+// And of one that looks up: <filter>, a file that defines
 //   float lit(Receiver receiver, float bias)  the number of lit taps; of blended ones their weighted mean
 //   float all_lit()                           its greatest value
-// and, for a filter whose taps have weights by a formula, <weights>:
+// and, for a filter whose taps have weights by a formula, <weights>, which it defines in `programs` too:
 //   float filter_weight(int texel, float s)   of texel 0 ... filter_size along one axis
-// Texts that are made and not files it defines in `programs`.
 ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bias, const Filter& filter);
 
 }  // namespace noonmark::gl

@@ -92,8 +92,6 @@ struct Renderer::Impl {
   void check_resolution(int resolution, bool cube) const;
   Texture make_map_texture(GLenum format, int resolution, bool cube, Wrap wrap);
 
-  // The text of the slot <bias>, by its name.
-  std::string bias_slot(const Bias& bias);
   // What light, bias and receiver need of a program that includes shaders/receiver.glsl; binds the receivers.
   void set_receiver_uniforms(Program& program, const LightFrame& frame, const Settings& settings);
   // Uploads and binds the pattern of a program that includes shaders/pattern.glsl.

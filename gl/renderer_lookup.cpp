@@ -10,6 +10,7 @@
 #include "gl/tap_table.h"
 #include "scenes/error.h"
 #include "technique/bias.h"
+#include "technique/validate.h"
 
 namespace noonmark::gl {
 namespace {
@@ -73,12 +74,6 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
   program.set_if_used("eye_m", eye_m);
   glBindTextureUnit(0, position_image.texture.id());
   glBindTextureUnit(1, normal_image.texture.id());
-}
-
-std::string Renderer::Impl::bias_slot(const Bias& bias) {
-  const std::string name = bias_text_name(bias);
-  programs.define(name, bias_text(bias));
-  return name;
 }
 
 void Renderer::Impl::set_pattern(Program& program, const TapPattern& pattern) {

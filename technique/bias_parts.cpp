@@ -119,12 +119,16 @@ constexpr TapReference references[] = {
 #undef WAY
 
 std::vector<BiasParameter> make_parameters() {
+  using Role = BiasParameter::Role;
   std::vector<BiasParameter> all;
   for (const BiasPart& part : parts) {
-    const std::string name(part.name);
-    all.push_back({&part, BiasParameter::Role::amount, name, part.help});
-    if (!part.floor_help.empty()) all.push_back({&part, BiasParameter::Role::floor, name + "_floor", part.floor_help});
-    if (!part.cap_help.empty()) all.push_back({&part, BiasParameter::Role::cap, name + "_cap", part.cap_help});
+    const auto add = [&](Role role, const char* ending, std::string_view help) {
+      const std::string name = std::string(part.name) + ending;
+      if (!help.empty()) all.push_back({&part, role, name, "bias." + name, help});
+    };
+    add(Role::amount, "", part.help);
+    add(Role::floor, "_floor", part.floor_help);
+    add(Role::cap, "_cap", part.cap_help);
   }
   return all;
 }

@@ -55,7 +55,8 @@ struct BiasParameter {
   enum class Role { amount, floor, cap };
   const BiasPart* part;
   Role role;
-  std::string name;  // without "bias."
+  std::string name;     // "slope_floor"
+  std::string setting;  // "bias.slope_floor"
   std::string_view help;
 };
 
@@ -63,7 +64,8 @@ struct BiasParameter {
 std::span<const BiasParameter> bias_parameters();
 size_t bias_parameter_index(std::string_view name);  // throws std::logic_error where there is none
 
-// What a tap is compared with, before the bias: a file technique/bias/<name>.glsl with the function <name>(TapPlace).
+// The depth that a tap of the map is compared with, before the bias is subtracted from it. The formula is the function
+// <name>(TapPlace) in the file technique/bias/<name>.glsl.
 struct TapReference {
   std::string_view name;  // a choice of bias.reference
   std::string_view help;

@@ -9,6 +9,7 @@
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"
 #include "technique/light_frame.h"
+#include "technique/validate.h"
 
 namespace noonmark {
 namespace {

@@ -4,192 +4,34 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <deque>
 #include <limits>
-#include <numeric>
 
 #include "scenes/error.h"
 #include "scenes/text.h"
 #include "technique/filters.h"
+#include "technique/setting_rows.h"
 
 namespace noonmark {
 namespace {
 
-template <class T>
-std::optional<T> parse_number(std::string_view text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-[[noreturn]] void refuse(const Setting& row, std::string_view text) {
-  throw Error(ErrorKind::usage,
-              fmt::format("{} = '{}' is not allowed; it takes {}", row.name, text, row.range_with_unit()));
-}
-
-// The shortest decimal that reads back as the same double. -0 becomes 0, so that equal values have equal keys.
-std::string number_text(double value) { return fmt::format("{}", value == 0 ? 0.0 : value); }
-
-double parse_real(const Setting& row, std::string_view text) {
-  const std::optional<double> value = parse_number<double>(text);
-  if (!value || !std::isfinite(*value) || *value < row.min || *value > row.max) refuse(row, text);
-  return *value;
-}
-
-glm::dvec3 parse_point(const Setting& row, std::string_view text) {
-  glm::dvec3 point;
-  std::string_view rest = text;
-  for (int axis = 0; axis < 3; ++axis) {
-    const size_t comma = rest.find(',');
-    if ((comma == std::string_view::npos) != (axis == 2)) refuse(row, text);
-    std::string_view part = rest.substr(0, comma);
-    while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
-    const std::optional<double> value = parse_number<double>(part);
-    if (!value || !std::isfinite(*value)) refuse(row, text);
-    point[axis] = *value;
-    if (axis < 2) rest.remove_prefix(comma + 1);
-  }
-  return point;
-}
-
-std::string point_text(glm::dvec3 p) {
-  return fmt::format("{},{},{}", number_text(p.x), number_text(p.y), number_text(p.z));
-}
-
-// The rows below are built by these five, one for each kind of member. `member` maps Settings& to a reference.
-
-template <class Member>
-Setting integer(std::string_view name, std::string_view unit, double min, double max, std::string_view help,
-                Member member) {
-  Setting row{name, unit, ValueType::integer, min, max, false, {}, help, {}, {}};
-  row.get = [member](const Settings& s) { return fmt::format("{}", member(const_cast<Settings&>(s))); };
-  row.set = [member, row](Settings& s, std::string_view text) {
-    const std::optional<int> value = parse_number<int>(text);
-    if (!value || *value < row.min || *value > row.max) refuse(row, text);
-    member(s) = *value;
-  };
-  return row;
-}
-
-template <class Member>
-Setting real(std::string_view name, std::string_view unit, double min, double max, std::string_view help,
-             Member member) {
-  constexpr bool is_optional = std::is_same_v<std::invoke_result_t<Member, Settings&>, std::optional<double>&>;
-  Setting row{name, unit, ValueType::real, min, max, is_optional, {}, help, {}, {}};
-  row.get = [member](const Settings& s) {
-    const auto& value = member(const_cast<Settings&>(s));
-    if constexpr (is_optional)
-      return value ? number_text(*value) : std::string("auto");
-    else
-      return number_text(value);
-  };
-  row.set = [member, row](Settings& s, std::string_view text) {
-    if constexpr (is_optional) {
-      if (text == "auto") {
-        member(s).reset();
-        return;
-      }
-    }
-    member(s) = parse_real(row, text);
-  };
-  return row;
-}
-
-template <class Member>
-Setting point(std::string_view name, std::string_view unit, std::string_view help, Member member) {
-  Setting row{name, unit, ValueType::point, 0, 0, true, {}, help, {}, {}};
-  row.get = [member](const Settings& s) {
-    const auto& value = member(const_cast<Settings&>(s));
-    return value ? point_text(*value) : std::string("auto");
-  };
-  row.set = [member, row](Settings& s, std::string_view text) {
-    if (text == "auto")
-      member(s).reset();
-    else
-      member(s) = parse_point(row, text);
-  };
-  return row;
-}
-
-template <class Member>
-Setting flag(std::string_view name, std::string_view help, Member member) {
-  Setting row{name, "", ValueType::flag, 0, 0, false, {}, help, {}, {}};
-  row.get = [member](const Settings& s) { return std::string(member(const_cast<Settings&>(s)) ? "true" : "false"); };
-  row.set = [member, row](Settings& s, std::string_view text) {
-    if (text != "true" && text != "false") refuse(row, text);
-    member(s) = text == "true";
-  };
-  return row;
-}
-
-// choices: in the order of the enumerators.
-template <class Member>
-Setting choice(std::string_view name, std::vector<std::string_view> choices, std::string_view help, Member member) {
-  Setting row{name, "", ValueType::choice, 0, 0, false, choices, help, {}, {}};
-  row.get = [member, choices](const Settings& s) {
-    return std::string(choices[static_cast<size_t>(member(const_cast<Settings&>(s)))]);
-  };
-  row.set = [member, row](Settings& s, std::string_view text) {
-    const auto found = std::find(row.choices.begin(), row.choices.end(), text);
-    if (found == row.choices.end()) refuse(row, text);
-    using Enum = std::remove_reference_t<std::invoke_result_t<Member, Settings&>>;
-    member(s) = static_cast<Enum>(found - row.choices.begin());
-  };
-  return row;
-}
-
-template <class Member>
-Setting text(std::string_view name, std::string_view help, Member member) {
-  Setting row{name, "", ValueType::text, 0, 0, false, {}, help, {}, {}};
-  row.get = [member](const Settings& s) { return member(const_cast<Settings&>(s)); };
-  row.set = [member, row](Settings& s, std::string_view value) {
-    if (value.empty()) refuse(row, value);
-    member(s) = std::string(value);
-  };
-  return row;
-}
+using namespace setting_rows;
 
 #define MEMBER(path) [](Settings& s) -> decltype((s.path)) { return s.path; }
 
-// Made help: rows refer to it.
-std::deque<std::string>& kept_texts() {
-  static std::deque<std::string> texts;
-  return texts;
-}
-
-// A choice by the name of a row of a table. help: of the setting; the rows' own is added.
-template <class Rows, class Member>
-Setting named(std::string_view name, std::string_view help, const Rows& rows, Member member) {
-  std::string& text = kept_texts().emplace_back(help);
-  Setting row{name, "", ValueType::choice, 0, 0, false, {}, {}, {}, {}};
-  for (const auto& choice : rows) {
-    text += fmt::format("{}{}: {}", row.choices.empty() ? " " : "; ", choice.name, choice.help);
-    row.choices.push_back(choice.name);
-  }
-  text += ".";
-  row.help = text;
-  row.get = [member](const Settings& s) { return member(const_cast<Settings&>(s)); };
-  row.set = [member, row](Settings& s, std::string_view value) {
-    if (std::find(row.choices.begin(), row.choices.end(), value) == row.choices.end()) refuse(row, value);
-    member(s) = std::string(value);
-  };
-  return row;
-}
-
 // A parameter of a part of the bias.
 Setting bias_row(const BiasParameter& parameter) {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const BiasParameter& p : bias_parameters()) all.push_back("bias." + p.name);
-    return all;
-  }();
-  const size_t index = bias_parameter_index(parameter.name);
   const bool is_cap = parameter.role == BiasParameter::Role::cap;
-  Setting row{
-      names[index], parameter.part->unit, ValueType::real, 0, parameter.part->most, is_cap, {}, parameter.help, {}, {}};
+  Setting row{parameter.setting,
+              parameter.part->unit,
+              ValueType::real,
+              0,
+              parameter.part->most,
+              is_cap,
+              {},
+              std::string(parameter.help),
+              {},
+              {}};
   row.get = [&parameter](const Settings& s) {
     const double value = s.bias[parameter.name];
     return std::isinf(value) ? std::string("auto") : number_text(value);
@@ -348,8 +190,7 @@ std::vector<Setting> make_table() {
     for (const Filter& filter : filters())
       if (std::find(filter.reads.begin(), filter.reads.end(), row.name) != filter.reads.end())
         readers.push_back(filter.name);
-    if (!readers.empty())
-      row.help = kept_texts().emplace_back(fmt::format("{}: {}", fmt::join(readers, ", "), row.help));
+    if (!readers.empty()) row.help = fmt::format("{}: {}", fmt::join(readers, ", "), row.help);
   }
   return table;
 }
@@ -404,78 +245,6 @@ const Setting& find_setting(std::string_view name) {
   const std::string near = nearest_name(name, names);
   throw Error(ErrorKind::usage, fmt::format("there is no setting '{}'{} (noonmark settings lists them)", name,
                                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
-}
-
-namespace {
-
-// "none, box and poisson": the names of the rows that are meant.
-template <class Rows, class Meant>
-std::string names_of(const Rows& rows, const Meant& meant) {
-  std::vector<std::string_view> names;
-  for (const auto& row : rows)
-    if (meant(row)) names.push_back(row.name);
-  const std::string_view last = names.back();
-  names.pop_back();
-  return names.empty() ? std::string(last) : fmt::format("{} or {}", fmt::join(names, ", "), last);
-}
-
-}  // namespace
-
-void validate(const Settings& s) {
-  if (s.filter.size % 2 == 0)
-    throw Error(ErrorKind::usage,
-                fmt::format("filter.size = {} is even; a box and a Gaussian have an odd number of taps on a side, so "
-                            "that one is at the receiver",
-                            s.filter.size));
-  if (const std::vector<int>& sizes = find_filter(s.filter.kind).sizes;
-      !sizes.empty() && std::find(sizes.begin(), sizes.end(), s.filter.size) == sizes.end())
-    throw Error(ErrorKind::usage, fmt::format("filter.size = {}: the filter {} has a size of {}", s.filter.size,
-                                              s.filter.kind, fmt::join(sizes, ", ")));
-  for (const BiasPart& part : bias_parts()) {
-    if (part.floor_help.empty() || part.cap_help.empty()) continue;
-    const std::string name(part.name);
-    const double floor = s.bias[name + "_floor"], cap = s.bias[name + "_cap"];
-    if (floor > cap)
-      throw Error(ErrorKind::usage,
-                  fmt::format("bias.{0}_floor = {1} is more than bias.{0}_cap = {2}", name, floor, cap));
-  }
-  const auto require_order = [](std::string_view group, std::optional<double> near_m, std::optional<double> far_m) {
-    if (near_m && far_m && *near_m >= *far_m)
-      throw Error(ErrorKind::usage,
-                  fmt::format("{0}.near_m = {1} is not less than {0}.far_m = {2}", group, *near_m, *far_m));
-  };
-  require_order("map", s.map.near_m, s.map.far_m);
-  require_order("view", s.view.near_m, s.view.far_m);
-  if (s.view.up && *s.view.up == glm::dvec3(0))
-    throw Error(ErrorKind::usage, "view.up = 0,0,0 is no direction; give another, or auto");
-}
-
-void validate_for(LightKind kind, const Settings& s) {
-  const auto value = [&](std::string_view name) { return find_setting(name).get(s); };
-  const auto refuse_pair = [&](std::string_view name, const std::string& why) {
-    throw Error(ErrorKind::usage, fmt::format("{} = {} {}", name, value(name), why));
-  };
-  const Filter& filter = find_filter(s.filter.kind);
-  const bool plane_bias = tap_reference(s.bias.reference).plane;
-  if (kind == LightKind::point) {
-    if (filter.map == FilterMap::flat)
-      refuse_pair("filter.kind",
-                  fmt::format("needs a flat map; a point light's cube map takes {}",
-                              names_of(filters(), [](const Filter& f) { return f.map != FilterMap::flat; })));
-    if (plane_bias) refuse_pair("bias.reference", "needs a flat map; a point light's cube map has own_depth alone");
-    if (s.map.shift_u_texels != 0 || s.map.shift_v_texels != 0)
-      throw Error(ErrorKind::usage, "map.shift_*_texels needs a flat map; move the point light instead");
-  } else if (filter.map == FilterMap::cube) {
-    refuse_pair("filter.kind", "needs a cube map; set light.kind = point, or take another filter");
-  }
-  if (plane_bias && filter.blended)
-    refuse_pair(
-        "bias.reference",
-        fmt::format("gives each texel a depth of its own, and a hardware comparison has one for the four texels "
-                    "that it reads; take filter.kind {}",
-                    names_of(filters(), [](const Filter& f) { return !f.blended && f.map != FilterMap::cube; })));
-  if (s.map.snap && kind != LightKind::directional)
-    throw Error(ErrorKind::usage, "map.snap needs a directional light: only its texels have one size everywhere");
 }
 
 }  // namespace noonmark

@@ -110,7 +110,7 @@ struct Setting {
   double min = 0, max = 0;                // integer, real: inclusive
   bool may_be_auto = false;               // "auto" is a value
   std::vector<std::string_view> choices;  // choice
-  std::string_view help;                  // one sentence
+  std::string help;                       // one sentence
   std::function<std::string(const Settings&)> get;
   std::function<void(Settings&, std::string_view)> set;  // throws Error(usage): what, range
 
@@ -125,11 +125,5 @@ std::span<const Setting> settings_table();
 
 // Throws Error(usage) that suggests the nearest name.
 const Setting& find_setting(std::string_view name);
-
-// What no single row can see: near < far, kernel odd and the like. Throws Error(usage).
-void validate(const Settings& settings);
-
-// What only the kind of light can tell: filters and biases that need a flat map, or a cube. Throws Error(usage).
-void validate_for(LightKind kind, const Settings& settings);
 
 }  // namespace noonmark

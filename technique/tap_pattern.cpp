@@ -27,14 +27,14 @@ double TapPattern::reach_texels() const {
   return static_cast<double>(reach) + 0.5;
 }
 
-uint32_t hash_pixel(uint32_t x) {
-  // A 32-bit integer hash (Wellons' lowbias32 constants).
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  return x ^ x >> 16;
+namespace {
+using uint = uint32_t;
+namespace shared {
+#include "technique/pixel_hash.glsl"
 }
+}  // namespace
+
+uint32_t hash_pixel(uint32_t pixel) { return shared::hash_pixel(pixel); }
 
 TapPattern tap_pattern(const FilterSettings& settings) { return find_filter(settings.kind).taps(settings); }
 

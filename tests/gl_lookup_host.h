@@ -9,6 +9,7 @@
 #include "technique/bias.h"
 #include "technique/filters.h"
 #include "technique/map_address.h"
+#include "technique/validate.h"
 
 namespace noonmark::gl {
 

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "gl_lookup_host.h"
+#include "technique/validate.h"
 
 namespace noonmark::gl {
 namespace {

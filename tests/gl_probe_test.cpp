@@ -2,6 +2,7 @@
 #include "gl/bias_text.h"
 #include "gl_lookup_host.h"
 #include "technique/light_frame.h"
+#include "technique/validate.h"
 #include "tests/bias_of.h"
 
 namespace noonmark::gl {

@@ -6,6 +6,7 @@
 #include "gl/program.h"
 #include "gl/shader_text.h"
 #include "gl_fixture.h"
+#include "technique/validate.h"
 #include "tests/bias_of.h"
 
 namespace noonmark::gl {

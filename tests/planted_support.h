@@ -16,6 +16,7 @@
 #include "raytrace/tracer.h"
 #include "scenes/camera_fit.h"
 #include "scenes/library.h"
+#include "technique/validate.h"
 
 namespace noonmark::planted {
 

@@ -15,6 +15,7 @@
 #include "scenes/error.h"
 #include "scenes/text.h"
 #include "technique/idle_settings.h"
+#include "technique/validate.h"
 
 namespace noonmark {
 namespace {

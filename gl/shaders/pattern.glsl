@@ -1,18 +1,12 @@
 // Where the taps lie: the table of technique/tap_pattern.h.
+#include "technique/pixel_hash.glsl"
+
 layout(std140, binding = 0) uniform TapPattern {
   vec4 tap_offsets[1024];  // [variant * taps + tap]; w: the tap's weight, where taps do not count alike
 };
 uniform int taps;
 uniform int variants;
 uniform int scaled_by_view;
-
-uint hash_pixel(uint x) {
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  return x ^ x >> 16;
-}
 
 // Index of the first tap of the receiver's variant.
 int first_tap(Receiver receiver) {

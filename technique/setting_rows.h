@@ -1,0 +1,146 @@
+// How the rows of technique/settings.cpp are made: what reads and writes a member as text, one function for each kind
+// of member. For that file alone.
+#pragma once
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "technique/settings.h"
+
+namespace noonmark::setting_rows {
+
+template <class T>
+std::optional<T> parse_number(std::string_view text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// Throws Error(usage): what the row takes.
+[[noreturn]] void refuse(const Setting& row, std::string_view text);
+
+// The shortest decimal that reads back as the same double. -0 becomes 0, so that equal values have equal keys.
+std::string number_text(double value);
+std::string point_text(glm::dvec3 p);
+
+// Throw Error(usage) for text that is no number, no point, or outside the row's range.
+double parse_real(const Setting& row, std::string_view text);
+glm::dvec3 parse_point(const Setting& row, std::string_view text);
+
+// A row for each kind of member. `member` maps Settings& to a reference.
+
+template <class Member>
+Setting integer(std::string_view name, std::string_view unit, double min, double max, std::string_view help,
+                Member member) {
+  Setting row{name, unit, ValueType::integer, min, max, false, {}, std::string(help), {}, {}};
+  row.get = [member](const Settings& s) { return fmt::format("{}", member(const_cast<Settings&>(s))); };
+  row.set = [member, row](Settings& s, std::string_view text) {
+    const std::optional<int> value = parse_number<int>(text);
+    if (!value || *value < row.min || *value > row.max) refuse(row, text);
+    member(s) = *value;
+  };
+  return row;
+}
+
+template <class Member>
+Setting real(std::string_view name, std::string_view unit, double min, double max, std::string_view help,
+             Member member) {
+  constexpr bool is_optional = std::is_same_v<std::invoke_result_t<Member, Settings&>, std::optional<double>&>;
+  Setting row{name, unit, ValueType::real, min, max, is_optional, {}, std::string(help), {}, {}};
+  row.get = [member](const Settings& s) {
+    const auto& value = member(const_cast<Settings&>(s));
+    if constexpr (is_optional)
+      return value ? number_text(*value) : std::string("auto");
+    else
+      return number_text(value);
+  };
+  row.set = [member, row](Settings& s, std::string_view text) {
+    if constexpr (is_optional) {
+      if (text == "auto") {
+        member(s).reset();
+        return;
+      }
+    }
+    member(s) = parse_real(row, text);
+  };
+  return row;
+}
+
+template <class Member>
+Setting point(std::string_view name, std::string_view unit, std::string_view help, Member member) {
+  Setting row{name, unit, ValueType::point, 0, 0, true, {}, std::string(help), {}, {}};
+  row.get = [member](const Settings& s) {
+    const auto& value = member(const_cast<Settings&>(s));
+    return value ? point_text(*value) : std::string("auto");
+  };
+  row.set = [member, row](Settings& s, std::string_view text) {
+    if (text == "auto")
+      member(s).reset();
+    else
+      member(s) = parse_point(row, text);
+  };
+  return row;
+}
+
+template <class Member>
+Setting flag(std::string_view name, std::string_view help, Member member) {
+  Setting row{name, "", ValueType::flag, 0, 0, false, {}, std::string(help), {}, {}};
+  row.get = [member](const Settings& s) { return std::string(member(const_cast<Settings&>(s)) ? "true" : "false"); };
+  row.set = [member, row](Settings& s, std::string_view text) {
+    if (text != "true" && text != "false") refuse(row, text);
+    member(s) = text == "true";
+  };
+  return row;
+}
+
+// choices: in the order of the enumerators.
+template <class Member>
+Setting choice(std::string_view name, std::vector<std::string_view> choices, std::string_view help, Member member) {
+  Setting row{name, "", ValueType::choice, 0, 0, false, choices, std::string(help), {}, {}};
+  row.get = [member, choices](const Settings& s) {
+    return std::string(choices[static_cast<size_t>(member(const_cast<Settings&>(s)))]);
+  };
+  row.set = [member, row](Settings& s, std::string_view text) {
+    const auto found = std::find(row.choices.begin(), row.choices.end(), text);
+    if (found == row.choices.end()) refuse(row, text);
+    using Enum = std::remove_reference_t<std::invoke_result_t<Member, Settings&>>;
+    member(s) = static_cast<Enum>(found - row.choices.begin());
+  };
+  return row;
+}
+
+template <class Member>
+Setting text(std::string_view name, std::string_view help, Member member) {
+  Setting row{name, "", ValueType::text, 0, 0, false, {}, std::string(help), {}, {}};
+  row.get = [member](const Settings& s) { return member(const_cast<Settings&>(s)); };
+  row.set = [member, row](Settings& s, std::string_view value) {
+    if (value.empty()) refuse(row, value);
+    member(s) = std::string(value);
+  };
+  return row;
+}
+
+// A choice by the name of a row of a table. help: of the setting; the rows' own is added.
+template <class Rows, class Member>
+Setting named(std::string_view name, std::string_view help, const Rows& rows, Member member) {
+  Setting row{name, "", ValueType::choice, 0, 0, false, {}, std::string(help), {}, {}};
+  for (const auto& choice : rows) {
+    row.help += fmt::format("{}{}: {}", row.choices.empty() ? " " : "; ", choice.name, choice.help);
+    row.choices.push_back(choice.name);
+  }
+  row.help += ".";
+  row.get = [member](const Settings& s) { return member(const_cast<Settings&>(s)); };
+  row.set = [member, row](Settings& s, std::string_view value) {
+    if (std::find(row.choices.begin(), row.choices.end(), value) == row.choices.end()) refuse(row, value);
+    member(s) = std::string(value);
+  };
+  return row;
+}
+
+}  // namespace noonmark::setting_rows
