@@ -11,10 +11,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// NaN where the taps are no square, so that it takes each of them.
+bool capped(const LookupProbe& probe) {
+  return probe.tap_reference->reads_cap && probe.plane_cap < std::numeric_limits<float>::max();
+}
+
+// NaN where each tap has to be asked: the taps are no square, or a cap keeps those far out from their plane.
 double reach(const LookupProbe& probe) {
   if (probe.tap_reference->at_texel) return 0;
-  if (probe.tap_reference->plane) return 0.5;
+  if (probe.tap_reference->plane) return capped(probe) ? std::numeric_limits<double>::quiet_NaN() : 0.5;
   const double k = probe.pattern.reach_texels();
   const auto corner = [&](const glm::vec3& o) { return std::abs(o.x) == k - 0.5 && std::abs(o.y) == k - 0.5; };
   const auto& offsets = probe.pattern.offsets;
@@ -22,11 +26,12 @@ double reach(const LookupProbe& probe) {
   return square ? k : std::numeric_limits<double>::quiet_NaN();
 }
 
-// What the plane rises towards the light up to the furthest of these taps, and half a texel more.
-double need_of(std::span<const glm::vec3> offsets, glm::dvec2 g) {
+// What the plane rises towards the light up to the furthest of these taps, and half a texel more. carried: by how much,
+// in window depth, the reference goes along with the plane at most.
+double need_of(std::span<const glm::vec3> offsets, glm::dvec2 g, double carried = 0) {
   double rise = 0;
   for (const glm::vec3& o : offsets) rise = std::max(rise, -glm::dot(glm::dvec2(o), g));
-  return rise + (std::abs(g.x) + std::abs(g.y)) / 2;
+  return std::max(0.0, rise - carried) + (std::abs(g.x) + std::abs(g.y)) / 2;
 }
 
 // The least distance of the plane n.x = h (h > 0) along the directions of a square on a cube's face.
@@ -85,7 +90,8 @@ double AcneLaw::at(size_t i, glm::dvec3 position, glm::dvec3 normal) const {
   const TapPattern& pattern = probe_.pattern;
   const auto taps = static_cast<size_t>(pattern.taps);
   const auto variant = static_cast<size_t>(tap_variant(static_cast<uint32_t>(i), pattern.variants));
-  return need_of(std::span(pattern.offsets).subspan(variant * taps, taps), g);
+  const double carried = capped(probe_) ? static_cast<double>(probe_.plane_cap) * probe_.bias_unit[i] : 0;
+  return need_of(std::span(pattern.offsets).subspan(variant * taps, taps), g, carried);
 }
 
 double AcneLaw::cube_need(size_t i, glm::dvec3 position, glm::dvec3 normal) const {

@@ -12,7 +12,8 @@
 //   directional  dd/di = -w (n.right / n.forward) / (far - near)
 //   spot         dd/di = -far near / (far - near) * (n.right / n.P) * 2 tan(fov/2) / resolution
 // where n is the plane's normal and P a point of it in the light's axes. Where the reference is the plane's depth at
-// each tap's exact place, k = 1/2 whatever the pattern's reach; at the centre of its texel, 0.
+// each tap's exact place, k = 1/2 whatever the pattern's reach, and what a cap (bias.plane_cap) keeps the reference
+// from following comes on top; at the centre of its texel, 0.
 //
 // Cube maps of distances. With h = n.P the plane lies at the distance t(c) = h |c| / (n.c) along a direction c, which
 // is affine in nothing; but its sets {t <= level} are cones around n, so convex on a face. The least bias is

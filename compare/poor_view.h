@@ -10,8 +10,8 @@ namespace noonmark {
 
 inline constexpr double few_receivers_share = 0.01;  // of the picture's pixels: fewer receivers are few
 
-// Whether no pixel could be judged: then nothing was measured, and nothing can be said of the method. A record that
-// does not say is judged.
+// Whether no pixel could be judged, so that the point says nothing about the method. False for a record that lacks the
+// number of counted receivers.
 bool nothing_judged(const PointRecord& point);
 
 // "only 535 of 921600 pixels can be judged: ...", with the reason and what to do; also of a picture in which nothing is

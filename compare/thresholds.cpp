@@ -41,7 +41,7 @@ float factor_threshold(float product, float factor) {
 float addend_threshold(float sum, float addend) {
   if (sum == infinity) return infinity;
   if (addend >= sum) return 0;
-  if (addend == 0) return sum;  // most biases have one part
+  if (addend == 0) return sum;  // nothing to search for: the bias has one part, as most have
   const double midpoint = (static_cast<double>(sum) + std::nextafter(sum, -infinity)) / 2;
   return smallest(static_cast<float>(midpoint - addend), [&](float x) { return addend + x >= sum; });
 }

@@ -91,8 +91,9 @@ class Outline {
   size_t count_ = 0;
 };
 
-// The rays and what they have met so far, in tiles: a triangle behind all that a tile's rays have met is not asked
-// there. Greene, Kass and Miller, "Hierarchical z-buffer visibility", SIGGRAPH 1993, of one level.
+// The hits that the rays have found so far. Rays are grouped into tiles; a triangle that lies behind every hit of a
+// tile is not tested against that tile's rays (the hierarchical z-buffer of Greene, Kass and Miller, SIGGRAPH 1993,
+// with one level).
 class Picture {
  public:
   Picture(const CameraFrame& frame, int side)

@@ -167,7 +167,7 @@ TEST(Measure, GapEndsWhereTheBiasCannotReach) {
   p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
   p.step(0, 0, Cause::peter_panning, 1);
   p.probe.n_dot_l.at(0, 0) = std::sqrt(0.5f);  // 45 degrees: a texel of 0.5 m adds at most 0.5 / sqrt(2) m of depth
-  p.bias = bias_of({{"constant", 0.1}});       // 1 m
+  p.bias = bias_of({{"constant", 0.1}});       // of the map's 10 m: 1 m
   p.occluder.at(0, 0) = 1.3f;
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), 1.3 * std::sqrt(0.5), 1e-6);
   p.occluder.at(0, 0) = 1.4f;  // a steep receiver at the edge of a distant shadow
@@ -228,7 +228,7 @@ TEST(Measure, GapUnderAPointLightEndsWhereTheTapsDo) {
   p.frame.resolution = 1 << 14;
   p.probe.pattern.offsets = {glm::vec3(0.3f, 0, 0.4f)};
   p.probe.pattern.in_world = true;
-  p.bias = bias_of({{"constant", 0.01}});  // 0.2 m
+  p.bias = bias_of({{"constant", 0.01}});  // of the map's 20 m: 0.2 m
   p.receivers.position[0] = {0, 0, -4};
   p.probe.n_dot_l[0] = 0.6f;
   const double theta = std::acos(0.6f), turned = theta + std::asin((0.5 + 0.5 * std::sqrt(2.0) * 8 / (1 << 14)) / 4);

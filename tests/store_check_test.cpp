@@ -43,7 +43,7 @@ TEST_F(StoreCheck, RefusesWhatIsNoFileBesideIt) {
   for (const char* ending : {"-journal", "-wal", "-shm"}) {
     const std::string beside = path + ending;
     ASSERT_EQ(::mkfifo(beside.c_str(), 0600), 0);
-    ::alarm(60);  // a pipe that nobody writes into would be waited for without end
+    ::alarm(60);  // opening a pipe waits for a writer: after 60 s the test ends as failed
     const std::string message = refusal();
     ::alarm(0);
     EXPECT_NE(message.find(beside + ": is not a regular file"), std::string::npos) << message;
