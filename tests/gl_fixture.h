@@ -8,6 +8,7 @@
 #include "gl/renderer.h"
 #include "scenes/error.h"
 #include "scenes/shapes.h"
+#include "tests/kind_thrown.h"
 
 namespace noonmark::gl {
 
@@ -43,17 +44,5 @@ inline Light light_from_above() {
 }
 
 inline bool same_bits(float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); }
-
-// The kind of the Error that f throws, or 0; its message goes to `message`.
-template <class F>
-int kind_thrown(F&& f, std::string* message = nullptr) {
-  try {
-    f();
-  } catch (const Error& e) {
-    if (message) *message = e.what();
-    return e.exit_code();
-  }
-  return 0;
-}
 
 }  // namespace noonmark::gl

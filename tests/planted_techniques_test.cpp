@@ -1,4 +1,4 @@
-// Planted defects of filters, bias forms and map options, under the directional light of cube-room.
+// Planted defects of filters, biases and map options, under the directional light of cube-room.
 #include "tests/planted_defect.h"
 
 namespace noonmark::planted {

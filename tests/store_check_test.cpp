@@ -13,6 +13,7 @@
 #include "compare/store.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
+#include "tests/kind_thrown.h"
 #include "tests/sample_results.h"
 
 namespace noonmark {
@@ -25,14 +26,9 @@ class StoreCheck : public testing::Test {
   ResultStore fresh() { return ResultStore(path, fingerprint, Existing::resume); }
   // The message of the Error(scene) that opening throws.
   std::string refusal() {
-    try {
-      fresh();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::scene) << error.what();
-      return error.what();
-    }
-    ADD_FAILURE() << "was opened";
-    return "";
+    std::string message = "was opened";
+    EXPECT_EQ(kind_thrown([&] { fresh(); }, &message), static_cast<int>(ErrorKind::scene)) << message;
+    return message;
   }
   TemporaryFolder folder;
   const std::string path = folder.file("results.sqlite");

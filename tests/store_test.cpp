@@ -14,6 +14,7 @@
 #include "compare/sqlite.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
+#include "tests/kind_thrown.h"
 #include "tests/sample_results.h"
 
 namespace noonmark {
@@ -26,14 +27,10 @@ class Store : public testing::Test {
   ResultStore fresh() { return ResultStore(path, fingerprint, Existing::resume); }
   // The message of the Error that opening throws.
   std::string refusal(const std::string& print = fingerprint, ErrorKind kind = ErrorKind::scene) {
-    try {
-      ResultStore store(path, print, Existing::resume);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), kind) << error.what();
-      return error.what();
-    }
-    ADD_FAILURE() << "was opened";
-    return "";
+    std::string message = "was opened";
+    EXPECT_EQ(kind_thrown([&] { ResultStore(path, print, Existing::resume); }, &message), static_cast<int>(kind))
+        << message;
+    return message;
   }
   TemporaryFolder folder;
   const std::string path = folder.file("results.sqlite");
