@@ -26,9 +26,9 @@
 //   max = 0.01                       # and/or min
 //   join = "worst"                   # worst | mean | median of the points asked
 //   where = {"map.resolution" = 1024, "filter.kind" = ["none", "box"]}
-//   [let]                            # definitions for the formulas of laws, in order (compare/formula.h)
+//   [let]                            # definitions for the formulas of laws, in order (compare/judge/formula.h)
 //   k = "(filter.size - 1) / 2 + 0.5"
-//   [[law]]                          # a number that must follow from others (compare/laws.h)
+//   [[law]]                          # a number that must follow from others (compare/judge/laws.h)
 //   name = "1 acne-free bias"
 //   says = "one sentence"
 //   found = "{100 * acne} % of the pixels are acne, {against: 100 * acne} % without a filter."  # said with its figures
@@ -53,9 +53,9 @@
 #include <utility>
 #include <vector>
 
-#include "compare/bias_curves.h"
-#include "compare/bounds.h"
-#include "compare/laws.h"
+#include "compare/judge/bounds.h"
+#include "compare/judge/laws.h"
+#include "compare/ladder/bias_curves.h"
 #include "scenes/scene.h"
 #include "technique/settings.h"
 

@@ -10,8 +10,8 @@
 #include "app/experiment.h"
 #include "app/settings_reader.h"
 #include "app/toml_text.h"
-#include "compare/formula.h"
-#include "compare/quantities.h"
+#include "compare/judge/formula.h"
+#include "compare/store/quantities.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "compare/bias_curves.h"
+#include "compare/ladder/bias_curves.h"
 #include "scenes/error.h"
 #include "technique/tap_pattern.h"
 

@@ -10,8 +10,7 @@
 #include "app/view_frustum.h"
 #include "app/view_map.h"
 #include "app/view_shading.h"
-#include "compare/image_difference.h"
-#include "compare/quantities.h"
+#include "compare/store/quantities.h"
 
 namespace noonmark {
 namespace {
@@ -125,15 +124,16 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
     add("shaded-soft-truth", "The clay with the true shadow of the light with its size (R0).",
         greys(m, shaded_with(0)));
   add("shaded-map", "The clay as a renderer shows it, with the map's shadow (R5).", greys(m, map));
-  const Image<float> seen = flip_difference(truth, map);
-  Image<Color> colors(seen.width, seen.height);
-  for (size_t i = 0; i < seen.size(); ++i) colors[i] = difference_color(seen[i]);
+  Image<Color> apart(map.width, map.height);
+  for (size_t i = 0; i < apart.size(); ++i)
+    apart[i] = difference_color(std::abs(static_cast<double>(map[i]) - truth[i]));
   const double rmse = shaded_rmse(m.receivers, m.frame, camera, m.ladder.rung[1], m.ladder.rung[5]);
   add("shaded-difference",
-      fmt::format("Where an eye sees the two shaded pictures differ (FLIP, dark 0 to bright 1): mean {:.4g}, and RMSE "
-                  "{} over the receivers, in linear light.",
-                  mean_of(seen), std::isnan(rmse) ? std::string(not_measured) : fmt::format("{:.4g}", rmse)),
-      colors);
+      fmt::format(
+          "The absolute difference of the two shaded pictures in linear light, dark 0 to bright 1; its root mean "
+          "square over the receivers is {}.",
+          std::isnan(rmse) ? std::string(not_measured) : fmt::format("{:.4g}", rmse)),
+      apart);
   return records;
 }
 

@@ -8,7 +8,7 @@
 
 #include "app/build_facts.h"
 #include "app/pictures.h"
-#include "compare/metrics.h"
+#include "compare/store/metrics.h"
 #include "scenes/camera_frame.h"
 #include "technique/map_address.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/workbench.h"
-#include "compare/records.h"
+#include "compare/store/records.h"
 
 namespace noonmark {
 

@@ -6,7 +6,7 @@
 
 #include "app/experiment.h"
 #include "app/results_folder.h"
-#include "compare/records.h"
+#include "compare/store/records.h"
 
 namespace noonmark {
 
@@ -26,7 +26,7 @@ struct SweepOutcome {
 // device; defect when a measurement is not sound (after everything is stored).
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options);
 
-// Throws Error(defect) at the first point with a metric beyond its limit in compare/soundness.h. Points without a
+// Throws Error(defect) at the first point with a metric beyond its limit in compare/judge/soundness.h. Points without a
 // facing receiver have nothing to contradict.
 void require_sound(const Results& results);
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/image_file.h"
-#include "compare/cause_colors.h"
+#include "compare/report/cause_colors.h"
 
 namespace noonmark {
 

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "app/memory_estimate.h"
-#include "compare/bias_curves.h"
-#include "compare/ladder.h"
-#include "compare/records.h"
+#include "compare/ladder/bias_curves.h"
+#include "compare/ladder/ladder.h"
+#include "compare/store/records.h"
 #include "gl/renderer.h"
 #include "raytrace/tracer.h"
 

@@ -14,6 +14,12 @@ set(may_include_compare scenes technique)
 set(may_include_app scenes technique gl raytrace compare)
 set(may_include_tests scenes technique gl raytrace compare app)
 
+# The rooms of compare/: what each may include of the others.
+set(may_include_compare_store)
+set(may_include_compare_ladder store)
+set(may_include_compare_judge store ladder)
+set(may_include_compare_report store ladder judge)
+
 # Libraries whose types stay inside one folder and that folder's own tests (tests/<folder>_*), by the beginning of their
 # headers' paths.
 set(guarded OpenGL Embree tinygltf)
@@ -73,6 +79,14 @@ foreach(file ${files})
       if(other IN_LIST modules AND NOT other STREQUAL module AND NOT other IN_LIST may_include_${module})
         breach("${file} includes \"${target}\": ${module}/ may not include ${other}/")
       endif()
+    endif()
+    if(file MATCHES "^compare/([a-z]+)/")
+      set(room "${CMAKE_MATCH_1}")
+      if(target MATCHES "^compare/([a-z]+)/" AND NOT CMAKE_MATCH_1 STREQUAL room AND NOT CMAKE_MATCH_1 IN_LIST may_include_compare_${room})
+        breach("${file} includes \"${target}\": compare/${room}/ may not include compare/${CMAKE_MATCH_1}/")
+      endif()
+    elseif(file MATCHES "^compare/")
+      breach("${file} stands in none of compare's folders; put it into one of them")
     endif()
     foreach(library ${guarded})
       if(target MATCHES "${headers_${library}}" AND NOT module STREQUAL home_${library} AND NOT file MATCHES "^tests/${home_${library}}_")

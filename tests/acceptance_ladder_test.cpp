@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "compare/measure.h"
+#include "compare/ladder/measure.h"
 #include "gl/renderer.h"
 #include "raytrace/tracer.h"
 #include "scenes/camera_fit.h"

@@ -1,12 +1,12 @@
 // What holds a bound and what breaks it, and how JUnit and the summary say so.
-#include "compare/bounds.h"
+#include "compare/judge/bounds.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "compare/junit.h"
-#include "compare/quantities.h"
-#include "compare/summary.h"
+#include "compare/report/junit.h"
+#include "compare/report/summary.h"
+#include "compare/store/quantities.h"
 #include "scenes/error.h"
 #include "tests/sample_results.h"
 

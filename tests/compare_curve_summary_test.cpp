@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/bias_curves.h"
+#include "compare/ladder/bias_curves.h"
 #include "tests/compare_evidence.h"
 
 namespace noonmark {

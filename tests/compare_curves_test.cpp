@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "compare/bias_curves.h"
+#include "compare/ladder/bias_curves.h"
 #include "tests/bias_of.h"
 #include "tests/compare_evidence.h"
 

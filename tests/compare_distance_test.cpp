@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "compare/distance.h"
+#include "compare/ladder/distance.h"
 
 namespace noonmark {
 namespace {

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "compare/bias_curves.h"
-#include "compare/ladder.h"
+#include "compare/ladder/bias_curves.h"
+#include "compare/ladder/ladder.h"
 
 namespace noonmark {
 

@@ -6,9 +6,9 @@
 #include <limits>
 #include <set>
 
-#include "compare/cause_colors.h"
-#include "compare/ladder.h"
-#include "compare/measure.h"
+#include "compare/ladder/ladder.h"
+#include "compare/ladder/measure.h"
+#include "compare/report/cause_colors.h"
 #include "scenes/receivers.h"
 #include "tests/compare_evidence.h"
 

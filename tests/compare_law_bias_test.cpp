@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "compare/law_bias.h"
-#include "compare/law_metrics.h"
+#include "compare/ladder/law_bias.h"
+#include "compare/ladder/law_metrics.h"
 
 namespace noonmark {
 namespace {

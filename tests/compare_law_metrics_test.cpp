@@ -5,7 +5,7 @@
 #include <glm/gtc/constants.hpp>
 #include <limits>
 
-#include "compare/law_metrics.h"
+#include "compare/ladder/law_metrics.h"
 #include "scenes/camera_frame.h"
 
 namespace noonmark {

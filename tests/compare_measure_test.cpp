@@ -7,9 +7,9 @@
 #include <random>
 #include <set>
 
-#include "compare/law_metrics.h"
-#include "compare/measure.h"
-#include "compare/metrics.h"
+#include "compare/ladder/law_metrics.h"
+#include "compare/ladder/measure.h"
+#include "compare/store/metrics.h"
 #include "scenes/error.h"
 #include "scenes/receivers.h"
 #include "tests/bias_of.h"
@@ -387,7 +387,7 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
   for (const auto& [name, value] : measure_laws(
            {picture.ladder, nothing, picture.receivers, camera, picture.frame, DepthFormat::d24, picture.probe}))
     measured.insert(name);
-  // compare/soundness.h's; its own test holds it to them.
+  // compare/judge/soundness.h's; its own test holds it to them.
   for (const char* name :
        {"contract", "rounding_excess", "address_error_texels", "reference_error_m", "map_error_quanta", "map_bits"})
     measured.insert(name);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/poor_view.h"
+#include "compare/judge/poor_view.h"
 
 namespace noonmark {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "compare/soundness.h"
+#include "compare/judge/soundness.h"
 #include "tests/compare_evidence.h"
 
 namespace noonmark {

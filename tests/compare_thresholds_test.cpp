@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "compare/thresholds.h"
+#include "compare/ladder/thresholds.h"
 
 namespace noonmark {
 namespace {

@@ -1,12 +1,12 @@
 // results.csv, read back by a reader of our own that knows only RFC 4180.
-#include "compare/csv.h"
+#include "compare/report/csv.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include "compare/quantities.h"
+#include "compare/store/quantities.h"
 #include "tests/sample_results.h"
 
 namespace noonmark {

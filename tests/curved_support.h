@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/ladder.h"
+#include "compare/ladder/ladder.h"
 #include "tests/raytrace_fixture.h"
 
 namespace noonmark::curved {

@@ -14,8 +14,8 @@
 #include <set>
 
 #include "app/pictures.h"
-#include "compare/cause_colors.h"
-#include "compare/metrics.h"
+#include "compare/report/cause_colors.h"
+#include "compare/store/metrics.h"
 #include "scenes/error.h"
 #include "tests/sample_results.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "compare/quantities.h"
+#include "compare/store/quantities.h"
 #include "tests/laws_support.h"
 
 namespace noonmark::acceptance {

@@ -12,7 +12,7 @@
 #include <iostream>
 #include <random>
 
-#include "compare/ladder.h"
+#include "compare/ladder/ladder.h"
 #include "raytrace/light_view.h"
 #include "tests/acceptance_support.h"
 #include "tests/bias_of.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/formula.h"
-#include "compare/laws.h"
+#include "compare/judge/formula.h"
+#include "compare/judge/laws.h"
 #include "scenes/error.h"
 
 namespace noonmark {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/law_metrics.h"
+#include "compare/ladder/law_metrics.h"
 #include "tests/laws_support.h"
 
 namespace noonmark::acceptance {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "compare/law_metrics.h"
+#include "compare/ladder/law_metrics.h"
 #include "tests/laws_support.h"
 
 namespace noonmark::acceptance {

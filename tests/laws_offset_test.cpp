@@ -15,7 +15,7 @@
 #include <optional>
 #include <tuple>
 
-#include "compare/law_metrics.h"
+#include "compare/ladder/law_metrics.h"
 #include "tests/acceptance_support.h"
 #include "tests/bias_of.h"
 

@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "compare/ladder.h"
-#include "compare/measure.h"
-#include "compare/soundness.h"
+#include "compare/judge/soundness.h"
+#include "compare/ladder/ladder.h"
+#include "compare/ladder/measure.h"
 #include "gl/renderer.h"
 #include "raytrace/tracer.h"
 #include "scenes/camera_fit.h"

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "compare/store.h"
+#include "compare/store/store.h"
 #include "scenes/error.h"
 #include "tests/lossy_disk.h"
 #include "tests/program_fixture.h"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "compare/store.h"
+#include "compare/store/store.h"
 #include "scenes/text.h"
 #include "tests/program_fixture.h"
 

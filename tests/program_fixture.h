@@ -18,7 +18,7 @@ namespace noonmark::acceptance {
 
 namespace fs = std::filesystem;
 
-// Every column before the times, which are the last ones (compare/csv.h).
+// Every column before the times, which are the last ones (compare/report/csv.h).
 inline std::string without_times(const fs::path& csv) {
   std::istringstream lines(read_file(csv.string()));
   std::string line, kept;

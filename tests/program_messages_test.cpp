@@ -4,7 +4,7 @@
 
 #include <ctime>
 
-#include "compare/sqlite.h"
+#include "compare/store/sqlite.h"
 #include "tests/program_fixture.h"
 
 namespace noonmark::acceptance {

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "compare/sqlite.h"
-#include "compare/store.h"
-#include "compare/store_seals.h"
+#include "compare/store/seals.h"
+#include "compare/store/sqlite.h"
+#include "compare/store/store.h"
 #include "scenes/digest.h"
 #include "tests/program_fixture.h"
 

@@ -1,6 +1,4 @@
 // What the report concludes from results: closed cases, and brute force.
-#include "compare/report_findings.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +7,10 @@
 #include <random>
 #include <set>
 
-#include "compare/report_text.h"
+#include "compare/report/findings.h"
+#include "compare/report/rules.h"
+#include "compare/report/text.h"
+#include "compare/store/quantities.h"
 #include "tests/report_sample.h"
 
 namespace noonmark {

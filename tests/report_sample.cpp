@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-#include "compare/cause_colors.h"
+#include "compare/report/cause_colors.h"
 #include "scenes/error.h"
 #include "technique/settings.h"
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <string>
 
-#include "compare/records.h"
+#include "compare/store/records.h"
 
 namespace noonmark {
 

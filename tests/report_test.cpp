@@ -1,5 +1,5 @@
 // The report: what its bytes must be, whatever the results are.
-#include "compare/report.h"
+#include "compare/report/report.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,11 +11,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "compare/cause_colors.h"
-#include "compare/metrics.h"
-#include "compare/report_findings.h"
-#include "compare/report_sections.h"
-#include "compare/report_text.h"
+#include "compare/report/cause_colors.h"
+#include "compare/report/data.h"
+#include "compare/report/findings.h"
+#include "compare/report/sections.h"
+#include "compare/report/text.h"
+#include "compare/store/metrics.h"
 #include "tests/report_sample.h"
 #include "tests/sample_results.h"
 

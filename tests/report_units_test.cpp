@@ -3,10 +3,10 @@
 
 #include <set>
 
-#include "compare/metrics.h"
-#include "compare/report.h"
-#include "compare/report_text.h"
-#include "compare/summary.h"
+#include "compare/report/report.h"
+#include "compare/report/summary.h"
+#include "compare/report/text.h"
+#include "compare/store/metrics.h"
 #include "tests/report_sample.h"
 
 namespace noonmark {

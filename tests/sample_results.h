@@ -7,8 +7,8 @@
 #include <limits>
 #include <string>
 
-#include "compare/metrics.h"
-#include "compare/records.h"
+#include "compare/store/metrics.h"
+#include "compare/store/records.h"
 #include "technique/settings.h"
 
 namespace noonmark {

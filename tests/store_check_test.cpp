@@ -1,6 +1,4 @@
 // What is no whole store of ours is refused before anything in it is believed, or works.
-#include "compare/store_check.h"
-
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -9,8 +7,9 @@
 #include <filesystem>
 #include <string>
 
-#include "compare/sqlite.h"
-#include "compare/store.h"
+#include "compare/store/check.h"
+#include "compare/store/sqlite.h"
+#include "compare/store/store.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "tests/kind_thrown.h"

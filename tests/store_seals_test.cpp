@@ -1,10 +1,9 @@
 // The store notices what was done to its rows, whichever cell it is.
-#include "compare/store_seals.h"
-
 #include <gtest/gtest.h>
 
-#include "compare/sqlite.h"
-#include "compare/store.h"
+#include "compare/store/seals.h"
+#include "compare/store/sqlite.h"
+#include "compare/store/store.h"
 #include "scenes/error.h"
 #include "tests/sample_results.h"
 

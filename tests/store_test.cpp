@@ -1,5 +1,5 @@
 // The result store: what goes in comes out, and nothing short of a torn disk takes it away.
-#include "compare/store.h"
+#include "compare/store/store.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,8 +10,8 @@
 #include <bit>
 #include <fstream>
 
-#include "compare/quantities.h"
-#include "compare/sqlite.h"
+#include "compare/store/quantities.h"
+#include "compare/store/sqlite.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "tests/kind_thrown.h"

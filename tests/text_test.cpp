@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "compare/escape.h"
+#include "compare/report/escape.h"
 
 namespace noonmark {
 namespace {

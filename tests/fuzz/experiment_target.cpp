@@ -5,8 +5,8 @@
 #include <set>
 
 #include "app/experiment.h"
-#include "compare/bounds.h"
-#include "compare/laws.h"
+#include "compare/judge/bounds.h"
+#include "compare/judge/laws.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "technique/validate.h"

@@ -6,8 +6,8 @@
 #include <limits>
 #include <sstream>
 
-#include "compare/formula.h"
-#include "compare/laws.h"
+#include "compare/judge/formula.h"
+#include "compare/judge/laws.h"
 #include "scenes/error.h"
 #include "tests/fuzz/names.h"
 #include "tests/fuzz/targets.h"

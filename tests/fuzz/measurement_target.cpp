@@ -1,6 +1,6 @@
 // Bytes as choices: a small scene and legal settings, measured as a sweep measures them. What must hold for every one:
-// the limits of compare/soundness.h, sums that add up, numbers where there may be no NaN, the bias curve at the point's
-// own bias, and the same answer whatever was measured before.
+// the limits of compare/judge/soundness.h, sums that add up, numbers where there may be no NaN, the bias curve at the
+// point's own bias, and the same answer whatever was measured before.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/global_control.h>
@@ -13,8 +13,8 @@
 #include <filesystem>
 
 #include "app/workbench.h"
-#include "compare/metrics.h"
-#include "compare/soundness.h"
+#include "compare/judge/soundness.h"
+#include "compare/store/metrics.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "scenes/library.h"

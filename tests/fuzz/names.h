@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "compare/metrics.h"
-#include "compare/quantities.h"
+#include "compare/store/metrics.h"
+#include "compare/store/quantities.h"
 #include "technique/settings.h"
 
 namespace noonmark::fuzz {

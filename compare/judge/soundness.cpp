@@ -1,0 +1,162 @@
+#include "compare/judge/soundness.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "compare/ladder/probe_errors.h"
+
+namespace noonmark {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double quantum(DepthFormat format, float depth) {
+  switch (format) {
+    case DepthFormat::d16:
+      return 1.0 / 65535;
+    case DepthFormat::d24:
+      return 1.0 / 16777215;
+    case DepthFormat::d32f:
+      break;
+  }
+  return static_cast<double>(std::nextafter(depth, 2.0f)) - depth;
+}
+
+// Whether `visibility` is what the technique's definition makes of the probe and a map whose depths are of `format`.
+// Taps that count alike: their number, divided, bit for bit.
+bool holds(const LookupEvidence& e, const Image<float>& map, DepthFormat format, size_t i, float visibility) {
+  MapSettings settings = e.map;
+  settings.format = format;
+  const int taps = e.taps.taps_per_receiver;
+  const float bias = e.bias.at(e.probe, i);
+  if (!e.probe.pattern.bilinear()) {
+    int lit = 0;
+    for (int t = 0; t < taps; ++t) lit += tap_of(e.probe, e.taps, settings, map, i, t).lit(bias);
+    return visibility == static_cast<float>(lit) / static_cast<float>(taps);
+  }
+  // A sampler's comparison may round what it compares to the map's fixed-point format: within one step of the depth
+  // either verdict is right.
+  double least = 0, most = 0;
+  for (int t = 0; t < taps; ++t) {
+    const Tap tap = tap_of(e.probe, e.taps, settings, map, i, t);
+    const bool lit = tap.lit(bias);
+    const bool tie = format != DepthFormat::d32f && !tap.always_lit &&
+                     std::abs(static_cast<double>(tap.reference - bias) - tap.depth) <= quantum(format, tap.depth);
+    if (lit && !tie) least += tap.weight;
+    if (lit || tie) most += tap.weight;
+  }
+  // Its weights have 8 bits, and the address that they come from is a rounded division, taken back to texels: 8 u of
+  // it. Visibility changes by at most 1 per texel along each of two axes.
+  const glm::dvec2 at = glm::abs(glm::dvec2(e.probe.map_texels[i]));
+  const double weights = 2 * (0x1p-8 + 8 * 0x1p-24 * std::max({at.x, at.y, static_cast<double>(map.width)}));
+  return visibility >= least - weights && visibility <= most + weights;
+}
+
+// Whether the float is what n bits read as: k / (2^n - 1), or a float beside it, where the driver's conversion rounds.
+bool held_by(int bits, float depth) {
+  const double steps = std::exp2(bits) - 1;
+  const float nearest = static_cast<float>(std::round(depth * steps) / steps);
+  return std::abs(nearest - depth) <= std::nextafter(depth, 2.0f) - depth;
+}
+
+}  // namespace
+
+SoundnessCheck::Found SoundnessCheck::join(Found a, const Found& b) {
+  a.facing += b.facing;
+  a.broken += b.broken;
+  raise_error(a.probe.excess, b.probe.excess);
+  raise_error(a.probe.address_texels, b.probe.address_texels);
+  raise_error(a.probe.reference_m, b.probe.reference_m);
+  return a;
+}
+
+SoundnessCheck::MapFound SoundnessCheck::compare_maps() const {
+  const SoundnessInput& in = in_;
+  const Image<float>& exact = in.evidence.exact_map;
+  Image<uint8_t> asked(exact.width, exact.height);
+  for (size_t i = 0; i < in.evidence.truth.facing.size(); ++i) {
+    if (!in.evidence.truth.facing[i]) continue;
+    const glm::ivec2 texel = in.evidence.probe.middle_texel(i);
+    if (inside_map(texel, {exact.width, exact.height})) asked.at(texel.x, texel.y) = 1;
+  }
+  std::vector<double> errors;
+  MapFound found;
+  for (size_t i = 0; i < asked.size(); ++i) {
+    if (!asked[i]) continue;
+    const double error = std::abs(static_cast<double>(in.stored_map[i]) - exact[i]);
+    errors.push_back(std::isnan(error) ? infinity : error / quantum(in.evidence.map.format, exact[i]));
+    if (found.bits == 16 && !held_by(16, in.stored_map[i])) found.bits = 24;
+    if (found.bits == 24 && !held_by(24, in.stored_map[i])) found.bits = 32;
+  }
+  if (errors.empty()) return found;  // nothing of the map was looked at
+  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  found.error_quanta = *middle;
+  return found;
+}
+
+Image<float> tie_map(const LookupEvidence& e) {
+  Image<float> map(e.exact_map.width, e.exact_map.height, 1.0f);
+  for (size_t i = 0; i < e.truth.facing.size(); ++i) {
+    if (!e.truth.facing[i]) continue;
+    const glm::ivec2 texel = e.probe.middle_texel(i);
+    const glm::ivec2 read = wrapped(texel, {map.width, map.height}, e.map.wrap);
+    if (read.x < 0) continue;
+    const float biased = e.probe.tap_depth(i, e.probe.middle_tap()) - e.bias.at(e.probe, i);
+    const float depth = (read.x + read.y) % 2 ? std::nextafter(biased, -1.0f) : biased;
+    if (depth > 0 && depth <= 1) map.at(read.x, read.y) = depth;
+  }
+  return map;
+}
+
+SoundnessCheck::SoundnessCheck(const SoundnessInput& in)
+    : in_(in), check_(in.evidence, in.receivers, in.frame, in.eye_m) {}
+
+void SoundnessCheck::add(PixelRange strip) {
+  const LookupEvidence& e = in_.evidence;
+  require_strip(e, strip);
+  const Found found = tbb::parallel_reduce(
+      tbb::blocked_range<size_t>(strip.first, strip.end, 8192), Found{},
+      [&](const tbb::blocked_range<size_t>& range, Found so_far) {
+        for (size_t i = range.begin(); i != range.end(); ++i) {
+          if (!e.truth.facing[i]) continue;
+          ++so_far.facing;
+          // Maps that are uploaded are 32-bit float whatever the settings say.
+          so_far.broken += !(holds(e, e.exact_map, DepthFormat::d32f, i, e.r4[i]) &&
+                             holds(e, in_.stored_map, e.map.format, i, e.r5[i]) &&
+                             holds(e, in_.ties, DepthFormat::d32f, i, in_.tie_lookup[i]));
+          check_.compare(i, so_far.probe);
+        }
+        return so_far;
+      },
+      join);
+  found_ = join(found_, found);
+}
+
+std::map<std::string, double> SoundnessCheck::metrics() const {
+  const MapFound map = compare_maps();
+  const auto measured = [&](double value) {
+    return found_.facing == 0 ? std::numeric_limits<double>::quiet_NaN() : value;
+  };
+  return {
+      {"contract", measured(static_cast<double>(found_.broken) / static_cast<double>(found_.facing))},
+      {"rounding_excess", measured(found_.probe.excess)},
+      {"address_error_texels", measured(found_.probe.address_texels)},
+      {"reference_error_m", measured(found_.probe.reference_m)},
+      {"map_error_quanta", measured(map.error_quanta)},
+      {"map_bits", measured(map.bits)},
+  };
+}
+
+std::map<std::string, double> measure_soundness(const SoundnessInput& in) {
+  SoundnessCheck check(in);
+  check.add({0, in.evidence.truth.facing.size()});
+  return check.metrics();
+}
+
+}  // namespace noonmark

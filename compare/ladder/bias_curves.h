@@ -1,0 +1,125 @@
+// The error at every bias from one lookup pass (design: all biases for the price of one). A tap of a comparing lookup
+// is lit exactly when the bias reaches the tap's threshold; (F, V) names the cause it has on either side. Thresholds
+// are sorted, and every sum is read off exactly. Memory grows with the different thresholds that there are, which float
+// depths have a limited number of, and not with the taps.
+//
+//   BiasCounts curves(evidence, stored_map, *curve_part(settings.bias));
+//   curves.caused(Cause::acne, 0.005f);                   // taps, exactly as rendering with that bias would book
+//   BiasCurve curve = summarise(curves, bias_scale(...), options);
+//
+// A curve runs through the amount of one part of the compared depth (technique/bias_parts.h); the other parts, on
+// whatever they act, are held. Exact for filters that are means of comparisons. Of a filter whose taps a sampler blends
+// (hardware, gaussian) it is exact but for the sampler's rounding of weights. Thresholds are float because the shader's
+// comparison is, and in the parameter's own unit: what one of it is in depth differs from receiver to receiver
+// (LookupProbe::bias_unit).
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "compare/ladder/ladder.h"
+#include "compare/store/records.h"
+#include "scenes/receivers.h"
+#include "technique/light_frame.h"
+
+namespace noonmark {
+
+// Weights of thresholds, summed in ascending order; it holds each different threshold once.
+class ThresholdSums {
+ public:
+  // weights: one for each threshold, or empty where each weighs 1. Empties both.
+  void add(std::vector<float>& thresholds, std::vector<double>& weights);
+
+  double above(float x) const { return total() - up_to(x); }
+  double up_to(float x) const;
+  double total() const { return before(size()); }
+
+  size_t size() const { return at_.size(); }
+  float operator[](size_t i) const { return at_[i]; }
+  double before(size_t i) const { return i == 0 ? 0 : up_to_[i - 1]; }  // of the first i
+
+ private:
+  std::vector<float> at_;      // ascending
+  std::vector<double> up_to_;  // [i]: of all that are at most at_[i]
+};
+
+// The thresholds of so many taps are listed before they are sorted and join the sums.
+inline constexpr size_t curve_batch_taps = size_t{1} << 24;
+
+class BiasCounts {
+ public:
+  // Of no receiver yet. varied: a part of evidence.bias, or one that is 0 there and has neither floor nor cap.
+  BiasCounts(const LookupProbe& probe, const BiasPart& varied);
+  // Adds a strip of the picture, where the evidence holds the taps of one strip at a time. stored_map: the GPU's map as
+  // its sampler returns it. evidence.r4 and r5 are not read. Only counted receivers (facing, not ambiguous) take part.
+  void add(const LookupEvidence& evidence, const Image<float>& stored_map, PixelRange strip);
+
+  // Of the whole picture.
+  BiasCounts(const LookupEvidence& evidence, const Image<float>& stored_map, const BiasPart& varied);
+
+  const BiasPart& varied() const { return *varied_; }
+  bool blended() const { return blended_; }  // by a sampler
+  uint64_t receivers() const { return receivers_; }
+  // Every sum of taps below is in these: whole numbers of taps, or where a sampler blends them, weights of which each
+  // receiver has 1.
+  double taps() const { return static_cast<double>(receivers_) * whole_; }
+
+  // Taps of R5 that differ from R1; divided by taps() it is the mean |R5 - R1|.
+  double wrong_taps(float x) const { return error_dark_.above(x) + error_light_.up_to(x); }
+  // Receivers with R5 != R1.
+  uint64_t wrong_receivers(float x) const {
+    return static_cast<uint64_t>(wrong_dark_.above(x) + wrong_light_.up_to(x));
+  }
+  // Taps at R4, by cause. cause: one of the six that are booked tap by tap, or undecided (where taps that darken and
+  // taps that lighten do not cancel, as they do in a pixel's step).
+  double caused(Cause cause, float x) const;
+
+  // The least x at which acne is at most this share of taps(); the greatest at which Peter Panning is (infinity when it
+  // never is more).
+  float acne_free_from(double share) const;
+  float peter_panning_free_to(double share) const;
+  // The least x from which the stored map darkens no covered tap that is lit at its exact place and at its texel's
+  // centre: what acne_free_from(0) is on the exact map.
+  float stored_acne_free_from() const { return stored_acne_free_from_; }
+
+  struct Best {
+    float from = 0, to = 0;  // the stretch of least error in [0, most]; the lowest where several are equal
+    double wrong_taps = 0;
+    float flat_from = 0, flat_to = 0;  // around it, as far as the error stays within 10% of the least
+    uint64_t breakpoints = 0;          // of the error as a function of the bias, in (0, most]
+  };
+  Best best(float most = 1) const;
+
+ private:
+  void add_batch(const LookupEvidence& evidence, const Image<float>& stored_map, PixelRange pixels);
+
+  // Taps that should be lit are wrong below their threshold; taps that should be dark are wrong from it on.
+  uint64_t receivers_ = 0;
+  const BiasPart* varied_;
+  bool blended_ = false;
+  double whole_ = 1;
+  float stored_acne_free_from_ = 0;
+  ThresholdSums error_dark_, error_light_, wrong_dark_, wrong_light_, undecided_dark_, undecided_light_;
+  std::array<ThresholdSums, cause_count> by_cause_;
+};
+
+// What one of the curve's units is in the others, at the place that BiasCurve::m_per_depth names.
+struct BiasScale {
+  double depth_per_unit = 1;  // of the parameter's own unit
+  double m_per_depth = 1;
+  double texels_per_depth = 1;
+};
+BiasScale bias_scale(const LightFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,
+                     BiasUnit unit);
+
+struct CurveOptions {
+  double acne_bound = 0.001, peter_panning_bound = 0.001;  // fractions of counted receivers
+  std::vector<double> bias_depth;                          // ascending, from 0; empty: default_bias_grid()
+};
+
+// 0, then 20 steps a decade from 1e-7 (about one quantum of 24 bits) to 1.
+std::vector<double> default_bias_grid();
+
+BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const CurveOptions& options);
+
+}  // namespace noonmark

@@ -1,0 +1,153 @@
+#include "compare/ladder/ladder.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace noonmark {
+namespace {
+
+// Like std::max, but a NaN stays: a residual that cannot be computed must not pass for none.
+double larger(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b);
+}
+
+struct Residuals {
+  double steps = 0, taps = 0;
+};
+
+// The class of a wrong pixel: unfiltered, the rung from which it stays wrong. With a filter several causes share a
+// pixel, and the largest share names it.
+Cause pixel_cause(const Ladder& ladder, size_t i, bool filtered) {
+  if (ladder.rung[5][i] == ladder.rung[1][i]) return Cause::none;
+  if (!filtered && ladder.rung[4][i] == ladder.rung[1][i]) return Cause::precision;
+  Cause largest = Cause::none;
+  float size = 0;
+  for (int c = static_cast<int>(Cause::filter); c < cause_count; ++c) {
+    if (!filtered && c == static_cast<int>(Cause::precision)) continue;
+    if (std::abs(ladder.step[c][i]) > size) {
+      size = std::abs(ladder.step[c][i]);
+      largest = static_cast<Cause>(c);
+    }
+  }
+  return largest;
+}
+
+// Whether P itself falls into the map; a cube has no outside.
+bool inside(const LookupProbe& probe, size_t i, const Image<float>& map) {
+  return probe.cube_resolution > 0 || inside_map(LookupProbe::floored(probe.map_texels[i]), {map.width, map.height});
+}
+
+}  // namespace
+
+std::string_view cause_name(Cause cause) {
+  static constexpr std::string_view names[cause_count] = {
+      "none", "light_size",    "filter",        "displacement",   "aliasing_dark", "aliasing_light",
+      "acne", "peter_panning", "coverage_dark", "coverage_light", "undecided",     "precision"};
+  return names[static_cast<size_t>(cause)];
+}
+
+void require_strip(const LookupEvidence& e, PixelRange strip) {
+  if (e.taps.taps_per_receiver != e.probe.taps()) throw std::logic_error("the truth's taps are not the probe's");
+  if (!e.taps.holds(strip) || !e.probe.holds(strip)) throw std::logic_error("not the strip that the evidence holds");
+}
+
+Ladder climb(const LookupEvidence& e) {
+  Ladder ladder = empty_ladder(e.truth.facing.width, e.truth.facing.height);
+  climb(e, {0, e.truth.facing.size()}, ladder);
+  return ladder;
+}
+
+Ladder empty_ladder(int width, int height) {
+  Ladder ladder;
+  for (Image<float>& image : ladder.rung) image = Image<float>(width, height, 0);
+  for (Image<float>& image : ladder.step) image = Image<float>(width, height, 0);
+  ladder.cause = Image<uint8_t>(width, height, 0);
+  ladder.flags = Image<uint8_t>(width, height, 0);
+  ladder.doubt = Image<float>(width, height, 0);
+  return ladder;
+}
+
+void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {
+  const int taps = e.taps.taps_per_receiver;
+  require_strip(e, strip);
+  const bool blended = e.probe.pattern.bilinear();
+  const double whole = whole_weight(e.probe);
+
+  const auto receiver = [&](size_t i, Residuals& worst) {
+    ladder.flags[i] =
+        static_cast<uint8_t>((e.truth.facing[i] ? flag_facing : 0) | (e.truth.ambiguous[i] ? flag_ambiguous : 0));
+    if (!e.truth.facing[i]) return;
+    if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside(e.probe, i, e.exact_map))
+      ladder.flags[i] |= flag_outside;
+
+    const float bias = e.bias.at(e.probe, i);
+    double exact_lit = 0, moved_lit = 0, texel_lit = 0, all_lit = 0, unsure = 0;
+    // What is undecided of the way from R1 to the exact places, from there to the moved ones, and on to R4. Signed.
+    double before_exact = 0, before_moved = 0, before_r4 = 0;
+    std::array<double, cause_count> booked{};
+    for (int t = 0; t < taps; ++t) {
+      const Tap tap = tap_of(e.probe, e.taps, e.map, e.exact_map, i, t);
+      const bool lit = tap.lit(bias);
+      if (tap.exact_lit) exact_lit += tap.weight;
+      if (tap.moved_lit) moved_lit += tap.weight;
+      if (tap.texel_lit) texel_lit += tap.weight;
+      if (lit) all_lit += tap.weight;
+      const Cause cause = tap_cause(tap, lit);
+      booked[static_cast<size_t>(cause)] += tap.weight;
+      if (tap.exact_sure && tap.moved_sure && tap.texel_sure) continue;
+      unsure += tap.weight;
+      const auto step = [&](bool from, bool to) {
+        return tap.weight * (static_cast<int>(to) - static_cast<int>(from));
+      };
+      if (!tap.exact_sure) before_exact += step(e.truth.lit[i] != 0, tap.exact_lit);
+      if (!tap.exact_sure || !tap.moved_sure) before_moved += step(tap.exact_lit, tap.moved_lit);
+      if (cause == Cause::undecided) before_r4 += step(tap.moved_lit, lit);
+    }
+    if (unsure > 0) ladder.flags[i] |= flag_undecided;
+    // Double, rounded once to float: the shader's own count / N is that quotient in float.
+    const auto share = [&](double weight) { return static_cast<float>(weight / whole); };
+    const float r[6] = {e.truth.soft[i],  static_cast<float>(e.truth.lit[i]), share(exact_lit),
+                        share(texel_lit), blended ? share(all_lit) : e.r4[i], e.r5[i]};
+    for (int n = 0; n < 6; ++n) ladder.rung[n][i] = r[n];
+
+    const auto set = [&](Cause cause, float value) { ladder.step[static_cast<size_t>(cause)][i] = value; };
+    set(Cause::light_size, r[1] - r[0]);
+    set(Cause::filter, r[2] - r[1] - share(before_exact));
+    set(Cause::displacement, share(moved_lit) - r[2] - share(before_moved));
+    set(Cause::undecided, share(before_exact + before_moved + before_r4));
+    ladder.doubt[i] = share(unsure);
+    set(Cause::precision, r[5] - r[4]);
+    for (Cause dark : {Cause::acne, Cause::aliasing_dark, Cause::coverage_dark})
+      set(dark, -share(booked[static_cast<size_t>(dark)]));
+    for (Cause light : {Cause::peter_panning, Cause::aliasing_light, Cause::coverage_light})
+      set(light, share(booked[static_cast<size_t>(light)]));
+
+    double all = 0, classes = 0;
+    for (int c = 0; c < cause_count; ++c) all += ladder.step[c][i];
+    for (int c = static_cast<int>(Cause::displacement); c <= static_cast<int>(Cause::coverage_light); ++c)
+      classes += ladder.step[c][i];
+    classes += (before_moved + before_r4) / whole;
+    worst.steps = larger(worst.steps, std::abs((static_cast<double>(r[5]) - r[0]) - all));
+    worst.taps = larger(worst.taps, std::abs((static_cast<double>(r[4]) - r[2]) - classes));
+    ladder.cause[i] = static_cast<uint8_t>(pixel_cause(ladder, i, taps > 1));
+  };
+
+  const Residuals worst = tbb::parallel_reduce(
+      tbb::blocked_range<size_t>(strip.first, strip.end, 8192), Residuals{},
+      [&](const tbb::blocked_range<size_t>& range, Residuals so_far) {
+        for (size_t i = range.begin(); i != range.end(); ++i) receiver(i, so_far);
+        return so_far;
+      },
+      [](Residuals a, Residuals b) {
+        return Residuals{larger(a.steps, b.steps), larger(a.taps, b.taps)};
+      });
+  ladder.residual = larger(ladder.residual, worst.steps);
+  ladder.tap_residual = larger(ladder.tap_residual, worst.taps);
+}
+
+}  // namespace noonmark

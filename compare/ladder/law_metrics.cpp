@@ -1,0 +1,188 @@
+#include "compare/ladder/law_metrics.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "compare/ladder/law_bias.h"
+#include "scenes/camera_frame.h"
+
+namespace noonmark {
+namespace {
+
+// std::max that keeps a NaN, whichever of the two it is.
+void raise(double& value, double candidate) {
+  if (!(candidate <= value) && !std::isnan(value)) value = candidate;
+}
+
+struct Over {
+  uint64_t counted = 0;
+  double law_depth = 0, law_m = 0, quantum_m = 0;
+  double whole_area = 0;
+  std::array<double, cause_count> area{};
+};
+
+bool is_counted(const Ladder& ladder, size_t i) {
+  return (ladder.flags[i] & flag_facing) && !(ladder.flags[i] & flag_ambiguous);
+}
+
+// Law 1 apart, and on every core: under a point light each receiver asks it of every tap.
+Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>& areas, double quantum) {
+  Over over = tbb::parallel_reduce(
+      tbb::blocked_range<size_t>(0, in.ladder.flags.size(), 8192), Over{},
+      [&](const tbb::blocked_range<size_t>& range, Over so_far) {
+        for (size_t i = range.begin(); i != range.end(); ++i) {
+          if (!is_counted(in.ladder, i)) continue;
+          ++so_far.counted;
+          const glm::dvec3 p(in.receivers.position[i]);
+          const double slope = in.frame.window_depth_slope(in.frame.depth_m(in.frame.to_light(p)));
+          raise(so_far.quantum_m, quantum / slope);
+          if (in.ladder.rung[1][i] == 0) continue;
+          const double bias = law.at(i, p, in.receivers.normal[i]) + quantum / 2;
+          raise(so_far.law_depth, bias);
+          raise(so_far.law_m, bias / slope);
+        }
+        return so_far;
+      },
+      [](Over a, const Over& b) {
+        a.counted += b.counted;
+        raise(a.law_depth, b.law_depth);
+        raise(a.law_m, b.law_m);
+        raise(a.quantum_m, b.quantum_m);
+        return a;
+      });
+  // A quantum is the least that a law asks for, even where nothing is lit.
+  raise(over.law_depth, quantum / 2);
+  raise(over.law_m, quantum / 2 / in.frame.window_depth_slope(in.frame.near_m));
+  for (size_t i = 0; i < in.ladder.flags.size(); ++i) {  // in the picture's order: the same sums on any machine
+    if (!is_counted(in.ladder, i)) continue;
+    over.whole_area += areas[i];
+    for (int c = 0; c < cause_count; ++c)
+      over.area[c] += areas[i] * std::abs(static_cast<double>(in.ladder.step[c][i]));
+  }
+  return over;
+}
+
+// Whether all of a triangle lies beyond one side of the square pyramid around a spot light's cone.
+bool beyond_cone(const LightFrame& frame, const glm::dvec3 (&corners)[3]) {
+  if (frame.kind != LightKind::spot) return false;
+  const double tangent = std::sqrt(1 - frame.cos_half_cone * frame.cos_half_cone) / frame.cos_half_cone;
+  for (int axis = 0; axis < 2; ++axis)
+    for (int sign : {-1, 1}) {
+      bool beyond = true;
+      for (const glm::dvec3& corner : corners) {
+        const glm::dvec3 p = frame.to_light(corner);
+        beyond = beyond && sign * p[axis] > p.z * tangent;
+      }
+      if (beyond) return true;
+    }
+  return false;
+}
+
+// Also what the camera does not see: the way from a receiver to its texel's centre may lead over it.
+Over over_faces(const LawInput& in, const AcneLaw& law, double quantum) {
+  Over over;
+  over.law_depth = quantum / 2;
+  over.law_m = quantum / 2 / in.frame.window_depth_slope(in.frame.near_m);
+  for (const glm::uvec3& t : in.scene.triangles) {
+    const glm::dvec3 corners[3] = {in.scene.positions[t.x], in.scene.positions[t.y], in.scene.positions[t.z]};
+    const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    // Edge-on faces have no depth of their own in the light's plane; below 1e-9 of a face's size, the double's rounding
+    // of float coordinates decides which way it turns.
+    if (!(glm::dot(normal, in.frame.direction_to_light(corners[0])) > 1e-9 * glm::length(normal)) ||
+        beyond_cone(in.frame, corners))
+      continue;
+    // The least of the slopes: at the corner farthest from the light.
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& corner : corners) farthest = std::max(farthest, in.frame.depth_m(in.frame.to_light(corner)));
+    const double bias = law.of_face(corners, normal) + quantum / 2;
+    raise(over.law_depth, bias);
+    raise(over.law_m, bias / in.frame.window_depth_slope(farthest));
+  }
+  return over;
+}
+
+// Of the counted receivers; NaN without any.
+double median_texel_m(const LawInput& in) {
+  std::vector<double> sizes;
+  for (size_t i = 0; i < in.ladder.flags.size(); ++i)
+    if (is_counted(in.ladder, i)) sizes.push_back(in.frame.texel_m(in.frame.to_light(in.receivers.position[i])));
+  if (sizes.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle;
+}
+
+}  // namespace
+
+double depth_quantum(DepthFormat format) {
+  switch (format) {
+    case DepthFormat::d16:
+      return 1.0 / 0xffff;
+    case DepthFormat::d24:
+      return 1.0 / 0xffffff;
+    case DepthFormat::d32f:
+      return 0x1p-24;
+  }
+  throw std::logic_error("a depth format without a quantum");
+}
+
+Image<double> light_plane_areas(const Camera& camera, const LightFrame& frame, const ReceiverImage& receivers) {
+  const int width = receivers.width(), height = receivers.height();
+  const CameraFrame view = make_camera_frame(camera, width, height);
+  // Perspective: on the plane at distance 1; orthographic: in m2.
+  const double pixel = 4 * view.half_width * view.half_height / (static_cast<double>(width) * height);
+  Image<double> areas(width, height, 0);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (receivers.primitive.at(x, y) == no_primitive) continue;
+      const glm::dvec3 normal(receivers.normal.at(x, y));
+      const double to_light = glm::dot(normal, frame.direction_to_light(receivers.position.at(x, y)));
+      const glm::dvec3 way = view.pixel_ray(x, y, width, height).direction;
+      double area = pixel / std::abs(glm::dot(normal, way)) * to_light;
+      // A pixel of area A on the plane at distance 1, seen along a ray of length |way|, is a solid angle of A /
+      // |way|^3. At depth z the ray has come z |way|, and meets the surface at the cosine |N.way| / |way|.
+      if (camera.projection == Projection::perspective) {
+        const double z = glm::dot(glm::dvec3(receivers.position.at(x, y)) - view.eye_m, view.forward);
+        area *= z * z;
+      }
+      areas.at(x, y) = area;
+    }
+  }
+  return areas;
+}
+
+std::map<std::string, double> measure_laws(const LawInput& in) {
+  const Image<double> areas = light_plane_areas(in.camera, in.frame, in.receivers);
+  const double quantum = depth_quantum(in.format);
+  const AcneLaw law(in.frame, in.probe);
+  const Over receivers = over_receivers(in, law, areas, quantum);
+  const Over faces = over_faces(in, law, quantum);
+  const auto measured = [&](double value) {
+    return receivers.counted == 0 ? std::numeric_limits<double>::quiet_NaN() : value;
+  };
+  const auto area = [&](Cause cause) { return measured(receivers.area[static_cast<size_t>(cause)]); };
+  const double range_m = in.frame.far_m - in.frame.near_m;
+  return {{"texel_m", in.frame.parallel() ? in.frame.texel_m() : median_texel_m(in)},
+          {"map_range_m", range_m},
+          {"depth_quantum_m", in.frame.kind == LightKind::spot ? measured(receivers.quantum_m)
+                                                               : quantum / in.frame.window_depth_slope(in.frame.far_m)},
+          {"acne_free_bias_law_depth", measured(receivers.law_depth)},
+          {"acne_free_bias_law_m", measured(receivers.law_m)},
+          {"acne_free_bias_scene_law_depth", faces.law_depth},
+          {"acne_free_bias_scene_law_m", faces.law_m},
+          {"counted_area_m2", measured(receivers.whole_area)},
+          {"filter_area_m2", area(Cause::filter)},
+          {"displacement_area_m2", area(Cause::displacement)},
+          {"aliasing_area_m2", area(Cause::aliasing_dark) + area(Cause::aliasing_light)},
+          {"acne_area_m2", area(Cause::acne)},
+          {"peter_panning_area_m2", area(Cause::peter_panning)}};
+}
+
+}  // namespace noonmark

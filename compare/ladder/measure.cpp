@@ -1,0 +1,198 @@
+#include "compare/ladder/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "compare/ladder/distance.h"
+
+namespace noonmark {
+namespace {
+
+bool counted(const Ladder& ladder, size_t i) {
+  return (ladder.flags[i] & flag_facing) && !(ladder.flags[i] & flag_ambiguous);
+}
+
+// Whether the receiver lies in a gap, lit between an occluder and its shadow: Peter Panning where the truth is dark.
+// Under a filter a tap of a receiver that is itself lit can show it too; that one has no occluder, and no distance to
+// it.
+bool in_gap(const Ladder& ladder, size_t i) {
+  return counted(ladder, i) && ladder.step[static_cast<size_t>(Cause::peter_panning)][i] != 0 && ladder.rung[1][i] == 0;
+}
+
+// std::max that keeps a NaN, whichever of the two it is.
+void raise(double& value, double candidate) {
+  if (!(candidate <= value) && !std::isnan(value)) value = candidate;
+}
+
+// Largest distance in the picture from an aliased pixel to the nearest pixel whose truth is what the map said here.
+// Such a pixel may be hidden from the camera; then the picture does not say, and the pixel is left out.
+double edge_displacement_pixels(const Ladder& ladder) {
+  const int width = ladder.flags.width, height = ladder.flags.height;
+  double largest = 0;
+  for (int lit = 0; lit < 2; ++lit) {
+    const Image<float>& step = ladder.step[static_cast<size_t>(lit ? Cause::aliasing_light : Cause::aliasing_dark)];
+    Image<uint8_t> mask(width, height);
+    bool any = false;
+    for (size_t i = 0; i < mask.size(); ++i) {
+      mask[i] = (ladder.flags[i] & flag_facing) && (ladder.rung[1][i] != 0) == (lit == 1);
+      any = any || step[i] != 0;
+    }
+    if (!any) continue;
+    const Image<float> distance = distance_to(mask);
+    for (size_t i = 0; i < mask.size(); ++i)
+      if (counted(ladder, i) && step[i] != 0 && std::isfinite(distance[i])) raise(largest, distance[i]);
+  }
+  return largest;
+}
+
+// A bias in window depth, in metres of what the map measures before `depth_m`.
+double bias_m(const LightFrame& frame, double bias, double depth_m) {
+  return depth_m - frame.depth_of_window(frame.window_depth(depth_m) - bias);
+}
+
+}  // namespace
+
+double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
+  if (in.bias.polygon_offset()) return std::numeric_limits<double>::infinity();
+  const LightFrame& frame = in.frame;
+  const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
+  const double sine = std::sqrt(1 - cosine * cosine);
+  const double w = frame.texel_m(light);
+  // How far from P, across its ray, the centre of a tap's texel can lie: texels of a flat map along both axes; of a
+  // cube metres of the world, and half a texel's diagonal.
+  double across = in.probe.pattern.reach_texels() * w * std::numbers::sqrt2;
+  if (in.probe.pattern.in_world) {
+    across = w * std::numbers::sqrt2 / 2;
+    double longest = 0;
+    for (int t = 0; t < in.probe.taps(); ++t)
+      longest = std::max(longest, static_cast<double>(glm::length(in.probe.offset(i, t))));
+    across += longest;
+  }
+  // Along the normal; along the light it reaches offset / cosine.
+  const glm::dvec3 normal(in.receivers.normal[i]);
+  const double offset = glm::dot(in.bias.moved_m(frame, in.receivers.position[i], normal), normal);
+  const double bias = bias_m(frame, in.bias.at(in.probe, i), frame.depth_m(light));
+  if (frame.parallel()) return bias + (across * sine + offset) / cosine;
+  // Rays spread: one at an angle to P's meets P's plane, which stands at the angle theta to P's ray, at the distance
+  // |P| cos(theta) / cos(theta + angle); never where they are parallel.
+  const double distance = glm::length(light), theta = std::acos(cosine);
+  const double turned = theta + std::asin(std::min(1.0, across / distance));
+  const double slope = turned < std::numbers::pi / 2 ? distance * (cosine / std::cos(turned) - 1)
+                                                     : std::numeric_limits<double>::infinity();
+  const double along_ray = frame.kind == LightKind::spot ? distance / light.z : 1;
+  return bias * along_ray + slope + offset / cosine;
+}
+
+Image<uint8_t> peter_panning_mask(const Ladder& ladder) {
+  Image<uint8_t> mask(ladder.flags.width, ladder.flags.height);
+  for (size_t i = 0; i < mask.size(); ++i) mask[i] = in_gap(ladder, i);
+  return mask;
+}
+
+std::map<std::string, double> measure_ladder(const MeasureInput& in) {
+  const Ladder& ladder = in.ladder;
+  uint64_t receivers = 0, facing = 0, base = 0, lit = 0, outside = 0, wrong = 0, aliased = 0, undecided = 0;
+  double error = 0, doubt = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0,
+         edge_sum = 0;
+  std::array<double, cause_count> size{};
+  for (size_t i = 0; i < ladder.flags.size(); ++i) {
+    receivers += in.receivers.primitive[i] != no_primitive;
+    if (!(ladder.flags[i] & flag_facing)) continue;
+    ++facing;
+    if (ladder.flags[i] & flag_ambiguous) continue;
+    ++base;
+    lit += ladder.rung[1][i] != 0;
+    outside += (ladder.flags[i] & flag_outside) != 0;
+    undecided += (ladder.flags[i] & flag_undecided) != 0;
+    doubt += ladder.doubt[i];
+    const double hard = static_cast<double>(ladder.rung[5][i]) - ladder.rung[1][i];
+    error += std::abs(hard);
+    error_soft += std::abs(static_cast<double>(ladder.rung[5][i]) - ladder.rung[0][i]);
+    wrong += hard != 0;
+    for (int c = 0; c < cause_count; ++c) size[c] += std::abs(static_cast<double>(ladder.step[c][i]));
+    const double aliasing = static_cast<double>(ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i]) +
+                            ladder.step[static_cast<size_t>(Cause::aliasing_light)][i];
+    aliasing_squares += aliasing * aliasing;
+    if (ladder.rung[1][i] != 0)
+      panning_lit += std::abs(static_cast<double>(ladder.step[static_cast<size_t>(Cause::peter_panning)][i]));
+    if (in_gap(ladder, i)) {
+      // The gap along the receiver: the light's way from P to the occluder, seen along the surface. What stands further
+      // off than the bias can reach casts no gap: there a steep receiver at the edge of a distant shadow is lit because
+      // its depth changes by as much within the taps (law 1).
+      const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
+      const double reach = panning_reach_m(in, i, in.frame.to_light(in.receivers.position[i]));
+      const double distance = in.occluder_distance_m[i];
+      // A dark receiver without an occluder is a contradiction, and shows.
+      if (!(distance > reach) || !std::isfinite(distance)) raise(gap, distance * std::sqrt(1 - cosine * cosine));
+    }
+    if (ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i] != 0 ||
+        ladder.step[static_cast<size_t>(Cause::aliasing_light)][i] != 0) {
+      ++aliased;
+      raise(edge_max, in.edge_distance_texels[i]);
+      edge_sum += in.edge_distance_texels[i];
+    }
+  }
+
+  // Without a counted receiver nothing was measured, and nothing may look like a perfect score.
+  const auto measured = [&](double value) { return base == 0 ? std::numeric_limits<double>::quiet_NaN() : value; };
+  const auto share = [&](double sum) { return measured(sum / static_cast<double>(base)); };
+  const auto caused = [&](Cause cause) { return share(size[static_cast<size_t>(cause)]); };
+  return {
+      {"error", share(error)},
+      {"error_soft", share(error_soft)},
+      {"wrong", share(static_cast<double>(wrong))},
+      {"light_size", caused(Cause::light_size)},
+      {"filter", caused(Cause::filter)},
+      {"displacement", caused(Cause::displacement)},
+      {"aliasing", caused(Cause::aliasing_dark) + caused(Cause::aliasing_light)},
+      {"aliasing_dark", caused(Cause::aliasing_dark)},
+      {"aliasing_light", caused(Cause::aliasing_light)},
+      {"aliasing_rms", std::sqrt(share(aliasing_squares))},
+      {"acne", caused(Cause::acne)},
+      {"peter_panning", caused(Cause::peter_panning)},
+      {"peter_panning_lit", share(panning_lit)},
+      {"coverage", caused(Cause::coverage_dark) + caused(Cause::coverage_light)},
+      {"coverage_dark", caused(Cause::coverage_dark)},
+      {"coverage_light", caused(Cause::coverage_light)},
+      {"precision", caused(Cause::precision)},
+      {"undecided", caused(Cause::undecided)},
+      {"undecided_taps", share(doubt)},
+      {"peter_panning_gap_m", measured(gap)},
+      {"edge_displacement_texels", measured(edge_max)},
+      {"edge_displacement_mean_texels", measured(aliased == 0 ? 0 : edge_sum / static_cast<double>(aliased))},
+      {"edge_displacement_pixels", measured(edge_displacement_pixels(ladder))},
+      {"receivers", static_cast<double>(receivers)},
+      {"facing", static_cast<double>(facing)},
+      {"counted", static_cast<double>(base)},
+      {"attached", static_cast<double>(receivers - facing)},
+      {"lit", share(static_cast<double>(lit))},
+      {"ambiguous", facing == 0 ? std::numeric_limits<double>::quiet_NaN()
+                                : static_cast<double>(facing - base) / static_cast<double>(facing)},
+      {"outside", share(static_cast<double>(outside))},
+      {"ambiguous_receivers", static_cast<double>(facing - base)},
+      {"outside_receivers", static_cast<double>(outside)},
+      {"undecided_receivers", static_cast<double>(undecided)},
+      {"residual", ladder.residual},
+      {"tap_residual", ladder.tap_residual},
+  };
+}
+
+PointRecord::Worst worst_pixel(const Ladder& ladder) {
+  PointRecord::Worst worst;
+  for (int y = 0; y < ladder.flags.height; ++y) {
+    for (int x = 0; x < ladder.flags.width; ++x) {
+      const size_t i = ladder.flags.index(x, y);
+      if (!counted(ladder, i)) continue;
+      const double error = std::abs(static_cast<double>(ladder.rung[5][i]) - ladder.rung[1][i]);
+      if (worst.x < 0 || !(error <= worst.error)) {
+        worst = {x, y, error, std::string(cause_name(static_cast<Cause>(ladder.cause[i])))};
+        if (std::isnan(error)) return worst;
+      }
+    }
+  }
+  return worst;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,275 @@
+#include "compare/ladder/probe_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+namespace noonmark {
+namespace {
+
+constexpr double u = float_rounding;
+constexpr double division = float_division;
+constexpr double square_root = float_square_root;
+// length(): three squares of rounded differences (2 u each), their rounding and two sums, halved by the root.
+constexpr double length_of_difference = (2 * u + u + 2 * u) / 2 + square_root;
+
+// Samplers address texels with no fewer than 8 bits of a texel's fraction (as Vulkan asks of them by the name of
+// subTexelPrecisionBits, at least 4, and as those that run OpenGL 4.5 have it).
+constexpr double sampler_texels = 0x1p-8;
+
+double sum_of(glm::dvec3 v) { return v.x + v.y + v.z; }
+
+}  // namespace
+
+void raise_error(double& value, double candidate) {
+  if (!(candidate <= value)) value = std::isnan(candidate) ? std::numeric_limits<double>::infinity() : candidate;
+}
+
+struct ProbeCheck::Place {
+  glm::dvec3 world, light;
+  glm::dvec3 error;  // of each of the world's coordinates
+};
+
+ProbeCheck::ProbeCheck(const LookupEvidence& evidence, const ReceiverImage& receivers, const LightFrame& frame,
+                       glm::dvec3 eye_m)
+    : e_(evidence), receivers_(receivers), frame_(frame), eye_m_(eye_m), light_position_(glm::vec3(frame.origin_m)) {
+  if (frame.kind == LightKind::point) return;
+  clip_ = frame.clip_from_world();
+  planes_ = glm::transpose(glm::inverse(glm::translate(clip_, light_position_)));
+}
+
+// P and the sum of offsets on it: each a rounded amount in metres times a direction of the formula's own. The amount:
+// the texel's size at P is a number of its own (directional), that times the axis' rounded product with rounded
+// differences (spot), or times the largest of those (point).
+ProbeCheck::Place ProbeCheck::looked_up(size_t i) const {
+  const glm::dvec3 at(receivers_.position[i]), normal(receivers_.normal[i]);
+  Place place{at, {}, glm::dvec3(0)};
+  if (e_.bias.moves_lookup()) {
+    double amount = 2 * u;
+    if (frame_.kind == LightKind::point) amount = 4 * u;
+    if (frame_.kind == LightKind::spot) {
+      const glm::dvec3 light = frame_.to_light(at);
+      amount = 3 * u + 5 * u * sum_of(glm::abs((at - frame_.origin_m) * frame_.forward)) / std::abs(light.z);
+    }
+    const in_bounds::Surface surface = bounded_surface(at, normal);
+    const double texel_m = frame_.texel_m(frame_.to_light(at));
+    for (const ActivePart& active : e_.bias.moving()) {
+      const double amount_m = active.amount * texel_m;
+      const bounded::vec3 way = active.part->formula.bounded_way(surface);
+      const glm::dvec3 offset = amount_m * glm::dvec3(way.x.value, way.y.value, way.z.value);
+      place.world += offset;
+      place.error += glm::abs(offset) * (amount + u) + amount_m * glm::dvec3(way.x.error, way.y.error, way.z.error) +
+                     glm::abs(place.world) * u;
+    }
+  }
+  place.light = frame_.to_light(place.world);
+  return place;
+}
+
+// Of a component of the direction to the light. One that the shader makes: a rounded difference over a length, or times
+// its inverse. The directional light's is a uniform.
+double ProbeCheck::direction_error() const {
+  return frame_.parallel() ? 2 * u : u + length_of_difference + division + u;
+}
+
+// What the formulas of the moving parts read, with what float makes of it.
+in_bounds::Surface ProbeCheck::bounded_surface(glm::dvec3 position, glm::dvec3 normal) const {
+  const in_double::Surface exact = surface_at(frame_, position, normal);
+  const auto off_by = [](glm::dvec3 v, double relative) {
+    const auto of = [&](double x) { return Bounded(x, relative * std::abs(x)); };
+    return bounded::vec3{of(v.x), of(v.y), of(v.z)};
+  };
+  in_bounds::Surface surface{};
+  surface.normal = off_by(exact.normal, 0);
+  surface.to_light = off_by(exact.to_light, direction_error());
+  surface.texel_right = off_by(exact.texel_right, u);
+  surface.texel_up = off_by(exact.texel_up, u);
+  surface.n_dot_l = bounded::dot(surface.normal, surface.to_light);
+  surface.tan_theta = Bounded(exact.tan_theta, std::numeric_limits<double>::infinity());
+  return surface;
+}
+
+// Clip coordinates: with S = sum |m_j p_j| of a row of the matrix, rounding the row is u S, four products and three
+// sums 4 u S, and P's own error |m_j| each. Where a coordinate is a difference of far larger numbers, S is what the
+// error grows with. What it is held to, the frame in double, rounds too: the matrix's last column (three products,
+// three sums), its product with P (four and three) and P's place in the light's frame (a difference, three products,
+// two sums), each of sum |m_j| (|p_j| + |origin_j|): that shows where a map of a million kilometres covers a scene of a
+// centimetre. An orthographic w is exactly 1.
+glm::dvec4 ProbeCheck::row_errors(const Place& place) const {
+  constexpr double in_double = (6 + 7 + 6) * 0x1p-53;
+  glm::dvec4 errors(0);
+  for (int row = 0; row < (frame_.parallel() ? 3 : 4); ++row) {
+    double sum = std::abs(clip_[3][row]), moved = 0, exact = 0;
+    for (int j = 0; j < 3; ++j) {
+      sum += std::abs(clip_[j][row] * place.world[j]);
+      moved += std::abs(clip_[j][row]) * place.error[j];
+      exact += std::abs(clip_[j][row]) * (std::abs(place.world[j]) + std::abs(frame_.origin_m[j]));
+    }
+    errors[row] = 5 * u * sum + moved + in_double * exact;
+  }
+  return errors;
+}
+
+// Whether the lookup may take P for no place of the map: at the light, behind a spot light, or where floats end.
+bool ProbeCheck::may_ask_nothing(const Place& place) const {
+  constexpr double largest = std::numeric_limits<float>::max();
+  if (frame_.kind == LightKind::point) {
+    const double depth = frame_.window_depth(glm::length(place.light));
+    return !(depth > std::numeric_limits<float>::min() + glm::length(place.error) / frame_.far_m) || !(depth < largest);
+  }
+  const glm::dvec4 clip = clip_ * glm::dvec4(place.world, 1), error = row_errors(place);
+  if (!(clip.w > error.w)) return true;
+  for (int row = 0; row < 3; ++row)
+    if (!((std::abs(clip[row]) + error[row]) / (clip.w - error.w) < largest)) return true;
+  return false;
+}
+
+// Window coordinates: the division adds the errors of both its sides and its own rounding; halving and adding one half
+// round once, multiplying by the resolution once more.
+void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) const {
+  const glm::dvec4 clip = clip_ * glm::dvec4(place.world, 1), row_error = row_errors(place);
+  const auto window = [&](int row) {
+    const double ndc = clip[row] / clip.w;
+    const double error = (row_error[row] + std::abs(ndc) * row_error[3]) / std::abs(clip.w) + division * std::abs(ndc);
+    return std::pair((ndc + 1) / 2, error / 2 + u * std::abs((ndc + 1) / 2));
+  };
+  const LookupProbe& probe = e_.probe;
+  const double depth = frame_.window_depth(place.light.z);
+  const double reference = std::abs(probe.reference[i] - depth);
+  raise_error(found.reference_m, reference / frame_.window_depth_slope(place.light.z));
+  raise_error(found.excess, reference / window(2).second);
+
+  constexpr double farthest = LookupProbe::farthest_texel;
+  const glm::dvec2 texels = frame_.map_texels(frame_.place(place.light));
+  const glm::ivec2 texel = LookupProbe::floored(probe.map_texels[i]);
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto [at, error] = window(axis);
+    const double exact = std::clamp(texels[axis], -farthest, farthest);
+    raise_error(found.address_texels, std::max(0.0, std::abs(exact - (texel[axis] + 0.5)) - 0.5));
+    const double beside = std::clamp<double>(probe.map_texels[i][axis], -farthest, farthest) - exact;
+    raise_error(found.excess, std::abs(beside) / (frame_.resolution * (error + u * std::abs(at))));
+  }
+
+  if (frame_.kind == LightKind::spot && e_.bias.unit() != BiasUnit::depth) {
+    const double expected = frame_.depth_per_bias_unit(e_.bias.unit(), place.light);
+    const double axis = row_error[3] / std::abs(clip.w);  // w is the depth along the axis
+    // A rounded constant over w, or over its rounded square.
+    const double error = u + division + (e_.bias.unit() == BiasUnit::m ? 2 * axis + u : axis);
+    raise_error(found.excess, std::abs(probe.bias_unit[i] - expected) / (expected * error));
+  } else {
+    const double expected = frame_.depth_per_bias_unit(e_.bias.unit(), place.light);
+    raise_error(found.excess, std::abs(probe.bias_unit[i] - expected) / (expected * u));
+  }
+}
+
+// Distances, and directions whose face and texel the sampler finds: the largest component divides the other two.
+void ProbeCheck::compare_cube(size_t i, const Place& place, ProbeErrors& found) const {
+  const LookupProbe& probe = e_.probe;
+  const double distance = glm::length(place.light);
+  const double expected = frame_.window_depth(distance);
+  const double reference = std::abs(probe.reference[i] - expected);
+  const double moved = glm::dot(glm::abs(place.light), place.error) / (distance * frame_.far_m);
+  raise_error(found.reference_m, reference * frame_.far_m);
+  // Far is rounded, and divides.
+  raise_error(found.excess, reference / (moved + expected * (length_of_difference + u + division)));
+
+  const glm::dvec3 error = place.error + glm::abs(place.light) * u;
+  const glm::dvec3 a = glm::abs(place.light);
+  const int major = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+  const double unit = frame_.depth_per_bias_unit(e_.bias.unit(), place.light);
+  const double unit_error = e_.bias.unit() == BiasUnit::texel ? 2 * u + error[major] / a[major] : u;
+  raise_error(found.excess, std::abs(probe.bias_unit[i] - unit) / (unit * unit_error));
+
+  for (int t = 0; t < probe.taps(); ++t) {
+    const glm::dvec3 way = place.light + glm::dvec3(probe.offset(i, t));
+    const glm::dvec3 way_error = error + glm::abs(way) * u;
+    // In the face that the sampler chose, also where the exact direction is just beyond its edge.
+    const glm::ivec2 texel = probe.texel(i, t);
+    const CubeFace& face = cube_face(texel.y / frame_.resolution);
+    const glm::dvec2 in_face(texel.x, texel.y % frame_.resolution);
+    const double ahead = glm::dot(way, face.forward), ahead_error = glm::dot(way_error, glm::abs(face.forward));
+    for (int axis = 0; axis < 2; ++axis) {
+      const glm::dvec3& side = axis == 0 ? face.right : face.up;
+      const double at = ahead > 0 ? glm::dot(way, side) / ahead : std::numeric_limits<double>::infinity();
+      const double texels = (at + 1) / 2 * frame_.resolution;
+      const double beside = std::max(0.0, std::abs(texels - (in_face[axis] + 0.5)) - 0.5);
+      const double at_error =
+          (glm::dot(way_error, glm::abs(side)) + std::abs(at) * ahead_error) / ahead + division * std::abs(at);
+      raise_error(found.address_texels, beside);
+      raise_error(found.excess,
+                  beside / (frame_.resolution * (at_error / 2 + 2 * u * std::abs(at + 1) / 2) + sampler_texels));
+    }
+  }
+}
+
+// N.L, tan(theta) and the radius, which are of P itself.
+void ProbeCheck::compare_shading(size_t i, const Place&, ProbeErrors& found) const {
+  const LookupProbe& probe = e_.probe;
+  const glm::dvec3 at(receivers_.position[i]);
+  const glm::dvec3 products = glm::dvec3(receivers_.normal[i]) * frame_.direction_to_light(at);
+  // Three products, of which the light's component is rounded, and two sums.
+  raise_error(found.excess, std::abs(probe.n_dot_l[i] - sum_of(products)) /
+                                ((direction_error() + 3 * u) * sum_of(glm::abs(products))));
+
+  if (e_.bias.reads_tan()) {
+    // tan(theta) of the probe's own cosine c: 1 - c c rounds twice, near 0 too; then a root and a division.
+    const double c = std::min(1.0, static_cast<double>(probe.n_dot_l[i])), squared = 1 - c * c;
+    const double root = std::sqrt(squared);
+    const double lost = squared > 0 ? std::min(std::sqrt(2 * u), 2 * u / root) : 0;
+    // Where N is all but across L the shader may end it at a number of its own.
+    if (c > least_cosine)
+      raise_error(found.excess, std::abs(probe.tan_theta[i] - root / c) /
+                                    ((lost + (square_root + division) * root) / c + std::numeric_limits<float>::min()));
+  }
+  if (probe.pattern.scaled_by_view) {
+    const glm::dvec3 way = at - eye_m_;
+    const double distance = glm::length(way), x = distance / frame_.far_m;
+    // The camera's place is rounded; far is, and divides; 25 divides.
+    const double x_error = glm::dot(glm::abs(way), glm::abs(eye_m_)) * u / (distance * frame_.far_m) +
+                           x * (length_of_difference + u + division);
+    raise_error(found.excess, std::abs(probe.radius[i] - (1 + x) / 25) / ((x_error + (1 + x) * (u + division)) / 25));
+  }
+}
+
+// The plane (N, -N.V) with V from the light's position, carried to clip space: z of it is -(x X + y Y) / Z.
+void ProbeCheck::compare_gradient(size_t i, const Place& place, ProbeErrors& found) const {
+  const glm::dvec3 normal(receivers_.normal[i]), way = place.world - light_position_;
+  const glm::dvec4 plane(normal, -glm::dot(normal, way));
+  const double offset_error = 4 * u * sum_of(glm::abs(normal * way));  // a rounded difference, a product, two sums
+  double value[3], error[3];
+  for (int row = 0; row < 3; ++row) {
+    double sum = 0;
+    value[row] = 0;
+    for (int j = 0; j < 4; ++j) {
+      value[row] += planes_[j][row] * plane[j];
+      sum += std::abs(planes_[j][row] * plane[j]);
+    }
+    error[row] = 5 * u * sum + std::abs(planes_[3][row]) * offset_error;
+  }
+  if (!(std::abs(value[2]) > error[2])) return;  // seen edge on within rounding: any slope is right
+  for (int axis = 0; axis < 2; ++axis) {
+    const double slope = -value[axis] / value[2];
+    // Not to first order: the divisor may be little more than its error.
+    const double bound =
+        (error[axis] + std::abs(slope) * error[2]) / (std::abs(value[2]) - error[2]) + 2 * division * std::abs(slope);
+    raise_error(found.excess, std::abs(static_cast<double>(e_.probe.gradient[i][axis]) * frame_.resolution - slope) /
+                                  (bound + std::numeric_limits<float>::min()));
+  }
+}
+
+void ProbeCheck::compare(size_t i, ProbeErrors& found) const {
+  const Place place = looked_up(i);
+  if (!e_.probe.asks(i)) {
+    raise_error(found.excess, may_ask_nothing(place) ? 0 : std::numeric_limits<double>::infinity());
+    return;
+  }
+  if (frame_.kind == LightKind::point)
+    compare_cube(i, place, found);
+  else
+    compare_flat(i, place, found);
+  compare_shading(i, place, found);
+  if (e_.probe.tap_reference->plane) compare_gradient(i, place, found);
+}
+
+}  // namespace noonmark

@@ -1,0 +1,50 @@
+// The probe's numbers at a receiver against the light's frame in double, as multiples of the most that the shader's
+// float arithmetic can be off by. What a shader does wrongly with its inputs moves the truth's texels with it, and the
+// ladder would not see it; here it shows.
+#pragma once
+#include <glm/glm.hpp>
+
+#include "compare/ladder/ladder.h"
+#include "scenes/receivers.h"
+#include "technique/light_frame.h"
+
+namespace noonmark {
+
+struct ProbeErrors {
+  double excess = 0;          // the largest multiple
+  double address_texels = 0;  // largest distance of an exact place from the texel that the probe names; 0 inside
+  double reference_m = 0;     // largest error of the reference depth
+};
+
+// std::max that takes a NaN for an error without bound.
+void raise_error(double& value, double candidate);
+
+class ProbeCheck {
+ public:
+  // eye_m: the camera's.
+  ProbeCheck(const LookupEvidence& evidence, const ReceiverImage& receivers, const LightFrame& frame, glm::dvec3 eye_m);
+
+  void compare(size_t i, ProbeErrors& found) const;
+
+ private:
+  struct Place;  // where receiver i is looked up, and how far float may have it off
+  Place looked_up(size_t i) const;
+  double direction_error() const;  // relative, of the direction to the light as the shader has it
+  in_bounds::Surface bounded_surface(glm::dvec3 position, glm::dvec3 normal) const;
+  glm::dvec4 row_errors(const Place& place) const;
+  bool may_ask_nothing(const Place& place) const;
+  void compare_flat(size_t i, const Place& place, ProbeErrors& found) const;
+  void compare_cube(size_t i, const Place& place, ProbeErrors& found) const;
+  void compare_shading(size_t i, const Place& place, ProbeErrors& found) const;
+  void compare_gradient(size_t i, const Place& place, ProbeErrors& found) const;
+
+  const LookupEvidence& e_;
+  const ReceiverImage& receivers_;
+  const LightFrame& frame_;
+  glm::dvec3 eye_m_;
+  glm::dmat4 clip_;    // flat maps
+  glm::dmat4 planes_;  // flat maps: planes (normal, offset from the light's position in float) to clip space
+  glm::dvec3 light_position_;
+};
+
+}  // namespace noonmark

@@ -1,0 +1,49 @@
+#include "compare/ladder/thresholds.h"
+
+#include <cmath>
+#include <limits>
+
+namespace noonmark {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+// The smallest float >= 0 for which `enough` holds, from a guess that is a few steps away at most. enough is monotone.
+template <class Enough>
+float smallest(float guess, const Enough& enough) {
+  if (enough(0.0f)) return 0;
+  float value = guess > 0 ? guess : 0;
+  while (!enough(value)) {
+    value = std::nextafter(value, infinity);
+    if (value == infinity) return infinity;
+  }
+  for (float below = std::nextafter(value, 0.0f); below > 0 && enough(below); below = std::nextafter(value, 0.0f))
+    value = below;
+  return value;
+}
+
+}  // namespace
+
+float lit_threshold(float reference, float stored) {
+  const double midpoint = (static_cast<double>(stored) + std::nextafter(stored, infinity)) / 2;
+  return smallest(static_cast<float>(reference - midpoint), [&](float bias) { return !(reference - bias > stored); });
+}
+
+float factor_threshold(float product, float factor) {
+  if (product <= 0) return 0;
+  if (!(factor > 0) || product == infinity) return infinity;
+  const double midpoint = (static_cast<double>(product) + std::nextafter(product, 0.0f)) / 2;
+  const double guess = midpoint / factor;
+  if (guess > std::numeric_limits<float>::max()) return infinity;
+  return smallest(static_cast<float>(guess), [&](float x) { return x * factor >= product; });
+}
+
+float addend_threshold(float sum, float addend) {
+  if (sum == infinity) return infinity;
+  if (addend >= sum) return 0;
+  if (addend == 0) return sum;  // nothing to search for: the bias has one part, as most have
+  const double midpoint = (static_cast<double>(sum) + std::nextafter(sum, -infinity)) / 2;
+  return smallest(static_cast<float>(midpoint - addend), [&](float x) { return addend + x >= sum; });
+}
+
+}  // namespace noonmark

@@ -1,0 +1,293 @@
+#include "compare/report/answer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/judge/poor_view.h"
+#include "compare/judge/undecided.h"
+#include "compare/report/findings.h"
+#include "compare/report/laws.h"
+#include "compare/report/rules.h"
+#include "compare/report/sections.h"
+#include "compare/report/text.h"
+#include "compare/store/metrics.h"
+#include "compare/store/quantities.h"
+
+namespace noonmark::report {
+namespace {
+
+constexpr double largest_residual =
+    1e-6;  // of the ladder's sum; beyond it the tool itself is wrong (compare/store/metrics.cpp)
+
+std::string item(std::string_view kind, const std::string& inner) {
+  return fmt::format("<li class=\"{}\">{}</li>\n", kind, inner);
+}
+
+std::string points_text(size_t count) { return fmt::format("{} point{}", count, count == 1 ? "" : "s"); }
+
+std::string_view unit_of(const std::string& metric) {
+  for (const Metric& row : metrics_table())
+    if (row.name == metric) return row.unit;
+  return "";
+}
+
+// "All 4 bounds hold", as the coloured line on top.
+std::string verdict(const Results& results) {
+  std::string out;
+  const auto judge = [&](const auto& list, const char* noun, const char* alone) {
+    if (list.empty()) return;
+    const auto broken = std::count_if(list.begin(), list.end(), [](const auto& one) { return !one.held; });
+    const std::string text = broken             ? fmt::format("{} of {} {}s broken", broken, list.size(), noun)
+                             : list.size() == 1 ? std::string(alone)
+                                                : fmt::format("All {} {}s hold", list.size(), noun);
+    out += fmt::format("{}<span class=\"pill {}\">{}</span>", out.empty() ? "" : " ", broken ? "broken" : "held", text);
+  };
+  judge(results.bounds, "bound", "The bound holds");
+  judge(results.laws, "law", "The law holds");
+  if (out.empty()) out = "<span class=\"pill none\">No bounds were set</span>";
+  if (static_cast<int64_t>(results.points.size()) < results.planned_points)
+    out += fmt::format(" <span class=\"pill broken\">Incomplete: {} of {} points</span>", results.points.size(),
+                       results.planned_points);
+  return "<p class=\"verdict\">" + out + "</p>\n";
+}
+
+std::vector<bool> flags_of(const Results& results, bool (*holds)(const PointRecord&)) {
+  std::vector<bool> flags;
+  for (const PointRecord& point : results.points) flags.push_back(holds(point));
+  return flags;
+}
+
+bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), true) != flags.end(); }
+
+// "at 9 of 32 points", and which those are as a list to stand after the sentence.
+struct Where {
+  std::string count, list;
+};
+Where where_text(const Results& results, const std::vector<bool>& chosen, const std::vector<bool>& either_way = {}) {
+  const size_t count = static_cast<size_t>(std::count(chosen.begin(), chosen.end(), true));
+  if (count == chosen.size())
+    return {results.points.size() == 1 ? "here" : fmt::format("at every one of the {}", points_text(count)), ""};
+  const std::vector<Rule> rules = describe_points(results, chosen, either_way);
+  constexpr size_t most_rules = 4;  // more than that reads worse than the table
+  std::string list;
+  for (size_t i = 0; i < std::min(rules.size(), most_rules); ++i)
+    list += fmt::format("<li>{}{}</li>", html(rule_phrase(rules[i])),
+                        rules.size() > 1 ? fmt::format(" <small>{}</small>", points_text(rules[i].points)) : "");
+  if (rules.size() > most_rules) list += "<li>and others: see the table of windows</li>";
+  return {fmt::format("at {} of {}", count, points_text(chosen.size())),
+          list.empty() ? "" : "<ul class=\"rules\">" + list + "</ul>"};
+}
+
+bool window_fails(const PointRecord& point) {
+  return point.curve && (!point.curve->window_min_depth || !point.curve->window_max_depth);
+}
+bool has_usable_bias(const PointRecord& point) { return point.curve && !window_fails(point) && bias_as_set(point); }
+bool set_too_small(const PointRecord& point) {
+  return has_usable_bias(point) && *bias_as_set(point) < *point.curve->window_min_depth;
+}
+bool set_too_large(const PointRecord& point) {
+  return has_usable_bias(point) && *bias_as_set(point) > *point.curve->window_max_depth;
+}
+
+std::string window_items(const Results& results) {
+  const auto curved =
+      std::find_if(results.points.begin(), results.points.end(), [](const auto& p) { return p.curve.has_value(); });
+  const auto without =
+      std::find_if(results.points.begin(), results.points.end(), [](const auto& p) { return !p.curve.has_value(); });
+  const std::string why =
+      without == results.points.end() || why_no_curve(*without).empty()
+          ? ""
+          : item("note", fmt::format("Points without a bias curve: {}.", html(why_no_curve(*without))));
+  if (curved == results.points.end())
+    return item("note", "No bias curve was measured, so no usable window can be given.") + why;
+  const BiasCurve& first = *curved->curve;
+  const std::string bounds =
+      fmt::format("acne at most {} and Peter Panning at most {}", quantity(first.acne_bound, "fraction"),
+                  quantity(first.peter_panning_bound, "fraction"));
+  std::string out;
+  const auto fails = flags_of(results, window_fails);
+  if (any(fails)) {
+    const Where where = where_text(results, fails);
+    out += item("bad", fmt::format("<b>The method fails {}</b>: no value of {} keeps {}{}{}", where.count,
+                                   html(first.parameter), bounds, where.list.empty() ? "." : ", with", where.list));
+  } else {
+    out += item("good", fmt::format("A usable bias exists at every point{}: some value of {} keeps {}.",
+                                    without == results.points.end() ? "" : " that has a bias curve",
+                                    html(first.parameter), bounds));
+  }
+  const auto low = flags_of(results, set_too_small), high = flags_of(results, set_too_large);
+  if (any(low)) {
+    const Where where = where_text(results, low, fails);
+    out += item("bad",
+                fmt::format("<b>The bias as set is too small {}</b>: it leaves acne that a larger one would not{}{}",
+                            where.count, where.list.empty() ? "." : ", with", where.list));
+  }
+  if (any(high)) {
+    const Where where = where_text(results, high, fails);
+    out += item("bad", fmt::format("<b>The bias as set is too large {}</b>: it detaches shadows more than it must{}{}",
+                                   where.count, where.list.empty() ? "." : ", with", where.list));
+  }
+  if (!any(low) && !any(high) && any(flags_of(results, has_usable_bias)))
+    out += item("good", "The bias as set lies within the usable window wherever there is one.");
+  return out + why;
+}
+
+std::string cause_sentence(std::span<const PointRecord* const> points) {
+  std::string out;
+  const std::vector<CauseShare> shares = cause_shares(points);
+  for (size_t i = 0; i < std::min<size_t>(shares.size(), 3); ++i)
+    out += fmt::format("{}<span class=\"cause\">{}{} ({:.0f}{}%)</span>", i ? ", " : "", swatch(shares[i].name),
+                       html(metric_label(shares[i].name)), 100 * shares[i].share, "\u202f");
+  return out;
+}
+
+std::string health_items(const Results& results) {
+  std::string out;
+  size_t not_finite = 0;
+  double residual = 0, ambiguous = 0;
+  for (const PointRecord& point : results.points) {
+    bool finite = true;
+    for (const auto& [name, value] : point.metrics) finite = finite && std::isfinite(value);
+    not_finite += !finite;
+    for (const char* name : {"residual", "tap_residual"})
+      if (const double value = metric_of(point, name); std::isfinite(value)) residual = std::max(residual, value);
+    if (const double value = metric_of(point, "ambiguous"); std::isfinite(value))
+      ambiguous = std::max(ambiguous, value);
+  }
+  if (not_finite)
+    out += item(
+        "bad", fmt::format(
+                   "{} ha{} a metric that is <b>not finite</b>: it could not be measured, and fails every bound on it.",
+                   points_text(not_finite), not_finite == 1 ? "s" : "ve"));
+  if (const std::string poor = poor_view_note(results.points); !poor.empty()) out += item("bad", html(poor) + ".");
+  if (residual > largest_residual)
+    out += item(
+        "bad",
+        fmt::format("The steps of the ladder do not add up to the error (residual {}): a defect of the measurement; do "
+                    "not rely on these numbers.",
+                    number(residual)));
+  if (const std::string doubt = undecided_note(results.points); !doubt.empty())
+    out += item("note", fmt::format("At the point where it matters most, {}.", html(doubt)));
+  if (ambiguous > 0)
+    out += item("note", fmt::format("The truth is ambiguous at no more than {} of facing receivers; they are left out.",
+                                    quantity(ambiguous, "fraction")));
+  for (const std::string& note : results.info.scene_notes)
+    out += item("note", fmt::format("Of the scene {}.", html(note)));
+  return out;
+}
+
+std::string recommendation_box(const Results& results) {
+  if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
+    return fmt::format(
+        "<div class=\"recommend broken\"><h3>What to set</h3><p><b>Nothing was measured</b>: {}. This says nothing of "
+        "the method.</p></div>\n",
+        html(poor_view_note(results.points)));
+  const Recommendation found = recommend(results);
+  if (found.outcome == Recommendation::Outcome::no_criterion)
+    return "<div class=\"recommend none\"><h3>What to set</h3><p>Nothing says what is good enough: set a bound, or "
+           "have a bias curve "
+           "measured.</p></div>\n";
+  if (found.outcome == Recommendation::Outcome::none_holds)
+    return "<div class=\"recommend broken\"><h3>What to set</h3><p><b>None of the swept settings is good enough.</b> "
+           "No point has a usable "
+           "bias window and holds every bound that speaks of it. Sweep a higher resolution, a smaller extent or "
+           "another bias, or "
+           "loosen a bound.</p></div>\n";
+  const PointRecord& point = *found.point;
+  std::string rows;
+  for (const std::string& name : results.info.swept)
+    rows += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", html(name),
+                        html(settings_phrase(point, {name}).substr(setting_label(name).size() + 1)));
+  std::string more;
+  if (found.bias) {
+    const BiasCurve& curve = *point.curve;
+    const double low = *curve.window_min_depth, high = *curve.window_max_depth;
+    rows += fmt::format("<div class=\"key\"><dt>{}</dt><dd>{}</dd></div>\n", html(curve.parameter),
+                        bias_phrase(found.bias->depth, curve));
+    rows += fmt::format("<div><dt>usable from</dt><dd>{}</dd></div>\n<div><dt>to</dt><dd>{}</dd></div>\n",
+                        bias_phrase(low, curve), bias_phrase(high, curve));
+    if (low == high) more = " Its window is a single value: expect it to break.";
+    if (low > 0 && high > low) more = fmt::format(" Its window is a factor {} wide.", number(high / low));
+  }
+  const PointRecord* only[] = {&point};
+  const std::string causes = cause_sentence(only);
+  const Recommendation accurate = recommend_accurate(results);
+  std::string other;
+  if (accurate.point != found.point)
+    other = fmt::format(
+        "<p>The most accurate that is good enough: {}{}, for <b>{}</b> with <b>{}</b> error (<a href=\"#p{}\">point "
+        "{}</a>).</p>\n",
+        html(settings_phrase(*accurate.point, results.info.swept)),
+        accurate.bias ? ", " + html(accurate.point->curve->parameter) + " " +
+                            bias_phrase(accurate.bias->depth, *accurate.point->curve)
+                      : "",
+        quantity(accurate.cost_ms, "ms"), quantity(accurate.error, "fraction"), accurate.point->id, accurate.point->id);
+  return fmt::format(
+      "<div class=\"recommend held\"><h3>What to set</h3><p>The cheapest point that is good enough costs <b>{}</b> and "
+      "shows <b>{}</b> error.{}</p>\n"
+      "<dl>{}</dl>\n{}{}<p class=\"small\">The cheapest is <a href=\"#p{}\">point {}</a>: the lowest time of shadow "
+      "map and lookup together among the "
+      "points where {}; times within {:.0f} % count as equal, and of those it has the least error.</p></div>\n",
+      quantity(found.cost_ms, "ms"), quantity(found.error, "fraction"), more, rows,
+      causes.empty() ? "" : fmt::format("<p>Largest causes there, with the bias as rendered: {}.</p>\n", causes), other,
+      point.id, point.id,
+      !found.bias              ? "every bound holds"
+      : results.bounds.empty() ? "the bias window is not empty"
+                               : "the bias window is not empty and every bound holds at that bias",
+      100 * cost_tolerance);
+}
+
+std::string bounds_table(const Results& results) {
+  if (results.bounds.empty()) return "";
+  std::string rows;
+  for (const BoundResult& bound : results.bounds) {
+    std::string where;
+    for (const auto& [name, values] : bound.where)
+      where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", html(name),
+                           html(fmt::format("{}", fmt::join(values, " | "))));
+    const std::string_view unit = unit_of(bound.metric);
+    std::string limit;
+    if (bound.max) limit += fmt::format("at most {}", quantity(*bound.max, unit));
+    if (bound.min) limit += fmt::format("{}at least {}", limit.empty() ? "" : ", ", quantity(*bound.min, unit));
+    std::string found = bound.points == 0 ? "no point matches" : quantity(bound.found, unit);
+    if (bound.point >= 0) found += fmt::format(" at <a href=\"#p{0}\">point {0}</a>", bound.point);
+    rows += fmt::format(
+        "<tr class=\"{}\"><td>{}</td><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        bound.held ? "held" : "broken", bound.held ? "✓ holds" : "✗ broken", html(metric_label(bound.metric)), limit,
+        found, html(bound.join),
+        where.empty() ? fmt::format("all ({})", bound.points) : fmt::format("{} ({})", where, bound.points));
+    if (!bound.held && !bound.reproduce.empty())
+      rows += fmt::format("<tr class=\"command\"><td></td><td colspan=\"5\">See it: <code>{}</code></td></tr>\n",
+                          html(bound.reproduce));
+  }
+  return "<h3>Bounds</h3><div class=\"scroll\"><table "
+         "class=\"bounds\"><thead><tr><th>Verdict</th><th>Metric</th><th>Allowed</th><th>Found</th>"
+         "<th>Joined by</th><th>Points</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::string answer_section(const Results& results) {
+  if (results.points.empty())
+    return "<section id=\"answer\"><h2>The answer</h2>" + verdict(results) +
+           "<p>No point was measured.</p></section>\n";
+  // Points of different parts are not there to be compared: there is no cheapest among them.
+  if (!results.points.front().part.empty())
+    return "<section id=\"answer\"><h2>The answer</h2>" + verdict(results) + laws_table(results) +
+           bounds_table(results) + "<ul class=\"findings\">\n" + health_items(results) + "</ul></section>\n";
+  std::vector<const PointRecord*> all;
+  for (const PointRecord& point : results.points) all.push_back(&point);
+  std::string items = window_items(results);
+  if (const std::string causes = cause_sentence(all); !causes.empty())
+    items += item("note", fmt::format("Largest causes of error over {}, with the bias as rendered: {}.",
+                                      all.size() == 1 ? "this point" : "all points", causes));
+  items += health_items(results);
+  return "<section id=\"answer\"><h2>The answer</h2>" + verdict(results) + "<div class=\"answer\">" +
+         recommendation_box(results) + "<div class=\"breaks\"><h3>What breaks</h3><ul class=\"findings\">\n" + items +
+         "</ul></div></div>\n" + bounds_table(results) + laws_table(results) + "</section>\n";
+}
+
+}  // namespace noonmark::report

@@ -1,0 +1,11 @@
+// The report's first section: what breaks and what to set; bounds and laws.
+#pragma once
+#include <string>
+
+#include "compare/store/records.h"
+
+namespace noonmark::report {
+
+std::string answer_section(const Results& results);
+
+}  // namespace noonmark::report

@@ -1,0 +1,97 @@
+#include "compare/report/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <string_view>
+
+#include "compare/report/escape.h"
+#include "compare/store/metrics.h"
+#include "compare/store/quantities.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+namespace {
+
+std::string number(double value) { return fmt::format("{}", value); }
+
+// A heading and what each point has there.
+struct Column {
+  std::string name;
+  std::function<std::string(const PointRecord&)> cell;
+};
+
+std::string look_up(const std::map<std::string, double>& numbers, const std::string& name) {
+  const auto found = numbers.find(name);
+  return found == numbers.end() ? std::string() : number(found->second);
+}
+
+// `known` in its order, then the names that only the points know (results of another version), sorted.
+std::vector<std::string> names(std::vector<std::string> known, const std::set<std::string>& present) {
+  const std::set<std::string> table(known.begin(), known.end());
+  std::set_difference(present.begin(), present.end(), table.begin(), table.end(), std::back_inserter(known));
+  return known;
+}
+
+std::vector<Column> columns(const Results& results) {
+  std::set<std::string> present_settings, present_metrics, present_times;
+  for (const PointRecord& point : results.points) {
+    for (const auto& [name, text] : point.settings) present_settings.insert(name);
+    for (const auto& [name, value] : point.metrics) present_metrics.insert(name);
+    for (const auto& [name, value] : point.times) present_times.insert(name);
+  }
+  std::vector<std::string> settings, metrics;
+  std::set<std::string> clocked;  // metrics that are times
+  for (const Setting& row : settings_table()) settings.emplace_back(row.name);
+  for (const Metric& row : metrics_table()) {
+    metrics.emplace_back(row.name);
+    if (row.unit == "ms") clocked.emplace(row.name);
+  }
+
+  std::vector<Column> list, at_the_end;
+  list.push_back({"point", [](const PointRecord& p) { return fmt::format("{}", p.id); }});
+  if (std::any_of(results.points.begin(), results.points.end(), [](const PointRecord& p) { return !p.part.empty(); }))
+    list.push_back({"part", [](const PointRecord& p) { return p.part; }});
+  for (const std::string& name : names(settings, present_settings))
+    list.push_back({name, [name](const PointRecord& p) {
+                      const auto found = p.settings.find(name);
+                      return found == p.settings.end() ? std::string() : found->second;
+                    }});
+  for (const std::string& name : names(metrics, present_metrics))
+    (clocked.contains(name) ? at_the_end : list).push_back({name, [name](const PointRecord& p) {
+                                                              return look_up(p.metrics, name);
+                                                            }});
+  for (const CurveQuantity& row : curve_quantities())
+    list.push_back({std::string(row.name), [&row](const PointRecord& p) {
+                      const std::optional<double> value = p.curve ? row.value(*p.curve) : std::nullopt;
+                      return value ? number(*value) : std::string();
+                    }});
+  list.push_back({"worst_x", [](const PointRecord& p) { return fmt::format("{}", p.worst.x); }});
+  list.push_back({"worst_y", [](const PointRecord& p) { return fmt::format("{}", p.worst.y); }});
+  list.push_back({"worst_error", [](const PointRecord& p) { return number(p.worst.error); }});
+  list.push_back({"worst_cause", [](const PointRecord& p) { return p.worst.cause; }});
+  // A time that is a metric too has its column already.
+  for (const std::string& name : present_times)
+    if (!clocked.contains(name))
+      at_the_end.push_back({name, [name](const PointRecord& p) { return look_up(p.times, name); }});
+  list.insert(list.end(), at_the_end.begin(), at_the_end.end());
+  return list;
+}
+
+}  // namespace
+
+std::string to_csv(const Results& results) {
+  const std::vector<Column> list = columns(results);
+  std::string csv;
+  const auto row = [&](auto cell) {
+    for (size_t i = 0; i < list.size(); ++i) csv += (i ? "," : "") + csv_text(cell(list[i]));
+    csv += "\r\n";
+  };
+  row([](const Column& column) { return column.name; });
+  for (const PointRecord& point : results.points) row([&](const Column& column) { return column.cell(point); });
+  return csv;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,127 @@
+#include "compare/report/data.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "compare/report/cause_colors.h"
+#include "compare/report/findings.h"
+#include "compare/report/laws.h"
+#include "compare/report/rules.h"
+#include "compare/report/text.h"
+#include "compare/store/metrics.h"
+#include "compare/store/quantities.h"
+
+namespace noonmark::report {
+namespace {
+
+using nlohmann::json;
+
+// JSON has no word for these; charts leave them out, tables say "not finite".
+json value_of(double value) {
+  if (std::isnan(value)) return "NaN";
+  if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
+  return value;
+}
+
+// Six digits: a thousandth of a chart's pixel, at half the bytes.
+json drawn_value(double value) {
+  return std::isfinite(value) ? json(std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr)) : value_of(value);
+}
+
+json drawn(const std::vector<double>& series, const std::vector<size_t>& indices) {
+  json out = json::array();
+  for (size_t i : indices) out.push_back(i < series.size() ? drawn_value(series[i]) : json("NaN"));
+  return out;
+}
+
+json curve_of(const PointRecord& point, size_t entries_of_all_curves) {
+  const BiasCurve& curve = *point.curve;
+  const std::vector<size_t> indices = drawn_biases(curve, entries_of_all_curves);
+  json out{{"parameter", curve.parameter},
+           {"made", curve.made},
+           {"bias", drawn(curve.bias_depth, indices)},
+           {"error", drawn(curve.error, indices)},
+           {"acne", drawn(curve.acne, indices)},
+           {"peter_panning", drawn(curve.peter_panning, indices)},
+           {"aliasing_dark", drawn(curve.aliasing_dark, indices)},
+           {"aliasing_light", drawn(curve.aliasing_light, indices)},
+           {"coverage", drawn(curve.coverage, indices)},
+           {"m_per_depth", value_of(curve.m_per_depth)},
+           {"texels_per_depth", value_of(curve.texels_per_depth)},
+           {"acne_bound", value_of(curve.acne_bound)},
+           {"peter_panning_bound", value_of(curve.peter_panning_bound)},
+           {"best_bias", value_of(curve.best_bias_depth)},
+           {"best_error", value_of(curve.best_error)}};
+  if (curve.window_min_depth && curve.window_max_depth)
+    out["window"] = json::array({value_of(*curve.window_min_depth), value_of(*curve.window_max_depth)});
+  if (const std::optional<double> set = bias_as_set(point)) out["set_bias"] = value_of(*set);
+  return out;
+}
+
+}  // namespace
+
+std::vector<size_t> drawn_biases(const BiasCurve& curve, size_t entries_of_all_curves) {
+  const size_t count = curve.bias_depth.size();
+  size_t keep = count;
+  if (entries_of_all_curves > max_curve_entries)
+    keep = std::min(count, std::max<size_t>(32, count * max_curve_entries / entries_of_all_curves));
+  std::vector<size_t> indices;
+  for (size_t i = 0; i < keep; ++i) indices.push_back(keep == 1 ? 0 : i * (count - 1) / (keep - 1));
+  return indices;
+}
+
+json chart_data(const Results& results) {
+  json data;
+  data["swept"] = json::array();
+  for (const std::string& name : results.info.swept) {
+    const std::vector<std::string> values = values_of(results, name);
+    bool numeric = !values.empty();
+    for (const std::string& value : values) numeric = numeric && number_of(value);
+    data["swept"].push_back({{"name", name},
+                             {"label", setting_label(name)},
+                             {"unit", setting_unit(name)},
+                             {"numeric", numeric},
+                             {"values", values}});
+  }
+  data["metrics"] = json::array();
+  for (const Metric& metric : metrics_table())
+    data["metrics"].push_back({{"name", metric.name},
+                               {"label", metric_label(metric.name)},
+                               {"unit", metric.unit},
+                               {"plotted", metric.plotted}});
+  data["causes"] = json::array();
+  for (const CauseColor& cause : cause_colors) data["causes"].push_back({{"name", cause.name}, {"label", cause.label}});
+  data["plot"] = results.info.plot;
+
+  size_t entries = 0;
+  for (const PointRecord& point : results.points) entries += point.curve ? point.curve->bias_depth.size() : 0;
+  data["points"] = json::array();
+  for (const PointRecord& point : results.points) {
+    json settings = json::object(), metrics = json::object();
+    for (const std::string& name : results.info.swept) settings[name] = setting_of(point, name);
+    for (const auto& [name, value] : point.metrics) metrics[name] = value_of(value);
+    json entry{{"id", point.id}, {"settings", settings}, {"metrics", metrics}};
+    entry["phrase"] = settings_phrase(point, results.info.swept);
+    if (point.curve) entry["curve"] = curve_of(point, entries);
+    data["points"].push_back(std::move(entry));
+  }
+
+  data["laws"] = law_data(results);
+  const Recommendation recommendation = recommend(results);
+  data["recommended"] = recommendation.point ? json(recommendation.point->id) : json();
+  for (const char* which : {"error", "best_error"}) {
+    std::vector<std::pair<double, double>> plane;
+    for (const PointRecord& point : results.points)
+      plane.emplace_back(metric_of(point, "shadow_ms"), std::string_view(which) == "error" ? metric_of(point, "error")
+                                                        : point.curve                      ? point.curve->best_error
+                                                                                           : std::nan(""));
+    data["pareto"][which] = json::array();
+    for (size_t i : pareto_front(plane)) data["pareto"][which].push_back(results.points[i].id);
+  }
+  return data;
+}
+
+}  // namespace noonmark::report

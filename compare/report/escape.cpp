@@ -1,0 +1,88 @@
+#include "compare/report/escape.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "scenes/text.h"
+
+namespace noonmark {
+namespace {
+
+bool is_number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+}  // namespace
+
+std::string csv_text(std::string_view text) {
+  std::string cell;
+  if (!text.empty() && std::string_view("=+-@\t\r\n").find(text.front()) != std::string_view::npos && !is_number(text))
+    cell = "'";
+  cell += text;
+  if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
+  std::string quoted = "\"";
+  for (char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string markdown(std::string_view text) {
+  std::string one_line(text), escaped;
+  std::replace_if(
+      one_line.begin(), one_line.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  for (char c : printable(one_line)) {
+    if (c == '<')
+      escaped += "&lt;";
+    else if (c == '&')
+      escaped += "&amp;";
+    else if (std::string_view("\\|`*_[]#~$").find(c) != std::string_view::npos)
+      escaped += {'\\', c};
+    else
+      escaped += c;
+  }
+  // At the start of a line these would begin a list or a quotation, or underline a heading.
+  if (!escaped.empty() && std::string_view("-+=>").find(escaped.front()) != std::string_view::npos)
+    escaped.insert(0, 1, '\\');
+  return escaped;
+}
+
+std::string markdown_block(std::string_view lines) {
+  std::string text;
+  while (!lines.empty()) {
+    const size_t end = std::min(lines.find('\n'), lines.size());
+    text += "    " + printable(lines.substr(0, end)) + "\n";
+    lines.remove_prefix(std::min(end + 1, lines.size()));
+  }
+  return text;
+}
+
+std::string xml_text(std::string_view text) {
+  std::string escaped;
+  while (!text.empty()) {
+    const size_t length = utf8_length(text);
+    const std::string_view character = text.substr(0, std::max<size_t>(length, 1));
+    if (character == "&")
+      escaped += "&amp;";
+    else if (character == "<")
+      escaped += "&lt;";
+    else if (character == ">")
+      escaped += "&gt;";
+    else if (character == "\"")
+      escaped += "&quot;";
+    else if (character == "\n")
+      escaped += "&#10;";
+    else if (character == "\r")
+      escaped += "&#13;";
+    else if (character == "\t")
+      escaped += "&#9;";
+    else if (length == 0 || is_control(character) || character == "\uFFFE" || character == "\uFFFF")
+      escaped += "\uFFFD";
+    else
+      escaped += character;
+    text.remove_prefix(character.size());
+  }
+  return escaped;
+}
+
+}  // namespace noonmark

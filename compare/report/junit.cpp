@@ -1,0 +1,92 @@
+#include "compare/report/junit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include "compare/judge/bounds.h"
+#include "compare/judge/laws.h"
+#include "compare/report/escape.h"
+
+namespace noonmark {
+namespace {
+
+constexpr std::string_view head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
+constexpr std::string_view foot = "    <system-out/>\n    <system-err/>\n  </testsuite>\n</testsuites>\n";
+
+// The schema wants 2025-01-31T12:00:00 without a zone.
+std::string timestamp(const std::string& started) {
+  constexpr size_t length = std::string_view("2025-01-31T12:00:00").size();
+  return started.size() >= length ? started.substr(0, length) : "1970-01-01T00:00:00";
+}
+
+}  // namespace
+
+std::string to_junit(const Results& results) {
+  const auto finished = static_cast<int64_t>(results.points.size());
+  const bool incomplete = finished < results.planned_points;
+  const auto failures =
+      std::count_if(results.bounds.begin(), results.bounds.end(), [](const BoundResult& b) { return !b.held; }) +
+      std::count_if(results.laws.begin(), results.laws.end(), [](const LawResult& l) { return !l.held; });
+  const std::string suite = results.info.title.empty() ? "noonmark" : results.info.title;
+
+  std::string xml(head);
+  xml += fmt::format(
+      "  <testsuite name=\"{}\" package=\"noonmark\" id=\"0\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"0\" "
+      "timestamp=\"{}\" hostname=\"localhost\">\n",
+      xml_text(suite), results.bounds.size() + results.laws.size() + (incomplete ? 1 : 0), failures, incomplete ? 1 : 0,
+      xml_text(timestamp(results.info.started)));
+  xml += "    <properties>\n";
+  const std::pair<std::string_view, const std::string&> properties[] = {
+      {"experiment", results.info.experiment},   {"command", results.info.command},
+      {"commit", results.info.commit},           {"version", results.info.version},
+      {"gl_renderer", results.info.gl_renderer}, {"embree_isa", results.info.embree_isa}};
+  for (const auto& [name, value] : properties)
+    xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, xml_text(value));
+  xml += "    </properties>\n";
+
+  std::set<std::string> taken;  // CI servers follow a testcase by its name, so no two may share one
+  const auto testcase = [&](const std::string& title, bool held, std::string_view type, const auto& message,
+                            const auto& text) {
+    std::string name = title;
+    for (int copy = 2; !taken.insert(name).second; ++copy) name = fmt::format("{} #{}", title, copy);
+    xml += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"0\"", xml_text(suite), xml_text(name));
+    xml += held ? "/>\n"
+                : fmt::format(">\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n",
+                              xml_text(message()), type, xml_text(text()));
+  };
+  for (const BoundResult& bound : results.bounds)
+    testcase(
+        bound_text(bound), bound.held, "bound",
+        [&] {
+          return bound.points == 0 ? "no finished point matches the bound" : fmt::format("found {}", found_text(bound));
+        },
+        [&] { return describe(bound, find_point(results.points, bound.point), results.info.swept); });
+  for (const LawResult& law : results.laws)
+    testcase(
+        law.name, law.held, "law", [&] { return law_text(law); },
+        [&] {
+          return law_table({&law, 1});
+        });
+  if (incomplete)
+    xml += fmt::format(
+        "    <testcase classname=\"{}\" name=\"the sweep is complete\" time=\"0\">\n      <error "
+        "message=\"{} of {} points are finished; run it again to go on\" type=\"incomplete\"/>\n    </testcase>\n",
+        xml_text(suite), finished, results.planned_points);
+  return xml.append(foot);
+}
+
+std::string to_junit(const Unjudged& unjudged) {
+  const std::string suite = xml_text(unjudged.experiment);
+  return fmt::format(
+      "{0}  <testsuite name=\"{1}\" package=\"noonmark\" id=\"0\" tests=\"1\" failures=\"0\" errors=\"1\" time=\"0\" "
+      "timestamp=\"{2}\" hostname=\"localhost\">\n    <properties>\n      <property name=\"command\" value=\"{3}\"/>\n"
+      "    </properties>\n    <testcase classname=\"{1}\" name=\"the experiment can be judged\" time=\"0\">\n"
+      "      <error message=\"{4}\" type=\"exit code {5}\"/>\n    </testcase>\n{6}",
+      head, suite, xml_text(timestamp(unjudged.started)), xml_text(unjudged.command), xml_text(unjudged.why),
+      unjudged.exit_code, foot);
+}
+
+}  // namespace noonmark

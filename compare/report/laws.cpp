@@ -1,0 +1,87 @@
+#include "compare/report/laws.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compare/judge/laws.h"
+#include "compare/report/sections.h"
+#include "compare/report/text.h"
+
+namespace noonmark::report {
+namespace {
+
+using nlohmann::json;
+
+// A chart of measured against predicted says something where there are several of each.
+bool charted(const LawResult& law) {
+  double low = INFINITY, high = -INFINITY;
+  for (const LawResult::Sample& sample : law.samples) {
+    if (!std::isfinite(sample.predicted) || !std::isfinite(sample.measured)) continue;
+    low = std::min(low, sample.predicted);
+    high = std::max(high, sample.predicted);
+  }
+  return high > low;
+}
+
+std::string broken_rows(const LawResult& law) {
+  if (law.held) return "";
+  std::string what = "no point matches";
+  if (law.worst >= 0) {
+    const LawResult::Sample& sample = law.samples[static_cast<size_t>(law.worst)];
+    what = fmt::format("Off by {} at <a href=\"#p{}\">point {}</a>, where {} is allowed.",
+                       number(sample.measured - sample.predicted), sample.point, sample.point, number(sample.allowed));
+  }
+  if (!law.reproduce.empty()) what += fmt::format(" See it: <code>{}</code>", html(law.reproduce));
+  return fmt::format("<tr class=\"command\"><td></td><td colspan=\"5\">{}</td></tr>\n", what);
+}
+
+std::string sentence(const std::string& text) {
+  return text.empty() ? "" : fmt::format("<br><span class=\"says\">{}</span>", html(text));
+}
+
+}  // namespace
+
+std::string laws_table(const Results& results) {
+  if (results.laws.empty()) return "";
+  std::string rows;
+  for (const LawResult& law : results.laws) {
+    const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
+    rows += fmt::format(
+        "<tr class=\"{}\"><td>{}</td><th scope=\"row\">{}{}<br><code>{}</code></th><td>{}</td><td>{}</td><td>{}</td>"
+        "<td>{}</td></tr>\n{}",
+        law.held ? "held" : "broken", law.held ? "✓ holds" : "✗ broken", html(law.name),
+        sentence(law.says) + sentence(law.found), html(law_text(law)), law.samples.size(), html(predicted_text(law)),
+        worst ? number(worst->measured) : "–", html(ratio_text(law)), broken_rows(law));
+  }
+  std::string out = "<h3 id=\"laws\">Laws</h3>\n";
+  if (std::any_of(results.laws.begin(), results.laws.end(), charted))
+    out += chart_place("laws", "Measured against predicted; the line is where the two are equal.");
+  return out +
+         "<div class=\"scroll\"><table class=\"bounds laws\"><thead><tr><th>Verdict</th><th>Law</th><th>Samples</th>"
+         "<th>Predicted</th><th>Measured</th><th>Measured / predicted</th></tr></thead><tbody>\n" +
+         rows +
+         "</tbody></table></div>\n<p class=\"small\">Predicted and measured are those of the sample that is furthest "
+         "off.</p>\n";
+}
+
+json law_data(const Results& results) {
+  json laws = json::array();
+  for (const LawResult& law : results.laws) {
+    if (!charted(law)) continue;
+    json samples = json::array();
+    for (const LawResult::Sample& sample : law.samples)
+      if (std::isfinite(sample.predicted) && std::isfinite(sample.measured))
+        samples.push_back({{"point", sample.point},
+                           {"predicted", sample.predicted},
+                           {"measured", sample.measured},
+                           {"allowed", sample.allowed}});
+    laws.push_back(
+        {{"name", law.name}, {"measured", law.measured}, {"predicted", law.predicted}, {"samples", samples}});
+  }
+  return laws;
+}
+
+}  // namespace noonmark::report

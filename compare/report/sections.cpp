@@ -1,0 +1,250 @@
+// The sections with charts: a place for each chart (filled by report/charts.js) and, beside it, the same numbers as a
+// table.
+#include "compare/report/sections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/report/cause_colors.h"
+#include "compare/report/findings.h"
+#include "compare/report/rules.h"
+#include "compare/report/text.h"
+#include "compare/store/quantities.h"
+
+namespace noonmark::report {
+namespace {
+
+constexpr size_t open_rows = 40;  // longer tables start folded
+
+std::string folded(const std::string& title, size_t rows, const std::string& inner) {
+  return fmt::format("<details{}><summary>{}</summary>\n{}</details>\n", rows <= open_rows ? " open" : "", title,
+                     inner);
+}
+
+std::string point_link(const PointRecord& point) { return fmt::format("<a href=\"#p{0}\">{0}</a>", point.id); }
+
+// Head cells and row cells for the swept settings: what tells one point from another.
+std::string swept_head(const Results& results) {
+  std::string out = "<th>Point</th>";
+  for (const std::string& name : results.info.swept) {
+    const std::string unit = setting_unit(name);
+    out += fmt::format("<th title=\"{}\">{}{}</th>", html(name), html(setting_label(name)),
+                       unit.empty() ? "" : fmt::format(" <small>{}</small>", html(unit)));
+  }
+  return out;
+}
+
+std::string swept_cells(const Results& results, const PointRecord& point) {
+  std::string out = fmt::format("<th scope=\"row\">{}</th>", point_link(point));
+  for (const std::string& name : results.info.swept) out += fmt::format("<td>{}</td>", html(setting_of(point, name)));
+  return out;
+}
+
+std::string bias_cell(double depth, const BiasCurve& curve) {
+  return fmt::format("<td class=\"first\">{}</td><td>{}</td><td>{}</td>", number(depth),
+                     number(depth * curve.m_per_depth), number(depth * curve.texels_per_depth));
+}
+
+// The causes whose bars are stacked: the parts of R5 - R1.
+bool is_part(std::string_view cause) { return cause != "light_size" && cause != "aliasing" && cause != "coverage"; }
+
+}  // namespace
+
+std::string chart_place(const std::string& name, const std::string& caption) {
+  return fmt::format(
+      "<figure class=\"chart js-only\" id=\"chart-{0}\"><div class=\"controls\"></div><div class=\"legend\"></div>"
+      "<div class=\"plot\" role=\"img\" aria-label=\"{1}\"></div><figcaption>{1}</figcaption></figure>\n",
+      name, caption);
+}
+
+std::string swatch(const std::string& cause) { return fmt::format("<i class=\"sw c-{}\"></i>", html(cause)); }
+
+std::string bias_section(const Results& results) {
+  std::string rows;
+  size_t count = 0;
+  const BiasCurve* first = nullptr;
+  bool alike = true;  // whether one sentence says for all curves what was varied and how they were made
+  for (const PointRecord& point : results.points) {
+    if (!point.curve) continue;
+    if (!first) first = &*point.curve;
+    alike = alike && point.curve->parameter == first->parameter && point.curve->made == first->made;
+  }
+  for (const PointRecord& point : results.points) {
+    if (!point.curve) continue;
+    ++count;
+    const BiasCurve& curve = *point.curve;
+    const bool usable = curve.window_min_depth && curve.window_max_depth;
+    rows += fmt::format("<tr{}>{}", usable ? "" : " class=\"broken\"", swept_cells(results, point));
+    rows += usable ? bias_cell(*curve.window_min_depth, curve) + bias_cell(*curve.window_max_depth, curve)
+                   : "<td colspan=\"6\" class=\"fails first\">none: the method fails here</td>";
+    rows += bias_cell(curve.best_bias_depth, curve);
+    rows += fmt::format("<td>{}</td><td class=\"first\">{} … {}</td>", cell(curve.best_error, "fraction"),
+                        number(curve.flat_min_depth), number(curve.flat_max_depth));
+    if (!alike)
+      rows +=
+          fmt::format("<td class=\"text\">{}</td><td class=\"text\">{}</td>", html(curve.parameter), html(curve.made));
+    rows += "</tr>\n";
+  }
+  std::string out = "<section id=\"bias\"><h2>Error against bias</h2>\n";
+  for (const PointRecord& point : results.points) {
+    if (why_no_curve(point).empty()) continue;
+    out += fmt::format("<p class=\"small\">Some points have no curve: {}.</p>\n", why_no_curve(point));
+    break;
+  }
+  if (count == 0) return out + "<p>No bias curve was measured.</p></section>\n";
+  out += fmt::format(
+      "<p>Too little bias leaves acne; too much detaches shadows. The usable window is every bias that keeps acne "
+      "within {} and "
+      "Peter Panning within {} of the counted receivers.{}</p>\n",
+      quantity(first->acne_bound, "fraction"), quantity(first->peter_panning_bound, "fraction"),
+      alike ? fmt::format(" Varied: <code>{}</code>; made: {}.", html(first->parameter), html(first->made)) : "");
+  out += chart_place("bias", "Share of counted receivers by cause against the bias; the usable window is shaded.");
+  std::string head =
+      "<thead><tr>" + swept_head(results) +
+      "<th class=\"first\" colspan=\"3\">Window from</th><th class=\"first\" colspan=\"3\">Window to</th>"
+      "<th class=\"first\" colspan=\"4\">Best bias</th><th class=\"first\">Within 10\u202f%<br>of the best</th>";
+  if (!alike) head += "<th>Parameter</th><th>Made</th>";
+  head += "</tr>\n<tr class=\"units\"><th></th>";
+  for (size_t i = 0; i < results.info.swept.size(); ++i) head += "<th></th>";
+  for (int i = 0; i < 3; ++i) head += "<th class=\"first\">depth</th><th>m</th><th>texels</th>";
+  head += "<th>error %</th><th class=\"first\">depth</th>";
+  if (!alike) head += "<th></th><th></th>";
+  head += "</tr></thead>";
+  out += folded("Every window", count,
+                "<div class=\"scroll\"><table class=\"numbers windows\">" + head + "<tbody>\n" + rows +
+                    "</tbody></table></div>\n");
+  return out + "</section>\n";
+}
+
+std::string sweep_section(const Results& results) {
+  std::string out = "<section id=\"sweep\"><h2>Error against resolution and extent</h2>\n";
+  const auto swept = [&](const std::string& name) {
+    return std::find(results.info.swept.begin(), results.info.swept.end(), name) != results.info.swept.end() &&
+           values_of(results, name).size() > 1;
+  };
+  if (!swept("map.resolution")) out += "<p class=\"small\">Resolution was not swept.</p>\n";
+  if (!swept("map.extent_m") && !swept("map.extent_scale"))
+    out += "<p class=\"small\">The frustum's extent was not swept.</p>\n";
+  size_t charts = 0;
+  for (const std::string& name : results.info.swept) {
+    const std::vector<std::string> values = values_of(results, name);
+    if (values.size() < 2 ||
+        !std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); }))
+      continue;
+    ++charts;
+    // Mean and worst over everything else: the chart's trend in numbers.
+    std::string rows;
+    for (const std::string& value : values) {
+      double sum = 0, worst = 0, best_sum = 0;
+      size_t finite = 0, of = 0, curves = 0;
+      for (const PointRecord& point : results.points) {
+        if (setting_of(point, name) != value) continue;
+        ++of;
+        if (point.curve && std::isfinite(point.curve->best_error)) best_sum += point.curve->best_error, ++curves;
+        const double error = metric_of(point, "error");
+        if (!std::isfinite(error)) continue;
+        ++finite, sum += error, worst = std::max(worst, error);
+      }
+      const double none = std::nan("");
+      rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                          html(value), cell(finite ? sum / static_cast<double>(finite) : none, "fraction"),
+                          cell(finite ? worst : none, "fraction"),
+                          curves ? cell(best_sum / static_cast<double>(curves), "fraction") : "–",
+                          finite == of ? fmt::format("{}", of) : fmt::format("{} ({} not finite)", of, of - finite));
+    }
+    const std::string unit = setting_unit(name);
+    out += fmt::format("<h3>{}</h3>\n", html(name));
+    out +=
+        chart_place(fmt::format("sweep-{}", charts),
+                    fmt::format("Error against {}; one line for each other swept setting.", html(setting_label(name))));
+    out += fmt::format(
+        "<div class=\"scroll fit\"><table class=\"numbers small-table\"><thead><tr><th>{}{}</th><th>Mean error "
+        "<small>%</small></th>"
+        "<th>Worst error <small>%</small></th><th>Mean error at best bias "
+        "<small>%</small></th><th>Points</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+        html(setting_label(name)), unit.empty() ? "" : fmt::format(" <small>{}</small>", html(unit)), rows);
+  }
+  return out + "</section>\n";
+}
+
+std::string budget_section(const Results& results) {
+  if (results.points.empty())
+    return "<section id=\"budget\"><h2>The error budget</h2>\n<p>No point was measured.</p></section>\n";
+  double largest = 0;
+  for (const PointRecord& point : results.points) {
+    double sum = 0;
+    for (const CauseColor& cause : cause_colors)
+      if (const double value = metric_of(point, std::string(cause.name));
+          is_part(cause.name) && value > 0 && std::isfinite(value))
+        sum += value;
+    largest = std::max(largest, sum);
+  }
+  std::string legend, rows;
+  for (const CauseColor& cause : cause_colors)
+    if (is_part(cause.name))
+      legend += fmt::format("<span>{}{}</span>\n", swatch(std::string(cause.name)), html(cause.label));
+  for (const PointRecord& point : results.points) {
+    std::vector<std::pair<std::string_view, double>> sizes;
+    std::string parts, told;
+    double sum = 0;
+    for (const CauseColor& cause : cause_colors) {
+      const double value = metric_of(point, std::string(cause.name));
+      if (!is_part(cause.name)) continue;
+      if (std::isnan(value) && !point.metrics.contains(std::string(cause.name))) continue;
+      told += fmt::format("{}{} {}", told.empty() ? "" : ", ", metric_label(cause.name), quantity(value, "fraction"));
+      if (!std::isfinite(value) || value <= 0) continue;
+      sum += value;
+      sizes.emplace_back(cause.name, value);
+    }
+    // Percent of the bar: factors that sum to less than 1 would not fill it.
+    for (const auto& [name, value] : sizes)
+      parts += fmt::format("<i class=\"c-{}\" style=\"flex-grow:{:.4f}\"></i>", name, 100 * value / sum);
+    const std::string phrase = settings_phrase(point, results.info.swept);
+    rows += fmt::format(
+        "<div class=\"row\" title=\"{}\"><span class=\"name\"><a href=\"#p{}\">{}</a></span>"
+        "<span class=\"track\"><span class=\"bar\" style=\"--size:{:.5f}\">{}</span></span><span "
+        "class=\"value\">{}</span></div>\n",
+        html(told), point.id, html(phrase.empty() ? fmt::format("point {}", point.id) : phrase),
+        largest > 0 ? sum / largest : 0, parts, quantity(metric_of(point, "error"), "fraction"));
+  }
+  return fmt::format(
+      "<section id=\"budget\"><h2>The error budget</h2>\n<p>What each cause adds to the error, with the bias as "
+      "rendered, as a share of counted "
+      "receivers. The number at the end is the whole error, mean |R5 − R1|; filtered causes may cancel in it, and "
+      "displacement with the others, so the bar can be longer.</p>\n"
+      "<div class=\"legend\">{}</div>\n"
+      "<div class=\"budget{}\"><input type=\"radio\" name=\"budget\" id=\"budget-size\" checked><label "
+      "for=\"budget-size\">By size</label>"
+      "<input type=\"radio\" name=\"budget\" id=\"budget-share\"><label for=\"budget-share\">By share</label>\n<div "
+      "class=\"rows\">\n{}</div></div></section>\n",
+      legend, results.points.size() > open_rows ? " many" : "", rows);
+}
+
+std::string cost_section(const Results& results) {
+  std::vector<std::pair<double, double>> plane;
+  for (const PointRecord& point : results.points)
+    plane.emplace_back(metric_of(point, "shadow_ms"), metric_of(point, "error"));
+  const std::vector<size_t> front = pareto_front(plane);
+  std::string out = "<section id=\"cost\"><h2>Speed against accuracy</h2>\n";
+  if (front.empty()) return out + "<p>No point has both a finite time and a finite error.</p></section>\n";
+  out += "<p>Points on the Pareto front: no other point is both faster and more accurate.</p>\n";
+  if (results.points.size() > 1)
+    out += chart_place("cost", "Error against the time of shadow map and lookup; the line is the Pareto front.");
+  std::string rows;
+  for (size_t i : front) {
+    const PointRecord& point = results.points[i];
+    rows += fmt::format("<tr>{}<td>{}</td><td>{}</td><td>{}</td></tr>\n", swept_cells(results, point),
+                        number(plane[i].first), cell(plane[i].second, "fraction"),
+                        point.curve ? cell(point.curve->best_error, "fraction") : "–");
+  }
+  out += folded("The Pareto front, with the bias as rendered", front.size(),
+                "<div class=\"scroll\"><table class=\"numbers\"><thead><tr>" + swept_head(results) +
+                    "<th>Shadow <small>ms</small></th><th>Error <small>%</small></th><th>Error at best bias "
+                    "<small>%</small></th></tr></thead><tbody>\n" +
+                    rows + "</tbody></table></div>\n");
+  return out + "</section>\n";
+}
+
+}  // namespace noonmark::report

@@ -1,0 +1,20 @@
+// The sections with a chart, each a function from results to HTML.
+#pragma once
+#include <string>
+
+#include "compare/store/records.h"
+
+namespace noonmark::report {
+
+std::string bias_section(const Results& results);    // error against bias: the chart's place and the windows' table
+std::string sweep_section(const Results& results);   // error against resolution, extent and other swept numbers
+std::string budget_section(const Results& results);  // bars by cause
+std::string cost_section(const Results& results);    // speed against accuracy
+
+// The figure that charts.js fills; hidden without JavaScript, when the table below says the same.
+std::string chart_place(const std::string& name, const std::string& caption);
+
+// "acne" -> a square of its colour, as HTML.
+std::string swatch(const std::string& cause);
+
+}  // namespace noonmark::report

@@ -1,0 +1,199 @@
+#include "compare/report/summary.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/judge/bounds.h"
+#include "compare/judge/laws.h"
+#include "compare/judge/poor_view.h"
+#include "compare/judge/undecided.h"
+#include "compare/report/escape.h"
+#include "compare/store/metrics.h"
+#include "compare/store/quantities.h"
+
+namespace noonmark {
+namespace {
+
+constexpr size_t best_count = 5;  // rows of the table of best settings
+
+void add_row(std::string& text, const std::vector<std::string>& cells) {
+  text += fmt::format("| {} |\n", fmt::join(cells, " | "));
+}
+void add_heading(std::string& text, const std::vector<std::string>& names) {
+  add_row(text, names);
+  add_row(text, std::vector<std::string>(names.size(), "---"));
+}
+
+// Four digits are enough for a page; the store has them all.
+std::string short_number(std::optional<double> value) {
+  if (!value) return "–";
+  return std::isnan(*value) ? std::string(not_measured) : fmt::format("{:.4g}", *value);
+}
+
+// "3 bounds", "the law"
+std::string counted(size_t count, std::string_view what) {
+  return count == 1 ? fmt::format("the {}", what) : fmt::format("all {} {}s", count, what);
+}
+
+std::string verdict(const Results& results) {
+  const auto finished = static_cast<int64_t>(results.points.size());
+  std::string broken, held;
+  const auto judge = [&](const auto& list, std::string_view what) {
+    const auto count = std::count_if(list.begin(), list.end(), [](const auto& one) { return !one.held; });
+    if (count > 0)
+      broken += fmt::format("{}{} of {} {}{}", broken.empty() ? "" : ", ", count, list.size(), what,
+                            list.size() == 1 ? "" : "s");
+    if (!list.empty()) held += (held.empty() ? "" : " and ") + counted(list.size(), what);
+  };
+  judge(results.bounds, "bound");
+  judge(results.laws, "law");
+  std::string text;
+  if (finished < results.planned_points)
+    text = fmt::format("**Incomplete: {} of {} points are finished.** Run it again to go on.", finished,
+                       results.planned_points);
+  else if (!broken.empty())
+    text = fmt::format("**Broken: {}.**", broken);
+  else if (!held.empty())
+    text = fmt::format("**Held: {} over {} point{}.**", held, finished, finished == 1 ? "" : "s");
+  else
+    text = fmt::format("**Measured {} point{}.** The experiment sets no bounds.", finished, finished == 1 ? "" : "s");
+  if (finished < results.planned_points && !broken.empty()) text += fmt::format(" Broken so far: {}.", broken);
+  return text + "\n";
+}
+
+std::string laws_table(const Results& results) {
+  std::string text = "\n## Laws\n\n";
+  add_heading(text, {"", "law", "samples", "predicted", "measured", "measured / predicted"});
+  for (const LawResult& law : results.laws) {
+    const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
+    add_row(text,
+            {law.held ? "holds" : "**broken**", markdown(law.name), fmt::format("{}", law.samples.size()),
+             markdown(predicted_text(law)), worst ? short_number(worst->measured) : "–", markdown(ratio_text(law))});
+  }
+  for (const LawResult& law : results.laws)
+    if (!law.held) text += "\n" + markdown_block(law_table({&law, 1}));
+  bool any = false;
+  for (const LawResult& law : results.laws) {
+    if (law.found.empty()) continue;
+    text += fmt::format("{}- {}\n", any ? "" : "\n### Found\n\n", markdown(law.found));
+    any = true;
+  }
+  return text;
+}
+
+std::string bounds_table(const Results& results) {
+  std::string text = "\n## Bounds\n\n";
+  add_heading(text, {"", "bound", "found", "points", "worst at"});
+  for (const BoundResult& bound : results.bounds) {
+    std::vector<std::string> at;
+    if (const PointRecord* point = find_point(results.points, bound.point))
+      for (const std::string& name : results.info.swept) {
+        const auto setting = point->settings.find(name);
+        if (setting != point->settings.end()) at.push_back(fmt::format("{} = {}", name, setting->second));
+      }
+    add_row(text, {bound.held ? "held" : "**broken**", markdown(bound_text(bound)),
+                   bound.points == 0 ? "–" : short_number(bound.found), fmt::format("{}", bound.points),
+                   markdown(fmt::format("{}", fmt::join(at, ", ")))});
+  }
+  for (const BoundResult& bound : results.bounds) {
+    if (bound.held) continue;
+    const std::string why = describe(bound, find_point(results.points, bound.point), results.info.swept);
+    text += "\n" + markdown_block(why);
+  }
+  return text;
+}
+
+// What the points' curves vary, or "bias" where they vary different parameters.
+std::string curve_parameter(const Results& results) {
+  std::string parameter;
+  for (const PointRecord& point : results.points) {
+    if (!point.curve) continue;
+    if (!parameter.empty() && parameter != point.curve->parameter) return "bias";
+    parameter = point.curve->parameter;
+  }
+  return parameter.empty() ? "bias" : parameter;
+}
+
+std::string best_table(const Results& results) {
+  std::vector<const PointRecord*> order;
+  for (const PointRecord& point : results.points)
+    if (std::isfinite(quantity(point, "error").value_or(std::numeric_limits<double>::infinity())))
+      order.push_back(&point);
+  if (order.empty()) return "\nNo point has an error that could be measured.\n";
+  // Least error first, then least time; what could not be measured last.
+  const auto key = [](const PointRecord* point, std::string_view name) {
+    const double value = quantity(*point, name).value_or(std::numeric_limits<double>::infinity());
+    return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](const PointRecord* a, const PointRecord* b) {
+    return std::pair(key(a, "error"), key(a, "shadow_ms")) < std::pair(key(b, "error"), key(b, "shadow_ms"));
+  });
+  order.resize(std::min(order.size(), best_count));
+
+  std::string text =
+      order.size() == 1 ? "\n## The point\n\n" : "\n## Best settings: the least error at the bias that was set\n\n";
+  std::vector<std::string> heading;
+  for (const std::string& name : results.info.swept) heading.push_back(markdown(name));
+  for (const char* name : {"error", "acne", "Peter Panning", "aliasing", "ms"}) heading.emplace_back(name);
+  const std::string parameter = markdown(curve_parameter(results));
+  heading.push_back(fmt::format("usable {} (depth)", parameter));
+  heading.push_back(fmt::format("best {} (depth)", parameter));
+  for (const char* name : {"(m)", "(texels)", "error there"}) heading.emplace_back(name);
+  add_heading(text, heading);
+  for (const PointRecord* point : order) {
+    std::vector<std::string> cells;
+    for (const std::string& name : results.info.swept) {
+      const auto setting = point->settings.find(name);
+      cells.push_back(markdown(setting == point->settings.end() ? "–" : setting->second));
+    }
+    for (const char* name : {"error", "acne", "peter_panning", "aliasing", "shadow_ms"})
+      cells.push_back(short_number(quantity(*point, name)));
+    const std::optional<double> min = quantity(*point, "window_min_depth"), max = quantity(*point, "window_max_depth");
+    cells.push_back(min && max     ? fmt::format("{} … {}", short_number(min), short_number(max))
+                    : point->curve ? "none"
+                                   : "–");
+    for (const char* name : {"best_bias_depth", "best_bias_m", "best_bias_texels", "best_error"})
+      cells.push_back(short_number(quantity(*point, name)));
+    add_row(text, cells);
+  }
+
+  const auto with_curve = std::count_if(results.points.begin(), results.points.end(),
+                                        [](const PointRecord& p) { return p.curve.has_value(); });
+  const auto without_window = std::count_if(results.points.begin(), results.points.end(),
+                                            [](const PointRecord& p) { return p.curve && !p.curve->window_min_depth; });
+  if (without_window > 0)
+    text += fmt::format("\nAt {} of {} points no bias keeps both acne and Peter Panning within the curve's bounds.\n",
+                        without_window, with_curve);
+  return text;
+}
+
+}  // namespace
+
+std::string to_summary(const Results& results) {
+  const RunInfo& info = results.info;
+  std::string text =
+      fmt::format("# {}\n\n{}", markdown(info.title.empty() ? "Noonmark" : info.title), verdict(results));
+  if (const std::string poor = poor_view_note(results.points); !poor.empty())
+    text += fmt::format("\nNote: {}.\n", markdown(poor));
+  if (const std::string doubt = undecided_note(results.points); !doubt.empty())
+    text += fmt::format("\nNote: {}.\n", markdown(doubt));
+  if (!results.laws.empty()) text += laws_table(results);
+  if (!results.bounds.empty()) text += bounds_table(results);
+  // Points of different parts are not there to be compared.
+  if (!results.points.empty() && results.points.front().part.empty()) text += best_table(results);
+  text +=
+      fmt::format("\nMade by noonmark {} ({}) on {}; Embree {} ({}).\n", markdown(info.version), markdown(info.commit),
+                  markdown(info.gl_renderer), markdown(info.embree_version), markdown(info.embree_isa));
+  return text;
+}
+
+std::string to_summary(const Unjudged& unjudged) {
+  return fmt::format("# {}\n\n**Not judged (exit code {}): {}**\n", markdown(unjudged.experiment), unjudged.exit_code,
+                     markdown(unjudged.why));
+}
+
+}  // namespace noonmark

@@ -1,0 +1,209 @@
+#include "compare/report/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <initializer_list>
+
+#include "compare/report/cause_colors.h"
+#include "compare/report/sections.h"
+#include "compare/report/text.h"
+#include "compare/store/metrics.h"
+#include "compare/store/quantities.h"
+#include "technique/settings.h"
+
+namespace noonmark::report {
+namespace {
+
+std::string_view mime_of(const std::string& path) {
+  if (path.ends_with(".png")) return "image/png";
+  if (path.ends_with(".jpg") || path.ends_with(".jpeg")) return "image/jpeg";
+  return "";
+}
+
+std::string picture(const PictureRecord& record, const std::function<std::string(const std::string&)>& read_file) {
+  std::string bytes, why = "it is empty";
+  if (mime_of(record.path).empty()) {
+    why = "browsers cannot show this kind of file";
+  } else {
+    try {
+      bytes = read_file(record.path);
+    } catch (const std::exception& error) {
+      why = error.what();
+    }
+  }
+  const std::string shown =
+      bytes.empty()
+          ? fmt::format("<p class=\"missing\">The picture {} is not shown: {}.</p>", html(record.path), html(why))
+          : fmt::format("<img alt=\"{}: {}\" src=\"data:{};base64,{}\">", html(record.name), html(record.caption),
+                        mime_of(record.path), base64(bytes));
+  return fmt::format("<figure data-name=\"{0}\">{1}<figcaption><b>{0}</b> {2}</figcaption></figure>\n",
+                     html(record.name), shown, html(record.caption));
+}
+
+// A metric that has the same value at every point needs no column.
+bool varies(const Results& results, const std::string& name) {
+  const auto text = [&](const PointRecord& point) {
+    return point.metrics.contains(name) ? fmt::format("{}", point.metrics.at(name)) : "";
+  };
+  return std::any_of(results.points.begin(), results.points.end(),
+                     [&](const PointRecord& point) { return text(point) != text(results.points.front()); });
+}
+
+std::string pair(const std::string& name, const std::string& value) {
+  return value.empty() ? "" : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", html(name), html(value));
+}
+
+std::string joined(std::initializer_list<std::string> parts) {
+  std::string out;
+  for (const std::string& part : parts)
+    if (!part.empty()) out += (out.empty() ? "" : ", ") + part;
+  return out;
+}
+
+}  // namespace
+
+std::string pictures_section(const Results& results, const std::function<std::string(const std::string&)>& read_file) {
+  std::string sets;
+  for (const PointRecord& point : results.points) {
+    if (point.pictures.empty()) continue;
+    const std::string phrase = settings_phrase(point, results.info.swept);
+    sets += fmt::format("<div class=\"pictures\" data-point=\"{0}\"><h3>Point {0}{1}</h3>\n", point.id,
+                        phrase.empty() ? "" : ": " + html(phrase));
+    if (point.worst.x >= 0)
+      sets += fmt::format("<p class=\"small\">Worst pixel: ({}, {}) from the top left, wrong by {}{}.</p>\n",
+                          point.worst.x, point.worst.y, number(point.worst.error),
+                          point.worst.cause.empty() ? "" : ", " + html(metric_label(point.worst.cause)));
+    sets += "<div class=\"stage\">\n";
+    for (const PictureRecord& record : point.pictures) sets += picture(record, read_file);
+    sets += "</div></div>\n";
+  }
+  std::string out = "<section id=\"pictures\"><h2>Pictures</h2>\n";
+  if (sets.empty()) return out + "<p>No pictures were kept.</p></section>\n";
+  out +=
+      "<p class=\"js-only small\">Flip with <kbd>←</kbd> <kbd>→</kbd> or the number keys.</p>\n<div "
+      "class=\"legend\">\n";
+  for (const CauseColor& color : cause_colors)
+    if (color.name != "aliasing" && color.name != "coverage")
+      out += fmt::format("<span>{}{}</span>\n", swatch(std::string(color.name)), html(color.label));
+  for (const CauseColor& color : pixel_state_colors)
+    out += fmt::format("<span>{}{}</span>\n", swatch(std::string(color.name)), html(color.label));
+  return out + "</div>\n<div class=\"picture-picker js-only\"></div>\n" + sets + "</section>\n";
+}
+
+std::string points_section(const Results& results) {
+  std::string out = "<section id=\"points\"><h2>Every point</h2>\n";
+  if (results.points.empty()) return out + "<p>No point was measured.</p></section>\n";
+  std::vector<const Metric*> columns;
+  std::string same;
+  for (const Metric& metric : metrics_table()) {
+    const std::string name(metric.name);
+    if (results.points.size() == 1 || varies(results, name))
+      columns.push_back(&metric);
+    else if (results.points.front().metrics.contains(name))
+      same += fmt::format("{}{} {}", same.empty() ? "" : ", ", html(metric_label(name)),
+                          quantity(metric_of(results.points.front(), name), metric.unit));
+  }
+  const bool parts = !results.points.front().part.empty();  // then the page has no chart of bias curves
+  out += fmt::format("<p class=\"js-only small\">Click a head to sort{}.</p>\n",
+                     parts ? "" : ", a row to see its bias curve");
+  out += "<div class=\"scroll tall\"><table class=\"numbers sortable\"><thead><tr><th>Point</th>";
+  if (parts) out += "<th>Part</th>";
+  for (const std::string& name : results.info.swept) {
+    const std::string unit = setting_unit(name);
+    out += fmt::format("<th title=\"{}\">{}{}</th>", html(name), html(setting_label(name)),
+                       unit.empty() ? "" : fmt::format(" <small>{}</small>", html(unit)));
+  }
+  for (const Metric* metric : columns)
+    out +=
+        fmt::format("<th title=\"{}\">{}{}</th>", html(metric->help), html(metric_label(metric->name)),
+                    head_unit(metric->unit).empty() ? "" : fmt::format(" <small>{}</small>", head_unit(metric->unit)));
+  out += "</tr></thead><tbody>\n";
+  for (const PointRecord& point : results.points) {
+    out += fmt::format("<tr id=\"p{0}\" data-point=\"{0}\"><th scope=\"row\" data-v=\"{0}\">{0}</th>", point.id);
+    if (parts) out += fmt::format("<td class=\"text\" data-v=\"{0}\">{0}</td>", html(point.part));
+    for (const std::string& name : results.info.swept) {
+      const std::string value = setting_of(point, name);
+      out += fmt::format("<td data-v=\"{0}\">{0}</td>", html(value));
+    }
+    for (const Metric* metric : columns) {
+      const std::string name(metric->name);
+      if (!point.metrics.contains(name)) {
+        out += "<td>–</td>";
+        continue;
+      }
+      const double value = point.metrics.at(name);
+      out += fmt::format("<td data-v=\"{}\"{}>{}</td>", value, std::isfinite(value) ? "" : " class=\"fails\"",
+                         cell(value, metric->unit));
+    }
+    out += "</tr>\n";
+  }
+  out += "</tbody></table></div>\n";
+  if (!same.empty()) out += fmt::format("<p class=\"small\">The same at every point: {}.</p>\n", same);
+  return out + "</section>\n";
+}
+
+std::string meaning_section(const Results& results) {
+  std::string out =
+      "<section id=\"meaning\"><h2>What the numbers mean</h2>\n<p>Every pixel that sees a surface facing the light is "
+      "asked the same question, how lit is "
+      "it?, by a ladder of methods that differ in one respect from rung to rung: R0 the light with its size; R1 one "
+      "exact ray to its centre; R2 the "
+      "filter's taps at their exact places (and, where the technique looks elsewhere, at those); R3 the taps where the "
+      "map sampled; R4 the technique on an exact depth map; R5 what the GPU showed. Each "
+      "step is the effect of one cause. Fractions are of the counted receivers: facing the light, and with a truth "
+      "that is not ambiguous.</p>\n<dl class=\"terms\">\n";
+  for (const Metric& metric : metrics_table())
+    out += fmt::format("<div><dt>{} <code>{}</code>{}</dt><dd>{}</dd></div>\n", html(metric_label(metric.name)),
+                       html(metric.name),
+                       head_unit(metric.unit).empty() ? "" : fmt::format(" <small>{}</small>", head_unit(metric.unit)),
+                       html(metric.help));
+  out += "</dl>\n";
+  std::string swept;
+  for (const std::string& name : results.info.swept)
+    for (const Setting& row : settings_table())
+      if (row.name == name)
+        swept += fmt::format("<div><dt><code>{}</code>{}</dt><dd>{} Range: {}.</dd></div>\n", html(name),
+                             row.unit.empty() ? "" : fmt::format(" <small>{}</small>", html(row.unit)), html(row.help),
+                             html(row.range_text()));
+  if (!swept.empty()) out += "<h3>The swept settings</h3><dl class=\"terms\">\n" + swept + "</dl>\n";
+  return out + "</section>\n";
+}
+
+std::string making_section(const Results& results) {
+  const RunInfo& info = results.info;
+  std::string out = "<section id=\"making\"><h2>How it was made</h2>\n<dl class=\"made\">\n";
+  out += pair("Command", info.command) + pair("Experiment", info.experiment) + pair("Started", info.started);
+  out += pair("Noonmark", info.version + (info.commit.empty() ? "" : ", commit " + info.commit));
+  out +=
+      pair("Scene",
+           joined({info.scene_name, fmt::format("{} triangles", cell(static_cast<double>(info.triangles), "count"))}));
+  out += pair("Processor", info.host_cpu);
+  out += pair("OpenGL", joined({info.gl_renderer, info.gl_vendor, info.gl_version}));
+  out += pair("Times from", info.gl_timer);
+  out += pair("Embree", joined({info.embree_version, info.embree_isa}));
+  std::string libraries;
+  for (const auto& [name, version] : info.libraries)
+    libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
+  out += pair("Libraries", libraries) + "</dl>\n";
+  for (const char* software : {"llvmpipe", "softpipe", "swrast", "SwiftShader"})
+    if (info.gl_renderer.find(software) != std::string::npos)
+      out += fmt::format(
+          "<p class=\"note\">{} renders on the processor: its times are <b>software times</b>. They rank settings "
+          "roughly as a GPU would, and say "
+          "nothing about a GPU's milliseconds.</p>\n",
+          software);
+  // Settings that every point shares, for whoever makes it again.
+  std::string fixed;
+  if (!results.points.empty())
+    for (const auto& [name, value] : results.points.front().settings)
+      if (std::find(info.swept.begin(), info.swept.end(), name) == info.swept.end()) fixed += pair(name, value);
+  if (!fixed.empty())
+    out += "<details><summary>The settings that were not swept</summary><dl class=\"made\">\n" + fixed +
+           "</dl></details>\n";
+  return out + "</section>\n";
+}
+
+}  // namespace noonmark::report

@@ -1,0 +1,16 @@
+// The sections below the charts: pictures, points, what the words mean, how the results were made.
+#pragma once
+#include <functional>
+#include <string>
+
+#include "compare/store/records.h"
+
+namespace noonmark::report {
+
+// read_file: as render_report() has it.
+std::string pictures_section(const Results& results, const std::function<std::string(const std::string&)>& read_file);
+std::string points_section(const Results& results);
+std::string meaning_section(const Results& results);
+std::string making_section(const Results& results);
+
+}  // namespace noonmark::report

@@ -1,0 +1,199 @@
+#include "compare/report/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compare/report/rules.h"
+#include "compare/store/quantities.h"
+#include "scenes/text.h"
+#include "technique/settings.h"
+
+namespace noonmark::report {
+namespace {
+
+constexpr std::string_view thin_space = "\u202f";
+
+// Groups of three from 10 000 on; 1234 reads well as it is.
+std::string grouped(double whole) {
+  std::string digits = fmt::format("{:.0f}", whole);
+  const size_t first = digits.find_first_of("0123456789");
+  if (digits.size() - first < 5) return digits;
+  for (size_t i = digits.size() - 3; i > first; i = i < 3 ? 0 : i - 3) digits.insert(i, thin_space);
+  return digits;
+}
+
+const Setting* row_of(const std::string& name) {
+  for (const Setting& row : settings_table())
+    if (row.name == name) return &row;
+  return nullptr;
+}
+
+std::string value_phrase(const std::string& value, const std::string& unit) {
+  std::string out = value.empty() ? "unknown" : value;
+  if (!unit.empty() && number_of(value)) out += fmt::format("{}{}", thin_space, unit);
+  return out;
+}
+
+void strip_suffix(std::string& text, std::string_view suffix) {
+  if (text.ends_with(suffix)) text.resize(text.size() - suffix.size());
+}
+
+}  // namespace
+
+std::string html(std::string_view text) {
+  // nlohmann's writer replaces what is not UTF-8; reading back undoes only its escapes.
+  const std::string dumped = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::string valid = nlohmann::json::parse(dumped).get<std::string>();
+  std::string out;
+  for (std::string_view rest = valid; !rest.empty();) {
+    const std::string_view character = rest.substr(0, std::max<size_t>(utf8_length(rest), 1));
+    rest.remove_prefix(character.size());
+    if (character == "&")
+      out += "&amp;";
+    else if (character == "<")
+      out += "&lt;";
+    else if (character == ">")
+      out += "&gt;";
+    else if (character == "\"")
+      out += "&quot;";
+    else if (character == "'")
+      out += "&#39;";
+    else if (is_control(character) && character != "\n" && character != "\t")
+      out += "\uFFFD";
+    else
+      out += character;
+  }
+  return out;
+}
+
+std::string script_json(const nlohmann::json& value) {
+  std::string out;
+  for (char c : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
+    // These stand only inside strings, where JSON takes an escape.
+    if (c == '<' || c == '>' || c == '&')
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    uint32_t group = 0;
+    for (size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+std::string number(double value) {
+  if (!std::isfinite(value)) return "not finite";
+  const double size = std::abs(value);
+  if (size == 0) return "0";
+  if (size >= 999.5 && size < 1e9) return grouped(value);
+  if (size >= 1e-4 && size < 1e9) {
+    std::string text = fmt::format("{:.{}f}", value, std::max(0, 2 - static_cast<int>(std::floor(std::log10(size)))));
+    while (text.find('.') != std::string::npos && (text.back() == '0' || text.back() == '.')) {
+      const bool point = text.back() == '.';
+      text.pop_back();
+      if (point) break;
+    }
+    return text;
+  }
+  const std::string text = fmt::format("{:.2e}", value);
+  const size_t e = text.find('e');
+  std::string mantissa = text.substr(0, e), power;
+  while (mantissa.back() == '0') mantissa.pop_back();
+  if (mantissa.back() == '.') mantissa.pop_back();
+  constexpr std::string_view raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  for (char digit : fmt::format("{}", std::stoi(text.substr(e + 1)))) power += digit == '-' ? "⁻" : raised[digit - '0'];
+  return mantissa + "×10" + power;
+}
+
+std::string_view head_unit(std::string_view unit) {
+  if (unit == "fraction") return "%";
+  return unit == "count" ? "" : unit;
+}
+
+std::string cell(double value, std::string_view unit) {
+  if (!std::isfinite(value)) return "not finite";
+  if (unit == "count") return grouped(value);
+  return number(unit == "fraction" ? 100 * value : value);
+}
+
+std::string quantity(double value, std::string_view unit) {
+  const std::string text = cell(value, unit);
+  const std::string_view shown = head_unit(unit);
+  return shown.empty() || !std::isfinite(value) ? text : fmt::format("{}{}{}", text, thin_space, shown);
+}
+
+std::string setting_label(const std::string& name) {
+  std::string label = name.starts_with("map.") ? name.substr(4) : name;
+  for (std::string_view suffix : {".kind", ".name", "_m", "_deg", "_px"}) strip_suffix(label, suffix);
+  std::replace_if(
+      label.begin(), label.end(), [](char c) { return c == '.' || c == '_'; }, ' ');
+  return label;
+}
+
+std::string setting_unit(const std::string& name) {
+  const Setting* row = row_of(name);
+  return row ? std::string(row->unit) : std::string();
+}
+
+std::string settings_phrase(const PointRecord& point, const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) {
+    // The unit of a bias is itself a setting.
+    std::string unit = setting_unit(name);
+    if (unit == "bias.unit") unit = setting_of(point, "bias.unit");
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", setting_label(name),
+                       value_phrase(setting_of(point, name), unit));
+  }
+  return out;
+}
+
+std::string rule_phrase(const Rule& rule) {
+  std::string out;
+  for (const Condition& condition : rule.all) {
+    const char* is = condition.is == Condition::Is::at_most    ? "at most "
+                     : condition.is == Condition::Is::at_least ? "at least "
+                                                               : "";
+    std::string unit = setting_unit(condition.setting);
+    if (unit == "bias.unit") unit.clear();
+    if (condition.setting == texel_size) {
+      out += fmt::format("{}texels of {}{}{}m", out.empty() ? "" : " and ", is, number(*number_of(condition.value)),
+                         thin_space);
+      continue;
+    }
+    out += fmt::format("{}{} {}{}", out.empty() ? "" : " and ", setting_label(condition.setting), is,
+                       value_phrase(condition.value, unit));
+  }
+  return out;
+}
+
+std::string bias_phrase(double depth, const BiasCurve& curve) {
+  return fmt::format("{0}{1}depth = {2}{1}m = {3}{1}texels", number(depth), thin_space,
+                     number(depth * curve.m_per_depth), number(depth * curve.texels_per_depth));
+}
+
+std::string metric_label(std::string_view name) {
+  if (name == "peter_panning") return "Peter Panning";
+  std::string label(name);
+  if (label.starts_with("peter_panning_")) label = "Peter Panning" + label.substr(13);
+  for (std::string_view suffix : {"_ms", "_texels", "_pixels"}) strip_suffix(label, suffix);
+  if (name.ends_with("_gap_m")) strip_suffix(label, "_m");
+  std::replace(label.begin(), label.end(), '_', ' ');
+  if (!label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+  return label;
+}
+
+}  // namespace noonmark::report

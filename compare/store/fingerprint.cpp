@@ -1,0 +1,42 @@
+#include "compare/store/fingerprint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace noonmark {
+namespace {
+
+// The lines "name = value" of a fingerprint, in order.
+std::vector<std::pair<std::string, std::string>> named_lines(const std::string& text) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.emplace_back(line.substr(0, line.find(" = ")), line);
+  return lines;
+}
+
+}  // namespace
+
+std::string first_difference(const std::string& here, const std::string& there) {
+  const auto a = named_lines(here), b = named_lines(there);
+  const auto find = [](const auto& lines, const std::string& name) {
+    return std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.first == name; });
+  };
+  for (const auto& [name, line] : a) {
+    const auto other = find(b, name);
+    if (other == b.end()) return fmt::format("now '{}', there nothing of the kind", line);
+    if (other->second == line) continue;
+    // "scene street.glb (its settings) = a digest": the digests tell nobody anything.
+    if (const size_t settings = name.rfind(" ("); name.starts_with("scene ") && settings != name.npos)
+      return fmt::format("the contents of the {} have changed since these were stored", name.substr(0, settings));
+    return fmt::format("now '{}', there '{}'", line, other->second);
+  }
+  for (const auto& [name, line] : b)
+    if (find(a, name) == a.end()) return fmt::format("there '{}', now nothing of the kind", line);
+  return "the same settings in another order";
+}
+
+}  // namespace noonmark

@@ -1,0 +1,20 @@
+// The table of metrics: one row names a number of a point, its unit and its meaning. The store, the bounds, the
+// experiment file and the report read it; compare/ladder/ladder.h's findings are its input.
+#pragma once
+#include <span>
+#include <string_view>
+
+namespace noonmark {
+
+struct Metric {
+  std::string_view name;
+  std::string_view unit;  // "fraction", "m", "depth", "texels", "pixels", "count", "ms"; "": a plain number
+  std::string_view help;  // one sentence
+  bool plotted;           // whether a chart over the sweep makes sense
+};
+
+std::span<const Metric> metrics_table();
+// Throws Error(usage) that suggests the nearest name.
+const Metric& find_metric(std::string_view name);
+
+}  // namespace noonmark

@@ -1,0 +1,177 @@
+#include "compare/store/sqlite.h"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+#include "scenes/digest.h"
+#include "scenes/error.h"
+
+namespace noonmark::sqlite {
+namespace {
+
+// How long to wait for a reader, such as an analyst's query, to let go of the file.
+constexpr int busy_timeout_ms = 30000;
+
+// way_out: of Database.
+std::string advice(int code, std::string_view way_out) {
+  switch (code & 0xff) {
+    case SQLITE_NOTADB:
+    case SQLITE_CORRUPT:
+      return std::string(way_out);
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return "another program holds it; wait for it to end";
+    case SQLITE_FULL:
+      return "make room on the disk and run again; finished points are kept";
+    case SQLITE_READONLY:
+    case SQLITE_CANTOPEN:
+    case SQLITE_PERM:
+      return "check that its folder exists and may be written to";
+    default:
+      return "check the disk";
+  }
+}
+
+// SQLite opens these by itself, beside the file that a link leads to, and would wait without end for a pipe.
+void require_files_beside(const std::string& path, std::string_view way_out) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  for (const fs::path& file : {fs::path(path), fs::canonical(path, none)}) {
+    for (const char* ending : {"-journal", "-wal", "-shm"}) {
+      const std::string beside = file.native() + ending;
+      const fs::file_status status = fs::symlink_status(beside, none);
+      if (!file.empty() && fs::exists(status) && !fs::is_regular_file(status))
+        throw Error(ErrorKind::scene, fmt::format("{}: is not a regular file; {}", beside, way_out));
+    }
+  }
+}
+
+}  // namespace
+
+Database::Database(const std::string& path, Mode mode) : path_(path), mode_(mode) {
+  std::error_code none;
+  const auto status = std::filesystem::status(path, none);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw Error(ErrorKind::scene, fmt::format("{}: is not a regular file; {}", path, way_out()));
+  require_files_beside(path, way_out());
+  const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
+  const int code = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
+  if (code != SQLITE_OK) {
+    // A failed open leaves a handle that must be closed all the same; the destructor does not run.
+    const std::string what = handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
+    sqlite3_close(handle_);
+    throw Error(ErrorKind::scene, fmt::format("{}: cannot be opened: {}; {}", path, what, advice(code, way_out())));
+  }
+  sqlite3_extended_result_codes(handle_, 1);
+  sqlite3_busy_timeout(handle_, busy_timeout_ms);
+  // A file of unknown origin: nothing in it works by itself, and no statement can break it.
+  for (const auto& [option, on] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1},
+                                   {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
+                                   {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0}})
+    sqlite3_db_config(handle_, option, on, nullptr);
+}
+
+std::string_view Database::way_out() const {
+  return mode_ == Mode::create ? "choose another --out, or pass --overwrite to replace it"
+                               : "run the experiment into this folder again, with --overwrite";
+}
+
+Database::~Database() { sqlite3_close(handle_); }
+
+void Database::execute(const std::string& sql) {
+  const int code = sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK) fail(code, "cannot be used");
+}
+
+std::optional<std::string> Database::ask(const std::string& sql) {
+  Statement statement(*this, sql);
+  if (!statement.step()) return std::nullopt;
+  return statement.text(0);
+}
+
+void Database::fail(int code, std::string_view doing) const {
+  throw Error(ErrorKind::scene,
+              fmt::format("{}: {}: {}; {}", path_, doing, sqlite3_errmsg(handle_), advice(code, way_out())));
+}
+
+Transaction::~Transaction() {
+  // After some errors SQLite has rolled back by itself, and then this one has nothing left to do.
+  if (open_) sqlite3_exec(db_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void Transaction::commit() {
+  db_.execute("COMMIT");
+  open_ = false;
+}
+
+Statement::Statement(Database& db, const std::string& sql) : db_(db) {
+  check(sqlite3_prepare_v2(db.handle(), sql.c_str(), static_cast<int>(sql.size()), &handle_, nullptr),
+        "cannot be read");
+}
+
+Statement::~Statement() { sqlite3_finalize(handle_); }
+
+void Statement::check(int code, std::string_view doing) const {
+  if (code != SQLITE_OK) db_.fail(code, doing);
+}
+
+void Statement::bind(int index, int64_t value) {
+  check(sqlite3_bind_int64(handle_, index, value), "cannot be written");
+}
+void Statement::bind(int index, double value) {
+  check(sqlite3_bind_double(handle_, index, value), "cannot be written");
+}
+void Statement::bind(int index, std::string_view value) {
+  check(sqlite3_bind_text64(handle_, index, value.data(), value.size(), SQLITE_TRANSIENT, SQLITE_UTF8),
+        "cannot be written");
+}
+void Statement::bind(int index, const std::optional<double>& value) {
+  if (value)
+    bind(index, *value);
+  else
+    check(sqlite3_bind_null(handle_, index), "cannot be written");
+}
+
+bool Statement::step() {
+  const int code = sqlite3_step(handle_);
+  if (code == SQLITE_ROW) return true;
+  if (code != SQLITE_DONE) db_.fail(code, "cannot be read");
+  return false;
+}
+
+void Statement::finish() {
+  const int code = sqlite3_step(handle_);
+  const int reset = sqlite3_reset(handle_);
+  if (code != SQLITE_DONE) db_.fail(reset, "cannot be written");
+}
+
+bool Statement::null(int column) const { return sqlite3_column_type(handle_, column) == SQLITE_NULL; }
+int64_t Statement::integer(int column) const { return sqlite3_column_int64(handle_, column); }
+double Statement::real(int column) const {
+  return null(column) ? std::numeric_limits<double>::quiet_NaN() : sqlite3_column_double(handle_, column);
+}
+std::string Statement::text(int column) const {
+  const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(handle_, column));
+  return data ? std::string(data, static_cast<size_t>(sqlite3_column_bytes(handle_, column))) : std::string();
+}
+
+void Statement::add_to(Digest& digest) const {
+  const int columns = sqlite3_column_count(handle_);
+  digest.value(columns);
+  for (int column = 0; column < columns; ++column) {
+    const int type = sqlite3_column_type(handle_, column);
+    digest.value(type);
+    if (type == SQLITE_INTEGER)
+      digest.value(integer(column));
+    else if (type == SQLITE_FLOAT)
+      digest.value(real(column));
+    else if (type != SQLITE_NULL)
+      digest.text(text(column));
+  }
+}
+
+}  // namespace noonmark::sqlite
