@@ -19,6 +19,6 @@ bool has_size(const Light& light);
 // `facing`: 0.
 Image<float> sample_light(const Scene& scene, const EmbreeScene& embree, const ReceiverImage& receivers,
                           const std::vector<uint32_t>& facing, const LightFrame& frame, const Light& light,
-                          double standard_error, uint64_t& rays);
+                          double standard_error);
 
 }  // namespace noonmark

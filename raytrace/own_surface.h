@@ -30,8 +30,10 @@ struct SurfacePoint {
 
 class OwnSurface {
  public:
-  OwnSurface(const EmbreeScene& embree, const Adjacency& adjacency, const LightView& view)
-      : embree_(embree), adjacency_(adjacency), view_(view), silhouettes_(adjacency, view, beside_m()) {}
+  // silhouettes: of the same light. All of them must outlive it.
+  OwnSurface(const EmbreeScene& embree, const Adjacency& adjacency, const LightView& view,
+             const Silhouettes& silhouettes)
+      : embree_(embree), adjacency_(adjacency), view_(view), silhouettes_(silhouettes) {}
 
   SurfacePoint point(glm::dvec3 light, uint32_t primitive, bool lit) const;  // light: P in the light's frame
 
@@ -41,13 +43,12 @@ class OwnSurface {
     bool sure = true;
   };
 
-  // hit: the triangle of the first hit on the light ray through x, or no_primitive. rays: counts those cast here.
-  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, uint64_t& rays) const;
+  // hit: the triangle of the first hit on the light ray through x, or no_primitive.
+  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const;
 
   // Where V changes between two places with different verdicts, to 2^-8 of the way: the distance from `from` to there,
   // in texels.
-  double edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from,
-                              uint64_t& rays) const;
+  double edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from) const;
 
   // Does the light ray through x pass the triangle, in double?
   bool covers(uint32_t triangle, glm::dvec3 x) const;
@@ -63,27 +64,27 @@ class OwnSurface {
   Sheet walk(const SurfacePoint& p, glm::dvec3 x, bool over_seams = true) const;
 
  private:
-  uint32_t first_hit(glm::dvec3 x, uint64_t& rays) const;
+  uint32_t first_hit(glm::dvec3 x) const;
   // The same, exactly: of all that the ray through x meets, and of the sheets that end so near that it may have passed
   // them by, the first that covers x in double.
-  uint32_t exact_first(glm::dvec3 x, uint64_t& rays) const;
+  uint32_t exact_first(glm::dvec3 x) const;
 
   // The verdict at this one hit, crossed: the silhouettes between P and x.
-  Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const std::vector<Silhouettes::Crossing>& crossed,
-                  uint64_t& rays) const;
+  Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
+                  const std::vector<Silhouettes::Crossing>& crossed) const;
   // Silhouettes within this distance of x may part the ray that was cast from the exact one, or from one as far away.
-  double beside_m() const { return 2 * view_.ray_error_m(); }
+  double beside_m() const { return Silhouettes::reach_of(view_); }
   uint32_t next_on_sheet(uint32_t triangle, int edge, uint32_t from, glm::dvec3 x) const;
   // end: of the sheet, in the light's frame.
   uint32_t across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x) const;
   // Has the first-hit depth no jump between P, lit, and x? It can have one only where the way crosses a silhouette.
   Verdict continuous(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
-                     const std::vector<Silhouettes::Crossing>& crossed, uint64_t& rays) const;
+                     const std::vector<Silhouettes::Crossing>& crossed) const;
   // Do the two first hits on either side of these crossings belong together, but for the rounding of their vertices?
   Verdict joins(uint32_t before, uint32_t after, const std::vector<Silhouettes::Crossing>& at, size_t first,
                 size_t last, const auto& place) const;
   // Does a surface go on at P, lit, where P's own rounding put it beside its triangle?
-  bool goes_on_at(const SurfacePoint& p, uint64_t& rays) const;
+  bool goes_on_at(const SurfacePoint& p) const;
   // Is this hit P's own sheet, or behind it, but for the ray's error?
   bool may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const;
   double length_m(const SurfacePoint& p, glm::dvec3 x) const;  // of the way, across the light's rays at P
@@ -96,7 +97,7 @@ class OwnSurface {
   const EmbreeScene& embree_;
   const Adjacency& adjacency_;
   const LightView& view_;
-  Silhouettes silhouettes_;
+  const Silhouettes& silhouettes_;
 };
 
 }  // namespace noonmark

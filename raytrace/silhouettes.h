@@ -1,7 +1,7 @@
 // Where the light-side depth may jump: the edges at which a surface, as the light sees it, does not go on (folds and
 // boundaries), in grids over what the light sees: its plane, or the six faces of a cube around it. A ray that keeps its
 // distance from all of them meets what the exact ray meets; the few that do not are asked again beside their places.
-// Built once for a light.
+// Built once for a light (raytrace/traced_scene.h).
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -16,6 +16,9 @@ class Silhouettes {
  public:
   // reach_m: how near is near, in metres across the light's rays.
   Silhouettes(const Adjacency& adjacency, const LightView& view, double reach_m);
+  // How near is near enough that the ray that was cast may have passed on the other side than the exact one, or than
+  // one as far away.
+  static double reach_of(const LightView& view) { return 2 * view.ray_error_m(); }
 
   // Is x within reach of such an edge, or nearer than that?
   bool near(glm::dvec3 x) const { return near(x, reach_m_); }
@@ -28,9 +31,9 @@ class Silhouettes {
   void near(glm::dvec3 x, std::vector<uint32_t>& triangles) const { near_listed(x, reach_m_, &triangles); }
 
   struct Crossing {
-    double t = 0;        // fraction of the way
-    double sine = 1;     // of the angle between the way and the edge
-    double depth_m = 0;  // of the edge
+    double t = 0;           // fraction of the way
+    double sine = 1;        // of the angle between the way and the edge
+    double depth_m = 0;     // of the edge
     double rounding_m = 0;  // how far the rounding of its ends may have moved it
     bool operator==(const Crossing&) const = default;
   };
@@ -88,7 +91,7 @@ class Silhouettes {
   bool near_listed(glm::dvec3 x, double within_m, std::vector<uint32_t>* triangles) const;
   void cross(uint32_t edge, glm::dvec3 from, glm::dvec3 to, std::vector<Crossing>& at) const;
 
-  const LightView& view_;
+  LightView view_;
   double reach_m_;
   std::vector<Edge> edges_;
   std::vector<Grid> grids_;  // one, or six
