@@ -338,7 +338,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   m.record.metrics.insert(view.metrics.begin(), view.metrics.end());
   m.record.metrics["shaded_rmse"] = shaded_rmse(
       view.receivers, frame, make_camera_frame(view.camera, view.receivers.width(), view.receivers.height()),
-      m.ladder.rung[1], m.ladder.rung[5]);
+      m.ladder.truth(), m.ladder.shown());
   m.record.metrics["map_ms"] = map.time_ms;
   m.record.metrics["lookup_ms"] = lookup_ms;
   m.record.metrics["shadow_ms"] = map.time_ms + lookup_ms;
