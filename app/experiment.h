@@ -38,7 +38,7 @@ struct Experiment {
   std::vector<Law> laws;
   bool curve_enabled = true;
   CurveOptions curve;
-  std::string pictures = "first";  // which points get pictures: first | all | none | worst | extremes
+  std::string pictures = "first";       // which points get pictures: first | all | none | worst | extremes
   std::vector<std::string> overridden;  // settings given by apply_override, in order
   std::vector<std::string> chosen;      // parts given by choose_parts
   std::string part;                     // its name, where it is a part of another

@@ -152,6 +152,18 @@ TEST(Documents, EveryDocumentThatIsCitedIsThere) {
       }
 }
 
+// Nor one that it names by a word alone.
+TEST(Documents, NoCommentSpeaksOfADesign) {
+  for (const fs::path& file : all_texts()) {
+    const std::string text = text_of(file);
+    for (const char* phrase : {"(desig"
+                               "n",
+                               "the desig"
+                               "n"})
+      EXPECT_EQ(text.find(phrase), std::string::npos) << fs::relative(file, root).string() << ": " << phrase;
+  }
+}
+
 // GitHub's name of a heading.
 std::string anchor_of(std::string_view heading) {
   std::string anchor;
