@@ -28,9 +28,9 @@ class Silhouettes {
   void near(glm::dvec3 x, std::vector<uint32_t>& triangles) const { near_listed(x, reach_m_, &triangles); }
 
   struct Crossing {
-    double t = 0;        // fraction of the way
-    double sine = 1;     // of the angle between the way and the edge
-    double depth_m = 0;  // of the edge
+    double t = 0;           // fraction of the way
+    double sine = 1;        // of the angle between the way and the edge
+    double depth_m = 0;     // of the edge
     double rounding_m = 0;  // how far the rounding of its ends may have moved it
     bool operator==(const Crossing&) const = default;
   };

@@ -52,7 +52,9 @@ CubeAddress cube_address(glm::dvec3 r) {
 }  // namespace
 
 bool CentralForm::one_plane(const Piece& a, const Piece& b) const {
-  const auto flat = [](const Piece& p) { return FlatFace{p.corner[0], p.corner[1] - p.corner[0], p.corner[3] - p.corner[0]}; };
+  const auto flat = [](const Piece& p) {
+    return FlatFace{p.corner[0], p.corner[1] - p.corner[0], p.corner[3] - p.corner[0]};
+  };
   return moved_m_ > 0 && !a.round && !b.round && may_be_one_plane(flat(a), flat(b), moved_m_);
 }
 

@@ -60,8 +60,8 @@ bool may_be_one_plane(const FlatFace& a, const FlatFace& b, double moved_m) {
   const auto holds = [&](const FlatFace& plane, const FlatFace& corners) {
     const glm::dvec3 n = glm::cross(plane.u, plane.v);
     const double narrowest = glm::length(n) / std::max(glm::length(plane.u), glm::length(plane.v));
-    for (const glm::dvec3 c : {corners.at, corners.at + corners.u, corners.at + corners.v,
-                               corners.at + corners.u + corners.v}) {
+    for (const glm::dvec3 c :
+         {corners.at, corners.at + corners.u, corners.at + corners.v, corners.at + corners.u + corners.v}) {
       const glm::dvec3 way = c - plane.at;
       const double off = std::abs(glm::dot(n, way)) / glm::length(n);
       if (!(off <= moved_m * (4 + 12 * glm::length(way) / narrowest))) return false;
