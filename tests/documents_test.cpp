@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -161,6 +162,17 @@ TEST(Documents, NoCommentSpeaksOfADesign) {
                                "the desig"
                                "n"})
       EXPECT_EQ(text.find(phrase), std::string::npos) << fs::relative(file, root).string() << ": " << phrase;
+  }
+}
+
+// A number that the next commit makes wrong: a command that counts stands in its place.
+TEST(Documents, NoCountThatChangesIsWrittenByHand) {
+  const std::regex count("\\b[0-9]+( [a-z]+)? (mutants|breakages|patches|tests|defects)\\b");
+  for (const fs::path& file : documents()) {
+    std::istringstream lines(text_of(file));
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_FALSE(std::regex_search(line, count)) << fs::relative(file, root).string() << ": " << line;
+    }
   }
 }
 
