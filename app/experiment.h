@@ -4,46 +4,7 @@
 //   apply_override(experiment, "map.resolution=2048");            // --set
 //   for (const Settings& settings : points(experiment)) measure(settings);
 //
-// clang-format off
-// The file (every key may be left out; an unknown one is an error):
-//   title = "..."
-//   scene = "cube-room"              # or a table [scene] with name = and the scene's other settings
-//   pictures = "first"               # which points get pictures: first | all | none | worst | extremes (both ends)
-//   [view] [light] [map] [bias] [filter] [truth]      # fixed settings: `noonmark settings` lists them
-//   [sweep]                          # every combination is one point; the first one named changes slowest
-//   map.resolution = [512, 1024]
-//   bias.constant = {min = 0, max = 0.01, steps = 5}                   # min + i * step; the last is max itself
-//   map.extent_m = {min = 10, max = 80, steps = 4, scale = "log"}      # min * (max / min)^(i / (steps - 1))
-//   [plot]
-//   metrics = ["error", "acne"]
-//   [curve]                          # error against bias
-//   enabled = true
-//   acne_bound = 0.001               # of the usable window
-//   peter_panning_bound = 0.001
-//   bias_depth = [0, 0.001, 0.002]   # or a range; left out: the measurement chooses the biases
-//   [[bound]]
-//   metric = "acne"                  # a metric, or a quantity of the curve such as window_width_depth
-//   max = 0.01                       # and/or min
-//   join = "worst"                   # worst | mean | median of the points asked
-//   where = {"map.resolution" = 1024, "filter.kind" = ["none", "box"]}
-//   [let]                            # definitions for the formulas of laws, in order (compare/judge/formula.h)
-//   k = "(filter.size - 1) / 2 + 0.5"
-//   [[law]]                          # a number that must follow from others (compare/judge/laws.h)
-//   name = "1 acne-free bias"
-//   says = "one sentence"
-//   found = "{100 * acne} % of the pixels are acne, {against: 100 * acne} % without a filter."  # said with its figures
-//   measured = "acne_free_bias_m"
-//   equals = "k * texel_m * tan_deg(scene.theta_deg)"    # or at_most, at_least; a formula or a number
-//   within = 0.05                    # of it; and
-//   slack = "depth_quantum_m"        # a formula or a number, in the measured number's unit
-//   join = "each"                    # each | mean | slope
-//   over = "map.resolution"          # with "slope": the setting on the horizontal axis
-//   where = {}                       # as a bound's
-//   against = {"filter.kind" = "none"}    # read `equals` at the point that differs from the measured one in this alone
-// clang-format on
-//
-// Several experiments in one file: [[part]] tables, each with a name and any of scene, settings, sweep, curve, bound,
-// let and law. What stands outside them are their defaults; sweeps, bounds and laws stand inside.
+// docs/experiment.md is the reference of the file's keys; tests/experiment_docs_test.cpp reads its examples.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -78,8 +39,7 @@ struct Experiment {
   std::vector<Law> laws;
   bool curve_enabled = true;
   CurveOptions curve;
-  std::string pictures =
-      "first";  // which points get pictures: first | all | none | worst | extremes (the worst and the best)
+  std::string pictures = "first";       // which points get pictures: first | all | none | worst | extremes
   std::vector<std::string> overridden;  // settings given by apply_override, in order
   std::vector<std::string> chosen;      // parts given by choose_parts
   std::string part;                     // its name, where it is a part of another

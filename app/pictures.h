@@ -12,7 +12,8 @@ namespace noonmark {
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
                                           const std::string& stem);
 
-// <folder>/<prefix>ladder.exr and map.exr: every rung and what it was made of, 32 bits a channel (design, section 7).
+// <folder>/<prefix>ladder.exr and map.exr: every rung, and what each rung was made of, in 32 bits a channel. What the
+// channels are is said in app/point_files.cpp.
 std::vector<ImageRecord> write_images(const Measurement& m, const std::string& folder, const std::string& relative,
                                       const std::string& prefix);
 

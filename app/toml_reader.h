@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -141,14 +142,24 @@ class TomlReader {
     const auto last = static_cast<double>(*steps - 1);
     for (int64_t i = 0; i + 1 < *steps; ++i) {
       const auto at_step = static_cast<double>(i);
-      values.push_back(logarithmic ? *min * std::pow(*max / *min, at_step / last)
-                                   : *min + at_step * ((*max - *min) / last));
+      const double value =
+          logarithmic ? *min * std::pow(*max / *min, at_step / last) : *min + at_step * ((*max - *min) / last);
+      values.push_back(short_decimal(value, std::max(std::abs(value), std::abs(*min))));
     }
     values.push_back(*max);
     return values;
   }
 
  private:
+  // The arithmetic of a range misses a short decimal by a few units in the last place: 10 * 8^(2/3) gives
+  // 39.99999999999999. Such a value becomes the decimal, because `where` and --set name a value by its exact text.
+  static double short_decimal(double value, double magnitude) {
+    constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // pow() over 12 decades: 13 of them
+    if (std::abs(value) <= rounding * magnitude) return 0;
+    const double decimal = std::stod(fmt::format("{:.12g}", value));
+    return std::abs(value - decimal) <= rounding * magnitude ? decimal : value;
+  }
+
   std::string path_;
 };
 

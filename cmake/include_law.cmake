@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(modules scenes technique gl raytrace compare app tests)
-# What a folder may include beside its own headers: the table of modules in CONTRIBUTING.md.
+# What a folder may include beside its own headers: the table of folders in docs/architecture.md.
 set(may_include_scenes)
 set(may_include_technique scenes)
 set(may_include_gl scenes technique)

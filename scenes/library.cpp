@@ -36,8 +36,9 @@ Scene scene_as_built(const SceneSettings& settings) {
 // Of what remeshed makes, before it is made: tiles turn each triangle into 64.
 void require_room(const SceneSettings& settings, const Scene& scene) {
   const SceneSize size = remeshed_size(scene, settings.mesh);
-  const std::string what = fmt::format("{}: scene.mesh = {} makes {} triangles of its {}", settings.name,
-                                       mesh_forms[static_cast<size_t>(settings.mesh)], size.triangles, scene.triangles.size());
+  const std::string what =
+      fmt::format("{}: scene.mesh = {} makes {} triangles of its {}", settings.name,
+                  mesh_forms[static_cast<size_t>(settings.mesh)], size.triangles, scene.triangles.size());
   const char* remedy = "choose another scene.mesh or a scene of fewer triangles";
   if (size.triangles > max_scene_triangles)
     throw Error(ErrorKind::usage,

@@ -12,7 +12,7 @@ namespace noonmark {
 
 enum class MeshForm { as_built, one_mesh, split, reversed, doubled, tiles, t_junctions };  // scenes/remesh.h
 // The choices of scene.mesh, in the order of the enumerators.
-inline constexpr std::string_view mesh_forms[] = {"as_built", "one_mesh", "split",       "reversed",
+inline constexpr std::string_view mesh_forms[] = {"as_built", "one_mesh", "split",      "reversed",
                                                   "doubled",  "tiles",    "t_junctions"};
 
 struct SceneSettings {

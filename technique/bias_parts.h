@@ -6,13 +6,11 @@
 //   settings.bias["normal_offset"] = 1.5;   // technique/settings.h
 //
 // A part acts at one of three places:
-// - the compared depth: amount * <name>_factor(Surface), held between the part's floor and cap where it has them. The
-// sum
-//   of these parts, in units of bias.unit, is subtracted from the depth that a tap is compared with;
-// - the place looked up: amount * <name>_way(Surface), a vector of the world. The receiver is looked up as if it lay
-// that
-//   far from where it is;
-// - the caster: what the map holds is moved.
+// - The compared depth: amount * <name>_factor(Surface), held between the part's floor and cap where it has them. The
+//   sum of these parts, in units of bias.unit, is subtracted from the depth that a tap is compared with.
+// - The place looked up: amount * <name>_way(Surface), a vector of the world. The receiver is looked up as if it lay
+//   that far from where it is.
+// - The caster: what the map holds is moved.
 // And beside the sum there is a choice, the reference: what a tap is compared with before the bias is subtracted.
 #pragma once
 #include <span>

@@ -25,18 +25,20 @@ inline constexpr double least_cosine = 1e-6;
 
 struct LightFrame {
   LightKind kind = LightKind::directional;
-  glm::dvec3 origin_m{
-      0};  // the light's position; of a directional light where u, v and z are 0: its position, moved by
-           // map.shift_*_texels and map.snap. Spot and point: exactly a float, as every ray starts there
-  glm::dvec3 right{1, 0, 0};  // of a point light the axes are the world's
+  // Spot and point: the light's position, exactly a float, because every ray starts there. Directional: where u, v and
+  // z are 0, which is the light's position moved by map.shift_*_texels and map.snap.
+  glm::dvec3 origin_m{0};
+  // Unit vectors. Of a point light they are the world's axes.
+  glm::dvec3 right{1, 0, 0};
   glm::dvec3 up{0, 1, 0};
-  glm::dvec3 forward{0, 0, -1};       // unit; directional: the way the light travels; spot: its axis
-  glm::vec3 ray_direction{0, 0, -1};  // directional: the float vector that every light-side ray has exactly; forward is
-                                      // it normalised in double, so rays and frame agree to the last bit of the float
-  double extent_m = 1;                // directional
-  double tan_half_fov = 1;            // spot: of half the map's angle; point: 1
-  double cos_half_cone = -1;          // spot: of half the light's cone
-  glm::dvec2 shift_texels{0};         // spot: map.shift_*_texels
+  glm::dvec3 forward{0, 0, -1};  // directional: the way the light travels; spot: its axis
+  // Directional: the direction of every light-side ray, exactly a float. forward is this vector normalised in double, so
+  // rays and frame agree to the last bit of the float.
+  glm::vec3 ray_direction{0, 0, -1};
+  double extent_m = 1;         // directional
+  double tan_half_fov = 1;     // spot: of half the map's angle; point: 1
+  double cos_half_cone = -1;   // spot: of half the light's cone
+  glm::dvec2 shift_texels{0};  // spot: map.shift_*_texels
   double near_m = 0;
   double far_m = 1;
   int resolution = 1;

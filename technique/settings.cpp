@@ -95,28 +95,28 @@ std::vector<Setting> make_table() {
       real("scene.theta_deg", "deg", 0, 89.9, "plane: the angle between its normal and the light.",
            MEMBER(scene.theta_deg)),
       real("scene.phi_deg", "deg", -360, 360,
-           "plane: azimuth of its slope in the light's plane, against the texel axes; plate: its turn about the "
+           "plane: azimuth of its slope in the light's plane, measured from the texel axes; plate: rotation about the "
            "vertical.",
            MEMBER(scene.phi_deg)),
       real("scene.thickness_m", "m", 1e-4, 10, "wall, plate: thickness.", MEMBER(scene.thickness_m)),
       real("scene.height_m", "m", 0, 100, "plate: height of its lit face above the floor.", MEMBER(scene.height_m)),
       choice("scene.mesh", {std::begin(mesh_forms), std::end(mesh_forms)},
-             "The scene's surface as built, or in other triangles: welded into one mesh, each triangle cut in four, "
-             "triangles and vertices in reverse order, each triangle there twice, in tiles that meet to rounding only, "
-             "in strips with corners on their neighbours' edges.",
+             "How the scene's surface is cut into triangles. as_built: as it is; one_mesh: welded into one mesh; "
+             "split: each triangle in four; reversed: triangles and vertices in reverse order; doubled: each triangle "
+             "twice; tiles: tiles whose borders agree only to rounding; t_junctions: strips with vertices on their "
+             "neighbours' edges.",
              MEMBER(scene.mesh)),
       real("scene.turn_deg", "deg", -360, 360,
-           "Turns the whole scene, its camera and light with it, about the axis (1, 2, 3): then no plane is along an "
-           "axis.",
+           "Rotates the scene with its camera and light about the axis (1, 2, 3), so that no plane lies along an axis.",
            MEMBER(scene.turn_deg)),
-      point("scene.move_m", "m", "Moves the whole scene, its camera and light with it, after the turn; auto: not.",
+      point("scene.move_m", "m", "Moves the scene with its camera and light, after the rotation; auto: no move.",
             MEMBER(scene.move_m)),
       real("scene.time_s", "s", 0, 1e6,
-           "A glTF file's animation poses the scene at this time; before its first key and after its last it stands "
-           "still; auto: at rest, no animation.",
+           "The time at which a glTF file's animation poses the scene. Before its first key and after its last key the "
+           "scene stands still; auto: at rest, without the animation.",
            MEMBER(scene.time_s))
           .idle(in_builtin_scene),
-      integer("scene.animation", "", 0, 1e6, "Which of the file's animations scene.time_s speaks of, from 0.",
+      integer("scene.animation", "", 0, 1e6, "Which animation of the file scene.time_s refers to, counted from 0.",
               MEMBER(scene.animation))
           .idle(without_time),
       integer("view.width_px", "px", 1, 8192, "Width of the picture.", MEMBER(view.width_px)),
@@ -128,19 +128,17 @@ std::vector<Setting> make_table() {
           .refused(no_direction_up),
       real("view.fov_deg", "deg", 1, 170, "Whole vertical angle of view; auto: the scene's.", MEMBER(view.fov_deg)),
       real("view.near_m", "m", 1e-6, 1e9,
-           "The camera's near plane, along the view; auto: that of the scene's file, or fitted so that nothing in view "
-           "is "
-           "cut off.",
+           "Distance of the camera's near plane along the view; auto: from the scene's file, or fitted so that nothing "
+           "in view is cut off.",
            MEMBER(view.near_m))
           .refused(view_near_beyond_far),
       real("view.far_m", "m", 1e-6, 1e9,
-           "The camera's far plane, along the view; auto: that of the scene's file, or fitted so that nothing in view "
-           "is "
-           "cut off.",
+           "Distance of the camera's far plane along the view; auto: from the scene's file, or fitted so that nothing "
+           "in view is cut off.",
            MEMBER(view.far_m)),
       flag("view.fit_depths",
-           "Fits the near and far that are auto, so that nothing in view is cut off, also where the scene's file gives "
-           "them.",
+           "Fits the near and far planes that are auto, so that nothing in view is cut off, even if the scene's file "
+           "gives them.",
            MEMBER(view.fit_depths))
           .idle(where_depths_are_fitted),
       choice("light.kind", {"auto", "directional", "spot", "point"},
@@ -148,107 +146,114 @@ std::vector<Setting> make_table() {
              "distances; auto: the scene's.",
              MEMBER(light.kind)),
       point("light.position_m", "m",
-            "Where a spot or point light is; a directional light's map measures depth from there; auto: the scene's.",
+            "Position of a spot or point light; the depth of a directional light's map is measured from here; auto: "
+            "the scene's.",
             MEMBER(light.position_m)),
-      point("light.target_m", "m", "What the light points at, the middle of its map; auto: the scene's.",
+      point("light.target_m", "m",
+            "The point that the light points at, which is the middle of its map; auto: the scene's.",
             MEMBER(light.target_m)),
       real("light.angular_diameter_deg", "deg", 0, 90,
-           "directional: of a sun with a size, for R0 (the real sun: 0.53); auto: the scene's.",
+           "directional: angular diameter of the sun, for R0 (the real sun: 0.53); 0: no size; auto: the scene's.",
            MEMBER(light.angular_diameter_deg))
           .idle(only_on_directional),
-      real("light.radius_m", "m", 0, 1e6, "spot, point: of a light with a size, for R0; auto: the scene's.",
+      real("light.radius_m", "m", 0, 1e6, "spot, point: radius of the light, for R0; 0: no size; auto: the scene's.",
            MEMBER(light.radius_m))
           .idle(not_on_directional),
       choice("light.shape", {"sphere", "disc"},
-             "spot, point: what a light with a size is, for R0: a sphere; or a disc, across a spot light's axis, and "
-             "facing each receiver for a point light.",
+             "spot, point: shape of a light with a size, for R0. sphere; disc: across a spot light's axis, or facing "
+             "each receiver for a point light.",
              MEMBER(light.shape))
           .idle(not_on_directional),
       real("light.cone_deg", "deg", 1, 170,
-           "spot: whole angle of the cone, beyond which nothing is lit; auto: the scene's.", MEMBER(light.cone_deg))
+           "spot: whole angle of the cone; outside it nothing is lit; auto: the scene's.", MEMBER(light.cone_deg))
           .idle(only_on_spot),
-      integer("map.resolution", "texels", 1, 16384, "Texels on a side of the shadow map.", MEMBER(map.resolution)),
+      integer("map.resolution", "texels", 1, 16384, "Texels along each side of the shadow map.",
+              MEMBER(map.resolution)),
       choice("map.format", {"16", "24", "32f"}, "Depth format of the shadow map.", MEMBER(map.format))
           .only_read_by({Stage::map}),
       choice("map.fit", {"scene", "tight"},
-             "Where extent, near and far are auto: the scene's own (fitted where it has none, and where the light is "
-             "another than the scene's), or fitted tightly around the scene.",
+             "Where extent, near and far come from if they are auto. scene: from the scene, or fitted tightly if the "
+             "scene has none or the light is not the scene's; tight: always fitted tightly around the scene.",
              MEMBER(map.fit)),
-      real("map.extent_m", "m", 1e-6, 1e9, "directional: whole width of what the map covers; auto: by map.fit.",
-           MEMBER(map.extent_m))
+      real("map.extent_m", "m", 1e-6, 1e9,
+           "directional: whole width of the area that the map covers; auto: by map.fit.", MEMBER(map.extent_m))
           .idle(only_on_directional),
-      real("map.extent_scale", "", 1e-3, 1e3, "Multiplies the extent, however it came about.", MEMBER(map.extent_scale))
+      real("map.extent_scale", "", 1e-3, 1e3, "Multiplies the extent, whether it is given or fitted.",
+           MEMBER(map.extent_scale))
           .idle(not_on_point),
       real("map.fov_deg", "deg", 1, 175, "spot: whole angle that the map covers; auto: the light's cone.",
            MEMBER(map.fov_deg))
           .idle(only_on_spot),
-      flag(
-          "map.snap",
-          "directional: moves the map by less than a texel, so that its grid stays fixed in the world when the light's "
-          "position or target moves without turning it.",
-          MEMBER(map.snap))
+      flag("map.snap",
+           "directional: moves the map by less than a texel, so that its texel grid stays fixed in the world when the "
+           "light's position or target moves without a rotation.",
+           MEMBER(map.snap))
           .refused(snapped_perspective),
       real("map.shift_u_texels", "texels", -1, 1,
-           "Moves the map and its grid to the light's right: another alignment of texels and edges.",
+           "Moves the map with its texel grid to the light's right, to try another alignment of texels and edges.",
            MEMBER(map.shift_u_texels))
           .refused(shifted_cube),
-      real("map.shift_v_texels", "texels", -1, 1, "Moves the map and its grid up, as the light sees it.",
+      real("map.shift_v_texels", "texels", -1, 1, "Moves the map with its texel grid up, as the light sees it.",
            MEMBER(map.shift_v_texels)),
       real("map.near_m", "m", -1e9, 1e9,
-           "Near plane along the light's axis from its position (a point light: along each face's axis); auto: by "
-           "map.fit.",
+           "Near plane, measured from the light's position along its axis (point light: along the axis of each face); "
+           "auto: by map.fit.",
            MEMBER(map.near_m))
           .refused(map_near_beyond_far),
       real("map.far_m", "m", -1e9, 1e9,
-           "Far plane along the light's axis from its position; a point light's depth is distance / far; auto: by "
-           "map.fit.",
+           "Far plane, measured from the light's position along its axis; a point light's depth is distance / far; "
+           "auto: by map.fit.",
            MEMBER(map.far_m)),
       choice("map.wrap", {"repeat", "clamp_to_edge", "clamp_to_border"},
-             "What a lookup outside the map finds; the border is lit.", MEMBER(map.wrap))
+             "What a lookup outside the map reads. The border of clamp_to_border is lit.", MEMBER(map.wrap))
           .idle(not_on_point),
       flag("map.lit_beyond_far", "Receivers beyond the far plane are lit without a comparison.",
            MEMBER(map.lit_beyond_far))
           .only_read_by({Stage::ladder}),
-      choice("map.cull", {"none", "back", "front"}, "Faces left out of the shadow map.", MEMBER(map.cull)),
+      choice("map.cull", {"none", "back", "front"}, "Which faces are not drawn into the shadow map.", MEMBER(map.cull)),
       flag("map.depth_clamp",
-           "Geometry before the near or beyond the far plane is drawn at depth 0 or 1 instead of clipped "
+           "Geometry before the near plane or beyond the far plane is drawn at depth 0 or 1 instead of being clipped "
            "(GL_DEPTH_CLAMP).",
            MEMBER(map.depth_clamp)),
       choice("map.cube_pass", {"layered", "six_passes"},
-             "point: all six faces in one pass through a geometry shader, or one pass for each; the map is the same, "
-             "the time is not.",
+             "point: all six faces in one pass through a geometry shader, or one pass for each face. The map is the "
+             "same; the time differs.",
              MEMBER(map.cube_pass))
           .idle(only_on_point)
           .only_read_by({Stage::map}),
       choice("bias.unit", {"depth", "m", "texel"},
-             "Unit of the biases that have no other: window depth, metres of the map's depth, or texels of the map at "
-             "the receiver.",
+             "Unit of the parts of the bias that have no unit of their own: window depth, metres of the map's depth, "
+             "or texels of the map at the receiver.",
              MEMBER(bias.unit)),
-      named("bias.reference", "What a tap of the map is compared with, before the bias is subtracted.",
-            tap_references(), MEMBER(bias.reference))
+      named("bias.reference", "The depth that a tap is compared with, before the bias is subtracted.", tap_references(),
+            MEMBER(bias.reference))
           .refused(plane_on_cube_or_blended),
-      real("bias.plane_cap", "bias.unit", 0, 1e6,
-           "receiver_plane: no tap is compared with a depth farther from the receiver's own than this; auto: no limit.",
-           MEMBER(bias.plane_cap))
+      real(
+          "bias.plane_cap", "bias.unit", 0, 1e6,
+          "receiver_plane: largest difference between the compared depth and the receiver's own depth; auto: no limit.",
+          MEMBER(bias.plane_cap))
           .idle(without_capped_plane),
-      named("filter.kind", "Where the lookup reads the map.", filters(), MEMBER(filter.kind))
+      named("filter.kind", "The filter: where the lookup reads the map.", filters(), MEMBER(filter.kind))
           .refused(filter_of_another_map),
-      integer("filter.size", "taps", 1, 31, "taps on a side, odd.", MEMBER(filter.size)).refused(even_or_unknown_size),
-      real("filter.step_texels", "texels", 0, 64, "from tap to tap.", MEMBER(filter.step_texels)),
+      integer("filter.size", "taps", 1, 31, "taps along each side; an odd number.", MEMBER(filter.size))
+          .refused(even_or_unknown_size),
+      real("filter.step_texels", "texels", 0, 64, "distance from one tap to the next.", MEMBER(filter.step_texels)),
       real("filter.sigma_texels", "texels", 0.1, 64, "standard deviation of the weights.", MEMBER(filter.sigma_texels)),
-      integer("filter.taps", "taps", 1, 64, "how many taps.", MEMBER(filter.taps)),
+      integer("filter.taps", "taps", 1, 64, "number of taps.", MEMBER(filter.taps)),
       real("filter.radius_texels", "texels", 0, 256, "radius of the disk.", MEMBER(filter.radius_texels)),
-      flag("filter.rotate", "the disk is turned by another angle at each pixel.", MEMBER(filter.rotate)),
+      flag("filter.rotate", "the disk is rotated by a different angle at each pixel.", MEMBER(filter.rotate)),
       real("filter.offset_m", "m", 0, 1e3,
-           "taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world.", MEMBER(filter.offset_m)),
-      choice("filter.disk", {"fixed", "view_distance"},
-             "how far its taps reach: filter.radius_m, or (1 + distance to the camera / far) / 25 metres.",
-             MEMBER(filter.disk)),
-      real("filter.radius_m", "m", 0, 1e3, "multiplies the 20 directions (1,1,1), (1,1,0) and their kin.",
+           "the taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world.", MEMBER(filter.offset_m)),
+      choice(
+          "filter.disk", {"fixed", "view_distance"},
+          "radius of the disk. fixed: filter.radius_m; view_distance: (1 + distance to the camera / far) / 25 metres.",
+          MEMBER(filter.disk)),
+      real("filter.radius_m", "m", 0, 1e3, "factor of the 20 directions (1,1,1), (1,1,0) and so on.",
            MEMBER(filter.radius_m))
           .idle(where_disk_follows_view),
       real("truth.standard_error", "", 1e-3, 0.5,
-           "Largest standard error of R0 at a receiver, for a light with a size.", MEMBER(truth.standard_error)),
+           "Largest standard error of R0 at a receiver, for a light with a size. A smaller value takes more rays.",
+           MEMBER(truth.standard_error)),
   };
   // After the other settings of the bias.
   auto at = std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "bias.plane_cap"; });

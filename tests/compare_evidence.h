@@ -279,7 +279,7 @@ inline float bias_at(const Synthetic& s, size_t i, std::string_view varied = "",
   return units * s.probe.bias_unit[i];
 }
 
-// The design's table, all of it: [covered][D][V][L].
+// The cause of every combination, written out: [covered][D][V][L]. compare/ladder/ladder.h states the rule in words.
 inline constexpr Cause causes[2][2][2][2] = {
     {{{Cause::none, Cause::coverage_light}, {Cause::none, Cause::coverage_light}},
      {{Cause::coverage_dark, Cause::none}, {Cause::coverage_dark, Cause::none}}},

@@ -29,7 +29,7 @@ Synthetic any_evidence(uint64_t seed, int kernel, Lookup lookup = Lookup::box) {
   return s;
 }
 
-TEST(TapCause, IsTheDesignsTable) {
+TEST(TapCause, IsTheRuleOfTheHead) {
   for (int row = 0; row < 32; ++row) {
     const bool d = row & 1, v = row & 2, l = row & 4, covered = row & 8, f = row & 16;
     Cause expected = Cause::none;

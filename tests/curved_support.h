@@ -245,8 +245,8 @@ inline void on_many_grids(const Scene& scene, uint32_t seed, int count, const st
 // triangles' outlines, found without rays.
 // Of lit unfiltered receivers without exception. A tap further off, or of a dark receiver, asks for P's surface at a
 // place that it may not reach: where P stands at its own fold (a terminator), the surface goes on at the fold's depth,
-// and V changes where that passes through what the light sees there. That is the design's own admission ("dark
-// receivers at a concave terminator"), and rare.
+// and V changes where that passes through what the light sees there. README.md lists this among the known limits ("dark
+// receivers at a concave terminator"). It is rare.
 struct Explained {
   uint64_t taps = 0, at_jumps = 0, at_own_folds = 0, never = 0;
 };

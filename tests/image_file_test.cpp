@@ -280,7 +280,7 @@ class Pictures : public ImageFile {
   Image<float> stored, exact;
 };
 
-TEST_F(Pictures, LadderHoldsTheChannelsOfTheDesign) {
+TEST_F(Pictures, LadderHoldsEveryRungAndWhatItWasMadeOf) {
   write_images(measurement(), folder.path().string(), "images", "p-");
   EXPECT_EQ(files_in(folder.path()), (std::set<std::string>{"p-ladder.exr", "p-map.exr"}));
   const ReadImage image = read_exr(folder.file("p-ladder.exr"));

@@ -87,7 +87,7 @@ class Estimate : public testing::Test {
   Settings settings_;
 };
 
-// What the issue names, with today's figures.
+// Large points of several kinds.
 TEST_F(Estimate, SeesWhatTakesTooMuch) {
   EXPECT_LT(bytes(), 1e9) << "the default settings";
   settings_.map.resolution = 16384;

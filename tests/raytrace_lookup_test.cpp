@@ -236,7 +236,7 @@ bool edge_between(const LightBins& brute, uint32_t own, glm::dvec2 from, glm::dv
 
 // Law 4. Lit receivers have no exception. dark_exceptions: the share of differing taps that may have none at dark
 // receivers, where solids run into one another or concave meshes do not weld: there P's sheet ends inside a solid, and
-// what lies beyond is a guess (the design's known disagreements).
+// what lies beyond is a guess (README.md, known limits).
 void expect_edges_where_taps_differ(const Scene& scene, int resolution, int count, double dark_exceptions = 0) {
   const Looked looked = look_up(scene, resolution, 1, count);
   const LightBins brute(scene, looked.frame);

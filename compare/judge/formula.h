@@ -4,9 +4,11 @@
 //   f.names();                                             // {"texel_m"}
 //   f.value([&](const std::string& name) { return number_of_point(point, name); });
 //
-// Names are those of settings and metrics, dots included, and whatever else the caller gives values for. Operators + -
-// * / ^, comparisons (1 or 0), && || ?:, the constant pi, and the functions sin cos tan asin acos atan atan2 (of
-// radians), sin_deg cos_deg tan_deg (of degrees), atan_deg, hypot, sqrt, exp, ln, log2, log10, abs, min, max, floor.
+// Names are those of settings and metrics, dots included, and whatever else the caller gives values for.
+// - Operators: + - * / ^, comparisons (1 or 0), && || and a ? b : c.
+// - The constant pi.
+// - Functions of radians: sin cos tan asin acos atan atan2; of degrees: sin_deg cos_deg tan_deg; into degrees: atan_deg.
+// - Other functions: hypot sqrt exp ln log2 log10 abs min max floor.
 #pragma once
 #include <functional>
 #include <memory>

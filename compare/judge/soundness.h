@@ -43,9 +43,8 @@ struct SoundnessInput {
 //   map_error_quanta      median |stored - exact| over the texels that middle taps read, in steps of the format that
 //                         the settings claim (32f: the spacing of floats at that depth).
 //   map_bits              16, 24 or 32: the coarsest format that could have stored the depths of those texels. More
-//   than
-//                         the settings claim: the driver stored another one. Fewer: so it did, or all depths lie beyond
-//                         one half, where floats are no finer than 24 bits, or are few.
+//                         than the settings claim: the driver stored another format. Fewer: it did so too, or all
+//                         depths lie beyond one half, where floats are no finer than 24 bits, or there are few depths.
 // Values that are not finite are broken contracts and errors without bound. Without a facing receiver: NaN.
 class SoundnessCheck {
  public:

@@ -1,7 +1,7 @@
-// The error at every bias from one lookup pass (design: all biases for the price of one). A tap of a comparing lookup
-// is lit exactly when the bias reaches the tap's threshold; (F, V) names the cause it has on either side. Thresholds
-// are sorted, and every sum is read off exactly. Memory grows with the different thresholds that there are, which float
-// depths have a limited number of, and not with the taps.
+// The error at every bias, from one lookup pass. A tap is lit if and only if the bias reaches the tap's threshold, and
+// (F, V) names the cause that the tap has on either side of it. So the sorted thresholds give the exact error at every
+// bias, and one pass serves for all biases. Memory grows with the number of different thresholds, which float depths
+// limit, and not with the number of taps.
 //
 //   BiasCounts curves(evidence, stored_map, *curve_part(settings.bias));
 //   curves.caused(Cause::acne, 0.005f);                   // taps, exactly as rendering with that bias would book

@@ -9,8 +9,8 @@
 
 namespace noonmark {
 
-// Error as a function of the bias, from one lookup pass (design: all biases for the price of one), for the amount of
-// one part of the bias; all else, the part's own floor and cap too, is as the point has it. Parts that draw another map
+// Error as a function of the bias, from one lookup pass (compare/ladder/bias_curves.h), for the amount of one part of
+// the bias; all else, the part's own floor and cap too, is as the point has it. Parts that draw another map
 // or move the lookup have no curve. Every series has one value per entry of bias_depth: a fraction of the counted
 // receivers (facing and not ambiguous).
 //

@@ -1,0 +1,148 @@
+// docs/experiment.md is the reference of an experiment file's keys: its examples are read as a user's file is, and it
+// names every key, choice and function that the reader knows.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "app/experiment.h"
+#include "scenes/error.h"
+#include "scenes/file.h"
+
+namespace noonmark {
+namespace {
+
+std::string document(const std::string& name) {
+  return read_file(std::string(NOONMARK_SOURCE_DIR) + "/" + name, uint64_t{1} << 24);
+}
+
+struct Block {
+  std::string language;  // what stands behind the fence: "toml", "toml refused", "text" ...
+  std::string text;
+  int line = 0;  // of the fence, from 1
+};
+
+std::vector<Block> blocks_of(const std::string& markdown) {
+  std::vector<Block> blocks;
+  bool inside = false;
+  int number = 0;
+  std::istringstream lines(markdown);
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.starts_with("```")) {
+      inside = !inside;
+      if (inside) blocks.push_back({line.substr(3), "", number});
+    } else if (inside) {
+      blocks.back().text += line + "\n";
+    }
+  }
+  EXPECT_FALSE(inside) << "a fence is open at the end";
+  return blocks;
+}
+
+// What the reader says of the text; empty where it reads it.
+std::string refusal(const std::string& toml) {
+  try {
+    points(parse_experiment(toml, "shadows.toml"));
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST(ExperimentDocuments, EveryExampleIsRead) {
+  for (const char* name : {"docs/experiment.md", "README.md"}) {
+    int examples = 0;
+    for (const Block& block : blocks_of(document(name))) {
+      if (block.language != "toml") continue;
+      ++examples;
+      EXPECT_EQ(refusal(block.text), "") << name << ":" << block.line;
+    }
+    EXPECT_GT(examples, 0) << name;
+  }
+}
+
+// A block "toml refused" is followed by a block "text" that holds the message.
+TEST(ExperimentDocuments, EveryMistakeIsRefusedWithTheMessageGiven) {
+  const std::vector<Block> blocks = blocks_of(document("docs/experiment.md"));
+  int mistakes = 0;
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    if (blocks[i].language != "toml refused") continue;
+    ++mistakes;
+    ASSERT_LT(i + 1, blocks.size());
+    EXPECT_EQ(refusal(blocks[i].text) + "\n", blocks[i + 1].text) << "docs/experiment.md:" << blocks[i].line;
+  }
+  EXPECT_GT(mistakes, 0);
+}
+
+// The words between two marks of the reader's own message.
+std::vector<std::string> words(std::string message, const std::string& from, const std::string& to) {
+  const size_t begin = message.find(from);
+  EXPECT_NE(begin, std::string::npos) << message;
+  if (begin == std::string::npos) return {};
+  message = message.substr(begin + from.size());
+  message = message.substr(0, message.find(to));
+  std::replace_if(
+      message.begin(), message.end(), [](char c) { return c == ',' || c == '|'; }, ' ');
+  std::istringstream stream(message);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+// Of one chapter of the document, the first cells of its tables' rows.
+std::string first_cells(const std::string& markdown, const std::string& chapter) {
+  const size_t begin = markdown.find("\n## " + chapter + "\n");
+  EXPECT_NE(begin, std::string::npos) << chapter;
+  if (begin == std::string::npos) return "";
+  std::istringstream lines(markdown.substr(begin + 1, markdown.find("\n## ", begin + 1) - begin));
+  std::string cells;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("| ")) cells += line.substr(0, line.find(" | ")) + "\n";
+  return cells;
+}
+
+// The reader lists what it knows where a word is near to none of it.
+TEST(ExperimentDocuments, EveryKeyChoiceAndFunctionIsNamed) {
+  const std::string text = document("docs/experiment.md");
+  const auto named = [&](const std::string& where, const std::vector<std::string>& words, size_t least) {
+    EXPECT_GE(words.size(), least);
+    for (const std::string& word : words)
+      EXPECT_NE(where.find("`" + word + "`"), std::string::npos)
+          << "docs/experiment.md does not explain `" << word << "`";
+  };
+  const auto keys = [&](const std::string& chapter, const std::string& toml, size_t least) {
+    named(first_cells(text, chapter), words(refusal(toml + "qqqqqqqqq = 1"), "known: ", "\n"), least);
+  };
+  const std::string bound = "[[bound]]\nmetric = \"acne\"\nmax = 1\n";
+  const std::string law = "[[law]]\nname = \"x\"\nmeasured = \"acne\"\nequals = 0\n";
+  keys("The keys of the file", "", 16);
+  keys("Sweeps", "[sweep.map.extent_m]\n", 4);
+  keys("Charts and bias curves", "[plot]\n", 1);
+  keys("Charts and bias curves", "[curve]\n", 4);
+  keys("Bounds", bound, 5);
+  keys("Laws", law, 13);
+  keys("Several experiments in one file", "[[part]]\n", 13);
+
+  const auto choices = [&](const std::string& toml, size_t least) {
+    named(text, words(refusal(toml + " = \"qqqqqqqqq\""), "is not one of ", "\n"), least);
+  };
+  choices("pictures", 5);
+  choices("[sweep.map.extent_m]\nscale", 2);
+  choices(bound + "join", 3);
+  choices(law + "join", 3);
+  named(first_cells(text, "Laws"), words(refusal("[let]\nx = \"1 +\""), "(functions: ", ")"), 20);
+}
+
+// Groups stand in the document, one setting of each as an example, and the settings themselves in `noonmark settings`.
+TEST(ExperimentDocuments, EveryGroupOfSettingsHasItsTable) {
+  const std::string text = document("docs/experiment.md");
+  for (const Setting& row : settings_table()) {
+    const std::string group(row.name.substr(0, row.name.find('.')));
+    EXPECT_NE(text.find("`[" + group + "]`"), std::string::npos) << group;
+  }
+}
+
+}  // namespace
+}  // namespace noonmark
