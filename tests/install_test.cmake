@@ -23,7 +23,7 @@ macro(build name source)
   run("building ${name}" ${CMAKE_COMMAND} --build ${WORK}/${name})
 endmacro()
 
-if(STEP STREQUAL prefix)
+if(STEP STREQUAL "prefix")
   file(REMOVE_RECURSE ${WORK})
   file(MAKE_DIRECTORY ${WORK})
   run("cmake --install" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
@@ -50,7 +50,7 @@ if(STEP STREQUAL prefix)
     endif()
   endforeach()
 
-elseif(STEP STREQUAL program)
+elseif(STEP STREQUAL "program")
   set(installed ${prefix}/bin/noonmark)
   foreach(arguments --version scenes settings)
     run("the built ${arguments}" ${PROGRAM} ${arguments})
@@ -82,7 +82,7 @@ elseif(STEP STREQUAL program)
     message(FATAL_ERROR "without its picture library the installed doctor ended with ${result}:\n${output}")
   endif()
 
-elseif(STEP STREQUAL consumer)
+elseif(STEP STREQUAL "consumer")
   # Away from the sources, where no header can be found by chance.
   file(REMOVE_RECURSE ${WORK}/consumer_source)
   file(COPY ${SOURCE}/tests/consumer/ DESTINATION ${WORK}/consumer_source)
@@ -99,7 +99,7 @@ acne <= 0.01: broken
     message(FATAL_ERROR "the consumer said\n${output}instead of\n${expected}")
   endif()
 
-elseif(STEP STREQUAL headers)
+elseif(STEP STREQUAL "headers")
   file(GLOB_RECURSE headers RELATIVE ${prefix}/include/noonmark ${prefix}/include/noonmark/*.h)
   # scenes/digest.h writes with fmt, which is linked privately.
   set(not_installed scenes/digest.h)
