@@ -8,6 +8,7 @@
 
 #include "app/build_facts.h"
 #include "app/pictures.h"
+#include "compare/store/curve_fields.h"
 #include "compare/store/metrics.h"
 #include "scenes/camera_frame.h"
 #include "technique/map_address.h"
@@ -61,31 +62,17 @@ nlohmann::json setting_json(const Setting& row, const std::string& text) {
   }
 }
 
-nlohmann::json curve_json(const BiasCurve& c) {
-  const auto optional = [](const std::optional<double>& v) { return v ? nlohmann::json(*v) : nlohmann::json(); };
-  return {{"parameter", c.parameter},
-          {"made", c.made},
-          {"bias_depth", c.bias_depth},
-          {"error", c.error},
-          {"wrong", c.wrong},
-          {"acne", c.acne},
-          {"peter_panning", c.peter_panning},
-          {"aliasing_dark", c.aliasing_dark},
-          {"aliasing_light", c.aliasing_light},
-          {"coverage", c.coverage},
-          {"m_per_depth", c.m_per_depth},
-          {"texels_per_depth", c.texels_per_depth},
-          {"acne_bound", c.acne_bound},
-          {"peter_panning_bound", c.peter_panning_bound},
-          {"acne_free_bias_depth", optional(c.acne_free_bias_depth)},
-          {"acne_free_bias_stored_depth", optional(c.acne_free_bias_stored_depth)},
-          {"window_min_depth", optional(c.window_min_depth)},
-          {"window_max_depth", optional(c.window_max_depth)},
-          {"best_bias_depth", number(c.best_bias_depth)},
-          {"best_error", number(c.best_error)},
-          {"flat_min_depth", number(c.flat_min_depth)},
-          {"flat_max_depth", number(c.flat_max_depth)},
-          {"breakpoints", c.breakpoints}};
+nlohmann::json curve_json(const BiasCurve& curve) {
+  nlohmann::json json;
+  for (const CurveField& field : curve_fields()) json[field.name] = nullptr;  // what the curve does not have
+  each_field(curve, [&](std::string_view name, const auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+      json[name] = number(value);
+    else
+      json[name] = value;
+  });
+  for (const CurveSeries& series : curve_series()) json[series.name] = curve.*series.values;
+  return json;
 }
 
 nlohmann::ordered_json light_json(const Measurement& m) {

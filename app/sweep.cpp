@@ -194,17 +194,11 @@ bool has_what_a_sweep_reads(const PointRecord& point) {
 }  // namespace
 
 void require_sound(const Results& results) {
-  for (const PointRecord& point : results.points) {
-    for (const SoundLimit& limit : sound_limits) {
-      const double value = point.metrics.at(limit.metric);
-      if (!(value <= limit.most) && point.metrics.at("facing") > 0)
-        throw Error(
-            ErrorKind::defect,
-            fmt::format("point {}: the measurement contradicts itself ({} = {}, a sound one has at most {}); the "
-                        "results are stored, but do not trust them, and report this with the output of noonmark doctor",
-                        point.id, limit.metric, value, limit.most));
-    }
-  }
+  if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty())
+    throw Error(ErrorKind::defect,
+                fmt::format("{}; the results are stored, but do not trust them, and report this with the output of "
+                            "noonmark doctor",
+                            text_of(unsound.front())));
 }
 
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options) {

@@ -11,10 +11,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "compare/judge/soundness.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/findings.h"
 #include "compare/report/sections.h"
+#include "compare/report/summary.h"
 #include "compare/report/text.h"
 #include "compare/store/metrics.h"
 #include "tests/report_sample.h"
@@ -258,15 +260,36 @@ TEST(Report, EmbeddedDataIsTheResults) {
     ASSERT_EQ(read.contains("curve"), point.curve.has_value());
     if (!point.curve) continue;
     const json& curve = read["curve"];
-    EXPECT_EQ(curve.contains("window"), point.curve->window_min_depth.has_value());
+    EXPECT_EQ(curve.contains("window_min_depth"), point.curve->window_min_depth.has_value());
     if (point.curve->window_min_depth) {
-      EXPECT_EQ(curve["window"], json::array({*point.curve->window_min_depth, *point.curve->window_max_depth}));
+      EXPECT_EQ(curve["window_min_depth"], *point.curve->window_min_depth);
+      EXPECT_EQ(curve["window_max_depth"], *point.curve->window_max_depth);
     }
     ASSERT_EQ(curve["acne"].size(), point.curve->acne.size());
     for (size_t k = 0; k < point.curve->acne.size(); ++k) {
       // Curves travel with six digits: half a unit of the sixth.
       EXPECT_NEAR(curve["acne"][k].get<double>(), point.curve->acne[k], 5e-6 * point.curve->acne[k]);
-      EXPECT_NEAR(curve["bias"][k].get<double>(), point.curve->bias_depth[k], 5e-6 * point.curve->bias_depth[k]);
+      EXPECT_NEAR(curve["bias_depth"][k].get<double>(), point.curve->bias_depth[k], 5e-6 * point.curve->bias_depth[k]);
+    }
+  }
+}
+
+// Each of the four limits, by itself; and nothing is said to hold beside it.
+TEST(Report, AnUnsoundPointIsSaidAndNothingHoldsBesideIt) {
+  for (const SoundLimit& limit : sound_limits) {
+    Results results = sample_results();
+    for (BoundResult& bound : results.bounds) bound.held = true;
+    for (PointRecord& point : results.points)
+      for (const SoundLimit& any : sound_limits) point.metrics[any.metric] = 0;
+    const std::string sound = render_report(results, sample_picture);
+    EXPECT_EQ(sound.find("Not sound"), std::string::npos);
+    for (const double value : {limit.most + 0.5, nan}) {
+      results.points[1].metrics[limit.metric] = value;
+      const std::string page = render_report(results, sample_picture);
+      EXPECT_NE(page.find("Not sound"), std::string::npos) << limit.metric;
+      EXPECT_NE(page.find(std::string("contradicts itself (") + limit.metric), std::string::npos) << limit.metric;
+      EXPECT_EQ(page.find("pill held"), std::string::npos) << limit.metric;
+      EXPECT_NE(to_summary(results).find("**Not sound"), std::string::npos);
     }
   }
 }

@@ -145,7 +145,7 @@ TEST_F(StoreSeals, SealedRowsThatDoNotFitTogetherAreADamagedFile) {
        {std::pair(8, "INSERT INTO metrics VALUES (8, 'acne', 1)"),
         {8, "INSERT INTO curves (point) VALUES (8)"},
         {8, "INSERT INTO images VALUES (8, 0, 'a', 'b')"},
-        {1, "UPDATE curves SET has_window = 1, window_min_depth = 2, window_max_depth = 1 WHERE point = 1"}}) {
+        {1, "UPDATE curves SET window_min_depth = 2, window_max_depth = 1 WHERE point = 1"}}) {
     SCOPED_TRACE(sql);
     afresh();
     edit(sql);

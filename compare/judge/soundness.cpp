@@ -1,5 +1,6 @@
 #include "compare/judge/soundness.h"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "compare/ladder/probe_errors.h"
+#include "compare/store/quantities.h"
 
 namespace noonmark {
 namespace {
@@ -157,6 +159,24 @@ std::map<std::string, double> measure_soundness(const SoundnessInput& in) {
   SoundnessCheck check(in);
   check.add({0, in.evidence.truth.facing.size()});
   return check.metrics();
+}
+
+std::vector<Unsound> find_unsound(std::span<const PointRecord> points) {
+  std::vector<Unsound> found;
+  for (const PointRecord& point : points) {
+    if (!(metric_of(point, "facing") > 0)) continue;
+    for (const SoundLimit& limit : sound_limits) {
+      const auto value = point.metrics.find(limit.metric);
+      if (value != point.metrics.end() && !(value->second <= limit.most))
+        found.push_back({point.id, &limit, value->second});
+    }
+  }
+  return found;
+}
+
+std::string text_of(const Unsound& unsound) {
+  return fmt::format("point {}: the measurement contradicts itself ({} = {}, a sound one has at most {})",
+                     unsound.point, unsound.limit->metric, unsound.value, unsound.limit->most);
 }
 
 }  // namespace noonmark

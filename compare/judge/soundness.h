@@ -7,10 +7,13 @@
 //   auto metrics = measure_soundness({evidence, map, ties, renderer.lookup(...), receivers, frame});
 #pragma once
 #include <map>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "compare/ladder/ladder.h"
 #include "compare/ladder/probe_errors.h"
+#include "compare/store/records.h"
 #include "scenes/receivers.h"
 #include "technique/light_frame.h"
 
@@ -87,5 +90,16 @@ inline constexpr SoundLimit sound_limits[] = {
     {"contract", 0},
     {"rounding_excess", 1},
 };
+
+// A number of a stored point that no sound program shows. Points in which nothing faces the light have none.
+struct Unsound {
+  int64_t point;
+  const SoundLimit* limit;
+  double value;
+};
+std::vector<Unsound> find_unsound(std::span<const PointRecord> points);
+
+// "point 3: the measurement contradicts itself (contract = 0.25, a sound one has at most 0)"
+std::string text_of(const Unsound& unsound);
 
 }  // namespace noonmark

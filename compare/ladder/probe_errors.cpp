@@ -236,7 +236,8 @@ void ProbeCheck::compare_shading(size_t i, const Place&, ProbeErrors& found) con
 void ProbeCheck::compare_gradient(size_t i, const Place& place, ProbeErrors& found) const {
   const glm::dvec3 normal(receivers_.normal[i]), way = place.world - light_position_;
   const glm::dvec4 plane(normal, -glm::dot(normal, way));
-  const double offset_error = 4 * u * sum_of(glm::abs(normal * way));  // a rounded difference, a product, two sums
+  // A rounded difference, a product and two sums; and where P is looked up itself.
+  const double offset_error = 4 * u * sum_of(glm::abs(normal * way)) + glm::dot(glm::abs(normal), place.error);
   double value[3], error[3];
   for (int row = 0; row < 3; ++row) {
     double sum = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compare/judge/poor_view.h"
+#include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
 #include "compare/report/findings.h"
 #include "compare/report/laws.h"
@@ -17,9 +18,6 @@
 
 namespace noonmark::report {
 namespace {
-
-constexpr double largest_residual =
-    1e-6;  // of the ladder's sum; beyond it the tool itself is wrong (compare/store/metrics.cpp)
 
 std::string item(std::string_view kind, const std::string& inner) {
   return fmt::format("<li class=\"{}\">{}</li>\n", kind, inner);
@@ -44,8 +42,13 @@ std::string verdict(const Results& results) {
                                                 : fmt::format("All {} {}s hold", list.size(), noun);
     out += fmt::format("{}<span class=\"pill {}\">{}</span>", out.empty() ? "" : " ", broken ? "broken" : "held", text);
   };
-  judge(results.bounds, "bound", "The bound holds");
-  judge(results.laws, "law", "The law holds");
+  if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty()) {
+    // Whatever the bounds and laws say, they say it of numbers that are wrong.
+    out = "<span class=\"pill broken\">Not sound: the measurement contradicts itself</span>";
+  } else {
+    judge(results.bounds, "bound", "The bound holds");
+    judge(results.laws, "law", "The law holds");
+  }
   if (out.empty()) out = "<span class=\"pill none\">No bounds were set</span>";
   if (static_cast<int64_t>(results.points.size()) < results.planned_points)
     out += fmt::format(" <span class=\"pill broken\">Incomplete: {} of {} points</span>", results.points.size(),
@@ -145,14 +148,19 @@ std::string cause_sentence(std::span<const PointRecord* const> points) {
 
 std::string health_items(const Results& results) {
   std::string out;
+  constexpr size_t most_listed = 5;
+  const std::vector<Unsound> unsound = find_unsound(results.points);
+  for (size_t i = 0; i < std::min(unsound.size(), most_listed); ++i)
+    out += item("bad", fmt::format("A defect of Noonmark, so that nothing here is to be relied on: {}.",
+                                   html(text_of(unsound[i]))));
+  if (unsound.size() > most_listed)
+    out += item("bad", fmt::format("And {} more of the kind.", unsound.size() - most_listed));
   size_t not_finite = 0;
-  double residual = 0, ambiguous = 0;
+  double ambiguous = 0;
   for (const PointRecord& point : results.points) {
     bool finite = true;
     for (const auto& [name, value] : point.metrics) finite = finite && std::isfinite(value);
     not_finite += !finite;
-    for (const char* name : {"residual", "tap_residual"})
-      if (const double value = metric_of(point, name); std::isfinite(value)) residual = std::max(residual, value);
     if (const double value = metric_of(point, "ambiguous"); std::isfinite(value))
       ambiguous = std::max(ambiguous, value);
   }
@@ -162,12 +170,6 @@ std::string health_items(const Results& results) {
                    "{} ha{} a metric that is <b>not finite</b>: it could not be measured, and fails every bound on it.",
                    points_text(not_finite), not_finite == 1 ? "s" : "ve"));
   if (const std::string poor = poor_view_note(results.points); !poor.empty()) out += item("bad", html(poor) + ".");
-  if (residual > largest_residual)
-    out += item(
-        "bad",
-        fmt::format("The steps of the ladder do not add up to the error (residual {}): a defect of the measurement; do "
-                    "not rely on these numbers.",
-                    number(residual)));
   if (const std::string doubt = undecided_note(results.points); !doubt.empty())
     out += item("note", fmt::format("At the point where it matters most, {}.", html(doubt)));
   if (ambiguous > 0)

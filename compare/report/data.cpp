@@ -11,6 +11,7 @@
 #include "compare/report/laws.h"
 #include "compare/report/rules.h"
 #include "compare/report/text.h"
+#include "compare/store/curve_fields.h"
 #include "compare/store/metrics.h"
 #include "compare/store/quantities.h"
 
@@ -40,24 +41,15 @@ json drawn(const std::vector<double>& series, const std::vector<size_t>& indices
 json curve_of(const PointRecord& point, size_t entries_of_all_curves) {
   const BiasCurve& curve = *point.curve;
   const std::vector<size_t> indices = drawn_biases(curve, entries_of_all_curves);
-  json out{{"parameter", curve.parameter},
-           {"made", curve.made},
-           {"bias", drawn(curve.bias_depth, indices)},
-           {"error", drawn(curve.error, indices)},
-           {"acne", drawn(curve.acne, indices)},
-           {"peter_panning", drawn(curve.peter_panning, indices)},
-           {"aliasing_dark", drawn(curve.aliasing_dark, indices)},
-           {"aliasing_light", drawn(curve.aliasing_light, indices)},
-           {"coverage", drawn(curve.coverage, indices)},
-           {"m_per_depth", value_of(curve.m_per_depth)},
-           {"texels_per_depth", value_of(curve.texels_per_depth)},
-           {"acne_bound", value_of(curve.acne_bound)},
-           {"peter_panning_bound", value_of(curve.peter_panning_bound)},
-           {"best_bias", value_of(curve.best_bias_depth)},
-           {"best_error", value_of(curve.best_error)}};
-  if (curve.window_min_depth && curve.window_max_depth)
-    out["window"] = json::array({value_of(*curve.window_min_depth), value_of(*curve.window_max_depth)});
-  if (const std::optional<double> set = bias_as_set(point)) out["set_bias"] = value_of(*set);
+  json out;
+  each_field(curve, [&](std::string_view name, const auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+      out[name] = value_of(value);
+    else
+      out[name] = value;
+  });
+  for (const CurveSeries& series : curve_series()) out[series.name] = drawn(curve.*series.values, indices);
+  if (const std::optional<double> set = bias_as_set(point)) out["set_bias_depth"] = value_of(*set);
   return out;
 }
 

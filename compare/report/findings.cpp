@@ -7,19 +7,15 @@
 
 #include "compare/report/cause_colors.h"
 #include "compare/report/rules.h"
+#include "compare/store/curve_fields.h"
 #include "compare/store/quantities.h"
 
 namespace noonmark {
 namespace {
 
 const std::vector<double>* series_of(const BiasCurve& curve, const std::string& metric) {
-  if (metric == "error") return &curve.error;
-  if (metric == "wrong") return &curve.wrong;
-  if (metric == "acne") return &curve.acne;
-  if (metric == "peter_panning") return &curve.peter_panning;
-  if (metric == "aliasing_dark") return &curve.aliasing_dark;
-  if (metric == "aliasing_light") return &curve.aliasing_light;
-  if (metric == "coverage") return &curve.coverage;
+  for (const CurveSeries& series : curve_series())
+    if (series.name == metric && series.name != "bias_depth") return &(curve.*series.values);
   return nullptr;
 }
 

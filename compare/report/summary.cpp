@@ -10,6 +10,7 @@
 #include "compare/judge/bounds.h"
 #include "compare/judge/laws.h"
 #include "compare/judge/poor_view.h"
+#include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
 #include "compare/report/escape.h"
 #include "compare/store/metrics.h"
@@ -52,7 +53,9 @@ std::string verdict(const Results& results) {
   judge(results.bounds, "bound");
   judge(results.laws, "law");
   std::string text;
-  if (finished < results.planned_points)
+  if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty())
+    text = fmt::format("**Not sound: {}.** Do not rely on these numbers.", text_of(unsound.front()));
+  else if (finished < results.planned_points)
     text = fmt::format("**Incomplete: {} of {} points are finished.** Run it again to go on.", finished,
                        results.planned_points);
   else if (!broken.empty())

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "compare/store/curve_fields.h"
 #include "compare/store/metrics.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
@@ -12,8 +13,18 @@
 namespace noonmark {
 namespace {
 
-std::optional<double> scaled(const std::optional<double>& depth, double factor) {
-  return depth ? std::optional(*depth * factor) : std::nullopt;
+// The field's number; none where it is empty.
+std::optional<double> number_of_field(const CurveField& field, const BiasCurve& curve) {
+  return std::visit(
+      [&](auto member) -> std::optional<double> {
+        if constexpr (std::is_same_v<decltype(member), std::string BiasCurve::*>)
+          return std::nullopt;
+        else if constexpr (std::is_same_v<decltype(member), std::optional<double> BiasCurve::*>)
+          return curve.*member;
+        else
+          return static_cast<double>(curve.*member);
+      },
+      field.member);
 }
 
 // 0 for an empty window, so that `window_width_depth` with a min is the bound "there is a usable bias".
@@ -21,55 +32,45 @@ double window_width(const BiasCurve& c) {
   return c.window_min_depth && c.window_max_depth ? *c.window_max_depth - *c.window_min_depth : 0;
 }
 
-using Value = std::optional<double>;
+constexpr std::string_view depth_ending = "_depth";
 
-constexpr CurveQuantity table[] = {
-    {"window_min_depth", "depth", "Least usable bias: acne and Peter Panning both within the curve's bounds.",
-     [](const BiasCurve& c) { return c.window_min_depth; }},
-    {"window_min_m", "m", "Least usable bias, along the light.",
-     [](const BiasCurve& c) { return scaled(c.window_min_depth, c.m_per_depth); }},
-    {"window_min_texels", "texels", "Least usable bias, in texels of the map.",
-     [](const BiasCurve& c) { return scaled(c.window_min_depth, c.texels_per_depth); }},
-    {"window_max_depth", "depth", "Largest usable bias.", [](const BiasCurve& c) { return c.window_max_depth; }},
-    {"window_max_m", "m", "Largest usable bias, along the light.",
-     [](const BiasCurve& c) { return scaled(c.window_max_depth, c.m_per_depth); }},
-    {"window_max_texels", "texels", "Largest usable bias, in texels of the map.",
-     [](const BiasCurve& c) { return scaled(c.window_max_depth, c.texels_per_depth); }},
-    {"window_width_depth", "depth", "Width of the usable bias window; 0 when no bias is good enough.",
-     [](const BiasCurve& c) { return Value(window_width(c)); }},
-    {"window_width_m", "m", "Width of the usable bias window, along the light.",
-     [](const BiasCurve& c) { return Value(window_width(c) * c.m_per_depth); }},
-    {"window_width_texels", "texels", "Width of the usable bias window, in texels of the map.",
-     [](const BiasCurve& c) { return Value(window_width(c) * c.texels_per_depth); }},
-    {"best_bias_depth", "depth", "The bias with the least error.",
-     [](const BiasCurve& c) { return Value(c.best_bias_depth); }},
-    {"best_bias_m", "m", "The bias with the least error, along the light.",
-     [](const BiasCurve& c) { return Value(c.best_bias_depth * c.m_per_depth); }},
-    {"best_bias_texels", "texels", "The bias with the least error, in texels of the map.",
-     [](const BiasCurve& c) { return Value(c.best_bias_depth * c.texels_per_depth); }},
-    {"best_error", "fraction", "Mean |R5 - R1| at the best bias.",
-     [](const BiasCurve& c) { return Value(c.best_error); }},
-    {"flat_min_depth", "depth", "From here the error is within 10% of the best.",
-     [](const BiasCurve& c) { return Value(c.flat_min_depth); }},
-    {"flat_max_depth", "depth", "Up to here the error is within 10% of the best.",
-     [](const BiasCurve& c) { return Value(c.flat_max_depth); }},
-    {"acne_free_bias_depth", "depth",
-     "Least bias without any acne, on an exact map; least amount of the part that the curve varies.",
-     [](const BiasCurve& c) { return c.acne_free_bias_depth; }},
-    {"acne_free_bias_m", "m", "Least bias without any acne, along the light.",
-     [](const BiasCurve& c) { return scaled(c.acne_free_bias_depth, c.m_per_depth); }},
-    {"acne_free_bias_texels", "texels", "Least bias without any acne, in texels of the map.",
-     [](const BiasCurve& c) { return scaled(c.acne_free_bias_depth, c.texels_per_depth); }},
-    {"acne_free_bias_stored_depth", "depth",
-     "Least bias without any acne on the GPU's own map, its format and rasteriser included.",
-     [](const BiasCurve& c) { return c.acne_free_bias_stored_depth; }},
-    {"acne_free_bias_stored_m", "m", "Least bias without any acne on the GPU's own map, along the light.",
-     [](const BiasCurve& c) { return scaled(c.acne_free_bias_stored_depth, c.m_per_depth); }},
-};
+std::vector<CurveQuantity> make_table() {
+  std::vector<CurveQuantity> table;
+  const auto add = [&](CurveQuantity quantity) {
+    const bool is_depth = quantity.unit == "depth";
+    table.push_back(quantity);
+    if (!is_depth) return;
+    const std::string stem = quantity.name.substr(0, quantity.name.size() - depth_ending.size());
+    const auto in = [&](const char* ending, const char* unit, double BiasCurve::*factor, const char* column) {
+      table.push_back({stem + ending, unit, quantity.help,
+                       [of = quantity.value, factor](const BiasCurve& c) {
+                         const std::optional<double> depth = of(c);
+                         return depth ? std::optional(*depth * (c.*factor)) : std::nullopt;
+                       },
+                       fmt::format("({}) * c.{}", quantity.sql, column)});
+    };
+    in("_m", "m", &BiasCurve::m_per_depth, "m_per_depth");
+    in("_texels", "texels", &BiasCurve::texels_per_depth, "texels_per_depth");
+  };
+  for (const CurveField& field : curve_fields()) {
+    if (!field.quantity) continue;
+    add({std::string(field.name), std::string(field.unit), std::string(field.help),
+         [&field](const BiasCurve& c) { return number_of_field(field, c); }, fmt::format("c.{}", field.name)});
+    if (field.name == "window_max_depth")
+      add({"window_width_depth", "depth", "Width of the usable bias window; 0 when no bias is good enough.",
+           window_width,
+           "CASE WHEN c.point IS NULL THEN NULL WHEN c.window_min_depth IS NULL THEN 0 ELSE c.window_max_depth - "
+           "c.window_min_depth END"});
+  }
+  return table;
+}
 
 }  // namespace
 
-std::span<const CurveQuantity> curve_quantities() { return table; }
+std::span<const CurveQuantity> curve_quantities() {
+  static const std::vector<CurveQuantity> table = make_table();
+  return table;
+}
 
 QuantityInfo find_quantity(std::string_view name) {
   std::vector<std::string_view> names;
@@ -77,7 +78,7 @@ QuantityInfo find_quantity(std::string_view name) {
     if (row.name == name) return {row.name, row.unit, row.help, false};
     names.push_back(row.name);
   }
-  for (const CurveQuantity& row : table) {
+  for (const CurveQuantity& row : curve_quantities()) {
     if (row.name == name) return {row.name, row.unit, row.help, true};
     names.push_back(row.name);
   }
@@ -103,7 +104,7 @@ std::optional<double> quantity(const PointRecord& point, std::string_view name) 
   const auto found = point.metrics.find(std::string(name));
   if (found != point.metrics.end()) return found->second;
   if (!point.curve) return std::nullopt;
-  for (const CurveQuantity& row : table)
+  for (const CurveQuantity& row : curve_quantities())
     if (row.name == name) return row.value(*point.curve);
   return std::nullopt;
 }

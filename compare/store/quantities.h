@@ -3,20 +3,25 @@
 //
 //   std::optional<double> width = quantity(point, "window_width_depth");
 #pragma once
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "compare/store/records.h"
 
 namespace noonmark {
 
+// Read off the rows of curve_fields() (curve_fields.h): each as it is, a depth also in metres and in texels; and the
+// window's width.
 struct CurveQuantity {
-  std::string_view name;
-  std::string_view unit;
-  std::string_view help;  // one sentence
+  std::string name;
+  std::string unit;
+  std::string help;  // one sentence
   // Empty where the curve has no such number: the ends of a window that is empty.
-  std::optional<double> (*value)(const BiasCurve&);
+  std::function<std::optional<double>(const BiasCurve&)> value;
+  std::string sql;  // the same, of the store's table `curves` as c
 };
 std::span<const CurveQuantity> curve_quantities();
 

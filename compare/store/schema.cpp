@@ -7,6 +7,7 @@
 
 #include "compare/store/metrics.h"
 #include "compare/store/quantities.h"
+#include "compare/store/record_tables.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -20,26 +21,6 @@ CREATE TABLE finished (
 CREATE TABLE settings (point INTEGER, name TEXT, value, text TEXT NOT NULL, PRIMARY KEY (point, name)) WITHOUT ROWID;
 CREATE TABLE metrics (point INTEGER, name TEXT, value REAL, PRIMARY KEY (point, name)) WITHOUT ROWID;
 CREATE TABLE times (point INTEGER, name TEXT, value REAL, PRIMARY KEY (point, name)) WITHOUT ROWID;
-CREATE TABLE curves (
-  point INTEGER PRIMARY KEY, parameter TEXT, made TEXT, m_per_depth REAL, texels_per_depth REAL,
-  acne_bound REAL, peter_panning_bound REAL, has_window INTEGER, window_min_depth REAL, window_max_depth REAL,
-  best_bias_depth REAL, best_error REAL, flat_min_depth REAL, flat_max_depth REAL, breakpoints INTEGER,
-  acne_free_bias_depth REAL, acne_free_bias_stored_depth REAL,
-  window_width_depth REAL GENERATED ALWAYS AS (CASE WHEN has_window THEN window_max_depth - window_min_depth ELSE 0 END));
-CREATE TABLE curve_points (
-  point INTEGER, i INTEGER, bias_depth REAL, error REAL, wrong REAL, acne REAL, peter_panning REAL,
-  aliasing_dark REAL, aliasing_light REAL, coverage REAL, PRIMARY KEY (point, i)) WITHOUT ROWID;
-CREATE TABLE pictures (
-  point INTEGER, i INTEGER, name TEXT, path TEXT, caption TEXT, digest TEXT, PRIMARY KEY (point, i)) WITHOUT ROWID;
-CREATE TABLE images (point INTEGER, i INTEGER, path TEXT, digest TEXT, PRIMARY KEY (point, i)) WITHOUT ROWID;
-CREATE TABLE bounds (
-  i INTEGER PRIMARY KEY, metric TEXT, max REAL, min REAL, where_json TEXT, join_by TEXT, held INTEGER, found REAL,
-  point INTEGER, points INTEGER, reproduce TEXT);
-CREATE TABLE laws (
-  i INTEGER PRIMARY KEY, part TEXT, name TEXT, says TEXT, measured TEXT, relation TEXT, predicted TEXT, tolerance TEXT,
-  join_by TEXT, held INTEGER, worst INTEGER, reproduce TEXT, found TEXT);
-CREATE TABLE law_samples (
-  law INTEGER, i INTEGER, point INTEGER, predicted REAL, measured REAL, allowed REAL, PRIMARY KEY (law, i)) WITHOUT ROWID;
 CREATE TABLE seals (name TEXT PRIMARY KEY, digest TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE columns (name TEXT PRIMARY KEY, kind TEXT, unit TEXT, help TEXT);
 )sql";
@@ -72,16 +53,6 @@ std::string value_of(std::string_view table, std::string_view name) {
   return fmt::format("(SELECT value FROM {} WHERE point = f.point AND name = {})", table, quoted(name));
 }
 
-// Quantities of the curve in metres and texels are their depth times a factor, as in quantities.cpp.
-std::string curve_expression(std::string_view name) {
-  const auto scaled = [&](std::string_view ending, std::string_view factor) {
-    return fmt::format("c.{}_depth * c.{}", name.substr(0, name.size() - ending.size()), factor);
-  };
-  if (name.ends_with("_m")) return scaled("_m", "m_per_depth");
-  if (name.ends_with("_texels")) return scaled("_texels", "texels_per_depth");
-  return fmt::format("c.{}", name);
-}
-
 }  // namespace
 
 std::string store_schema() {
@@ -97,13 +68,12 @@ std::string store_schema() {
     view.column(row.name, value_of("metrics", row.name), "metric", row.unit, row.help);
   view.column("not_measured", "(SELECT count(*) FROM metrics WHERE point = f.point AND value IS NULL)", "metric",
               "count", "Metrics that are not a number: they could not be measured.");
-  for (const CurveQuantity& row : curve_quantities())
-    view.column(row.name, curve_expression(row.name), "curve", row.unit, row.help);
+  for (const CurveQuantity& row : curve_quantities()) view.column(row.name, row.sql, "curve", row.unit, row.help);
   view.column("worst_x", "f.worst_x", "worst", "px", "The worst pixel's column.");
   view.column("worst_y", "f.worst_y", "worst", "px", "The worst pixel's row, 0 on top.");
   view.column("worst_error", "f.worst_error", "worst", "fraction", "Its error.");
   view.column("worst_cause", "f.worst_cause", "worst", "", "Its cause.");
-  return std::string(tables) + view.sql();
+  return std::string(tables) + record_tables() + view.sql();
 }
 
 }  // namespace noonmark

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -130,7 +131,9 @@ void Statement::bind(int index, std::string_view value) {
         "cannot be written");
 }
 void Statement::bind(int index, const std::optional<double>& value) {
-  if (value)
+  if (value && std::isnan(*value))
+    bind(index, std::string_view("nan"));  // SQLite takes a NaN for NULL, and NULL is what is not there
+  else if (value)
     bind(index, *value);
   else
     check(sqlite3_bind_null(handle_, index), "cannot be written");
@@ -152,7 +155,9 @@ void Statement::finish() {
 bool Statement::null(int column) const { return sqlite3_column_type(handle_, column) == SQLITE_NULL; }
 int64_t Statement::integer(int column) const { return sqlite3_column_int64(handle_, column); }
 double Statement::real(int column) const {
-  return null(column) ? std::numeric_limits<double>::quiet_NaN() : sqlite3_column_double(handle_, column);
+  const int type = sqlite3_column_type(handle_, column);
+  return type == SQLITE_FLOAT || type == SQLITE_INTEGER ? sqlite3_column_double(handle_, column)
+                                                        : std::numeric_limits<double>::quiet_NaN();
 }
 std::string Statement::text(int column) const {
   const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(handle_, column));

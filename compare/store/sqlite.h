@@ -86,13 +86,13 @@ class Statement {
   void bind(int index, std::string_view value);
   void bind(int index, const std::string& value) { bind(index, std::string_view(value)); }
   void bind(int index, const char* value) { bind(index, std::string_view(value)); }
-  void bind(int index, const std::optional<double>& value);  // empty: NULL
+  void bind(int index, const std::optional<double>& value);  // empty: NULL; NaN: the text "nan"
 
   // Moves to the next row; false after the last.
   bool step();
   bool null(int column) const;
   int64_t integer(int column) const;
-  double real(int column) const;  // NULL: NaN
+  double real(int column) const;  // NULL and text: NaN
   std::string text(int column) const;
   // Every column with its type.
   void add_to(Digest& digest) const;

@@ -13,6 +13,7 @@
 
 #include "compare/store/check.h"
 #include "compare/store/fingerprint.h"
+#include "compare/store/record_tables.h"
 #include "compare/store/schema.h"
 #include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
@@ -37,16 +38,6 @@ constexpr std::pair<std::string_view, std::string RunInfo::*> info_texts[] = {
     {"embree_isa", &RunInfo::embree_isa},   {"scene_name", &RunInfo::scene_name},
 };
 constexpr std::string_view library_prefix = "library.";
-
-// The series of a curve, in the order of the columns of curve_points after bias_depth.
-constexpr std::vector<double> BiasCurve::*series[] = {
-    &BiasCurve::error,         &BiasCurve::wrong,          &BiasCurve::acne,    &BiasCurve::peter_panning,
-    &BiasCurve::aliasing_dark, &BiasCurve::aliasing_light, &BiasCurve::coverage};
-
-// Paths may hold bytes that are no UTF-8: those, and only those, are replaced.
-std::string json_text(const nlohmann::json& json) {
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
 
 void remove_store(const std::string& path) {
   // The database first: a journal that is left alone is dropped by SQLite, a database without its journal may be torn.
@@ -82,33 +73,17 @@ void add_numbers(Database& db, const char* table, int64_t point, const std::map<
 }
 
 void add_curve(Database& db, int64_t point, const BiasCurve& curve) {
-  const size_t count = curve.bias_depth.size();
-  for (auto values : series)
-    if ((curve.*values).size() != count)
-      throw std::logic_error("a bias curve's series differ in length from its biases");
   if (curve.window_min_depth.has_value() != curve.window_max_depth.has_value())
     throw std::logic_error("a usable bias window has two ends or none");
-
-  Statement(db, "INSERT INTO curves VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
-      .run(point, curve.parameter, curve.made, curve.m_per_depth, curve.texels_per_depth, curve.acne_bound,
-           curve.peter_panning_bound, curve.window_min_depth ? 1 : 0, curve.window_min_depth, curve.window_max_depth,
-           curve.best_bias_depth, curve.best_error, curve.flat_min_depth, curve.flat_max_depth,
-           static_cast<int64_t>(curve.breakpoints), curve.acne_free_bias_depth, curve.acne_free_bias_stored_depth);
-  Statement insert(db, "INSERT INTO curve_points VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  for (size_t i = 0; i < count; ++i)
-    insert.run(point, static_cast<int64_t>(i), curve.bias_depth[i], curve.error[i], curve.wrong[i], curve.acne[i],
-               curve.peter_panning[i], curve.aliasing_dark[i], curve.aliasing_light[i], curve.coverage[i]);
+  Table<BiasCurve>::Insert(db, curves_table()).row({point}, curve);
+  add_series(db, point, curve);
 }
 
 void add_pictures(Database& db, int64_t point, const PointPictures& made) {
-  Statement insert(db, "INSERT INTO pictures VALUES (?, ?, ?, ?, ?, ?)");
-  for (size_t i = 0; i < made.pictures.size(); ++i) {
-    const PictureRecord& picture = made.pictures[i];
-    insert.run(point, static_cast<int64_t>(i), picture.name, picture.path, picture.caption, picture.digest);
-  }
-  Statement insert_image(db, "INSERT INTO images VALUES (?, ?, ?, ?)");
-  for (size_t i = 0; i < made.images.size(); ++i)
-    insert_image.run(point, static_cast<int64_t>(i), made.images[i].path, made.images[i].digest);
+  Table<PictureRecord>::Insert pictures(db, pictures_table());
+  for (size_t i = 0; i < made.pictures.size(); ++i) pictures.row({point, static_cast<int64_t>(i)}, made.pictures[i]);
+  Table<ImageRecord>::Insert images(db, images_table());
+  for (size_t i = 0; i < made.images.size(); ++i) images.row({point, static_cast<int64_t>(i)}, made.images[i]);
 }
 
 void load_info(Database& db, Results& results) {
@@ -127,41 +102,14 @@ void load_info(Database& db, Results& results) {
 }
 
 void load_curves(Database& db, std::map<int64_t, PointRecord>& points) {
-  for (Statement rows(db,
-                      "SELECT point, parameter, made, m_per_depth, texels_per_depth, acne_bound, peter_panning_bound, "
-                      "has_window, window_min_depth, window_max_depth, best_bias_depth, best_error, flat_min_depth, "
-                      "flat_max_depth, breakpoints, acne_free_bias_depth, acne_free_bias_stored_depth FROM curves");
-       rows.step();) {
-    BiasCurve& curve = points.at(rows.integer(0)).curve.emplace();
-    curve.parameter = rows.text(1);
-    curve.made = rows.text(2);
-    curve.m_per_depth = rows.real(3);
-    curve.texels_per_depth = rows.real(4);
-    curve.acne_bound = rows.real(5);
-    curve.peter_panning_bound = rows.real(6);
-    if (rows.integer(7) != 0) {
-      curve.window_min_depth = rows.real(8);
-      curve.window_max_depth = rows.real(9);
-      if (*curve.window_min_depth > *curve.window_max_depth)
-        throw std::runtime_error("a usable window that ends before it begins");
-    }
-    curve.best_bias_depth = rows.real(10);
-    curve.best_error = rows.real(11);
-    curve.flat_min_depth = rows.real(12);
-    curve.flat_max_depth = rows.real(13);
-    curve.breakpoints = static_cast<uint64_t>(rows.integer(14));
-    if (!rows.null(15)) curve.acne_free_bias_depth = rows.real(15);
-    if (!rows.null(16)) curve.acne_free_bias_stored_depth = rows.real(16);
-  }
-  for (Statement rows(db,
-                      "SELECT point, bias_depth, error, wrong, acne, peter_panning, aliasing_dark, aliasing_light, "
-                      "coverage FROM curve_points ORDER BY point, i");
-       rows.step();) {
-    BiasCurve& curve = points.at(rows.integer(0)).curve.value();
-    curve.bias_depth.push_back(rows.real(1));
-    int column = 2;
-    for (auto values : series) (curve.*values).push_back(rows.real(column++));
-  }
+  curves_table().read(db, [&](std::span<const int64_t> key, BiasCurve curve) {
+    if (curve.window_min_depth.has_value() != curve.window_max_depth.has_value())
+      throw std::runtime_error("a usable window with one end");
+    if (curve.window_min_depth && *curve.window_min_depth > *curve.window_max_depth)
+      throw std::runtime_error("a usable window that ends before it begins");
+    points.at(key[0]).curve = std::move(curve);
+  });
+  read_series(db, [&](int64_t point) -> BiasCurve& { return points.at(point).curve.value(); });
 }
 
 std::map<int64_t, PointRecord> load_points(Database& db) {
@@ -179,69 +127,28 @@ std::map<int64_t, PointRecord> load_points(Database& db) {
     points.at(rows.integer(0)).metrics[rows.text(1)] = rows.real(2);
   for (Statement rows(db, "SELECT point, name, value FROM times"); rows.step();)
     points.at(rows.integer(0)).times[rows.text(1)] = rows.real(2);
-  for (Statement rows(db, "SELECT point, name, path, caption, digest FROM pictures ORDER BY point, i"); rows.step();)
-    points.at(rows.integer(0)).pictures.push_back({rows.text(1), rows.text(2), rows.text(3), rows.text(4)});
-  for (Statement rows(db, "SELECT point, path, digest FROM images ORDER BY point, i"); rows.step();)
-    points.at(rows.integer(0)).images.push_back({rows.text(1), rows.text(2)});
+  pictures_table().read(db, [&](std::span<const int64_t> key, PictureRecord picture) {
+    points.at(key[0]).pictures.push_back(std::move(picture));
+  });
+  images_table().read(db, [&](std::span<const int64_t> key, ImageRecord image) {
+    points.at(key[0]).images.push_back(std::move(image));
+  });
   load_curves(db, points);
   return points;
 }
 
 std::vector<BoundResult> load_bounds(Database& db) {
   std::vector<BoundResult> bounds;
-  for (Statement rows(db,
-                      "SELECT metric, max, min, where_json, join_by, held, found, point, points, reproduce FROM bounds "
-                      "ORDER BY i");
-       rows.step();) {
-    BoundResult bound;
-    bound.metric = rows.text(0);
-    if (!rows.null(1)) bound.max = rows.real(1);
-    if (!rows.null(2)) bound.min = rows.real(2);
-    bound.where = nlohmann::json::parse(rows.text(3)).get<std::map<std::string, std::vector<std::string>>>();
-    bound.join = rows.text(4);
-    bound.held = rows.integer(5) != 0;
-    bound.found = rows.real(6);
-    bound.point = rows.integer(7);
-    bound.points = static_cast<int>(rows.integer(8));
-    bound.reproduce = rows.text(9);
-    bounds.push_back(std::move(bound));
-  }
+  bounds_table().read(db, [&](std::span<const int64_t>, BoundResult bound) { bounds.push_back(std::move(bound)); });
   return bounds;
 }
 
-constexpr std::pair<LawRelation, std::string_view> relations[] = {
-    {LawRelation::equal, "="}, {LawRelation::at_most, "<="}, {LawRelation::at_least, ">="}};
-
 std::vector<LawResult> load_laws(Database& db) {
   std::vector<LawResult> laws;
-  for (Statement rows(
-           db,
-           "SELECT part, name, says, measured, relation, predicted, tolerance, join_by, held, worst, reproduce, found "
-           "FROM laws ORDER BY i");
-       rows.step();) {
-    LawResult law;
-    law.part = rows.text(0);
-    law.name = rows.text(1);
-    law.says = rows.text(2);
-    law.measured = rows.text(3);
-    const std::string sign = rows.text(4);
-    const auto row = std::find_if(std::begin(relations), std::end(relations),
-                                  [&](const auto& relation) { return relation.second == sign; });
-    if (row == std::end(relations)) throw std::runtime_error("a law whose relation is none");
-    law.relation = row->first;
-    law.predicted = rows.text(5);
-    law.tolerance = rows.text(6);
-    law.join = rows.text(7);
-    law.held = rows.integer(8) != 0;
-    law.worst = static_cast<int>(rows.integer(9));
-    law.reproduce = rows.text(10);
-    law.found = rows.text(11);
-    laws.push_back(std::move(law));
-  }
-  for (Statement rows(db, "SELECT law, point, predicted, measured, allowed FROM law_samples ORDER BY law, i");
-       rows.step();)
-    laws.at(static_cast<size_t>(rows.integer(0)))
-        .samples.push_back({rows.integer(1), rows.real(2), rows.real(3), rows.real(4)});
+  laws_table().read(db, [&](std::span<const int64_t>, LawResult law) { laws.push_back(std::move(law)); });
+  law_samples_table().read(db, [&](std::span<const int64_t> key, LawResult::Sample sample) {
+    laws.at(static_cast<size_t>(key[0])).samples.push_back(sample);
+  });
   for (const LawResult& law : laws)
     if (law.worst < -1 || law.worst >= static_cast<int>(law.samples.size()))
       throw std::runtime_error("a law whose worst sample is none of its samples");
@@ -386,12 +293,8 @@ void ResultStore::set_info(const RunInfo& info, int64_t planned_points) {
 void ResultStore::set_bounds(const std::vector<BoundResult>& bounds) {
   Transaction transaction(*db_);
   db_->execute("DELETE FROM bounds");
-  Statement insert(*db_, "INSERT INTO bounds VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  for (size_t i = 0; i < bounds.size(); ++i) {
-    const BoundResult& b = bounds[i];
-    insert.run(static_cast<int64_t>(i), b.metric, b.max, b.min, json_text(b.where), b.join, b.held ? 1 : 0, b.found,
-               b.point, b.points, b.reproduce);
-  }
+  Table<BoundResult>::Insert insert(*db_, bounds_table());
+  for (size_t i = 0; i < bounds.size(); ++i) insert.row({static_cast<int64_t>(i)}, bounds[i]);
   seal_verdict(*db_);
   transaction.commit();
 }
@@ -399,20 +302,13 @@ void ResultStore::set_bounds(const std::vector<BoundResult>& bounds) {
 void ResultStore::set_laws(const std::vector<LawResult>& laws) {
   Transaction transaction(*db_);
   db_->execute("DELETE FROM laws; DELETE FROM law_samples");
-  Statement insert(*db_, "INSERT INTO laws VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  Statement insert_sample(*db_, "INSERT INTO law_samples VALUES (?, ?, ?, ?, ?, ?)");
+  Table<LawResult>::Insert insert(*db_, laws_table());
+  Table<LawResult::Sample>::Insert insert_sample(*db_, law_samples_table());
   for (size_t i = 0; i < laws.size(); ++i) {
-    const LawResult& law = laws[i];
-    std::string sign;
-    for (const auto& [relation, text] : relations)
-      if (relation == law.relation) sign = text;
-    insert.run(static_cast<int64_t>(i), law.part, law.name, law.says, law.measured, sign, law.predicted, law.tolerance,
-               law.join, law.held ? 1 : 0, law.worst, law.reproduce, law.found);
-    for (size_t j = 0; j < law.samples.size(); ++j) {
-      const LawResult::Sample& sample = law.samples[j];
-      insert_sample.run(static_cast<int64_t>(i), static_cast<int64_t>(j), sample.point, sample.predicted,
-                        sample.measured, sample.allowed);
-    }
+    const auto law = static_cast<int64_t>(i);
+    insert.row({law}, laws[i]);
+    for (size_t j = 0; j < laws[i].samples.size(); ++j)
+      insert_sample.row({law, static_cast<int64_t>(j)}, laws[i].samples[j]);
   }
   seal_verdict(*db_);
   transaction.commit();

@@ -16,7 +16,7 @@ function factor(curve) {
 }
 
 function build(width) {
-  var curve = kit.byId[state.id].curve, k = factor(curve), bias = curve.bias.map(function(b) {
+  var curve = kit.byId[state.id].curve, k = factor(curve), bias = curve.bias_depth.map(function(b) {
     return b * k;
   });
   var positive = bias.filter(function(b) {
@@ -65,13 +65,13 @@ function build(width) {
     return b > 0 ? {scale: 'x', value: Math.min(Math.max(b, low), high)} : {value: 12};
   }
   var marks = [];
-  if (curve.window) {
+  if (curve.window_min_depth !== undefined) {
     marks.push({
       type: 'rect',
       encode: {
         enter: {
-          x: at(curve.window[0] * k),
-          x2: at(curve.window[1] * k),
+          x: at(curve.window_min_depth * k),
+          x2: at(curve.window_max_depth * k),
           y: {value: 0},
           y2: {value: height},
           fill: {value: 'var(--window)'}
@@ -82,7 +82,7 @@ function build(width) {
       type: 'text',
       encode: {
         enter: {
-          x: at(Math.max(Math.sqrt(Math.max(curve.window[0] * k, low) * curve.window[1] * k), low)),
+          x: at(Math.max(Math.sqrt(Math.max(curve.window_min_depth * k, low) * curve.window_max_depth * k), low)),
           y: {value: 14},
           align: {value: 'center'},
           text: {value: 'usable'},
@@ -207,12 +207,12 @@ function build(width) {
       }
     }
   });
-  [[curve.best_bias, 'best', 'var(--good)', 0], [curve.set_bias, 'as set', 'var(--accent)', 1]].forEach(function(m) {
+  [[curve.best_bias_depth, 'best', 'var(--good)', 0], [curve.set_bias_depth, 'as set', 'var(--accent)', 1]].forEach(function(m) {
     if (!kit.finite(m[0])) return;
     var b = m[0] * k, beyond = b > high;
     // The lesser of the two is named on its left, the greater on its right, unless an edge is near.
     var place = Math.log(Math.min(Math.max(b, low), high) / low) / Math.log(high / low),
-        other = m[3] ? curve.best_bias : curve.set_bias;
+        other = m[3] ? curve.best_bias_depth : curve.set_bias_depth;
     var side = place > 0.9 ? -1 : place < 0.1 ? 1 : kit.finite(other) && m[0] < other ? -1 : 1;
     marks.push({
       type: 'rule',
@@ -328,8 +328,8 @@ function build(width) {
                 s === 'error' ? 'Error' : kit.causeLabel[s], kit.shown(curve[s][i], 'fraction'), s === 'error' ? '' : s
               ];
             }),
-            kit.digits(curve.bias[i]) + ' depth = ' + kit.digits(curve.bias[i] * curve.m_per_depth) +
-                ' m = ' + kit.digits(curve.bias[i] * curve.texels_per_depth) + ' texels');
+            kit.digits(curve.bias_depth[i]) + ' depth = ' + kit.digits(curve.bias_depth[i] * curve.m_per_depth) +
+                ' m = ' + kit.digits(curve.bias_depth[i] * curve.texels_per_depth) + ' texels');
       });
       svg.addEventListener('mouseleave', function() {
         kit.hideTip();
@@ -350,14 +350,14 @@ function three(depth, curve) {
 function describe() {
   var point = kit.byId[state.id], curve = point.curve;
   facts.textContent = '';
-  if (curve.window)
+  if (curve.window_min_depth !== undefined)
     facts.append(
-        'Usable from ', kit.make('b', {}, three(curve.window[0], curve)), ' to ',
-        kit.make('b', {}, three(curve.window[1], curve)), '. ');
+        'Usable from ', kit.make('b', {}, three(curve.window_min_depth, curve)), ' to ',
+        kit.make('b', {}, three(curve.window_max_depth, curve)), '. ');
   else
     facts.append(kit.make('b', {style: 'color:var(--bad)'}, 'No usable window: the method fails here. '));
   facts.append(
-      'Best at ' + three(curve.best_bias, curve) + ', with ' + kit.shown(curve.best_error, 'fraction') +
+      'Best at ' + three(curve.best_bias_depth, curve) + ', with ' + kit.shown(curve.best_error, 'fraction') +
       ' error. Made: ' + curve.made + '.');
 }
 function legend() {

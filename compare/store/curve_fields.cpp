@@ -1,0 +1,46 @@
+#include "compare/store/curve_fields.h"
+
+namespace noonmark {
+namespace {
+
+constexpr CurveField fields[] = {
+    {"parameter", "", "The setting that the curve varies.", &BiasCurve::parameter},
+    {"made", "", "How the curve was made.", &BiasCurve::made},
+    {"m_per_depth", "m", "What 1 of window depth is in metres along the light.", &BiasCurve::m_per_depth},
+    {"texels_per_depth", "texels", "What 1 of window depth is in texels of the map.", &BiasCurve::texels_per_depth},
+    {"acne_bound", "fraction", "The most acne within the usable window.", &BiasCurve::acne_bound},
+    {"peter_panning_bound", "fraction", "The most Peter Panning within the usable window.",
+     &BiasCurve::peter_panning_bound},
+    {"window_min_depth", "depth", "Least usable bias: acne and Peter Panning both within the curve's bounds.",
+     &BiasCurve::window_min_depth, true},
+    {"window_max_depth", "depth", "Largest usable bias.", &BiasCurve::window_max_depth, true},
+    {"best_bias_depth", "depth", "The bias with the least error.", &BiasCurve::best_bias_depth, true},
+    {"best_error", "fraction", "Mean |R5 - R1| at the best bias.", &BiasCurve::best_error, true},
+    {"flat_min_depth", "depth", "From here the error is within 10% of the best.", &BiasCurve::flat_min_depth, true},
+    {"flat_max_depth", "depth", "Up to here the error is within 10% of the best.", &BiasCurve::flat_max_depth, true},
+    {"breakpoints", "count", "Biases at which the error changes.", &BiasCurve::breakpoints},
+    {"acne_free_bias_depth", "depth",
+     "Least bias without any acne, on an exact map; least amount of the part that the curve varies.",
+     &BiasCurve::acne_free_bias_depth, true},
+    {"acne_free_bias_stored_depth", "depth",
+     "Least bias without any acne on the GPU's own map, its format and rasteriser included.",
+     &BiasCurve::acne_free_bias_stored_depth, true},
+};
+
+constexpr CurveSeries series[] = {
+    {"bias_depth", &BiasCurve::bias_depth},
+    {"error", &BiasCurve::error},
+    {"wrong", &BiasCurve::wrong},
+    {"acne", &BiasCurve::acne},
+    {"peter_panning", &BiasCurve::peter_panning},
+    {"aliasing_dark", &BiasCurve::aliasing_dark},
+    {"aliasing_light", &BiasCurve::aliasing_light},
+    {"coverage", &BiasCurve::coverage},
+};
+
+}  // namespace
+
+std::span<const CurveField> curve_fields() { return fields; }
+std::span<const CurveSeries> curve_series() { return series; }
+
+}  // namespace noonmark

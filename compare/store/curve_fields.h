@@ -1,0 +1,51 @@
+// What a bias curve holds, said once: each row names a number or a series of BiasCurve, its unit and its meaning. The
+// store's tables, point.json, the report's data, CSV, and what bounds and laws may ask for are read off the rows.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "compare/store/records.h"
+
+namespace noonmark {
+
+struct CurveField {
+  std::string_view name;  // in the store, in JSON; of a quantity in depth it ends in "_depth"
+  std::string_view unit;  // "depth", "fraction" ...; text: ""
+  std::string_view help;  // one sentence
+  using Member = std::variant<std::string BiasCurve::*, double BiasCurve::*, std::optional<double> BiasCurve::*,
+                              uint64_t BiasCurve::*>;
+  Member member;
+  // Bounds, laws, CSV and tables may ask for it; of a depth also in metres and in texels (name ends in _m, _texels).
+  bool quantity = false;
+};
+std::span<const CurveField> curve_fields();
+
+// One value for each bias.
+struct CurveSeries {
+  std::string_view name;  // "bias_depth"; the others are metrics
+  std::vector<double> BiasCurve::*values;
+};
+std::span<const CurveSeries> curve_series();
+
+// Calls write(name, value) for every field that has a value: a text, a double or a uint64_t.
+template <class Write>
+void each_field(const BiasCurve& curve, const Write& write) {
+  for (const CurveField& field : curve_fields())
+    std::visit(
+        [&](auto member) {
+          const auto& value = curve.*member;
+          if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::optional<double>>) {
+            if (value) write(field.name, *value);
+          } else {
+            write(field.name, value);
+          }
+        },
+        field.member);
+}
+
+}  // namespace noonmark

@@ -1,0 +1,140 @@
+#include "compare/store/record_tables.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "compare/store/curve_fields.h"
+
+namespace noonmark {
+namespace {
+
+using sqlite::Database;
+using sqlite::Statement;
+
+std::vector<Column<BiasCurve>> curve_columns() {
+  std::vector<Column<BiasCurve>> columns;
+  for (const CurveField& field : curve_fields())
+    std::visit([&](auto member) { columns.push_back(column(field.name, member)); }, field.member);
+  return columns;
+}
+
+constexpr std::pair<LawRelation, std::string_view> relations[] = {
+    {LawRelation::equal, "="}, {LawRelation::at_most, "<="}, {LawRelation::at_least, ">="}};
+
+const Column<LawResult> relation_column = {"relation", "TEXT",
+                                           [](Statement& row, int index, const LawResult& law) {
+                                             for (const auto& [relation, text] : relations)
+                                               if (relation == law.relation) row.bind(index, text);
+                                           },
+                                           [](const Statement& row, int index, LawResult& law) {
+                                             const std::string sign = row.text(index);
+                                             const auto found = std::find_if(
+                                                 std::begin(relations), std::end(relations),
+                                                 [&](const auto& relation) { return relation.second == sign; });
+                                             if (found == std::end(relations))
+                                               throw std::runtime_error("a law whose relation is none");
+                                             law.relation = found->first;
+                                           }};
+
+const Column<BoundResult> where_column = {
+    "where_json", "TEXT",
+    [](Statement& row, int index, const BoundResult& bound) { row.bind(index, json_text(bound.where)); },
+    [](const Statement& row, int index, BoundResult& bound) {
+      bound.where = nlohmann::json::parse(row.text(index)).get<std::map<std::string, std::vector<std::string>>>();
+    }};
+
+std::string series_names() {
+  std::string names;
+  for (const CurveSeries& series : curve_series()) names += fmt::format(", {}", series.name);
+  return names;
+}
+
+}  // namespace
+
+std::string json_text(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+const Table<BiasCurve>& curves_table() {
+  static const Table<BiasCurve> table("curves", {"point"}, curve_columns());
+  return table;
+}
+
+const Table<PictureRecord>& pictures_table() {
+  using P = PictureRecord;
+  static const Table<P> table("pictures", {"point", "i"},
+                              {column("name", &P::name), column("path", &P::path), column("caption", &P::caption),
+                               column("digest", &P::digest)});
+  return table;
+}
+
+const Table<ImageRecord>& images_table() {
+  static const Table<ImageRecord> table("images", {"point", "i"},
+                                        {column("path", &ImageRecord::path), column("digest", &ImageRecord::digest)});
+  return table;
+}
+
+const Table<BoundResult>& bounds_table() {
+  using B = BoundResult;
+  static const Table<B> table(
+      "bounds", {"i"},
+      {column("metric", &B::metric), column("max", &B::max), column("min", &B::min), where_column,
+       column("join_by", &B::join), column("held", &B::held), column("found", &B::found), column("point", &B::point),
+       column("points", &B::points), column("reproduce", &B::reproduce)});
+  return table;
+}
+
+const Table<LawResult>& laws_table() {
+  using L = LawResult;
+  static const Table<L> table(
+      "laws", {"i"},
+      {column("part", &L::part), column("name", &L::name), column("says", &L::says), column("measured", &L::measured),
+       relation_column, column("predicted", &L::predicted), column("tolerance", &L::tolerance),
+       column("join_by", &L::join), column("held", &L::held), column("worst", &L::worst),
+       column("reproduce", &L::reproduce), column("found", &L::found)});
+  return table;
+}
+
+const Table<LawResult::Sample>& law_samples_table() {
+  using S = LawResult::Sample;
+  static const Table<S> table("law_samples", {"law", "i"},
+                              {column("point", &S::point), column("predicted", &S::predicted),
+                               column("measured", &S::measured), column("allowed", &S::allowed)});
+  return table;
+}
+
+void add_series(Database& db, int64_t point, const BiasCurve& curve) {
+  const size_t count = curve.bias_depth.size();
+  std::string values = "?, ?";
+  for (const CurveSeries& series : curve_series()) {
+    if ((curve.*series.values).size() != count)
+      throw std::logic_error("a bias curve's series differ in length from its biases");
+    values += ", ?";
+  }
+  Statement insert(db, fmt::format("INSERT INTO curve_points (point, i{}) VALUES ({})", series_names(), values));
+  for (size_t i = 0; i < count; ++i) {
+    int index = 2;
+    for (const CurveSeries& series : curve_series()) insert.bind(++index, (curve.*series.values)[i]);
+    insert.run(point, static_cast<int64_t>(i));
+  }
+}
+
+void read_series(Database& db, const std::function<BiasCurve&(int64_t)>& curve_of) {
+  for (Statement rows(db, fmt::format("SELECT point{} FROM curve_points ORDER BY point, i", series_names()));
+       rows.step();) {
+    BiasCurve& curve = curve_of(rows.integer(0));
+    int index = 1;
+    for (const CurveSeries& series : curve_series()) (curve.*series.values).push_back(rows.real(index++));
+  }
+}
+
+std::string record_tables() {
+  std::string series = "CREATE TABLE curve_points (point INTEGER, i INTEGER";
+  for (const CurveSeries& one : curve_series()) series += fmt::format(", {} REAL", one.name);
+  series += ", PRIMARY KEY (point, i)) WITHOUT ROWID;\n";
+  return curves_table().create() + series + pictures_table().create() + images_table().create() +
+         bounds_table().create() + laws_table().create() + law_samples_table().create();
+}
+
+}  // namespace noonmark

@@ -1,0 +1,31 @@
+// The tables of the store that hold records, each described once (table.h). The others, of names and values, are in
+// schema.cpp.
+#pragma once
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "compare/store/records.h"
+#include "compare/store/table.h"
+
+namespace noonmark {
+
+const Table<BiasCurve>& curves_table();        // by point; without the series
+const Table<PictureRecord>& pictures_table();  // by point and place in the list
+const Table<ImageRecord>& images_table();      // likewise
+const Table<BoundResult>& bounds_table();
+const Table<LawResult>& laws_table();  // without the samples
+const Table<LawResult::Sample>& law_samples_table();
+
+// The series of a curve: one row for each bias, in the order of the biases.
+void add_series(sqlite::Database& db, int64_t point, const BiasCurve& curve);
+// Calls curve_of(point) for each row, and adds the row's values to that curve's series.
+void read_series(sqlite::Database& db, const std::function<BiasCurve&(int64_t)>& curve_of);
+
+// The SQL that makes all of these.
+std::string record_tables();
+
+// Paths may hold bytes that are no UTF-8: those, and only those, are replaced.
+std::string json_text(const nlohmann::json& json);
+
+}  // namespace noonmark
