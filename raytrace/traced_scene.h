@@ -1,4 +1,4 @@
-// A scene as its rays know it: each of coincident triangles once.
+// A scene as its rays see it: of triangles that coincide, only the first is in it.
 #pragma once
 #include "raytrace/adjacency.h"
 #include "raytrace/embree_scene.h"
