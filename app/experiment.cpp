@@ -7,7 +7,7 @@
 
 #include "scenes/error.h"
 #include "scenes/text.h"
-#include "technique/validate.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
@@ -21,6 +21,16 @@ std::vector<size_t> digits(const Experiment& experiment, int64_t index) {
     index /= count;
   }
   return result;
+}
+
+// The id of the part's first point.
+int64_t first_of_part(const Experiment& experiment, const Experiment& part) {
+  int64_t first = 0;
+  for (const Experiment& other : experiment.parts) {
+    if (&other == &part) break;
+    first += point_count(other);
+  }
+  return first;
 }
 
 // Every byte that printable() would replace, and of characters that it would all bytes, in octal: three digits are
@@ -66,6 +76,7 @@ void apply_override(Experiment& experiment, std::string_view assignment) {
   } catch (const Error& error) {
     throw Error(ErrorKind::usage, fmt::format("--set {}: {}", assignment, error.what()));
   }
+  experiment.places[name] = fmt::format("--set {}", assignment);
   std::erase_if(experiment.swept, [&](const Swept& swept) { return swept.name == name; });
   for (Experiment& part : experiment.parts) apply_override(part, assignment);
   if (std::find(experiment.overridden.begin(), experiment.overridden.end(), name) == experiment.overridden.end())
@@ -114,42 +125,62 @@ int64_t point_count(const Experiment& experiment) {
     count *= static_cast<int64_t>(swept.values.size());
     // Each list fits in memory, so the product stays far from overflow when it is checked at every step.
     if (count > max_points)
-      throw Error(ErrorKind::usage, fmt::format("{}: the sweep has more than {} points; sweep fewer values",
-                                                experiment.path, max_points));
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}: the sweep has more than {} points; sweep fewer values",
+                              experiment.sweep_place.empty() ? experiment.path : experiment.sweep_place, max_points));
   }
   return count;
 }
 
+std::string swept_text(const Experiment& experiment, int64_t id) {
+  const Experiment& part = part_of_point(experiment, id);
+  std::vector<std::string> choice;
+  const std::vector<size_t> at = digits(part, id - first_of_part(experiment, part));
+  for (size_t i = 0; i < at.size(); ++i)
+    choice.push_back(fmt::format("{} = {}", part.swept[i].name, part.swept[i].values[at[i]]));
+  return fmt::format("{}", fmt::join(choice, ", "));
+}
+
+Error error_of_point(const Experiment& experiment, int64_t id, const Error& error) {
+  if (experiment.path.empty()) return error;  // a point from the command line alone has no name and no place
+  const Experiment& part = part_of_point(experiment, id);
+  std::string place = part.sweep_place;
+  if (const auto* conflict = dynamic_cast<const SettingConflict*>(&error)) {
+    // The file may give any of those that the message names.
+    const std::string what = error.what();
+    const auto named = part.places.find(conflict->setting());
+    size_t first = std::string::npos;
+    if (named != part.places.end())
+      place = named->second;
+    else
+      for (const auto& [name, where] : part.places)
+        if (const size_t found = what.find(name); found < first) {
+          first = found;
+          place = where;
+        }
+  }
+  const std::string choice = swept_text(experiment, id);
+  return Error(error.kind(), fmt::format("{}: {}point {}{}: {}", place.empty() ? experiment.path : place,
+                                         part.part.empty() ? "" : fmt::format("part '{}', ", part.part), id,
+                                         choice.empty() ? "" : fmt::format(" ({})", choice), error.what()));
+}
+
 std::vector<Settings> points(const Experiment& experiment) {
-  const int64_t count = point_count(experiment);
   std::vector<Settings> all;
-  if (!experiment.parts.empty()) {
-    for (const Experiment& part : experiment.parts)
-      for (Settings& settings : points(part)) all.push_back(std::move(settings));
-    return all;
-  }
-  all.reserve(static_cast<size_t>(count));
-  for (int64_t id = 0; id < count; ++id) {
-    Settings settings = experiment.base;
-    std::vector<std::string> choice;
-    const std::vector<size_t> at = digits(experiment, id);
-    for (size_t i = 0; i < at.size(); ++i) {
-      const Swept& swept = experiment.swept[i];
-      find_setting(swept.name).set(settings, swept.values[at[i]]);
-      choice.push_back(fmt::format("{} = {}", swept.name, swept.values[at[i]]));
+  const auto add = [&](const Experiment& part) {
+    const int64_t count = point_count(part);
+    for (int64_t index = 0; index < count; ++index) {
+      Settings settings = part.base;
+      const std::vector<size_t> at = digits(part, index);
+      for (size_t i = 0; i < at.size(); ++i)
+        find_setting(part.swept[i].name).set(settings, part.swept[i].values[at[i]]);
+      at_point(experiment, static_cast<int64_t>(all.size()), [&] { validate(settings); });
+      all.push_back(std::move(settings));
     }
-    try {
-      validate(settings);
-    } catch (const Error& error) {
-      if (experiment.path.empty()) throw;  // a point from the command line alone has no name to add
-      throw Error(
-          ErrorKind::usage,
-          fmt::format("{}: {}point {}{}{}{}: {}", experiment.path,
-                      experiment.part.empty() ? "" : fmt::format("part '{}': ", experiment.part), id,
-                      choice.empty() ? "" : " (", fmt::join(choice, ", "), choice.empty() ? "" : ")", error.what()));
-    }
-    all.push_back(std::move(settings));
-  }
+  };
+  all.reserve(static_cast<size_t>(point_count(experiment)));
+  if (experiment.parts.empty()) add(experiment);
+  for (const Experiment& part : experiment.parts) add(part);
   return all;
 }
 

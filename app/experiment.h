@@ -17,6 +17,7 @@
 #include "compare/judge/bounds.h"
 #include "compare/judge/laws.h"
 #include "compare/ladder/bias_curves.h"
+#include "scenes/error.h"
 #include "scenes/scene.h"
 #include "technique/settings.h"
 
@@ -42,7 +43,10 @@ struct Experiment {
   std::vector<std::string> overridden;  // settings given by apply_override, in order
   std::vector<std::string> chosen;      // parts given by choose_parts
   std::string part;                     // its name, where it is a part of another
-  std::vector<Experiment> parts;        // where there are any, the points are theirs, one part after the other
+  // Where each setting was given: "file:line:column", or "--set name=value"; and where [sweep] stands.
+  std::map<std::string, std::string> places;
+  std::string sweep_place;
+  std::vector<Experiment> parts;  // where there are any, the points are theirs, one part after the other
 };
 
 // A sweep of more points than this is a mistake in the file, not a plan.
@@ -72,8 +76,27 @@ std::vector<std::string> swept_names(const Experiment& experiment);
 // 1 without a sweep.
 int64_t point_count(const Experiment& experiment);
 
-// The points in order: the last swept setting changes fastest. Every one is validated; throws Error(usage) naming it.
+// The points in order: the last swept setting changes fastest. Every one is validated as far as it can be without its
+// scene; throws Error(usage) as at_point() does.
 std::vector<Settings> points(const Experiment& experiment);
+
+// What the point differs in from the others: "map.resolution = 512, filter.kind = box"; empty without a sweep.
+std::string swept_text(const Experiment& experiment, int64_t id);
+
+// The error of a point, with what a user needs to find it: the place of the setting at fault (of the sweep, where no
+// setting is named), the point's part, number and swept settings.
+Error error_of_point(const Experiment& experiment, int64_t id, const Error& error);
+
+// Runs f; what it throws as Error(usage) is told of point `id`.
+template <class F>
+auto at_point(const Experiment& experiment, int64_t id, const F& f) {
+  try {
+    return f();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::usage) throw;
+    throw error_of_point(experiment, id, error);
+  }
+}
 
 // Every setting by its row's name, in canonical text: PointRecord::settings.
 std::map<std::string, std::string> settings_map(const Settings& settings);

@@ -58,14 +58,19 @@ class Reader : private SettingsReader {
     if (parts_) {
       for (const toml::node* inside : {static_cast<const toml::node*>(sweep_), bounds_, laws_})
         if (inside) fail(*inside, "sweep, bounds and laws stand inside a [[part]] where a file has parts");
+      experiment_.sweep_place = place_text(parts_->source());
       read_parts(*parts_);
+      points(experiment_);
       return std::move(experiment_);
     }
     // These look at what is fixed, wherever in the file that stands.
-    if (sweep_) read_sweep(*sweep_);
+    if (sweep_) {
+      experiment_.sweep_place = place_text(sweep_->source());
+      read_sweep(*sweep_);
+    }
     if (bounds_) read_bounds(*bounds_);
     if (laws_) read_laws(*laws_);
-    check_points(root);
+    if (!in_part_) points(experiment_);
     return std::move(experiment_);
   }
 
@@ -95,13 +100,17 @@ class Reader : private SettingsReader {
       parts.push_back(std::move(part));
     }
     experiment_.parts = std::move(parts);
-    at(node.source(), [&] { return point_count(experiment_); });
   }
 
   void fix(const std::string& name, const toml::node& value) {
     const Setting& row = find_setting(name);
     row.set(experiment_.base, canonical(row, value));
-    places_[name] = value.source();
+    give(name, value);
+  }
+
+  void give(const std::string& name, const toml::node& value) {
+    given_.insert(name);
+    experiment_.places[name] = place_text(value.source());
   }
 
   // ---- [sweep]
@@ -124,7 +133,7 @@ class Reader : private SettingsReader {
     };
     for (const Swept& other : experiment_.swept)
       if (other.name == name) fail(value, fmt::format("{} is swept twice; keep one of the two lists", name));
-    if (places_.contains(name)) fail(value, fmt::format("{} is both fixed and swept; drop one of the two", name));
+    if (given_.contains(name)) fail(value, fmt::format("{} is both fixed and swept; drop one of the two", name));
 
     if (const toml::table* range_table = value.as_table()) {
       if (row.type != ValueType::integer && row.type != ValueType::real)
@@ -135,31 +144,10 @@ class Reader : private SettingsReader {
         fail(value, fmt::format("[sweep] {} must be a list or a range; fixed values go into their own table", name));
       for (const toml::node* node : list(value, name)) add(*node, canonical(row, *node));
     }
-    places_[name] = value.source();
+    give(name, value);
     const toml::source_position place = value.source().begin;
     sweep_order_.emplace_back(place.line, place.column, experiment_.swept.size());
     experiment_.swept.push_back(std::move(swept));
-  }
-
-  // What no single value can see. validate() names the setting first; that setting's place is the error's.
-  void check_points(const toml::table& root) const {
-    const std::string file = experiment_.path + ": ";
-    try {
-      points(experiment_);
-    } catch (const Error& error) {
-      const std::string what = std::string(error.what()).substr(file.size());
-      const toml::source_region* where = sweep_ ? &sweep_->source() : &root.source();
-      size_t first = std::string::npos;
-      const size_t message = what.starts_with("point ") || what.starts_with("part ") ? what.find(": ") : 0;
-      for (const auto& [name, place] : places_) {
-        const size_t found = what.find(name, message);
-        if (found < first) {
-          first = found;
-          where = &place;
-        }
-      }
-      fail(*where, what);
-    }
   }
 
   // ---- [plot] [curve]
@@ -348,9 +336,9 @@ class Reader : private SettingsReader {
 
   Experiment experiment_;
   bool in_part_ = false;
+  std::set<std::string> given_;  // the settings that this part of the file gives
   const toml::node* parts_ = nullptr;
   const toml::node* laws_ = nullptr;
-  std::map<std::string, toml::source_region> places_;  // of every setting that the file gives
   const toml::table* sweep_ = nullptr;
   const toml::node* bounds_ = nullptr;
   std::vector<std::tuple<uint32_t, uint32_t, size_t>> sweep_order_;  // line, column, index into experiment_.swept

@@ -17,7 +17,7 @@ namespace {
 std::string what_to_install(const std::string& why) {
   const std::string path = why.substr(0, why.find(": "));
   const std::string library = path.substr(path.rfind('/') + 1);  // npos + 1 is 0
-  if (library == image_module_file) return "it belongs beside the program; build or install Noonmark again";
+  if (library == image_module_file) return "it belongs beside the program, or in lib/noonmark where bin/ is installed; build or install again";
   if (library.starts_with("libOpenImageIO")) return "on Debian, apt install libopenimageio2.4";
   return fmt::format("{} is a library that OpenImageIO needs; install the package that brings it", library);
 }

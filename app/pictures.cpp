@@ -29,10 +29,10 @@ Image<Color> paint(const Measurement& m, const std::function<Color(size_t)>& fac
   return picture;
 }
 
-Image<Color> shaded(const Measurement& m, int rung) {
+Image<Color> shaded(const Measurement& m, const Image<float>& visibility) {
   return paint(m, [&](size_t i) {
     const bool facing = m.ladder.flags[i] & flag_facing;
-    return Color(encoded(clay(m, i, facing ? m.ladder.rung[static_cast<size_t>(rung)][i] : 0)));
+    return Color(encoded(clay(m, i, facing ? visibility[i] : 0)));
   });
 }
 
@@ -44,11 +44,10 @@ Image<Color> classes(const Measurement& m) {
     if (m.ladder.flags[i] & flag_ambiguous) return named_color("ambiguous");
     // A little shading, so that the shapes can be told apart.
     const float shade = 0.72f + 0.28f * m.probe.n_dot_l[i];
-    const glm::vec3 right = shade * glm::vec3(named_color(m.ladder.rung[1][i] != 0 ? "lit" : "shadowed"));
-    const Cause cause = static_cast<Cause>(m.ladder.cause[i]);
-    if (cause == Cause::none) return Color(right + 0.5f);
-    const float wrong = std::abs(m.ladder.rung[5][i] - m.ladder.rung[1][i]);
-    return Color(glm::mix(right, glm::vec3(named_color(cause_name(cause))), 0.25f + 0.75f * std::min(1.0f, wrong)) +
+    const glm::vec3 right = shade * glm::vec3(named_color(m.ladder.truth()[i] != 0 ? "lit" : "shadowed"));
+    if (m.ladder.cause[i] == static_cast<uint8_t>(Cause::none)) return Color(right + 0.5f);
+    const float wrong = std::abs(m.ladder.shown()[i] - m.ladder.truth()[i]);
+    return Color(glm::mix(right, glm::vec3(named_color(m.ladder.cause_of(i))), 0.25f + 0.75f * std::min(1.0f, wrong)) +
                  0.5f);
   });
 }
@@ -58,7 +57,7 @@ Image<Color> difference(const Measurement& m) {
   const glm::vec3 dark(named_color("acne")), light(named_color("peter_panning")), right(named_color("lit"));
   return paint(m, [&](size_t i) {
     if (!(m.ladder.flags[i] & flag_facing)) return named_color("attached");
-    const float signed_error = m.ladder.rung[5][i] - m.ladder.rung[1][i];
+    const float signed_error = m.ladder.shown()[i] - m.ladder.truth()[i];
     return Color(glm::mix(right, signed_error < 0 ? dark : light, std::min(1.0f, std::abs(signed_error))) + 0.5f);
   });
 }
@@ -67,7 +66,7 @@ Image<Color> difference(const Measurement& m) {
 Image<Color> frustum(const Measurement& m, const CameraFrame& camera) {
   Image<Color> picture = paint(m, [&](size_t i) {
     const bool facing = m.ladder.flags[i] & flag_facing;
-    return grey(0.35 + 0.5 * clay(m, i, facing ? m.ladder.rung[1][i] : 0));
+    return grey(0.35 + 0.5 * clay(m, i, facing ? m.ladder.truth()[i] : 0));
   });
   draw_frustum(picture, m.frame, camera, m.receivers);
   return picture;
@@ -104,12 +103,12 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
   const Light light = effective_light(m.scene, m.settings);
   const bool sized = (light.kind == LightKind::directional ? light.angular_diameter_deg : light.radius_m) > 0;
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
-  const auto shaded_with = [&](int rung) {
-    return shaded_frame(m.receivers, m.frame, camera, m.ladder.rung[static_cast<size_t>(rung)]);
+  const auto shaded_with = [&](const Image<float>& visibility) {
+    return shaded_frame(m.receivers, m.frame, camera, visibility);
   };
-  add("truth", "The truth: one exact shadow ray for each pixel (R1).", shaded(m, 1));
-  if (sized) add("soft-truth", "The truth of the light with its size (R0).", shaded(m, 0));
-  add("map", "What the shadow map showed (R5).", shaded(m, 5));
+  add("truth", "The truth: one exact shadow ray for each pixel (R1).", shaded(m, m.ladder.truth()));
+  if (sized) add("soft-truth", "The truth of the light with its size (R0).", shaded(m, m.ladder.soft_truth()));
+  add("map", "What the shadow map showed (R5).", shaded(m, m.ladder.shown()));
   add("classes", "Why each wrong pixel is wrong.", classes(m));
   add("difference", "Map minus truth: too dark is orange, too light is blue.", difference(m));
   add("depth",
@@ -118,16 +117,16 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
           : "The shadow map itself as the light sees it: bright is near in metres, black is empty.",
       map_picture(m.stored_map, m.frame));
   add("frustum", frustum_caption(light.kind), frustum(m, camera));
-  const Image<float> truth = shaded_with(1), map = shaded_with(5);
+  const Image<float> truth = shaded_with(m.ladder.truth()), map = shaded_with(m.ladder.shown());
   add("shaded-truth", "The clay as a renderer shows it, Blinn-Phong, with the true shadow (R1).", greys(m, truth));
   if (sized)
     add("shaded-soft-truth", "The clay with the true shadow of the light with its size (R0).",
-        greys(m, shaded_with(0)));
+        greys(m, shaded_with(m.ladder.soft_truth())));
   add("shaded-map", "The clay as a renderer shows it, with the map's shadow (R5).", greys(m, map));
   Image<Color> apart(map.width, map.height);
   for (size_t i = 0; i < apart.size(); ++i)
     apart[i] = difference_color(std::abs(static_cast<double>(map[i]) - truth[i]));
-  const double rmse = shaded_rmse(m.receivers, m.frame, camera, m.ladder.rung[1], m.ladder.rung[5]);
+  const double rmse = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
   add("shaded-difference",
       fmt::format(
           "The absolute difference of the two shaded pictures in linear light, dark 0 to bright 1; its root mean "

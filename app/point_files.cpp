@@ -179,14 +179,14 @@ std::vector<ImageRecord> write_images(const Measurement& m, const std::string& f
   }
   // Up to 2^24 a float holds an index exactly; -1 where there is no surface.
   add("primitive", channel_of(m.receivers.primitive, [](uint32_t p) { return p == no_primitive ? -1.0 : p; }));
-  for (size_t rung = 0; rung < m.ladder.rung.size(); ++rung) add(fmt::format("R{}", rung), m.ladder.rung[rung]);
+  for (const Ladder::RungImage& rung : m.ladder.rungs) add(rung.name, rung.lit);
   add("depth.reference", m.probe.reference);
   add("depth.stored", depth_read(m, m.stored_map));
   add("depth.exact", depth_read(m, m.exact_map));
   add("cause", channel_of(m.ladder.cause, [](uint8_t c) { return c; }));
   add("flags", channel_of(m.ladder.flags, [](uint8_t f) { return f; }));
-  for (int c = 1; c < cause_count; ++c)
-    add(fmt::format("step.{}", cause_name(static_cast<Cause>(c))), m.ladder.step[static_cast<size_t>(c)]);
+  for (size_t c = 1; c < m.ladder.causes.size(); ++c)
+    add(fmt::format("step.{}", m.ladder.causes[c].name), m.ladder.causes[c].step);
   write("ladder.exr", channels);
 
   const auto top_first = [](const Image<float>& map) {
@@ -235,7 +235,7 @@ std::string point_json(const Measurement& m, const std::string& command) {
       "without an area are left out before counting (scene.notes says how many); -1 where there is no surface";
   std::string text = json_text(json);
   json.clear();
-  for (int c = 0; c < cause_count; ++c) json["causes"].push_back(cause_name(static_cast<Cause>(c)));
+  for (const Ladder::CauseImage& cause : m.ladder.causes) json["causes"].push_back(cause.name);
   json["flags"] = {
       {"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);

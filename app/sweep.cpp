@@ -29,7 +29,7 @@
 #include "scenes/file.h"
 #include "scenes/library.h"
 #include "scenes/text.h"
-#include "technique/idle_settings.h"
+#include "technique/setting_rules.h"
 #include "technique/tap_pattern.h"
 
 namespace noonmark {
@@ -111,15 +111,16 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
   return info;
 }
 
-std::string swept_text(const Experiment& part, const Settings& settings) {
-  std::string text = part.part;
-  for (const Swept& swept : part.swept)
-    text += fmt::format("{}{}={}", text.empty() ? "" : " ", swept.name, find_setting(swept.name).get(settings));
-  return text.empty() ? "the only point" : text;
+// "3 edges map.resolution = 512", for progress and messages.
+std::string name_of_point(const Experiment& experiment, int64_t id) {
+  const std::string part = part_of_point(experiment, id).part, swept = swept_text(experiment, id);
+  const std::string name = part + (part.empty() || swept.empty() ? "" : " ") + swept;
+  return name.empty() ? "the only point" : name;
 }
 
-// What each point will take, and every scene remembered as it is now. Each scene is met once, in the order of the
-// points.
+// What each point will take, and every scene remembered as it is now. Throws the error of the first point that cannot
+// be measured (settings that its light refuses, a map without volume), before any is. Each scene is met once, in the
+// order of the points.
 std::vector<MemoryEstimate> survey(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points,
                                    SceneDigests& scenes) {
   std::vector<MemoryEstimate> memory;
@@ -127,18 +128,18 @@ std::vector<MemoryEstimate> survey(Workbench& bench, const Experiment& experimen
     scenes.remember(bench, points[id]);
     const bool pictures = experiment.pictures != "none" && (experiment.pictures != "first" || id == 0);
     const Experiment& part = part_of_point(experiment, static_cast<int64_t>(id));
-    memory.push_back(bench.memory(points[id], part.curve_enabled, pictures));
+    memory.push_back(at_point(experiment, static_cast<int64_t>(id),
+                              [&] { return bench.memory(points[id], part.curve_enabled, pictures); }));
   }
   return memory;
 }
 
 bool writes_pictures(const Experiment& experiment) { return experiment.pictures != "none"; }
 
-void require_memory_of(const Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points,
-                       const std::vector<MemoryEstimate>& memory, size_t id) {
-  const Experiment& part = part_of_point(experiment, static_cast<int64_t>(id));
+void require_memory_of(const Workbench& bench, const Experiment& experiment, const std::vector<MemoryEstimate>& memory,
+                       size_t id) {
   require_memory(memory[id], bench.memory_of_program(writes_pictures(experiment)),
-                 fmt::format("point {} ({})", id, swept_text(part, points[id])));
+                 fmt::format("point {} ({})", id, name_of_point(experiment, static_cast<int64_t>(id))));
 }
 
 // Opens the store. It also removes the report and the table of an earlier run: they can show an old verdict, or other
@@ -234,7 +235,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   // All of them, before the first is measured: hours later is too late to hear of it.
   const auto measured_before = [&](int64_t id) { return std::binary_search(before.begin(), before.end(), id); };
   for (int64_t id = 0; id < total; ++id)
-    if (!measured_before(id)) require_memory_of(bench, experiment, planned, memory, static_cast<size_t>(id));
+    if (!measured_before(id)) require_memory_of(bench, experiment, memory, static_cast<size_t>(id));
   SweepOutcome outcome;
   {
     const StopOnSignal guard;
@@ -243,7 +244,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     IdleNotes notes;
     for (int64_t id = 0; id < total && !outcome.interrupted; ++id) {
       if (measured_before(id)) continue;
-      require_memory_of(bench, experiment, planned, memory,
+      require_memory_of(bench, experiment, memory,
                         static_cast<size_t>(id));  // others may have taken it meanwhile
       const Experiment& part = part_of_point(experiment, id);
       scenes.require_unchanged(bench, planned[static_cast<size_t>(id)]);
@@ -255,7 +256,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0))
         static_cast<PointPictures&>(m.record) = keep_pictures(m, id, folder.path());
       store.add(m.record);
-      progress.finished(++done, swept_text(part, m.settings));
+      progress.finished(++done, name_of_point(experiment, id));
       outcome.interrupted = stop_asked && done < total;
     }
     notes.print();
@@ -275,7 +276,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
         fmt::print(stderr, "note: {}; the pictures of point {} are made again\n", printable(why), id);
       }
       const Settings& settings = planned[static_cast<size_t>(id)];
-      require_memory_of(bench, experiment, planned, memory, static_cast<size_t>(id));
+      require_memory_of(bench, experiment, memory, static_cast<size_t>(id));
       scenes.require_unchanged(bench, settings);
       store.set_pictures(id, keep_pictures(bench.measure(settings, std::nullopt), id, folder.path()));
     }
@@ -323,7 +324,7 @@ void print_plan(const Experiment& experiment) {
   fmt::print("memory: at most {}, by point {} ({} of it for {}); {}\n", bytes_text(most->bytes()),
              most - memory.begin(), bytes_text(share.bytes), share.what,
              bench.memory_of_program(writes_pictures(experiment)).text());
-  for (size_t i = 0; i < planned.size(); ++i) require_memory_of(bench, experiment, planned, memory, i);
+  for (size_t i = 0; i < planned.size(); ++i) require_memory_of(bench, experiment, memory, i);
   // Time is close to a constant for each point plus a share for each tap: two small pictures of the first point tell
   // both.
   const auto seconds = [&](int divisor, double nudge) {

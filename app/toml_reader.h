@@ -39,8 +39,11 @@ class TomlReader {
 
   // ---- messages
 
+  std::string place_text(const toml::source_region& where) const {
+    return fmt::format("{}:{}:{}", path_, where.begin.line, where.begin.column);
+  }
   [[noreturn]] void fail(const toml::source_region& where, const std::string& what) const {
-    throw PlacedError(ErrorKind::usage, fmt::format("{}:{}:{}: {}", path_, where.begin.line, where.begin.column, what));
+    throw PlacedError(ErrorKind::usage, fmt::format("{}: {}", place_text(where), what));
   }
   [[noreturn]] void fail(const toml::node& node, const std::string& what) const { fail(node.source(), what); }
 

@@ -14,7 +14,7 @@
 #include "scenes/library.h"
 #include "scenes/text.h"
 #include "technique/bias.h"
-#include "technique/idle_settings.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
@@ -88,7 +88,9 @@ int verb_render(const std::string& path, long point, const ExperimentArguments& 
   Workbench bench(gl::DebugMode::log);
   require_image_files();
   const Experiment& part = part_of_point(experiment, std::max(point, 0L));
-  require_memory(bench.memory(settings, part.curve_enabled, true), bench.memory_of_program(true), "this point");
+  const MemoryEstimate memory =
+      at_point(experiment, std::max(point, 0L), [&] { return bench.memory(settings, part.curve_enabled, true); });
+  require_memory(memory, bench.memory_of_program(true), "this point");
   const Measurement m = bench.measure(settings, part.curve_enabled ? std::optional(part.curve) : std::nullopt);
   write_pictures(m, out, ".", "point");
   write_images(m, out, ".", "");

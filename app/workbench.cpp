@@ -1,6 +1,7 @@
 #include "app/workbench.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -23,8 +24,8 @@
 #include "scenes/error.h"
 #include "scenes/library.h"
 #include "scenes/scene_digest.h"
+#include "technique/setting_rules.h"
 #include "technique/tap_pattern.h"
-#include "technique/validate.h"
 
 namespace noonmark {
 namespace {
@@ -50,19 +51,6 @@ class Remembered {
   std::string key_;
   std::optional<T> value_;
 };
-
-// Every setting whose name begins with one of the prefixes, but for those excepted.
-std::string key_of(const Settings& settings, std::initializer_list<std::string_view> prefixes,
-                   std::initializer_list<std::string_view> except = {}) {
-  std::string key;
-  for (const Setting& row : settings_table()) {
-    const auto begins = [&](std::string_view prefix) { return row.name.starts_with(prefix); };
-    if (std::any_of(prefixes.begin(), prefixes.end(), begins) &&
-        std::find(except.begin(), except.end(), row.name) == except.end())
-      key += fmt::format("{}={}\n", row.name, row.get(settings));
-  }
-  return key;
-}
 
 // What a pass costs: the median of three, so that one interruption does not show.
 template <class Pass>
@@ -139,35 +127,16 @@ struct Lookup {
   StageTime texel_stage, tap_stage;
 };
 
-// The settings of the bias's parts that act at one of these places.
-std::string bias_key(const Settings& settings, std::initializer_list<BiasPlace> places) {
-  std::string key;
-  for (const BiasParameter& parameter : bias_parameters())
-    if (std::find(places.begin(), places.end(), parameter.part->acts_on) != places.end())
-      key += fmt::format("{}={}\n", parameter.name, settings.bias[parameter.name]);
-  return key;
-}
-
-// What acts on the caster is in the map, exact and drawn. A polygon offset is in units of the map's format.
-std::string caster_key(const Settings& settings) {
-  const std::string key = bias_key(settings, {BiasPlace::caster});
-  return Bias(settings.bias).polygon_offset() ? key + key_of(settings, {"map.format"}) : key;
-}
-
-// The settings that change what the probe and the truth of the taps are: not those that only subtract another number.
+// What the probe and the truth of the taps depend on. A polygon offset is in units of the map's format.
 std::string lookup_key_of(const Settings& settings) {
-  return key_of(settings,
-                {"scene.", "view.", "light.", "map.", "filter.", "bias.unit", "bias.reference", "bias.plane_cap"},
-                {"map.lit_beyond_far", "map.format", "map.cube_pass"}) +
-         bias_key(settings, {BiasPlace::place_looked_up}) + caster_key(settings);
+  const std::string key = settings_key(settings, {Stage::scene, Stage::view, Stage::lookup});
+  return Bias(settings.bias).polygon_offset() ? key + find_setting("map.format").get(settings) : key;
 }
 
-std::string curve_key_of(const Settings& settings, const std::string& lookup_key, const BiasPart& varied,
-                         const CurveOptions& options) {
-  // What is held while the part's amount runs stays in the key.
-  Settings held = settings;
-  held.bias[varied.name] = 0;
-  return lookup_key + key_of(held, {"map.", "truth."}) + bias_key(held, {BiasPlace::compared_depth}) +
+std::string curve_key_of(const Settings& settings, const BiasPart& varied, const CurveOptions& options) {
+  // All but the part's amount, which runs.
+  return settings_key(settings, {Stage::scene, Stage::view, Stage::truth, Stage::map, Stage::lookup, Stage::ladder},
+                      "bias." + std::string(varied.name)) +
          fmt::format("{} {} {} {}", varied.name, options.acne_bound, options.peter_panning_bound,
                      fmt::join(options.bias_depth, " "));
 }
@@ -195,7 +164,7 @@ struct Workbench::Impl {
       : renderer(debug, std::move(shaders)), strip_bytes(bytes) {}
 
   LoadedScene& load(const Settings& settings) {
-    return scene.get(key_of(settings, {"scene."}), [&] {
+    return scene.get(settings_key(settings, {Stage::scene}), [&] {
       auto loaded = std::make_unique<Scene>(make_scene(settings.scene));
       auto tracer = std::make_unique<raytrace::Tracer>(*loaded);
       renderer.load_scene(*loaded);
@@ -274,32 +243,29 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const LightFrame frame = make_light_frame(scene, settings);
   const Light light = effective_light(scene, settings);
 
-  const View& view =
-      b.view.get(key_of(settings, {"scene.", "view."}), [&] { return take_view(b.renderer, scene, settings.view); });
-  const Truth& truth = b.truth.get(key_of(settings, {"scene.", "view.", "light.", "truth."}), [&] {
+  const View& view = b.view.get(settings_key(settings, {Stage::scene, Stage::view}),
+                                [&] { return take_view(b.renderer, scene, settings.view); });
+  const Truth& truth = b.truth.get(settings_key(settings, {Stage::scene, Stage::view, Stage::truth}), [&] {
     Truth made;
     made.receivers = loaded.tracer->receiver_truth(view.receivers, frame, {light, settings.truth.standard_error},
                                                    &made.hard, &made.soft);
     return made;
   });
-  const std::string on_device = key_of(settings, {"scene.", "view."});
+  const std::string on_device = settings_key(settings, {Stage::scene, Stage::view});
   if (b.receivers_on_device != on_device) {
     b.renderer.load_receivers(view.receivers, view.camera.eye_m);
     b.receivers_on_device = on_device;
   }
 
-  const std::string map_key =
-      key_of(settings, {"scene.", "light.", "map."}, {"map.lit_beyond_far"}) + caster_key(settings);
-  const RenderedMap& map = b.map.get(map_key, [&] {
+  const RenderedMap& map = b.map.get(settings_key(settings, {Stage::scene, Stage::map}), [&] {
     std::optional<gl::ShadowMap> rendered;
     const double time = median_time([&](double* ms) { rendered.emplace(b.renderer.render_map(frame, settings, ms)); });
     Image<float> depth = b.renderer.read_map(*rendered);
     return RenderedMap{std::move(*rendered), std::move(depth), time};
   });
   const Bias bias(settings.bias);
-  const std::string lookup_key = lookup_key_of(settings);
   const std::vector<PixelRange> strips = strips_of(settings, frame.kind, b.strip_bytes);
-  Lookup& lookup = b.lookup.get(lookup_key, [&] {
+  Lookup& lookup = b.lookup.get(lookup_key_of(settings), [&] {
     LookupProbe probe = b.renderer.probe(frame, settings, gl::ProbeTaps::none);
     const double offset_unit = bias.polygon_offset() ? b.renderer.polygon_offset_unit(settings.map.format) : 0;
     raytrace::LookupTracer rays =
@@ -348,7 +314,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
                 map.depth,
                 lookup.exact_depth};
   const BiasPart* const varied = curve_options ? curve_part(settings.bias) : nullptr;
-  const std::string curve_key = varied ? curve_key_of(settings, lookup_key, *varied, *curve_options) : "";
+  const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
   std::optional<BiasCounts> counts;
   if (varied && !b.curve.has(curve_key)) counts.emplace(lookup.probe, *varied);
   if (!lookup.taps) lookup.tap_stage = {};
@@ -372,7 +338,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   m.record.metrics.insert(view.metrics.begin(), view.metrics.end());
   m.record.metrics["shaded_rmse"] = shaded_rmse(
       view.receivers, frame, make_camera_frame(view.camera, view.receivers.width(), view.receivers.height()),
-      m.ladder.rung[1], m.ladder.rung[5]);
+      m.ladder.truth(), m.ladder.shown());
   m.record.metrics["map_ms"] = map.time_ms;
   m.record.metrics["lookup_ms"] = lookup_ms;
   m.record.metrics["shadow_ms"] = map.time_ms + lookup_ms;

@@ -10,7 +10,7 @@
 #include "gl/tap_table.h"
 #include "scenes/error.h"
 #include "technique/bias.h"
-#include "technique/validate.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark::gl {
 namespace {
@@ -95,7 +95,7 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
                               double* time_ms) {
   Impl& r = *impl_;
   r.context->make_current();
-  validate_for(frame.kind, settings);
+  validate(settings, frame.kind);
   if (frame.resolution != map.resolution() || (frame.kind == LightKind::point) != map.impl_->cube)
     throw Error(ErrorKind::defect,
                 fmt::format("lookup: the light's frame is for {} face(s) of {} texels, the map has "

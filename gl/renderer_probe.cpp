@@ -4,7 +4,7 @@
 
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
-#include "technique/validate.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark::gl {
 namespace {
@@ -36,7 +36,7 @@ Image<T> each(const Image<glm::vec4>& image, F&& part) {
 LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings, ProbeTaps taps) {
   Impl& r = *impl_;
   r.context->make_current();
-  validate_for(frame.kind, settings);
+  validate(settings, frame.kind);
   const bool cube = frame.kind == LightKind::point;
   r.check_resolution(frame.resolution, cube);
   const Bias bias(settings.bias);

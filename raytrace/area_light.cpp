@@ -3,7 +3,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -79,13 +78,11 @@ bool has_size(const Light& light) {
 
 Image<float> sample_light(const Scene& scene, const EmbreeScene& embree, const ReceiverImage& receivers,
                           const std::vector<uint32_t>& facing, const LightFrame& frame, const Light& light,
-                          double standard_error, uint64_t& rays) {
+                          double standard_error) {
   const LightSampler sampler(frame, light);
   const ShadowStart start(scene, receivers, frame);
   Image<float> seen(receivers.width(), receivers.height(), 0);
-  std::atomic<uint64_t> all_rays = 0;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, facing.size(), 256), [&](const tbb::blocked_range<size_t>& range) {
-    uint64_t cast = 0;
     for (size_t index = range.begin(); index != range.end(); ++index) {
       const uint32_t pixel = facing[index];
       const glm::dvec2 shift(hash_pixel(pixel) * 0x1p-32, hash_pixel(pixel ^ 0x9e3779b9u) * 0x1p-32);
@@ -104,16 +101,13 @@ Image<float> sample_light(const Scene& scene, const EmbreeScene& embree, const R
           if (glm::dot(glm::dvec3(way.direction), normal) > 0) packet[above++] = start.towards(pixel, way);
         }
         if (above > 0) lit += static_cast<uint32_t>(above - std::popcount(embree.occluded(above, packet)));
-        cast += static_cast<uint64_t>(above);
         n += packet_size;
         const double p = (lit + 1.0) / (n + 2.0);
         if (p * (1 - p) <= standard_error * standard_error * n) break;
       }
       seen[pixel] = static_cast<float>(static_cast<double>(lit) / n);
     }
-    all_rays += cast;
   });
-  rays = all_rays;
   return seen;
 }
 

@@ -21,6 +21,6 @@ bool has_size(const Light& light);
 // - Pixels that are not in `facing` are 0.
 Image<float> sample_light(const Scene& scene, const EmbreeScene& embree, const ReceiverImage& receivers,
                           const std::vector<uint32_t>& facing, const LightFrame& frame, const Light& light,
-                          double standard_error, uint64_t& rays);
+                          double standard_error);
 
 }  // namespace noonmark

@@ -61,7 +61,7 @@ std::string EmbreeDevice::version() const {
 }
 
 EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::vector<uint32_t> kept)
-    : scene_(scene), kept_(std::move(kept)) {
+    : device_(device), scene_(scene), kept_(std::move(kept)) {
   embree_.reset(rtcNewScene(device.get()));
   rtcSetSceneFlags(embree_.get(), RTC_SCENE_FLAG_ROBUST);
   const size_t count = kept_.empty() ? scene.triangles.size() : kept_.size();
@@ -101,6 +101,7 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::ve
 }
 
 void EmbreeScene::first_hits(int count, const LightRay* starts, uint32_t* primitives) const {
+  device_.count_rays(count);
   alignas(64) RTCRayHit16 rays;
   alignas(64) int valid[packet_size];
   for (int i = 0; i < packet_size; ++i) {
@@ -145,6 +146,7 @@ RTCRayHit single_ray(glm::vec3 origin, glm::vec3 direction, float tnear) {
 }  // namespace
 
 uint32_t EmbreeScene::first_hit(const LightRay& start) const {
+  device_.count_rays(1);
   RTCRayHit ray = single_ray(start.origin, start.direction, 0);
   embree::Context context;
   embree::intersect(embree_.get(), context, ray);
@@ -153,6 +155,7 @@ uint32_t EmbreeScene::first_hit(const LightRay& start) const {
 }
 
 void EmbreeScene::all_hits(const LightRay& start, std::vector<uint32_t>& primitives) const {
+  device_.count_rays(1);
   RTCRay ray = single_ray(start.origin, start.direction, 0).ray;
   ShadowContext context;
   context.scene = this;
@@ -161,6 +164,7 @@ void EmbreeScene::all_hits(const LightRay& start, std::vector<uint32_t>& primiti
 }
 
 uint32_t EmbreeScene::occluded(int count, const ShadowRay* starts) const {
+  device_.count_rays(count);
   alignas(64) RTCRay16 rays;
   alignas(64) int valid[packet_size];
   for (int i = 0; i < packet_size; ++i) {
@@ -191,6 +195,7 @@ uint32_t EmbreeScene::occluded(int count, const ShadowRay* starts) const {
 double EmbreeScene::occluder_distance(const ShadowRay& start) const {
   float tnear = 0;
   for (;;) {
+    device_.count_rays(1);
     RTCRayHit ray = single_ray(start.origin, start.direction, tnear);
     embree::Context context;
     embree::intersect(embree_.get(), context, ray);

@@ -4,8 +4,11 @@
 // The scene is built with Embree's flag ROBUST, because without it 1 to 15 % of the rays aimed at vertices and edges
 // pass through. The instruction set is fixed, because verdicts at silhouettes differ between instruction sets.
 #pragma once
+#include <tbb/combinable.h>
+
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
@@ -30,12 +33,17 @@ class EmbreeDevice {
   std::string version() const;
   const std::string& isa() const { return isa_; }
 
+  // The rays that all scenes of this device have cast. Read it while none is cast.
+  uint64_t rays() const { return rays_.combine(std::plus<>()); }
+  void count_rays(int more) const { rays_.local() += static_cast<uint64_t>(more); }
+
  private:
   struct Release {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
   };
   std::unique_ptr<RTCDeviceTy, Release> device_;
   std::string isa_;
+  mutable tbb::combinable<uint64_t> rays_{[] { return uint64_t{0}; }};
 };
 
 // A ray from the light's side.
@@ -59,7 +67,7 @@ struct ShadowRay {
 
 class EmbreeScene {
  public:
-  // kept: indices of the triangles that take part; empty: all of them.
+  // kept: indices of the triangles that take part; empty: all of them. Device and scene must outlive it.
   EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::vector<uint32_t> kept = {});
 
   // count: 1 ... 16.
@@ -82,6 +90,7 @@ class EmbreeScene {
   struct Release {
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
   };
+  const EmbreeDevice& device_;
   const Scene& scene_;
   std::vector<uint32_t> kept_;
   std::unique_ptr<RTCSceneTy, Release> embree_;

@@ -1,6 +1,7 @@
 #include "raytrace/light_view.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "raytrace/vertex_rounding.h"
 
@@ -8,12 +9,15 @@ namespace noonmark {
 
 LightView::LightView(const Scene& scene, const LightFrame& frame)
     : scene_(&scene), frame_(frame), parallel_(frame.parallel()) {
-  vertices_.reserve(scene.positions.size());
+  const auto geometry = std::make_shared<Geometry>();
+  geometry_ = geometry;
+  std::vector<glm::dvec3>& vertices = geometry->vertices;
+  vertices.reserve(scene.positions.size());
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
   if (!parallel_) low = high = glm::dvec3(0);  // the light is part of what its rays' rounding spans
   for (const glm::vec3& position : scene.positions) {
     const glm::dvec3 p = frame.to_light(position);
-    vertices_.push_back(p);
+    vertices.push_back(p);
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
@@ -22,11 +26,12 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
   // A margin for the rounding of the start, so that nothing is behind it.
   start_ = frame.to_world({0, 0, low.z - 0.01 * size - 4 * ray_error_m_});
 
-  planes_.reserve(scene.triangles.size());
+  vertices_ = vertices.data();
+  geometry->planes.reserve(scene.triangles.size());
   for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const glm::dvec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2), e = b - a, f = c - a;
     const glm::dvec3 n = glm::cross(e, f);
-    Plane& plane = planes_.emplace_back();
+    Plane& plane = geometry->planes.emplace_back();
     plane.normal = (parallel_ ? n.z : glm::dot(n, a)) < 0 ? -n : n;
     plane.gradient = glm::dvec2(e.z * f.y - f.z * e.y, f.z * e.x - e.z * f.x) / (e.x * f.y - e.y * f.x);
     plane.slope = glm::length(plane.gradient);
@@ -40,6 +45,19 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
     const double length = glm::length(n);
     plane.low = std::max(plane.low - longest, length > 0 ? std::abs(glm::dot(n, a)) / length : 0.0);
   }
+  planes_ = geometry->planes.data();
+}
+
+bool LightView::same_light(const LightFrame& frame) const {
+  return frame.kind == frame_.kind && frame.origin_m == frame_.origin_m && frame.right == frame_.right &&
+         frame.up == frame_.up && frame.forward == frame_.forward && frame.ray_direction == frame_.ray_direction;
+}
+
+LightView LightView::with_map_of(const LightFrame& frame) const {
+  if (!same_light(frame)) throw std::logic_error("a map of another light than the one that the scene was seen by");
+  LightView view = *this;
+  view.frame_ = frame;
+  return view;
 }
 
 glm::dvec3 LightView::normal_place(glm::dvec3 place) const {

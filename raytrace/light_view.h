@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "raytrace/embree_scene.h"
@@ -22,6 +23,10 @@ namespace noonmark {
 class LightView {
  public:
   LightView(const Scene& scene, const LightFrame& frame);
+
+  // Another map of the same light: what was computed of the scene is shared.
+  bool same_light(const LightFrame& frame) const;
+  LightView with_map_of(const LightFrame& frame) const;
 
   glm::dvec3 corner(uint32_t triangle, int i) const { return vertices_[scene_->triangles[triangle][i]]; }
 
@@ -113,17 +118,23 @@ class LightView {
   glm::dvec3 at_depth(glm::dvec3 x, double depth) const;  // in the light's frame
 
  private:
-  const Scene* scene_;
-  LightFrame frame_;
-  bool parallel_;
-  std::vector<glm::dvec3> vertices_;
   struct Plane {  // of each triangle
     glm::dvec3 normal{0};
     double low = 0, high = 0;  // the triangle's range of depths
     glm::dvec2 gradient{0};    // directional: dz/d(u, v); not finite when it is edge-on
     double slope = 0;          // and its length
   };
-  std::vector<Plane> planes_;
+  struct Geometry {
+    std::vector<glm::dvec3> vertices;
+    std::vector<Plane> planes;
+  };
+
+  const Scene* scene_;
+  LightFrame frame_;
+  bool parallel_;
+  std::shared_ptr<const Geometry> geometry_;
+  const glm::dvec3* vertices_ = nullptr;  // of geometry_
+  const Plane* planes_ = nullptr;
   bool in_a_face_ = false;  // the light stands in the plane of a triangle
   glm::dvec3 start_{0};     // directional: where the ray through (0, 0) starts, in the world
   double ray_error_m_ = 0;

@@ -1,14 +1,13 @@
 #include "raytrace/lookup_tracer.h"
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
 
 #include "raytrace/light_view.h"
 #include "raytrace/own_surface.h"
 #include "raytrace/packets.h"
 #include "raytrace/polygon_offset.h"
-#include "raytrace/stopwatch.h"
+#include "raytrace/stage_watch.h"
 #include "raytrace/texel_rays.h"
 #include "raytrace/traced_scene.h"
 
@@ -31,10 +30,9 @@ std::vector<uint32_t> kept_triangles(const Scene& scene, const Adjacency& adjace
 
 // Depth of the first surface at x that is not before the near plane. Rays start and end in float, so they start a
 // little before that plane, and surfaces that are before it in double are skipped.
-std::optional<double> first_from_near(const EmbreeScene& seen, const LightView& view, glm::dvec3 x, uint64_t& rays) {
+std::optional<double> first_from_near(const EmbreeScene& seen, const LightView& view, glm::dvec3 x) {
   const double near = view.near_depth(x);
   for (double from = near - 2 * view.ray_error_m();;) {
-    ++rays;
     const uint32_t hit = seen.first_hit(view.ray_from(x, from));
     if (hit == no_primitive) return std::nullopt;
     const double depth = view.hit_depth(hit, x);
@@ -44,7 +42,7 @@ std::optional<double> first_from_near(const EmbreeScene& seen, const LightView& 
 }
 
 Image<float> exact_map_of(const TracedScene& traced, const LightView& view, const TexelRays& texels,
-                          const MapSettings& settings, const std::optional<PolygonOffset>& offset, uint64_t& rays) {
+                          const MapSettings& settings, const std::optional<PolygonOffset>& offset) {
   const LightFrame& frame = view.frame();
   std::optional<EmbreeScene> uncut;  // only the faces that the rasteriser keeps
   bool nothing_kept = false;
@@ -59,15 +57,12 @@ Image<float> exact_map_of(const TracedScene& traced, const LightView& view, cons
   if (nothing_kept) return map;
 
   const std::vector<glm::ivec2>& list = texels.inside_texels();
-  std::atomic<uint64_t> extra = 0;
   for_each_packet(list.size(), [&](size_t first, int n) {
-    uint64_t extra_here = 0;
     uint32_t hits[packet_size];
     glm::dvec3 places[packet_size];
     if (uncut) {
       for (int i = 0; i < n; ++i) places[i] = view.texel_place(list[first + i]);
       view.first_hits(seen, n, places, hits);
-      extra_here += static_cast<uint64_t>(n);
     } else {
       for (int i = 0; i < n; ++i) hits[i] = texels.hit(list[first + i]);
     }
@@ -77,82 +72,73 @@ Image<float> exact_map_of(const TracedScene& traced, const LightView& view, cons
       float& texel = map.at(list[first + i].x, list[first + i].y);
       if (offset) {
         texel = static_cast<float>(least_offset_depth(seen, view, *offset, centre, settings.depth_clamp));
-        ++extra_here;
         continue;
       }
       double depth = view.hit_depth(hits[i], centre);
       if (depth < view.near_depth(centre) && !settings.depth_clamp) {
         // The rasteriser clips this surface. The map holds the first surface behind the near plane instead.
-        const std::optional<double> behind = first_from_near(seen, view, centre, extra_here);
+        const std::optional<double> behind = first_from_near(seen, view, centre);
         if (!behind) continue;
         depth = *behind;
       }
       texel = static_cast<float>(std::clamp(frame.window_depth(depth), 0.0, 1.0));
     }
-    extra += extra_here;
   });
-  rays += extra;
   return map;
 }
 
 }  // namespace
 
 struct LookupTracer::Impl {
-  const TracedScene& traced;
+  TracedScene& traced;
   const ReceiverImage& receivers;
   const ReceiverTruth& truth;
   MapSettings map;
   Bias bias;
   std::optional<PolygonOffset> offset;
+  std::shared_ptr<LightSide> light;
   LightView view;
   TexelRays texels{traced.embree, view, map.wrap};
-  std::optional<OwnSurface> surface{};  // once a tap is asked about
 };
 
-LookupTracer::LookupTracer(const TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
+LookupTracer::LookupTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
                            const LightFrame& frame, const MapSettings& map, const Bias& bias, double offset_unit) {
   std::optional<PolygonOffset> offset;  // a fragment shader that writes its own depth, a point light's, has none
   if (bias.polygon_offset() && frame.kind != LightKind::point)
     offset.emplace(PolygonOffset{bias.polygon_offset()->factor, bias.polygon_offset()->units,
                                  map.format == DepthFormat::d32f ? 0 : offset_unit});
-  impl_.reset(new Impl{traced, receivers, truth, map, bias, offset, LightView(traced.scene, frame)});
+  const std::shared_ptr<LightSide> light = traced.lit_by(frame);
+  impl_.reset(new Impl{traced, receivers, truth, map, bias, offset, light, light->view().with_map_of(frame)});
 }
 LookupTracer::LookupTracer(LookupTracer&&) noexcept = default;
 LookupTracer& LookupTracer::operator=(LookupTracer&&) noexcept = default;
 LookupTracer::~LookupTracer() = default;
 
 void LookupTracer::ask(const LookupProbe& probe, PixelRange strip, StageTime* stage) {
-  const Stopwatch watch;
+  const StageWatch watch(stage, impl_->traced.device);
   impl_->texels.ask(impl_->truth.facing, probe, strip);
-  if (stage) stage->milliseconds += watch.milliseconds();
 }
 
 Image<float> LookupTracer::trace_map(StageTime* stage) {
-  const Stopwatch watch;
+  const StageWatch watch(stage, impl_->traced.device);
   impl_->texels.trace();
-  uint64_t rays = impl_->texels.rays();
-  Image<float> map = exact_map_of(impl_->traced, impl_->view, impl_->texels, impl_->map, impl_->offset, rays);
-  if (stage) *stage = {stage->milliseconds + watch.milliseconds(), stage->rays + rays};
-  return map;
+  return exact_map_of(impl_->traced, impl_->view, impl_->texels, impl_->map, impl_->offset);
 }
 
 TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Image<float>& edge_distance_texels,
                                   StageTime* stage) {
-  const Stopwatch watch;
   Impl& l = *impl_;
-  if (!l.surface) l.surface.emplace(l.traced.embree, l.traced.adjacency, l.view);
-  const OwnSurface& surface = *l.surface;
+  const StageWatch watch(stage, l.traced.device);
+  const OwnSurface surface(l.traced.embree, l.traced.adjacency, l.view, l.light->silhouettes());
   const LightView& view = l.view;
   const LightFrame& frame = view.frame();
   const int taps = probe.taps();
   const bool one_for_all = probe.pattern.variants == 1 && !probe.pattern.scaled_by_view;  // every receiver's offsets
   TapTruth result{taps, {}, strip.first};
   result.taps.assign(strip.size() * static_cast<size_t>(taps), 0);
-  std::atomic<uint64_t> all_rays = 0;
 
   for_each_packet(strip.size(), [&](size_t begin, int n) {
     const size_t first = strip.first + begin;
-    uint64_t rays = 0;
     SurfacePoint points[packet_size];
     glm::dvec3 at[packet_size];          // P in the light's frame
     glm::dvec3 looked_up[packet_size];   // P' there; P unless a part moves the lookup
@@ -180,8 +166,7 @@ TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Im
         uint32_t hits[packet_size];
         for (int k = 0; k < active; ++k) x[k] = view.normal_place(frame.tap_place(from[k], offsets[k]));
         view.first_hits(l.traced.embree, active, x, hits);
-        rays += static_cast<uint64_t>(active);
-        for (int k = 0; k < active; ++k) verdicts[k] = surface.lit_at(points[k], x[k], hits[k], rays);
+        for (int k = 0; k < active; ++k) verdicts[k] = surface.lit_at(points[k], x[k], hits[k]);
       };
       if (std::all_of(offsets, offsets + active, [](glm::dvec3 o) { return o == glm::dvec3(0); }))
         for (int k = 0; k < active; ++k) exact[k] = {points[k].lit, true};  // V(P, P) is R1
@@ -202,7 +187,7 @@ TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Im
         const glm::ivec2 texel = probe.texel(pixel, tap);
         const uint32_t hit = l.texels.hit(texel);
         const glm::dvec3 centre = view.texel_place(texel);
-        const OwnSurface::Verdict at_texel = surface.lit_at(points[k], centre, hit, rays);
+        const OwnSurface::Verdict at_texel = surface.lit_at(points[k], centre, hit);
         const bool exact_lit = exact[k].lit, moved_lit = moved[k].lit, texel_lit = at_texel.lit;
         const bool clipped = !l.map.depth_clamp && surface.clipped(hit, centre);
         result.taps[(pixel - strip.first) * static_cast<size_t>(taps) + static_cast<size_t>(tap)] =
@@ -212,14 +197,12 @@ TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Im
                                  (at_texel.sure ? 0 : tap_texel_unsure));
         if (moved_lit != texel_lit && !behind[k]) {
           const glm::dvec3 from = view.normal_place(frame.tap_place(looked_up[k], offsets[k]));
-          const double distance = surface.edge_distance_texels(points[k], from, centre, moved_lit, rays);
+          const double distance = surface.edge_distance_texels(points[k], from, centre, moved_lit);
           edge_distance_texels[pixel] = std::max(edge_distance_texels[pixel], static_cast<float>(distance));
         }
       }
     }
-    all_rays += rays;
   });
-  if (stage) *stage = {stage->milliseconds + watch.milliseconds(), stage->rays + all_rays};
   return result;
 }
 

@@ -10,7 +10,7 @@
 
 namespace noonmark::raytrace {
 
-struct TracedScene;
+class TracedScene;
 
 // Traces the truth of one lookup strip by strip, so that only the taps of one strip need memory.
 //
@@ -24,8 +24,8 @@ struct TracedScene;
 class LookupTracer {
  public:
   // What Tracer::lookup() is given.
-  LookupTracer(const TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
-               const LightFrame& frame, const MapSettings& map, const Bias& bias, double offset_unit);
+  LookupTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
+               const MapSettings& map, const Bias& bias, double offset_unit);
   ~LookupTracer();
   LookupTracer(LookupTracer&&) noexcept;
   LookupTracer& operator=(LookupTracer&&) noexcept;

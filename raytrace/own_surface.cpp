@@ -106,8 +106,7 @@ uint32_t OwnSurface::across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x
   return next;
 }
 
-uint32_t OwnSurface::first_hit(glm::dvec3 x, uint64_t& rays) const {
-  ++rays;
+uint32_t OwnSurface::first_hit(glm::dvec3 x) const {
   uint32_t hit = no_primitive;
   view_.first_hits(embree_, 1, &x, &hit);
   return hit;
@@ -130,9 +129,8 @@ bool OwnSurface::covers(uint32_t triangle, glm::dvec3 x) const {
   return view_.parallel() || (least >= 0) == (view_.orientation(triangle) > 0);
 }
 
-uint32_t OwnSurface::exact_first(glm::dvec3 x, uint64_t& rays) const {
+uint32_t OwnSurface::exact_first(glm::dvec3 x) const {
   std::vector<uint32_t> found;
-  ++rays;
   embree_.all_hits(view_.ray(x), found);
   silhouettes_.near(x, found);
   uint32_t first = no_primitive;
@@ -153,7 +151,7 @@ SurfacePoint OwnSurface::point(glm::dvec3 light, uint32_t primitive, bool lit) c
   return {at, primitive, lit, lit && silhouettes_.near(at, rounding_share * beside_m())};
 }
 
-OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, uint64_t& rays) const {
+OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const {
   // The first hit is determined exactly, in double, where the ray may have met another surface than the first: beside a
   // silhouette, and where two surfaces intersect. An intersection can change a verdict only if P's own sheet is one of
   // the two surfaces: the sheet of a dark receiver comes out from under the other, or the sheet of a lit one goes
@@ -167,7 +165,7 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   bool sure = !p.on_silhouette;
   const bool tie = beside && silhouettes_.near(x, rounding_share * beside_m());
   const auto exact = [&] {
-    const uint32_t first = exact_first(x, rays);
+    const uint32_t first = exact_first(x);
     sure &= clipped(first, x) == clipped(hit, x);
     return first;
   };
@@ -176,8 +174,8 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
     return {true, sure && (!tie || may_be_lit(p, x, hit))};
   }
   const uint32_t first = beside || may_be_lit(p, x, hit) ? exact() : hit;
-  Verdict v = verdict(p, x, first, crossed, rays);
-  if (tie && hit != first) sure &= verdict(p, x, hit, crossed, rays).lit == v.lit;
+  Verdict v = verdict(p, x, first, crossed);
+  if (tie && hit != first) sure &= verdict(p, x, hit, crossed).lit == v.lit;
   v.sure &= sure;
   return v;
 }
@@ -191,7 +189,7 @@ bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) c
 }
 
 OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
-                                        const std::vector<Silhouettes::Crossing>& crossed, uint64_t& rays) const {
+                                        const std::vector<Silhouettes::Crossing>& crossed) const {
   if (hit == no_primitive || hit == p.primitive) return {true, true};
   const Sheet sheet = walk(p, x);
   if (sheet.triangle == hit) return {true, true};
@@ -204,8 +202,8 @@ OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uin
   const uint32_t own = sheet.triangle == no_primitive ? p.primitive : sheet.triangle;
   if (may_be_one_plane(view_.scene(), hit, own)) return {true, true};
   if (!p.lit) return {false, on_surface || sheet.triangle != no_primitive};
-  Verdict v = continuous(p, x, hit, crossed, rays);
-  v.sure &= on_surface || (v.lit && (on_edge || goes_on_at(p, rays)));
+  Verdict v = continuous(p, x, hit, crossed);
+  v.sure &= on_surface || (v.lit && (on_edge || goes_on_at(p)));
   return v;
 }
 
@@ -219,15 +217,14 @@ double OwnSurface::rounding_of_sheet(const SurfacePoint& p, glm::dvec3 x, const 
   return rounding_share * depth_error(hit, p.primitive, x) * (1 + (std::isfinite(growth) ? growth : 0));
 }
 
-double OwnSurface::edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from,
-                                        uint64_t& rays) const {
+double OwnSurface::edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from) const {
   double same = 0, other = 1;
   for (int halving = 0; halving < 8; ++halving) {
     const double middle = (same + other) / 2;
     const glm::dvec3 x = view_.normal_place(from + middle * (to - from));
     const std::vector<Silhouettes::Crossing> crossed =
         p.lit ? silhouettes_.crossings(p.at, x) : std::vector<Silhouettes::Crossing>();
-    (verdict(p, x, first_hit(x, rays), crossed, rays).lit == lit_from ? same : other) = middle;
+    (verdict(p, x, first_hit(x), crossed).lit == lit_from ? same : other) = middle;
   }
   // A normal place is a point of the light's frame at depth 1, or of its plane.
   return other * glm::length(to - from) / view_.frame().texel_m(from);
@@ -247,7 +244,7 @@ double OwnSurface::depth_error(uint32_t a, uint32_t b, glm::dvec3 x) const {
 }
 
 OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
-                                           const std::vector<Silhouettes::Crossing>& at, uint64_t& rays) const {
+                                           const std::vector<Silhouettes::Crossing>& at) const {
   const glm::dvec3 way = x - p.at;
   const auto place = [&](double t) { return view_.normal_place(p.at + t * way); };
   // Two silhouettes are crossed together if rounding may exchange their order along the way: the rounding of double's
@@ -271,8 +268,8 @@ OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, 
     while (rounded && b.first > 0 && around(b.first - 1, rounded).end >= b.begin) take(b.first - 1);
   };
   const auto sheets = [&](const Bracket& b) {
-    return std::pair(b.begin > 0 ? exact_first(place(b.begin), rays) : p.primitive,
-                     b.end < 1 ? exact_first(place(b.end), rays) : hit);
+    return std::pair(b.begin > 0 ? exact_first(place(b.begin)) : p.primitive,
+                     b.end < 1 ? exact_first(place(b.end)) : hit);
   };
 
   bool sure = true;
@@ -322,8 +319,8 @@ OwnSurface::Verdict OwnSurface::joins(uint32_t before, uint32_t after, const std
   return {joined, joined && !other};
 }
 
-bool OwnSurface::goes_on_at(const SurfacePoint& p, uint64_t& rays) const {
-  const uint32_t there = exact_first(p.at, rays);
+bool OwnSurface::goes_on_at(const SurfacePoint& p) const {
+  const uint32_t there = exact_first(p.at);
   const glm::dvec3 point = view_.at_depth(p.at, view_.plane_depth(p.primitive, p.at));
   return there == p.primitive || (there != no_primitive && view_.touches(there, point, beside_m()));
 }

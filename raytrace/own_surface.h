@@ -31,8 +31,10 @@ struct SurfacePoint {
 
 class OwnSurface {
  public:
-  OwnSurface(const EmbreeScene& embree, const Adjacency& adjacency, const LightView& view)
-      : embree_(embree), adjacency_(adjacency), view_(view), silhouettes_(adjacency, view, beside_m()) {}
+  // silhouettes: of the same light. All of them must outlive it.
+  OwnSurface(const EmbreeScene& embree, const Adjacency& adjacency, const LightView& view,
+             const Silhouettes& silhouettes)
+      : embree_(embree), adjacency_(adjacency), view_(view), silhouettes_(silhouettes) {}
 
   SurfacePoint point(glm::dvec3 light, uint32_t primitive, bool lit) const;  // light: P in the light's frame
 
@@ -42,14 +44,12 @@ class OwnSurface {
     bool sure = true;
   };
 
-  // V(P, x). hit: the triangle of the first hit on the light ray through x, or no_primitive. rays: the number of rays
-  // that are cast here is added to it.
-  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, uint64_t& rays) const;
+  // V(P, x). hit: the triangle of the first hit on the light ray through x, or no_primitive.
+  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const;
 
   // V differs at `from` and `to`, so it changes between them. The distance from `from` to the change, in texels, found
   // to 2^-8 of the way.
-  double edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from,
-                              uint64_t& rays) const;
+  double edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from) const;
 
   // Whether the light ray through x passes through the triangle, in double.
   bool covers(uint32_t triangle, glm::dvec3 x) const;
@@ -65,30 +65,30 @@ class OwnSurface {
   Sheet walk(const SurfacePoint& p, glm::dvec3 x, bool over_seams = true) const;
 
  private:
-  uint32_t first_hit(glm::dvec3 x, uint64_t& rays) const;
+  uint32_t first_hit(glm::dvec3 x) const;
   // The same, exactly: of all triangles that the ray through x meets, and of those that end so near to x that the ray
   // may have missed them, the first one that covers x in double.
-  uint32_t exact_first(glm::dvec3 x, uint64_t& rays) const;
+  uint32_t exact_first(glm::dvec3 x) const;
 
   // The verdict for this first hit. crossed: the silhouettes between P and x.
-  Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const std::vector<Silhouettes::Crossing>& crossed,
-                  uint64_t& rays) const;
+  Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
+                  const std::vector<Silhouettes::Crossing>& crossed) const;
   // The ray that was cast may lie on the other side of a silhouette than the exact ray only if the silhouette is nearer
   // to x than this.
-  double beside_m() const { return 2 * view_.ray_error_m(); }
+  double beside_m() const { return Silhouettes::reach_of(view_); }
   uint32_t next_on_sheet(uint32_t triangle, int edge, uint32_t from, glm::dvec3 x) const;
   // end: of the sheet, in the light's frame.
   uint32_t across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x) const;
   // Whether the depth of the first hit does not jump between P, which is lit, and x. It can jump only where the way
   // crosses a silhouette.
   Verdict continuous(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
-                     const std::vector<Silhouettes::Crossing>& crossed, uint64_t& rays) const;
+                     const std::vector<Silhouettes::Crossing>& crossed) const;
   // Whether the first hits on the two sides of these crossings belong to one sheet, except for the rounding of
   // vertices.
   Verdict joins(uint32_t before, uint32_t after, const std::vector<Silhouettes::Crossing>& at, size_t first,
                 size_t last, const auto& place) const;
   // Whether a surface continues at P, which is lit, if the rounding of P has put it beside its triangle.
-  bool goes_on_at(const SurfacePoint& p, uint64_t& rays) const;
+  bool goes_on_at(const SurfacePoint& p) const;
   // Whether this hit is P's own sheet, or behind it, within the error of the ray.
   bool may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const;
   double length_m(const SurfacePoint& p, glm::dvec3 x) const;  // of the way, across the light's rays at P
@@ -101,7 +101,7 @@ class OwnSurface {
   const EmbreeScene& embree_;
   const Adjacency& adjacency_;
   const LightView& view_;
-  Silhouettes silhouettes_;
+  const Silhouettes& silhouettes_;
 };
 
 }  // namespace noonmark

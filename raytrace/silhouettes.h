@@ -2,7 +2,7 @@
 // lie on the same side of the edge) and boundaries (the edge has one triangle). The depth that the light sees can jump
 // only there. The edges are listed in grids over what the light sees: its plane, or the six faces of a cube around it.
 // A ray that is further from every silhouette than its float error meets the same triangle as the exact ray; the other
-// rays, which are few, are checked in double. Built once for a light.
+// rays, which are few, are checked in double. Built once for a light (raytrace/traced_scene.h).
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -17,6 +17,9 @@ class Silhouettes {
  public:
   // reach_m: the distance that counts as near, in metres across the light's rays.
   Silhouettes(const Adjacency& adjacency, const LightView& view, double reach_m);
+  // The ray that was cast may pass on the other side of a silhouette than the exact ray only if the silhouette is
+  // nearer to the exact ray than this.
+  static double reach_of(const LightView& view) { return 2 * view.ray_error_m(); }
 
   // Whether a silhouette lies within reach_m, or within within_m, of x.
   bool near(glm::dvec3 x) const { return near(x, reach_m_); }
@@ -89,7 +92,7 @@ class Silhouettes {
   bool near_listed(glm::dvec3 x, double within_m, std::vector<uint32_t>* triangles) const;
   void cross(uint32_t edge, glm::dvec3 from, glm::dvec3 to, std::vector<Crossing>& at) const;
 
-  const LightView& view_;
+  LightView view_;
   double reach_m_;
   std::vector<Edge> edges_;
   std::vector<Grid> grids_;  // one, or six

@@ -34,7 +34,6 @@ class TexelRays {
   }
   // The texels inside the map that were asked for.
   const std::vector<glm::ivec2>& inside_texels() const { return inside_texels_; }
-  uint64_t rays() const { return inside_texels_.size() + outside_.size(); }
 
  private:
   uint32_t outside_hit(glm::ivec2 texel) const;

@@ -1,7 +1,6 @@
 #include "raytrace/tracer.h"
 
 #include <algorithm>
-#include <atomic>
 #include <new>
 #include <optional>
 #include <string>
@@ -10,7 +9,7 @@
 #include "raytrace/light_view.h"
 #include "raytrace/packets.h"
 #include "raytrace/shadow_start.h"
-#include "raytrace/stopwatch.h"
+#include "raytrace/stage_watch.h"
 #include "raytrace/traced_scene.h"
 #include "scenes/error.h"
 
@@ -46,11 +45,10 @@ TracerInfo tracer_info() {
 
 ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFrame& frame, const SoftTruth& soft,
                                      StageTime* hard_stage, StageTime* soft_stage) const {
-  const Stopwatch hard_watch;
+  std::optional<StageWatch> watch(std::in_place, hard_stage, traced_->device);
   std::optional<ReceiverImage> made;
   const ReceiverImage& receivers = on_first(given, made);
   const int width = receivers.width(), height = receivers.height();
-  const LightView view(traced_->scene, frame);
   const ShadowStart start(traced_->scene, receivers, frame);
   ReceiverTruth truth{Image<uint8_t>(width, height), Image<uint8_t>(width, height), Image<uint8_t>(width, height), {}};
 
@@ -63,13 +61,11 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
   }
 
   // The verdict of each receiver at P and at four places beside it, at the distance of the float error.
-  const double error = view.ray_error_m();
+  const double error = traced_->lit_by(frame)->view().ray_error_m();
   const glm::dvec2 places[5] = {{0, 0}, {error, 0}, {-error, 0}, {0, error}, {0, -error}};
-  std::atomic<uint64_t> hard_rays = 0;
   for_each_packet(facing.size(), [&](size_t first, int n) {
     uint32_t dark[5];
     for (int place = 0; place < 5; ++place) {
-      hard_rays += static_cast<uint64_t>(n);
       ShadowRay rays[packet_size];
       for (int i = 0; i < n; ++i)
         rays[i] = place == 0 ? start.whole(facing[first + i]) : start.beside(facing[first + i], places[place]);
@@ -82,18 +78,15 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
       truth.ambiguous[facing[first + i]] = (any ^ all) >> i & 1;
     }
   });
-  if (hard_stage) *hard_stage = {hard_watch.milliseconds(), hard_rays};
 
-  const Stopwatch soft_watch;
-  uint64_t soft_rays = 0;
+  watch.emplace(soft_stage, traced_->device);
   if (has_size(soft.light)) {
-    truth.soft = sample_light(traced_->scene, traced_->embree, receivers, facing, frame, soft.light,
-                              soft.standard_error, soft_rays);
+    truth.soft =
+        sample_light(traced_->scene, traced_->embree, receivers, facing, frame, soft.light, soft.standard_error);
   } else {
     truth.soft = Image<float>(width, height, 0);
     for (uint32_t i : facing) truth.soft[i] = truth.lit[i];
   }
-  if (soft_stage) *soft_stage = {soft_watch.milliseconds(), soft_rays};
   return truth;
 }
 

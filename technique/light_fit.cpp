@@ -9,7 +9,7 @@
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"
 #include "technique/light_frame.h"
-#include "technique/validate.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
@@ -31,9 +31,9 @@ LightFrame light_axes(const Light& light) {
   }
   const glm::dvec3 way = light.target_m - light.position_m;
   if (!(glm::length(way) > 0) || !std::isfinite(glm::length(way)))
-    throw Error(ErrorKind::usage,
-                "the light's position and target give no direction (they are one, or too far apart); set "
-                "light.position_m or light.target_m");
+    throw SettingConflict("light.position_m",
+                          "the light's position and target give no direction (they are one, or too far apart); set "
+                          "light.position_m or light.target_m");
   frame.ray_direction = glm::vec3(glm::normalize(way));
   frame.forward = glm::normalize(glm::dvec3(frame.ray_direction));
   upright_axes(frame.forward, {0, 1, 0}, frame.right, frame.up);
@@ -120,7 +120,7 @@ Light effective_light(const Scene& scene, const Settings& settings) {
 
 LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
   const Light light = effective_light(scene, settings);
-  validate_for(light.kind, settings);
+  validate(settings, light.kind);
   // The scene's own volume was chosen for the scene's own light.
   const bool own = light.kind == scene.light.kind && !settings.light.position_m && !settings.light.target_m;
   const bool scenes_own = scene.map && own && settings.map.fit == MapFit::scene;
@@ -134,16 +134,18 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
   frame.far_m = settings.map.far_m.value_or(volume.far_m);
   frame.resolution = settings.map.resolution;
   if (!(frame.extent_m > 0) || !std::isfinite(frame.extent_m))
-    throw Error(ErrorKind::usage,
-                fmt::format("the map's extent is {} m; set map.extent_m to more than 0", frame.extent_m));
+    throw SettingConflict("map.extent_m",
+                          fmt::format("the map's extent is {} m; set map.extent_m to more than 0", frame.extent_m));
   if (!(frame.near_m < frame.far_m) || !std::isfinite(frame.far_m - frame.near_m))
-    throw Error(ErrorKind::usage, fmt::format("the map's near plane ({} m) is not before its far plane ({} m); set "
-                                              "map.near_m and map.far_m",
-                                              frame.near_m, frame.far_m));
+    throw SettingConflict("map.far_m",
+                          fmt::format("the map's near plane ({} m) is not before its far plane ({} m); set "
+                                      "map.near_m and map.far_m",
+                                      frame.near_m, frame.far_m));
   if (!frame.parallel() && !(frame.near_m > 0))
-    throw Error(ErrorKind::usage, fmt::format("the map's near plane is at {} m; a spot or point light's map needs "
-                                              "map.near_m above 0",
-                                              frame.near_m));
+    throw SettingConflict("map.near_m",
+                          fmt::format("the map's near plane is at {} m; a spot or point light's map needs "
+                                      "map.near_m above 0",
+                                      frame.near_m));
   const glm::dvec2 shift(settings.map.shift_u_texels, settings.map.shift_v_texels);
   if (!frame.parallel()) {
     frame.shift_texels = shift;

@@ -11,13 +11,29 @@
 #include "scenes/text.h"
 #include "technique/filters.h"
 #include "technique/setting_rows.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
 
 using namespace setting_rows;
+using namespace setting_rules;
 
 #define MEMBER(path) [](Settings& s) -> decltype((s.path)) { return s.path; }
+
+// What moves the lookup or the caster changes which texels are read and what they hold; what is subtracted from the
+// compared depth only changes the verdict.
+Stages stages_of(BiasPlace place) {
+  switch (place) {
+    case BiasPlace::compared_depth:
+      return {Stage::ladder};
+    case BiasPlace::place_looked_up:
+      return {Stage::lookup};
+    case BiasPlace::caster:
+      return {Stage::map, Stage::lookup};
+  }
+  throw std::logic_error("a part of the bias that acts nowhere");
+}
 
 // A parameter of a part of the bias.
 Setting bias_row(const BiasParameter& parameter) {
@@ -40,7 +56,37 @@ Setting bias_row(const BiasParameter& parameter) {
     s.bias[parameter.name] =
         row.may_be_auto && text == "auto" ? std::numeric_limits<double>::infinity() : parse_real(row, text);
   };
+  row.read_by = stages_of(parameter.part->acts_on);
+  const BiasPart& part = *parameter.part;
+  if (part.acts_on == BiasPlace::caster)
+    row.why_idle = [](const Settings& s, LightKind light) {
+      const std::string why = not_on_point(s, light);
+      return why.empty() ? why : why + ", whose shader writes its depth itself";
+    };
+  if (!is_cap) return row;
+  row.why_idle = [&part](const Settings& s, LightKind) {
+    const std::string name(part.name);
+    const bool acts = s.bias[name] != 0 || (!part.floor_help.empty() && s.bias[name + "_floor"] != 0);
+    return acts ? "" : fmt::format("with bias.{} = 0", name);
+  };
+  if (part.floor_help.empty()) return row;
+  row.why_refused = [&part](const Settings& s, std::optional<LightKind>) {
+    const std::string name(part.name);
+    const double floor = s.bias[name + "_floor"], cap = s.bias[name + "_cap"];
+    return floor > cap ? fmt::format("bias.{0}_floor = {1} is more than bias.{0}_cap = {2}", name, floor, cap) : "";
+  };
   return row;
+}
+
+// The stages that read a setting of this group, but for those rows that say otherwise.
+Stages stages_of_group(std::string_view group) {
+  if (group == "scene") return {Stage::scene};
+  if (group == "view") return {Stage::view};
+  if (group == "light") return {Stage::truth, Stage::map, Stage::lookup};
+  if (group == "map") return {Stage::map, Stage::lookup};
+  if (group == "bias" || group == "filter") return {Stage::lookup};
+  if (group == "truth") return {Stage::truth};
+  throw std::logic_error("no stage reads the group of settings '" + std::string(group) + "'");
 }
 
 std::vector<Setting> make_table() {
@@ -68,20 +114,24 @@ std::vector<Setting> make_table() {
       real("scene.time_s", "s", 0, 1e6,
            "The time at which a glTF file's animation poses the scene. Before its first key and after its last key the "
            "scene stands still; auto: at rest, without the animation.",
-           MEMBER(scene.time_s)),
+           MEMBER(scene.time_s))
+          .idle(in_builtin_scene),
       integer("scene.animation", "", 0, 1e6, "Which animation of the file scene.time_s refers to, counted from 0.",
-              MEMBER(scene.animation)),
+              MEMBER(scene.animation))
+          .idle(without_time),
       integer("view.width_px", "px", 1, 8192, "Width of the picture.", MEMBER(view.width_px)),
       integer("view.height_px", "px", 1, 8192, "Height of the picture.", MEMBER(view.height_px)),
       point("view.eye_m", "m", "Where the camera is; auto: the scene's.", MEMBER(view.eye_m)),
       point("view.target_m", "m", "What the camera looks at; auto: the scene's.", MEMBER(view.target_m)),
       point("view.up", "", "The direction that points up in the picture, of any length; auto: the scene's.",
-            MEMBER(view.up)),
+            MEMBER(view.up))
+          .refused(no_direction_up),
       real("view.fov_deg", "deg", 1, 170, "Whole vertical angle of view; auto: the scene's.", MEMBER(view.fov_deg)),
       real("view.near_m", "m", 1e-6, 1e9,
            "Distance of the camera's near plane along the view; auto: from the scene's file, or fitted so that nothing "
            "in view is cut off.",
-           MEMBER(view.near_m)),
+           MEMBER(view.near_m))
+          .refused(view_near_beyond_far),
       real("view.far_m", "m", 1e-6, 1e9,
            "Distance of the camera's far plane along the view; auto: from the scene's file, or fitted so that nothing "
            "in view is cut off.",
@@ -89,7 +139,8 @@ std::vector<Setting> make_table() {
       flag("view.fit_depths",
            "Fits the near and far planes that are auto, so that nothing in view is cut off, even if the scene's file "
            "gives them.",
-           MEMBER(view.fit_depths)),
+           MEMBER(view.fit_depths))
+          .idle(where_depths_are_fitted),
       choice("light.kind", {"auto", "directional", "spot", "point"},
              "directional: parallel rays and one orthographic map; spot: one perspective map; point: a cube map of "
              "distances; auto: the scene's.",
@@ -103,49 +154,62 @@ std::vector<Setting> make_table() {
             MEMBER(light.target_m)),
       real("light.angular_diameter_deg", "deg", 0, 90,
            "directional: angular diameter of the sun, for R0 (the real sun: 0.53); 0: no size; auto: the scene's.",
-           MEMBER(light.angular_diameter_deg)),
+           MEMBER(light.angular_diameter_deg))
+          .idle(only_on_directional),
       real("light.radius_m", "m", 0, 1e6, "spot, point: radius of the light, for R0; 0: no size; auto: the scene's.",
-           MEMBER(light.radius_m)),
+           MEMBER(light.radius_m))
+          .idle(not_on_directional),
       choice("light.shape", {"sphere", "disc"},
              "spot, point: shape of a light with a size, for R0. sphere; disc: across a spot light's axis, or facing "
              "each receiver for a point light.",
-             MEMBER(light.shape)),
+             MEMBER(light.shape))
+          .idle(not_on_directional),
       real("light.cone_deg", "deg", 1, 170,
-           "spot: whole angle of the cone; outside it nothing is lit; auto: the scene's.", MEMBER(light.cone_deg)),
+           "spot: whole angle of the cone; outside it nothing is lit; auto: the scene's.", MEMBER(light.cone_deg))
+          .idle(only_on_spot),
       integer("map.resolution", "texels", 1, 16384, "Texels along each side of the shadow map.",
               MEMBER(map.resolution)),
-      choice("map.format", {"16", "24", "32f"}, "Depth format of the shadow map.", MEMBER(map.format)),
+      choice("map.format", {"16", "24", "32f"}, "Depth format of the shadow map.", MEMBER(map.format))
+          .only_read_by({Stage::map}),
       choice("map.fit", {"scene", "tight"},
              "Where extent, near and far come from if they are auto. scene: from the scene, or fitted tightly if the "
              "scene has none or the light is not the scene's; tight: always fitted tightly around the scene.",
              MEMBER(map.fit)),
       real("map.extent_m", "m", 1e-6, 1e9,
-           "directional: whole width of the area that the map covers; auto: by map.fit.", MEMBER(map.extent_m)),
+           "directional: whole width of the area that the map covers; auto: by map.fit.", MEMBER(map.extent_m))
+          .idle(only_on_directional),
       real("map.extent_scale", "", 1e-3, 1e3, "Multiplies the extent, whether it is given or fitted.",
-           MEMBER(map.extent_scale)),
+           MEMBER(map.extent_scale))
+          .idle(not_on_point),
       real("map.fov_deg", "deg", 1, 175, "spot: whole angle that the map covers; auto: the light's cone.",
-           MEMBER(map.fov_deg)),
+           MEMBER(map.fov_deg))
+          .idle(only_on_spot),
       flag("map.snap",
            "directional: moves the map by less than a texel, so that its texel grid stays fixed in the world when the "
            "light's position or target moves without a rotation.",
-           MEMBER(map.snap)),
+           MEMBER(map.snap))
+          .refused(snapped_perspective),
       real("map.shift_u_texels", "texels", -1, 1,
            "Moves the map with its texel grid to the light's right, to try another alignment of texels and edges.",
-           MEMBER(map.shift_u_texels)),
+           MEMBER(map.shift_u_texels))
+          .refused(shifted_cube),
       real("map.shift_v_texels", "texels", -1, 1, "Moves the map with its texel grid up, as the light sees it.",
            MEMBER(map.shift_v_texels)),
       real("map.near_m", "m", -1e9, 1e9,
            "Near plane, measured from the light's position along its axis (point light: along the axis of each face); "
            "auto: by map.fit.",
-           MEMBER(map.near_m)),
+           MEMBER(map.near_m))
+          .refused(map_near_beyond_far),
       real("map.far_m", "m", -1e9, 1e9,
            "Far plane, measured from the light's position along its axis; a point light's depth is distance / far; "
            "auto: by map.fit.",
            MEMBER(map.far_m)),
       choice("map.wrap", {"repeat", "clamp_to_edge", "clamp_to_border"},
-             "What a lookup outside the map reads. The border of clamp_to_border is lit.", MEMBER(map.wrap)),
+             "What a lookup outside the map reads. The border of clamp_to_border is lit.", MEMBER(map.wrap))
+          .idle(not_on_point),
       flag("map.lit_beyond_far", "Receivers beyond the far plane are lit without a comparison.",
-           MEMBER(map.lit_beyond_far)),
+           MEMBER(map.lit_beyond_far))
+          .only_read_by({Stage::ladder}),
       choice("map.cull", {"none", "back", "front"}, "Which faces are not drawn into the shadow map.", MEMBER(map.cull)),
       flag("map.depth_clamp",
            "Geometry before the near plane or beyond the far plane is drawn at depth 0 or 1 instead of being clipped "
@@ -154,19 +218,25 @@ std::vector<Setting> make_table() {
       choice("map.cube_pass", {"layered", "six_passes"},
              "point: all six faces in one pass through a geometry shader, or one pass for each face. The map is the "
              "same; the time differs.",
-             MEMBER(map.cube_pass)),
+             MEMBER(map.cube_pass))
+          .idle(only_on_point)
+          .only_read_by({Stage::map}),
       choice("bias.unit", {"depth", "m", "texel"},
              "Unit of the parts of the bias that have no unit of their own: window depth, metres of the map's depth, "
              "or texels of the map at the receiver.",
              MEMBER(bias.unit)),
       named("bias.reference", "The depth that a tap is compared with, before the bias is subtracted.", tap_references(),
-            MEMBER(bias.reference)),
+            MEMBER(bias.reference))
+          .refused(plane_on_cube_or_blended),
       real(
           "bias.plane_cap", "bias.unit", 0, 1e6,
           "receiver_plane: largest difference between the compared depth and the receiver's own depth; auto: no limit.",
-          MEMBER(bias.plane_cap)),
-      named("filter.kind", "The filter: where the lookup reads the map.", filters(), MEMBER(filter.kind)),
-      integer("filter.size", "taps", 1, 31, "taps along each side; an odd number.", MEMBER(filter.size)),
+          MEMBER(bias.plane_cap))
+          .idle(without_capped_plane),
+      named("filter.kind", "The filter: where the lookup reads the map.", filters(), MEMBER(filter.kind))
+          .refused(filter_of_another_map),
+      integer("filter.size", "taps", 1, 31, "taps along each side; an odd number.", MEMBER(filter.size))
+          .refused(even_or_unknown_size),
       real("filter.step_texels", "texels", 0, 64, "distance from one tap to the next.", MEMBER(filter.step_texels)),
       real("filter.sigma_texels", "texels", 0.1, 64, "standard deviation of the weights.", MEMBER(filter.sigma_texels)),
       integer("filter.taps", "taps", 1, 64, "number of taps.", MEMBER(filter.taps)),
@@ -179,7 +249,8 @@ std::vector<Setting> make_table() {
           "radius of the disk. fixed: filter.radius_m; view_distance: (1 + distance to the camera / far) / 25 metres.",
           MEMBER(filter.disk)),
       real("filter.radius_m", "m", 0, 1e3, "factor of the 20 directions (1,1,1), (1,1,0) and so on.",
-           MEMBER(filter.radius_m)),
+           MEMBER(filter.radius_m))
+          .idle(where_disk_follows_view),
       real("truth.standard_error", "", 1e-3, 0.5,
            "Largest standard error of R0 at a receiver, for a light with a size. A smaller value takes more rays.",
            MEMBER(truth.standard_error)),
@@ -187,13 +258,21 @@ std::vector<Setting> make_table() {
   // After the other settings of the bias.
   auto at = std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "bias.plane_cap"; });
   for (const BiasParameter& parameter : bias_parameters()) at = table.insert(at + 1, bias_row(parameter));
-  // "box, gaussian: ...": the filters that read a setting of filters.
+  for (Setting& row : table)
+    if (row.read_by.bits == 0) row.read_by = stages_of_group(row.name.substr(0, row.name.find('.')));
+  // "box, gaussian: ...": the filters that read a setting of filters; with others it is idle.
   for (Setting& row : table) {
+    if (!row.name.starts_with("filter.") || row.name == "filter.kind") continue;
     std::vector<std::string_view> readers;
     for (const Filter& filter : filters())
       if (std::find(filter.reads.begin(), filter.reads.end(), row.name) != filter.reads.end())
         readers.push_back(filter.name);
-    if (!readers.empty()) row.help = fmt::format("{}: {}", fmt::join(readers, ", "), row.help);
+    row.help = fmt::format("{}: {}", fmt::join(readers, ", "), row.help);
+    row.why_idle = [readers, more = row.why_idle](const Settings& s, LightKind light) {
+      if (std::find(readers.begin(), readers.end(), s.filter.kind) == readers.end())
+        return "with filter.kind = " + s.filter.kind;
+      return more ? more(s, light) : "";
+    };
   }
   return table;
 }
@@ -207,6 +286,22 @@ std::vector<double> BiasSettings::no_bias() {
   for (const BiasParameter& parameter : bias_parameters())
     values.push_back(parameter.role == BiasParameter::Role::cap ? std::numeric_limits<double>::infinity() : 0);
   return values;
+}
+
+Setting Setting::idle(std::function<std::string(const Settings&, LightKind)> why) const {
+  Setting row = *this;
+  row.why_idle = std::move(why);
+  return row;
+}
+Setting Setting::refused(std::function<std::string(const Settings&, std::optional<LightKind>)> why) const {
+  Setting row = *this;
+  row.why_refused = std::move(why);
+  return row;
+}
+Setting Setting::only_read_by(Stages stages) const {
+  Setting row = *this;
+  row.read_by = stages;
+  return row;
 }
 
 std::string Setting::range_text() const { return may_be_auto ? bare_range() + " or auto" : bare_range(); }

@@ -1,13 +1,16 @@
 // Every setting of a measurement: a struct member with a default, and one row in the table of settings.cpp (name, unit,
-// range, help). The command line, the experiment file, the sweep, the result store and the report all read that row.
-// Adding a setting is one member here and one row there.
+// range, help; which stages read it, when it is idle, with what it cannot stand). The command line, the experiment
+// file, the sweep, the result store and the report all read that row. Adding a setting is one member here and one row
+// there.
 //
 //   Settings s;
 //   find_setting("map.resolution").set(s, "2048");       // throws Error(usage) naming the range
 //   for (const Setting& row : settings_table()) print(row.name, row.get(s));
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -99,6 +102,17 @@ struct Settings {
   TruthSettings truth;
 };
 
+// The stages of a measurement (app/workbench.h), in their order.
+enum class Stage : uint8_t { scene = 1, view = 2, truth = 4, map = 8, lookup = 16, ladder = 32 };
+
+struct Stages {
+  uint8_t bits = 0;
+  constexpr Stages(std::initializer_list<Stage> stages = {}) {
+    for (Stage stage : stages) bits = static_cast<uint8_t>(bits | static_cast<uint8_t>(stage));
+  }
+  constexpr bool has(Stage stage) const { return (bits & static_cast<uint8_t>(stage)) != 0; }
+};
+
 enum class ValueType { integer, real, flag, choice, text, point };
 
 // One row. Values travel as text in one canonical form each ("auto" for an empty optional, "x,y,z" for a point, the
@@ -113,6 +127,18 @@ struct Setting {
   std::string help;                       // one sentence
   std::function<std::string(const Settings&)> get;
   std::function<void(Settings&, std::string_view)> set;  // throws Error(usage): what, range
+
+  // The stages that read it: what they made is kept while it stays the same.
+  Stages read_by = {};
+  // Why it is not read at this point ("on a point light"); empty text: it is. Empty function: it always is.
+  std::function<std::string(const Settings&, LightKind)> why_idle = {};
+  // Why it cannot stand with the others (technique/setting_rules.h); empty text: it can. Empty function: it always can.
+  std::function<std::string(const Settings&, std::optional<LightKind>)> why_refused = {};
+
+  // For the rows of the table.
+  Setting idle(std::function<std::string(const Settings&, LightKind)> why) const;
+  Setting refused(std::function<std::string(const Settings&, std::optional<LightKind>)> why) const;
+  Setting only_read_by(Stages stages) const;
 
   std::string range_text() const;       // "1 ... 170 or auto", "16 | 24 | 32f", "x,y,z" ...
   std::string range_with_unit() const;  // "1 ... 170 deg, or auto"

@@ -72,8 +72,8 @@ TEST(Wall, ShowsPeterPanningOfTheSizeOfLaw2) {
         const double foot_z = p.z - along * trace.y;
         if (along < 0 || along > 1.2 || foot_z < 0.5 || foot_z > 2.5) continue;
         ++behind;
-        if (m.ladder.step[static_cast<size_t>(Cause::peter_panning)][i] != 0) measured = std::max(measured, along);
-        between += along < predicted - 2 * texel_on_floor && m.ladder.rung[4][i] == 0;
+        if (m.ladder[Cause::peter_panning][i] != 0) measured = std::max(measured, along);
+        between += along < predicted - 2 * texel_on_floor && m.ladder[Rung::on_exact_map][i] == 0;
       }
       SCOPED_TRACE(std::string("t ") + thickness + " b " + bias_m);
       EXPECT_GT(behind, 500u);
@@ -94,7 +94,7 @@ TEST(Wall, HasNoPeterPanningAtItsLitFoot) {
       const glm::vec3 p = m.receivers.position[i];
       if (m.receivers.primitive[i] >= 2 || p.z > -2 || p.z < -2.6 || p.x < 1.2 || p.x > 3.8) continue;
       ++foot;
-      panning += m.ladder.step[static_cast<size_t>(Cause::peter_panning)][i] != 0;
+      panning += m.ladder[Cause::peter_panning][i] != 0;
     }
     EXPECT_GT(foot, 1000u);
     EXPECT_EQ(panning, 0u) << "bias " << bias;
@@ -202,8 +202,8 @@ TEST(StandingCube, HasTheSameCausesAsOneMeshAndAsTwo) {
         if ((a.flags[i] | c.flags[i]) & flag_ambiguous) continue;
         wrong += a.cause[i] != 0;
         for (int cause = 1; cause < cause_count; ++cause) {
-          differ_one += a.step[cause][i] != b.step[cause][i];
-          differ_joined += a.step[cause][i] != c.step[cause][i];
+          differ_one += a.causes[cause].step[i] != b.causes[cause].step[i];
+          differ_joined += a.causes[cause].step[i] != c.causes[cause].step[i];
         }
       }
       all_wrong += wrong;

@@ -77,7 +77,7 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
       double all = 0, taps = 0;
       int classes = 0;
       for (int c = 1; c < cause_count; ++c) {
-        const double step = ladder.step[c][i];
+        const double step = ladder.causes[c].step[i];
         all += step;
         const Cause cause = static_cast<Cause>(c);
         const bool of_taps = cause != Cause::light_size && cause != Cause::filter && cause != Cause::precision;
@@ -85,15 +85,15 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
         classes += of_taps && cause != Cause::displacement && step != 0;
       }
       // Written so that a NaN is broken.
-      broken_steps += !(std::abs((ladder.rung[5][i] - ladder.rung[0][i]) - all) <= rounding_of_steps);
-      broken_taps += !(std::abs((ladder.rung[4][i] - ladder.rung[1][i]) - taps) <= rounding_of_steps);
+      broken_steps += !(std::abs((ladder.shown()[i] - ladder.soft_truth()[i]) - all) <= rounding_of_steps);
+      broken_taps += !(std::abs((ladder[Rung::on_exact_map][i] - ladder.truth()[i]) - taps) <= rounding_of_steps);
       if (filtered) continue;
       several += classes > 1;
-      const bool wrong = ladder.rung[5][i] != ladder.rung[1][i];
+      const bool wrong = ladder.shown()[i] != ladder.truth()[i];
       unclassed += wrong && ladder.cause[i] == static_cast<uint8_t>(Cause::none);
       classed_though_right += !wrong && ladder.cause[i] != static_cast<uint8_t>(Cause::none);
       if (wrong && ladder.cause[i] != static_cast<uint8_t>(Cause::precision)) {
-        EXPECT_NE(ladder.step[ladder.cause[i]][i], 0) << "the class of pixel " << i << " has no step";
+        EXPECT_NE(ladder.causes[ladder.cause[i]].step[i], 0) << "the class of pixel " << i << " has no step";
       }
     }
     EXPECT_GT(facing, 1000u);
@@ -168,9 +168,9 @@ TEST_P(EveryScene, LitReceiversHaveNoPeterPanning) {
   for (const char* bias : {"0", "0.01", "0.3"}) {
     const Measurement m =
         bench.measure(with({{"map.resolution", "256"}, {"bias.constant", bias}}, small(GetParam())), std::nullopt);
-    const Image<float>& panning = m.ladder.step[static_cast<size_t>(Cause::peter_panning)];
+    const Image<float>& panning = m.ladder[Cause::peter_panning];
     uint64_t on_lit = 0;
-    for (size_t i = 0; i < panning.size(); ++i) on_lit += panning[i] != 0 && m.ladder.rung[1][i] == 1;
+    for (size_t i = 0; i < panning.size(); ++i) on_lit += panning[i] != 0 && m.ladder.truth()[i] == 1;
     EXPECT_EQ(on_lit, 0u) << "bias " << bias;
   }
 }
@@ -230,7 +230,7 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
           wrong_receivers += r5[i] != static_cast<float>(truth.lit[i]);
           wrong_taps += std::abs(static_cast<double>(r5[i]) - truth.lit[i]) * taps.taps.taps_per_receiver;
           for (int c = 0; c < cause_count; ++c)
-            booked[c] += std::abs(static_cast<double>(ladder.step[c][i])) * taps.taps.taps_per_receiver;
+            booked[c] += std::abs(static_cast<double>(ladder.causes[c].step[i])) * taps.taps.taps_per_receiver;
         }
         EXPECT_EQ(counts.wrong_receivers(x), wrong_receivers) << x;
         // Ninths are not exact in float; their sum over the picture is within half a tap of a whole number.

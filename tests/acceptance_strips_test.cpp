@@ -33,10 +33,10 @@ TEST_P(Strips, ChangeNoResult) {
         EXPECT_TRUE(value == other || (std::isnan(value) && std::isnan(other)))
             << name << ": " << value << ", " << other;
       }
-      for (size_t n = 0; n < a.ladder.rung.size(); ++n)
-        EXPECT_EQ(a.ladder.rung[n].pixels, b.ladder.rung[n].pixels) << n;
-      for (size_t c = 0; c < a.ladder.step.size(); ++c)
-        EXPECT_EQ(a.ladder.step[c].pixels, b.ladder.step[c].pixels) << c;
+      for (size_t n = 0; n < a.ladder.rungs.size(); ++n)
+        EXPECT_EQ(a.ladder.rungs[n].lit.pixels, b.ladder.rungs[n].lit.pixels) << n;
+      for (size_t c = 0; c < a.ladder.causes.size(); ++c)
+        EXPECT_EQ(a.ladder.causes[c].step.pixels, b.ladder.causes[c].step.pixels) << c;
       EXPECT_EQ(a.ladder.cause.pixels, b.ladder.cause.pixels);
       EXPECT_EQ(a.exact_map.pixels, b.exact_map.pixels);
       ASSERT_EQ(a.record.curve.has_value(), b.record.curve.has_value());

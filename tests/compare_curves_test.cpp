@@ -315,8 +315,7 @@ TEST(BiasCounts, AreWhatTheLadderBooksAtThatBias) {
       if (cause == Cause::undecided) continue;  // what darkens and what lightens cancel in a pixel, not in the counts
       double sum = 0;
       for (size_t i = 0; i < s.r4.size(); ++i)
-        if (s.truth.facing[i] && !naive::ambiguous(s, i))
-          sum += std::abs(static_cast<double>(ladder.step[static_cast<size_t>(cause)][i]));
+        if (s.truth.facing[i] && !naive::ambiguous(s, i)) sum += std::abs(static_cast<double>(ladder[cause][i]));
       EXPECT_NEAR(sum * whole, counts.caused(cause, x), 1e-3)
           << cause_name(cause) << " through " << varied->name << " of seed " << seed;
     }

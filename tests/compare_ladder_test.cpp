@@ -18,7 +18,7 @@ namespace {
 // A share of taps is a float and the sums add nine of them: 2^-24 each. The program's own limit is 1e-6.
 constexpr double sum_rounding = 9 * 0x1p-24;
 
-double step(const Ladder& ladder, Cause cause, size_t i) { return ladder.step[static_cast<size_t>(cause)][i]; }
+double step(const Ladder& ladder, Cause cause, size_t i) { return ladder[cause][i]; }
 
 constexpr Cause tap_classes[] = {Cause::aliasing_dark, Cause::aliasing_light, Cause::acne,
                                  Cause::peter_panning, Cause::coverage_dark,  Cause::coverage_light};
@@ -85,8 +85,8 @@ TEST_P(Climb, StepsSumToTheErrorAndTapClassesToTheirRungs) {
       if (!s.truth.facing[i]) {
         ASSERT_EQ(ladder.flags[i], 0);
         ASSERT_EQ(ladder.cause[i], 0);
-        for (const Image<float>& rung : ladder.rung) ASSERT_EQ(rung[i], 0);
-        for (const Image<float>& one : ladder.step) ASSERT_EQ(one[i], 0);
+        for (const Ladder::RungImage& rung : ladder.rungs) ASSERT_EQ(rung.lit[i], 0);
+        for (const Ladder::CauseImage& one : ladder.causes) ASSERT_EQ(one.step[i], 0);
         continue;
       }
       const std::vector<naive::Tap> taps = naive::taps_of(s, s.exact, i);
@@ -113,9 +113,9 @@ TEST_P(Climb, StepsSumToTheErrorAndTapClassesToTheirRungs) {
       // Where a sampler blends, R4 is the definition, whatever it made of the exact map.
       const double r4 = s.lookup == Lookup::linear ? naive::visibility(s, s.exact, i, s.map.format) : s.r4[i];
       const double rungs[6] = {s.truth.soft[i], static_cast<double>(s.truth.lit[i]), r2, r3, r4, s.r5[i]};
-      for (size_t n = 0; n < 6; ++n) ASSERT_NEAR(ladder.rung[n][i], rungs[n], 0x1p-24) << "R" << n;
-      ASSERT_EQ(ladder.rung[4][i], static_cast<float>(r4));
-      ASSERT_EQ(ladder.rung[5][i], s.r5[i]);
+      for (size_t n = 0; n < 6; ++n) ASSERT_NEAR(ladder.rungs[n].lit[i], rungs[n], 0x1p-24) << "R" << n;
+      ASSERT_EQ(ladder[Rung::on_exact_map][i], static_cast<float>(r4));
+      ASSERT_EQ(ladder.shown()[i], s.r5[i]);
       ASSERT_NEAR(all, rungs[5] - rungs[0], sum_rounding);
       if (!naive::undecided(s, i)) {
         ASSERT_NEAR(classes, rungs[4] - moved, sum_rounding);
@@ -201,7 +201,7 @@ TEST(ClimbUnfiltered, NamesTheRungFromWhichThePixelStaysWrong) {
       if ((s.r5[i] != 0) == truth) continue;
       // The last rung that was right; all above it are wrong.
       int stays_wrong_from = 5;
-      while (stays_wrong_from > 1 && (ladder.rung[static_cast<size_t>(stays_wrong_from - 1)][i] != 0) != truth)
+      while (stays_wrong_from > 1 && (ladder.rungs[static_cast<size_t>(stays_wrong_from - 1)].lit[i] != 0) != truth)
         --stays_wrong_from;
       const Cause cause = static_cast<Cause>(ladder.cause[i]);
       seen.insert(cause);
@@ -240,7 +240,7 @@ TEST(ClimbUnfiltered, SizesOfCausesSumToTheError) {
       // right again.
       mended += displaced > 0 && sizes > 0;
       if (naive::undecided(s, i)) continue;  // there they are booked as undecided
-      ASSERT_EQ(std::abs(displaced - sizes), std::abs(ladder.rung[5][i] - ladder.rung[1][i]));
+      ASSERT_EQ(std::abs(displaced - sizes), std::abs(ladder.shown()[i] - ladder.truth()[i]));
     }
   }
   EXPECT_GT(mended, 10);
@@ -352,7 +352,7 @@ TEST(Climb, DividesEqualTapsOnce) {
       if (!s.truth.facing[i]) continue;
       int exact = 0;
       for (const naive::Tap& tap : naive::taps_of(s, s.exact, i)) exact += tap.exact_lit;
-      ASSERT_EQ(ladder.rung[2][i], static_cast<float>(exact) / 49.0f);
+      ASSERT_EQ(ladder[Rung::filtered][i], static_cast<float>(exact) / 49.0f);
     }
   }
 }
@@ -373,7 +373,7 @@ TEST(Climb, KeepsTheSamplersRoundingInPrecision) {
     EXPECT_LT(after.tap_residual, sum_rounding);
     for (size_t i = 0; i < s.r4.size(); ++i) {
       if (!s.truth.facing[i]) continue;
-      ASSERT_EQ(after.rung[4][i], before.rung[4][i]);
+      ASSERT_EQ(after[Rung::on_exact_map][i], before[Rung::on_exact_map][i]);
       ASSERT_NEAR(step(after, Cause::precision, i) - step(before, Cause::precision, i), 0x1p-9, sum_rounding);
     }
   }
@@ -387,8 +387,10 @@ TEST(Climb, GivesTheSameInStrips) {
     const Ladder whole = climb(s.evidence());
     Ladder ladder = empty_ladder(s.r4.width, s.r4.height);
     for_each_strip(s, seed, [&](const Synthetic& part, PixelRange strip) { climb(part.evidence(), strip, ladder); });
-    for (size_t n = 0; n < whole.rung.size(); ++n) ASSERT_EQ(ladder.rung[n].pixels, whole.rung[n].pixels) << n;
-    for (size_t c = 0; c < whole.step.size(); ++c) ASSERT_EQ(ladder.step[c].pixels, whole.step[c].pixels) << c;
+    for (size_t n = 0; n < whole.rungs.size(); ++n)
+      ASSERT_EQ(ladder.rungs[n].lit.pixels, whole.rungs[n].lit.pixels) << n;
+    for (size_t c = 0; c < whole.causes.size(); ++c)
+      ASSERT_EQ(ladder.causes[c].step.pixels, whole.causes[c].step.pixels) << c;
     ASSERT_EQ(ladder.cause.pixels, whole.cause.pixels);
     ASSERT_EQ(ladder.flags.pixels, whole.flags.pixels);
     ASSERT_EQ(ladder.doubt.pixels, whole.doubt.pixels);

@@ -281,8 +281,8 @@ TEST(LawMetrics, UnderASpotLightAreTheWorstReceivers) {
   f.resolution = 100;
   const glm::dvec3 normal(0.6, 0, 0.8);
   Ladder ladder;
-  for (Image<float>& rung : ladder.rung) rung = Image<float>(3, 1, 1);
-  for (Image<float>& step : ladder.step) step = Image<float>(3, 1, 0);
+  ladder = empty_ladder(3, 1);
+  for (Ladder::RungImage& rung : ladder.rungs) rung.lit = Image<float>(3, 1, 1);
   ladder.flags = Image<uint8_t>(3, 1, flag_facing);
   ladder.flags[2] = 0;
   const ReceiverImage receivers{Image<glm::vec3>(3, 1, glm::vec3(0, 0, -2)), Image<glm::vec3>(3, 1, glm::vec3(normal)),

@@ -15,8 +15,8 @@ namespace {
 // at it from aside. Every pixel is a lit receiver.
 struct Sight {
   Sight(Camera view, glm::dvec3 plane_normal, int width, int height) : camera(view), normal(plane_normal) {
-    for (Image<float>& rung : ladder.rung) rung = Image<float>(width, height, 1);
-    for (Image<float>& step : ladder.step) step = Image<float>(width, height, 0);
+    ladder = empty_ladder(width, height);
+    for (Ladder::RungImage& rung : ladder.rungs) rung.lit = Image<float>(width, height, 1);
     ladder.cause = Image<uint8_t>(width, height, 0);
     ladder.flags = Image<uint8_t>(width, height, flag_facing);
     receivers = {Image<glm::vec3>(width, height), Image<glm::vec3>(width, height, glm::vec3(normal)),
@@ -99,9 +99,7 @@ TEST(LawMetrics, SumStepsOverTheLightsPlane) {
   double all = 0;
   for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 40; ++x) all += area(x, y);
-  const auto step = [&](Cause cause, int x, int y) -> float& {
-    return s.ladder.step[static_cast<size_t>(cause)].at(x, y);
-  };
+  const auto step = [&](Cause cause, int x, int y) -> float& { return s.ladder[cause].at(x, y); };
   step(Cause::filter, 1, 2) = -0.25f;
   step(Cause::displacement, 15, 16) = -0.375f;
   step(Cause::aliasing_dark, 3, 4) = -0.5f;
@@ -148,7 +146,7 @@ TEST(LawMetrics, GiveTheBiasThatTheSteepestLitReceiverNeeds) {
   s.reference = "own_depth";
   s.receivers.normal.at(1, 1) = glm::vec3(glm::normalize(glm::dvec3(-1, 1, 2)));
   EXPECT_NEAR(law(1), 0.5 * 0.125 * 3 + q / 2, float_normal);
-  s.ladder.rung[1].at(1, 1) = 0;  // dark: needs no bias
+  s.ladder[Rung::truth].at(1, 1) = 0;  // dark: needs no bias
   EXPECT_NEAR(law(1), 0.5 * 0.125 * 0.7 + q / 2, float_normal);
 }
 
@@ -175,7 +173,7 @@ TEST(LawMetrics, GiveTheBiasThatTheSteepestFaceNeeds) {
 TEST(LawMetrics, SayNaNWhereNothingWasCountedOrIsNoNumber) {
   Sight s(perspective, tilted, 4, 4);
   s.receivers.normal.at(2, 1).x = std::numeric_limits<float>::quiet_NaN();
-  s.ladder.step[static_cast<size_t>(Cause::acne)].at(3, 3) = 0.5f;
+  s.ladder[Cause::acne].at(3, 3) = 0.5f;
   for (const char* name : {"acne_free_bias_law_m", "counted_area_m2", "acne_area_m2"})
     EXPECT_TRUE(std::isnan(s.metrics().at(name))) << name;
   for (uint8_t& flags : s.ladder.flags.pixels) flags = 0;

@@ -23,8 +23,8 @@ constexpr float nan_float = std::numeric_limits<float>::quiet_NaN();
 // A picture whose receivers all face the light, are lit and are right.
 struct Picture {
   explicit Picture(int width, int height) {
-    for (Image<float>& rung : ladder.rung) rung = Image<float>(width, height, 1);
-    for (Image<float>& step : ladder.step) step = Image<float>(width, height, 0);
+    ladder = empty_ladder(width, height);
+    for (Ladder::RungImage& rung : ladder.rungs) rung.lit = Image<float>(width, height, 1);
     ladder.cause = Image<uint8_t>(width, height, 0);
     ladder.flags = Image<uint8_t>(width, height, flag_facing);
     ladder.doubt = Image<float>(width, height, 0);
@@ -38,10 +38,10 @@ struct Picture {
     frame.far_m = 10;
   }
   void rungs(int x, int y, std::array<float, 6> r) {
-    for (size_t n = 0; n < 6; ++n) ladder.rung[n].at(x, y) = r[n];
+    for (size_t n = 0; n < 6; ++n) ladder.rungs[n].lit.at(x, y) = r[n];
   }
   void step(int x, int y, Cause cause, float size) {
-    ladder.step[static_cast<size_t>(cause)].at(x, y) = size;
+    ladder[cause].at(x, y) = size;
     ladder.cause.at(x, y) = static_cast<uint8_t>(cause);
   }
   std::map<std::string, double> metrics() const {
@@ -59,7 +59,7 @@ struct Picture {
 
 void attach(Picture& p, int x, int y) {
   p.ladder.flags.at(x, y) = 0;
-  for (Image<float>& rung : p.ladder.rung) rung.at(x, y) = 0;
+  for (Ladder::RungImage& rung : p.ladder.rungs) rung.lit.at(x, y) = 0;
 }
 
 TEST(Measure, GivesSharesOfTheCountedReceivers) {
@@ -98,7 +98,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
   p.ladder.tap_residual = 3e-7;
   p.ladder.flags.at(2, 1) |= flag_undecided;
   p.ladder.doubt.at(2, 1) = 0.5f;
-  p.ladder.step[static_cast<size_t>(Cause::undecided)].at(2, 1) = -0.125f;
+  p.ladder[Cause::undecided].at(2, 1) = -0.125f;
 
   const double base = 9;
   const std::map<std::string, double> expected = {
@@ -355,13 +355,13 @@ TEST(WorstPixel, IsTheFirstOfTheLargestErrors) {
   EXPECT_EQ(worst_pixel(p.ladder).error, 0.5);
   p.ladder.flags.at(2, 0) |= flag_ambiguous;
   expect(0, 1, "acne");
-  p.ladder.rung[5].at(2, 1) = nan_float;  // worse than any number
+  p.ladder[Rung::shown].at(2, 1) = nan_float;  // worse than any number
   expect(2, 1, "none");
-  p.ladder.rung[5].at(1, 1) = infinity;
+  p.ladder[Rung::shown].at(1, 1) = infinity;
   expect(2, 1, "none");
-  p.ladder.rung[5].at(2, 1) = 1;
+  p.ladder[Rung::shown].at(2, 1) = 1;
   expect(1, 1, "none");
-  p.ladder.rung[5].at(0, 0) = nan_float;
+  p.ladder[Rung::shown].at(0, 0) = nan_float;
   expect(0, 0, "none");
   attach(p, 0, 0);
   expect(1, 1, "none");
@@ -405,6 +405,33 @@ TEST(MetricsTable, SuggestsTheNearestName) {
     EXPECT_NE(std::string(error.what()).find("did you mean 'peter_panning'?"), std::string::npos) << error.what();
   }
   EXPECT_THROW(find_metric(""), Error);
+}
+
+// A picture that was made elsewhere, on top of the ladder: it is judged in R5's place, and what it differs by has its
+// own cause.
+TEST(Measure, OfAPictureFromElsewhereOnTopOfTheLadder) {
+  Picture p(3, 1);
+  p.rungs(0, 0, {1, 1, 1, 1, 1, 1});  // right at R5
+  p.rungs(1, 0, {1, 1, 1, 1, 0, 0});
+  p.step(1, 0, Cause::acne, -1);
+  p.rungs(2, 0, {1, 1, 1, 1, 0, 0});
+  p.step(2, 0, Cause::acne, -1);
+  Image<float> picture(3, 1, 0);
+  picture.at(0, 0) = 0.75f;  // wrong here alone
+  picture.at(1, 0) = 1;      // right where R5 is wrong
+  picture.at(2, 0) = 0.25f;  // less wrong than R5
+  add_rung(p.ladder, "engine", picture, "elsewhere");
+  EXPECT_EQ(p.ladder.shown().pixels, picture.pixels);
+  EXPECT_EQ(p.ladder.cause_of(0), "elsewhere");
+  EXPECT_EQ(p.ladder.cause_of(1), "none");
+  EXPECT_EQ(p.ladder.cause_of(2), "acne");
+  const std::map<std::string, double> m = p.metrics();
+  EXPECT_DOUBLE_EQ(m.at("error"), (0.25 + 0 + 0.75) / 3);
+  EXPECT_DOUBLE_EQ(m.at("elsewhere"), (0.25 + 1 + 0.25) / 3);
+  EXPECT_DOUBLE_EQ(m.at("acne"), 2.0 / 3) << "of the lookup below it";
+  EXPECT_THROW(add_rung(p.ladder, "engine", picture, "again"), std::logic_error);
+  EXPECT_THROW(add_rung(p.ladder, "other", picture, "acne"), std::logic_error);
+  EXPECT_THROW(add_rung(p.ladder, "other", Image<float>(2, 1, 0), "again"), std::logic_error);
 }
 
 }  // namespace

@@ -229,6 +229,8 @@ RC_GTEST_PROP(ExperimentProperty, PointsAreTheProductOfTheLists, ()) {
       if (row.name == "map.far_m" && text != "auto") text = std::to_string(i + 1);
       if (row.name == "view.near_m" && text != "auto") text = std::to_string(0.1 * (i + 1));
       if (row.name == "view.far_m" && text != "auto") text = std::to_string(i + 1);
+      // A plane needs a filter that the sampler does not blend.
+      if (row.name == "bias.reference") text = "own_depth";
       // And floor <= cap.
       if (row.name == "bias.tan_floor") text = std::to_string(0.001 * (i + 1));
       if (row.name == "bias.tan_cap" && text != "auto") text = std::to_string(0.1 * (i + 1));

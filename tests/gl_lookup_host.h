@@ -9,7 +9,7 @@
 #include "technique/bias.h"
 #include "technique/filters.h"
 #include "technique/map_address.h"
-#include "technique/validate.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark::gl {
 
@@ -120,7 +120,7 @@ inline Settings random_settings(std::mt19937& random, LightKind kind) {
     s.filter.kind = std::string(filters()[random() % filters().size()].name);
     if (const std::vector<int>& sizes = find_filter(s.filter.kind).sizes; !sizes.empty())
       s.filter.size = sizes[random() % sizes.size()];
-  } while (kind_thrown([&] { validate_for(kind, s); }));
+  } while (kind_thrown([&] { validate(s, kind); }));
   return s;
 }
 

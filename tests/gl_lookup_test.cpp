@@ -2,7 +2,7 @@
 #include <set>
 
 #include "gl_lookup_host.h"
-#include "technique/validate.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark::gl {
 namespace {
@@ -81,7 +81,7 @@ TEST_F(GlLookupTest, AllLitIsOneAndAllDarkIsNought) {
         settings.filter.kind = std::string(find_setting("filter.kind").choices[f]);
         settings.filter.size = size;
         settings.filter.sigma_texels = 0.3 * size;
-        if (kind_thrown([&] { validate(settings), validate_for(kind, settings); })) continue;
+        if (kind_thrown([&] { validate(settings, kind); })) continue;
         ++filters;
         const LightFrame frame = make_light_frame(scene, settings);
         const LookupProbe probe = renderer.probe(frame, settings);
@@ -112,7 +112,7 @@ TEST_F(GlLookupTest, ATieIsLit) {
       settings.map.far_m = 40;
       settings.bias = {};
       settings.filter.kind = std::string(find_setting("filter.kind").choices[f]);
-      if (kind_thrown([&] { validate_for(kind, settings); })) continue;
+      if (kind_thrown([&] { validate(settings, kind); })) continue;
       load(scene, 1, 1);
       const LightFrame frame = make_light_frame(scene, settings);
       const float reference = renderer.probe(frame, settings).reference[0];

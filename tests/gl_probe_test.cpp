@@ -2,7 +2,7 @@
 #include "gl/bias_text.h"
 #include "gl_lookup_host.h"
 #include "technique/light_frame.h"
-#include "technique/validate.h"
+#include "technique/setting_rules.h"
 #include "tests/bias_of.h"
 
 namespace noonmark::gl {
@@ -30,7 +30,7 @@ TEST_F(GlProbeTest, MovesWithTheNormalOffsetAlone) {
     const LookupProbe unmoved = renderer.probe(frame, settings);
     for (const BiasSettings& bias : every_bias()) {
       settings.bias = bias;
-      if (kind_thrown([&] { validate_for(kind, settings); }) || Bias(bias).moves_lookup()) continue;
+      if (kind_thrown([&] { validate(settings, kind); }) || Bias(bias).moves_lookup()) continue;
       const LookupProbe probe = renderer.probe(frame, settings);
       for (size_t i = 0; i < receivers.primitive.size(); ++i) {
         ASSERT_TRUE(same_probe(probe, unmoved, i)) << bias_text_name(Bias(bias));

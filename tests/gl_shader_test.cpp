@@ -6,7 +6,7 @@
 #include "gl/program.h"
 #include "gl/shader_text.h"
 #include "gl_fixture.h"
-#include "technique/validate.h"
+#include "technique/setting_rules.h"
 #include "tests/bias_of.h"
 
 namespace noonmark::gl {
@@ -95,7 +95,7 @@ TEST(LookupParts, EveryLightBiasAndFilterBuilds) {
         Settings settings;
         settings.bias = bias;
         settings.filter.kind = std::string(find_setting("filter.kind").choices[f]);
-        if (kind_thrown([&] { validate_for(static_cast<LightKind>(l), settings); })) {
+        if (kind_thrown([&] { validate(settings, static_cast<LightKind>(l)); })) {
           ++refused;
           continue;
         }

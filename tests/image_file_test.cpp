@@ -257,8 +257,8 @@ class Pictures : public ImageFile {
     fill(stored, 2, 2, numbered(0.1f));
     fill(exact, 2, 2, numbered(0.2f));
     for (size_t n = 0; n < 6; ++n)
-      fill(ladder.rung[n], 3, 2, [n](size_t i) { return static_cast<float>((n + i) % 2); });
-    for (size_t c = 0; c < cause_count; ++c) fill(ladder.step[c], 3, 2, numbered(static_cast<float>(c)));
+      fill(ladder.rungs[n].lit, 3, 2, [n](size_t i) { return static_cast<float>((n + i) % 2); });
+    for (size_t c = 0; c < cause_count; ++c) fill(ladder.causes[c].step, 3, 2, numbered(static_cast<float>(c)));
     ladder.cause = ladder.flags = Image<uint8_t>(3, 2);
     ladder.cause.pixels = {0, 5, 6, 9, 3, 0};
     ladder.flags.pixels = {1, 3, 5, 7, 1, 0};
@@ -272,7 +272,7 @@ class Pictures : public ImageFile {
   }
 
   Settings settings;
-  Ladder ladder;
+  Ladder ladder = empty_ladder(3, 2);
   LightFrame frame;
   Scene scene;
   ReceiverImage receivers;
@@ -298,12 +298,12 @@ TEST_F(Pictures, LadderHoldsEveryRungAndWhatItWasMadeOf) {
     expect(std::string("N.") + "XYZ"[axis], n);
   }
   expect("primitive", {1000, 1001, 1002, 1003, 1004, -1});
-  for (size_t n = 0; n < 6; ++n) expect("R" + std::to_string(n), ladder.rung[n].pixels);
+  for (size_t n = 0; n < 6; ++n) expect("R" + std::to_string(n), ladder.rungs[n].lit.pixels);
   expect("depth.reference", probe.reference.pixels);
   expect("cause", {0, 5, 6, 9, 3, 0});
   expect("flags", {1, 3, 5, 7, 1, 0});
   for (int c = 1; c < cause_count; ++c)
-    expect("step." + std::string(cause_name(static_cast<Cause>(c))), ladder.step[static_cast<size_t>(c)].pixels);
+    expect("step." + std::string(cause_name(static_cast<Cause>(c))), ladder.causes[static_cast<size_t>(c)].step.pixels);
   EXPECT_EQ(image.channels.size(), 6 + 1 + 6 + 3 + 2 + cause_count - 1);
   EXPECT_EQ(image.spec.format, OIIO::TypeDesc::FLOAT);
 
@@ -366,8 +366,8 @@ TEST_F(Pictures, ClassesShowTheColoursOfTheLegend) {
   // One wrong by all (full colour), one right and lit, one right and dark, ambiguous, facing away, no surface.
   ladder.flags.pixels = {1, 1, 1, 5, 0, 0};
   ladder.cause.pixels = {static_cast<uint8_t>(Cause::acne), 0, 0, 0, 0, 0};
-  ladder.rung[1].pixels = {1, 1, 0, 1, 0, 0};
-  ladder.rung[5].pixels = {0, 1, 0, 0, 0, 0};
+  ladder[Rung::truth].pixels = {1, 1, 0, 1, 0, 0};
+  ladder[Rung::shown].pixels = {0, 1, 0, 0, 0, 0};
   write_pictures(measurement(), folder.path().string(), "images", "p");
   EXPECT_EQ(read_png(folder.file("p-classes.png")).pixels,
             (std::vector<Color>{named("acne"), named("lit"), named("shadowed"), named("ambiguous"), named("attached"),
@@ -384,8 +384,8 @@ TEST_F(Pictures, ClassesShowTheColoursOfTheLegend) {
 TEST_F(Pictures, ShowWhatIsNoNumberAsWrong) {
   ladder.flags.pixels[0] = flag_facing;
   ladder.cause.pixels[0] = static_cast<uint8_t>(Cause::precision);
-  ladder.rung[1].pixels[0] = 1;
-  ladder.rung[5].pixels[0] = std::numeric_limits<float>::quiet_NaN();
+  ladder[Rung::truth].pixels[0] = 1;
+  ladder[Rung::shown].pixels[0] = std::numeric_limits<float>::quiet_NaN();
   write_pictures(measurement(), folder.path().string(), "images", "p");
   EXPECT_EQ(read_png(folder.file("p-classes.png"))[0], named("precision"));
   EXPECT_EQ(read_png(folder.file("p-difference.png"))[0], named("peter_panning"));

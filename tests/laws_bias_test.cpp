@@ -190,8 +190,8 @@ TEST(Law1, HoldsOutsideTheMapOnlyWithALitBorder) {
         bench.measure(with({{"bias.constant", text(1.001 * law + extra_bias_m)}}, base), std::nullopt);
     Dark count;
     for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
-      if (!(m.ladder.flags[i] & flag_facing) || m.ladder.rung[4][i] == 1) continue;
-      EXPECT_NE(m.ladder.step[static_cast<size_t>(Cause::coverage_dark)][i], 0) << "only coverage darkens a plane";
+      if (!(m.ladder.flags[i] & flag_facing) || m.ladder[Rung::on_exact_map][i] == 1) continue;
+      EXPECT_NE(m.ladder[Cause::coverage_dark][i], 0) << "only coverage darkens a plane";
       ++(m.ladder.flags[i] & flag_outside ? count.outside : count.inside);
     }
     return count;

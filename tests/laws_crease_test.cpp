@@ -179,7 +179,7 @@ TEST(Law3Crease, LeavesAStripAtTheLitFootOfAWall) {
     };
     uint64_t acne = 0, outside = 0;
     for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {
-      if (m.ladder.flags[i] != flag_facing || m.ladder.step[static_cast<size_t>(Cause::acne)][i] == 0) continue;
+      if (m.ladder.flags[i] != flag_facing || m.ladder[Cause::acne][i] == 0) continue;
       ++acne;
       const glm::dvec3 p = m.receivers.position[i];
       const bool on_floor = m.receivers.normal[i].y > 0.5f;

@@ -106,7 +106,7 @@ TEST(Law5, SaturatesWhereFeaturesAreThinnerThanATexel) {
       }
       for (size_t k = 0; k < area.size(); ++k)
         for (Cause cause : {Cause::aliasing_dark, Cause::aliasing_light})
-          wrong += area[k] * std::abs(m.ladder.step[static_cast<size_t>(cause)][k]) / n;
+          wrong += area[k] * std::abs(m.ladder[cause][k]) / n;
     }
     ASSERT_GT(whole, 0.1);
     const double per_wire_m = wrong / whole * s;  // for each metre of one wire
@@ -136,7 +136,7 @@ TEST(Law6, ExtentAndResolutionTrade) {
         const Measurement m = bench.measure(
             with({{"map.extent_m", text(extent * scale)}, {"map.resolution", std::to_string(resolution)}}, base),
             std::nullopt);
-        return std::pair(m.ladder.rung[5], m.ladder.cause);
+        return std::pair(m.ladder.shown(), m.ladder.cause);
       };
       const auto [narrow, narrow_cause] = picture(1, 256);
       const auto [wide, wide_cause] = picture(2, 512);

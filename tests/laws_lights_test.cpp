@@ -46,8 +46,8 @@ Shadow shadow_on_floor(const Measurement& m, size_t rung) {
     if (!(m.ladder.flags[i] & flag_facing) || m.receivers.primitive[i] >= 2) continue;
     const glm::dvec3 p(m.receivers.position[i]);
     const double area = areas[i] / glm::dot(m.frame.direction_to_light(p), glm::dvec3(0, 1, 0));
-    shadow.centre += area * (1 - m.ladder.rung[rung][i]) * p;
-    shadow.area_m2 += area * (1 - m.ladder.rung[rung][i]);
+    shadow.centre += area * (1 - m.ladder.rungs[rung].lit[i]) * p;
+    shadow.area_m2 += area * (1 - m.ladder.rungs[rung].lit[i]);
   }
   shadow.centre /= shadow.area_m2;
   return shadow;
@@ -107,7 +107,7 @@ TEST(Law7Cube, BlursByTheSumOfItsTapsWays) {
     for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
       if (!(m.ladder.flags[i] & flag_facing) || m.receivers.primitive[i] >= 2) continue;
       const glm::dvec3 to_light = m.frame.direction_to_light(m.receivers.position[i]);
-      found += areas[i] / to_light.y * std::abs(m.ladder.rung[2][i] - m.ladder.rung[1][i]);
+      found += areas[i] / to_light.y * std::abs(m.ladder[Rung::filtered][i] - m.ladder.truth()[i]);
     }
     std::cout << filter << ": blurred area " << found << " m2, by the law " << exact << "\n";
     EXPECT_NEAR(found / exact, 1, 0.03) << "pixels sample the band, some thousands of them";

@@ -13,7 +13,7 @@
 namespace noonmark::acceptance {
 namespace {
 
-float step(const Measurement& m, Cause cause, size_t i) { return m.ladder.step[static_cast<size_t>(cause)][i]; }
+float step(const Measurement& m, Cause cause, size_t i) { return m.ladder[cause][i]; }
 
 // Law 2. The map stores the occluder's lit face. Behind a wall of thickness t a floor receiver a distance x from the
 // shadow-side foot, along the light's trace, has the wall's lit face t / cos(psi) + x further along the trace (psi: the
@@ -52,7 +52,7 @@ TEST(Law2, GivesTheGapBehindAWall) {
           if (along < 0 || along > 1 || p.z - along * trace.y < 0.3 || p.z - along * trace.y > 2.7) continue;
           ++behind;
           if (step(m, Cause::peter_panning, i) != 0) measured = std::max(measured, along);
-          dark_in_gap += along < law - texel && m.ladder.rung[4][i] == 0;
+          dark_in_gap += along < law - texel && m.ladder[Rung::on_exact_map][i] == 0;
         }
         SCOPED_TRACE(testing::Message() << "light " << light << " t " << t << " b " << b);
         EXPECT_GT(behind, 1000u);
@@ -84,7 +84,7 @@ TEST(Law2, LosesAPlateBelowTheHeightItNames) {
     const Measurement m = bench.measure(with({{"scene.height_m", text(share * bias_m * cosine)}}, probe), std::nullopt);
     uint64_t dark = 0, panning = 0;
     for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {
-      if (m.receivers.primitive[i] >= 2 || !(m.ladder.flags[i] & flag_facing) || m.ladder.rung[1][i] != 0) continue;
+      if (m.receivers.primitive[i] >= 2 || !(m.ladder.flags[i] & flag_facing) || m.ladder.truth()[i] != 0) continue;
       const glm::dvec3 p(m.receivers.position[i]), l = m.frame.direction_to_light();
       const glm::dvec3 enters = p + share * bias_m * cosine / l.y * l;
       const double margin = m.frame.texel_m() / cosine;  // the texel's centre may lie beyond the rim
@@ -144,7 +144,7 @@ void expect_nothing_but_acne(Workbench& bench, const Settings& settings, bool cl
   for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
     if (!(m.ladder.flags[i] & flag_facing) || (m.ladder.flags[i] & flag_ambiguous)) continue;
     if (closed && seen_from_inside(m, i)) continue;
-    false_truths += m.ladder.rung[1][i] != 1;
+    false_truths += m.ladder.truth()[i] != 1;
     for (Cause cause : {Cause::filter, Cause::aliasing_dark, Cause::aliasing_light, Cause::peter_panning})
       broken += step(m, cause, i) != 0;
   }
@@ -242,7 +242,7 @@ TEST(Law10, NeedsThicknessWhereFrontFacesAreCulled) {
       }
       ++top;
       dark += acne;
-      EXPECT_EQ(m.ladder.rung[1][i], 1);
+      EXPECT_EQ(m.ladder.truth()[i], 1);
     }
     ASSERT_GT(top, 3000u);
     const double law = std::max(0.0, (1 - std::max(share, 1e-4 / needed)) / 2);

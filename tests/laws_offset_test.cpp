@@ -124,7 +124,7 @@ TEST(Law3, MovesShadowsTowardsTheLight) {
     uint64_t floor = 0, displaced = 0, undecided = 0;
     glm::dvec3 truth_sum(0), map_sum(0);
     double truth_dark = 0, map_dark = 0;
-    const Image<float>& step = m.ladder.step[static_cast<size_t>(Cause::displacement)];
+    const Image<float>& step = m.ladder[Cause::displacement];
     const Image<double> areas = light_plane_areas(m.camera, m.frame, m.receivers);
     for (int y = 0; y < step.height; ++y) {
       for (int x = 0; x < step.width; ++x) {
@@ -142,15 +142,15 @@ TEST(Law3, MovesShadowsTowardsTheLight) {
           return in != out ? std::optional<float>() : std::optional<float>(in ? 0.0f : 1.0f);
         };
         ++floor;
-        EXPECT_EQ(m.ladder.rung[2][i], lit(p).value_or(m.ladder.rung[2][i]));
-        const float moved = m.ladder.rung[2][i] + step[i];
+        EXPECT_EQ(m.ladder[Rung::filtered][i], lit(p).value_or(m.ladder[Rung::filtered][i]));
+        const float moved = m.ladder[Rung::filtered][i] + step[i];
         EXPECT_EQ(moved, lit(further).value_or(moved)) << x << ", " << y;
         displaced += step[i] != 0;
         const double area = areas.at(x, y) / cosine;
-        truth_sum += area * (1 - m.ladder.rung[1][i]) * p;
-        truth_dark += area * (1 - m.ladder.rung[1][i]);
-        map_sum += area * (1 - m.ladder.rung[5][i]) * p;
-        map_dark += area * (1 - m.ladder.rung[5][i]);
+        truth_sum += area * (1 - m.ladder.truth()[i]) * p;
+        truth_dark += area * (1 - m.ladder.truth()[i]);
+        map_sum += area * (1 - m.ladder.shown()[i]) * p;
+        map_dark += area * (1 - m.ladder.shown()[i]);
       }
     }
     EXPECT_GT(floor, 50000u);
@@ -235,7 +235,7 @@ TEST(Law3, DisplacesACubesShadowAndNothingElse) {
   EXPECT_LE(metric(m, "rounding_excess"), 1);
   uint64_t panning = 0, away_from_corners = 0;
   for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {
-    if (m.ladder.step[static_cast<size_t>(Cause::peter_panning)][i] == 0) continue;
+    if (m.ladder[Cause::peter_panning][i] == 0) continue;
     ++panning;
     const glm::dvec3 p = m.receivers.position[i];
     const auto behind = [&](double distance, glm::dvec3 normal) {
@@ -268,13 +268,13 @@ TEST(Law3, LosesAPlateBelowItsOffset) {
     const Measurement m = bench.measure(with({{"scene.height_m", text(share * offset_m)}}, base), std::nullopt);
     uint64_t dark = 0, panning = 0;
     for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {
-      const float truth = m.ladder.rung[2][i] + m.ladder.step[static_cast<size_t>(Cause::displacement)][i];
+      const float truth = m.ladder[Rung::filtered][i] + m.ladder[Cause::displacement][i];
       if (m.receivers.primitive[i] >= 2 || !(m.ladder.flags[i] & flag_facing) || truth != 0) continue;
       const auto reach = [&](glm::dvec3 normal) { return 0.5 * m.frame.texel_m() * texel_axes_1(m.frame, normal); };
       const glm::dvec3 p = m.receivers.position[i];
       if (p.x + 0.8 < reach({1, 0, 0}) || p.z + 0.6 < reach({0, 0, 1})) continue;
       ++dark;
-      panning += m.ladder.step[static_cast<size_t>(Cause::peter_panning)][i] != 0;
+      panning += m.ladder[Cause::peter_panning][i] != 0;
     }
     EXPECT_GT(dark, 300u);
     return static_cast<double>(panning) / static_cast<double>(dark);

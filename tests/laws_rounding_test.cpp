@@ -90,7 +90,7 @@ TEST(Law11Rounding, OccludersCastTheSameErrorsOnPieces) {
             bool same = true;
             for (Cause cause :
                  {Cause::filter, Cause::aliasing_dark, Cause::aliasing_light, Cause::acne, Cause::peter_panning})
-              same &= built.ladder.step[static_cast<size_t>(cause)][i] == m.ladder.step[static_cast<size_t>(cause)][i];
+              same &= built.ladder[cause][i] == m.ladder[cause][i];
             differ += !same;
           }
           // A tap decides at a border: 81 taps meet 81 times as many. And where a float step is wider, so are borders:

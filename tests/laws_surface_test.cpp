@@ -46,8 +46,8 @@ TEST(Law4, EveryAliasedTapHasATrueEdgeNear) {
       const double w = m.frame.texel_m();
       uint64_t checked = 0, other = 0;
       for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
-        const bool light = m.ladder.step[static_cast<size_t>(Cause::aliasing_light)][i] != 0;
-        if (!light && m.ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i] == 0) continue;
+        const bool light = m.ladder[Cause::aliasing_light][i] != 0;
+        if (!light && m.ladder[Cause::aliasing_dark][i] == 0) continue;
         if (m.ladder.flags[i] & flag_ambiguous) continue;
         const glm::dvec3 world(m.receivers.position[i]);
         // The texel's centre from first principles: the light's axes, the map's corner, a step of w.
@@ -109,9 +109,9 @@ TEST(Law11, CausesDoNotDependOnHowASurfaceIsCut) {
           bool same = true;
           // What the truth is not sure of may be said either way.
           if ((built.flags[i] | m.ladder.flags[i]) & flag_ambiguous) continue;
-          for (int c = 0; c < cause_count - 1; ++c) same &= built.step[c][i] == m.ladder.step[c][i];
+          for (int c = 0; c < cause_count - 1; ++c) same &= built.causes[c].step[i] == m.ladder.causes[c].step[i];
           differ += !same;
-          raster += built.step[cause_count - 1][i] != m.ladder.step[cause_count - 1][i];
+          raster += built.causes[cause_count - 1].step[i] != m.ladder.causes[cause_count - 1].step[i];
         }
         SCOPED_TRACE(testing::Message() << name << " " << filter << " " << mesh);
         const double limit = 1e-4 * static_cast<double>(facing);

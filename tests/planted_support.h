@@ -16,7 +16,7 @@
 #include "raytrace/tracer.h"
 #include "scenes/camera_fit.h"
 #include "scenes/library.h"
-#include "technique/validate.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark::planted {
 

@@ -73,6 +73,31 @@ TEST_F(Messages, AnUnjudgedRunHasItsTime) {
   EXPECT_GE(junit.substr(at + 11, before.size()), before);
 }
 
+// Each point is judged before the first is measured: by run, by a dry run and by render alike, with the place in the
+// file.
+TEST_F(Messages, APointThatCannotBeIsNamedBeforeTheFirstIsMeasured) {
+  write("x.toml", one_point +
+                      "[sweep]\nlight.kind = [\"directional\", \"point\"]\nfilter.kind = [\"none\", \"box\"]\n" +
+                      held_bound);
+  for (const std::vector<std::string>& how : {std::vector<std::string>{"run", "x.toml", "--out", "out"},
+                                              {"run", "x.toml", "--out", "out", "--dry-run"},
+                                              {"check", "x.toml", "--out", "out"},
+                                              {"render", "x.toml", "--point", "3", "--out", "out"}}) {
+    EXPECT_EQ(run(how), 2) << output_;
+    EXPECT_TRUE(
+        says("x.toml:8:15: point 3 (light.kind = point, filter.kind = box): filter.kind = box needs a flat map"))
+        << output_;
+    EXPECT_FALSE(fs::exists(folder_ / "out/results.sqlite") || fs::exists(folder_ / "out/report.html"));
+  }
+  // What only the scene's own volume can tell.
+  write("x.toml",
+        one_point + "[[part]]\nname = \"a\"\n[[part]]\nname = \"b\"\n[part.sweep]\nmap.far_m = [1000, -1000]\n");
+  EXPECT_EQ(run({"run", "x.toml", "--out", "out"}), 2);
+  EXPECT_TRUE(says("x.toml:11:13: part 'b', point 2 (map.far_m = -1000): the map's near plane")) << output_;
+  EXPECT_EQ(run({"run", "x.toml", "--out", "out", "--set", "filter.size=4"}), 2);
+  EXPECT_TRUE(says("--set filter.size=4: part 'a', point 0: filter.size = 4 is even")) << output_;
+}
+
 TEST_F(Messages, OneIsSingular) {
   const std::string experiment = write("x.toml", one_point + held_bound);
   ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;

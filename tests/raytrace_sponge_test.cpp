@@ -64,7 +64,8 @@ struct Setting {
         embree(device, scene),
         adjacency(scene),
         view(scene, frame),
-        surface(embree, adjacency, view),
+        silhouettes(adjacency, view, Silhouettes::reach_of(view)),
+        surface(embree, adjacency, view, silhouettes),
         brute(scene, frame) {}
 
   // The triangle that faces the light at p, or none where p is not on the surface or lit (of a lit P the jumps decide).
@@ -79,9 +80,8 @@ struct Setting {
   OwnSurface::Verdict verdict(glm::dvec3 p, uint32_t own, glm::dvec3 q) const {
     const glm::dvec3 x = view.place_of(frame.to_light(q));
     uint32_t hit = no_primitive;
-    uint64_t rays = 0;
     view.first_hits(embree, 1, &x, &hit);
-    return surface.lit_at(surface.point(frame.to_light(p), own, false), x, hit, rays);
+    return surface.lit_at(surface.point(frame.to_light(p), own, false), x, hit);
   }
   // Nothing stands before q.
   bool seen(glm::dvec3 q) const {
@@ -95,6 +95,7 @@ struct Setting {
   EmbreeScene embree;
   Adjacency adjacency;
   LightView view;
+  Silhouettes silhouettes;
   OwnSurface surface;
   test::LightBins brute;
 };

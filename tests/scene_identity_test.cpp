@@ -93,7 +93,7 @@ std::string seen(Workbench& bench, const std::string& path) {
       bench.measure(with({{"map.resolution", "64"}}, small(path, 48, 32)), CurveOptions{.bias_depth = {0, 0.01}});
   std::string bytes;
   const auto add = [&](const void* data, size_t size) { bytes.append(static_cast<const char*>(data), size); };
-  for (const Image<float>& rung : m.ladder.rung) add(rung.pixels.data(), rung.pixels.size() * sizeof(float));
+  for (const auto& [name, lit] : m.ladder.rungs) add(lit.pixels.data(), lit.pixels.size() * sizeof(float));
   add(m.receivers.position.pixels.data(), m.receivers.position.pixels.size() * sizeof(glm::vec3));
   add(m.stored_map.pixels.data(), m.stored_map.pixels.size() * sizeof(float));
   for (const auto& [name, value] : m.record.metrics)

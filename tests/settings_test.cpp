@@ -14,8 +14,7 @@
 
 #include "scenes/error.h"
 #include "scenes/text.h"
-#include "technique/idle_settings.h"
-#include "technique/validate.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
@@ -317,7 +316,7 @@ Settings with(std::initializer_list<std::pair<const char*, const char*>> values)
 TEST(ValidateFor, RefusesWhatTheLightsMapCannotDo) {
   const auto refused = [](LightKind kind, const Settings& s, const std::string& name) {
     try {
-      validate_for(kind, s);
+      validate(s, kind);
       return false;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::usage);
@@ -380,7 +379,7 @@ TEST(Settings, ThoseThatChangeNothingAreNamed) {
             "bias.polygon_factor on a point light, whose shader writes its depth itself;");
   EXPECT_EQ(idle(LightKind::point,
                  {{"filter.kind", "cube_disk"}, {"filter.disk", "view_distance"}, {"filter.radius_m", "0.1"}}),
-            "filter.radius_m with filter.kind = cube_disk;");
+            "filter.radius_m with filter.disk = view_distance;");
   EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"view.fit_depths", "true"}}), "");
   EXPECT_EQ(idle(LightKind::spot, {{"view.fit_depths", "true"}}),
             "view.fit_depths in a built-in scene, where near and far are always fitted;");
@@ -391,6 +390,39 @@ TEST(Settings, ThoseThatChangeNothingAreNamed) {
   EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"scene.animation", "1"}}),
             "scene.animation without scene.time_s;");
   EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"scene.animation", "1"}, {"scene.time_s", "2"}}), "");
+}
+
+// What a stage made is kept while its key stays the same (app/workbench.cpp).
+TEST(Settings, TheKeyOfAStageChangesWithWhatItReadsAndNothingElse) {
+  const auto key = [](const Settings& s, Stage stage) { return settings_key(s, {stage}); };
+  const std::pair<const char*, Stages> expected[] = {{"scene.theta_deg", {Stage::scene}},
+                                                     {"view.eye_m", {Stage::view}},
+                                                     {"light.position_m", {Stage::truth, Stage::map, Stage::lookup}},
+                                                     {"map.resolution", {Stage::map, Stage::lookup}},
+                                                     {"map.format", {Stage::map}},
+                                                     {"map.lit_beyond_far", {Stage::ladder}},
+                                                     {"bias.constant", {Stage::ladder}},
+                                                     {"bias.tan_cap", {Stage::ladder}},
+                                                     {"bias.normal_offset", {Stage::lookup}},
+                                                     {"bias.polygon_units", {Stage::map, Stage::lookup}},
+                                                     {"filter.size", {Stage::lookup}},
+                                                     {"truth.standard_error", {Stage::truth}}};
+  for (const auto& [name, stages] : expected) {
+    Settings changed;
+    const Setting& row = find_setting(name);
+    const char* value = row.type == ValueType::point     ? "1,2,3"
+                        : row.type == ValueType::flag    ? "false"
+                        : row.type == ValueType::choice  ? "16"
+                        : row.type == ValueType::integer ? "7"
+                                                         : "0.5";
+    row.set(changed, value);
+    for (Stage stage : {Stage::scene, Stage::view, Stage::truth, Stage::map, Stage::lookup, Stage::ladder})
+      EXPECT_EQ(key(changed, stage) != key({}, stage), stages.has(stage)) << name << " " << static_cast<int>(stage);
+  }
+  for (const Setting& row : settings_table()) EXPECT_NE(row.read_by.bits, 0) << row.name << " is read by no stage";
+  Settings biased;
+  biased.bias["constant"] = 1;
+  EXPECT_EQ(settings_key(biased, {Stage::ladder}, "bias.constant"), settings_key({}, {Stage::ladder}, "bias.constant"));
 }
 
 // A technique that the README does not name does not exist for its readers. The parts of a bias it leaves to

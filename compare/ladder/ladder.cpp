@@ -23,15 +23,17 @@ struct Residuals {
 // The class of a wrong pixel: unfiltered, the rung from which it stays wrong. With a filter several causes share a
 // pixel, and the largest share names it.
 Cause pixel_cause(const Ladder& ladder, size_t i, bool filtered) {
-  if (ladder.rung[5][i] == ladder.rung[1][i]) return Cause::none;
-  if (!filtered && ladder.rung[4][i] == ladder.rung[1][i]) return Cause::precision;
+  const float truth = ladder.truth()[i];
+  if (ladder[Rung::shown][i] == truth) return Cause::none;
+  if (!filtered && ladder[Rung::on_exact_map][i] == truth) return Cause::precision;
   Cause largest = Cause::none;
   float size = 0;
   for (int c = static_cast<int>(Cause::filter); c < cause_count; ++c) {
-    if (!filtered && c == static_cast<int>(Cause::precision)) continue;
-    if (std::abs(ladder.step[c][i]) > size) {
-      size = std::abs(ladder.step[c][i]);
-      largest = static_cast<Cause>(c);
+    const auto cause = static_cast<Cause>(c);
+    if (!filtered && cause == Cause::precision) continue;
+    if (std::abs(ladder[cause][i]) > size) {
+      size = std::abs(ladder[cause][i]);
+      largest = cause;
     }
   }
   return largest;
@@ -64,12 +66,42 @@ Ladder climb(const LookupEvidence& e) {
 
 Ladder empty_ladder(int width, int height) {
   Ladder ladder;
-  for (Image<float>& image : ladder.rung) image = Image<float>(width, height, 0);
-  for (Image<float>& image : ladder.step) image = Image<float>(width, height, 0);
+  const Image<float> zero(width, height, 0);
+  for (std::string_view name : rung_names) ladder.rungs.push_back({std::string(name), zero});
+  for (int c = 0; c < cause_count; ++c) ladder.causes.push_back({std::string(cause_name(static_cast<Cause>(c))), zero});
   ladder.cause = Image<uint8_t>(width, height, 0);
   ladder.flags = Image<uint8_t>(width, height, 0);
   ladder.doubt = Image<float>(width, height, 0);
   return ladder;
+}
+
+void add_rung(Ladder& ladder, const std::string& name, Image<float> picture, const std::string& cause) {
+  if (picture.width != ladder.flags.width || picture.height != ladder.flags.height)
+    throw std::logic_error("the rung " + name + " has another size than the ladder");
+  const auto named = [](const std::string& wanted) { return [&](const auto& one) { return one.name == wanted; }; };
+  if (std::any_of(ladder.rungs.begin(), ladder.rungs.end(), named(name)) ||
+      std::any_of(ladder.causes.begin(), ladder.causes.end(), named(cause)))
+    throw std::logic_error("the ladder has a rung " + name + " or a cause " + cause + " already");
+  const Image<float>& below = ladder.shown();
+  Image<float> step(picture.width, picture.height, 0);
+  const auto index = static_cast<uint8_t>(ladder.causes.size());
+  for (size_t i = 0; i < picture.size(); ++i) {
+    if (!(ladder.flags[i] & flag_facing)) {
+      picture[i] = 0;
+      continue;
+    }
+    step[i] = picture[i] - below[i];
+    float largest = 0;
+    for (size_t c = static_cast<size_t>(Cause::filter); c < ladder.causes.size(); ++c)
+      largest = std::max(largest, std::abs(ladder.causes[c].step[i]));
+    if (picture[i] == ladder.truth()[i])
+      ladder.cause[i] = static_cast<uint8_t>(Cause::none);
+    else if (!(std::abs(step[i]) <= largest) || ladder.cause[i] == static_cast<uint8_t>(Cause::none))
+      ladder.cause[i] = index;
+    if (std::isnan(step[i])) ladder.residual = std::numeric_limits<double>::quiet_NaN();
+  }
+  ladder.rungs.push_back({name, std::move(picture)});
+  ladder.causes.push_back({cause, std::move(step)});
 }
 
 void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {
@@ -111,11 +143,11 @@ void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {
     if (unsure > 0) ladder.flags[i] |= flag_undecided;
     // Double, rounded once to float: the shader's own count / N is that quotient in float.
     const auto share = [&](double weight) { return static_cast<float>(weight / whole); };
-    const float r[6] = {e.truth.soft[i],  static_cast<float>(e.truth.lit[i]), share(exact_lit),
-                        share(texel_lit), blended ? share(all_lit) : e.r4[i], e.r5[i]};
-    for (int n = 0; n < 6; ++n) ladder.rung[n][i] = r[n];
+    const float r[std::size(rung_names)] = {e.truth.soft[i],  static_cast<float>(e.truth.lit[i]), share(exact_lit),
+                                            share(texel_lit), blended ? share(all_lit) : e.r4[i], e.r5[i]};
+    for (size_t n = 0; n < std::size(r); ++n) ladder.rungs[n].lit[i] = r[n];
 
-    const auto set = [&](Cause cause, float value) { ladder.step[static_cast<size_t>(cause)][i] = value; };
+    const auto set = [&](Cause cause, float value) { ladder[cause][i] = value; };
     set(Cause::light_size, r[1] - r[0]);
     set(Cause::filter, r[2] - r[1] - share(before_exact));
     set(Cause::displacement, share(moved_lit) - r[2] - share(before_moved));
@@ -128,9 +160,9 @@ void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {
       set(light, share(booked[static_cast<size_t>(light)]));
 
     double all = 0, classes = 0;
-    for (int c = 0; c < cause_count; ++c) all += ladder.step[c][i];
+    for (const Ladder::CauseImage& c : ladder.causes) all += c.step[i];
     for (int c = static_cast<int>(Cause::displacement); c <= static_cast<int>(Cause::coverage_light); ++c)
-      classes += ladder.step[c][i];
+      classes += ladder[static_cast<Cause>(c)][i];
     classes += (before_moved + before_r4) / whole;
     worst.steps = larger(worst.steps, std::abs((static_cast<double>(r[5]) - r[0]) - all));
     worst.taps = larger(worst.taps, std::abs((static_cast<double>(r[4]) - r[2]) - classes));

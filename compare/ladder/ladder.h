@@ -30,7 +30,9 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenes/image.h"
 #include "technique/bias.h"
@@ -40,6 +42,7 @@
 
 namespace noonmark {
 
+// The causes of a lookup that compares depths, in the order of their steps: the first of Ladder::causes.
 enum class Cause : uint8_t {
   none,
   light_size,  // R1 - R0
@@ -55,6 +58,9 @@ enum class Cause : uint8_t {
   precision,  // R5 - R4
 };
 inline constexpr int cause_count = 12;
+// And its rungs, the first of Ladder::rungs.
+enum class Rung : uint8_t { soft_truth, truth, filtered, snapped, on_exact_map, shown };
+inline constexpr std::string_view rung_names[] = {"R0", "R1", "R2", "R3", "R4", "R5"};
 std::string_view cause_name(Cause cause);
 
 // What a lookup is judged on. All images have the picture's size, but for the exact map.
@@ -76,16 +82,42 @@ void require_strip(const LookupEvidence& evidence, PixelRange strip);
 // truth is.
 enum LadderFlags : uint8_t { flag_facing = 1, flag_outside = 2, flag_ambiguous = 4, flag_undecided = 8 };
 
+// An ordered list of rungs, and the causes whose steps lead from the first to the last. climb() makes those of a lookup
+// that compares; a technique may put further rungs on top (add_rung): a picture that was made elsewhere, say.
 struct Ladder {
-  std::array<Image<float>, 6> rung;            // R0 ... R5; 0 where not facing
-  std::array<Image<float>, cause_count> step;  // signed change of visibility by cause, in the order of Cause
-  Image<uint8_t> cause;                        // the Cause of each wrong pixel (R5 != R1); none where right
+  struct RungImage {
+    std::string name;  // "R1"
+    Image<float> lit;  // visibility; 0 where not facing
+  };
+  struct CauseImage {
+    std::string name;   // "acne"
+    Image<float> step;  // signed change of visibility
+  };
+  std::vector<RungImage> rungs;
+  std::vector<CauseImage> causes;  // the first is "none", whose step is 0 everywhere
+  Image<uint8_t> cause;            // of each wrong pixel (shown() != truth()): an index into causes; 0 where right
   Image<uint8_t> flags;
   Image<float> doubt;  // weight of the taps whose truth is unsure
-  // Largest |(R5 - R0) - sum of steps| and |(R4 - R2) - displacement - sum of tap classes| over the facing receivers,
-  // what is undecided among them included; NaN when any value is. Above 1e-6 the instrument is broken.
+  // Largest |(shown - R0) - sum of steps| and |(R4 - R2) - displacement - sum of tap classes| over the facing
+  // receivers, what is undecided among them included; NaN when any value is. Above 1e-6 the instrument is broken.
   double residual = 0, tap_residual = 0;
+
+  const Image<float>& operator[](Rung rung) const { return rungs[static_cast<size_t>(rung)].lit; }
+  Image<float>& operator[](Rung rung) { return rungs[static_cast<size_t>(rung)].lit; }
+  const Image<float>& operator[](Cause c) const { return causes[static_cast<size_t>(c)].step; }
+  Image<float>& operator[](Cause c) { return causes[static_cast<size_t>(c)].step; }
+
+  const Image<float>& soft_truth() const { return (*this)[Rung::soft_truth]; }
+  const Image<float>& truth() const { return (*this)[Rung::truth]; }
+  const Image<float>& shown() const { return rungs.back().lit; }  // what is judged: the topmost rung, R5 or above it
+  std::string_view cause_of(size_t pixel) const { return causes[cause[pixel]].name; }
 };
+
+// Puts a picture on top: it is what is judged from now on, and the step to it from the rung below is the one cause
+// `cause`. Where it is wrong by more than each step below, that cause names the pixel. picture: visibility in [0,1], of
+// the ladder's size; it is not read where not facing. Throws std::logic_error where the size is another or a name
+// stands there already.
+void add_rung(Ladder& ladder, const std::string& name, Image<float> picture, const std::string& cause);
 
 // The whole picture's.
 Ladder climb(const LookupEvidence& evidence);

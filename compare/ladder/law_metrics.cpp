@@ -43,7 +43,7 @@ Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>&
           const glm::dvec3 p(in.receivers.position[i]);
           const double slope = in.frame.window_depth_slope(in.frame.depth_m(in.frame.to_light(p)));
           raise(so_far.quantum_m, quantum / slope);
-          if (in.ladder.rung[1][i] == 0) continue;
+          if (in.ladder.truth()[i] == 0) continue;
           const double bias = law.at(i, p, in.receivers.normal[i]) + quantum / 2;
           raise(so_far.law_depth, bias);
           raise(so_far.law_m, bias / slope);
@@ -64,7 +64,7 @@ Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>&
     if (!is_counted(in.ladder, i)) continue;
     over.whole_area += areas[i];
     for (int c = 0; c < cause_count; ++c)
-      over.area[c] += areas[i] * std::abs(static_cast<double>(in.ladder.step[c][i]));
+      over.area[c] += areas[i] * std::abs(static_cast<double>(in.ladder[static_cast<Cause>(c)][i]));
   }
   return over;
 }

@@ -18,7 +18,7 @@ bool counted(const Ladder& ladder, size_t i) {
 // Under a filter a tap of a receiver that is itself lit can show it too; that one has no occluder, and no distance to
 // it.
 bool in_gap(const Ladder& ladder, size_t i) {
-  return counted(ladder, i) && ladder.step[static_cast<size_t>(Cause::peter_panning)][i] != 0 && ladder.rung[1][i] == 0;
+  return counted(ladder, i) && ladder[Cause::peter_panning][i] != 0 && ladder.truth()[i] == 0;
 }
 
 // std::max that keeps a NaN, whichever of the two it is.
@@ -32,11 +32,11 @@ double edge_displacement_pixels(const Ladder& ladder) {
   const int width = ladder.flags.width, height = ladder.flags.height;
   double largest = 0;
   for (int lit = 0; lit < 2; ++lit) {
-    const Image<float>& step = ladder.step[static_cast<size_t>(lit ? Cause::aliasing_light : Cause::aliasing_dark)];
+    const Image<float>& step = ladder[lit ? Cause::aliasing_light : Cause::aliasing_dark];
     Image<uint8_t> mask(width, height);
     bool any = false;
     for (size_t i = 0; i < mask.size(); ++i) {
-      mask[i] = (ladder.flags[i] & flag_facing) && (ladder.rung[1][i] != 0) == (lit == 1);
+      mask[i] = (ladder.flags[i] & flag_facing) && (ladder.truth()[i] != 0) == (lit == 1);
       any = any || step[i] != 0;
     }
     if (!any) continue;
@@ -96,27 +96,25 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   uint64_t receivers = 0, facing = 0, base = 0, lit = 0, outside = 0, wrong = 0, aliased = 0, undecided = 0;
   double error = 0, doubt = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0,
          edge_sum = 0;
-  std::array<double, cause_count> size{};
+  std::vector<double> size(ladder.causes.size());
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
     receivers += in.receivers.primitive[i] != no_primitive;
     if (!(ladder.flags[i] & flag_facing)) continue;
     ++facing;
     if (ladder.flags[i] & flag_ambiguous) continue;
     ++base;
-    lit += ladder.rung[1][i] != 0;
+    lit += ladder.truth()[i] != 0;
     outside += (ladder.flags[i] & flag_outside) != 0;
     undecided += (ladder.flags[i] & flag_undecided) != 0;
     doubt += ladder.doubt[i];
-    const double hard = static_cast<double>(ladder.rung[5][i]) - ladder.rung[1][i];
+    const double hard = static_cast<double>(ladder.shown()[i]) - ladder.truth()[i];
     error += std::abs(hard);
-    error_soft += std::abs(static_cast<double>(ladder.rung[5][i]) - ladder.rung[0][i]);
+    error_soft += std::abs(static_cast<double>(ladder.shown()[i]) - ladder.soft_truth()[i]);
     wrong += hard != 0;
-    for (int c = 0; c < cause_count; ++c) size[c] += std::abs(static_cast<double>(ladder.step[c][i]));
-    const double aliasing = static_cast<double>(ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i]) +
-                            ladder.step[static_cast<size_t>(Cause::aliasing_light)][i];
+    for (size_t c = 0; c < size.size(); ++c) size[c] += std::abs(static_cast<double>(ladder.causes[c].step[i]));
+    const double aliasing = static_cast<double>(ladder[Cause::aliasing_dark][i]) + ladder[Cause::aliasing_light][i];
     aliasing_squares += aliasing * aliasing;
-    if (ladder.rung[1][i] != 0)
-      panning_lit += std::abs(static_cast<double>(ladder.step[static_cast<size_t>(Cause::peter_panning)][i]));
+    if (ladder.truth()[i] != 0) panning_lit += std::abs(static_cast<double>(ladder[Cause::peter_panning][i]));
     if (in_gap(ladder, i)) {
       // The gap along the receiver: the light's way from P to the occluder, seen along the surface. What stands further
       // off than the bias can reach casts no gap: there a steep receiver at the edge of a distant shadow is lit because
@@ -127,8 +125,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       // A dark receiver without an occluder is a contradiction, and shows.
       if (!(distance > reach) || !std::isfinite(distance)) raise(gap, distance * std::sqrt(1 - cosine * cosine));
     }
-    if (ladder.step[static_cast<size_t>(Cause::aliasing_dark)][i] != 0 ||
-        ladder.step[static_cast<size_t>(Cause::aliasing_light)][i] != 0) {
+    if (ladder[Cause::aliasing_dark][i] != 0 || ladder[Cause::aliasing_light][i] != 0) {
       ++aliased;
       raise(edge_max, in.edge_distance_texels[i]);
       edge_sum += in.edge_distance_texels[i];
@@ -139,7 +136,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   const auto measured = [&](double value) { return base == 0 ? std::numeric_limits<double>::quiet_NaN() : value; };
   const auto share = [&](double sum) { return measured(sum / static_cast<double>(base)); };
   const auto caused = [&](Cause cause) { return share(size[static_cast<size_t>(cause)]); };
-  return {
+  std::map<std::string, double> metrics = {
       {"error", share(error)},
       {"error_soft", share(error_soft)},
       {"wrong", share(static_cast<double>(wrong))},
@@ -177,6 +174,8 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
       {"residual", ladder.residual},
       {"tap_residual", ladder.tap_residual},
   };
+  for (size_t c = cause_count; c < size.size(); ++c) metrics[ladder.causes[c].name] = share(size[c]);
+  return metrics;
 }
 
 PointRecord::Worst worst_pixel(const Ladder& ladder) {
@@ -185,9 +184,9 @@ PointRecord::Worst worst_pixel(const Ladder& ladder) {
     for (int x = 0; x < ladder.flags.width; ++x) {
       const size_t i = ladder.flags.index(x, y);
       if (!counted(ladder, i)) continue;
-      const double error = std::abs(static_cast<double>(ladder.rung[5][i]) - ladder.rung[1][i]);
+      const double error = std::abs(static_cast<double>(ladder.shown()[i]) - ladder.truth()[i]);
       if (worst.x < 0 || !(error <= worst.error)) {
-        worst = {x, y, error, std::string(cause_name(static_cast<Cause>(ladder.cause[i])))};
+        worst = {x, y, error, std::string(ladder.cause_of(i))};
         if (std::isnan(error)) return worst;
       }
     }

@@ -25,9 +25,10 @@ struct MeasureInput {
 // light: P in the light's frame.
 double panning_reach_m(const MeasureInput& input, size_t i, glm::dvec3 light);
 
-// Every metric of the table but the times and those of compare/ladder/law_metrics.h. A value that is not finite in the
-// images makes the metrics that it enters not finite; nothing is skipped. Without a counted receiver every fraction,
-// gap and displacement is NaN.
+// Every metric of the table but the times and those of compare/ladder/law_metrics.h; of a rung that was put on top of
+// R5, the mean step of its cause by the cause's name, and `error` is against that rung. A value that is not finite in
+// the images makes the metrics that it enters not finite; nothing is skipped. Without a counted receiver every
+// fraction, gap and displacement is NaN.
 std::map<std::string, double> measure_ladder(const MeasureInput& input);
 
 // The counted pixels with any Peter Panning whose own truth is dark: those whose occluder's distance measure_ladder()

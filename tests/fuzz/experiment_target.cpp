@@ -9,7 +9,7 @@
 #include "compare/judge/laws.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
-#include "technique/validate.h"
+#include "technique/setting_rules.h"
 #include "tests/fuzz/names.h"
 #include "tests/fuzz/targets.h"
 #include "tests/sample_results.h"

@@ -193,7 +193,7 @@ void require_sums(const Measurement& m) {
           "counted is not facing less ambiguous");
   require(metric(m, "attached") + metric(m, "facing") == metric(m, "receivers"),
           "attached is not receivers less facing");
-  for (const Image<float>& rung : m.ladder.rung)
+  for (const auto& [name, rung] : m.ladder.rungs)
     for (size_t i = 0; i < rung.size(); ++i)
       require(rung[i] >= 0 && rung[i] <= 1 + rounding, fmt::format("a rung is {}", rung[i]));
 }

@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# Makes the man page: what the program says of itself (verbs, arguments, options, exit codes), in the places that the
+# template names: @VERSION@ in a line; @VERBS@ and @EXIT_STATUS@ alone in theirs.
+#   man_page.sh PROGRAM TEMPLATE OUT
+set -euo pipefail
+program=$1 template=$2 out=$3
+export LC_ALL=C
+
+# Awk for all that follows: text as roff has it, where - would become a hyphen and \ and a leading . or ' mean something.
+# shellcheck disable=SC2016  # awk's dollars
+roff='
+  function roff(text) {
+    gsub(/\\/, "\\e", text)
+    gsub(/-/, "\\-", text)
+    return text ~ /^[.\x27]/ ? "\\&" text : text
+  }'
+
+verbs() { "$program" --help | awk '/^[A-Z]/ { listed = /^Subcommands:/ } listed && /^  [a-z]/ { print $1 }'; }
+
+# A verb: its synopsis, what it does, then its arguments and options as the help lists them:
+#   "  --name VALUE     what it means", the meaning in the next line where the name is long.
+# shellcheck disable=SC2016
+verb_section() {
+  "$program" "$1" --help | awk -v verb="$1" "$roff"'
+    function flush() {
+      if (name != "") printf ".TP\n.B %s\n%s\n", roff(name), roff(meaning)
+      name = ""
+    }
+    NR == 1 { says = $0 }
+    /^Usage: / {
+      sub(/^.* \[OPTIONS\]/, "[OPTIONS]")
+      printf ".SS noonmark %s %s\n%s.\n", verb, roff($0), roff(says)
+    }
+    /^(Positionals|Options):/ { listed = 1; next }
+    /^[^ ]/ { listed = 0 }
+    listed && /^  [^ ]/ {
+      flush()
+      line = substr($0, 3)
+      at = match(line, /   */)
+      name = at ? substr(line, 1, at - 1) : line
+      meaning = at ? substr(line, at + RLENGTH) : ""
+      if (name == "-h,--help") name = ""  # the template says that each verb has it
+      sub(/ REQUIRED$/, "", name)
+      next
+    }
+    listed && /^   / { sub(/^ +/, ""); meaning = meaning (meaning == "" ? "" : " ") $0 }
+    END { flush() }'
+}
+
+# "Exit codes: 0 done; 1 a bound ...; otherwise what has to change:\n2 the command line ...": a paragraph for each code.
+# shellcheck disable=SC2016
+exit_status() {
+  "$program" --help | awk "$roff"'
+    /^Exit codes: / { listed = 1; sub(/^Exit codes: /, "") }
+    listed && NF { sub(/^ +/, ""); text = text " " $0 }
+    END {
+      while (match(text, /(^|[;:]) [0-9] /)) {
+        end = RSTART + RLENGTH
+        said(substr(text, 1, RSTART - 1))
+        code = substr(text, end - 2, 1)
+        text = substr(text, end)
+      }
+      said(text)
+    }
+    function said(words) {
+      if (code == "") return
+      sub(/; otherwise what has to change$/, "", words)
+      rest = ""
+      if (match(words, /\. /)) {
+        rest = substr(words, RSTART + 2)
+        words = substr(words, 1, RSTART - 1)
+      }
+      printf ".TP\n.B %s\n%s\n", code, roff(words)
+      if (rest != "") printf ".PP\n%s\n", roff(rest)
+    }'
+}
+
+version=$("$program" --version)
+: >"$out.new"
+while IFS= read -r line; do
+  case $line in
+    @VERBS@) for verb in $(verbs); do verb_section "$verb"; done ;;
+    @EXIT_STATUS@) exit_status ;;
+    *) printf '%s\n' "${line//@VERSION@/${version%% *}}" ;;
+  esac
+done <"$template" >>"$out.new"
+mv "$out.new" "$out"

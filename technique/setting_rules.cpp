@@ -1,0 +1,153 @@
+#include "technique/setting_rules.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "scenes/library.h"
+#include "technique/filters.h"
+
+namespace noonmark {
+namespace setting_rules {
+namespace {
+
+// The choices of light.kind are the kinds in their order, behind `auto`.
+std::string on_a(LightKind light) {
+  return fmt::format("on a {} light", find_setting("light.kind").choices[1 + static_cast<size_t>(light)]);
+}
+
+// "none, box or poisson": the names of the filters that are meant.
+template <class Meant>
+std::string filters_that(const Meant& meant) {
+  std::vector<std::string_view> names;
+  for (const Filter& filter : filters())
+    if (meant(filter)) names.push_back(filter.name);
+  const std::string_view last = names.back();
+  names.pop_back();
+  return names.empty() ? std::string(last) : fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
+std::string near_beyond_far(std::string_view group, std::optional<double> near_m, std::optional<double> far_m) {
+  if (!near_m || !far_m || *near_m < *far_m) return "";
+  return fmt::format("{0}.near_m = {1} is not less than {0}.far_m = {2}", group, *near_m, *far_m);
+}
+
+}  // namespace
+
+std::string in_builtin_scene(const Settings& s, LightKind) {
+  return names_file(s.scene.name) ? "" : "in a built-in scene";
+}
+std::string without_time(const Settings& s, LightKind light) {
+  if (const std::string why = in_builtin_scene(s, light); !why.empty()) return why;
+  return s.scene.time_s ? "" : "without scene.time_s";
+}
+std::string where_depths_are_fitted(const Settings& s, LightKind) {
+  if (!names_file(s.scene.name)) return "in a built-in scene, where near and far are always fitted";
+  return s.view.near_m && s.view.far_m ? "with both view.near_m and view.far_m" : "";
+}
+std::string not_on_directional(const Settings&, LightKind light) {
+  return light == LightKind::directional ? on_a(light) : "";
+}
+std::string not_on_spot(const Settings&, LightKind light) { return light == LightKind::spot ? on_a(light) : ""; }
+std::string not_on_point(const Settings&, LightKind light) { return light == LightKind::point ? on_a(light) : ""; }
+std::string only_on_directional(const Settings&, LightKind light) {
+  return light == LightKind::directional ? "" : on_a(light);
+}
+std::string only_on_spot(const Settings&, LightKind light) { return light == LightKind::spot ? "" : on_a(light); }
+std::string only_on_point(const Settings&, LightKind light) { return light == LightKind::point ? "" : on_a(light); }
+std::string without_capped_plane(const Settings& s, LightKind) {
+  return tap_reference(s.bias.reference).reads_cap ? "" : "with bias.reference = " + s.bias.reference;
+}
+std::string where_disk_follows_view(const Settings& s, LightKind) {
+  return s.filter.kind == "cube_disk" && s.filter.disk == DiskRadius::view_distance ? "with filter.disk = view_distance"
+                                                                                    : "";
+}
+
+std::string even_or_unknown_size(const Settings& s, std::optional<LightKind>) {
+  if (s.filter.size % 2 == 0)
+    return fmt::format(
+        "filter.size = {} is even; a box and a Gaussian have an odd number of taps on a side, so that one is at the "
+        "receiver",
+        s.filter.size);
+  const std::vector<int>& sizes = find_filter(s.filter.kind).sizes;
+  if (sizes.empty() || std::find(sizes.begin(), sizes.end(), s.filter.size) != sizes.end()) return "";
+  return fmt::format("filter.size = {}: the filter {} has a size of {}", s.filter.size, s.filter.kind,
+                     fmt::join(sizes, ", "));
+}
+
+std::string map_near_beyond_far(const Settings& s, std::optional<LightKind>) {
+  return near_beyond_far("map", s.map.near_m, s.map.far_m);
+}
+std::string view_near_beyond_far(const Settings& s, std::optional<LightKind>) {
+  return near_beyond_far("view", s.view.near_m, s.view.far_m);
+}
+
+std::string no_direction_up(const Settings& s, std::optional<LightKind>) {
+  return s.view.up && *s.view.up == glm::dvec3(0) ? "view.up = 0,0,0 is no direction; give another, or auto" : "";
+}
+
+std::string filter_of_another_map(const Settings& s, std::optional<LightKind> light) {
+  if (!light) return "";
+  const Filter& filter = find_filter(s.filter.kind);
+  if (light == LightKind::point && filter.map == FilterMap::flat)
+    return fmt::format("filter.kind = {} needs a flat map; a point light's cube map takes {}", s.filter.kind,
+                       filters_that([](const Filter& f) { return f.map != FilterMap::flat; }));
+  if (light != LightKind::point && filter.map == FilterMap::cube)
+    return fmt::format("filter.kind = {} needs a cube map; set light.kind = point, or take another filter",
+                       s.filter.kind);
+  return "";
+}
+
+std::string plane_on_cube_or_blended(const Settings& s, std::optional<LightKind> light) {
+  if (!tap_reference(s.bias.reference).plane) return "";
+  if (light == LightKind::point)
+    return fmt::format("bias.reference = {} needs a flat map; a point light's cube map has own_depth alone",
+                       s.bias.reference);
+  if (!find_filter(s.filter.kind).blended) return "";
+  return fmt::format(
+      "bias.reference = {} gives each texel a depth of its own, and a hardware comparison has one for the four texels "
+      "that it reads; take filter.kind {}",
+      s.bias.reference, filters_that([](const Filter& f) { return !f.blended && f.map != FilterMap::cube; }));
+}
+
+std::string shifted_cube(const Settings& s, std::optional<LightKind> light) {
+  if (light != LightKind::point || (s.map.shift_u_texels == 0 && s.map.shift_v_texels == 0)) return "";
+  return "map.shift_*_texels needs a flat map; move the point light instead";
+}
+
+std::string snapped_perspective(const Settings& s, std::optional<LightKind> light) {
+  if (!s.map.snap || !light || *light == LightKind::directional) return "";
+  return "map.snap needs a directional light: only its texels have one size everywhere";
+}
+
+}  // namespace setting_rules
+
+void validate(const Settings& settings, std::optional<LightKind> light) {
+  for (const Setting& row : settings_table())
+    if (row.why_refused)
+      if (const std::string why = row.why_refused(settings, light); !why.empty()) throw SettingConflict(row.name, why);
+}
+
+std::vector<IdleSetting> idle_settings(LightKind light, const Settings& settings) {
+  const Settings defaults;
+  std::vector<IdleSetting> idle;
+  for (const Setting& row : settings_table()) {
+    if (!row.why_idle || row.get(settings) == row.get(defaults)) continue;
+    if (const std::string why = row.why_idle(settings, light); !why.empty())
+      idle.push_back({std::string(row.name), why});
+  }
+  return idle;
+}
+
+std::string settings_key(const Settings& settings, std::initializer_list<Stage> stages, std::string_view except) {
+  std::string key;
+  for (const Setting& row : settings_table()) {
+    const auto reads = [&](Stage stage) { return row.read_by.has(stage); };
+    if (row.name != except && std::any_of(stages.begin(), stages.end(), reads))
+      key += fmt::format("{}={}\n", row.name, row.get(settings));
+  }
+  return key;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,73 @@
+// What the settings of a point say of one another. Each rule belongs to a row of the table of settings
+// (technique/settings.cpp): which stages of the measurement read the setting, when it is not read at all, and with what
+// it cannot stand. The functions here ask all rows.
+//
+//   validate(settings, frame.kind);                                   // throws SettingConflict
+//   for (const IdleSetting& idle : idle_settings(frame.kind, settings)) print(idle.name, idle.why);
+//   if (settings_key(settings, {Stage::scene, Stage::map}) == key) ...  // the same map
+#pragma once
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/error.h"
+#include "scenes/scene.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+
+// Settings that are each in their range and do not go together. The message names them, and what to do.
+class SettingConflict : public Error {
+ public:
+  SettingConflict(std::string_view setting, const std::string& message)
+      : Error(ErrorKind::usage, message), setting_(setting) {}
+  const std::string& setting() const { return setting_; }  // the one whose row found it
+
+ private:
+  std::string setting_;
+};
+
+// light: what the scene's light is after `light.kind`; empty while the scene is not loaded, and then what only some
+// kinds of light refuse passes. Throws SettingConflict.
+void validate(const Settings& settings, std::optional<LightKind> light = std::nullopt);
+
+struct IdleSetting {
+  std::string name;  // "map.extent_m"
+  std::string why;   // "on a point light"
+};
+
+// Every setting that differs from its default and is not read at this point.
+std::vector<IdleSetting> idle_settings(LightKind light, const Settings& settings);
+
+// The settings that these stages read, one "name=value" a line. except: the name of one that is left out.
+std::string settings_key(const Settings& settings, std::initializer_list<Stage> stages, std::string_view except = {});
+
+// Rules that rows of technique/settings.cpp name.
+namespace setting_rules {
+
+// Why the setting is not read; empty where it is.
+std::string in_builtin_scene(const Settings&, LightKind);
+std::string without_time(const Settings&, LightKind);
+std::string where_depths_are_fitted(const Settings&, LightKind);
+std::string not_on_directional(const Settings&, LightKind);
+std::string not_on_spot(const Settings&, LightKind);
+std::string not_on_point(const Settings&, LightKind);
+std::string only_on_directional(const Settings&, LightKind);
+std::string only_on_spot(const Settings&, LightKind);
+std::string only_on_point(const Settings&, LightKind);
+std::string without_capped_plane(const Settings&, LightKind);
+std::string where_disk_follows_view(const Settings&, LightKind);
+
+// What is wrong, as a whole message; empty where nothing is. light: as validate() has it.
+std::string even_or_unknown_size(const Settings&, std::optional<LightKind>);
+std::string map_near_beyond_far(const Settings&, std::optional<LightKind>);
+std::string view_near_beyond_far(const Settings&, std::optional<LightKind>);
+std::string no_direction_up(const Settings&, std::optional<LightKind>);
+std::string filter_of_another_map(const Settings&, std::optional<LightKind>);
+std::string plane_on_cube_or_blended(const Settings&, std::optional<LightKind>);
+std::string shifted_cube(const Settings&, std::optional<LightKind>);
+std::string snapped_perspective(const Settings&, std::optional<LightKind>);
+
+}  // namespace setting_rules
+}  // namespace noonmark

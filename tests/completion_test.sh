@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# What bash completes after a command line of noonmark, asked as bash asks it, without bash-completion and without a terminal.
+#   completion_test.sh PROGRAM COMPLETION WORK
+set -euo pipefail
+program=$1 completion=$2 work=$3
+rm -rf "$work"
+mkdir -p "$work/sweeps" "$work/models"
+cd "$work"
+touch one.toml TWO.TOML notes.txt tree.glb models/street.gltf models/readme.md sweeps/three.toml
+ln -s "$program" noonmark
+# shellcheck source=/dev/null
+source "$completion"
+[[ $(complete -p noonmark) == 'complete -F _noonmark noonmark' ]] || { echo "nothing is registered for noonmark"; exit 1; }
+
+bad=0 asked=0
+# completed WORD...: the words as bash parts them ("--set map.wrap=re" is 4 of them), the last one being completed.
+completed() {
+  COMP_WORDS=(./noonmark "$@")
+  COMP_CWORD=$#
+  COMPREPLY=()
+  _noonmark ./noonmark "${@: -1}" "${COMP_WORDS[-2]}"
+  printf '%s\n' "${COMPREPLY[@]}" | sort | tr '\n' ' '
+}
+# expect TEXT WORD...: these completions, and no other.
+expect() {
+  asked=$((asked + 1))
+  local wanted=$1 found
+  shift
+  found=$(completed "$@")
+  found=${found# }
+  [[ ${found% } == "$wanted" ]] && return
+  printf "'%s' is completed by\n  '%s' instead of\n  '%s'\n" "$*" "${found% }" "$wanted"
+  bad=1
+}
+# has WORD WORD...: this one among others.
+has() {
+  asked=$((asked + 1))
+  local wanted=$1
+  shift
+  [[ " $(completed "$@")" == *" $wanted "* ]] && return
+  printf "'%s' is completed by\n  '%s', without %s\n" "$*" "$(completed "$@")" "$wanted"
+  bad=1
+}
+
+expect 'check doctor render report run scenes settings' ''
+expect 'render report run' r
+expect '--help --version' -
+expect '--dry-run --help --out --overwrite --part --set --threads' run --
+expect '--part --point' render --p
+expect '--help' doctor -
+expect '' scenes ''
+expect '' run --threads ''
+
+# Experiments, and folders to look into.
+expect 'TWO.TOML models one.toml sweeps' run ''
+expect 'one.toml' check sweeps o
+expect 'sweeps/three.toml' render --point 3 sweeps/
+expect 'models sweeps' report ''
+expect 'models sweeps' run one.toml --out ''
+
+# Settings: their names, then what they can be. Bash parts words at =.
+expect 'map.far_m= map.fit= map.format= map.fov_deg=' run --set map.f
+has scene.name= render one.toml --set ''
+has filter.kind= check --set=f --set f
+expect 'map.wrap=' run --set map.wrap
+expect 'clamp_to_border clamp_to_edge repeat' run --set map.wrap =
+expect 'clamp_to_border clamp_to_edge' run one.toml --set map.wrap = cl
+expect 'false true' run --set map.snap =
+expect '16 24 32f' run --set map.format =
+expect 'auto' run --set view.fov_deg =
+expect '' run --set bias.constant =
+expect '' run --set no.such = ''
+expect 'directional' run --set = light.kind = d
+expect '--overwrite' run --set map.wrap = repeat --ov
+has vogel run --set map.wrap = repeat --set filter.kind = v
+
+# Scenes: the built-in ones, and files.
+expect 'pillars plane plate point-room' run --set scene.name = p
+expect 'tree.glb' run --set scene.name = t
+expect 'models/street.gltf' run --set scene.name = models/
+built_in=$(./noonmark scenes | awk 'NF == 0 { exit } { print $1 }' | wc -l)
+(($(completed run --set scene.name = '' | wc -w) == built_in + 3)) || { echo "not all $built_in scenes are completed"; bad=1; }
+
+# Where = parts no words, the whole word is replaced.
+COMP_WORDBREAKS=${COMP_WORDBREAKS//=/}
+expect 'map.wrap=clamp_to_border map.wrap=clamp_to_edge' run --set map.wrap=cl
+expect '--set=map.wrap=repeat' run --set=map.wrap=r
+expect 'scene.name=models/street.gltf' run --set scene.name=models/
+
+((bad)) || printf '%s completions are as they should be\n' "$asked"
+exit "$bad"
