@@ -1,5 +1,5 @@
 // The instrument with a defect planted in its OpenGL side: the truth believes the settings, the renderer is given
-// something else. The wiring is app/workbench.cpp's.
+// something else. The stages are the program's (app/stages.h).
 //
 //   Figures sound = measure(settings), broken = measure(settings, {.drawn_map = [](auto& frame, auto& map) { ... }});
 #pragma once
@@ -9,14 +9,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "compare/judge/soundness.h"
-#include "compare/ladder/ladder.h"
+#include "app/memory_estimate.h"
+#include "app/stages.h"
 #include "compare/ladder/measure.h"
-#include "gl/renderer.h"
-#include "raytrace/tracer.h"
-#include "scenes/camera_fit.h"
-#include "scenes/library.h"
-#include "technique/setting_rules.h"
 
 namespace noonmark::planted {
 
@@ -44,54 +39,44 @@ inline gl::ShaderReplacements patched(const std::string& file, const std::string
 }
 
 inline Figures measure(const Settings& settings, const Defect& defect = {}) {
-  validate(settings);
-  const Scene scene = make_scene(settings.scene);
-  const LightFrame frame = make_light_frame(scene, settings);
   // Which surface a pixel sees is not in question: a sound renderer says it.
   gl::Renderer sound(gl::DebugMode::fatal);
-  sound.load_scene(scene);
-  const Camera camera = effective_camera(scene, settings.view);
-  const ReceiverImage receivers = resolve_receivers(
-      scene, camera, sound.render_primitives(camera, settings.view.width_px, settings.view.height_px));
-  const raytrace::Tracer tracer(scene);
-  const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {});
+  const SceneStage loaded = load_scene(settings, sound);
+  const Scene& scene = *loaded.scene;
+  const LightFrame frame = make_light_frame(scene, settings);
+  const ViewStage view = take_view(sound, scene, settings.view);
+  const TruthStage truth = trace_truth(*loaded.tracer, view, frame, {}, settings.truth);
 
   gl::Renderer renderer(gl::DebugMode::fatal, defect.shaders);
   Scene drawn_scene = scene;
   if (defect.drawn_scene) defect.drawn_scene(drawn_scene);
   renderer.load_scene(drawn_scene);
-  renderer.load_receivers(receivers, scene.camera.eye_m);
+  renderer.load_receivers(view.receivers, view.camera.eye_m);
   LightFrame drawn_frame = frame;
   Settings drawn = settings;
   if (defect.drawn_map) defect.drawn_map(drawn_frame, drawn.map);
   if (defect.drawn_bias) defect.drawn_bias(drawn.bias);
-  gl::ShadowMap map = renderer.render_map(drawn_frame, drawn);
-  if (defect.edited_map) map = renderer.upload_map(defect.edited_map(renderer.read_map(map)), settings.map);
-  const Image<float> stored = renderer.read_map(map);
+  MapStage map = draw_map(renderer, {drawn, drawn_frame, Bias(drawn.bias)});
+  if (defect.edited_map) {
+    map.map = renderer.upload_map(defect.edited_map(map.depth), settings.map);
+    map.depth = renderer.read_map(map.map);
+  }
 
-  Bias bias(settings.bias);
-  const LookupProbe probe = renderer.probe(frame, settings);
-  const double offset_unit = bias.polygon_offset() ? sound.polygon_offset_unit(settings.map.format) : 0;
-  const raytrace::LookupTruth taps =
-      tracer.lookup_truth(receivers, truth, probe, frame, settings.map, bias, offset_unit);
+  BiasSettings believed = settings.bias;
+  if (defect.believed_bias) defect.believed_bias(believed);
+  const PointSetup point{settings, frame, Bias(believed)};
   Settings asked = settings;
   if (defect.asked) defect.asked(asked);
   const MapSettings& uploaded = defect.every_map ? drawn.map : settings.map;
-  const Image<float> r5 = renderer.lookup(map, frame, asked);
-  const Image<float> r4 = renderer.lookup(renderer.upload_map(taps.exact_map, uploaded), frame, asked);
-
-  if (defect.believed_bias) {
-    BiasSettings believed = settings.bias;
-    defect.believed_bias(believed);
-    bias = Bias(believed);
-  }
-  const LookupEvidence evidence{truth, probe, taps.taps, taps.exact_map, settings.map, bias, r4, r5};
-  const Ladder ladder = climb(evidence);
-  const Image<float> occluders = tracer.occluder_distance(receivers, frame, peter_panning_mask(ladder));
-  Figures figures = measure_ladder({ladder, receivers, frame, probe, bias, taps.edge_distance_texels, occluders});
-  const Image<float> ties = tie_map(evidence);
-  const Image<float> tie_lookup = renderer.lookup(renderer.upload_map(ties, uploaded), frame, asked);
-  figures.merge(measure_soundness({evidence, stored, ties, tie_lookup, receivers, frame, scene.camera.eye_m}));
+  LookupStage lookup = prepare_lookup(renderer, sound, *loaded.tracer, view, truth, point, most_strip_bytes);
+  lookup.exact_map = renderer.upload_map(lookup.exact_depth, uploaded);
+  const ShownStage shown = show(renderer, map.map, lookup, truth, point, asked, uploaded);
+  Climbed climbed = climb_strips(renderer, lookup, view, truth, map.depth, shown, point, nullptr);
+  const Image<float> occluders =
+      loaded.tracer->occluder_distance(view.receivers, frame, peter_panning_mask(climbed.ladder));
+  Figures figures = measure_ladder(
+      {climbed.ladder, view.receivers, frame, lookup.probe, point.bias, lookup.edge_distance_texels, occluders});
+  figures.merge(climbed.soundness);
   return figures;
 }
 

@@ -1,0 +1,159 @@
+#include "app/stages.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/memory_estimate.h"
+#include "scenes/camera_fit.h"
+#include "scenes/library.h"
+#include "scenes/scene_digest.h"
+#include "technique/tap_pattern.h"
+
+namespace noonmark {
+namespace {
+
+// What a pass costs: the median of three, so that one interruption does not show.
+template <class Pass>
+double median_time(const Pass& pass) {
+  std::array<double, 3> times;
+  for (double& time : times) pass(&time);
+  std::sort(times.begin(), times.end());
+  return times[1];
+}
+
+double scene_behind(const Scene& scene, const Camera& camera) {
+  const glm::dvec3 way = camera.target_m - camera.eye_m;
+  const auto behind = std::count_if(scene.positions.begin(), scene.positions.end(), [&](const glm::vec3& p) {
+    return glm::dot(glm::dvec3(p) - camera.eye_m, way) <= 0;
+  });
+  return static_cast<double>(behind) / static_cast<double>(scene.positions.size());
+}
+
+// Whole rows of the picture, as many as have their taps in so many bytes; one at least.
+std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t strip_bytes) {
+  const auto width = static_cast<size_t>(settings.view.width_px), height = static_cast<size_t>(settings.view.height_px);
+  const size_t row_bytes = width * static_cast<size_t>(tap_pattern(settings.filter).taps) * bytes_per_tap(light);
+  const size_t rows = std::clamp<size_t>(strip_bytes / row_bytes, 1, height);
+  std::vector<PixelRange> strips;
+  for (size_t row = 0; row < height; row += rows) strips.push_back({row * width, std::min(row + rows, height) * width});
+  return strips;
+}
+
+// The truth of this strip's taps, in place of another's.
+void bring_taps(gl::Renderer& renderer, LookupStage& lookup, const PointSetup& point, PixelRange strip) {
+  lookup.taps = {};  // before the next: it is large
+  if (!lookup.probe.holds(strip)) renderer.probe_strip(lookup.probe, point.frame, point.settings, strip);
+  lookup.taps = lookup.rays->trace_taps(lookup.probe, strip, lookup.edge_distance_texels, &lookup.tap_stage);
+  if (lookup.strips.size() == 1) lookup.rays.reset();  // nobody asks again
+}
+
+}  // namespace
+
+SceneStage load_scene(const Settings& settings, gl::Renderer& renderer) {
+  auto scene = std::make_unique<Scene>(make_scene(settings.scene));
+  auto tracer = std::make_unique<raytrace::Tracer>(*scene);
+  renderer.load_scene(*scene);
+  std::string identity = scene_digest(*scene);
+  const uint64_t open_edges = tracer->open_edges();
+  return {std::move(scene), std::move(identity), std::move(tracer), open_edges};
+}
+
+// Drawn again without what may have hidden surfaces, and only where something may have.
+ViewStage take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings) {
+  const Camera camera = effective_camera(scene, settings);
+  const int width = settings.width_px, height = settings.height_px;
+  const std::vector<uint32_t> unseen = unseen_backs(scene, camera);
+  const Image<uint32_t> seen = renderer.render_primitives(camera, width, height, unseen);
+  const auto pixels_more = [&](const Image<uint32_t>& more) {
+    double count = 0;
+    for (size_t i = 0; i < seen.size(); ++i) count += seen[i] == no_primitive && more[i] != no_primitive;
+    return count;
+  };
+  double clipped = 0, culled = 0;
+  if (std::find(seen.pixels.begin(), seen.pixels.end(), no_primitive) != seen.pixels.end()) {
+    if (!unseen.empty()) culled = pixels_more(renderer.render_primitives(camera, width, height));
+    const Camera fitted = with_fitted_depths(scene, camera, width, height);
+    if (*camera.near_m > *fitted.near_m || *camera.far_m < *fitted.far_m)
+      clipped = pixels_more(renderer.render_primitives(fitted, width, height, unseen));
+  }
+  return {camera,
+          resolve_receivers(scene, camera, seen),
+          {{"clipped", clipped}, {"culled", culled}, {"scene_behind", scene_behind(scene, camera)}}};
+}
+
+TruthStage trace_truth(const raytrace::Tracer& tracer, const ViewStage& view, const LightFrame& frame,
+                       const Light& light, const TruthSettings& settings) {
+  TruthStage made;
+  made.receivers =
+      tracer.receiver_truth(view.receivers, frame, {light, settings.standard_error}, &made.hard, &made.soft);
+  return made;
+}
+
+MapStage draw_map(gl::Renderer& renderer, const PointSetup& point) {
+  std::optional<gl::ShadowMap> map;
+  const double time =
+      median_time([&](double* ms) { map.emplace(renderer.render_map(point.frame, point.settings, ms)); });
+  Image<float> depth = renderer.read_map(*map);
+  return {std::move(*map), std::move(depth), time};
+}
+
+LookupStage prepare_lookup(gl::Renderer& renderer, gl::Renderer& sound, const raytrace::Tracer& tracer,
+                           const ViewStage& view, const TruthStage& truth, const PointSetup& point,
+                           size_t strip_bytes) {
+  const Settings& settings = point.settings;
+  const LightFrame& frame = point.frame;
+  const Bias bias(settings.bias);
+  std::vector<PixelRange> strips = strips_of(settings, frame.kind, strip_bytes);
+  LookupProbe probe = renderer.probe(frame, settings, gl::ProbeTaps::none);
+  const double offset_unit = bias.polygon_offset() ? sound.polygon_offset_unit(settings.map.format) : 0;
+  raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, frame, settings.map, bias, offset_unit);
+  StageTime texel_stage;
+  for (const PixelRange& strip : strips) {
+    renderer.probe_strip(probe, frame, settings, strip);
+    rays.ask(probe, strip, &texel_stage);
+  }
+  Image<float> depth = rays.trace_map(&texel_stage);
+  gl::ShadowMap exact = renderer.upload_map(depth, settings.map);
+  return {.probe = std::move(probe),
+          .exact_map = std::move(exact),
+          .exact_depth = std::move(depth),
+          .strips = std::move(strips),
+          .rays = std::move(rays),
+          .taps = {},
+          .edge_distance_texels = Image<float>(view.receivers.width(), view.receivers.height(), 0),
+          .texel_stage = texel_stage,
+          .tap_stage = {}};
+}
+
+ShownStage show(gl::Renderer& renderer, const gl::ShadowMap& map, const LookupStage& lookup, const TruthStage& truth,
+                const PointSetup& point, const Settings& asked, const MapSettings& uploaded) {
+  ShownStage shown;
+  shown.time_ms = median_time([&](double* ms) { shown.r5 = renderer.lookup(map, point.frame, asked, ms); });
+  shown.r4 = renderer.lookup(lookup.exact_map, point.frame, asked);
+  shown.ties = tie_map({truth.receivers, lookup.probe, lookup.taps, lookup.exact_depth, point.settings.map, point.bias,
+                        shown.r4, shown.r5});
+  shown.tie_lookup = renderer.lookup(renderer.upload_map(shown.ties, uploaded), point.frame, asked);
+  return shown;
+}
+
+Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view, const TruthStage& truth,
+                     const Image<float>& stored_map, const ShownStage& shown, const PointSetup& point,
+                     const BiasPart* varied) {
+  const LookupEvidence evidence{truth.receivers,    lookup.probe, lookup.taps, lookup.exact_depth,
+                                point.settings.map, point.bias,   shown.r4,    shown.r5};
+  SoundnessCheck soundness(
+      {evidence, stored_map, shown.ties, shown.tie_lookup, view.receivers, point.frame, view.camera.eye_m});
+  Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height()), {}, {}};
+  if (varied) climbed.counts.emplace(lookup.probe, *varied);
+  if (lookup.rays) lookup.tap_stage = {};
+  for (const PixelRange& strip : lookup.strips) {
+    if (lookup.rays) bring_taps(renderer, lookup, point, strip);
+    climb(evidence, strip, climbed.ladder);
+    soundness.add(strip);
+    if (climbed.counts) climbed.counts->add(evidence, stored_map, strip);
+  }
+  climbed.soundness = soundness.metrics();
+  return climbed;
+}
+
+}  // namespace noonmark
