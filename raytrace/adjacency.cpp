@@ -26,7 +26,7 @@ std::vector<uint32_t> weld(const std::vector<glm::vec3>& positions) {
   return number;
 }
 
-// For each triangle the first one with the same corners in the same order, wherever the order begins.
+// For each triangle, the first triangle with the same corners in the same cyclic order.
 std::vector<uint32_t> find_first(const std::vector<std::array<uint32_t, 3>>& corners) {
   struct Key {
     std::array<uint32_t, 3> corners;  // begun so that they are the least
@@ -87,8 +87,8 @@ Adjacency::Adjacency(const Scene& scene) {
     for (size_t first = 0; first < edges.size();) {
       size_t last = first + 1;
       while (last < edges.size() && same(edges[first], edges[last])) ++last;
-      // A run's cost is its square; where more triangles meet at one edge than any surface has, a broken file may have
-      // put them all, and the edge counts as a boundary.
+      // The cost of a run grows with its square. No real surface has so many triangles at one edge, but a broken file
+      // may have. Such an edge counts as a boundary.
       for (size_t i = first; i < last && last - first <= largest_fan; ++i)
         for (size_t j = first; j < last; ++j)
           if (edges[j].triangle != edges[i].triangle) visit(3 * edges[i].triangle + edges[i].edge, edges[j].triangle);

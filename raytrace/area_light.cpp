@@ -14,7 +14,8 @@
 namespace noonmark {
 namespace {
 
-// Point n of the additive recurrence of the plastic number (Roberts 2018, "R2"), shifted: even in every prefix.
+// Point n of the additive recurrence of the plastic number (Roberts 2018, "R2"), shifted: the first n points are spread
+// uniformly for every n.
 glm::dvec2 sequence_point(uint32_t n, glm::dvec2 shift) {
   constexpr double plastic = 1.32471795724474602596;
   const glm::dvec2 p = shift + static_cast<double>(n) * glm::dvec2(1 / plastic, 1 / (plastic * plastic));
@@ -47,7 +48,8 @@ class LightSampler {
       const glm::dvec3 way = centre + light_.radius_m * std::sqrt(u.x) * around;
       return {glm::vec3(glm::normalize(way)), static_cast<float>(glm::length(way)), p + way};
     }
-    // The sphere's cone, evenly in solid angle: even in the cosine. 1 - cos without cancellation, for small lights.
+    // The sphere's cone, uniformly in solid angle, which is uniformly in the cosine. 1 - cos is computed without
+    // cancellation, for small lights.
     const double sine = light_.radius_m / distance;
     const double rest = u.x * (sine * sine / (1 + std::sqrt(1 - sine * sine)));  // 1 - cosine
     const double off = std::sqrt(rest * (2 - rest)), along = distance * (1 - rest);

@@ -12,11 +12,13 @@ namespace noonmark {
 bool has_size(const Light& light);
 
 // Samples the light, 16 rays at a time, until the standard error of each receiver's fraction is at most standard_error.
-// A sun is a disc of directions; a sphere is sampled evenly over the solid angle that it fills at the receiver; a disc
-// evenly over its area. The error is judged as sqrt(p (1 - p) / n) with p = (k + 1) / (n + 2), so that n rays that all
-// agree are not taken for certainty. What of the light lies below the receiver's own horizon is not seen; a receiver
-// inside the sphere sees all of it. Deterministic: the samples of a pixel depend on its index alone. Pixels not in
-// `facing`: 0.
+// - A sun is a disc of directions. A sphere is sampled uniformly over the solid angle that it fills at the receiver, a
+//   disc uniformly over its area.
+// - The standard error is sqrt(p (1 - p) / n) with p = (k + 1) / (n + 2), because n rays that all agree do not make the
+//   result certain.
+// - The part of the light below the receiver's own horizon is not seen. A receiver inside the sphere sees all of it.
+// - Deterministic: the samples of a pixel depend only on its index.
+// - Pixels that are not in `facing` are 0.
 Image<float> sample_light(const Scene& scene, const EmbreeScene& embree, const ReceiverImage& receivers,
                           const std::vector<uint32_t>& facing, const LightFrame& frame, const Light& light,
                           double standard_error);

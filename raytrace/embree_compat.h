@@ -1,4 +1,4 @@
-// The few lines in which Embree 3 and 4 differ. Nothing else in the project names a version.
+// The few lines in which Embree 3 and 4 differ. No other file of the project names a version.
 #pragma once
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>

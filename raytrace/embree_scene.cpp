@@ -37,8 +37,8 @@ float largest_coordinate(const Scene& scene) {
 }
 
 EmbreeDevice::EmbreeDevice() {
-  // avx2: every x86 machine of the last decade has it, and packets of 16 gain little from more. What the machine lacks
-  // Embree refuses, and the widest set below it serves.
+  // avx2: every x86 machine of the last decade has it, and packets of 16 gain little from a wider set. If the machine
+  // lacks it, Embree uses the widest set that the machine has.
   for (const char* isa : {"avx2", "avx", "sse4.2", "sse2", ""}) {
     // Subdivision surfaces have a cache of 128 MB, which triangles never use; and where its allocation fails, Embree
     // 3.13 keeps its lock, so that the device's release waits for ever.
@@ -65,7 +65,7 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const Scene& scene, std::ve
   embree_.reset(rtcNewScene(device.get()));
   rtcSetSceneFlags(embree_.get(), RTC_SCENE_FLAG_ROBUST);
   const size_t count = kept_.empty() ? scene.triangles.size() : kept_.size();
-  if (count == 0) {  // an empty scene meets no ray; Embree gives no buffer of size 0
+  if (count == 0) {  // no ray meets an empty scene, and Embree has no buffers of size 0
     rtcCommitScene(embree_.get());
     return;
   }
@@ -214,15 +214,15 @@ bool EmbreeScene::is_occluder(const ShadowRay& ray, uint32_t primitive, float di
   const bool near_start = !(distance > near_distance_ && distance > 2 * ray.own_distance),
              near_end = !(distance < ray.reach - near_distance_);
   if (!near_start && !near_end) return true;
-  // Near hits in double: where does the ray meet the other triangle's plane, against where it leaves its own, and where
-  // the light is? A lamp that is fixed exactly to a ceiling is not behind it.
+  // Hits near an end of the ray are decided in double. The distance to the other triangle's plane is compared with the
+  // distances to the receiver's own plane and to the light. A lamp that is fixed exactly to a ceiling is not behind it.
   const glm::uvec3 t = scene_.triangles[primitive];
   const glm::dvec3 a = scene_.positions[t.x], b = scene_.positions[t.y], c = scene_.positions[t.z];
   const glm::dvec3 cross = glm::cross(b - a, c - a);
   const double slope = glm::dot(cross, glm::dvec3(ray.direction));
   if (slope == 0) return false;
-  // Both distances carry double's rounding, amplified where a plane is edge-on: 2^-48 of the coordinates over the
-  // cosine is 16 times that rounding.
+  // Both distances have double's rounding error, which grows where a plane is edge-on. The tolerance is 2^-48 of the
+  // coordinates divided by the cosine: 16 times that error.
   const auto rounding = [&](glm::dvec3 from) {
     return 0x1p-48 * (glm::length(from) + glm::length(a)) * glm::length(cross) / std::abs(slope);
   };

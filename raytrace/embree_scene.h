@@ -1,8 +1,8 @@
 // Owned Embree device and scene over a scene's triangles, and packets of rays through it. Geometry IDs never leave this
 // file: a hit is the index of the triangle in Scene::triangles.
 //
-// Built ROBUST (without it 1-15% of rays aimed at vertices and edges leak) and with the instruction set pinned, because
-// verdicts at silhouettes differ between instruction sets.
+// The scene is built with Embree's flag ROBUST, because without it 1 to 15 % of the rays aimed at vertices and edges
+// pass through. The instruction set is fixed, because verdicts at silhouettes differ between instruction sets.
 #pragma once
 #include <tbb/combinable.h>
 
@@ -52,9 +52,10 @@ struct LightRay {
   glm::vec3 direction{0, 0, -1};  // unit, to float's rounding
 };
 
-// A shadow ray that starts on a triangle of the scene. own_distance: where along the ray (in units of its direction's
-// length) the plane of `own` lies, in double: the receiver's float position is up to half a float's last place off it.
-// Faces near the start that may have been one plane with `own` cast no shadow on it (raytrace/vertex_rounding.h).
+// A shadow ray that starts on a triangle of the scene, `own`. own_distance: the distance along the ray, in units of its
+// direction's length, at which the plane of `own` lies, in double. It is not 0, because the receiver's position is
+// rounded to float. Faces near the start that may have been one plane with `own` cast no shadow on it
+// (raytrace/vertex_rounding.h).
 struct ShadowRay {
   glm::vec3 origin{0};
   glm::vec3 direction{0};

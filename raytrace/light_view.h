@@ -2,8 +2,9 @@
 // function of the place (technique/light_frame.h) that a light-side ray goes to. Depths are LightFrame::depth_m: metres
 // along the axis, or the distance from a point light.
 //
-// Places here are normal: of a directional light (u, v, 1), of a spot light (x / z, y / z, 1), of a point light a unit
-// vector. The straight way from one place to another is what the light sees between them: a line, or an arc.
+// Places in this folder are normalised: (u, v, 1) for a directional light, (x / z, y / z, 1) for a spot light, a unit
+// vector for a point light. The straight way from one place to another is the line, or the arc, that the light sees
+// between them.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,7 @@ class LightView {
 
   glm::dvec3 corner(uint32_t triangle, int i) const { return vertices_[scene_->triangles[triangle][i]]; }
 
-  // How far rounding may have moved the corner.
+  // The distance by which rounding may have moved the corner.
   double corner_rounding_m(uint32_t triangle, int i) const;
 
   glm::dvec3 normal_place(glm::dvec3 place) const;
@@ -39,9 +40,9 @@ class LightView {
     return parallel_ ? place : normal_place(place);
   }
 
-  // Positive when three points of the light's frame, or places, run counter-clockwise as the light sees them, in the
-  // map's u and v: twice the area of their triangle, or the determinant of their directions. Only the sign means the
-  // same for both.
+  // Positive if three points of the light's frame, or three places, run counter-clockwise as the light sees them, in
+  // the map's u and v. The value is twice the area of their triangle for a directional light and the determinant of
+  // their directions otherwise, so only the sign can be compared between lights.
   double orientation(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b) const {
     if (parallel_) return (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x);
     return glm::dot(p, glm::cross(a - p, b - p));
@@ -50,8 +51,9 @@ class LightView {
     return orientation(corner(triangle, 0), corner(triangle, 1), corner(triangle, 2));
   }
 
-  // Seen from the side, to within double's rounding of a direction and of corners (2^-53 each, and a large margin: what
-  // is so thin has no inside that double can tell). Such a triangle covers nothing, and no surface goes on over it.
+  // Whether the light sees the triangle from the side, within double's rounding of a direction and of corners (2^-53
+  // each, with a large margin, because double cannot tell a point inside so thin a triangle). Such a triangle covers
+  // nothing, and no surface continues over it.
   bool edge_on(uint32_t triangle) const {
     const glm::dvec3 a = corner(triangle, 0), n = glm::cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
     return parallel_ ? !(std::abs(n.z) > 0x1p-30 * glm::length(n))
@@ -79,33 +81,34 @@ class LightView {
     return along < 0 ? std::numeric_limits<double>::infinity() : along;
   }
 
-  // Depth where the light ray through x meets the triangle. A ray that Embree says hits it may pass it by by a float's
-  // rounding; the depth never leaves the triangle's own range.
+  // Depth at which the light ray through x meets the triangle. A ray that hits the triangle in Embree's float
+  // arithmetic may miss it in double; the depth is clamped to the triangle's own range.
   double hit_depth(uint32_t triangle, glm::dvec3 x) const {
     const Plane& plane = planes_[triangle];
     const double depth = plane_depth(triangle, x);
     return std::isnan(depth) ? plane.low : std::clamp(depth, plane.low, plane.high);
   }
 
-  // May a point of the light's frame that rounding has moved by as much have been meant to lie in the triangle's plane?
+  // Whether a point of the light's frame may lie in the triangle's plane, if rounding has moved it by up to moved_m.
   bool touches(uint32_t triangle, glm::dvec3 point, double moved_m) const;
 
-  // The light-side ray through x: from before everything in the scene, or from the light itself.
+  // The light-side ray through x. It starts before everything in the scene, or at the light itself.
   LightRay ray(glm::dvec3 x) const {
     if (!parallel_) return ray_from(x, 0);
     return {glm::vec3(start_ + x.x * frame_.right + x.y * frame_.up), frame_.ray_direction};
   }
   LightRay ray_from(glm::dvec3 x, double depth) const;
 
-  // The triangles that the rays through these places meet first, or no_primitive; count: 1 ... 16. A face that the
-  // light itself stands in (a lamp on a ceiling) is edge-on: every ray starts in it, and none meets it.
+  // The triangles that the rays through these places meet first, or no_primitive; count: 1 ... 16. A face whose plane
+  // contains the light (the ceiling of a lamp) is edge-on: every ray starts in it, and none meets it.
   void first_hits(const EmbreeScene& embree, int count, const glm::dvec3* x, uint32_t* hits) const;
 
   // Depth at which the map's near plane cuts the ray through x.
   double near_depth(glm::dvec3 x) const;
 
-  // How far a light-side ray may pass beside the exact place it was meant for, in metres: the rounding of its float
-  // origin and direction, and of Embree's edge tests over the scene's size (4 roundings of 2^-24).
+  // The float error of a light-side ray: how far it may pass beside its exact place, in metres. It comes from the
+  // rounding of the ray's float origin and direction and of Embree's edge tests over the scene's size (4 roundings of
+  // 2^-24).
   double ray_error_m() const { return ray_error_m_; }
 
   const Scene& scene() const { return *scene_; }

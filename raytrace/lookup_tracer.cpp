@@ -28,8 +28,8 @@ std::vector<uint32_t> kept_triangles(const Scene& scene, const Adjacency& adjace
   return kept;
 }
 
-// Depth of the first surface at x from the near plane on. The rays start a little before it, for they start and end in
-// float; what is before it in double is passed.
+// Depth of the first surface at x that is not before the near plane. Rays start and end in float, so they start a
+// little before that plane, and surfaces that are before it in double are skipped.
 std::optional<double> first_from_near(const EmbreeScene& seen, const LightView& view, glm::dvec3 x) {
   const double near = view.near_depth(x);
   for (double from = near - 2 * view.ray_error_m();;) {
@@ -76,7 +76,7 @@ Image<float> exact_map_of(const TracedScene& traced, const LightView& view, cons
       }
       double depth = view.hit_depth(hits[i], centre);
       if (depth < view.near_depth(centre) && !settings.depth_clamp) {
-        // The rasteriser clips it: what lies behind it, from the near plane on?
+        // The rasteriser clips this surface. The map holds the first surface behind the near plane instead.
         const std::optional<double> behind = first_from_near(seen, view, centre);
         if (!behind) continue;
         depth = *behind;
@@ -176,7 +176,7 @@ TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Im
         at_offset(looked_up, moved);
       else
         std::copy_n(exact, active, moved);
-      // A lookup that was moved to behind a spot light asks for no place: D is F.
+      // A lookup that was moved behind a spot light has no place in the map: D is F.
       bool behind[packet_size];
       for (int k = 0; k < active; ++k) {
         behind[k] = frame.kind == LightKind::spot && !(looked_up[k].z > 0);

@@ -1,5 +1,4 @@
-// The truth of one lookup: what a perfect shadow map would hold, and what is true at every tap. Tracer::lookup() makes
-// one.
+// The truth of one lookup: the exact map, and the truth at every tap. Tracer::lookup() makes a LookupTracer.
 #pragma once
 #include <memory>
 
@@ -13,14 +12,15 @@ namespace noonmark::raytrace {
 
 class TracedScene;
 
-// Traces the truth of one lookup strip by strip, so that no more taps are held than the caller asks for.
+// Traces the truth of one lookup strip by strip, so that only the taps of one strip need memory.
 //
 //   LookupTracer rays = tracer.lookup(receivers, truth, frame, settings.map, bias);
 //   rays.ask(probe, strip);                                        // for every strip of the picture
 //   Image<float> exact_map = rays.trace_map();
 //   TapTruth taps = rays.trace_taps(probe, strip, edge_distance);  // for every strip, in any order
 //
-// The probe is the same in all calls, with the strip at hand. Where a stage is given, time and rays are added to it.
+// The probe is the same one in all calls; it must hold the taps of the strip that is given. If a stage is given, the
+// time and the number of rays are added to it.
 class LookupTracer {
  public:
   // What Tracer::lookup() is given.
@@ -36,9 +36,9 @@ class LookupTracer {
   // Window depth at the centres of the texels that were asked for, 1 elsewhere; of LightFrame::map_size().
   Image<float> trace_map(StageTime* stage = nullptr);
 
-  // edge_distance_texels, of the picture's size, gets for each receiver of the strip: the largest distance, across the
-  // light's rays and in texels there, from a tap's exact place (of the lookup as it is made, moved or not) to the
-  // shadow edge before the texel centre it snaps to; 0 where D = V at every tap.
+  // edge_distance_texels has the picture's size. It gets, for each receiver of the strip, the largest distance from the
+  // exact place of a tap (moved, if the lookup is moved) to the shadow edge on the way to the texel centre that the tap
+  // reads. Measured across the light's rays, in texels there. 0 where D = V at every tap.
   TapTruth trace_taps(const LookupProbe& probe, PixelRange strip, Image<float>& edge_distance_texels,
                       StageTime* stage = nullptr);
 

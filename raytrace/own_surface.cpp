@@ -8,7 +8,7 @@
 namespace noonmark {
 namespace {
 
-// Double's rounding as a share of float's: 2^-29 for one operation, and 2^5 for all of them.
+// Double's rounding error as a share of float's: 2^-29 for one operation, times 2^5 for all operations.
 constexpr double rounding_share = 0x1p-24;
 
 }  // namespace
@@ -19,7 +19,7 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec3 x, bool ove
   const auto ends_at = [&](double depth) {
     return Sheet{std::min(view_.plane_depth(p.primitive, x), depth), no_primitive};
   };
-  // A straight walk over a sheet without folds meets no triangle twice, but a broken mesh may hold anything.
+  // A straight walk over a sheet without folds meets no triangle twice. The limit is for broken meshes.
   for (int steps = 0; steps < 100000; ++steps) {
     const double sign = view_.orientation(triangle) < 0 ? -1 : 1;
     double inside[3];  // of x, against each edge
@@ -27,8 +27,8 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec3 x, bool ove
       inside[e] = sign * view_.orientation(view_.corner(triangle, e), view_.corner(triangle, (e + 1) % 3), x);
     if (inside[0] >= 0 && inside[1] >= 0 && inside[2] >= 0) return {view_.plane_depth(triangle, x), triangle};
 
-    // The way out: an edge with x beyond it, whose ends lie on either side of the line from P to x. Rounding can leave
-    // none such; then the edge that x is furthest beyond.
+    // The edge where the walk leaves the triangle: x lies beyond it, and its ends lie on different sides of the line
+    // from P to x. If rounding leaves no such edge, it is the one that x is furthest beyond.
     int out = -1;
     bool out_crossed = false;
     for (int e = 0; e < 3; ++e) {
@@ -54,9 +54,9 @@ OwnSurface::Sheet OwnSurface::walk(const SurfacePoint& p, glm::dvec3 x, bool ove
   return ends_at(view_.plane_depth(p.primitive, x));
 }
 
-// The sheet goes on in a triangle that lies on the other side of the edge as the light sees it. Where several do
-// (solids that touch along an edge, a wall on a floor), P's surface is the one nearest to the light beyond the edge: it
-// hides the others.
+// The sheet continues in a triangle that lies on the other side of the edge as the light sees it. If there are several
+// (solids that touch along an edge, a wall on a floor), it continues in the one nearest to the light beyond the edge,
+// because that one hides the others.
 uint32_t OwnSurface::next_on_sheet(uint32_t triangle, int edge, uint32_t from, glm::dvec3 x) const {
   const uint32_t begin = adjacency_.welded(triangle)[edge], end = adjacency_.welded(triangle)[(edge + 1) % 3];
   const glm::dvec3 a = view_.corner(triangle, edge), b = view_.corner(triangle, (edge + 1) % 3);
@@ -79,9 +79,10 @@ uint32_t OwnSurface::next_on_sheet(uint32_t triangle, int edge, uint32_t from, g
   return next;
 }
 
-// Where a sheet ends at a border, another that ends there too goes on with it where the place of the border lies in its
-// plane, but for the rounding of both: tiles, and corners on a neighbour's edge. Of several one in the same plane, else
-// the one nearest to the light, which hides the others.
+// A sheet that ends at a border continues in another sheet that ends there too, if the point on the border lies in the
+// other's plane within the rounding of both. This happens between tiles, and where a corner lies on a neighbour's edge.
+// Of several such sheets it continues in one in the same plane, otherwise in the one nearest to the light, which hides
+// the others.
 uint32_t OwnSurface::across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x) const {
   const glm::dvec3 place = view_.place_of(end), way = x - place;
   const double length = glm::length(way) * (view_.parallel() ? 1 : view_.frame().depth_m(end));
@@ -124,7 +125,7 @@ bool OwnSurface::covers(uint32_t triangle, glm::dvec3 x) const {
     most = std::max(most, side);
   }
   if ((least >= 0) == (most <= 0) || view_.edge_on(triangle)) return false;
-  // On one side of all edges; of a light in the scene also behind it, where all sides are the other way about.
+  // On one side of all edges. For a light inside the scene this is also true behind the light, with all signs reversed.
   return view_.parallel() || (least >= 0) == (view_.orientation(triangle) > 0);
 }
 
@@ -134,7 +135,7 @@ uint32_t OwnSurface::exact_first(glm::dvec3 x) const {
   silhouettes_.near(x, found);
   uint32_t first = no_primitive;
   for (uint32_t triangle : found) {
-    if (!covers(triangle, x)) {  // the sheet may go on below x
+    if (!covers(triangle, x)) {  // the sheet may continue below x
       const glm::dvec3 centre =
           (view_.corner(triangle, 0) + view_.corner(triangle, 1) + view_.corner(triangle, 2)) / 3.0;
       triangle = walk({view_.frame().place(centre), triangle, false, false}, x, false).triangle;
@@ -151,15 +152,16 @@ SurfacePoint OwnSurface::point(glm::dvec3 light, uint32_t primitive, bool lit) c
 }
 
 OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const {
-  // What the light meets first is asked exactly where the ray may have met another surface than that: beside a
-  // silhouette, and where two surfaces run into one another. The latter can change a verdict only where P's own sheet
-  // is one of the two: a dark receiver's comes out from under another surface, or a lit one's goes under.
+  // The first hit is determined exactly, in double, where the ray may have met another surface than the first: beside a
+  // silhouette, and where two surfaces intersect. An intersection can change a verdict only if P's own sheet is one of
+  // the two surfaces: the sheet of a dark receiver comes out from under the other, or the sheet of a lit one goes
+  // under.
   const bool beside = silhouettes_.near(x);
   std::vector<Silhouettes::Crossing> crossed;
   if (p.lit) crossed = silhouettes_.crossings(p.at, x);
-  // Whether the way crosses a silhouette that a lit P is on, rounding says. And where x is on one, whether the ray
-  // through it meets the surface that ends there: the ray that was cast may say otherwise than what is first in double,
-  // and a map holds what it says.
+  // Rounding decides whether the way crosses a silhouette on which a lit P lies. If x lies on a silhouette (a tie),
+  // rounding decides whether the ray through x meets the surface that ends there. The ray that was cast may then meet
+  // another surface than the one that is first in double, and the map holds the depth of what the ray has met.
   bool sure = !p.on_silhouette;
   const bool tie = beside && silhouettes_.near(x, rounding_share * beside_m());
   const auto exact = [&] {
@@ -167,7 +169,7 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
     sure &= clipped(first, x) == clipped(hit, x);
     return first;
   };
-  if (p.lit && crossed.empty()) {  // no jump: lit, whatever is first
+  if (p.lit && crossed.empty()) {  // no jump: lit, whatever the first hit is
     if (beside) exact();
     return {true, sure && (!tie || may_be_lit(p, x, hit))};
   }
@@ -191,8 +193,8 @@ OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uin
   if (hit == no_primitive || hit == p.primitive) return {true, true};
   const Sheet sheet = walk(p, x);
   if (sheet.triangle == hit) return {true, true};
-  // Where P's own rounding put it beside its surface or onto its edge, the way crosses an edge that the exact P's does
-  // not, or the other way about, and may leave the sheet elsewhere.
+  // If the rounding of P has put it beside its surface or onto its edge, the way from P may cross an edge that the way
+  // from the exact P does not cross, or the reverse. Then it may leave the sheet at another place.
   const bool on_edge = !crossed.empty() && crossed.front().t * length_m(p, x) <= rounding_share * beside_m();
   const bool on_surface = !on_edge && walk(p, p.at).triangle != no_primitive;
   const double behind = sheet.depth_m - view_.hit_depth(hit, x);
@@ -205,11 +207,11 @@ OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uin
   return v;
 }
 
-// A plane that is carried on from a small triangle has its rounding grow with the way that it is carried, in the plane.
+// The rounding error of a small triangle's plane grows with the distance to which the plane is continued.
 double OwnSurface::rounding_of_sheet(const SurfacePoint& p, glm::dvec3 x, const Sheet& sheet, uint32_t hit) const {
   if (sheet.triangle != no_primitive) return rounding_share * depth_error(hit, sheet.triangle, x);
   const double carried = view_.plane_depth(p.primitive, x);
-  if (!(carried <= sheet.depth_m)) return rounding_share * depth_error(hit, hit, x);  // the walk's end is nearer
+  if (!(carried <= sheet.depth_m)) return rounding_share * depth_error(hit, hit, x);  // the end of the walk is nearer
   const glm::dvec3 way = view_.at_depth(x, carried) - view_.at_depth(p.at, view_.plane_depth(p.primitive, p.at));
   const double growth = glm::length(way) / view_.width(p.primitive);
   return rounding_share * depth_error(hit, p.primitive, x) * (1 + (std::isfinite(growth) ? growth : 0));
@@ -245,8 +247,8 @@ OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, 
                                            const std::vector<Silhouettes::Crossing>& at) const {
   const glm::dvec3 way = x - p.at;
   const auto place = [&](double t) { return view_.normal_place(p.at + t * way); };
-  // Two silhouettes are crossed together where rounding may exchange their order along the way: the rounding of
-  // double's arithmetic, or (`rounded`) that of the vertices. The latter closes cracks.
+  // Two silhouettes are crossed together if rounding may exchange their order along the way: the rounding of double's
+  // arithmetic, or (`rounded`) the rounding of the vertices. The second closes cracks between tiles.
   struct Bracket {
     size_t first, last;
     double begin, end;  // fractions of the way
@@ -298,8 +300,9 @@ OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, 
   return {true, sure};
 }
 
-// The two sheets are one where an edge that is crossed between them lies on both, to rounding. Where another edge in
-// front of them does not, the verdict is not sure: rounding may decide which of the edges is crossed first.
+// The two sheets are one sheet if an edge that is crossed between them lies on both, within rounding. If another edge
+// in front of them does not lie on both, the verdict is not sure, because rounding may decide which edge is crossed
+// first.
 OwnSurface::Verdict OwnSurface::joins(uint32_t before, uint32_t after, const std::vector<Silhouettes::Crossing>& at,
                                       size_t first, size_t last, const auto& place) const {
   if (before == after) return {true, true};

@@ -1,15 +1,16 @@
-// V(P, x): is P's surface lit at the place x of the light's plane, when it is carried along itself from P to there? The
-// one function behind the ladder's rungs R1 to R3, and the rule that tells an occluder from P's own surface.
+// V(P, x): whether P's surface is lit at the place x, if the surface is continued from P to there. The rungs R1 to R3
+// of the ladder are this one function at different places. It also contains the rule that distinguishes an occluder
+// from P's own surface.
 //
-// - H is the first hit of the light's ray through x; z_H is its depth.
-// - S is the depth at x of P's own sheet. The sheet is walked straight from P to x, across any dihedral angle, over
-//   triangles whose edges have equal corners, or whose borders meet but for the rounding of their vertices. Where the
-//   walk ends before x, at E (a fold as the light sees it, or a border), S is the smaller of two depths: that of E, and
-//   that of P's tangent plane at x.
-// - V is lit where z_H >= S. It is also lit where P is lit and the depth of the first hit has no jump on the way from P
-//   to x: then no shadow's edge lies between the two, and a tap that is dark there is acne, not aliasing.
-// - A step that the rounding of vertices can have made is no jump, and a hit that may be of one plane with P's sheet is
-//   that sheet (raytrace/vertex_rounding.h).
+// - H is the first hit of the light's ray through x; z_H is the depth of H.
+// - S is the depth of P's own sheet at x. The sheet is followed in a straight line, as the light sees it, from P to x,
+//   from triangle to triangle. Two triangles belong to one sheet if their edges have equal corners, or if their borders
+//   meet except for the rounding of their vertices; the dihedral angle does not matter. If the sheet ends before x, at
+//   a point E of a fold or a boundary, S is the smaller of the depth of E and the depth of P's tangent plane at x.
+// - V is lit if z_H >= S. V is also lit if P is lit and the depth of the first hit does not jump on the way from P to
+//   x: then no shadow edge lies between P and x, and a tap that is dark there is acne and not aliasing.
+// - A step that the rounding of vertices can have made is not a jump. A hit that may lie in one plane with P's sheet
+//   belongs to the sheet (raytrace/vertex_rounding.h).
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -25,7 +26,7 @@ struct SurfacePoint {
   glm::dvec3 at{0};            // the place of P as the light sees it (raytrace/light_view.h)
   uint32_t primitive = 0;      // the triangle it lies on
   bool lit = false;            // R1
-  bool on_silhouette = false;  // lit, and on one to within double's rounding, its own surface's border for one
+  bool on_silhouette = false;  // lit, and on a silhouette within double's rounding, such as its own surface's border
 };
 
 class OwnSurface {
@@ -37,61 +38,64 @@ class OwnSurface {
 
   SurfacePoint point(glm::dvec3 light, uint32_t primitive, bool lit) const;  // light: P in the light's frame
 
-  // sure: float error changes neither the verdict nor on which side of the near plane the light is first met.
+  // sure: float error changes neither the verdict nor whether the first hit is before the near plane.
   struct Verdict {
     bool lit = false;
     bool sure = true;
   };
 
-  // hit: the triangle of the first hit on the light ray through x, or no_primitive.
+  // V(P, x). hit: the triangle of the first hit on the light ray through x, or no_primitive.
   Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const;
 
-  // Where V changes between two places with different verdicts, to 2^-8 of the way: the distance from `from` to there,
-  // in texels.
+  // V differs at `from` and `to`, so it changes between them. The distance from `from` to the change, in texels, found
+  // to 2^-8 of the way.
   double edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, glm::dvec3 to, bool lit_from) const;
 
-  // Does the light ray through x pass the triangle, in double?
+  // Whether the light ray through x passes through the triangle, in double.
   bool covers(uint32_t triangle, glm::dvec3 x) const;
 
-  // Is what the light meets first at x before the map's near plane?
+  // Whether the first hit at x lies before the map's near plane.
   bool clipped(uint32_t hit, glm::dvec3 x) const;
 
   struct Sheet {
     double depth_m = 0;                // S
     uint32_t triangle = no_primitive;  // where the walk arrived, or no_primitive when it ended early
   };
-  // over_seams: also where borders meet but for rounding.
+  // over_seams: the sheet also continues where borders meet except for rounding.
   Sheet walk(const SurfacePoint& p, glm::dvec3 x, bool over_seams = true) const;
 
  private:
   uint32_t first_hit(glm::dvec3 x) const;
-  // The same, exactly: of all that the ray through x meets, and of the sheets that end so near that it may have passed
-  // them by, the first that covers x in double.
+  // The same, exactly: of all triangles that the ray through x meets, and of those that end so near to x that the ray
+  // may have missed them, the first one that covers x in double.
   uint32_t exact_first(glm::dvec3 x) const;
 
-  // The verdict at this one hit, crossed: the silhouettes between P and x.
+  // The verdict for this first hit. crossed: the silhouettes between P and x.
   Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
                   const std::vector<Silhouettes::Crossing>& crossed) const;
-  // Silhouettes within this distance of x may part the ray that was cast from the exact one, or from one as far away.
+  // The ray that was cast may lie on the other side of a silhouette than the exact ray only if the silhouette is nearer
+  // to x than this.
   double beside_m() const { return Silhouettes::reach_of(view_); }
   uint32_t next_on_sheet(uint32_t triangle, int edge, uint32_t from, glm::dvec3 x) const;
   // end: of the sheet, in the light's frame.
   uint32_t across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x) const;
-  // Has the first-hit depth no jump between P, lit, and x? It can have one only where the way crosses a silhouette.
+  // Whether the depth of the first hit does not jump between P, which is lit, and x. It can jump only where the way
+  // crosses a silhouette.
   Verdict continuous(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
                      const std::vector<Silhouettes::Crossing>& crossed) const;
-  // Do the two first hits on either side of these crossings belong together, but for the rounding of their vertices?
+  // Whether the first hits on the two sides of these crossings belong to one sheet, except for the rounding of
+  // vertices.
   Verdict joins(uint32_t before, uint32_t after, const std::vector<Silhouettes::Crossing>& at, size_t first,
                 size_t last, const auto& place) const;
-  // Does a surface go on at P, lit, where P's own rounding put it beside its triangle?
+  // Whether a surface continues at P, which is lit, if the rounding of P has put it beside its triangle.
   bool goes_on_at(const SurfacePoint& p) const;
-  // Is this hit P's own sheet, or behind it, but for the ray's error?
+  // Whether this hit is P's own sheet, or behind it, within the error of the ray.
   bool may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const;
   double length_m(const SurfacePoint& p, glm::dvec3 x) const;  // of the way, across the light's rays at P
   double rounding_of_sheet(const SurfacePoint& p, glm::dvec3 x, const Sheet& sheet, uint32_t hit) const;
-  // By how much two depths that are one may differ: a ray that passes beside x by its float error may meet the sheet's
-  // next triangle, whose plane differs there by the error times the slopes. Edge-on triangles have no slope to speak
-  // of.
+  // The largest difference between two computed depths of the same point. A ray that misses x by its float error may
+  // meet the sheet's next triangle, whose plane differs there by the error times the slopes. The slope of edge-on
+  // triangles is not used.
   double depth_error(uint32_t a, uint32_t b, glm::dvec3 x) const;
 
   const EmbreeScene& embree_;

@@ -1,6 +1,6 @@
 // glPolygonOffset on the exact map: each triangle's window depth moved by factor * m + units * r, where m is its
-// steepest depth slope in texels and r the format's smallest difference (OpenGL 4.5 core, 14.6.5). The offset changes
-// which triangle is first, so that every one on the ray is asked.
+// steepest depth slope in texels and r the format's smallest difference (OpenGL 4.5 core, 14.6.5). The offset can
+// change which triangle is first, so every triangle on the ray is tested.
 #pragma once
 #include <cstdint>
 
@@ -17,8 +17,8 @@ struct PolygonOffset {
   double of(const LightView& view, uint32_t triangle) const;
 };
 
-// The least offset window depth on the ray through x, of what the near and far planes leave; 1 without any. clamped:
-// they leave all (GL_DEPTH_CLAMP).
+// The smallest offset window depth of the triangles on the ray through x that the near and far planes do not clip; 1 if
+// there is none. clamped: these planes clip nothing (GL_DEPTH_CLAMP).
 double least_offset_depth(const EmbreeScene& seen, const LightView& view, const PolygonOffset& offset, glm::dvec3 x,
                           bool clamped);
 

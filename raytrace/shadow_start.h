@@ -1,5 +1,5 @@
-// Where the shadow rays of a receiver image start: exactly at the float P that the shader has too, with the place of
-// the receiver's own plane along the ray known in double.
+// Where the shadow rays of a receiver image start: exactly at the float P, which the shader has too. The distance of
+// the receiver's own plane along the ray is known in double.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -31,14 +31,16 @@ class ShadowStart {
     return from(receivers_.position[pixel], receivers_.primitive[pixel], way);
   }
 
-  // The same for R1: where P's rounding put it beyond its own plane, as a grazing ray sees it, from behind the plane.
+  // The same for R1. If the rounding of P has put it in front of its own plane, as a grazing ray sees it, the ray
+  // starts behind the plane.
   ShadowRay whole(size_t pixel) const {
     const ShadowRay ray = at(pixel);
     return ray.own_distance < 0 ? beside(pixel, glm::dvec2(0)) : ray;
   }
 
-  // From P moved by offset (metres, along two axes across the ray) and carried along its own plane to as far behind the
-  // plane as P's rounding reaches along a grazing ray, so that the ray meets all that is before the plane.
+  // The ray starts at P, moved by offset (metres, along two axes across the ray) and then moved along the ray to behind
+  // its own plane, as far as the rounding of P reaches along a grazing ray. So the ray meets everything in front of the
+  // plane.
   ShadowRay beside(size_t pixel, glm::dvec2 offset) const {
     const uint32_t own = receivers_.primitive[pixel];
     glm::dvec3 moved = receivers_.position[pixel];
@@ -72,7 +74,7 @@ class ShadowStart {
     const glm::dvec3 a = scene_.positions[t.x], b = scene_.positions[t.y], c = scene_.positions[t.z];
     const glm::dvec3 cross = glm::cross(b - a, c - a);
     const double distance = glm::dot(cross, a - origin) / glm::dot(cross, direction);
-    return std::isfinite(distance) ? distance : 0;  // edge-on: the plane is no help
+    return std::isfinite(distance) ? distance : 0;  // edge-on: the ray does not meet the plane
   }
 
   const Scene& scene_;

@@ -9,13 +9,13 @@ namespace noonmark {
 namespace {
 
 constexpr int least_cells = 256, most_cells = 2048;  // on a side: from 0.25 to 16 MiB of offsets
-// Long edges on one another would be listed in hundreds of cells each: the grid is made coarser, down to so many cells
-// on a side, until its lists are at most so long.
+// Many long edges that lie on one another would be listed in hundreds of cells each. So the grid is made coarser, down
+// to this many cells on a side, until its lists are at most so long.
 constexpr int coarsest_cells = 16;
 constexpr size_t listed_per_piece = 16, listed_besides = size_t{1} << 20;
 constexpr double face_margin = 1e-3;  // how far the grid of a cube's face reaches into its neighbours
 
-// Does another triangle go on across this edge, on its other side as the light sees it?
+// Whether another triangle at this edge lies on its other side, as the light sees it.
 bool goes_on(const Adjacency& adjacency, const LightView& view, uint32_t triangle, int edge) {
   const glm::dvec3 a = view.corner(triangle, edge), b = view.corner(triangle, (edge + 1) % 3);
   const double own = view.orientation(a, b, view.corner(triangle, (edge + 2) % 3));

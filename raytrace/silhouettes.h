@@ -1,7 +1,8 @@
-// Where the light-side depth may jump: the edges at which a surface, as the light sees it, does not go on (folds and
-// boundaries), in grids over what the light sees: its plane, or the six faces of a cube around it. A ray that keeps its
-// distance from all of them meets what the exact ray meets; the few that do not are asked again beside their places.
-// Built once for a light (raytrace/traced_scene.h).
+// Silhouettes: the edges at which a surface, as the light sees it, does not continue. These are folds (both triangles
+// lie on the same side of the edge) and boundaries (the edge has one triangle). The depth that the light sees can jump
+// only there. The edges are listed in grids over what the light sees: its plane, or the six faces of a cube around it.
+// A ray that is further from every silhouette than its float error meets the same triangle as the exact ray; the other
+// rays, which are few, are checked in double. Built once for a light (raytrace/traced_scene.h).
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -14,13 +15,13 @@ namespace noonmark {
 
 class Silhouettes {
  public:
-  // reach_m: how near is near, in metres across the light's rays.
+  // reach_m: the distance that counts as near, in metres across the light's rays.
   Silhouettes(const Adjacency& adjacency, const LightView& view, double reach_m);
-  // How near is near enough that the ray that was cast may have passed on the other side than the exact one, or than
-  // one as far away.
+  // The ray that was cast may pass on the other side of a silhouette than the exact ray only if the silhouette is
+  // nearer to the exact ray than this.
   static double reach_of(const LightView& view) { return 2 * view.ray_error_m(); }
 
-  // Is x within reach of such an edge, or nearer than that?
+  // Whether a silhouette lies within reach_m, or within within_m, of x.
   bool near(glm::dvec3 x) const { return near(x, reach_m_); }
   bool near(glm::dvec3 x, double within_m) const {
     glm::dvec2 at;
@@ -34,10 +35,10 @@ class Silhouettes {
     double t = 0;           // fraction of the way
     double sine = 1;        // of the angle between the way and the edge
     double depth_m = 0;     // of the edge
-    double rounding_m = 0;  // how far the rounding of its ends may have moved it
+    double rounding_m = 0;  // by how much the rounding of the edge's ends may have moved it
     bool operator==(const Crossing&) const = default;
   };
-  // Where the straight way crosses such edges, in order.
+  // Where the straight way crosses silhouettes, in order.
   std::vector<Crossing> crossings(glm::dvec3 from, glm::dvec3 to) const;
 
  private:

@@ -1,4 +1,4 @@
-// First hits of the light-side rays through texel centres, only for the texels that some receiver looks up.
+// First hits of the light-side rays through texel centres, for the texels that a receiver looks up and for no others.
 //
 //   TexelRays texels(embree, view, Wrap::border);
 //   texels.ask(truth.facing, probe, strip);  // for each strip of the picture

@@ -1,4 +1,4 @@
-// A scene as its rays know it: each of coincident triangles once; and as its light sees it.
+// A scene as its rays see it (of triangles that coincide, only the first is in it), and as its light sees it.
 #pragma once
 #include <memory>
 

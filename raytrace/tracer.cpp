@@ -60,7 +60,7 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
     if (truth.facing[i]) facing.push_back(static_cast<uint32_t>(i));
   }
 
-  // Each receiver's verdict at P, and at four places beside it, as far away as the float error reaches.
+  // The verdict of each receiver at P and at four places beside it, at the distance of the float error.
   const double error = traced_->lit_by(frame)->view().ray_error_m();
   const glm::dvec2 places[5] = {{0, 0}, {error, 0}, {-error, 0}, {0, error}, {0, -error}};
   for_each_packet(facing.size(), [&](size_t first, int n) {

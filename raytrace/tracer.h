@@ -1,4 +1,4 @@
-// The truth, by rays: what is lit, how sure that is, and what a perfect shadow map would hold.
+// The truth by rays: what is lit, how certain that is, and the exact shadow map.
 //
 //   raytrace::Tracer tracer(scene);
 //   ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {light});
@@ -41,14 +41,14 @@ class Tracer {
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  // R1 by one exact shadow ray each, whether it is ambiguous (its verdict changes when the start moves by the float
-  // error in the light's plane), and R0. Only the frame's light matters, not its map.
+  // Of each receiver: R1 by one exact shadow ray; whether R1 is ambiguous, which means that it changes when the start
+  // of the ray moves by the float error in the light's plane; and R0. Only the frame's light is used, not its map.
   ReceiverTruth receiver_truth(const ReceiverImage& receivers, const LightFrame& frame, const SoftTruth& soft,
                                StageTime* hard_stage = nullptr, StageTime* soft_stage = nullptr) const;
 
-  // map: resolution is the frame's; format, wrap, cull and depth_clamp are read. bias: the one that the probe was taken
-  // with; forms that move the lookup cost one ray more for each tap, a polygon offset is in the exact map.
-  // offset_unit: gl::Renderer::polygon_offset_unit. The tracer, receivers and truth must outlive what it returns.
+  // map: format, wrap, cull and depth_clamp are read; the resolution is the frame's. bias: the one that the probe was
+  // taken with. A part that moves the lookup costs one more ray for each tap; a polygon offset is in the exact map.
+  // offset_unit: gl::Renderer::polygon_offset_unit. The tracer, receivers and truth must outlive the returned object.
   LookupTracer lookup(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
                       const MapSettings& map, const Bias& bias = {}, double offset_unit = 0) const;
   // The whole picture's at once.
@@ -56,7 +56,7 @@ class Tracer {
                            const LightFrame& frame, const MapSettings& map, const Bias& bias = {},
                            double offset_unit = 0) const;
 
-  // How many edges of triangles have no other triangle beside them: each is a shadow's edge under every light.
+  // The number of edges with one triangle only. Each of them is a silhouette under every light.
   uint64_t open_edges() const;
 
   // For the pixels where mask is not 0: distance in metres from P to its nearest occluder towards the light; infinity

@@ -1,4 +1,4 @@
-// The built-in scenes: each one small, and made to provoke something.
+// The built-in scenes. Each is small and is made to provoke one kind of error.
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -99,8 +99,8 @@ Scene pillars(const SceneSettings&) {
   return scene;
 }
 
-// A lone sphere, a closed convex solid: every slope from facing to grazing, and no occluder. Acne only; the band that
-// no bounded bias cures lies at the terminator (law 1).
+// One sphere, a closed convex solid: every slope from facing to grazing, and no occluder. It shows acne only. At the
+// terminator there is a band that no bounded bias can cure (law 1).
 Scene sphere(const SceneSettings&) {
   Scene scene;
   add_surface(scene, "sphere", 192, 96, true, [](double s, double t) {
@@ -114,8 +114,8 @@ Scene sphere(const SceneSettings&) {
   return scene;
 }
 
-// A bowl under a light straight above: concave, yet no point of it shades another. A rule that calls every hit on
-// another triangle an occluder finds aliasing here; there is only acne.
+// A bowl under a light straight above: concave, but no point of it shadows another. There is only acne. A rule that
+// takes every hit on another triangle for an occluder would report aliasing here.
 Scene bowl(const SceneSettings&) {
   Scene scene;
   add_surface(scene, "bowl", 96, 32, true, [](double s, double t) {
@@ -147,9 +147,9 @@ Scene fence(const SceneSettings&) {
   return scene;
 }
 
-// A house front with six windows, as modellers cut it: a grid of wall pieces around the openings, whose reveals are
-// faces of their own. Sills and a canopy cast shadows over the seams. Turned (scene.turn_deg) and cut otherwise
-// (scene.mesh) it is what seams and T-junctions of real meshes are.
+// A house front with six windows, cut as modellers do: a grid of wall pieces around the openings, with faces of their
+// own for the reveals. Sills and a canopy cast shadows over the seams. Rotated (scene.turn_deg) and cut differently
+// (scene.mesh), it has the seams and T-junctions of real meshes.
 Scene facade(const SceneSettings&) {
   Scene scene;
   add_floor(scene, 4, 0);
@@ -175,10 +175,10 @@ Scene facade(const SceneSettings&) {
   return scene;
 }
 
-// A spot light low over a long floor. Its texels widen with distance, and a step of window depth is worth more and more
-// metres (z^2 (far - near) / (far near) to one): a bias that is acne near the light is Peter Panning at the far end,
-// where the same edge is also stepped five times as coarsely. Boxes stand on the floor and against the wall, and one
-// leans over: contacts at every distance.
+// A spot light low over a long floor. Its texels widen with the distance, and one step of window depth becomes more
+// metres (z^2 (far - near) / (far near) for 1). So one bias gives acne near the light and Peter Panning at the far end,
+// where the steps of a shadow edge are also five times as large. Boxes stand on the floor and against the wall, and one
+// leans over, so there are contacts at every distance.
 Scene spot_room(const SceneSettings&) {
   Scene scene;
   add_floor(scene, 9, 0);
@@ -199,8 +199,8 @@ Scene spot_room(const SceneSettings&) {
 
 // The standard tutorial room for a point light: closed, 10 m wide, seen from inside, with five cubes around a light in
 // the middle. Every wall takes shadows, across the seams of the cube map; one texel is twelve times as wide on a wall's
-// corner as at near. The light is a centimetre beside the middle: from the very middle the cubes' edges lie in planes
-// through texels' centres (x/z = 5/7 and the like), and all that those texels say of a shadow's edge is a tie.
+// corner as at near. The light is a centimetre beside the middle. From the exact middle the cubes' edges would lie in
+// planes through the centres of texels (x/z = 5/7 and so on), and rounding would decide what those texels hold.
 Scene point_room(const SceneSettings&) {
   Scene scene;
   add_box(scene, "room", glm::dvec3(5), glm::dmat4(1));

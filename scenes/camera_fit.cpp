@@ -13,7 +13,7 @@
 namespace noonmark {
 namespace {
 
-// Around what is fitted, as a fraction of it: far more than rounding the matrix to float moves a plane.
+// Margin around what is fitted, as a fraction of it: far more than the rounding of the matrix to float moves a plane.
 constexpr double margin = 0x1p-10;
 // Of far. Over a triangle that reaches from near to far the rasteriser interpolates near / depth in float: at far it is
 // off by a float step of 1, so that the depth there is off by a share of 2^-24 / this.
@@ -25,7 +25,7 @@ struct Depths {
   double farthest = 0;
 };
 
-// The least z of a triangle's part between the sides, infinite where there is none: Sutherland and Hodgman 1974.
+// The smallest z of the part of a triangle between the sides; infinite if there is none (Sutherland and Hodgman 1974).
 // Corners in the camera's axes, z along the view.
 double least_depth_between(const std::array<glm::dvec4, 5>& sides, const std::array<glm::dvec3, 3>& corners) {
   constexpr size_t most = 3 + 5;  // each plane adds at most one corner

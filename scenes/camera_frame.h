@@ -1,4 +1,4 @@
-// A camera's axes and matrix in double; the one place that says how a picture's pixels map to rays.
+// A camera's axes and matrix in double. Only this file says how a picture's pixels map to rays.
 #pragma once
 #include <glm/glm.hpp>
 
@@ -24,8 +24,8 @@ struct CameraFrame {
 // Throws Error(usage) when eye and target coincide or near >= far.
 CameraFrame make_camera_frame(const Camera& camera, int width, int height);
 
-// An orthonormal pair (right, up) across `forward` (unit), upright as lookAt makes it; where forward is parallel to the
-// hint, -Z takes the hint's place, and +Y where it is parallel to that too.
+// An orthonormal pair (right, up) perpendicular to `forward` (unit), upright as lookAt makes it. If forward is parallel
+// to the hint, -Z is used instead of the hint; if it is parallel to -Z too, +Y.
 void upright_axes(glm::dvec3 forward, glm::dvec3 up_hint, glm::dvec3& right, glm::dvec3& up);
 
 }  // namespace noonmark

@@ -1,5 +1,5 @@
-// A fingerprint of bytes: tells what was edited, cut short or rounded from what was there before. No defence against
-// somebody who means it.
+// A fingerprint of bytes. It shows whether something was edited, cut short or rounded. It does not protect against a
+// deliberate forgery.
 //
 //   Digest digest;
 //   digest.value(1.5);
@@ -26,7 +26,7 @@ class Digest {
     static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
     bytes(&v, sizeof v);
   }
-  // With its length, so that two texts in a row have one meaning only.
+  // The length is added too, so that two texts in a row cannot be confused with two other texts.
   void text(std::string_view v) {
     value(v.size());
     bytes(v.data(), v.size());

@@ -1,5 +1,6 @@
-// The one exception type of the program. Thrown for what a user or a machine can get wrong (files, settings, drivers);
-// our own mistakes are asserts or std::logic_error. Only main catches it, and its kind is the exit code.
+// The one exception type of the program. It is thrown for mistakes of a user and failures of a machine (files,
+// settings, drivers). Our own mistakes are asserts or std::logic_error. Only main catches it; its kind is the exit
+// code.
 #pragma once
 #include <stdexcept>
 #include <string>

@@ -11,8 +11,8 @@ namespace noonmark {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Of a depth: what is no nearer than this before something else counts as hidden, so that of many coincident sheets
-// only the first is asked, whatever rounding makes of their depths. As depth says.
+// A fraction of a depth. A triangle that is nearer than a hit by less than this counts as hidden by it. So of many
+// triangles that coincide only the first is tested, whatever rounding does to their depths.
 constexpr double sameness = 0x1p-20;
 
 struct Triangle {

@@ -1,4 +1,4 @@
-// What the rays of a small picture meet first, of any number of triangles, in time that grows as their number does.
+// The first hits of the rays of a small picture. The time grows linearly with the number of triangles.
 //
 //   FirstHits hits = first_hits(scene, make_camera_frame(camera, 32, 32), 32, Backs::seen);
 //   if (hits.depth.at(x, y) != FirstHits::nothing && hits.back.at(x, y)) ...
@@ -19,7 +19,7 @@ struct FirstHits {
   Image<float> depth;           // along the view, to a millionth of it; `nothing` where nothing is met
   Image<uint8_t> back;          // whether the ray comes from behind the triangle
   Image<uint8_t> single_sided;  // of the triangle's material
-  uint64_t asked = 0;           // how often a triangle was asked for where a ray meets it: what the time goes into
+  uint64_t asked = 0;           // number of intersections of a ray with a triangle that were computed; most of the time
 };
 
 enum class Backs {

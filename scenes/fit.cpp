@@ -15,7 +15,7 @@ constexpr double margin = 0.05;
 // To the eye: a quarter to the right of the front (glTF's +Z), a little above. Any direction that shows three sides of
 // a box would do.
 const glm::dvec3 to_eye = glm::normalize(glm::dvec3(0.7, 0.5, 1.0));
-// To the light: from the other side, 57 degrees high, so that shadows fall into view and along no axis.
+// Direction to the light: from the other side, 57 degrees high, so that shadows fall into view and not along an axis.
 const glm::dvec3 light_travels = glm::normalize(glm::dvec3(0.6, -1.2, -0.5));
 // From the sphere's centre to the light, in radii.
 constexpr double light_distance_radii = 2;

@@ -1,4 +1,4 @@
-// Where a scene's camera and light are put when nobody said where. The public part is in scenes/library.h.
+// Places the camera and the light of a scene whose file gives none. The public part is in scenes/library.h.
 #pragma once
 #include <glm/glm.hpp>
 
@@ -11,11 +11,12 @@ struct Sphere {
   double radius_m = 0;
 };
 
-// Around the middle of the positions' axis-aligned box; every position is inside or on it. Of no positions: radius 0.
+// A sphere around the middle of the positions' axis-aligned box. Every position is inside it or on it. Without
+// positions the radius is 0.
 Sphere bounding_sphere(const Scene& scene);
 
-// A directional light that travels along `direction` (any length but 0) through the sphere's centre, from a position
-// outside the sphere: a directional light has none of its own.
+// A directional light along `direction` (of any length except 0), through the sphere's centre. Its position is outside
+// the sphere, because a directional light has no position of its own.
 Light directional_light(const Sphere& around, const glm::dvec3& direction);
 
 }  // namespace noonmark

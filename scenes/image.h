@@ -1,5 +1,5 @@
-// A plain two-dimensional array. Row 0 is the top row of a picture; of a shadow map it is the row of the lowest v
-// (OpenGL's order), and says so where it is used.
+// A plain two-dimensional array. Row 0 is the top row of a picture. Of a shadow map it is the row of the lowest v
+// (OpenGL's order); the code that uses such an image says so.
 #pragma once
 #include <cassert>
 #include <cstddef>

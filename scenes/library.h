@@ -25,9 +25,10 @@ std::span<const BuiltinScene> builtin_scenes();
 // Whether scene.name is the path of a file rather than a built-in name.
 bool names_file(std::string_view scene_name);
 
-// A built-in name, or a path that ends in .gltf or .glb, in either case; in the triangles that settings.mesh names.
-// Throws Error(usage) for an unknown name (suggesting the nearest) and where settings.mesh makes more triangles than
-// are allowed or fit into memory, before they are made; Error(scene) for a file that cannot be used.
+// Makes the scene of a built-in name, or of a path that ends in .gltf or .glb (in upper or lower case), and cuts it
+// into triangles as settings.mesh says. Throws Error(usage) for an unknown name (with the nearest name), and, before
+// they are made, for more triangles than are allowed or fit into memory. Throws Error(scene) for a file that cannot be
+// used.
 Scene make_scene(const SceneSettings& settings);
 
 // "street: 2 animations at rest (...); 1 primitive of lines left out": the scene's notes as one line; empty without
@@ -40,12 +41,12 @@ struct Pose {
   int animation = 0;
 };
 
-// scenes/gltf/gltf.cpp. Nothing outside the file's own folder is read; images are never loaded. A camera and a light
-// are fitted where the file has none. Throws Error(scene).
+// scenes/gltf/gltf.cpp. It reads nothing outside the file's own folder and loads no images. If the file has no camera
+// or no light, one is fitted. Throws Error(scene).
 Scene load_gltf(const std::string& path, const Pose& pose = {});
 
-// scenes/fit.cpp: a perspective camera that sees the whole scene from outside, or stands inside a closed room
-// (scenes/interior.h); and a light from above and aside. For scenes without.
+// scenes/fit.cpp, for scenes without a camera or a light: a perspective camera that sees the whole scene from outside,
+// or that stands inside a closed room (scenes/interior.h); a light from above and from the side.
 Camera fit_camera(const Scene& scene);
 Light fit_light(const Scene& scene);
 

@@ -1,10 +1,11 @@
-// How much memory the program may still take, and what a scene will take of it: asked before anything large is made.
+// How much memory the program may still take, and how much a scene will take. The program asks before it makes anything
+// large.
 //
 //   const AvailableMemory available = available_memory();
 //   if (needed > available.bytes) throw Error(..., "... takes " + bytes_text(needed) + "; " + available.text());
 //
-// What is counted is what stays in memory when it is written to. Swap is not counted: a measurement that lives in it
-// does not end.
+// Only memory that stays in RAM when it is written to is counted. Swap is not counted, because a measurement that uses
+// it would take too long.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -23,7 +24,7 @@ struct AvailableMemory {
 // root: "/" but in tests, which bring proc/ and sys/fs/cgroup/ of their own.
 AvailableMemory available_memory(const std::string& root = "/");
 
-// The first two of them, and the third: those change with what others do, and this one with the process alone.
+// The first two of these limits depend on other processes too; the third depends on this process only.
 AvailableMemory free_memory(const std::string& root = "/");
 AvailableMemory free_address_space(const std::string& root = "/");
 

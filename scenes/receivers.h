@@ -1,5 +1,5 @@
-// The receivers of a picture: for every pixel the visible surface point at its centre. One receiver image serves every
-// technique and the truth, so that nothing but the shadow can differ between the renderers.
+// The receivers of a picture: for every pixel, the visible surface point at its centre. Every technique and the truth
+// use the same receiver image, so only the shadow can differ between the renderers.
 //
 //   ReceiverImage receivers = resolve_receivers(
 //       scene, camera, renderer.render_primitives(camera, 1280, 720, unseen_backs(scene, camera)));
@@ -23,14 +23,15 @@ struct ReceiverImage {
   int height() const { return primitive.height; }
 };
 
-// The triangles that are single-sided and turn their backs to the camera, or are seen edge-on: bit t % 32 of word t /
-// 32 is triangle t. Empty where there is none.
+// The single-sided triangles of which the camera sees the back or the edge: bit t % 32 of word t / 32 is triangle t.
+// Empty if there is none.
 std::vector<uint32_t> unseen_backs(const Scene& scene, const Camera& camera);
 
 // primitives: what the rasteriser saw at each pixel's centre (index into scene.triangles, or no_primitive).
-// P is where the ray through the pixel's centre meets the primitive's plane, in double, moved to the nearest point of
-// the triangle where the rasteriser's snapping put it outside, then rounded to float: so P never leaves its primitive
-// by more than half a float's last place per axis, which an interpolated position does.
+// P is the point where the ray through the pixel's centre meets the primitive's plane, computed in double. If the
+// rasteriser's snapping has put it outside the triangle, it is moved to the nearest point of the triangle. Then it is
+// rounded to float. So P leaves its primitive by at most half a float's last place per axis; an interpolated position
+// would leave it further.
 ReceiverImage resolve_receivers(const Scene& scene, const Camera& camera, const Image<uint32_t>& primitives);
 
 }  // namespace noonmark

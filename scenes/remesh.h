@@ -22,8 +22,8 @@ struct Placement {
 // as_built: unchanged.
 // one_mesh: one part; vertices with equal positions become one vertex. Order and positions of the triangles stay.
 // split:    each triangle in four at the middles of its edges. Triangles that share an edge get the same middle, to the
-//           last bit, so that what was joined stays joined. The middles are rounded to float, by at most half a last
-//           place: a triangle bends by that much. What the rounding makes degenerate is left out.
+//           last bit, so they stay joined. The middles are rounded to float, by at most half a last place, and a
+//           triangle bends by that much. Triangles that the rounding makes degenerate are left out.
 // reversed: parts, triangles and vertices in reverse order, each triangle begun at another corner. It is still
 //           counter-clockwise: the winding is part of the surface.
 // doubled:  every triangle once more, in the same place, with vertices and parts of its own.
@@ -32,12 +32,12 @@ struct Placement {
 // t_junctions: each triangle in 6 strips. The strips are cut into 1, 2 or 3 pieces in turn, so that corners of one
 //           strip lie in the middle of the next one's edges. To rounding only: such a corner may stand a little off the
 //           edge.
-// Positions are rounded to float once, after the placement; tiles' parts once before it. What the rounding makes
-// degenerate is left out.
-// Their lists are made as long as remeshed_size says and piece by piece, so that nothing is held twice.
+// Positions are rounded to float once, after the placement; the parts of tiles also once before it. Triangles that the
+// rounding makes degenerate are left out. The lists get the length that remeshed_size gives and are filled piece by
+// piece, so nothing is held in memory twice.
 Scene remeshed(Scene scene, MeshForm form, const Placement& placement = {});
 
-// How large that scene is at most, told from counts alone.
+// The largest size that this scene can have, computed from counts only.
 SceneSize remeshed_size(const Scene& scene, MeshForm form);
 
 }  // namespace noonmark

@@ -1,4 +1,4 @@
-// The vocabulary of a scene, and the one home of the project's conventions.
+// The types of a scene. The project's conventions are defined here and nowhere else.
 //
 //   Scene scene = make_scene(settings.scene);        // a built-in name or a .gltf/.glb path (scenes/library.h)
 //   for (glm::uvec3 t : scene.triangles) use(scene.positions[t.x], ...);
@@ -16,8 +16,8 @@
 // - w: the world size of one texel at the receiver; directional light: extent / resolution; spot: 2 z tan(fov / 2) /
 //   resolution, z along the light's axis; point: 2 z / resolution, z along the axis of the cube's face.
 // - Depth that the map measures: along the light's axis (directional, spot), or the distance from the light (point).
-// - Geometry is float because OpenGL and Embree take float, and because the float positions ARE the scene: every truth
-//   is the truth of these positions. What is derived from them (light frame, depths, plane equations) is double.
+// - Geometry is float because OpenGL and Embree take float. The float positions are the scene: every truth is the truth
+//   for these positions. What is derived from them (light frame, depths, plane equations) is double.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -27,7 +27,7 @@
 
 namespace noonmark {
 
-// A run of triangles that were one mesh primitive of one node. Nothing in the ladder looks at it; people do.
+// Consecutive triangles that were one mesh primitive of one node. The ladder does not use parts; they are for people.
 struct Part {
   std::string name;
   uint32_t first_triangle = 0;
@@ -49,9 +49,11 @@ struct Camera {
 enum class LightKind { directional, spot, point };
 enum class LightShape { sphere, disc };
 
-// position_m and target_m fix a directional light's direction and where its map's depth and centre are measured from,
-// as the usual lookAt(position, target, up) does; a spot light is at position_m and points at target_m; of a point
-// light, target_m means nothing. Lights do not fall off: only their visibility is measured.
+// - Directional: position_m and target_m give the light's direction, and the point from which its map's depth and
+//   centre are measured, as lookAt(position, target, up) does.
+// - Spot: the light is at position_m and points at target_m.
+// - Point: the light is at position_m; target_m is not used.
+// Lights do not fall off with distance, because only their visibility is measured.
 struct Light {
   LightKind kind = LightKind::directional;
   glm::dvec3 position_m{0, 10, 0};
@@ -62,8 +64,8 @@ struct Light {
   double cone_deg = 60;                   // spot: the whole angle of the cone; beyond it nothing is lit
 };
 
-// What part of the world a light's map covers. Near and far are along the light's axis from position_m; a point light's
-// far is a distance: depth 1 of its map.
+// The part of the world that a light's map covers. Near and far are measured from position_m along the light's axis. A
+// point light's far is a distance: depth 1 of its map.
 struct MapVolume {
   double extent_m = 20;  // directional: whole width and height of the square map, centred on the axis
   double near_m = 1;
@@ -74,15 +76,16 @@ struct Scene {
   std::string name;
   std::vector<glm::vec3> positions;   // world, metres, all finite
   std::vector<glm::uvec3> triangles;  // indices into positions; counter-clockwise seen from outside
-  // Of each triangle: whether cameras see its front only (glTF's doubleSided = false). Empty: both sides of all. Light
-  // and shadow rays meet both sides whatever it says; what the map's own pass culls is the setting map.cull.
+  // For each triangle, whether cameras see its front only (glTF's doubleSided = false). Empty: cameras see both sides
+  // of all triangles. Light rays and shadow rays always meet both sides. The setting map.cull says what the map's pass
+  // culls.
   std::vector<bool> single_sided;
   std::vector<Part> parts;
   Camera camera;
   Light light;
   std::optional<MapVolume> map;  // the scene's own choice; without one the map is fitted tightly to the scene
-  // What the scene's file holds and Noonmark does not model, and what was settled where it leaves a choice: a phrase
-  // each, for people.
+  // For people: one phrase for each thing that the scene's file holds and Noonmark does not model, and for each choice
+  // that the file leaves open.
   std::vector<std::string> notes;
 };
 

@@ -9,8 +9,9 @@
 namespace noonmark {
 namespace {
 
-// Each struct is taken apart by a structured binding, which must name every member: where one is added, the compiler
-// stops here and asks whether it is part of the identity. A name that is bound and not added says why.
+// A structured binding takes each struct apart, and it must name every member. So if somebody adds a member, the
+// compiler stops here, and the author must decide whether it is part of the identity. A name that is bound but not
+// added has its reason beside it.
 class SceneDigest {
  public:
   void add(const Scene& scene) {

@@ -8,9 +8,9 @@
 
 namespace noonmark {
 
-// Of every member of Scene and of what it holds, but for names: they change no number. The list of members is in
-// scene_digest.cpp and is complete by construction: a member that is added to one of these structs and not to that list
-// does not compile.
+// Covers every member of Scene and of its parts, except names, which change no number. scene_digest.cpp has the list of
+// members. The list is always complete: if somebody adds a member to one of these structs and not to the list, the
+// program does not compile.
 std::string scene_digest(const Scene& scene);
 
 }  // namespace noonmark

@@ -1,5 +1,4 @@
-// What an experiment may say of the scene and of the camera; the rows that name these members are in
-// technique/settings.cpp.
+// The settings of the scene and of the camera. The rows that name these members are in technique/settings.cpp.
 #pragma once
 #include <glm/glm.hpp>
 #include <optional>

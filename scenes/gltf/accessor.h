@@ -2,7 +2,7 @@
 // where it has no view.
 //
 //   Readers readers(document, buffers);
-//   const AccessorReader& positions = readers(index);  // index is in range: check_structure has seen to it
+//   const AccessorReader& positions = readers(index);  // check_structure has checked that index is in range
 //   for (size_t i = 0; i < positions.count(); ++i) use(positions.vec3(i));
 #pragma once
 #include <glm/glm.hpp>
@@ -54,8 +54,8 @@ class AccessorReader {
   size_t sparse_stride_ = 0;
 };
 
-// The readers of a file, one for each accessor that is used. Throws Error(scene) where its sparse lists together are
-// longer than any scene needs: many accessors may share one list, and each reader goes through the whole of it.
+// The readers of a file, one for each accessor that is used. Throws Error(scene) if their sparse lists together are
+// longer than any scene needs: many accessors may share one list, and each reader reads the whole list.
 class Readers {
  public:
   Readers(const Document& document, Buffers& buffers) : document_(document), buffers_(buffers) {}

@@ -1,4 +1,5 @@
-// One animation of the file at one time: it moves, turns and scales nodes, weighs morph targets and hides.
+// One animation of the file at one time. It moves, rotates, scales and hides nodes and sets the weights of morph
+// targets.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,10 +8,10 @@
 
 namespace noonmark::gltf {
 
-// Sets the nodes of document.model as document.guarded.animation has them at time_s: before the first key as the first,
-// after the last as the last (glTF 2.0, section 3.11). What it animates that is neither a node's nor a morph target's
-// goes into notes. Throws Error(scene) where keys are not in order or not finite, or samplers do not fit what they
-// move.
+// Sets the nodes of document.model to their values in document.guarded.animation at time_s: before the first key the
+// first key's, after the last key the last key's (glTF 2.0, section 3.11). Animated properties of other objects than
+// nodes and morph targets go into notes. Throws Error(scene) if keys are not in order or not finite, or if a sampler
+// does not fit its property.
 void pose(Document& document, Readers& readers, double time_s, std::vector<std::string>& notes);
 
 }  // namespace noonmark::gltf

@@ -11,9 +11,9 @@ namespace noonmark::gltf {
 // Larger files and sums of buffers are refused before they are read: what a .glb can hold at most (its lengths have 32
 // bits).
 inline constexpr uint64_t max_file_bytes = 0xffffffffu;
-// JSON takes up to 16 times its size in memory while it is parsed. Embedded buffers count as JSON.
+// While JSON is parsed it takes up to 16 times its size in memory. Embedded buffers are part of the JSON.
 inline constexpr uint64_t max_json_bytes = uint64_t{256} << 20;
-// Brackets within brackets. glTF itself needs about ten; libraries that recurse run out of stack at some ten thousand.
+// Largest nesting of brackets. glTF needs about ten levels; recursive libraries run out of stack at about ten thousand.
 inline constexpr int max_json_depth = 256;
 
 struct Container {
@@ -22,8 +22,8 @@ struct Container {
   bool has_bin = false;
 };
 
-// Throws Error(scene) for what is not a regular file, too large, or a malformed .glb. The JSON is not looked at, except
-// that its nesting is at most max_json_depth.
+// Throws Error(scene) for a file that is not regular or too large, and for a malformed .glb. Of the JSON only the
+// nesting is checked, against max_json_depth.
 Container read_container(const std::string& file);
 
 // The first `wanted` bytes of a regular file (all of it when wanted is 0). file, place and shown (what the scene calls

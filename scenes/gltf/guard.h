@@ -1,7 +1,7 @@
 // The guard before tinygltf. tinygltf accepts most malformed files, truncates integers silently and tries to read every
-// image; so it only ever sees a document made anew from a table of the properties that Noonmark uses, each of the right
-// type and in range. Everything else (extras, images, textures) stays behind, and so do the buffers, which
-// buffers.cpp reads itself, and the animation that poses the scene (animation.h): tinygltf opens no file.
+// image. So it gets a new document, made from a table of the properties that Noonmark uses, each of the right type and
+// in range. Everything else (extras, images, textures) is left out. The buffers are left out too, because buffers.cpp
+// reads them, and so is the animation that poses the scene (animation.h). So tinygltf opens no file.
 #pragma once
 #include <array>
 #include <cstdint>

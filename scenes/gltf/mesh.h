@@ -9,7 +9,7 @@
 namespace noonmark::gltf {
 
 // Appends positions, triangles and parts. What is drawn:
-// - triangles, strips and fans; points and lines cast no shadow worth the name and are left out;
+// - triangles, strips and fans; points and lines have no area to cast a shadow and are left out;
 // - positions with their morph targets (morph.h), where the node's place or its skin's joints put them
 //   (skin.h), once for each instance of the node (instances.h), out of Draco's data where there are any
 //   (draco.h);
@@ -18,13 +18,12 @@ namespace noonmark::gltf {
 // - only the vertices that some triangle uses;
 // - no degenerate triangle: two equal corners, or corners in a line as far as double arithmetic tells. It has no normal
 //   and hides nothing. Scene::notes says how many: triangles are numbered without them.
-// A transform that mirrors flips the winding, so that outsides stay outsides. One that flattens leaves the order of the
-// corners, and of the triangles those that have an area then. Triangles of materials that are not
-// doubleSided are marked in scene.single_sided.
-// Throws Error(scene): indices out of range or meaning restart, positions not finite or beyond max_coordinate_m, more
-// than max_triangles or than fit into the memory that is available (scenes/memory.h), and what the files named above
-// refuse.
-// Returns how many triangles without an area were left out.
+// A transform that mirrors reverses the winding, so that outsides stay outsides. A transform that flattens keeps the
+// order of the corners, and keeps only the triangles that still have an area. Triangles whose material is not
+// doubleSided are marked in scene.single_sided. Throws Error(scene) for indices that are out of range or mean restart;
+// for positions that are not finite or beyond max_coordinate_m; for more triangles than max_triangles or than fit into
+// the available memory (scenes/memory.h); and for everything that the files named above refuse. Returns how many
+// triangles without an area were left out.
 uint64_t append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene);
 
 }  // namespace noonmark::gltf

@@ -1,5 +1,5 @@
-// The nodes of the scene that is shown, each with its place in the world: the file's default scene, else its first,
-// else, where it lists none, all nodes that are nobody's child.
+// The nodes of the scene that is shown, each with its transform to the world. The scene is the file's default scene, or
+// its first scene. If the file has no scenes, all nodes without a parent are shown.
 #pragma once
 #include <glm/glm.hpp>
 #include <string>
@@ -27,17 +27,17 @@ struct Placement {
   std::vector<glm::dmat4> world_from_node;  // of every node of the file: joints may stand outside the scene
 };
 
-// What the file leaves open or does against the rules, and was settled, goes into notes: the choice among scenes; a
-// node that a scene lists although it is a child, which is drawn once, where its parents put it; a node that it lists
-// twice. Throws Error(scene) for cycles, nodes with two parents, and transforms that are not finite or beyond
-// max_coordinate_m.
+// Notes tell how the loader has decided where the file leaves a choice or breaks a rule: which scene was chosen; a node
+// that a scene lists although it is a child, and that is drawn once, at the place that its parents give it; a node that
+// a scene lists twice. Throws Error(scene) for cycles, for nodes with two parents, and for transforms that are not
+// finite or beyond max_coordinate_m.
 Placement place_nodes(const Document& document, std::vector<std::string>& notes);
 
 // Whether it maps all of space into a plane, a line or a point.
 bool flattens(const glm::dmat4& transform);
 
-// Throws Error(scene) where the node's place in the world flattens what it holds: then it has no direction. Asked of
-// nodes that hold cameras or lights; what a flat mesh is still has its area.
+// Throws Error(scene) if the node's transform to the world flattens it, because then a camera or a light in it has no
+// direction. Called for nodes that hold cameras or lights only; a flattened mesh still has an area.
 void require_invertible(const Document& document, const PlacedNode& placed);
 
 }  // namespace noonmark::gltf

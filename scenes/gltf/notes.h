@@ -1,4 +1,4 @@
-// What is said of a file beside its geometry (Scene::notes).
+// What users are told about a file besides its geometry (Scene::notes).
 #pragma once
 #include <cstdint>
 #include <string>
@@ -14,7 +14,7 @@ std::string counted(uint64_t count, std::string_view noun);
 // "1 camera ... is", "2 cameras ... are": the verb that goes with so many.
 std::string_view is_or_are(uint64_t count);
 
-// What the shown nodes hold and shadows are measured without: points, lines, alpha, transmission, animations at rest.
+// What the shown nodes hold that is not measured: points, lines, alpha, transmission, animations of a scene at rest.
 void note_contents(const Document& document, const std::vector<PlacedNode>& nodes, std::vector<std::string>& notes);
 
 // ": 1 primitive of points, 2 nodes hidden (KHR_node_visibility)": what the shown nodes hold instead of triangles;

@@ -1,5 +1,5 @@
-// The last step of the guard: what tinygltf would settle silently, or refuse without naming the place, or refuse
-// although glTF allows it.
+// The last step of the guard. It checks what tinygltf would change silently, or refuse without naming the place, or
+// refuse although glTF allows it.
 #pragma once
 #include <string>
 

@@ -1,4 +1,4 @@
-// Skins: where a vertex goes is told by joints, and the node that holds the mesh has no say (glTF 2.0,
+// Skins: joints determine the position of a vertex; the transform of the node that holds the mesh is ignored (glTF 2.0,
 // section 3.7.3.3).
 #pragma once
 #include <cstdint>
@@ -20,9 +20,9 @@ class SkinnedVertices {
                   std::vector<std::pair<const AccessorReader*, const AccessorReader*>> attributes)
       : file_(file), place_(std::move(place)), joints_(joints), attributes_(std::move(attributes)) {}
 
-  // The blend of its joints, the weights scaled to a sum of 1: exporters round them, and a sum of 254 / 255 would
-  // shrink the mesh. Throws Error(scene) for a joint that the skin has not, and weights that are negative or add to
-  // nothing.
+  // The blend of its joints. The weights are scaled to a sum of 1, because exporters round them, and a sum of 254 / 255
+  // would shrink the mesh. Throws Error(scene) for a joint that the skin does not have, and for weights that are
+  // negative or have a sum of 0.
   glm::dmat4 world_from_mesh(uint32_t vertex) const;
   size_t sets() const { return attributes_.size(); }
 
