@@ -312,6 +312,23 @@ class PlantedDefect : public testing::TestWithParam<Planted> {};
 TEST_P(PlantedDefect, MovesItsMetric) { expect_moves(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Each, PlantedDefect, testing::ValuesIn(defects()), name_of);
 
+// What the check of the lookup's numbers allows grows with how well the place looked up is known: a receiver plane's
+// gradient at a place half a million texels from the receiver, and of a scene that lies 100 km from the origin.
+TEST(Sound, AreReceiverPlanesFarFromTheirReceiversAndFromTheOrigin) {
+  Settings settings;
+  settings.scene.name = "spot-room";
+  settings.view.width_px = 16;
+  settings.view.height_px = 12;
+  settings.map.resolution = 32;
+  settings.map.extent_scale = 0.15;
+  settings.bias.reference = "texel_plane";
+  settings.bias["normal_offset_lateral"] = 558715;
+  EXPECT_LE(measure(settings).at("rounding_excess"), 1);
+  settings.bias["normal_offset_lateral"] = 15;
+  settings.scene.move_m = glm::dvec3(1e5, 1e5, 1e5);
+  EXPECT_LE(measure(settings).at("rounding_excess"), 1);
+}
+
 // The program's own wiring sees what a variant of a shader does, and a run ends as a defect.
 TEST(Workbench, HoldsAVariantToItsContract) {
   const Settings settings = cubes();
