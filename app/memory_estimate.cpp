@@ -53,7 +53,7 @@ const MemoryShare& MemoryEstimate::largest() const {
 MemoryEstimate estimate_memory(const MemoryInput& input) {
   const Settings& s = input.settings;
   const double pixels = static_cast<double>(s.view.width_px) * s.view.height_px;
-  const double faces = input.light == LightKind::point ? 6 : 1;
+  const double faces = kind_of_light(input.light).tiles();
   const double texels = static_cast<double>(s.map.resolution) * s.map.resolution * faces;
   const TapPattern pattern = tap_pattern(s.filter);
   const double taps = pixels * pattern.taps;
@@ -90,7 +90,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
 }
 
 double outside_texels(const Scene& scene, const LightFrame& frame, const FilterSettings& filter) {
-  if (frame.kind == LightKind::point) return 0;
+  if (frame.map_shape() == MapShape::cube) return 0;
   const TapPattern pattern = tap_pattern(filter);
   double reach = 1;
   for (int variant = 0; variant < pattern.variants; ++variant)
@@ -100,7 +100,7 @@ double outside_texels(const Scene& scene, const LightFrame& frame, const FilterS
     }
   const double inside = static_cast<double>(frame.resolution) * frame.resolution;
   glm::dvec2 low(0), high(frame.resolution);
-  if (frame.kind == LightKind::spot) {  // nothing beyond the cone asks
+  if (frame.cos_half_cone > -1) {  // nothing beyond the cone asks
     const double tan_cone = std::sqrt(1 - frame.cos_half_cone * frame.cos_half_cone) / frame.cos_half_cone;
     const double beside = frame.resolution * std::max(0.0, tan_cone / frame.tan_half_fov - 1) / 2;
     low -= beside;

@@ -14,6 +14,7 @@
 #include "scenes/memory.h"
 #include "scenes/scene.h"
 #include "technique/light_frame.h"
+#include "technique/light_kind.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -21,8 +22,9 @@ namespace noonmark {
 // The truth of a picture's taps is traced in strips of whole rows that take at most as much, so that memory does not
 // grow with the kernel.
 inline constexpr size_t most_strip_bytes = size_t{256} << 20;
-constexpr size_t bytes_per_tap(LightKind light) {
-  return light == LightKind::point ? 1 + sizeof(uint32_t) : 1;  // TapTruth; LookupProbe::cube_texel
+inline size_t bytes_per_tap(LightKind light) {
+  return kind_of_light(light).map_shape() == MapShape::cube ? 1 + sizeof(uint32_t)
+                                                            : 1;  // TapTruth; LookupProbe::cube_texel
 }
 
 struct MemoryInput {

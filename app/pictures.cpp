@@ -76,20 +76,6 @@ Image<Color> greys(const Measurement& m, const Image<float>& frame) {
   return paint(m, [&](size_t i) { return grey(frame[i]); });
 }
 
-std::string frustum_caption(LightKind kind) {
-  const std::string ends = "green is near, orange-red is far, blue joins them";
-  const std::string hidden = "dashed where the scene is before it.";
-  switch (kind) {
-    case LightKind::directional:
-      return "What the map can see: " + ends + ", " + hidden;
-    case LightKind::spot:
-      return "What the map can see: " + ends + ", yellow is the light's cone, pink the light, " + hidden;
-    case LightKind::point:
-      return "What the cube map can see: " + ends + " along the faces' edges, pink is the light, " + hidden;
-  }
-  throw std::logic_error("a kind of light without a frustum");
-}
-
 }  // namespace
 
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
@@ -101,7 +87,7 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
     records.push_back({name, relative + "/" + file, caption, digest});
   };
   const Light light = effective_light(m.scene, m.settings);
-  const bool sized = (light.kind == LightKind::directional ? light.angular_diameter_deg : light.radius_m) > 0;
+  const bool sized = m.frame.light().disc_radius(light) > 0;
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   const auto shaded_with = [&](const Image<float>& visibility) {
     return shaded_frame(m.receivers, m.frame, camera, visibility);
@@ -112,11 +98,11 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
   add("classes", "Why each wrong pixel is wrong.", classes(m));
   add("difference", "Map minus truth: too dark is orange, too light is blue.", difference(m));
   add("depth",
-      light.kind == LightKind::point
+      m.frame.map_shape() == MapShape::cube
           ? "The cube map unfolded, as it looks from outside: bright is near in metres, black is empty."
           : "The shadow map itself as the light sees it: bright is near in metres, black is empty.",
       map_picture(m.stored_map, m.frame));
-  add("frustum", frustum_caption(light.kind), frustum(m, camera));
+  add("frustum", std::string(m.frame.light().frustum_caption()), frustum(m, camera));
   const Image<float> truth = shaded_with(m.ladder.truth()), map = shaded_with(m.ladder.shown());
   add("shaded-truth", "The clay as a renderer shows it, Blinn-Phong, with the true shadow (R1).", greys(m, truth));
   if (sized)

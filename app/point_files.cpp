@@ -78,7 +78,7 @@ nlohmann::json curve_json(const BiasCurve& curve) {
 nlohmann::ordered_json light_json(const Measurement& m) {
   const LightFrame& f = m.frame;
   const Light light = effective_light(m.scene, m.settings);
-  nlohmann::ordered_json json = {{"kind", find_setting("light.kind").choices[1 + static_cast<size_t>(f.kind)]},
+  nlohmann::ordered_json json = {{"kind", f.light().name()},
                                  {"origin_m", vector_json(f.origin_m)},
                                  {"right", vector_json(f.right)},
                                  {"up", vector_json(f.up)},
@@ -92,7 +92,7 @@ nlohmann::ordered_json light_json(const Measurement& m) {
     json["radius_m"] = light.radius_m;
     json["shape"] = find_setting("light.shape").get(m.settings);
   }
-  if (f.kind == LightKind::spot) {
+  if (f.cos_half_cone > -1) {
     json["cone_deg"] = light.cone_deg;
     json["cos_half_cone"] = f.cos_half_cone;
     json["tan_half_fov"] = f.tan_half_fov;
@@ -100,23 +100,25 @@ nlohmann::ordered_json light_json(const Measurement& m) {
   }
   json["near_m"] = f.near_m;
   json["far_m"] = f.far_m;
-  json["depth"] = f.kind == LightKind::point  ? "distance / far_m"
-                  : f.kind == LightKind::spot ? "far_m * (z - near_m) / (z * (far_m - near_m)), z along forward"
-                                              : "(z - near_m) / (far_m - near_m), z along forward";
+  constexpr const char* depths[] = {// in the order of TileDepth
+                                    "(z - near_m) / (far_m - near_m), z along forward",
+                                    "far_m * (z - near_m) / (z * (far_m - near_m)), z along forward",
+                                    "distance / far_m"};
+  json["depth"] = depths[static_cast<size_t>(f.tile().depth)];
   json["resolution"] = f.resolution;
-  json["faces"] = f.faces();
+  json["faces"] = f.tiles();
   json["map"] = {{"width", f.map_size().x},
                  {"height", f.map_size().y},
-                 {"rows", f.faces() == 1 ? "map.exr has the map's highest v on top"
+                 {"rows", f.tiles() == 1 ? "map.exr has the map's highest v on top"
                                          : "map.exr has the faces +X -X +Y -Y +Z -Z from the bottom up, each with its "
                                            "highest t on top: row y of map.exr is row height - 1 - y of the map, and "
                                            "row j of face f is the map's row f * resolution + j"}};
-  if (f.faces() == 1) {
+  if (f.tiles() == 1) {
     json["clip_from_world_rows"] = matrix_rows(f.clip_from_world());
     return json;
   }
   nlohmann::ordered_json faces = nlohmann::ordered_json::array();
-  for (int face = 0; face < f.faces(); ++face)
+  for (int face = 0; face < f.tiles(); ++face)
     faces.push_back(nlohmann::ordered_json(matrix_rows(f.clip_from_world(face))));
   json["clip_from_world_rows_of_faces"] = faces;
   return json;

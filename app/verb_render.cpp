@@ -50,7 +50,7 @@ void print_ladder(const Measurement& m) {
   if (const std::string why = why_no_curve(m.record); !why.empty()) fmt::print("\n  no bias curve: {}\n", why);
   if (!m.record.curve) return;
   const BiasCurve& c = *m.record.curve;
-  const char* there = m.frame.parallel() ? "" : " (m and texels at the median receiver)";
+  const char* there = m.frame.uniform() ? "" : " (m and texels at the median receiver)";
   if (c.window_min_depth)
     fmt::print("\n  usable {}: {:.6g} ... {:.6g} depth = {:.4g} ... {:.4g} m = {:.4g} ... {:.4g} texels{}\n",
                c.parameter, *c.window_min_depth, *c.window_max_depth, *c.window_min_depth * c.m_per_depth,
@@ -61,13 +61,13 @@ void print_ladder(const Measurement& m) {
                c.peter_panning_bound);
   if (c.acne_free_bias_depth && c.parameter == "bias.constant") {
     fmt::print("  free of acne from: {:.6g} depth = {:.4g} m{}", *c.acne_free_bias_depth,
-               *c.acne_free_bias_depth * c.m_per_depth, m.frame.parallel() ? "" : " at the median receiver");
+               *c.acne_free_bias_depth * c.m_per_depth, m.frame.uniform() ? "" : " at the median receiver");
     // The law in the parameter's own unit, which each receiver turns into depth for itself. Of what other parts of the
     // bias gain it knows nothing.
     const Bias bias(m.settings.bias);
     if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset())
       fmt::print(", on top of the other parts");
-    else if (m.frame.parallel() || m.settings.bias.unit == BiasUnit::m)
+    else if (m.frame.uniform() || m.settings.bias.unit == BiasUnit::m)
       fmt::print("; by law 1 the planes in the picture ask for {:.4g} m", value("acne_free_bias_law_m"));
     else if (m.settings.bias.unit == BiasUnit::depth)
       fmt::print("; by law 1 the planes in the picture ask for {:.4g} depth", value("acne_free_bias_law_depth"));

@@ -22,16 +22,15 @@ constexpr double in_front = 5e-3;
 
 using Corners = std::array<glm::dvec3, 4>;
 
-WorldLine loop(const Corners& c, Color color) { return {{c[0], c[1], c[2], c[3], c[0]}, color}; }
-
-// The corners of a directional or spot light's map at a depth.
-Corners corners_at(const LightFrame& light, double z) {
-  const double half = light.parallel() ? light.extent_m / 2 : z * light.tan_half_fov;
-  const glm::dvec2 shift =
-      light.parallel() ? glm::dvec2(0) : 2.0 * light.shift_texels / double(light.resolution) * half;
+// The corners of a tile at a depth along its axis.
+Corners corners_at(const LightFrame& light, const MapTile& tile, double z) {
+  const double half = tile.orthographic ? tile.half : z * tile.half;
+  const glm::dvec2 shift = 2.0 * tile.shift_texels / double(tile.resolution) * half;
   Corners c;
-  for (size_t k = 0; k < 4; ++k)
-    c[k] = light.to_world({(k == 1 || k == 2 ? half : -half) + shift.x, (k >= 2 ? half : -half) + shift.y, z});
+  for (size_t k = 0; k < 4; ++k) {
+    const double u = (k == 1 || k == 2 ? half : -half) + shift.x, v = (k >= 2 ? half : -half) + shift.y;
+    c[k] = light.to_world(u * tile.right + v * tile.up + z * tile.forward);
+  }
   return c;
 }
 
@@ -123,26 +122,30 @@ void mark(Image<Color>& picture, glm::dvec2 at, Color color) {
 }  // namespace
 
 std::vector<WorldLine> frustum_lines(const LightFrame& light) {
-  std::vector<WorldLine> lines;
-  if (light.kind == LightKind::point) {
-    const auto corner = [&](int k, double half) {
-      return light.origin_m + half * glm::dvec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+  std::vector<WorldLine> sides, far, near;
+  for (int index = 0; index < light.tiles(); ++index) {
+    const MapTile tile = light.tile(index);
+    const Corners nearest = corners_at(light, tile, tile.near_m), farthest = corners_at(light, tile, tile.far_m);
+    // The tiles of a cube share their edges: one line for each.
+    const auto add = [](std::vector<WorldLine>& lines, glm::dvec3 a, glm::dvec3 b, Color color) {
+      const bool known = std::any_of(lines.begin(), lines.end(), [&](const WorldLine& line) {
+        return (line.points[0] == a && line.points[1] == b) || (line.points[0] == b && line.points[1] == a);
+      });
+      if (!known) lines.push_back({{a, b}, color});
     };
-    for (int k = 0; k < 8; ++k) lines.push_back({{corner(k, light.near_m), corner(k, light.far_m)}, side_line});
-    for (const auto& [half, color] : {std::pair{light.near_m, near_line}, {light.far_m, far_line}})
-      for (int k = 0; k < 8; ++k)
-        for (int bit : {1, 2, 4})
-          if (!(k & bit)) lines.push_back({{corner(k, half), corner(k | bit, half)}, color});
-    return lines;
+    for (size_t k = 0; k < 4; ++k) {
+      add(sides, nearest[k], farthest[k], side_line);
+      add(far, farthest[k], farthest[(k + 1) % 4], far_line);
+      add(near, nearest[k], nearest[(k + 1) % 4], near_line);
+    }
   }
-  const Corners nearest = corners_at(light, light.near_m), farthest = corners_at(light, light.far_m);
-  for (size_t k = 0; k < 4; ++k) lines.push_back({{nearest[k], farthest[k]}, side_line});
-  if (light.kind == LightKind::spot) {
+  std::vector<WorldLine> lines = std::move(sides);
+  if (light.cos_half_cone > -1) {
     lines.push_back(rim(light, light.far_m, cone_line));
     lines.push_back(rim(light, light.near_m, cone_line));
   }
-  lines.push_back(loop(farthest, far_line));
-  lines.push_back(loop(nearest, near_line));
+  lines.insert(lines.end(), far.begin(), far.end());
+  lines.insert(lines.end(), near.begin(), near.end());
   return lines;
 }
 

@@ -81,7 +81,7 @@ Image<float> cube_cross(const Image<float>& map, int resolution, int cell, float
 }
 
 Image<Color> map_picture(const Image<float>& stored, const LightFrame& frame) {
-  const Image<float> depth = frame.kind == LightKind::point
+  const Image<float> depth = frame.map_shape() == MapShape::cube
                                  ? cube_cross(stored, frame.resolution, largest_cell, outside_cross)
                                  : shrunk(stored, std::min(stored.width, largest_side));
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;

@@ -2,35 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
-
 #include "gl/bias_text.h"
+#include "technique/light_kind.h"
 
 namespace noonmark::gl {
-namespace {
-
-struct LightRow {
-  LightKind kind;
-  const char* file;
-};
-constexpr LightRow light_rows[] = {
-    {LightKind::directional, "shaders/light/directional.glsl"},
-    {LightKind::spot, "shaders/light/spot.glsl"},
-    {LightKind::point, "shaders/light/point.glsl"},
-};
-
-}  // namespace
-
-const char* light_file(LightKind kind) {
-  for (const LightRow& row : light_rows)
-    if (row.kind == kind) return row.file;
-  throw std::logic_error("a kind of light without a row in gl/lookup_parts.cpp");
-}
 
 ShaderSlots receiver_slots(ProgramCache& programs, LightKind light, const Bias& bias) {
   const std::string bias_name = bias_text_name(bias);
   programs.define(bias_name, bias_text(bias));
-  return {{"light", light_file(light)}, {"bias", bias_name}};
+  return {{"light", fmt::format("shaders/light/{}.glsl", kind_of_light(light).name())}, {"bias", bias_name}};
 }
 
 ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bias, const Filter& filter) {

@@ -57,14 +57,14 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
   program.set_if_used("bias_unit", static_cast<int>(settings.bias.unit));
   set("light_bias_unit", frame.depth_per_bias_unit(settings.bias.unit, one_metre));
   set("light_far_m", frame.far_m);
-  if (frame.kind != LightKind::point) {
+  if (frame.map_shape() == MapShape::flat) {
     const glm::dmat4 clip_from_world = frame.clip_from_world();
     // Relative to the light, so that a plane's offset is small.
     const glm::dmat4 clip_from_light = glm::translate(clip_from_world, glm::dvec3(light_position));
     program.set("clip_from_world", glm::mat4(clip_from_world));
     program.set_if_used("clip_from_world_planes", glm::mat4(glm::transpose(glm::inverse(clip_from_light))));
     program.set("resolution", frame.resolution);
-    if (frame.parallel()) program.set_if_used("direction_to_light", glm::vec3(frame.direction_to_light()));
+    program.set_if_used("direction_to_light", glm::vec3(frame.direction_to_light()));  // of parallel rays
     program.set_if_used("light_axis", glm::vec3(frame.forward));
     program.set_if_used("light_right", glm::vec3(frame.right));
     program.set_if_used("light_up", glm::vec3(frame.up));
@@ -96,11 +96,11 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
   Impl& r = *impl_;
   r.context->make_current();
   validate(settings, frame.kind);
-  if (frame.resolution != map.resolution() || (frame.kind == LightKind::point) != map.impl_->cube)
+  if (frame.resolution != map.resolution() || (frame.map_shape() == MapShape::cube) != map.impl_->cube)
     throw Error(ErrorKind::defect,
                 fmt::format("lookup: the light's frame is for {} face(s) of {} texels, the map has "
                             "{} of {}",
-                            frame.faces(), frame.resolution, map.impl_->cube ? 6 : 1, map.resolution()));
+                            frame.tiles(), frame.resolution, map.impl_->cube ? 6 : 1, map.resolution()));
   const TapPattern pattern = tap_pattern(settings.filter);
   const Filter& filter = find_filter(settings.filter.kind);
   const ShaderSlots slots = lookup_slots(r.programs, frame.kind, Bias(settings.bias), filter);

@@ -52,7 +52,7 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
   if (frame.resolution != side)
     throw Error(ErrorKind::defect, fmt::format("render_map: the light's frame is for {} texels, the settings for {}",
                                                frame.resolution, side));
-  const bool cube = frame.kind == LightKind::point;
+  const bool cube = frame.map_shape() == MapShape::cube;
   const bool layered = cube && settings.map.cube_pass == CubePass::layered;
   Texture depth = r.make_map_texture(gl_format(settings.map.format), side, cube, settings.map.wrap);
   Program& program = r.programs.get(
@@ -60,7 +60,7 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
       : layered ? ShaderStages{"shaders/cube_layers.vert", "shaders/distance.frag", "shaders/cube_layers.geom"}
                 : ShaderStages{"shaders/cube_face.vert", "shaders/distance.frag"});
   std::array<glm::mat4, 6> clip_from_world;
-  for (int face = 0; face < frame.faces(); ++face)
+  for (int face = 0; face < frame.tiles(); ++face)
     clip_from_world[static_cast<size_t>(face)] = glm::mat4(frame.clip_from_world(face));
   if (cube) {
     program.set("light_position", glm::vec3(frame.origin_m));

@@ -37,7 +37,7 @@ LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings, P
   Impl& r = *impl_;
   r.context->make_current();
   validate(settings, frame.kind);
-  const bool cube = frame.kind == LightKind::point;
+  const bool cube = frame.map_shape() == MapShape::cube;
   r.check_resolution(frame.resolution, cube);
   const Bias bias(settings.bias);
   Program& program =
@@ -80,7 +80,7 @@ LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings, P
 }
 
 void Renderer::probe_strip(LookupProbe& probe, const LightFrame& frame, const Settings& settings, PixelRange strip) {
-  if (frame.kind != LightKind::point) return;
+  if (frame.map_shape() == MapShape::flat) return;
   Impl& r = *impl_;
   const auto width = static_cast<size_t>(r.position_image.width);
   if (strip.first % width != 0 || strip.end % width != 0) throw std::logic_error("a strip is of whole rows");

@@ -39,7 +39,7 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
     plane.low = *std::min_element(depths, depths + 3);
     plane.high = *std::max_element(depths, depths + 3);
     in_a_face_ |= !parallel_ && edge_on(t);
-    if (frame.kind != LightKind::point) continue;
+    if (frame.tile().depth != TileDepth::distance) continue;
     // No nearer than its plane, nor than a corner less the longest side.
     const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
     const double length = glm::length(n);
@@ -58,18 +58,6 @@ LightView LightView::with_map_of(const LightFrame& frame) const {
   LightView view = *this;
   view.frame_ = frame;
   return view;
-}
-
-glm::dvec3 LightView::normal_place(glm::dvec3 place) const {
-  switch (frame_.kind) {
-    case LightKind::directional:
-      return place;
-    case LightKind::spot:
-      return {place.x / place.z, place.y / place.z, 1};
-    case LightKind::point:
-      return glm::normalize(place);
-  }
-  return place;
 }
 
 double LightView::width(uint32_t triangle) const {
@@ -114,10 +102,6 @@ void LightView::first_hits(const EmbreeScene& embree, int count, const glm::dvec
   }
 }
 
-double LightView::near_depth(glm::dvec3 x) const {
-  if (frame_.kind != LightKind::point) return frame_.near_m;
-  const glm::dvec3 a = glm::abs(x);
-  return frame_.near_m / std::max({a.x, a.y, a.z});
-}
+double LightView::near_depth(glm::dvec3 x) const { return frame_.tile(frame_.tile_of(x)).near_depth(x); }
 
 }  // namespace noonmark

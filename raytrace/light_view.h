@@ -33,12 +33,9 @@ class LightView {
   // The distance by which rounding may have moved the corner.
   double corner_rounding_m(uint32_t triangle, int i) const;
 
-  glm::dvec3 normal_place(glm::dvec3 place) const;
+  glm::dvec3 normal_place(glm::dvec3 place) const { return frame_.light().normal_place(place); }
   glm::dvec3 place_of(glm::dvec3 light) const { return normal_place(frame_.place(light)); }
-  glm::dvec3 texel_place(glm::ivec2 texel) const {
-    const glm::dvec3 place = frame_.texel_place(texel);
-    return parallel_ ? place : normal_place(place);
-  }
+  glm::dvec3 texel_place(glm::ivec2 texel) const { return normal_place(frame_.texel_place(texel)); }
 
   // Positive if three points of the light's frame, or three places, run counter-clockwise as the light sees them, in
   // the map's u and v. The value is twice the area of their triangle for a directional light and the determinant of
@@ -88,6 +85,13 @@ class LightView {
     const double depth = plane_depth(triangle, x);
     return std::isnan(depth) ? plane.low : std::clamp(depth, plane.low, plane.high);
   }
+
+  // Metres across the light's rays for a step of 1 between normal places, at this depth.
+  double metres_across(double depth_m) const { return parallel_ ? 1 : depth_m; }
+
+  // Of a place on one side of all three edges: whether its ray meets the triangle before the light, not behind it.
+  // left: the place lies to the left of the edges as the light sees them.
+  bool ahead(uint32_t triangle, bool left) const { return parallel_ || left == (orientation(triangle) > 0); }
 
   // Whether a point of the light's frame may lie in the triangle's plane, if rounding has moved it by up to moved_m.
   bool touches(uint32_t triangle, glm::dvec3 point, double moved_m) const;

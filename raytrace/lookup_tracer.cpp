@@ -104,7 +104,7 @@ struct LookupTracer::Impl {
 LookupTracer::LookupTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
                            const LightFrame& frame, const MapSettings& map, const Bias& bias, double offset_unit) {
   std::optional<PolygonOffset> offset;  // a fragment shader that writes its own depth, a point light's, has none
-  if (bias.polygon_offset() && frame.kind != LightKind::point)
+  if (bias.polygon_offset() && frame.tile().depth != TileDepth::distance)
     offset.emplace(PolygonOffset{bias.polygon_offset()->factor, bias.polygon_offset()->units,
                                  map.format == DepthFormat::d32f ? 0 : offset_unit});
   const std::shared_ptr<LightSide> light = traced.lit_by(frame);
@@ -179,7 +179,7 @@ TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Im
       // A lookup that was moved behind a spot light has no place in the map: D is F.
       bool behind[packet_size];
       for (int k = 0; k < active; ++k) {
-        behind[k] = frame.kind == LightKind::spot && !(looked_up[k].z > 0);
+        behind[k] = !frame.light().has_place(looked_up[k]);
         if (behind[k]) moved[k] = exact[k];
       }
       for (int k = 0; k < active; ++k) {

@@ -85,7 +85,7 @@ uint32_t OwnSurface::next_on_sheet(uint32_t triangle, int edge, uint32_t from, g
 // the others.
 uint32_t OwnSurface::across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x) const {
   const glm::dvec3 place = view_.place_of(end), way = x - place;
-  const double length = glm::length(way) * (view_.parallel() ? 1 : view_.frame().depth_m(end));
+  const double length = glm::length(way) * view_.metres_across(view_.frame().depth_m(end));
   if (!(length > 0)) return no_primitive;
   std::vector<uint32_t> borders;
   silhouettes_.near(place, borders);
@@ -126,7 +126,7 @@ bool OwnSurface::covers(uint32_t triangle, glm::dvec3 x) const {
   }
   if ((least >= 0) == (most <= 0) || view_.edge_on(triangle)) return false;
   // On one side of all edges. For a light inside the scene this is also true behind the light, with all signs reversed.
-  return view_.parallel() || (least >= 0) == (view_.orientation(triangle) > 0);
+  return view_.ahead(triangle, least >= 0);
 }
 
 uint32_t OwnSurface::exact_first(glm::dvec3 x) const {
@@ -232,7 +232,7 @@ double OwnSurface::edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, 
 
 double OwnSurface::length_m(const SurfacePoint& p, glm::dvec3 x) const {
   const double length = glm::length(x - p.at);
-  return view_.parallel() ? length : length * view_.plane_depth(p.primitive, p.at);
+  return length * view_.metres_across(view_.plane_depth(p.primitive, p.at));
 }
 
 double OwnSurface::depth_error(uint32_t a, uint32_t b, glm::dvec3 x) const {
@@ -254,7 +254,7 @@ OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, 
     double begin, end;  // fractions of the way
   };
   const auto around = [&](size_t i, bool rounded) {
-    const double length = glm::length(way) * (view_.parallel() ? 1 : at[i].depth_m);  // longer the deeper the edge lies
+    const double length = glm::length(way) * view_.metres_across(at[i].depth_m);  // longer the deeper the edge lies
     const double aside = (rounding_share * beside_m() + (rounded ? at[i].rounding_m : 0.0)) / (length * at[i].sine);
     return Bracket{i, i, at[i].t - aside, at[i].t + aside};
   };

@@ -9,7 +9,7 @@ double PolygonOffset::of(const LightView& view, uint32_t triangle) const {
   const LightFrame& frame = view.frame();
   const glm::dvec3 n = view.normal_away(triangle), a = view.corner(triangle, 0);
   glm::dvec2 per_texel;
-  if (view.parallel()) {
+  if (frame.tile().orthographic) {
     per_texel = glm::dvec2(n) / n.z * frame.texel_m() / (frame.far_m - frame.near_m);
   } else {
     // On the plane n.q = n.a, 1 / z is n.(x, y, 1) / n.a at the place (x, y, 1), and window depth is far / (far - near)
@@ -23,7 +23,8 @@ double PolygonOffset::of(const LightView& view, uint32_t triangle) const {
     double largest = 0;
     for (int i = 0; i < 3; ++i) {
       const double depth = frame.depth_m(view.corner(triangle, i));
-      if (view.parallel() || depth > 0) largest = std::max(largest, std::clamp(frame.window_depth(depth), 0.0, 1.0));
+      if (frame.tile().orthographic || depth > 0)
+        largest = std::max(largest, std::clamp(frame.window_depth(depth), 0.0, 1.0));
     }
     int exponent = 0;
     std::frexp(largest, &exponent);
@@ -40,7 +41,7 @@ double least_offset_depth(const EmbreeScene& seen, const LightView& view, const 
   seen.all_hits(view.ray(x), hits);
   double least = 1;
   for (uint32_t triangle : hits) {
-    if (!view.parallel() && view.edge_on(triangle)) continue;
+    if (!frame.tile().orthographic && view.edge_on(triangle)) continue;
     const double depth = view.hit_depth(triangle, x);
     if (!clamped && (depth < frame.near_m || depth > frame.far_m)) continue;
     least = std::min(least, frame.window_depth(depth) + offset.of(view, triangle));

@@ -6,19 +6,11 @@
 #include <glm/glm.hpp>
 
 #include "raytrace/embree_scene.h"
-#include "scenes/camera_frame.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
 #include "technique/light_frame.h"
 
 namespace noonmark {
-
-// From a receiver to the light, or to a place on it.
-struct WayToLight {
-  glm::vec3 direction{0, 1, 0};  // unit, to float's rounding
-  float reach = std::numeric_limits<float>::infinity();
-  glm::dvec3 end{0};  // finite reach: the place
-};
 
 class ShadowStart {
  public:
@@ -45,8 +37,8 @@ class ShadowStart {
     const uint32_t own = receivers_.primitive[pixel];
     glm::dvec3 moved = receivers_.position[pixel];
     if (offset != glm::dvec2(0)) {
-      glm::dvec3 right = frame_.right, up = frame_.up;
-      if (!frame_.parallel()) upright_axes(frame_.direction_to_light(moved), {0, 1, 0}, right, up);
+      glm::dvec3 right, up;
+      frame_.light().axes_across(frame_, moved, right, up);
       moved += offset.x * right + offset.y * up;
     }
     const WayToLight way = way_from(moved);
@@ -59,11 +51,7 @@ class ShadowStart {
   }
 
  private:
-  WayToLight way_from(glm::dvec3 p) const {
-    if (frame_.parallel()) return {-frame_.ray_direction, std::numeric_limits<float>::infinity(), {}};
-    const glm::dvec3 way = frame_.origin_m - p;
-    return {glm::vec3(glm::normalize(way)), static_cast<float>(glm::length(way)), frame_.origin_m};
-  }
+  WayToLight way_from(glm::dvec3 p) const { return frame_.light().way_to_centre(frame_, p); }
 
   ShadowRay from(glm::vec3 origin, uint32_t own, const WayToLight& way) const {
     return {origin, way.direction, way.reach, way.end, own, own_distance(origin, own, way.direction)};

@@ -56,7 +56,7 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
   for (size_t i = 0; i < receivers.primitive.size(); ++i) {
     if (receivers.primitive[i] == no_primitive) continue;
     const glm::dvec3 p = receivers.position[i];
-    truth.facing[i] = frame.in_cone(p) && glm::dot(glm::dvec3(receivers.normal[i]), frame.direction_to_light(p)) > 0;
+    truth.facing[i] = frame.reaches(p) && glm::dot(glm::dvec3(receivers.normal[i]), frame.direction_to_light(p)) > 0;
     if (truth.facing[i]) facing.push_back(static_cast<uint32_t>(i));
   }
 

@@ -67,13 +67,10 @@ in_double::Surface surface_at(const LightFrame& frame, glm::dvec3 position, glm:
   in_double::Surface surface{};
   surface.normal = normal;
   surface.to_light = frame.direction_to_light(position);
-  surface.texel_right = frame.right;
-  surface.texel_up = frame.up;
-  if (frame.kind == LightKind::point) {
-    const CubeFace& face = cube_face(cube_face_of(frame.to_light(position)));
-    surface.texel_right = glm::abs(face.right);
-    surface.texel_up = glm::abs(face.up);
-  }
+  glm::dvec3 right, up;
+  frame.light().texel_axes(frame, frame.to_light(position), right, up);
+  surface.texel_right = right;
+  surface.texel_up = up;
   surface.n_dot_l = glm::dot(normal, surface.to_light);
   const double cosine = std::clamp(surface.n_dot_l, least_cosine, 1.0);
   surface.tan_theta = std::sqrt(1 - cosine * cosine) / cosine;

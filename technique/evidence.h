@@ -66,6 +66,9 @@ struct LookupProbe {
     return floored(at + glm::vec2(o));
   }
 
+  // The tile of the map (technique/map_tile.h) that a tap reads.
+  int tile(size_t i, int tap) const { return cube_resolution > 0 ? texel(i, tap).y / cube_resolution : 0; }
+
   // Whether the texels of these pixels' taps are known.
   bool holds(PixelRange pixels) const {
     return cube_resolution == 0 ||

@@ -1,8 +1,12 @@
 #include "technique/light_frame.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <stdexcept>
+
+#include "technique/setting_rules.h"
 
 namespace noonmark {
 
@@ -34,119 +38,27 @@ glm::dvec3 LightFrame::to_world(glm::dvec3 light) const {
   return origin_m + light.x * right + light.y * up + light.z * forward;
 }
 
-glm::dvec3 LightFrame::direction_to_light(glm::dvec3 world) const {
-  return parallel() ? -forward : glm::normalize(origin_m - world);
-}
-
-bool LightFrame::in_cone(glm::dvec3 world) const {
-  return kind != LightKind::spot || glm::dot(glm::normalize(world - origin_m), forward) >= cos_half_cone;
-}
-
-double LightFrame::depth_m(glm::dvec3 light) const { return kind == LightKind::point ? glm::length(light) : light.z; }
-
-double LightFrame::window_depth(double depth) const {
-  switch (kind) {
-    case LightKind::directional:
-      return (depth - near_m) / (far_m - near_m);
-    case LightKind::spot:
-      return far_m * (depth - near_m) / (depth * (far_m - near_m));
-    case LightKind::point:
-      return depth / far_m;
-  }
-  throw std::logic_error("a kind of light without a depth");
-}
-
-double LightFrame::depth_of_window(double window) const {
-  switch (kind) {
-    case LightKind::directional:
-      return near_m + window * (far_m - near_m);
-    case LightKind::spot:
-      return far_m * near_m / (far_m - window * (far_m - near_m));
-    case LightKind::point:
-      return window * far_m;
-  }
-  throw std::logic_error("a kind of light without a depth");
-}
-
-double LightFrame::window_depth_slope(double depth) const {
-  switch (kind) {
-    case LightKind::directional:
-      return 1 / (far_m - near_m);
-    case LightKind::spot:
-      return far_m * near_m / (depth * depth * (far_m - near_m));
-    case LightKind::point:
-      return 1 / far_m;
-  }
-  throw std::logic_error("a kind of light without a depth");
-}
-
-double LightFrame::texel_m(glm::dvec3 light) const {
-  if (parallel()) return texel_m();
-  const glm::dvec3 a = glm::abs(light);
-  const double z = kind == LightKind::spot ? light.z : std::max({a.x, a.y, a.z});
-  return 2 * z * tan_half_fov / resolution;
-}
-
-glm::dvec3 LightFrame::place(glm::dvec3 light) const { return parallel() ? glm::dvec3(light.x, light.y, 1) : light; }
-
-glm::dvec3 LightFrame::tap_place(glm::dvec3 light, glm::dvec3 offset) const {
-  if (kind == LightKind::point) return light + offset;
-  const double w = texel_m(light);
-  return place(light + glm::dvec3(offset.x * w, offset.y * w, 0));
-}
-
-glm::dvec3 LightFrame::texel_place(glm::ivec2 texel) const {
-  if (parallel()) return {(glm::dvec2(texel) + 0.5) * texel_m() - extent_m / 2, 1};
-  int face = 0;
-  if (kind == LightKind::point) {
-    face = texel.y / resolution;
-    texel.y %= resolution;
-  }
-  const glm::dvec2 side =
-      (2.0 * (glm::dvec2(texel) + 0.5 + shift_texels) / static_cast<double>(resolution) - 1.0) * tan_half_fov;
-  if (kind == LightKind::spot) return {side, 1};
-  const CubeFace& axes = cube_face(face);
-  return axes.forward + side.x * axes.right + side.y * axes.up;
-}
-
-glm::dvec2 LightFrame::map_texels(glm::dvec3 place) const {
-  if (parallel()) return (glm::dvec2(place) / extent_m + 0.5) * static_cast<double>(resolution);
-  glm::dvec3 axes = place;
-  int face = 0;
-  if (kind == LightKind::point) {
-    face = cube_face_of(place);
-    const CubeFace& f = cube_face(face);
-    axes = {glm::dot(place, f.right), glm::dot(place, f.up), glm::dot(place, f.forward)};
-  }
-  const glm::dvec2 side = glm::dvec2(axes) / (axes.z * tan_half_fov);
-  return (side + 1.0) / 2.0 * static_cast<double>(resolution) - shift_texels + glm::dvec2(0, face * resolution);
-}
-
-glm::dmat4 LightFrame::clip_from_world(int face) const {
-  glm::dvec3 axes[3] = {right, up, forward};
-  if (kind == LightKind::point) {
-    const CubeFace& f = cube_face(face);
-    axes[0] = f.right;
-    axes[1] = f.up;
-    axes[2] = f.forward;
-  }
-  const double range = far_m - near_m;
+glm::dmat4 LightFrame::clip_from_world(int index) const {
+  const MapTile t = tile(index);
+  const auto in_world = [&](glm::dvec3 axis) { return axis.x * right + axis.y * up + axis.z * forward; };
+  const glm::dvec3 axes[3] = {in_world(t.right), in_world(t.up), in_world(t.forward)};
+  const double range = t.far_m - t.near_m;
   glm::dvec3 rows[4];
   double offsets[4] = {0, 0, 0, 0};
-  if (parallel()) {
-    rows[0] = axes[0] * (2 / extent_m);
-    rows[1] = axes[1] * (2 / extent_m);
+  if (t.orthographic) {
+    rows[0] = axes[0] * (1 / t.half);
+    rows[1] = axes[1] * (1 / t.half);
     rows[2] = axes[2] * (2 / range);
     rows[3] = glm::dvec3(0);
-    offsets[2] = -2 * near_m / range - 1;
+    offsets[2] = -2 * t.near_m / range - 1;
     offsets[3] = 1;
   } else {
-    const glm::dvec2 shift = 2.0 * shift_texels / static_cast<double>(resolution);
-    rows[0] = axes[0] / tan_half_fov - axes[2] * shift.x;
-    rows[1] = axes[1] / tan_half_fov - axes[2] * shift.y;
-    rows[2] = axes[2] * ((far_m + near_m) / range);
+    const glm::dvec2 shift = 2.0 * t.shift_texels / static_cast<double>(t.resolution);
+    rows[0] = axes[0] / t.half - axes[2] * shift.x;
+    rows[1] = axes[1] / t.half - axes[2] * shift.y;
+    rows[2] = axes[2] * ((t.far_m + t.near_m) / range);
     rows[3] = axes[2];
-    offsets[2] = -2 * far_m * near_m / range;
+    offsets[2] = -2 * t.far_m * t.near_m / range;
   }
   glm::dmat4 matrix(0);  // column-major: matrix[column][row]
   for (int row = 0; row < 4; ++row) {
@@ -156,16 +68,56 @@ glm::dmat4 LightFrame::clip_from_world(int face) const {
   return matrix;
 }
 
-double LightFrame::depth_per_bias_unit(BiasUnit unit, glm::dvec3 light) const {
+double LightFrame::depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const {
   switch (unit) {
     case BiasUnit::depth:
       return 1;
     case BiasUnit::m:
-      return window_depth_slope(depth_m(light));
+      return window_depth_slope(depth_m(point));
     case BiasUnit::texel:
-      return texel_m(light) * window_depth_slope(depth_m(light));
+      return texel_m(point) * window_depth_slope(depth_m(point));
   }
   throw std::logic_error("unknown bias unit");
+}
+
+MapVolume fit_map(const Scene& scene, const Light& light) {
+  const KindOfLight& kind = kind_of_light(light.kind);
+  return kind.fit(scene, kind.axes(light));
+}
+
+Light effective_light(const Scene& scene, const Settings& settings) {
+  Light light = scene.light;
+  const LightSettings& s = settings.light;
+  if (s.kind != LightChoice::automatic) light.kind = static_cast<LightKind>(static_cast<int>(s.kind) - 1);
+  if (s.position_m) light.position_m = *s.position_m;
+  if (s.target_m) light.target_m = *s.target_m;
+  if (s.angular_diameter_deg) light.angular_diameter_deg = *s.angular_diameter_deg;
+  if (s.radius_m) light.radius_m = *s.radius_m;
+  if (s.cone_deg) light.cone_deg = *s.cone_deg;
+  light.shape = s.shape;
+  return light;
+}
+
+LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
+  const Light light = effective_light(scene, settings);
+  validate(settings, light.kind);
+  // The scene's own volume was chosen for the scene's own light.
+  const bool own = light.kind == scene.light.kind && !settings.light.position_m && !settings.light.target_m;
+  const bool scenes_own = scene.map && own && settings.map.fit == MapFit::scene;
+  const MapVolume volume = scenes_own ? *scene.map : fit_map(scene, light);
+
+  const KindOfLight& kind = kind_of_light(light.kind);
+  LightFrame frame = kind.axes(light);
+  frame.near_m = settings.map.near_m.value_or(volume.near_m);
+  frame.far_m = settings.map.far_m.value_or(volume.far_m);
+  frame.resolution = settings.map.resolution;
+  if (!(frame.near_m < frame.far_m) || !std::isfinite(frame.far_m - frame.near_m))
+    throw SettingConflict("map.far_m",
+                          fmt::format("the map's near plane ({} m) is not before its far plane ({} m); set "
+                                      "map.near_m and map.far_m",
+                                      frame.near_m, frame.far_m));
+  kind.lay_map(frame, light, volume, settings.map);
+  return frame;
 }
 
 }  // namespace noonmark

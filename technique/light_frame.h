@@ -16,6 +16,7 @@
 #include <glm/glm.hpp>
 
 #include "scenes/scene.h"
+#include "technique/light_kind.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -43,39 +44,52 @@ struct LightFrame {
   double far_m = 1;
   int resolution = 1;
 
-  bool parallel() const { return kind == LightKind::directional; }
-  int faces() const { return kind == LightKind::point ? 6 : 1; }
-  glm::ivec2 map_size() const { return {resolution, faces() * resolution}; }
+  const KindOfLight& light() const { return kind_of_light(kind); }
+  bool parallel() const { return light().parallel_rays(); }
+  MapShape map_shape() const { return light().map_shape(); }
+  // One size of a texel and one step of depth, everywhere.
+  bool uniform() const { return parallel(); }
+
+  // The map's tiles, one above the other in its image.
+  int tiles() const { return light().tiles(); }
+  MapTile tile(int index = 0) const { return light().tile(*this, index); }
+  int tile_of(glm::dvec3 place) const { return light().tile_of(place); }
+  glm::ivec2 map_size() const { return {resolution, tiles() * resolution}; }
 
   glm::dvec3 to_light(glm::dvec3 world) const;
   glm::dvec3 to_world(glm::dvec3 light) const;
-  glm::dvec3 direction_to_light(glm::dvec3 world) const;  // unit
+  glm::dvec3 direction_to_light(glm::dvec3 world) const { return light().direction_to_light(*this, world); }  // unit
   // Of a directional light, which has the same everywhere.
   glm::dvec3 direction_to_light() const { return -forward; }
-  bool in_cone(glm::dvec3 world) const;  // true but for a spot light's outside
+  bool reaches(glm::dvec3 world) const { return light().reaches(*this, world); }  // true but for a spot light's outside
 
-  // What the map's depth measures, of a point in the light's frame: metres along the axis, or the distance.
-  double depth_m(glm::dvec3 light) const;
-  double window_depth(double depth_m) const;
-  double depth_of_window(double window_depth) const;  // its inverse
-  double window_depth_slope(double depth_m) const;    // its derivative, per metre
+  // What the map's depth measures, of a point in the light's frame: metres along the axis, or the distance. All tiles
+  // share it.
+  double depth_m(glm::dvec3 point) const { return tile().depth_m(point); }
+  double window_depth(double depth_m) const { return tile().window_depth(depth_m); }
+  double depth_of_window(double window_depth) const { return tile().depth_of_window(window_depth); }
+  double window_depth_slope(double depth_m) const { return tile().window_depth_slope(depth_m); }
 
   // The world size of one texel at a point in the light's frame. texel_m(): of a directional light, everywhere.
-  double texel_m(glm::dvec3 light) const;
+  double texel_m(glm::dvec3 point) const { return tile(tile_of(point)).texel_m(point); }
   double texel_m() const { return extent_m / resolution; }
 
-  glm::dvec3 place(glm::dvec3 light) const;  // of a point in the light's frame
+  glm::dvec3 place(glm::dvec3 point) const { return light().place(point); }  // of a point in the light's frame
   // Of one tap of a lookup at this point: offset in texels of a flat map, in metres of the world for a point light.
-  glm::dvec3 tap_place(glm::dvec3 light, glm::dvec3 offset) const;
-  glm::dvec3 texel_place(glm::ivec2 texel) const;  // of its centre; flat maps: any integers, also outside the map
-  // Where a place lies in the map, in texels; floor() of it is the texel. For point lights with the face in it.
-  glm::dvec2 map_texels(glm::dvec3 place) const;
+  glm::dvec3 tap_place(glm::dvec3 point, glm::dvec3 offset) const { return light().tap_place(*this, point, offset); }
+  // Of a texel's centre; flat maps: any integers, also outside the map.
+  glm::dvec3 texel_place(glm::ivec2 texel) const {
+    const int index = tiles() > 1 ? texel.y / resolution : 0;
+    return tile(index).place_of(texel);
+  }
+  // Where a place lies in the map, in texels; floor() of it is the texel.
+  glm::dvec2 map_texels(glm::dvec3 place) const { return tile(tile_of(place)).texels(place); }
   // Directional: u and v of a texel's centre.
   glm::dvec2 texel_centre(glm::ivec2 texel) const { return glm::dvec2(texel_place(texel)); }
 
-  glm::dmat4 clip_from_world(int face = 0) const;
+  glm::dmat4 clip_from_world(int tile = 0) const;
   // One unit of bias (settings.bias.unit) in window depth, at a point in the light's frame.
-  double depth_per_bias_unit(BiasUnit unit, glm::dvec3 light) const;
+  double depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const;
 };
 
 // The axes of a cube face in the world's, as OpenGL lays them down: s to the right, t up, and the way it looks.

@@ -7,15 +7,13 @@
 
 #include "scenes/library.h"
 #include "technique/filters.h"
+#include "technique/light_kind.h"
 
 namespace noonmark {
 namespace setting_rules {
 namespace {
 
-// The choices of light.kind are the kinds in their order, behind `auto`.
-std::string on_a(LightKind light) {
-  return fmt::format("on a {} light", find_setting("light.kind").choices[1 + static_cast<size_t>(light)]);
-}
+std::string on_a(LightKind light) { return fmt::format("on a {} light", kind_of_light(light).name()); }
 
 // "none, box or poisson": the names of the filters that are meant.
 template <class Meant>
@@ -90,10 +88,11 @@ std::string no_direction_up(const Settings& s, std::optional<LightKind>) {
 std::string filter_of_another_map(const Settings& s, std::optional<LightKind> light) {
   if (!light) return "";
   const Filter& filter = find_filter(s.filter.kind);
-  if (light == LightKind::point && filter.map == FilterMap::flat)
+  const bool cube = kind_of_light(*light).map_shape() == MapShape::cube;
+  if (cube && filter.map == FilterMap::flat)
     return fmt::format("filter.kind = {} needs a flat map; a point light's cube map takes {}", s.filter.kind,
                        filters_that([](const Filter& f) { return f.map != FilterMap::flat; }));
-  if (light != LightKind::point && filter.map == FilterMap::cube)
+  if (!cube && filter.map == FilterMap::cube)
     return fmt::format("filter.kind = {} needs a cube map; set light.kind = point, or take another filter",
                        s.filter.kind);
   return "";
@@ -101,7 +100,7 @@ std::string filter_of_another_map(const Settings& s, std::optional<LightKind> li
 
 std::string plane_on_cube_or_blended(const Settings& s, std::optional<LightKind> light) {
   if (!tap_reference(s.bias.reference).plane) return "";
-  if (light == LightKind::point)
+  if (light && kind_of_light(*light).map_shape() == MapShape::cube)
     return fmt::format("bias.reference = {} needs a flat map; a point light's cube map has own_depth alone",
                        s.bias.reference);
   if (!find_filter(s.filter.kind).blended) return "";
@@ -112,12 +111,14 @@ std::string plane_on_cube_or_blended(const Settings& s, std::optional<LightKind>
 }
 
 std::string shifted_cube(const Settings& s, std::optional<LightKind> light) {
-  if (light != LightKind::point || (s.map.shift_u_texels == 0 && s.map.shift_v_texels == 0)) return "";
+  if (!light || kind_of_light(*light).map_shape() == MapShape::flat ||
+      (s.map.shift_u_texels == 0 && s.map.shift_v_texels == 0))
+    return "";
   return "map.shift_*_texels needs a flat map; move the point light instead";
 }
 
 std::string snapped_perspective(const Settings& s, std::optional<LightKind> light) {
-  if (!s.map.snap || !light || *light == LightKind::directional) return "";
+  if (!s.map.snap || !light || kind_of_light(*light).parallel_rays()) return "";
   return "map.snap needs a directional light: only its texels have one size everywhere";
 }
 

@@ -10,6 +10,7 @@
 #include "scenes/error.h"
 #include "scenes/text.h"
 #include "technique/filters.h"
+#include "technique/light_kind.h"
 #include "technique/setting_rows.h"
 #include "technique/setting_rules.h"
 
@@ -89,6 +90,17 @@ Stages stages_of_group(std::string_view group) {
   throw std::logic_error("no stage reads the group of settings '" + std::string(group) + "'");
 }
 
+// The kinds are read off their table; LightChoice counts them behind `auto`.
+Setting light_kind_row() {
+  std::vector<std::string_view> choices = {"auto"};
+  std::string help = "auto: the scene's";
+  for (const KindOfLight* kind : kinds_of_light()) {
+    choices.push_back(kind->name());
+    help += fmt::format("; {}: {}", kind->name(), kind->help());
+  }
+  return choice("light.kind", choices, help + ".", MEMBER(light.kind));
+}
+
 std::vector<Setting> make_table() {
   std::vector<Setting> table = {
       text("scene.name", "A built-in scene, or the path of a .gltf or .glb file.", MEMBER(scene.name)),
@@ -141,10 +153,7 @@ std::vector<Setting> make_table() {
            "gives them.",
            MEMBER(view.fit_depths))
           .idle(where_depths_are_fitted),
-      choice("light.kind", {"auto", "directional", "spot", "point"},
-             "directional: parallel rays and one orthographic map; spot: one perspective map; point: a cube map of "
-             "distances; auto: the scene's.",
-             MEMBER(light.kind)),
+      light_kind_row(),
       point("light.position_m", "m",
             "Position of a spot or point light; the depth of a directional light's map is measured from here; auto: "
             "the scene's.",

@@ -236,7 +236,7 @@ TEST(BuiltinScenes, EveryKindOfLightHasSomethingToDoInEveryScene) {
         const glm::dvec3 middle = (corner(scene, t, 0) + corner(scene, t, 1) + corner(scene, t, 2)) / 3.0;
         const glm::dvec3 n =
             glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0));
-        facing += f.in_cone(middle) && glm::dot(n, f.direction_to_light(middle)) > 0;
+        facing += f.reaches(middle) && glm::dot(n, f.direction_to_light(middle)) > 0;
         nearest = std::min(nearest, glm::length(middle - f.origin_m));
       }
       EXPECT_GT(facing, 0u) << what;

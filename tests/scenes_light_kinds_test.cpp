@@ -2,6 +2,7 @@
 // scenes; and the grid that map.snap keeps still.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -31,6 +32,7 @@ LightFrame random_frame(std::mt19937& random, LightKind kind) {
   settings.map.near_m = random_in(random, 0.1, 1);
   settings.map.far_m = random_in(random, 5, 50);
   settings.map.resolution = 1 + static_cast<int>(random() % 500);
+  if (kind == LightKind::directional) settings.map.extent_m = random_in(random, 1, 50);
   if (kind == LightKind::spot) {
     settings.light.cone_deg = random_in(random, 5, 150);
     settings.map.fov_deg = random_in(random, 5, 150);
@@ -49,6 +51,28 @@ glm::dvec3 lit_point(std::mt19937& random, const LightFrame& f) {
 
 class Kinds : public testing::TestWithParam<LightKind> {};
 INSTANTIATE_TEST_SUITE_P(Central, Kinds, testing::Values(LightKind::spot, LightKind::point));
+
+// A tile's texels are its own: the place of each centre lies in the tile that the texel belongs to, and at that texel.
+TEST(Tiles, CoverTheMapAndKnowTheirTexels) {
+  std::mt19937 random(7);
+  for (const KindOfLight* kind : kinds_of_light()) {
+    for (int i = 0; i < 100; ++i) {
+      const LightKind which = static_cast<LightKind>(std::find(kinds_of_light().begin(), kinds_of_light().end(), kind) -
+                                                     kinds_of_light().begin());
+      ASSERT_EQ(&kind_of_light(which), kind);
+      const LightFrame f = random_frame(random, which);
+      ASSERT_EQ(f.map_size().y, f.tiles() * f.resolution);
+      const glm::ivec2 texel(static_cast<int>(random() % static_cast<unsigned>(f.map_size().x)),
+                             static_cast<int>(random() % static_cast<unsigned>(f.map_size().y)));
+      const glm::dvec3 place = f.texel_place(texel);
+      const int tile = f.tile_of(place);
+      EXPECT_EQ(tile, texel.y / f.resolution) << kind->name();
+      EXPECT_EQ(f.tile(tile).corner, glm::ivec2(0, tile * f.resolution));
+      EXPECT_LT(glm::length(f.tile(tile).texels(place) - (glm::dvec2(texel) + 0.5)), rounding * f.resolution);
+      EXPECT_EQ(f.tile(tile).place_of(texel), place);
+    }
+  }
+}
 
 TEST_P(Kinds, MatrixAgreesWithPlacesAndDepths) {
   std::mt19937 random(1);
@@ -198,7 +222,7 @@ TEST(SpotLight, ConeIsItsAngle) {
   for (double degrees : {0.0, 10.0, 19.9, 20.1, 60.0, 100.0}) {
     const double a = degrees * std::numbers::pi / 180;
     for (double turn : {0.0, 1.0, 4.0})
-      EXPECT_EQ(f.in_cone(f.to_world(
+      EXPECT_EQ(f.reaches(f.to_world(
                     3.0 * glm::dvec3(std::sin(a) * std::cos(turn), std::sin(a) * std::sin(turn), std::cos(a)))),
                 degrees < 20)
           << degrees;
@@ -275,7 +299,7 @@ TEST_P(Kinds, FittedVolumeHoldsAllThatIsInTheLight) {
         const glm::dvec3 corner(lit.positions[t.x]);
         const glm::dvec3 world =
             corner + a * (glm::dvec3(lit.positions[t.y]) - corner) + b * (glm::dvec3(lit.positions[t.z]) - corner);
-        if (!f.in_cone(world)) continue;
+        if (!f.reaches(world)) continue;
         const glm::dvec3 light = f.to_light(world);
         const int face = f.kind == LightKind::point ? cube_face_of(light) : 0;
         const double along = f.kind == LightKind::point ? glm::dot(light, cube_face(face).forward) : light.z;

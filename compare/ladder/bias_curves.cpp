@@ -279,7 +279,7 @@ BiasCounts::Best BiasCounts::best(float most) const {
 
 BiasScale bias_scale(const LightFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,
                      BiasUnit unit) {
-  if (frame.parallel()) {
+  if (frame.uniform()) {
     const double range = frame.far_m - frame.near_m;
     return {frame.depth_per_bias_unit(unit, {}), range, range / frame.texel_m()};
   }

@@ -64,7 +64,7 @@ double least_distance(glm::dvec3 n, double h, const CubeFace& face, glm::dvec2 l
 glm::dvec2 depth_gradient(const LightFrame& frame, glm::dvec3 position, glm::dvec3 normal) {
   const glm::dvec2 across(glm::dot(normal, frame.right), glm::dot(normal, frame.up));
   const double range = frame.far_m - frame.near_m;
-  if (frame.parallel()) return -across / glm::dot(normal, frame.forward) * (frame.texel_m() / range);
+  if (frame.tile().orthographic) return -across / glm::dot(normal, frame.forward) * (frame.texel_m() / range);
   const double h = glm::dot(normal, position - frame.origin_m);
   return -across / h * (frame.far_m * frame.near_m / range * 2 * frame.tan_half_fov / frame.resolution);
 }
@@ -83,7 +83,7 @@ AcneLaw::AcneLaw(const LightFrame& frame, const LookupProbe& probe)
 }
 
 double AcneLaw::at(size_t i, glm::dvec3 position, glm::dvec3 normal) const {
-  if (frame_.kind == LightKind::point) return cube_need(i, position, normal);
+  if (frame_.map_shape() == MapShape::cube) return cube_need(i, position, normal);
   if (reach_texels_ == 0) return 0;  // also where the light sees the plane edge on
   const glm::dvec2 g = depth_gradient(frame_, position, normal);
   if (!std::isnan(reach_texels_)) return reach_texels_ * (std::abs(g.x) + std::abs(g.y));
@@ -113,7 +113,7 @@ double AcneLaw::cube_need(size_t i, glm::dvec3 position, glm::dvec3 normal) cons
 }
 
 double AcneLaw::of_face(const glm::dvec3 (&corners)[3], glm::dvec3 normal) const {
-  if (frame_.kind != LightKind::point) {
+  if (frame_.map_shape() == MapShape::flat) {
     if (!std::isnan(reach_texels_)) return at(0, corners[0], normal);
     return need_of(probe_.pattern.offsets, depth_gradient(frame_, corners[0], normal));
   }

@@ -69,22 +69,6 @@ Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>&
   return over;
 }
 
-// Whether all of a triangle lies beyond one side of the square pyramid around a spot light's cone.
-bool beyond_cone(const LightFrame& frame, const glm::dvec3 (&corners)[3]) {
-  if (frame.kind != LightKind::spot) return false;
-  const double tangent = std::sqrt(1 - frame.cos_half_cone * frame.cos_half_cone) / frame.cos_half_cone;
-  for (int axis = 0; axis < 2; ++axis)
-    for (int sign : {-1, 1}) {
-      bool beyond = true;
-      for (const glm::dvec3& corner : corners) {
-        const glm::dvec3 p = frame.to_light(corner);
-        beyond = beyond && sign * p[axis] > p.z * tangent;
-      }
-      if (beyond) return true;
-    }
-  return false;
-}
-
 // Also what the camera does not see: the way from a receiver to its texel's centre may lead over it.
 Over over_faces(const LawInput& in, const AcneLaw& law, double quantum) {
   Over over;
@@ -96,7 +80,7 @@ Over over_faces(const LawInput& in, const AcneLaw& law, double quantum) {
     // Edge-on faces have no depth of their own in the light's plane; below 1e-9 of a face's size, the double's rounding
     // of float coordinates decides which way it turns.
     if (!(glm::dot(normal, in.frame.direction_to_light(corners[0])) > 1e-9 * glm::length(normal)) ||
-        beyond_cone(in.frame, corners))
+        in.frame.light().misses(in.frame, corners))
       continue;
     // The least of the slopes: at the corner farthest from the light.
     double farthest = -std::numeric_limits<double>::infinity();
@@ -169,10 +153,11 @@ std::map<std::string, double> measure_laws(const LawInput& in) {
   };
   const auto area = [&](Cause cause) { return measured(receivers.area[static_cast<size_t>(cause)]); };
   const double range_m = in.frame.far_m - in.frame.near_m;
-  return {{"texel_m", in.frame.parallel() ? in.frame.texel_m() : median_texel_m(in)},
+  return {{"texel_m", in.frame.uniform() ? in.frame.texel_m() : median_texel_m(in)},
           {"map_range_m", range_m},
-          {"depth_quantum_m", in.frame.kind == LightKind::spot ? measured(receivers.quantum_m)
-                                                               : quantum / in.frame.window_depth_slope(in.frame.far_m)},
+          {"depth_quantum_m", in.frame.tile().depth == TileDepth::perspective
+                                  ? measured(receivers.quantum_m)
+                                  : quantum / in.frame.window_depth_slope(in.frame.far_m)},
           {"acne_free_bias_law_depth", measured(receivers.law_depth)},
           {"acne_free_bias_law_m", measured(receivers.law_m)},
           {"acne_free_bias_scene_law_depth", faces.law_depth},

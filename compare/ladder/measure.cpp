@@ -81,7 +81,7 @@ double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
   const double turned = theta + std::asin(std::min(1.0, across / distance));
   const double slope = turned < std::numbers::pi / 2 ? distance * (cosine / std::cos(turned) - 1)
                                                      : std::numeric_limits<double>::infinity();
-  const double along_ray = frame.kind == LightKind::spot ? distance / light.z : 1;
+  const double along_ray = distance / frame.depth_m(light);  // 1 where depth is the distance
   return bias * along_ray + slope + offset / cosine;
 }
 

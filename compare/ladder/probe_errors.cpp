@@ -34,7 +34,7 @@ struct ProbeCheck::Place {
 ProbeCheck::ProbeCheck(const LookupEvidence& evidence, const ReceiverImage& receivers, const LightFrame& frame,
                        glm::dvec3 eye_m)
     : e_(evidence), receivers_(receivers), frame_(frame), eye_m_(eye_m), light_position_(glm::vec3(frame.origin_m)) {
-  if (frame.kind == LightKind::point) return;
+  if (frame.map_shape() == MapShape::cube) return;
   clip_ = frame.clip_from_world();
   planes_ = glm::transpose(glm::inverse(glm::translate(clip_, light_position_)));
 }
@@ -47,8 +47,8 @@ ProbeCheck::Place ProbeCheck::looked_up(size_t i) const {
   Place place{at, {}, glm::dvec3(0)};
   if (e_.bias.moves_lookup()) {
     double amount = 2 * u;
-    if (frame_.kind == LightKind::point) amount = 4 * u;
-    if (frame_.kind == LightKind::spot) {
+    if (frame_.map_shape() == MapShape::cube) amount = 4 * u;
+    if (frame_.tile().depth == TileDepth::perspective) {
       const glm::dvec3 light = frame_.to_light(at);
       amount = 3 * u + 5 * u * sum_of(glm::abs((at - frame_.origin_m) * frame_.forward)) / std::abs(light.z);
     }
@@ -99,7 +99,7 @@ in_bounds::Surface ProbeCheck::bounded_surface(glm::dvec3 position, glm::dvec3 n
 glm::dvec4 ProbeCheck::row_errors(const Place& place) const {
   constexpr double in_double = (6 + 7 + 6) * 0x1p-53;
   glm::dvec4 errors(0);
-  for (int row = 0; row < (frame_.parallel() ? 3 : 4); ++row) {
+  for (int row = 0; row < (frame_.tile().orthographic ? 3 : 4); ++row) {
     double sum = std::abs(clip_[3][row]), moved = 0, exact = 0;
     for (int j = 0; j < 3; ++j) {
       sum += std::abs(clip_[j][row] * place.world[j]);
@@ -114,7 +114,7 @@ glm::dvec4 ProbeCheck::row_errors(const Place& place) const {
 // Whether the lookup may take P for no place of the map: at the light, behind a spot light, or where floats end.
 bool ProbeCheck::may_ask_nothing(const Place& place) const {
   constexpr double largest = std::numeric_limits<float>::max();
-  if (frame_.kind == LightKind::point) {
+  if (frame_.map_shape() == MapShape::cube) {
     const double depth = frame_.window_depth(glm::length(place.light));
     return !(depth > std::numeric_limits<float>::min() + glm::length(place.error) / frame_.far_m) || !(depth < largest);
   }
@@ -151,7 +151,7 @@ void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) 
     raise_error(found.excess, std::abs(beside) / (frame_.resolution * (error + u * std::abs(at))));
   }
 
-  if (frame_.kind == LightKind::spot && e_.bias.unit() != BiasUnit::depth) {
+  if (frame_.tile().depth == TileDepth::perspective && e_.bias.unit() != BiasUnit::depth) {
     const double expected = frame_.depth_per_bias_unit(e_.bias.unit(), place.light);
     const double axis = row_error[3] / std::abs(clip.w);  // w is the depth along the axis
     // A rounded constant over w, or over its rounded square.
@@ -186,8 +186,8 @@ void ProbeCheck::compare_cube(size_t i, const Place& place, ProbeErrors& found) 
     const glm::dvec3 way_error = error + glm::abs(way) * u;
     // In the face that the sampler chose, also where the exact direction is just beyond its edge.
     const glm::ivec2 texel = probe.texel(i, t);
-    const CubeFace& face = cube_face(texel.y / frame_.resolution);
-    const glm::dvec2 in_face(texel.x, texel.y % frame_.resolution);
+    const MapTile face = frame_.tile(probe.tile(i, t));
+    const glm::dvec2 in_face(texel - face.corner);
     const double ahead = glm::dot(way, face.forward), ahead_error = glm::dot(way_error, glm::abs(face.forward));
     for (int axis = 0; axis < 2; ++axis) {
       const glm::dvec3& side = axis == 0 ? face.right : face.up;
@@ -265,7 +265,7 @@ void ProbeCheck::compare(size_t i, ProbeErrors& found) const {
     raise_error(found.excess, may_ask_nothing(place) ? 0 : std::numeric_limits<double>::infinity());
     return;
   }
-  if (frame_.kind == LightKind::point)
+  if (frame_.map_shape() == MapShape::cube)
     compare_cube(i, place, found);
   else
     compare_flat(i, place, found);

@@ -1,0 +1,73 @@
+#include "technique/lights/central.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "technique/setting_rules.h"
+
+namespace noonmark::lights {
+namespace {
+
+// The point of the triangle that is nearest to the origin (Ericson, Real-Time Collision Detection, 5.1.5: by the
+// regions of its corners, edges and inside).
+double nearest_to_origin(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+  const auto segment = [](glm::dvec3 p, glm::dvec3 q) {
+    const glm::dvec3 way = q - p;
+    const double length2 = glm::dot(way, way);
+    const double t = length2 > 0 ? std::clamp(-glm::dot(p, way) / length2, 0.0, 1.0) : 0;
+    return glm::length(p + t * way);
+  };
+  double nearest = std::min({segment(a, b), segment(b, c), segment(c, a)});
+  const glm::dvec3 n = glm::cross(b - a, c - a);
+  const double length2 = glm::dot(n, n);
+  if (length2 > 0) {
+    const glm::dvec3 foot = n * (glm::dot(n, a) / length2);
+    const auto left = [&](glm::dvec3 p, glm::dvec3 q) { return glm::dot(glm::cross(q - p, foot - p), n) >= 0; };
+    if (left(a, b) && left(b, c) && left(c, a)) nearest = std::min(nearest, glm::length(foot));
+  }
+  return nearest;
+}
+
+}  // namespace
+
+glm::dvec3 way_of(const Light& light) {
+  const glm::dvec3 way = light.target_m - light.position_m;
+  if (!(glm::length(way) > 0) || !std::isfinite(glm::length(way)))
+    throw SettingConflict("light.position_m",
+                          "the light's position and target give no direction (they are one, or too far apart); set "
+                          "light.position_m or light.target_m");
+  return glm::normalize(way);
+}
+
+// The near plane of a perspective map cannot be 0: nothing nearer than a thousandth of far is fitted, and what lies there
+// is clipped (coverage shows it).
+MapVolume fit_central(const Scene& scene, const LightFrame& frame, bool (*behind)(const glm::dvec3 (&corners)[3])) {
+  constexpr double least_near = 1e-3;
+  double near_m = std::numeric_limits<double>::infinity(), far_m = 0;
+  for (const glm::uvec3& t : scene.triangles) {
+    glm::dvec3 corner[3];
+    for (int i = 0; i < 3; ++i) corner[i] = frame.to_light(scene.positions[t[i]]);
+    if (behind && behind(corner)) continue;
+    // A cube's face clips at its own axis' depth: at a corner of the face sqrt(3) nearer than the distance. Along a
+    // spot light's axis the depth is at least the distance times the cosine at the cone's corner.
+    const double cosine = 1 / std::sqrt(1 + 2 * frame.tan_half_fov * frame.tan_half_fov);
+    near_m = std::min(near_m, nearest_to_origin(corner[0], corner[1], corner[2]) * cosine);
+    for (const glm::dvec3& p : corner) far_m = std::max(far_m, frame.depth_m(p));
+  }
+  if (!(far_m > 0)) far_m = 1;  // nothing to light
+  far_m *= 1 + map_margin;
+  return {1, std::max(std::min(near_m, far_m / 2) * (1 - map_margin), far_m * least_near), far_m};
+}
+
+void require_near_before_light(const LightFrame& frame) {
+  if (!(frame.near_m > 0))
+    throw SettingConflict("map.near_m",
+                          fmt::format("the map's near plane is at {} m; a spot or point light's map needs "
+                                      "map.near_m above 0",
+                                      frame.near_m));
+}
+
+}  // namespace noonmark::lights

@@ -1,0 +1,108 @@
+// A directional light: parallel rays, one orthographic map.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "scenes/camera_frame.h"
+#include "technique/lights/central.h"
+#include "technique/setting_rules.h"
+
+namespace noonmark {
+namespace {
+
+class Directional final : public KindOfLight {
+ public:
+  std::string_view name() const override { return "directional"; }
+  std::string_view help() const override { return "parallel rays and one orthographic map"; }
+  bool parallel_rays() const override { return true; }
+
+  LightFrame axes(const Light& light) const override {
+    LightFrame frame;
+    frame.kind = LightKind::directional;
+    frame.origin_m = light.position_m;
+    frame.ray_direction = glm::vec3(lights::way_of(light));
+    frame.forward = glm::normalize(glm::dvec3(frame.ray_direction));
+    upright_axes(frame.forward, {0, 1, 0}, frame.right, frame.up);
+    return frame;
+  }
+
+  MapVolume fit(const Scene& scene, const LightFrame& frame) const override {
+    double reach = 0;
+    double near_m = std::numeric_limits<double>::infinity();
+    double far_m = -near_m;
+    for (const glm::vec3& position : scene.positions) {
+      const glm::dvec3 p = frame.to_light(position);
+      reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
+      near_m = std::min(near_m, p.z);
+      far_m = std::max(far_m, p.z);
+    }
+    const double depth = std::max(far_m - near_m, reach * lights::map_margin);
+    return {2 * reach * (1 + lights::map_margin), near_m - depth * lights::map_margin,
+            far_m + depth * lights::map_margin};
+  }
+
+  void lay_map(LightFrame& frame, const Light&, const MapVolume& volume, const MapSettings& map) const override {
+    frame.extent_m = map.extent_m.value_or(volume.extent_m) * map.extent_scale;
+    if (!(frame.extent_m > 0) || !std::isfinite(frame.extent_m))
+      throw SettingConflict("map.extent_m",
+                            fmt::format("the map's extent is {} m; set map.extent_m to more than 0", frame.extent_m));
+    const double w = frame.texel_m();
+    // Texels, matrix and depths are all relative to the origin, so the grid moves as one.
+    if (map.snap) {
+      const auto to_grid = [&](double along) { return std::round(along / w) * w - along; };
+      frame.origin_m += to_grid(glm::dot(frame.origin_m, frame.right)) * frame.right +
+                        to_grid(glm::dot(frame.origin_m, frame.up)) * frame.up;
+    }
+    frame.origin_m += (map.shift_u_texels * frame.right + map.shift_v_texels * frame.up) * w;
+  }
+
+  MapTile tile(const LightFrame& frame, int) const override {
+    return {.orthographic = true,
+            .half = frame.extent_m / 2,
+            .near_m = frame.near_m,
+            .far_m = frame.far_m,
+            .depth = TileDepth::linear,
+            .resolution = frame.resolution};
+  }
+
+  glm::dvec3 direction_to_light(const LightFrame& frame, glm::dvec3) const override { return -frame.forward; }
+  WayToLight way_to_centre(const LightFrame& frame, glm::dvec3) const override {
+    return {-frame.ray_direction, std::numeric_limits<float>::infinity(), {}};
+  }
+  void axes_across(const LightFrame& frame, glm::dvec3, glm::dvec3& right, glm::dvec3& up) const override {
+    right = frame.right;
+    up = frame.up;
+  }
+  glm::dvec3 place(glm::dvec3 light) const override { return {light.x, light.y, 1}; }
+  glm::dvec3 normal_place(glm::dvec3 place) const override { return place; }
+
+  // A disc of directions.
+  double disc_radius(const Light& light) const override {
+    return std::tan(light.angular_diameter_deg * std::numbers::pi / 360);
+  }
+  WayToLight way_to_disc(const LightFrame& frame, const LightDisc& disc, glm::dvec3, glm::dvec2 u) const override {
+    const double phi = 2 * std::numbers::pi * u.y;
+    const double r = disc.radius * std::sqrt(u.x);
+    return {glm::vec3(frame.direction_to_light() + r * (std::cos(phi) * frame.right + std::sin(phi) * frame.up)),
+            std::numeric_limits<float>::infinity(),
+            {}};
+  }
+  bool surrounds(const LightFrame&, const LightDisc&, glm::dvec3) const override { return false; }
+
+  std::string_view frustum_caption() const override {
+    return "What the map can see: green is near, orange-red is far, blue joins them, dashed where the scene is before "
+           "it.";
+  }
+};
+
+const Directional instance;
+
+}  // namespace
+
+extern const KindOfLight& directional_light;
+const KindOfLight& directional_light = instance;
+
+}  // namespace noonmark

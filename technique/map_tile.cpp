@@ -1,0 +1,60 @@
+#include "technique/map_tile.h"
+
+#include <stdexcept>
+
+namespace noonmark {
+
+double MapTile::window_depth(double z) const {
+  switch (depth) {
+    case TileDepth::linear:
+      return (z - near_m) / (far_m - near_m);
+    case TileDepth::perspective:
+      return far_m * (z - near_m) / (z * (far_m - near_m));
+    case TileDepth::distance:
+      return z / far_m;
+  }
+  throw std::logic_error("a tile without a depth");
+}
+
+double MapTile::depth_of_window(double window) const {
+  switch (depth) {
+    case TileDepth::linear:
+      return near_m + window * (far_m - near_m);
+    case TileDepth::perspective:
+      return far_m * near_m / (far_m - window * (far_m - near_m));
+    case TileDepth::distance:
+      return window * far_m;
+  }
+  throw std::logic_error("a tile without a depth");
+}
+
+double MapTile::window_depth_slope(double z) const {
+  switch (depth) {
+    case TileDepth::linear:
+      return 1 / (far_m - near_m);
+    case TileDepth::perspective:
+      return far_m * near_m / (z * z * (far_m - near_m));
+    case TileDepth::distance:
+      return 1 / far_m;
+  }
+  throw std::logic_error("a tile without a depth");
+}
+
+double MapTile::texel_m(glm::dvec3 light) const {
+  return orthographic ? 2 * half / resolution : 2 * along(light) * half / resolution;
+}
+
+glm::dvec3 MapTile::place_of(glm::ivec2 texel) const {
+  const glm::dvec2 centre = glm::dvec2(texel - corner) + 0.5;
+  if (orthographic) return {centre * (2 * half / resolution) - half, 1};
+  const glm::dvec2 side = (2.0 * (centre + shift_texels) / static_cast<double>(resolution) - 1.0) * half;
+  return forward + side.x * right + side.y * up;
+}
+
+glm::dvec2 MapTile::texels(glm::dvec3 place) const {
+  if (orthographic) return (glm::dvec2(place) / (2 * half) + 0.5) * static_cast<double>(resolution);
+  const glm::dvec2 side = glm::dvec2(glm::dot(place, right), glm::dot(place, up)) / (along(place) * half);
+  return (side + 1.0) / 2.0 * static_cast<double>(resolution) - shift_texels + glm::dvec2(corner);
+}
+
+}  // namespace noonmark
