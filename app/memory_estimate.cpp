@@ -63,6 +63,9 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   double scene = scene_bytes(input.scene) + per_open_edge * open + per_closed_edge * (edges - open);
   scene += per_grid_cell * faces * std::clamp(16 * edges, least_grid_cells, most_grid_cells);
   if (s.map.cull != CulledFaces::none) scene += per_kept_triangle * static_cast<double>(input.scene.triangles);
+  // The scene once more with moved vertices: its triangles, its places in the light's frame, and a tree of its own.
+  if (Bias(s.bias).moves_casters())
+    scene += scene_bytes(input.scene) + per_kept_triangle * static_cast<double>(input.scene.triangles);
 
   if (input.pictures) scene += per_listed_part_byte * static_cast<double>(input.scene.part_bytes);
 

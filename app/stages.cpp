@@ -7,6 +7,7 @@
 #include "scenes/camera_fit.h"
 #include "scenes/library.h"
 #include "scenes/scene_digest.h"
+#include "technique/casters.h"
 #include "technique/tap_pattern.h"
 
 namespace noonmark {
@@ -89,10 +90,12 @@ TruthStage trace_truth(const raytrace::Tracer& tracer, const ViewStage& view, co
   return made;
 }
 
-MapStage draw_map(gl::Renderer& renderer, const PointSetup& point) {
+MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point) {
+  std::vector<glm::vec3> casters;
+  if (const Bias bias(point.settings.bias); bias.moves_casters()) casters = caster_positions(scene, point.frame, bias);
   std::optional<gl::ShadowMap> map;
   const double time =
-      median_time([&](double* ms) { map.emplace(renderer.render_map(point.frame, point.settings, ms)); });
+      median_time([&](double* ms) { map.emplace(renderer.render_map(point.frame, point.settings, ms, casters)); });
   Image<float> depth = renderer.read_map(*map);
   return {std::move(*map), std::move(depth), time};
 }

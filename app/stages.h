@@ -62,7 +62,8 @@ struct MapStage {
   Image<float> depth;  // as the lookup's sampler returns it
   double time_ms = 0;  // the median of three
 };
-MapStage draw_map(gl::Renderer& renderer, const PointSetup& point);
+// scene: as the renderer has it.
+MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point);
 
 // What the lookup asks, and what is true there. The truth of the taps is of one strip of the picture at a time; where
 // all of them fit into one strip it is kept, and the rays are not.

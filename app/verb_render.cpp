@@ -65,7 +65,7 @@ void print_ladder(const Measurement& m) {
     // The law in the parameter's own unit, which each receiver turns into depth for itself. Of what other parts of the
     // bias gain it knows nothing.
     const Bias bias(m.settings.bias);
-    if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset())
+    if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset() || bias.moves_casters())
       fmt::print(", on top of the other parts");
     else if (m.frame.uniform() || m.settings.bias.unit == BiasUnit::m)
       fmt::print("; by law 1 the planes in the picture ask for {:.4g} m", value("acne_free_bias_law_m"));

@@ -174,7 +174,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
     b.receivers_on_device = view_key;
   }
   const MapStage& map =
-      b.map.get(settings_key(settings, {Stage::scene, Stage::map}), [&] { return draw_map(b.renderer, point); });
+      b.map.get(settings_key(settings, {Stage::scene, Stage::map}), [&] { return draw_map(b.renderer, scene, point); });
   LookupStage& lookup = b.lookup.get(lookup_key_of(settings), [&] {
     return prepare_lookup(b.renderer, b.renderer, *loaded.tracer, view, truth, point, b.strip_bytes);
   });

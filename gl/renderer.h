@@ -86,7 +86,9 @@ class Renderer {
 
   // Renders the scene's depth from the light: settings.map, and of settings.bias what acts on the caster.
   // time_ms, when given, gets the pass's own time (device or glFinish clock).
-  ShadowMap render_map(const LightFrame& frame, const Settings& settings, double* time_ms = nullptr);
+  // casters: the scene's vertices as they are drawn (technique/casters.h); empty: as load_scene() has them.
+  ShadowMap render_map(const LightFrame& frame, const Settings& settings, double* time_ms = nullptr,
+                       std::span<const glm::vec3> casters = {});
 
   // A map made elsewhere (R4's exact one): 32-bit float depth whatever settings.format says, wrap as settings has it.
   // depth: of LightFrame::map_size(); six times as high as wide it is a cube.

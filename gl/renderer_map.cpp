@@ -45,7 +45,8 @@ constexpr GLfloat far_depth = 1;
 
 }  // namespace
 
-ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings, double* time_ms) {
+ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings, double* time_ms,
+                               std::span<const glm::vec3> casters) {
   Impl& r = *impl_;
   r.context->make_current();
   const int side = settings.map.resolution;
@@ -84,6 +85,11 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
   else
     program.set("clip_from_world", clip_from_world[0]);
 
+  Buffer moved;  // while it lives, the map's pass draws it
+  if (!casters.empty()) {
+    moved = make_buffer(casters.data(), casters.size() * sizeof(glm::vec3));
+    glVertexArrayVertexBuffer(r.scene_vertices.id(), 0, moved.id(), 0, sizeof(glm::vec3));
+  }
   r.draw_into({}, depth.id(), side, side);  // of a cube all layers
   const std::optional<Bias::PolygonOffset> offset = Bias(settings.bias).polygon_offset();
   glDepthMask(GL_TRUE);
@@ -101,6 +107,7 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
   r.run(key, time_ms, cube && !layered ? std::function<void()>(draw_faces) : draw_once);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_CLAMP);
+  if (!casters.empty()) glVertexArrayVertexBuffer(r.scene_vertices.id(), 0, r.positions.id(), 0, sizeof(glm::vec3));
   r.detach(0);
   r.context->check("render_map");
   return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(depth), side, cube, settings.map.wrap));

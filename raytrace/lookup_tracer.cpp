@@ -10,16 +10,18 @@
 #include "raytrace/stage_watch.h"
 #include "raytrace/texel_rays.h"
 #include "raytrace/traced_scene.h"
+#include "technique/casters.h"
 
 namespace noonmark::raytrace {
 namespace {
 
-// The exact map skips what the rasteriser culls. Front: counter-clockwise as the light sees it.
-std::vector<uint32_t> kept_triangles(const Scene& scene, const Adjacency& adjacency, const LightFrame& frame,
+// The exact map skips what the rasteriser culls. Front: counter-clockwise as the light sees it. Of coincident triangles the
+// first is enough; moved casters may part them, and adjacency is null.
+std::vector<uint32_t> kept_triangles(const Scene& scene, const Adjacency* adjacency, const LightFrame& frame,
                                      CulledFaces cull) {
   std::vector<uint32_t> kept;
   for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
-    if (adjacency.is_copy(t)) continue;
+    if (adjacency && adjacency->is_copy(t)) continue;
     const glm::uvec3 v = scene.triangles[t];
     const glm::dvec3 a = scene.positions[v.x], b = scene.positions[v.y], c = scene.positions[v.z];
     const bool front = glm::dot(glm::cross(b - a, c - a), frame.direction_to_light((a + b + c) / 3.0)) > 0;
@@ -41,15 +43,25 @@ std::optional<double> first_from_near(const EmbreeScene& seen, const LightView& 
   }
 }
 
-Image<float> exact_map_of(const TracedScene& traced, const LightView& view, const TexelRays& texels,
-                          const MapSettings& settings, const std::optional<PolygonOffset>& offset) {
-  const LightFrame& frame = view.frame();
-  std::optional<EmbreeScene> uncut;  // only the faces that the rasteriser keeps
+// The depths that the map's pass draws: of the scene, or of other vertices where the bias moves the casters.
+Image<float> exact_map_of(const TracedScene& traced, const LightView& scenes_own, const TexelRays& texels,
+                          const MapSettings& settings, const Bias& bias, const std::optional<PolygonOffset>& offset) {
+  const LightFrame& frame = scenes_own.frame();
+  std::optional<Scene> moved;
+  if (bias.moves_casters()) {
+    moved = traced.scene;
+    moved->positions = caster_positions(traced.scene, frame, bias);
+  }
+  const Scene& drawn = moved ? *moved : traced.scene;
+  const LightView view = moved ? LightView(*moved, frame) : scenes_own;
+  std::optional<EmbreeScene> uncut;  // other vertices, or only the faces that the rasteriser keeps
   bool nothing_kept = false;
   if (settings.cull != CulledFaces::none) {
-    std::vector<uint32_t> kept = kept_triangles(traced.scene, traced.adjacency, frame, settings.cull);
+    std::vector<uint32_t> kept = kept_triangles(drawn, moved ? nullptr : &traced.adjacency, frame, settings.cull);
     nothing_kept = kept.empty();
-    if (!nothing_kept) uncut.emplace(traced.device, traced.scene, std::move(kept));
+    if (!nothing_kept) uncut.emplace(traced.device, drawn, std::move(kept));
+  } else if (moved) {
+    uncut.emplace(traced.device, drawn);
   }
   const EmbreeScene& seen = uncut ? *uncut : traced.embree;
   const glm::ivec2 size = frame.map_size();
@@ -122,7 +134,7 @@ void LookupTracer::ask(const LookupProbe& probe, PixelRange strip, StageTime* st
 Image<float> LookupTracer::trace_map(StageTime* stage) {
   const StageWatch watch(stage, impl_->traced.device);
   impl_->texels.trace();
-  return exact_map_of(impl_->traced, impl_->view, impl_->texels, impl_->map, impl_->offset);
+  return exact_map_of(impl_->traced, impl_->view, impl_->texels, impl_->map, impl_->bias, impl_->offset);
 }
 
 TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Image<float>& edge_distance_texels,

@@ -31,6 +31,7 @@ Bias::Bias(const BiasSettings& settings)
     if (!acts(settings, part)) continue;
     if (part.acts_on == BiasPlace::compared_depth) compared_.push_back(active_part(settings, part));
     if (part.acts_on == BiasPlace::place_looked_up) moving_.push_back(active_part(settings, part));
+    if (part.acts_on == BiasPlace::caster && part.formula.way) casting_.push_back(active_part(settings, part));
   }
   const PolygonOffset offset{rounded(settings["polygon_factor"]), rounded(settings["polygon_units"])};
   if (offset.factor != 0 || offset.units != 0) polygon_offset_ = offset;

@@ -41,6 +41,7 @@ class Bias {
   // The parts that act there, in the order of the table.
   std::span<const ActivePart> compared() const { return compared_; }
   std::span<const ActivePart> moving() const { return moving_; }
+  std::span<const ActivePart> casting() const { return casting_; }  // but for the polygon offset
 
   // What the shader subtracts from the reference depth at receiver i, in its own float arithmetic (the host is built
   // without contraction).
@@ -58,6 +59,9 @@ class Bias {
     return position + moved_m(frame, position, normal);
   }
 
+  // Whether the map is drawn of other vertices than the scene's (technique/casters.h).
+  bool moves_casters() const { return !casting_.empty(); }
+
   // glPolygonOffset(factor, units) while the map is drawn; a fragment shader that writes its own depth, a point
   // light's, has none.
   struct PolygonOffset {
@@ -69,7 +73,7 @@ class Bias {
   BiasUnit unit_ = BiasUnit::depth;
   const TapReference* reference_ = tap_references().data();
   float plane_cap_ = std::numeric_limits<float>::max();
-  std::vector<ActivePart> compared_, moving_;
+  std::vector<ActivePart> compared_, moving_, casting_;
   std::optional<PolygonOffset> polygon_offset_;
 };
 

@@ -59,7 +59,7 @@ Setting bias_row(const BiasParameter& parameter) {
   };
   row.read_by = stages_of(parameter.part->acts_on);
   const BiasPart& part = *parameter.part;
-  if (part.acts_on == BiasPlace::caster)
+  if (part.acts_on == BiasPlace::caster && !part.formula.way)
     row.why_idle = [](const Settings& s, LightKind light) {
       const std::string why = not_on_point(s, light);
       return why.empty() ? why : why + ", whose shader writes its depth itself";

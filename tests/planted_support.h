@@ -56,7 +56,7 @@ inline Figures measure(const Settings& settings, const Defect& defect = {}) {
   Settings drawn = settings;
   if (defect.drawn_map) defect.drawn_map(drawn_frame, drawn.map);
   if (defect.drawn_bias) defect.drawn_bias(drawn.bias);
-  MapStage map = draw_map(renderer, {drawn, drawn_frame, Bias(drawn.bias)});
+  MapStage map = draw_map(renderer, drawn_scene, {drawn, drawn_frame, Bias(drawn.bias)});
   if (defect.edited_map) {
     map.map = renderer.upload_map(defect.edited_map(map.depth), settings.map);
     map.depth = renderer.read_map(map.map);

@@ -107,6 +107,13 @@ std::vector<Planted> defects() {
                  {{"precision", 1e-6, 1e-4}, {"map_error_quanta", 50, 1000}},
                  {"contract", "rounding_excess"}});
 
+  // The map is drawn of the scene's own vertices, not of the moved ones.
+  all.push_back({"CastersNotMoved",
+                 cubes({{"bias.constant", "0"}, {"bias.caster_normal_offset_sin", "1.1"}}),
+                 {.drawn_bias = [](BiasSettings& bias) { bias = {}; }},
+                 {{"precision", 1e-3, 0.2}, {"map_error_quanta", 50, 10000}},
+                 {"contract", "rounding_excess", "acne"}});
+
   // --- Map options. -------------------------------------------------------------------------------------------------
 
   // Near lies behind the floating cube, which depth clamp keeps in the map at depth 0.

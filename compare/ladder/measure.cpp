@@ -55,7 +55,7 @@ double bias_m(const LightFrame& frame, double bias, double depth_m) {
 }  // namespace
 
 double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
-  if (in.bias.polygon_offset()) return std::numeric_limits<double>::infinity();
+  if (in.bias.polygon_offset() || in.bias.moves_casters()) return std::numeric_limits<double>::infinity();
   const LightFrame& frame = in.frame;
   const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
   const double sine = std::sqrt(1 - cosine * cosine);

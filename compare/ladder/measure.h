@@ -21,7 +21,7 @@ struct MeasureInput {
 };
 
 // How far before a receiver, in metres along its light ray, Peter Panning can reach: the bias there, plus the most that
-// the receiver's own depth changes within the lookup's taps. Of a polygon offset, which is the occluder's, infinity.
+// the receiver's own depth changes within the lookup's taps. Of a part that moves the caster, infinity.
 // light: P in the light's frame.
 double panning_reach_m(const MeasureInput& input, size_t i, glm::dvec3 light);
 
