@@ -21,8 +21,8 @@ title = "A small sweep"
 scene = "cube-room"
 pictures = "none"
 [view]
-width_px = 320
-height_px = 180
+width_px = 160
+height_px = 90
 [sweep]
 map.resolution = [64, 100, 128, 200, 256, 300, 400, 512]
 filter.kind = ["none", "box"]

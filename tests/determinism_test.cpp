@@ -16,8 +16,8 @@ const std::string sweep = R"(
 scene = "cube-room"
 pictures = "none"
 [view]
-width_px = 240
-height_px = 135
+width_px = 160
+height_px = 90
 [light]
 angular_diameter_deg = 2
 [bias]
