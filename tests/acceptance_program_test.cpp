@@ -6,9 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <thread>
-
 #include "scenes/file.h"
 #include "tests/acceptance_support.h"
 #include "tests/program_fixture.h"
@@ -21,8 +18,8 @@ title = "A small sweep"
 scene = "cube-room"
 pictures = "none"
 [view]
-width_px = 320
-height_px = 180
+width_px = 160
+height_px = 90
 [sweep]
 map.resolution = [64, 100, 128, 200, 256, 300, 400, 512]
 filter.kind = ["none", "box"]
@@ -52,12 +49,10 @@ TEST_F(Program, ResumesAfterSigkillWithTheSameResults) {
   ASSERT_EQ(run({"run", experiment, "--out", "whole"}), 0) << output_;
   ASSERT_EQ(points_in(folder_ / "whole/results.sqlite"), 48);
 
-  const pid_t child = start({"run", experiment, "--out", "killed"});
-  const fs::path store = folder_ / "killed/results.sqlite";
-  for (int i = 0; i < 6000 && points_in(store) < 10; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const pid_t child = start_until("[10/48]", {"run", experiment, "--out", "killed"});
   kill(child, SIGKILL);
   ASSERT_EQ(wait_for(child), -SIGKILL) << "it must not have finished before it was killed";
-  const int left = points_in(store);
+  const int left = points_in(folder_ / "killed/results.sqlite");
   EXPECT_GE(left, 10);
   EXPECT_LT(left, 48);
   EXPECT_FALSE(fs::exists(folder_ / "killed/results.csv"));
@@ -78,9 +73,7 @@ TEST_F(Program, ResumesAfterSigkillWithTheSameResults) {
 
 TEST_F(Program, StopsAtSigtermAndSaysThatItIsIncomplete) {
   const std::string experiment = write("sweep.toml", sweep);
-  const pid_t child = start({"check", experiment, "--out", "out"});
-  for (int i = 0; i < 6000 && points_in(folder_ / "out/results.sqlite") < 3; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const pid_t child = start_until("[3/48]", {"check", experiment, "--out", "out"});
   kill(child, SIGTERM);
   EXPECT_EQ(wait_for(child), 6);
   EXPECT_NE(read_file((folder_ / "out/summary.md").string()).find("Incomplete"), std::string::npos);
@@ -88,9 +81,8 @@ TEST_F(Program, StopsAtSigtermAndSaysThatItIsIncomplete) {
 
 TEST_F(Program, KeepsASecondRunOutOfTheFolder) {
   const std::string experiment = write("sweep.toml", sweep);
-  const pid_t first = start({"run", experiment, "--out", "out"});
-  for (int i = 0; i < 6000 && points_in(folder_ / "out/results.sqlite") < 1; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const pid_t first = start_until("[1/48]", {"run", experiment, "--out", "out"});
+  kill(first, SIGSTOP);  // or it might end before the second has begun
   EXPECT_EQ(run({"run", experiment, "--out", "out"}), 2);
   EXPECT_TRUE(says("another run is writing into out")) << output_;
   kill(first, SIGKILL);

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
+#include <sys/inotify.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -113,18 +114,23 @@ TEST_F(File, ClearsWhatAKilledWriteLeft) {
     for (const auto& entry : fs::directory_iterator(folder.path())) count += entry.path().extension() == ".tmp";
     return count;
   };
+  const int begun = inotify_init1(IN_CLOEXEC);
+  ASSERT_GE(inotify_add_watch(begun, folder.path().c_str(), IN_CREATE), 0);
   const pid_t child = fork();
   if (child == 0) {
     const std::string large(1 << 24, 'x');
     for (;;) write_file_atomically(folder.file("large"), large);
   }
+  // Each event is a file that was begun; stopped at once, the child is somewhere in it.
+  char event[4096];
   for (int left = 0; left == 0;) {
-    usleep(200);
+    ASSERT_GT(read(begun, event, sizeof event), 0);
     kill(child, SIGSTOP);
     waitpid(child, nullptr, WUNTRACED);
     left = temporaries();
     if (left == 0) kill(child, SIGCONT);
   }
+  close(begun);
   kill(child, SIGKILL);
   siginfo_t ended{};
   ASSERT_EQ(waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT), 0);

@@ -21,50 +21,6 @@ double quantity_of(const Measurement& m, const char* name) {
   return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-// A tap reads the plane's depth at its texel's centre c, which lies below that at P by g.(P - c). Per axis P - c is the
-// tap's offset of up to r texels plus up to half a texel: at most k w in each, so the supremum of g.(P - c) is k w
-// |g|_1 (kernel reach after Isidoro 2006). The stored depth is rounded to the nearest step: another q/2. The law is a
-// supremum over alignments; a picture of a hundred thousand receivers meets the worst corner of a texel within 5%.
-TEST(Law1, GivesTheAcneFreeBiasOfAPlane) {
-  Workbench bench(gl::DebugMode::fatal);
-  for (int theta = 10; theta <= 80; theta += 10) {
-    for (double phi : {0.0, 20.0, 45.0}) {
-      for (int size : {1, 3, 5}) {
-        for (const std::string format : {"16", "24", "32f"}) {
-          // Every format with every kernel, theta and phi, but not with all three at once: with a kernel, each of the
-          // 24 slopes has one format.
-          const int turn = (theta / 10 + static_cast<int>(phi / 20) + size / 2) % 3;
-          if (size > 1 && format != (turn == 0 ? "16" : turn == 1 ? "24" : "32f")) continue;
-          const Measurement m = bench.measure(with({{"scene.theta_deg", std::to_string(theta)},
-                                                    {"scene.phi_deg", text(phi)},
-                                                    {"filter.kind", "box"},
-                                                    {"filter.size", std::to_string(size)},
-                                                    {"map.format", format},
-                                                    {"map.resolution", "96"}},
-                                                   small("plane", 240, 136)),
-                                              exact_window());
-          SCOPED_TRACE(testing::Message() << "theta " << theta << " phi " << phi << " size " << size << " " << format);
-          const double a = std::abs(std::cos(radians(phi))) + std::abs(std::sin(radians(phi)));
-          const double w = m.frame.extent_m / 96, range = m.frame.far_m - m.frame.near_m;
-          const double q = format == "16" ? range / 65535 : format == "24" ? range / 16777215 : range * 0x1p-24;
-          const double exact = (size / 2 + 0.5) * w * a * std::tan(radians(theta));
-          // The metric is the law, but for the float normal, whose last place its slope magnifies by 1/cos^2 < 34.
-          EXPECT_NEAR(metric(m, "acne_free_bias_law_m"), exact + q / 2, 34 * 0x1p-22 * size * w);
-          // On an exact map there is no quantum but the float's.
-          const double measured = quantity_of(m, "acne_free_bias_m");
-          EXPECT_LE(measured, exact + float_rounding_m(m));
-          EXPECT_GE(measured, 0.95 * exact);
-          EXPECT_EQ(*m.record.curve->window_min_depth, *m.record.curve->acne_free_bias_depth);
-          // On the GPU's own the rasteriser's interpolation may be two more steps off.
-          const double stored = quantity_of(m, "acne_free_bias_stored_m");
-          EXPECT_LE(stored, exact + q / 2 + 2 * q + float_rounding_m(m));
-          EXPECT_GE(stored, 0.95 * exact - 2 * q);
-        }
-      }
-    }
-  }
-}
-
 // At theta = 0 only the quantum is left, and it is exact: every receiver has the one depth d, the map has it rounded to
 // the nearest step, and the plane needs max(0, d - rounded) <= q/2. So q/2 is the supremum over depths, not over
 // alignments. A 32-bit map rounds as the reference does and needs nothing; so does a 24-bit map where d >= 1/2, where
@@ -98,70 +54,6 @@ TEST(Law1, NeedsUpToHalfAQuantumOfAPlaneAcrossTheLight) {
     }
     if (std::string(format) == "24") {
       EXPECT_GT(largest, 0.2);  // where d < 1/2
-    }
-  }
-}
-
-// A receiver's depth is more than its texel's by at most the integral of |g| along the way from c to P, over whatever
-// lit faces lie on it: no scene needs more than k w max|g|_1 over its faces turned to the light. The faces that the
-// camera sees are not enough: a pixel at the foot of a pillar may have its texel's centre on a lit side that is hidden.
-TEST(Law1, BoundsWhatAWholeSceneNeeds) {
-  Workbench bench(gl::DebugMode::fatal);
-  bool hidden_face_needed = false;
-  for (const BuiltinScene& builtin : builtin_scenes()) {
-    if (builtin.make({}).light.kind != LightKind::directional) continue;  // metres along the light's one axis
-    for (int size : {1, 3}) {
-      for (int resolution : {128, 512}) {
-        const Measurement m = bench.measure(with({{"filter.kind", "box"},
-                                                  {"filter.size", std::to_string(size)},
-                                                  {"map.resolution", std::to_string(resolution)},
-                                                  {"map.format", "32f"}},
-                                                 small(std::string(builtin.name))),
-                                            exact_window());
-        const double needed = quantity_of(m, "acne_free_bias_m"), seen = metric(m, "acne_free_bias_law_m");
-        SCOPED_TRACE(testing::Message() << builtin.name << " size " << size << " resolution " << resolution);
-        EXPECT_LE(needed, metric(m, "acne_free_bias_scene_law_m") + float_rounding_m(m));
-        EXPECT_GT(needed, 0);
-        hidden_face_needed |= needed > 1.05 * seen;
-        // Where the steepest lit face is large and in view, the bound is reached.
-        if (builtin.name == "plane" || builtin.name == "plate" || builtin.name == "wall") {
-          EXPECT_LE(needed, seen + float_rounding_m(m));
-          EXPECT_GE(needed, 0.95 * seen);
-        }
-      }
-    }
-  }
-  EXPECT_TRUE(hidden_face_needed) << "pillars at 128 texels";
-}
-
-// As N.L goes to 0 the bias that a plane needs has no bound, but a sphere's does: a receiver and its texel's centre are
-// at most delta = sqrt(2) k w apart in the light's plane, and the sphere's depth changes most between its outline and a
-// place delta inside it, by sqrt(R^2 - (R - delta)^2) = sqrt(2 R delta - delta^2).
-TEST(Law1, LeavesABandAtTheTerminatorOfASphere) {
-  Workbench bench(gl::DebugMode::fatal);
-  // The mesh has 192 facets around. It lies inside the sphere of radius 1 by up to 1 - cos(pi / 192), and its outline
-  // so much nearer to delta's other end; and a facet that still faces the light reaches past the terminator by half of
-  // itself, sin(pi / 192) further down the light.
-  const double inside = 1 - std::cos(std::numbers::pi / 192), beyond = std::sin(std::numbers::pi / 192);
-  const auto band = [](double delta) { return std::sqrt(2 * delta - delta * delta); };
-  for (int size : {1, 3}) {
-    for (int resolution : {64, 256}) {
-      double needed = 0, delta = 0;
-      for (double shift : {0.0, 0.5}) {  // the worst pair is one diagonal of one texel on the outline
-        const Measurement m = bench.measure(with({{"filter.kind", "box"},
-                                                  {"filter.size", std::to_string(size)},
-                                                  {"map.resolution", std::to_string(resolution)},
-                                                  {"map.shift_u_texels", text(shift)},
-                                                  {"map.format", "32f"}},
-                                                 small("sphere", 400, 300)),
-                                            exact_window());
-        needed = std::max(needed, quantity_of(m, "acne_free_bias_m"));
-        delta = std::numbers::sqrt2 * size / 2 * m.frame.texel_m();
-      }
-      SCOPED_TRACE(testing::Message() << "size " << size << " resolution " << resolution);
-      EXPECT_LE(needed, band(delta + inside) + beyond);
-      // The camera sees half of the outline, in pixels: nine tenths of the distance are met.
-      EXPECT_GE(needed, 0.9 * band(delta));
     }
   }
 }

@@ -51,28 +51,6 @@ double acne_at(Workbench& bench, Settings settings, double offset_texels) {
   return metric(bench.measure(settings, std::nullopt), "acne");
 }
 
-TEST(Law3, FreesAPlaneOfAcneFromItsOffsetOn) {
-  Workbench bench(gl::DebugMode::fatal);
-  for (double theta = 10; theta <= 80; theta += 10) {
-    for (double phi : {0.0, 20.0, 45.0}) {
-      for (int size : {1, 3}) {
-        SCOPED_TRACE("theta " + text(theta) + ", phi " + text(phi) + ", box " + std::to_string(size));
-        const Settings settings = plane_settings(theta, phi, size);
-        const double law = plane_law(theta, phi, size);
-        EXPECT_EQ(acne_at(bench, settings, 1.02 * law), 0);
-        const double below = acne_at(bench, settings, 0.9 * law);
-        EXPECT_GT(below, 0);
-        // Along the texels the box's uphill column alone is dark, over the last tenth of its reach k = size / 2 texels:
-        // of that column's alignments, one texel wide, the share k / 10, and of all taps k / 10 / size = 1/20. The
-        // picture has 30,000 receivers over some 80 texels, which a tenth of that share allows for.
-        if (phi == 0) {
-          EXPECT_NEAR(below, 0.05, 0.005) << "share of taps";
-        }
-      }
-    }
-  }
-}
-
 TEST(Law3, NamesTheThresholdOfAPlane) {
   Workbench bench(gl::DebugMode::fatal);
   for (const auto& [theta, phi, size] :
@@ -170,49 +148,6 @@ TEST(Law3, MovesShadowsTowardsTheLight) {
     // Exact up to where the sides meet, as long as d is less than the plate's thickness.
     const double width = 1.6 * std::abs(away.z) + 1.2 * std::abs(away.x);
     EXPECT_NEAR(metric(m, "displacement_area_m2") / (2 * d * sine * width), 1, 0.02);
-  }
-}
-
-Settings foot(double thickness) {
-  return with({{"scene.thickness_m", text(thickness)},
-               {"light.position_m", "-6,2,-1.5"},
-               {"map.extent_m", "14"},
-               {"map.near_m", "-3"},
-               {"map.far_m", "16"},
-               {"map.resolution", "256"},
-               {"view.eye_m", "2.6,2,1.8"},
-               {"view.target_m", "0.6,0,1.8"},
-               {"view.fov_deg", "25"}},
-              small("wall", 320, 180));
-}
-
-// A bias that frees the floor of acne lights a gap behind a thin wall; the offset that does so lights none: beside the
-// wall P' is still behind it.
-TEST(Law3, LeavesNoGapAtAFoot) {
-  Workbench bench(gl::DebugMode::fatal);
-  for (double thickness : {0.02, 0.05}) {
-    Settings settings = foot(thickness);
-    const LightFrame frame = make_light_frame(make_scene(settings.scene), settings);
-    const double law_texels = 0.5 * texel_axes_1(frame, {0, 1, 0}), cosine = frame.direction_to_light().y;
-    settings.bias = bias_settings_of({{"constant", law_texels / cosine}});
-    settings.bias.unit = BiasUnit::texel;
-    const Measurement with_bias = bench.measure(settings, std::nullopt);
-    const double gap = metric(with_bias, "peter_panning_gap_m"), panning = metric(with_bias, "peter_panning");
-    // Law 2's, to one texel on the floor.
-    const glm::dvec3 light = frame.direction_to_light();
-    const double sine = std::sqrt(1 - cosine * cosine), cos_psi = std::abs(light.x) / sine;
-    EXPECT_NEAR(gap, settings.bias["constant"] * frame.texel_m() * sine - thickness / cos_psi, frame.texel_m());
-    EXPECT_GT(panning, 0.005);
-
-    for (double times : {1.02, 3.0}) {
-      settings.bias = bias_settings_of({{"normal_offset", times * law_texels}});
-      const Measurement m = bench.measure(settings, std::nullopt);
-      EXPECT_EQ(metric(m, "acne"), 0);
-      EXPECT_EQ(metric(m, "peter_panning"), 0) << "thickness " << thickness << ", " << times << " times the law";
-      EXPECT_EQ(metric(m, "peter_panning_gap_m"), 0);
-    }
-    std::cout << "thickness " << thickness << " m: a gap of " << gap
-              << " m with the constant bias, none with the offset\n";
   }
 }
 

@@ -94,7 +94,7 @@ class MemoryOf : public Memory, public testing::WithParamInterface<Case> {};
 // adds to a program that measures next to nothing, too.
 TEST_P(MemoryOf, APointIsPredicted) {
   if (std::string(GetParam().name) == "triangles") grid(100, 40);
-  if (std::string(GetParam().name) == "overlapping") write("stack.gltf", stack(100000).dump());
+  if (std::string(GetParam().name) == "overlapping") write("stack.gltf", stack(40000).dump());
   const std::string small =
       write("small.toml", "pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = 16\n");
   const std::string file = write("x.toml", GetParam().toml);
@@ -206,7 +206,7 @@ TEST_F(Memory, ADryRunSaysWhatARunWillSay) {
     const std::string file = write("x.toml", "scene = \"cube-room\"\npictures = \"" + std::string(pictures) +
                                                  "\"\n[view]\nwidth_px = 320\nheight_px = 180\n[filter]\nkind = "
                                                  "\"box\"\n[sweep]\nfilter.size = [3, 5]\n");
-    for (rlim_t megabytes = 1060; megabytes <= 1660; megabytes += 120) {
+    for (rlim_t megabytes = 1060; megabytes <= 1660; megabytes += 200) {
       SCOPED_TRACE(std::string(pictures) + " " + std::to_string(megabytes));
       const auto code = [&](std::vector<std::string> more) {
         more.insert(more.begin(), {"run", file, "--threads", "2", "--out", "out"});
@@ -222,8 +222,8 @@ TEST_F(Memory, ADryRunSaysWhatARunWillSay) {
       ++(dry == 0 ? measured : refused);
     }
   }
-  EXPECT_GT(refused, 2);
-  EXPECT_GT(measured, 2);
+  EXPECT_GT(refused, 1);
+  EXPECT_GT(measured, 1);
 }
 
 TEST_F(Memory, InstancesAreCountedBeforeTheyAreMade) {

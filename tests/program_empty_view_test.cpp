@@ -22,7 +22,8 @@ class EmptyView : public Program {
     write("near_and_far.gltf", square.dump());
   }
   static std::vector<std::string> render(const std::vector<std::string>& sets) {
-    std::vector<std::string> arguments = {"render", "--set", "view.width_px=64", "--set", "view.height_px=36"};
+    std::vector<std::string> arguments = {
+        "render", "--set", "view.width_px=64", "--set", "view.height_px=36", "--set", "map.resolution=128"};
     for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
     return arguments;
   }

@@ -55,7 +55,10 @@ class Program : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
-  void TearDown() override { fs::remove_all(folder_); }
+  void TearDown() override {
+    for (int pipe : pipes_) close(pipe);
+    fs::remove_all(folder_);
+  }
 
   // prepare: done in the new process before the program starts (limits, environment, other descriptors).
   pid_t start(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}) {
@@ -72,6 +75,24 @@ class Program : public testing::Test {
     if (prepare) prepare();
     execv(NOONMARK_PROGRAM, argv.data());
     _exit(127);
+  }
+  // Starts the program and waits until it has said these words, or has ended without them. What it says later stays in the
+  // pipe, which is open until the test ends: a few hundred lines of progress fit.
+  pid_t start_until(const std::string& words, const std::vector<std::string>& arguments) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) return -1;
+    const pid_t child = start(arguments, [&] {
+      dup2(ends[1], 1);
+      dup2(ends[1], 2);
+    });
+    close(ends[1]);
+    pipes_.push_back(ends[0]);
+    output_.clear();
+    char block[4096];
+    for (ssize_t n = 1; n > 0 && !says(words);)
+      if ((n = read(ends[0], block, sizeof block)) > 0) output_.append(block, static_cast<size_t>(n));
+    EXPECT_TRUE(says(words)) << output_;
+    return child;
   }
   static int wait_for(pid_t child) {
     int status = 0;
@@ -92,6 +113,7 @@ class Program : public testing::Test {
 
   fs::path folder_;
   std::string output_;
+  std::vector<int> pipes_;
 };
 
 }  // namespace noonmark::acceptance

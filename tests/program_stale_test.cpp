@@ -188,8 +188,7 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAKill) {
   ASSERT_TRUE(there("out/junit.xml"));
   const std::string longer =
       write("x.toml", one_point + "[sweep]\nmap.shift_u_texels = {min = 0, max = 1, steps = 500}\n" + held_bound);
-  const pid_t child = start({"check", longer, "--out", "out", "--overwrite"});
-  for (int i = 0; i < 6000 && text("output.txt").find("[1/500]") == std::string::npos; ++i) usleep(10000);
+  const pid_t child = start_until("[1/500]", {"check", longer, "--out", "out", "--overwrite"});
   kill(child, SIGKILL);
   ASSERT_EQ(wait_for(child), -SIGKILL);
   EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md") || there("out/report.html") ||

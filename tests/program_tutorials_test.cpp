@@ -22,7 +22,11 @@ std::string path_of(const std::string& chapter) {
 class Tutorial : public Program, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Tutorial, ShowsItsArtefactAndItsCure) {
-  EXPECT_EQ(run({"check", path_of(GetParam()), "--out", "out"}), 0) << output_;
+  std::vector<std::string> check = {"check", path_of(GetParam()), "--out", "out"};
+  // A cube map's six sides of rays are most of the gallery's time; what is claimed of them holds in fewer pixels too.
+  if (GetParam().ends_with("-point") || GetParam().ends_with("-point-pcf"))
+    check.insert(check.end(), {"--set", "view.width_px=240", "--set", "view.height_px=135"});
+  EXPECT_EQ(run(check), 0) << output_;
   EXPECT_TRUE(std::regex_search(output_, std::regex("found: [^\n]*[0-9][^\n]*\\."))) << output_;
   EXPECT_FALSE(says("nan")) << "a figure that could not be measured: " << output_;
 }
