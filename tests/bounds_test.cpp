@@ -130,7 +130,7 @@ TEST(Bounds, QuantitiesOfTheCurveCanBeBounded) {
   expect(without, false, nan_value, 0);
   EXPECT_EQ(describe(without, &points[0]).find("bias curve"), std::string::npos) << "why, nothing says";
   points[0].settings["bias.normal_offset"] = "1";
-  EXPECT_NE(describe(without, &points[0]).find("this point has none: bias.normal_offset moves the lookup"),
+  EXPECT_NE(describe(without, &points[0]).find("this point has no curve: bias.normal_offset moves the lookup"),
             std::string::npos)
       << describe(without, &points[0]);
 }
