@@ -251,7 +251,7 @@ TEST(Summary, GivesTheVerdictFirst) {
   Results results = judged({0.1}, {at_most(0)});
   results.planned_points = 2;
   EXPECT_EQ(verdict(results),
-            "**Incomplete: 1 of 2 points are finished.** Run it again to go on. Broken so far: 1 of 1 bound.");
+            "**Incomplete: 1 of 2 points are finished.** Run it again to continue. Broken so far: 1 of 1 bound.");
 }
 
 TEST(Summary, OrdersByErrorAndKeepsTheTableWhole) {
