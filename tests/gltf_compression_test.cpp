@@ -80,7 +80,7 @@ TEST_F(GltfCompression, DracoThatContradictsMinAndMaxIsSaid) {
     d["accessors"][0]["max"][1] = 1.01 * high.y;
     const Scene s = load(d);
     ASSERT_EQ(s.notes.size(), 1u) << bits;
-    EXPECT_NE(s.notes[0].find("than quantization can cause. They are drawn as decoded"), std::string::npos)
+    EXPECT_NE(s.notes[0].find("than quantization can cause; they are drawn as decoded"), std::string::npos)
         << s.notes[0];
     d["accessors"][0]["max"] = {"high", nullptr};
     EXPECT_EQ(load(d).notes, std::vector<std::string>()) << "no bounds at all";

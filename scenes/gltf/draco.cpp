@@ -96,7 +96,7 @@ std::string note_of_bounds(const Document& document, int accessor, std::span<con
   if (off <= step) return "";
   return fmt::format(
       "{}: the data reach {:.3g} beyond or short of the min and max of accessors[{}], more than "
-      "quantization can cause. They are drawn as decoded, and may be damaged",
+      "quantization can cause; they are drawn as decoded and may be damaged",
       place, off, accessor);
 }
 
