@@ -309,7 +309,7 @@ std::vector<double> default_bias_grid() {
 BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const CurveOptions& options) {
   BiasCurve curve;
   curve.parameter = "bias." + std::string(counts.varied().name);
-  curve.made = counts.blended() ? "one pass, but for the sampler's weights" : "one pass";
+  curve.made = counts.blended() ? "one pass, except for the sampler's weights" : "one pass";
   curve.bias_depth = options.bias_depth.empty() ? default_bias_grid() : options.bias_depth;
   const auto in_depth = [&](float x) { return x * scale.depth_per_unit; };
   for (double bias : curve.bias_depth) {

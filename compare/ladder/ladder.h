@@ -139,7 +139,7 @@ struct Tap {
   bool texel_lit = false;  // V
   bool exact_sure = true, moved_sure = true, texel_sure = true;
   bool covered = true;      // looked up, inside the map, before far, blocker not clipped
-  bool always_lit = false;  // whatever the bias: beyond far, and the lookup says lit without comparing
+  bool always_lit = false;  // at any bias: beyond far, where the lookup returns lit without a comparison
   float reference = 0;      // the window depth that it compares; at infinity it is dark for any map
   float depth = 1;          // the depth that it reads in the map
   double weight = 1;        // a share of whole_weight()

@@ -3,7 +3,7 @@
 // exact place of its tap.
 //
 //   AcneLaw law(frame, probe);
-//   double depth = law.at(i, P, N);                       // what receiver i needs, whatever the grid's alignment
+//   double depth = law.at(i, P, N);                       // what receiver i needs, for any alignment of the grid
 //
 // Flat maps. The window depth of a plane is affine in texels (under a spot light 1/z is affine, and window depth is
 // affine in 1/z). Let o be the offset of the tap that lies furthest up the plane towards the light. The least bias is

@@ -20,8 +20,8 @@ namespace noonmark {
 // median depth per unit. So metres and texels are always the parameter's own if that is its unit, and a value that is
 // read from the axis and set as the bias gives the curve's error.
 struct BiasCurve {
-  std::string parameter;           // "bias.constant": the setting that is varied
-  std::string made;                // "one pass": exact, from thresholds; or "one pass, but for the sampler's weights"
+  std::string parameter;  // "bias.constant": the setting that is varied
+  std::string made;       // "one pass": exact, from thresholds; or "one pass, except for the sampler's weights"
   std::vector<double> bias_depth;  // ascending, window depth; the first is 0
   std::vector<double> error;       // mean |R5 - R1|
   std::vector<double> wrong;       // share of receivers with R5 != R1
@@ -37,8 +37,8 @@ struct BiasCurve {
   double best_error = 0;
   double flat_min_depth = 0, flat_max_depth = 0;  // biases whose error is within 10% of the best
   uint64_t breakpoints = 0;                       // of the exact curve
-  // The least value of the parameter from which on no tap is acne, whatever the bounds above. First on the exact map,
-  // where `acne` is defined, then on the GPU's own map with its format and rasteriser. Empty if no value is enough.
+  // The least value of the parameter from which on no tap is acne, independent of the bounds above. First on the exact
+  // map, where `acne` is defined, then on the GPU's own map with its format and rasteriser. Empty if no value is enough.
   std::optional<double> acne_free_bias_depth, acne_free_bias_stored_depth;
 };
 
