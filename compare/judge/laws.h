@@ -38,8 +38,8 @@ struct Law {
   std::string join = "each";
   std::string over;    // slope: a setting that is a number
   Conditions where;    // which points are measured; empty: all
-  Conditions against;  // with it, `predicted` is read at the other point: the one that differs from the measured point
-                       // in nothing but the settings named here, which have there the one value given for each
+  Conditions against;  // if given, `predicted` is evaluated at another point: the one that differs from the measured
+                       // point only in the settings named here, which have the given values there
   std::vector<std::pair<std::string, std::string>> let;  // definitions, in order; each may use the ones before
 };
 
