@@ -19,7 +19,8 @@
 //   aliasing if V = L: the map sampled another place and gave the true answer for that place. Otherwise it is acne (L
 //   dark) or Peter Panning (L lit).
 //
-// So the causes of the taps sum to R4 - R2. Without displacement, no two steps cancel on a pixel that is right.
+// So displacement and the causes of the taps sum to R4 - R2. Without displacement, no two steps cancel on a pixel that
+// is right.
 //
 // Doubt is not spread to other taps. If float error can change F, D or V of a tap, the steps next to that value are
 // booked as undecided, because their cause is not known: R1 to F instead of filter, F to D instead of displacement, D

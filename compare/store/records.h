@@ -38,7 +38,8 @@ struct BiasCurve {
   double flat_min_depth = 0, flat_max_depth = 0;  // biases whose error is within 10% of the best
   uint64_t breakpoints = 0;                       // of the exact curve
   // The least value of the parameter from which on no tap is acne, independent of the bounds above. First on the exact
-  // map, where `acne` is defined, then on the GPU's own map with its format and rasteriser. Empty if no value is enough.
+  // map, where `acne` is defined, then on the GPU's own map with its format and rasteriser. Empty if no value is
+  // enough.
   std::optional<double> acne_free_bias_depth, acne_free_bias_stored_depth;
 };
 
