@@ -12,7 +12,7 @@
 namespace noonmark {
 namespace {
 
-// The values of point `index`: one index into each swept list, the last fastest.
+// The values of point `index`, as one index into each swept list. The last index changes fastest.
 std::vector<size_t> digits(const Experiment& experiment, int64_t index) {
   std::vector<size_t> result(experiment.swept.size());
   for (size_t i = result.size(); i-- > 0;) {
@@ -33,8 +33,8 @@ int64_t first_of_part(const Experiment& experiment, const Experiment& part) {
   return first;
 }
 
-// Every byte that printable() would replace, and of characters that it would all bytes, in octal: three digits are
-// read, whatever comes behind them.
+// Writes in octal every byte that printable() would replace, and all bytes of a character that it would replace. An
+// octal number has three digits, so a digit after it is not read as a part of it.
 std::string shell_quoted_bytes(std::string_view word) {
   std::string quoted = "$'";
   while (!word.empty()) {
@@ -142,11 +142,11 @@ std::string swept_text(const Experiment& experiment, int64_t id) {
 }
 
 Error error_of_point(const Experiment& experiment, int64_t id, const Error& error) {
-  if (experiment.path.empty()) return error;  // a point from the command line alone has no name and no place
+  if (experiment.path.empty()) return error;  // a point given only by the command line has no name and no place
   const Experiment& part = part_of_point(experiment, id);
   std::string place = part.sweep_place;
   if (const auto* conflict = dynamic_cast<const SettingConflict*>(&error)) {
-    // The file may give any of those that the message names.
+    // The file can give any of the settings that the message names.
     const std::string what = error.what();
     const auto named = part.places.find(conflict->setting());
     size_t first = std::string::npos;
@@ -205,7 +205,7 @@ std::string reproduce_command(const Experiment& experiment, const PointRecord& p
 
 namespace {
 
-// What determines the points of one experiment, or of one part.
+// Everything that determines the points of one experiment, or of one part.
 std::string points_text(const Experiment& experiment) {
   std::string text;
   for (const Setting& row : settings_table()) {
@@ -213,13 +213,13 @@ std::string points_text(const Experiment& experiment) {
                                     [&](const Swept& s) { return s.name == row.name; });
     if (swept == experiment.swept.end()) text += fmt::format("{} = {}\n", row.name, row.get(experiment.base));
   }
-  // The order of the sweep is part of it: it gives the points their ids.
+  // The order of the sweep is included, because it gives the points their ids.
   for (const Swept& swept : experiment.swept)
     text += fmt::format("sweep {} = [{}]\n", swept.name, fmt::join(swept.values, " | "));
   text += fmt::format("curve.enabled = {}\n", experiment.curve_enabled);
   if (experiment.curve_enabled) {
     const auto& [acne_bound, peter_panning_bound, bias_depth] =
-        experiment.curve;  // every member, or it does not compile
+        experiment.curve;  // must name every member, otherwise it does not compile
     text += fmt::format("curve.acne_bound = {}\ncurve.peter_panning_bound = {}\n", acne_bound, peter_panning_bound);
     text += bias_depth.empty() ? "curve.bias_depth = auto\n"
                                : fmt::format("curve.bias_depth = [{}]\n", fmt::join(bias_depth, ", "));
@@ -227,7 +227,7 @@ std::string points_text(const Experiment& experiment) {
   return text;
 }
 
-// The lines of a part, each named after it.
+// The lines of a part, each with the part's name.
 std::string in_part(const std::string& part, const std::string& lines) {
   std::string text;
   for (size_t begin = 0; begin < lines.size();) {

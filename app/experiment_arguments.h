@@ -1,4 +1,4 @@
-// What run, check and render have in common: the experiment with its overrides, and where the results go.
+// Shared by run, check and render: the experiment with its overrides, and the folder of the results.
 #pragma once
 #include <filesystem>
 #include <string>

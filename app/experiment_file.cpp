@@ -1,4 +1,4 @@
-// Reads the experiment file. Everything here runs inside one Reader, so that each message can name file:line:column.
+// Reads the experiment file. All the code runs inside one Reader, so that each message can name file:line:column.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -21,7 +21,7 @@ namespace {
 class Reader : private SettingsReader {
  public:
   explicit Reader(const std::string& path) : SettingsReader(path) { experiment_.path = path; }
-  // Of a part, which begins as what stands outside the parts.
+  // Reads a part, which starts with the settings that stand outside the parts.
   explicit Reader(const Experiment& defaults) : SettingsReader(defaults.path), experiment_(defaults), in_part_(true) {}
 
   Experiment read(const toml::table& root) {
@@ -57,13 +57,13 @@ class Reader : private SettingsReader {
     if (in_part_ && experiment_.part.empty()) fail(root, "a [[part]] needs a name");
     if (parts_) {
       for (const toml::node* inside : {static_cast<const toml::node*>(sweep_), bounds_, laws_})
-        if (inside) fail(*inside, "sweep, bounds and laws stand inside a [[part]] where a file has parts");
+        if (inside) fail(*inside, "in a file with parts, sweep, bounds and laws must stand inside a [[part]]");
       experiment_.sweep_place = place_text(parts_->source());
       read_parts(*parts_);
       points(experiment_);
       return std::move(experiment_);
     }
-    // These look at what is fixed, wherever in the file that stands.
+    // These are read last, because they depend on the fixed settings, which may stand anywhere in the file.
     if (sweep_) {
       experiment_.sweep_place = place_text(sweep_->source());
       read_sweep(*sweep_);
@@ -241,7 +241,7 @@ class Reader : private SettingsReader {
   void condition(const std::string& name, const toml::node& value) {
     const Setting& row = find_setting(name);
     if (where_->contains(name)) fail(value, fmt::format("where names {} twice", name));
-    // A list is a list of values, but for points, where a list of numbers is one value.
+    // A list is a list of values, except for settings that are points, where a list of numbers is one value.
     const bool many = value.is_array() && !(row.type == ValueType::point && !value.as_array()->empty() &&
                                             value.as_array()->front().is_number());
     const std::vector<const toml::node*> nodes = many ? list(value, name) : std::vector<const toml::node*>{&value};
@@ -261,7 +261,7 @@ class Reader : private SettingsReader {
 
   // ---- [let] [[law]]
 
-  // A formula, or a number as one.
+  // Reads a formula, or a number as a formula.
   std::string formula(const toml::node& node, const std::string& name) const {
     if (node.is_number()) return fmt::format("{}", number(node, name));
     const std::string text = string(node, name);
@@ -330,7 +330,7 @@ class Reader : private SettingsReader {
     for (const Law& other : experiment_.laws)
       if (other.name == law.name) fail(table, fmt::format("two laws have the name '{}'", law.name));
     if (!law.over.empty() && values_of(find_setting(law.over)).size() < 2)
-      fail(table, fmt::format("a slope over {}, which has one value; sweep it", law.over));
+      fail(table, fmt::format("a slope over {}, which has only one value; sweep it", law.over));
     experiment_.laws.push_back(std::move(law));
   }
 
@@ -360,10 +360,11 @@ Experiment parse_experiment(std::string_view toml, const std::string& path) {
 
 namespace {
 
-// Far above any experiment that a person or a script writes; a device never ends.
+// Far larger than any experiment that a person or a script writes. A device can be endless.
 constexpr uint64_t max_experiment_bytes = uint64_t{1} << 24;
 
-// Nothing but white space and comments: cut short, most likely, and nothing that a user would want measured.
+// Whether the text has only white space and comments. Then the file was most likely cut short, and a user does not want
+// the default settings measured.
 bool says_nothing(std::string_view text) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a byte order mark
   while (!text.empty()) {
@@ -385,7 +386,7 @@ Experiment load_experiment(const std::string& path) {
     throw Error(ErrorKind::usage, error.what());
   }
   if (says_nothing(text))
-    throw Error(ErrorKind::usage, fmt::format("{}: is empty; name a scene at least (scene = \"cube-room\")", path));
+    throw Error(ErrorKind::usage, fmt::format("{}: is empty; name at least a scene (scene = \"cube-room\")", path));
   return parse_experiment(text, path);
 }
 

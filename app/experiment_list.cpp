@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The *.toml below a folder, sorted.
+// The *.toml files below a folder, sorted.
 std::vector<std::string> toml_files_below(const std::string& path, std::vector<UnreadableFolder>& unreadable) {
   bool whole = true;
   std::vector<std::string> found, open = {path};

@@ -1,4 +1,4 @@
-// Which experiments `check` was given, and where each one's results go.
+// Lists the experiments that `check` was given, with the folder for the results of each.
 //
 //   const ExperimentList list = list_experiments({"experiments"}, "out/all");
 //   for (const ListedExperiment& one : list.experiments) check(one.file, one.out);
@@ -14,7 +14,7 @@ namespace noonmark {
 struct ListedExperiment {
   std::string file;
   std::string out;  // its results' folder
-  bool in_folder;   // found in a folder, where only regular files are read: a pipe there might never end
+  bool in_folder;   // found in a folder; then only a regular file is read, because reading a pipe may never end
 };
 
 struct UnreadableFolder {
@@ -24,16 +24,17 @@ struct UnreadableFolder {
 
 struct ExperimentList {
   std::vector<ListedExperiment> experiments;
-  // What a folder holds is listed as far as it can be read; the rest is here. Also folders without an experiment.
+  // The folders that could not be read, and folders without an experiment. The rest is listed above all the same.
   std::vector<UnreadableFolder> unreadable;
 };
 
-// paths: experiment files, or folders whose *.toml are meant, with those of the folders below (links to folders are not
-// followed). out: as --out has it; empty: out/<name>, <name> the file's stem or its way below the folder given. A file
-// alone goes into `out` itself, several into <out>/<name>.
+// paths: experiment files, or folders, whose *.toml files are listed with those of their subfolders (links to folders
+// are not followed). out: the value of --out. If it is empty, the results go to out/<name>, where <name> is the file's
+// stem or its path below the given folder. One file alone has its results in `out` itself, several have them in
+// <out>/<name>.
 ExperimentList list_experiments(const std::vector<std::string>& paths, const std::string& out);
 
-// Throws Error(usage) where two experiments would share a folder.
+// Throws Error(usage) if two experiments would share a folder.
 void require_folders_of_their_own(const ExperimentList& list);
 
 }  // namespace noonmark

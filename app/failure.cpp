@@ -21,7 +21,7 @@ Failure current_failure() {
             "memory has run out; choose a smaller picture, map or filter, or a machine with more"};
   } catch (const std::exception& error) {
     return {static_cast<int>(ErrorKind::defect),
-            fmt::format("a defect of ours: {}; please report it with the command and the output of noonmark doctor",
+            fmt::format("a defect of Noonmark: {}; please report it with the command and the output of noonmark doctor",
                         printable(error.what()))};
   }
 }

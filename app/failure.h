@@ -1,4 +1,4 @@
-// What an exception means to a user: one line and an exit code.
+// Turns an exception into one line for the user and an exit code.
 //
 //   try { ... } catch (...) { return tell(current_failure()); }
 #pragma once
@@ -11,10 +11,10 @@ struct Failure {
   std::string message;  // one line, printable
 };
 
-// Of the exception that is being handled.
+// The failure that corresponds to the exception being handled.
 Failure current_failure();
 
-// On standard error; returns the exit code.
+// Prints it on standard error and returns the exit code.
 int tell(const Failure& failure);
 
 }  // namespace noonmark

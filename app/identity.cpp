@@ -17,10 +17,10 @@
 namespace noonmark {
 namespace {
 
-// A note in an ELF file: head, name, contents, each filled up to 4 bytes.
+// The size of a field of an ELF note (head, name, contents), padded to 4 bytes.
 size_t padded(size_t size) { return (size + 3) & ~size_t{3}; }
 
-// The note that ld --build-id writes.
+// Reads the note that ld --build-id writes.
 std::string build_id_in(const char* notes, size_t size) {
   for (size_t at = 0; at + sizeof(ElfW(Nhdr)) <= size;) {
     ElfW(Nhdr) head;
@@ -47,13 +47,13 @@ std::string build_id() {
           if (segment.p_type == PT_NOTE)
             found = build_id_in(reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr), segment.p_memsz);
         }
-        return 1;  // the first object is the program; libraries follow
+        return 1;  // the first object is the program; the libraries follow
       },
       &id);
   return id.empty() ? "unknown" : id;
 }
 
-// "street.glb (45;0;...)": its name, and every other setting of a scene.
+// "street.glb (45;0;...)": the scene's name, and all its other settings.
 std::string scene_key(const Settings& point) {
   std::string others;
   for (const Setting& row : settings_table())
@@ -68,7 +68,7 @@ void SceneDigests::remember(Workbench& bench, const Settings& point) {
   const std::string key = scene_key(point);
   if (digests_.contains(key)) return;
   digests_[key] = bench.scene_identity(point.scene);
-  // The same file in other triangles says the same.
+  // The same file with another triangulation has the same note.
   if (const std::string note = notes_line(bench.scene(point.scene));
       !note.empty() && std::find(notes_.begin(), notes_.end(), note) == notes_.end())
     notes_.push_back(note);
@@ -77,8 +77,8 @@ void SceneDigests::remember(Workbench& bench, const Settings& point) {
 void SceneDigests::require_unchanged(Workbench& bench, const Settings& point) const {
   if (bench.scene_identity(point.scene) != digests_.at(scene_key(point)))
     throw Error(ErrorKind::scene,
-                fmt::format("{}: was changed while the sweep ran, so that its points would be of different scenes; "
-                            "leave it alone and run again",
+                fmt::format("{}: was changed while the sweep ran, so the points would be of different scenes; "
+                            "do not change it during a run, and run again",
                             point.scene.name));
 }
 

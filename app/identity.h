@@ -1,5 +1,5 @@
-// What results depend on beside the experiment's own text. Together with that (fingerprint(), app/experiment.h) it is
-// what a store of results is resumed by: where one line differs, nothing that is stored is taken over.
+// The facts, beside the experiment's own text, that results depend on. Together with the experiment's fingerprint()
+// (app/experiment.h) they decide whether a store can be resumed: if one line differs, no stored result is used.
 //
 //   SceneDigests scenes;
 //   fingerprint(experiment, identity(bench, points, tracer, scenes));
@@ -16,14 +16,14 @@
 
 namespace noonmark {
 
-// The contents of the scenes as they were when the sweep began.
+// The contents of the scenes at the start of the sweep.
 class SceneDigests {
  public:
   void remember(Workbench& bench, const Settings& point);
-  // Throws Error(scene) when a file was edited since: its points would not belong together.
+  // Throws Error(scene) if a file was edited after the start, because its points would be of different scenes.
   void require_unchanged(Workbench& bench, const Settings& point) const;
   const std::map<std::string, std::string>& all() const { return digests_; }
-  // What the scenes' files hold and is not modelled, a line for each scene (notes_line, scenes/library.h).
+  // The contents of the scenes' files that are not modelled, one line for each scene (notes_line, scenes/library.h).
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
@@ -33,12 +33,12 @@ class SceneDigests {
 
 // Lines of "name", "value":
 //   noonmark   version and commit
-//   program    the linker's hash of the program itself: an edit that was not committed, another compiler, other options
+//   program    the linker's hash of the program: it changes with uncommitted edits, another compiler or other options
 //   opengl     vendor, renderer and version of the driver
 //   embree     version and instruction set
-//   machine    the processor and the C library: floating point of the software renderer, and every time, is theirs
+//   machine    processor and C library, on which the software renderer's floating point and all times depend
 //   scene ...  scene_digest of each scene that a point names; the scenes are remembered in `scenes`
-// Bounds, laws, titles and what is plotted are no part of it: they are judged anew by every run.
+// Bounds, laws, titles and plotted metrics are not included, because every run judges and draws them anew.
 std::vector<std::pair<std::string, std::string>> identity(Workbench& bench, std::span<const Settings> points,
                                                           const raytrace::TracerInfo& tracer, SceneDigests& scenes);
 

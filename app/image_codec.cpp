@@ -11,7 +11,7 @@
 namespace noonmark {
 namespace {
 
-// Encoded in memory: OpenImageIO 2.4 does not notice when a disk fills up under it, and leaves files cut short.
+// Encodes into memory, because OpenImageIO 2.4 does not notice a full disk and leaves incomplete files.
 void encode(const ImageToEncode& image, OIIO::Filesystem::IOVecOutput& bytes) {
   const OIIO::TypeDesc type = image.channel_names ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
   OIIO::ImageSpec spec(image.width, image.height, image.channels, type);

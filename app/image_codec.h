@@ -1,20 +1,20 @@
-// What passes between the program and its module noonmark_images. The module is the only part that needs OpenImageIO,
-// whose 250 shared libraries take a quarter of a second to load: app/image_file.cpp opens it before the first picture.
-// Both are built together, so this is no interface for others.
+// The interface between the program and its module noonmark_images. Only this module needs OpenImageIO, whose 250
+// shared libraries take a quarter of a second to load. app/image_file.cpp opens it before the first picture. Both are
+// built together, so this is not an interface for other programs.
 #pragma once
 #include <cstddef>
 
 namespace noonmark {
 
 struct ImageToEncode {
-  const char* path;  // its ending names the format; nothing is written there
+  const char* path;  // its ending selects the format; no file is written
   int width, height;
   int channels;
   const char* const* channel_names;  // null: sRGB colours of 8 bits; else 32-bit floats, `channels` names
   const void* pixels;                // row 0 on top, channels interleaved
 };
 
-// Calls done once, with the bytes of the file (true), or with the reason why there are none (false). Throws nothing.
+// Calls done once, with the bytes of the file (true) or with the reason why there are none (false). Throws nothing.
 using EncodeImage = void(const ImageToEncode& image, void* context,
                          void (*done)(void* context, bool encoded, const char* bytes, size_t count));
 

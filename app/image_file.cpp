@@ -13,16 +13,17 @@
 namespace noonmark {
 namespace {
 
-// why: what the loader says, "/usr/lib/libX.so.1: cannot open shared object file: ...".
+// why: the loader's message, "/usr/lib/libX.so.1: cannot open shared object file: ...".
 std::string what_to_install(const std::string& why) {
   const std::string path = why.substr(0, why.find(": "));
   const std::string library = path.substr(path.rfind('/') + 1);  // npos + 1 is 0
-  if (library == image_module_file) return "it belongs beside the program, or in lib/noonmark where bin/ is installed; build or install again";
+  if (library == image_module_file)
+    return "it belongs beside the program, or in lib/noonmark where bin/ is installed; build or install again";
   if (library.starts_with("libOpenImageIO")) return "on Debian, apt install libopenimageio2.4";
-  return fmt::format("{} is a library that OpenImageIO needs; install the package that brings it", library);
+  return fmt::format("{} is a library that OpenImageIO needs; install the package that contains it", library);
 }
 
-// The loader looks in the program's RUNPATH, which names places beside the program (app/CMakeLists.txt).
+// The loader searches the program's RUNPATH, which names places beside the program (app/CMakeLists.txt).
 EncodeImage* load_encoder() {
   void* const module = dlopen(image_module_file, RTLD_NOW | RTLD_LOCAL);  // never closed
   void* const function = module ? dlsym(module, image_module_function) : nullptr;

@@ -1,5 +1,6 @@
-// Pictures and images on disk, by OpenImageIO: PNG for people, 32-bit float EXR for programs. Written beside and
-// renamed. Throws Error(scene) when a file cannot be written, Error(device) when OpenImageIO cannot be loaded.
+// Writes pictures and images with OpenImageIO: PNG for people, 32-bit float EXR for programs. A file is written under
+// another name beside its place and then renamed. Throws Error(scene) if a file cannot be written, Error(device) if
+// OpenImageIO cannot be loaded.
 #pragma once
 #include <glm/glm.hpp>
 #include <string>
@@ -9,8 +10,8 @@
 
 namespace noonmark {
 
-// Loads OpenImageIO, which the first picture does otherwise. Throws Error(device) where that fails: a run that will
-// write pictures asks before it measures.
+// Loads OpenImageIO; otherwise the first picture loads it. Throws Error(device) if that fails. A run that will write
+// pictures calls this before it measures.
 void require_image_files();
 
 using Color = glm::u8vec3;  // sRGB
@@ -18,7 +19,7 @@ using Color = glm::u8vec3;  // sRGB
 // Both return the digest of the file (digest_of, scenes/digest.h).
 std::string write_png(const std::string& path, const Image<Color>& picture);
 
-// One named channel of an EXR; values are stored as 32-bit float, row 0 on top.
+// One named channel of an EXR. Values are stored as 32-bit floats, row 0 on top.
 struct Channel {
   std::string name;
   Image<float> values;

@@ -30,10 +30,10 @@ namespace {
 
 constexpr const char* exit_codes =
     "Exit codes: 0 done, all held; 1 a bound or a law is broken; otherwise what has to change:\n"
-    "2 the command line or the experiment (wrong usage; more asked for than fits: a point into memory, results\n"
-    "  into that folder); 3 a file (a bad scene, or one that memory cannot hold; damaged results; a full disk);\n"
+    "2 the command line or the experiment (wrong usage; a point too large for memory; a results' folder that\n"
+    "  cannot be used); 3 a file (a bad scene, or one too large for memory; damaged results; a full disk);\n"
     "4 the machine (no usable OpenGL, ray tracer or picture library, no memory or threads left for them);\n"
-    "5 Noonmark: a defect of ours; 6 nothing: the sweep is incomplete. Of several experiments, the largest.";
+    "5 Noonmark: a defect; 6 nothing: the sweep is incomplete. Of several experiments, the largest code is returned.";
 
 std::string joined(int argc, char** argv) {
   std::string command = "noonmark";
@@ -41,19 +41,19 @@ std::string joined(int argc, char** argv) {
   return command;
 }
 
-// For CLI::Option::check: what is wrong with the text, or nothing.
+// For CLI::Option::check: returns the mistake in the text, or an empty string.
 auto whole_number(long least, long most, const char* range) {
   return [=](const std::string& text) -> std::string {
     long value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc{} && end == text.data() + text.size() && value >= least && value <= most) return "";
-    return fmt::format("'{}' is no whole number {}", text, range);
+    return fmt::format("'{}' is not a whole number {}", text, range);
   };
 }
 
 std::string not_empty(const std::string& path) { return path.empty() ? "the path is empty" : ""; }
 
-// CLI11 writes to C++ streams; what is said here goes the way of everything else.
+// CLI11 writes to C++ streams. This writes its text through stdio, like all other output.
 int say(const CLI::App& app, const CLI::Error& result) {
   std::ostringstream output, errors;
   const int exit_code = app.exit(result, output, errors);
@@ -62,7 +62,7 @@ int say(const CLI::App& app, const CLI::Error& result) {
   return exit_code;
 }
 
-// For exceptions that a library does not let through: of those there is nothing to catch. Ours end as they always do.
+// For exceptions that a library does not let pass, so that they cannot be caught. Our own exceptions end as usual.
 [[noreturn]] void give_up() {
   try {
     if (const std::exception_ptr exception = std::current_exception()) std::rethrow_exception(exception);
@@ -75,7 +75,7 @@ int say(const CLI::App& app, const CLI::Error& result) {
   std::_Exit(static_cast<int>(ErrorKind::device));
 }
 
-// CLI11 would ask for a verb first.
+// Needed because CLI11 would first report a missing verb.
 void refuse_unknown(const std::string& first, const std::vector<std::string_view>& verbs) {
   const std::vector<std::string_view> options = {"--help", "--version"};
   const bool option = first.starts_with('-');
@@ -89,8 +89,8 @@ void refuse_unknown(const std::string& first, const std::vector<std::string_view
 
 int run(int argc, char** argv) {
   CLI::App app(
-      "Noonmark says whether a shadow map is right: it renders a scene's shadows with OpenGL shadow maps and,\n"
-      "beside them, with Embree shadow rays, and says of every wrong pixel why it is wrong.");
+      "Noonmark measures whether a shadow map is right. It renders a scene's shadows with OpenGL shadow maps\n"
+      "and with Embree shadow rays, and reports for every wrong pixel why it is wrong.");
   app.footer(exit_codes);
   app.require_subcommand(1);
   app.set_version_flag("--version",
@@ -108,13 +108,14 @@ int run(int argc, char** argv) {
         ->expected(1)
         ->take_all()
         ->type_name("NAME=VALUE");
-    verb->add_option("--part", arguments.parts,
-                     "Only this part of the experiment, by its name; its points are counted from 0. May be repeated")
+    verb->add_option(
+            "--part", arguments.parts,
+            "Measure only the part of the experiment with this name; points are counted from 0. May be repeated")
         ->expected(1)
         ->take_all()
         ->type_name("NAME");
     verb->add_option("--threads", arguments.threads,
-                     "How many threads to use (default: all cores); no result depends on it")
+                     "Number of threads (default: one for each core); no result depends on it")
         ->check(whole_number(1, 1024, "from 1 to 1024"));
     verb->footer(exit_codes);
   };
@@ -123,13 +124,13 @@ int run(int argc, char** argv) {
   };
   const auto with_overwrite = [&](CLI::App* verb) {
     verb->add_flag("--overwrite", arguments.overwrite,
-                   "Measure anew, whatever the results' folder holds; without it a killed sweep resumes");
+                   "Measure everything anew and replace the results in the folder; without it, a killed sweep resumes");
   };
 
   CLI::App* run = app.add_subcommand("run", "Measure every point of an experiment and write its report");
   run->add_option("experiment", experiment, "The experiment's TOML file")->required()->check(not_empty);
   with_choices(run);
-  with_out(run, "Where the results go (default: out/<name of the experiment>)");
+  with_out(run, "Folder for the results (default: out/<name of the experiment>)");
   with_overwrite(run);
   run->add_flag("--dry-run", dry_run, "Only print the points, the memory that each takes, and an estimate of the time");
 
@@ -138,24 +139,26 @@ int run(int argc, char** argv) {
   check->add_option("experiments", paths, "TOML files, or folders of them")->required()->check(not_empty);
   with_choices(check);
   with_out(check,
-           "Where the results go (default: out/<name of the experiment>); of several experiments, in a folder each");
+           "Folder for the results (default: out/<name of the experiment>); several experiments get a subfolder each");
   with_overwrite(check);
 
-  CLI::App* render = app.add_subcommand("render", "Measure one point: pictures, its ladder, and all numbers behind it");
+  CLI::App* render =
+      app.add_subcommand("render", "Measure one point and write its pictures, its ladder and all numbers behind it");
   render->add_option("experiment", experiment, "The experiment's TOML file; without one, the default settings")
       ->check(not_empty);
-  render->add_option("--point", point, "Which point of the experiment's sweep, counted from 0")
+  render->add_option("--point", point, "Number of the point in the experiment's sweep, from 0")
       ->check(whole_number(0, std::numeric_limits<long>::max(), "from 0 on"));
   with_choices(render);
-  with_out(render, "Where the files go (default: out/render)");
+  with_out(render, "Folder for the files (default: out/render)");
 
   CLI::App* report = app.add_subcommand("report", "Write report.html and results.csv again from stored results");
   report->add_option("folder", folder, "The results' folder")->required()->check(not_empty);
 
-  CLI::App* scenes = app.add_subcommand("scenes", "List the built-in scenes and what each provokes");
+  CLI::App* scenes = app.add_subcommand("scenes", "List the built-in scenes and the artefacts that each provokes");
   CLI::App* settings =
       app.add_subcommand("settings", "List every setting, metric and quantity: unit, range, default, meaning");
-  CLI::App* doctor = app.add_subcommand("doctor", "Say which OpenGL, ray tracer and libraries are at work");
+  CLI::App* doctor =
+      app.add_subcommand("doctor", "Print which OpenGL, ray tracer and libraries are used, or what is missing");
 
   std::vector<std::string_view> verbs;
   for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
@@ -203,7 +206,7 @@ int main(int argc, char** argv) {
   }
   if (const int error = terminal.lost(); error != 0) {
     tell({static_cast<int>(ErrorKind::scene),
-          fmt::format("standard output cannot be written: {}; what it said is lost, files are not",
+          fmt::format("standard output cannot be written: {}; its text is lost, but the files are written",
                       std::strerror(error))});
     exit_code = std::max(exit_code, static_cast<int>(ErrorKind::scene));
   }

@@ -13,29 +13,30 @@
 namespace noonmark {
 namespace {
 
-// Bytes. Found by counting the arrays that are alive together and held against the peak (VmHWM) of runs in which one of
-// them dominates, on Debian 12 with llvmpipe; the measured numbers are in brackets.
-constexpr double program = 260e6;          // libraries, OpenGL's compiler, one picture of nothing [229e6]
+// Bytes. Found by counting the arrays that are alive at the same time, and compared with the peak (VmHWM) of runs in
+// which one of them dominates, on Debian 12 with llvmpipe. The measured numbers are in brackets.
+constexpr double program = 260e6;          // libraries, OpenGL's compiler, one empty picture [229e6]
 constexpr double per_pixel = 260;          // receivers, truth, probe, ladder, on both sides of OpenGL [236]
-constexpr double per_picture_pixel = 270;  // pictures, channels of the EXR files and what is encoded of them [245]
+constexpr double per_picture_pixel = 270;  // pictures, channels of the EXR files and their encoded bytes [245]
 constexpr double per_texel = 36;           // the map drawn, read back, exact, uploaded, and its ties [30]
 constexpr double per_picture_texel = 28;   // map.exr [25]
-// Of each tap in the batch whose thresholds are listed at the moment (curve_batch_taps): a threshold of the error and
-// one of its cause, 4 each. Not every tap has both; the rest pays for the lists' growth [3].
+// For each tap in the batch whose thresholds are being listed (curve_batch_taps): a threshold of the error and one of
+// its cause, 4 bytes each. Not every tap has both; the difference covers the growth of the lists [3].
 constexpr double per_curve_tap = 8;
 constexpr double per_blended_tap = 36;  // with a weight of 8 each, and a list being sorted [18]
-// Of each tap, for the sums over different thresholds: 12 for the error, 12 for the cause, 12 while strips join. At
-// most so much in all, which is 28 million of them, because differences of float depths repeat: 52 million taps had 1.6
-// million different ones, 885 million taps 10.5.
+// For each tap, the sums over different thresholds: 12 bytes for the error, 12 for the cause, 12 while strips are
+// joined. The total is limited to 28 million of them, because differences of float depths repeat: 52 million taps had
+// 1.6 million different ones, 885 million taps had 10.5 million.
 constexpr double per_summed_tap = 2, most_sums = 1e9;  // [1.1]
-constexpr double per_asked_texel = 16;                 // of each texel that a tap reads: its address and its error [16]
-constexpr double per_outside_texel = 32;   // what is met at texels beside the map: two lists of 16 while they are made
-constexpr double per_open_edge = 240;      // as a shadow's edge: itself, its pieces, the cells that list it [220]
-constexpr double per_closed_edge = 70;     // a third of them may be such edges too, where the light sees a fold
-constexpr double per_kept_triangle = 150;  // the second tree of the rays, without the culled faces
-// point.json lists each part in up to 135 bytes and its name; of a part's own bytes, 40 and those of a long name.
+constexpr double per_asked_texel = 16;     // for each texel that a tap reads: its address and its error [16]
+constexpr double per_outside_texel = 32;   // texels beside the map: two lists of 16 bytes while they are made
+constexpr double per_open_edge = 240;      // as a shadow's edge: the edge, its pieces, the cells that list it [220]
+constexpr double per_closed_edge = 70;     // a third of them may be such edges too, if the light sees a fold
+constexpr double per_kept_triangle = 150;  // the second tree for the rays, without the culled faces
+// Per byte of the scene's parts. point.json lists each part in up to 135 bytes and its name; the part itself has 40
+// bytes, and those of a long name.
 constexpr double per_listed_part_byte = 3.5;
-constexpr double per_grid_cell = 8;  // where a shadow's edges are listed, for each face of the map
+constexpr double per_grid_cell = 8;  // the grid that lists a shadow's edges, for each face of the map
 constexpr double least_grid_cells = 256 * 256, most_grid_cells = 2048 * 2048;
 
 }  // namespace
@@ -75,12 +76,12 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
             std::min(taps * per_summed_tap, most_sums);
   const double all_taps = taps * static_cast<double>(bytes_per_tap(input.light)), row = all_taps / s.view.height_px;
   const double strip = std::min(all_taps, std::max<double>(most_strip_bytes, row));
-  // The lists of texels beside the map are gone when the curve is made, but for what later strips read.
+  // The lists of texels beside the map are freed when the curve is made, except those that later strips read.
   const double outside = per_outside_texel * std::min(taps, input.outside_texels);
   const double beside = strip < all_taps ? curve + outside : std::max(curve, outside);
   return {{
       {"the program itself", "use a machine with more memory, or raise its limit", program},
-      {"the scene", "take a scene of fewer triangles (scene.name, scene.mesh)", scene},
+      {"the scene", "use a scene with fewer triangles (scene.name, scene.mesh)", scene},
       {"the picture", "lower view.width_px and view.height_px",
        pixels * (per_pixel + (input.pictures ? per_picture_pixel : 0))},
       {"the taps",
@@ -103,7 +104,7 @@ double outside_texels(const Scene& scene, const LightFrame& frame, const FilterS
     }
   const double inside = static_cast<double>(frame.resolution) * frame.resolution;
   glm::dvec2 low(0), high(frame.resolution);
-  if (frame.cos_half_cone > -1) {  // nothing beyond the cone asks
+  if (frame.cos_half_cone > -1) {  // no lookup lies beyond the cone
     const double tan_cone = std::sqrt(1 - frame.cos_half_cone * frame.cos_half_cone) / frame.cos_half_cone;
     const double beside = frame.resolution * std::max(0.0, tan_cone / frame.tan_half_fov - 1) / 2;
     low -= beside;
@@ -130,7 +131,7 @@ AvailableMemory memory_of_program(const AvailableMemory& space_at_start, uint64_
   const uint64_t left = space_at_start.bytes > room ? space_at_start.bytes - room : 0;
   const uint64_t space = left + static_cast<uint64_t>(program);
   if (space >= memory.bytes) return memory;
-  return {space, fmt::format("{}, less what libraries and threads set aside", space_at_start.limit)};
+  return {space, fmt::format("{}, minus the space that libraries and threads reserve", space_at_start.limit)};
 }
 
 bool fits(const MemoryEstimate& estimate, const AvailableMemory& of_program) {

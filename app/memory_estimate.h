@@ -1,11 +1,11 @@
-// How much memory the measurement of a point takes at its peak, predicted from its settings before it starts.
+// Predicts from a point's settings the peak memory of its measurement, before the measurement starts.
 //
 //   const MemoryEstimate estimate = estimate_memory({settings, LightKind::point, scene_size, open_edges, true, false});
-//   require_memory(estimate, bench.memory_of_program(false), "point 3");   // throws where it would not fit
+//   require_memory(estimate, bench.memory_of_program(false), "point 3");   // throws if it would not fit
 //
-// The prediction is an upper bound that is made of constants per pixel, tap, texel, triangle and vertex. Where one of
-// them dominates it is at most estimate_factor times what is taken (tests/memory_test.cpp). A map that lives on a
-// graphics card is counted as if it lived here, as it does with llvmpipe.
+// The prediction is an upper bound, made of constants per pixel, tap, texel, triangle and vertex. If one of these
+// dominates, the prediction is at most estimate_factor times the memory used (tests/memory_test.cpp). A map on a
+// graphics card is counted as if it was in main memory, as it is with llvmpipe.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -19,8 +19,8 @@
 
 namespace noonmark {
 
-// The truth of a picture's taps is traced in strips of whole rows that take at most as much, so that memory does not
-// grow with the kernel.
+// The truth of a picture's taps is traced in strips of whole rows that take at most this much, so memory does not grow
+// with the kernel.
 inline constexpr size_t most_strip_bytes = size_t{256} << 20;
 inline size_t bytes_per_tap(LightKind light) {
   return kind_of_light(light).map_shape() == MapShape::cube ? 1 + sizeof(uint32_t)
@@ -32,8 +32,8 @@ struct MemoryInput {
   LightKind light = LightKind::directional;
   SceneSize scene;
   uint64_t open_edges = 0;    // raytrace::Tracer::open_edges
-  double outside_texels = 0;  // the most texels beside the map that receivers can ask for: outside_texels()
-  bool curve = true;          // an exact curve of the error against the bias is read off
+  double outside_texels = 0;  // the most texels beside the map that receivers can look up: outside_texels()
+  bool curve = true;          // an exact curve of the error against the bias is measured
   bool pictures = false;      // pictures and EXR files are written
 };
 
@@ -45,7 +45,7 @@ struct MemoryShare {
 
 struct MemoryEstimate {
   std::vector<MemoryShare> shares;
-  double bytes() const;  // their sum: the peak of the whole program
+  double bytes() const;  // the sum of the shares: the peak of the whole program
   const MemoryShare& largest() const;
 };
 
@@ -53,18 +53,19 @@ MemoryEstimate estimate_memory(const MemoryInput& input);
 
 inline constexpr double estimate_factor = 3;
 
-// How many texels beside a flat map the scene reaches, kernel included; a cube has no outside.
+// The number of texels beside a flat map that the scene reaches, including the kernel. 0 for a cube, which has no
+// outside.
 double outside_texels(const Scene& scene, const LightFrame& frame, const FilterSettings& filter);
 
-// What an estimate is compared with: what the whole program may hold, with what it holds already. Of the machine's
-// memory and the groups' that is so now. Of the address space it is told from what was left when the measurement began,
-// less what libraries and threads set aside (`room`), so that no point changes it for those after: the C library keeps
-// what was freed.
+// The memory that the whole program may hold, including what it already holds; an estimate is compared with it. The
+// limits of the machine and of control groups are read now. The limit of the address space is computed from the space
+// that was free when the measurement began, minus the space that libraries and threads reserve (`room`). So earlier
+// points do not change it, although the C library keeps freed memory.
 AvailableMemory memory_of_program(const AvailableMemory& space_at_start, uint64_t room);
 
 bool fits(const MemoryEstimate& estimate, const AvailableMemory& of_program);
 
-// Throws Error(usage) where it does not, naming `point`, the largest share and the setting to change.
+// Throws Error(usage) if the estimate does not fit, with `point`, the largest share and the setting to change.
 void require_memory(const MemoryEstimate& estimate, const AvailableMemory& of_program, const std::string& point);
 
 }  // namespace noonmark

@@ -15,7 +15,7 @@
 namespace noonmark {
 namespace {
 
-// The receivers as a grey clay under the light: ambient 0.15, the rest by the cosine and the visibility.
+// The receivers as grey clay under the light: ambient 0.15, the rest from the cosine and the visibility.
 double clay(const Measurement& m, size_t i, double visibility) {
   return 0.15 + 0.75 * std::max(0.0f, m.probe.n_dot_l[i]) * visibility;
 }
@@ -36,13 +36,13 @@ Image<Color> shaded(const Measurement& m, const Image<float>& visibility) {
   });
 }
 
-// Each wrong pixel in the colour of its cause, as strong as it is wrong (std::min in this order: NaN as wrong as can
-// be), over what is right.
+// Each wrong pixel in the colour of its cause, over the grey of right pixels. The strength of the colour is the size of
+// the error. The arguments of std::min have this order so that NaN gets the full strength.
 Image<Color> classes(const Measurement& m) {
   return paint(m, [&](size_t i) {
     if (!(m.ladder.flags[i] & flag_facing)) return named_color("attached");
     if (m.ladder.flags[i] & flag_ambiguous) return named_color("ambiguous");
-    // A little shading, so that the shapes can be told apart.
+    // A little shading makes the shapes visible.
     const float shade = 0.72f + 0.28f * m.probe.n_dot_l[i];
     const glm::vec3 right = shade * glm::vec3(named_color(m.ladder.truth()[i] != 0 ? "lit" : "shadowed"));
     if (m.ladder.cause[i] == static_cast<uint8_t>(Cause::none)) return Color(right + 0.5f);
@@ -52,7 +52,7 @@ Image<Color> classes(const Measurement& m) {
   });
 }
 
-// Too dark in the colour of acne's family, too light in Peter Panning's; grey where right.
+// Too dark in the colour of acne, too light in the colour of Peter Panning, grey where right.
 Image<Color> difference(const Measurement& m) {
   const glm::vec3 dark(named_color("acne")), light(named_color("peter_panning")), right(named_color("lit"));
   return paint(m, [&](size_t i) {
@@ -62,7 +62,7 @@ Image<Color> difference(const Measurement& m) {
   });
 }
 
-// The truth in light greys, so that lines show on it.
+// The truth in light greys, so that lines are visible on it.
 Image<Color> frustum(const Measurement& m, const CameraFrame& camera) {
   Image<Color> picture = paint(m, [&](size_t i) {
     const bool facing = m.ladder.flags[i] & flag_facing;
@@ -104,20 +104,19 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
       map_picture(m.stored_map, m.frame));
   add("frustum", std::string(m.frame.light().frustum_caption()), frustum(m, camera));
   const Image<float> truth = shaded_with(m.ladder.truth()), map = shaded_with(m.ladder.shown());
-  add("shaded-truth", "The clay as a renderer shows it, Blinn-Phong, with the true shadow (R1).", greys(m, truth));
+  add("shaded-truth", "Grey clay as a renderer shows it (Blinn-Phong), with the true shadow (R1).", greys(m, truth));
   if (sized)
-    add("shaded-soft-truth", "The clay with the true shadow of the light with its size (R0).",
+    add("shaded-soft-truth", "Grey clay with the true shadow of the light with its size (R0).",
         greys(m, shaded_with(m.ladder.soft_truth())));
-  add("shaded-map", "The clay as a renderer shows it, with the map's shadow (R5).", greys(m, map));
+  add("shaded-map", "Grey clay as a renderer shows it, with the map's shadow (R5).", greys(m, map));
   Image<Color> apart(map.width, map.height);
   for (size_t i = 0; i < apart.size(); ++i)
     apart[i] = difference_color(std::abs(static_cast<double>(map[i]) - truth[i]));
   const double rmse = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
   add("shaded-difference",
-      fmt::format(
-          "The absolute difference of the two shaded pictures in linear light, dark 0 to bright 1; its root mean "
-          "square over the receivers is {}.",
-          std::isnan(rmse) ? std::string(not_measured) : fmt::format("{:.4g}", rmse)),
+      fmt::format("The absolute difference of the two shaded pictures in linear light, from dark (0) to bright (1). "
+                  "Its root mean square over the receivers is {}.",
+                  std::isnan(rmse) ? std::string(not_measured) : fmt::format("{:.4g}", rmse)),
       apart);
   return records;
 }

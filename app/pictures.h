@@ -1,4 +1,4 @@
-// What a measured point looks like: PNGs for people, EXRs and point.json for a second opinion.
+// Writes a measured point as files: PNGs for people, EXRs and point.json for checks by other programs.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,16 +8,16 @@
 
 namespace noonmark {
 
-// Writes the point's PNGs as <folder>/<stem>-<name>.png. The records' paths begin with `relative` in place of `folder`.
+// Writes the point's PNGs as <folder>/<stem>-<name>.png. The paths in the records begin with `relative`, not `folder`.
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
                                           const std::string& stem);
 
-// <folder>/<prefix>ladder.exr and map.exr: every rung, and what each rung was made of, in 32 bits a channel. What the
-// channels are is said in app/point_files.cpp.
+// Writes <folder>/<prefix>ladder.exr and map.exr: every rung and the numbers behind it, with 32 bits a channel.
+// app/point_files.cpp describes the channels.
 std::vector<ImageRecord> write_images(const Measurement& m, const std::string& folder, const std::string& relative,
                                       const std::string& prefix);
 
-// Every setting, metric and time; camera and light in full precision; the list of causes and the bits of flags.
+// Returns every setting, metric and time, camera and light in full precision, the list of causes and the bits of flags.
 std::string point_json(const Measurement& m, const std::string& command);
 
 }  // namespace noonmark

@@ -23,7 +23,7 @@ Image<float> channel_of(const Image<T>& source, const Get& get) {
   return values;
 }
 
-// The depth that the lookup's middle tap (of a box the one at P) reads; NaN where there is no receiver.
+// The depth that the lookup's middle tap reads (for a box the tap at P). NaN where there is no receiver.
 Image<float> depth_read(const Measurement& m, const Image<float>& map) {
   Image<float> values(m.receivers.width(), m.receivers.height(), std::numeric_limits<float>::quiet_NaN());
   for (size_t i = 0; i < values.size(); ++i) {
@@ -47,7 +47,7 @@ nlohmann::json matrix_rows(const glm::dmat4& matrix) {
   return rows;
 }
 
-// A setting in the type that its row says; text, points and auto as text.
+// A setting in the type of its row. Text, points and auto are written as text.
 nlohmann::json setting_json(const Setting& row, const std::string& text) {
   if (text == "auto") return text;
   switch (row.type) {
@@ -64,7 +64,7 @@ nlohmann::json setting_json(const Setting& row, const std::string& text) {
 
 nlohmann::json curve_json(const BiasCurve& curve) {
   nlohmann::json json;
-  for (const CurveField& field : curve_fields()) json[field.name] = nullptr;  // what the curve does not have
+  for (const CurveField& field : curve_fields()) json[field.name] = nullptr;  // stays null if the curve has no value
   each_field(curve, [&](std::string_view name, const auto& value) {
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
       json[name] = number(value);
@@ -124,15 +124,15 @@ nlohmann::ordered_json light_json(const Measurement& m) {
   return json;
 }
 
-// Paths and names may hold bytes that are no UTF-8; JSON may not.
+// Paths and names may have bytes that are not UTF-8; JSON must not.
 std::string json_text(const nlohmann::ordered_json& json) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-// Written as they come: scene.mesh = tiles makes each triangle a part, and as JSON values in memory they would take 400
-// bytes each.
+// Appended as text, because scene.mesh = tiles makes each triangle a part, and a part as a JSON value takes 400 bytes
+// in memory.
 void append_parts(const std::vector<Part>& parts, size_t text_after, std::string& text) {
-  constexpr size_t most_of_part = 100;  // with numbers of ten digits and without the name
+  constexpr size_t most_of_part = 100;  // with numbers of ten digits, without the name
   size_t size = text.size() + text_after + 64;
   for (const Part& part : parts) size += most_of_part + part.name.size();
   text.reserve(size);
@@ -166,7 +166,7 @@ std::vector<ImageRecord> write_images(const Measurement& m, const std::string& f
         channel_of(m.receivers.position, [&](const glm::vec3& p) { return p[axis]; }));
     add(fmt::format("N.{}", "XYZ"[axis]), channel_of(m.receivers.normal, [&](const glm::vec3& n) { return n[axis]; }));
   }
-  // Up to 2^24 a float holds an index exactly; -1 where there is no surface.
+  // A float holds an index exactly up to 2^24. -1 where there is no surface.
   add("primitive", channel_of(m.receivers.primitive, [](uint32_t p) { return p == no_primitive ? -1.0 : p; }));
   for (const Ladder::RungImage& rung : m.ladder.rungs) add(rung.name, rung.lit);
   add("depth.reference", m.probe.reference);
@@ -229,10 +229,10 @@ std::string point_json(const Measurement& m, const std::string& command) {
       {"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);
   const std::string rest = json_text(json);
-  text.resize(text.size() - std::string_view("\n}").size());  // the object goes on
+  text.resize(text.size() - std::string_view("\n}").size());  // the object continues
   append_parts(m.scene.parts, rest.size(), text);
   text += ',';
-  text.append(rest, 1);  // without the brace that opens it
+  text.append(rest, 1);  // without the opening brace
   text += '\n';
   return text;
 }

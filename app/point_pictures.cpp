@@ -15,7 +15,7 @@
 namespace noonmark {
 namespace {
 
-// Of one picture in the report: far above what the largest view takes as PNG.
+// The limit for one picture in the report. It is far above the PNG size of the largest view.
 constexpr uint64_t max_picture_bytes = uint64_t{1} << 28;
 
 // PNG specification, section 5.2.

@@ -1,5 +1,5 @@
-// The pictures and images of a sweep's points: which points have them, and whether their files are still what was
-// written.
+// The pictures and images of a sweep's points: selects the points that have them, and checks that their files are the
+// ones that were written.
 //
 //   for (int64_t id : points_with_pictures(experiment.pictures, results.points))
 //     if (!why_not_as_written(*find_point(results.points, id), out).empty()) keep_pictures(measurement, id, out);
@@ -13,18 +13,19 @@
 
 namespace noonmark {
 
-// Ids, by the experiment's `pictures`. For `worst` and `extremes` all points must be there: by their error, and one
-// that is not finite is worse than any.
+// Ids of the points, selected by the experiment's `pictures`. `worst` and `extremes` select by error and need all
+// points; an error that is not finite is the worst.
 std::vector<int64_t> points_with_pictures(const std::string& pictures, const std::vector<PointRecord>& points);
 
-// Writes them below out/images. The record must be stored.
+// Writes the point's files below out/images. The record must be in the store.
 PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out);
 
-// "out/images/p0003-map.png is not the file that was written" of the first file that is lost or another; else empty.
+// "out/images/p0003-map.png is not the file that was written", for the first file that is lost or changed; otherwise
+// empty.
 std::string why_not_as_written(const PointRecord& point, const std::string& out);
 
-// For the report: the bytes of the picture with this path, which must be a PNG with the digest that one of the points
-// has for it. Throws Error(scene).
+// For the report: returns the bytes of the picture with this path. It must be a PNG with the digest that one of the
+// points has for it. Throws Error(scene).
 std::string read_picture(const std::string& out, const std::string& path, const std::vector<PointRecord>& points);
 
 }  // namespace noonmark

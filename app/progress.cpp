@@ -28,7 +28,7 @@ void Progress::finished(int64_t done, const std::string& what) {
   }
   constexpr int width = 30;
   const int filled = total_ > 0 ? static_cast<int>(width * done / total_) : width;
-  // Clears the rest of the line, and stays within 79 columns.
+  // Clears the rest of the line and stays within 79 columns.
   write_to_terminal(fmt::format("\r[{:=<{}}{: <{}}] {}/{}  {:.0f} s left  {:.24}\x1b[K", "", filled, "", width - filled,
                                 done, total_, left, printable(what)));
   line_open_ = true;

@@ -1,5 +1,5 @@
-// How far a sweep is: one line that rewrites itself on a terminal, plain lines elsewhere. On standard error, so that
-// standard output stays for results.
+// Shows how far a sweep is, with one line that rewrites itself on a terminal and with plain lines elsewhere. It uses
+// standard error, because standard output is for results.
 #pragma once
 #include <chrono>
 #include <cstdint>

@@ -38,14 +38,14 @@ void remove_verdict(const std::string& folder) {
   }
 }
 
-// Through a link pictures would be written, and removed, in a folder that is not ours; and the report reads none there.
+// Through a link, pictures would be written and removed in another folder, and the report would not read them.
 void require_own_images(const std::string& folder) {
   std::error_code none;
   const fs::file_status images = fs::symlink_status(fs::path(folder) / "images", none);
   if (fs::exists(images) && !fs::is_directory(images))
-    throw Error(ErrorKind::scene, fmt::format("{}/images: is {}, and pictures are written into a folder of that name; "
+    throw Error(ErrorKind::scene, fmt::format("{}/images: is {}, but pictures need a folder of that name; "
                                               "remove it, or give another --out",
-                                              folder, fs::is_symlink(images) ? "a symbolic link" : "no folder"));
+                                              folder, fs::is_symlink(images) ? "a symbolic link" : "not a folder"));
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ void require_own_images(const std::string& folder) {
 ResultsFolder::ResultsFolder(const std::string& path) : path_(path), descriptor_(-1) {
   make_output_folder(path);
   descriptor_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // Some file systems have no locks; then nobody is kept out.
+  // Some file systems have no locks. There another run is not kept out.
   if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     close(descriptor_);
     throw Error(ErrorKind::usage,

@@ -1,6 +1,6 @@
-// The folder that a run writes its results into, held for as long as the run lasts.
+// The folder of a run's results, locked for as long as the run lasts.
 //
-//   const ResultsFolder folder("out/cube-room");   // made, ours alone, and nothing in it says how an earlier run ended
+//   const ResultsFolder folder("out/cube-room");   // makes and locks it, and removes the verdict of an earlier run
 #pragma once
 #include <exception>
 #include <optional>
@@ -8,17 +8,17 @@
 
 namespace noonmark {
 
-// make_folder (scenes/file.h) for a folder that the command line names: throws Error(usage).
+// make_folder (scenes/file.h) for a folder from the command line. Throws Error(usage).
 void make_output_folder(const std::string& path);
 
 class ResultsFolder {
  public:
-  // Makes the folder where it is not there, locks it, and removes from it
-  // - junit.xml and summary.md: the verdict of an earlier run must not be taken for that of one that fails or is
-  //   killed;
-  // - temporary files of runs that were killed (clear_abandoned_files, scenes/file.h), in images/ too.
-  // Throws Error(usage) when the folder cannot be made or another run is writing into it; Error(scene) when the verdict
-  // cannot be removed, or when images/ is a link or a file.
+  // Makes the folder if it does not exist, locks it, and removes from it
+  // - junit.xml and summary.md, because a run that fails or is killed must not leave the verdict of an earlier run;
+  // - temporary files of runs that were killed (clear_abandoned_files, scenes/file.h), also in images/.
+  //
+  // Throws Error(usage) if the folder cannot be made or another run is writing into it. Throws Error(scene) if the
+  // verdict cannot be removed, or if images/ is a link or a file.
   explicit ResultsFolder(const std::string& path);
   ~ResultsFolder();
   ResultsFolder(const ResultsFolder&) = delete;
@@ -26,19 +26,19 @@ class ResultsFolder {
 
   const std::string& path() const { return path_; }
 
-  // report.html and results.csv, which show an earlier verdict, or other results than this run's. They are made from
-  // the store, and can be made again from it.
+  // Removes report.html and results.csv, because they show an earlier verdict, or results of another run. Both can be
+  // made again from the store.
   void remove_report() const;
-  // The pictures too, when all is measured anew.
+  // Removes the pictures too, before all points are measured anew.
   void remove_earlier_results() const;
 
  private:
   std::string path_;
-  int descriptor_;  // the lock goes with it, also when the program is killed
+  int descriptor_;  // closing it releases the lock, also when the program is killed
 };
 
-// A results' folder that is opened before anything else can fail, because that removes an earlier verdict. What is
-// wrong with the folder itself is thrown only by get(): what is wrong with the experiment is to be said first.
+// A results' folder that is opened before anything else can fail, because opening it removes an earlier verdict. An
+// error of the folder itself is thrown only by get(), so that an error of the experiment is reported first.
 class EarlyFolder {
  public:
   void open(const std::string& path);

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view options_with_a_value[] = {"--set", "--part", "--threads", "--out", "--point"};
 
-// As far as it can be told: the words that are no options and no option's value, and every --out.
+// Sorts the words as far as possible: the words that are neither options nor values of options, and every --out.
 struct Words {
   std::vector<std::string> plain, outs;
   bool dry_run = false;
@@ -28,7 +28,7 @@ struct Words {
 
 Words sorted_out(std::span<const std::string> words) {
   Words sorted;
-  bool only_plain = false;  // behind "--"
+  bool only_plain = false;  // after "--"
   for (size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     if (only_plain || !word.starts_with('-') || word == "-")
@@ -56,7 +56,7 @@ MeantFolders meant_folders(std::span<const std::string> words, const std::vector
   const auto is_verb = [&](const std::string& word) {
     return std::find(verbs.begin(), verbs.end(), word) != verbs.end();
   };
-  // The first word is not always the verb: it can be the value of an unknown option.
+  // The first word is not always the verb, because it can be the value of an unknown option.
   auto at = std::find_if(sorted.plain.begin(), sorted.plain.end(), is_verb);
   if (at == sorted.plain.end()) at = sorted.plain.begin();
   const std::string verb = is_verb(*at) ? *at : nearest_name(*at, verbs);
@@ -66,7 +66,8 @@ MeantFolders meant_folders(std::span<const std::string> words, const std::vector
 
   if (sorted.outs.empty()) sorted.outs.emplace_back();
   for (const std::string& out : sorted.outs) {
-    // One word that was wrongly taken for an experiment makes one into several: so both, the folder and those below.
+    // A word that was wrongly taken for an experiment turns one experiment into several. So both are listed: the folder
+    // itself and the folders below it.
     if (!out.empty()) meant.folders.push_back({out, paths.empty() ? out : paths[0]});
     for (const ListedExperiment& one : list_experiments(paths, out).experiments)
       if (one.out != out) meant.folders.push_back({one.out, one.file});
@@ -83,7 +84,7 @@ void retract_verdicts(const MeantFolders& meant, const Failure& failure, const s
       const ResultsFolder folder(one.path);
       if (meant.judges) write_unjudged(one.path, one.experiment, failure, command);
     } catch (const Error& error) {
-      if (error.kind() != ErrorKind::usage) tell({failure.exit_code, printable(error.what())});  // it is another run's
+      if (error.kind() != ErrorKind::usage) tell({failure.exit_code, printable(error.what())});  // else another run's
     }
   }
 }
@@ -94,7 +95,7 @@ void write_unjudged(const std::string& out, const std::string& experiment, const
     const Unjudged why{experiment, command, utc_now(), failure.message, failure.exit_code};
     write_file_atomically(out + "/junit.xml", to_junit(why));
     write_file_atomically(out + "/summary.md", to_summary(why));
-  } catch (const Error& error) {  // the disk may be what failed in the first place
+  } catch (const Error& error) {  // the disk may be the cause of the failure
     tell({failure.exit_code, printable(error.what())});
   }
 }

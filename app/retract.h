@@ -1,5 +1,5 @@
-// Removes the verdict of an earlier run when this run fails before it opens its results' folder. It fails so early when
-// the command line is wrong, when threads do not start, or when two experiments have the same results' folder.
+// Removes the verdict of an earlier run if this run fails before it opens its results' folder. That happens if the
+// command line is wrong, if threads do not start, or if two experiments have the same results' folder.
 #pragma once
 #include <span>
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace noonmark {
 
-// The results' folders that the words of a command line (without the program) mean, whatever else is wrong with them:
-// where --out says, and where the experiments' results would go. Empty unless the verb is `check` or `run` (or a
-// misspelling of it; verbs: all there are) and something would have been measured.
+// The results' folders that the words of a command line (without the program) name, even if the words are wrong in
+// other ways: the value of --out, and the default folders of the experiments. verbs: all verbs. Empty unless the verb
+// is `check` or `run`, or a misspelling of one, and the command would have measured something.
 struct MeantFolder {
   std::string path;
   std::string experiment;
@@ -23,12 +23,13 @@ struct MeantFolders {
 };
 MeantFolders meant_folders(std::span<const std::string> words, const std::vector<std::string_view>& verbs);
 
-// Takes junit.xml and summary.md out of those folders that have one, and where the verb is `check` puts there why
-// nothing was judged. Leaves a folder alone that another run is writing into. Never throws an Error.
+// Removes junit.xml and summary.md from those folders that have one. If the verb is `check`, it writes new ones with
+// the reason why nothing was judged. It does not touch a folder into which another run is writing. Never throws an
+// Error.
 void retract_verdicts(const MeantFolders& meant, const Failure& failure, const std::string& command);
 
-// junit.xml and summary.md that say why an experiment was not judged. A CI server that finds no verdict may show that
-// of the run before. Tells what cannot be written.
+// Writes junit.xml and summary.md with the reason why an experiment was not judged, because a CI server that finds no
+// verdict may show that of the run before. Prints which files cannot be written.
 void write_unjudged(const std::string& out, const std::string& experiment, const Failure& failure,
                     const std::string& command);
 

@@ -1,4 +1,4 @@
-// Settings as an experiment file has them. For experiment_file.cpp alone: toml++ is a large header.
+// Reads the settings of an experiment file. Only experiment_file.cpp includes it, because toml++ is a large header.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -14,7 +14,7 @@ class SettingsReader : protected TomlReader {
 
   // ---- values
 
-  // The text that the setting's row takes for one TOML value.
+  // The text form, as the setting's row reads it, of one TOML value.
   std::string raw_text(const Setting& row, const toml::node& node) const {
     if (node.is_integer()) return fmt::format("{}", node.as_integer()->get());
     if (node.is_floating_point()) return fmt::format("{}", node.as_floating_point()->get());
@@ -47,7 +47,8 @@ class SettingsReader : protected TomlReader {
     return row.get(scratch);
   }
 
-  // A relative path of a scene file starts at the experiment's folder. Built-in names have no such ending.
+  // A relative path of a scene file starts at the experiment's folder. Names of built-in scenes do not end in .gltf or
+  // .glb.
   std::string scene_path(const std::string& name) const {
     const std::filesystem::path named(name);
     std::string ending = named.extension().string();
@@ -59,7 +60,8 @@ class SettingsReader : protected TomlReader {
 
   static std::string range_text(const Setting& row, double value) {
     if (row.type == ValueType::real) return canonical_text(row, fmt::format("{}", value));
-    // pow() of a doubling range misses the integers by a few units in the last place, never by a billionth.
+    // In a range with doubling steps, pow() misses the integers by a few units in the last place, always below a
+    // billionth.
     constexpr double rounding = 1e-9;
     const double nearest = std::round(value);
     if (std::abs(value - nearest) > rounding * std::abs(nearest))
@@ -82,8 +84,8 @@ class SettingsReader : protected TomlReader {
     const std::vector<std::string_view> names = groups();
     return std::find(names.begin(), names.end(), key) != names.end();
   }
-  // Hands every setting in a table to `use`: `resolution` in group `map`, or, with no group, `map.resolution` as nested
-  // tables, dotted keys or one quoted key.
+  // Calls `use` for every setting in a table: for `resolution` if the group is `map`. Without a group, for
+  // `map.resolution` written as nested tables, as dotted keys or as one quoted key.
   template <class Use>
   void read_settings(const toml::table& table, const std::string& group, const Use& use) {
     for (const Item& item : items(table)) {

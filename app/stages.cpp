@@ -13,7 +13,7 @@
 namespace noonmark {
 namespace {
 
-// What a pass costs: the median of three, so that one interruption does not show.
+// The time of a pass: the median of three, so that one interruption has no effect.
 template <class Pass>
 double median_time(const Pass& pass) {
   std::array<double, 3> times;
@@ -30,7 +30,7 @@ double scene_behind(const Scene& scene, const Camera& camera) {
   return static_cast<double>(behind) / static_cast<double>(scene.positions.size());
 }
 
-// Whole rows of the picture, as many as have their taps in so many bytes; one at least.
+// Whole rows of the picture: as many as have room for their taps in this many bytes, at least one.
 std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t strip_bytes) {
   const auto width = static_cast<size_t>(settings.view.width_px), height = static_cast<size_t>(settings.view.height_px);
   const size_t row_bytes = width * static_cast<size_t>(tap_pattern(settings.filter).taps) * bytes_per_tap(light);
@@ -40,12 +40,12 @@ std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, siz
   return strips;
 }
 
-// The truth of this strip's taps, in place of another's.
+// Traces the truth of this strip's taps, which replaces that of another strip.
 void bring_taps(gl::Renderer& renderer, LookupStage& lookup, const PointSetup& point, PixelRange strip) {
-  lookup.taps = {};  // before the next: it is large
+  lookup.taps = {};  // freed before the next is made, because it is large
   if (!lookup.probe.holds(strip)) renderer.probe_strip(lookup.probe, point.frame, point.settings, strip);
   lookup.taps = lookup.rays->trace_taps(lookup.probe, strip, lookup.edge_distance_texels, &lookup.tap_stage);
-  if (lookup.strips.size() == 1) lookup.rays.reset();  // nobody asks again
+  if (lookup.strips.size() == 1) lookup.rays.reset();  // not needed again
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ SceneStage load_scene(const Settings& settings, gl::Renderer& renderer) {
   return {std::move(scene), std::move(identity), std::move(tracer), open_edges};
 }
 
-// Drawn again without what may have hidden surfaces, and only where something may have.
+// Draws again without the parts that can hide surfaces, and only if something could be hidden.
 ViewStage take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings) {
   const Camera camera = effective_camera(scene, settings);
   const int width = settings.width_px, height = settings.height_px;

@@ -10,8 +10,9 @@
 //   ShownStage shown = show(renderer, map, lookup, evidence_of(...));
 //   Climbed climbed = climb_strips(...);
 //
-// app/workbench.h joins them and keeps what consecutive points share; which settings a stage reads, their rows say
-// (technique/settings.h). tests/planted_support.h joins the same functions around a renderer with a defect.
+// app/workbench.h joins these stages and keeps the results that consecutive points share. The settings' rows name the
+// stages that read them (technique/settings.h). tests/planted_support.h joins the same functions around a renderer with
+// a defect.
 #pragma once
 #include <map>
 #include <memory>
@@ -27,11 +28,11 @@
 
 namespace noonmark {
 
-// What is asked at one point of a sweep.
+// The inputs of one point of a sweep.
 struct PointSetup {
   const Settings& settings;
   const LightFrame& frame;  // make_light_frame()
-  Bias bias;                // of settings.bias; in tests of planted defects, what the ladder takes it for
+  Bias bias;                // made from settings.bias; in tests of planted defects, the bias that the ladder assumes
 };
 
 struct SceneStage {
@@ -40,13 +41,13 @@ struct SceneStage {
   std::unique_ptr<raytrace::Tracer> tracer;
   uint64_t open_edges = 0;
 };
-// Uploads the scene to the renderer, too. Throws Error.
+// Also uploads the scene to the renderer. Throws Error.
 SceneStage load_scene(const Settings& settings, gl::Renderer& renderer);
 
 struct ViewStage {
   Camera camera;
   ReceiverImage receivers;
-  std::map<std::string, double> metrics;  // why pixels see nothing
+  std::map<std::string, double> metrics;  // numbers of pixels that see nothing, by reason
 };
 ViewStage take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings);
 
@@ -65,39 +66,39 @@ struct MapStage {
 // scene: as the renderer has it.
 MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point);
 
-// What the lookup asks, and what is true there. The truth of the taps is of one strip of the picture at a time; where
-// all of them fit into one strip it is kept, and the rays are not.
+// The lookup's inputs and their truth. The truth of the taps covers one strip of the picture at a time. If all taps fit
+// into one strip, the truth is kept and the rays are freed.
 struct LookupStage {
-  LookupProbe probe;  // of a cube, with the texels of the strip at hand
+  LookupProbe probe;  // for a cube with the texels of the present strip
   gl::ShadowMap exact_map;
   Image<float> exact_depth;
   std::vector<PixelRange> strips;
   std::optional<raytrace::LookupTracer> rays;
-  TapTruth taps;  // of the strip at hand
+  TapTruth taps;  // of the present strip
   Image<float> edge_distance_texels;
   StageTime texel_stage, tap_stage;
 };
-// strip_bytes: what the truth of a strip's taps may take. sound: whose unit of polygon offset the exact map has; the
-// renderer itself but in tests of planted defects. view and truth must outlive what it returns.
+// strip_bytes: the most memory for the truth of a strip's taps. sound: the renderer whose unit of polygon offset the
+// exact map uses; it is the renderer itself except in tests of planted defects. view and truth must outlive the result.
 LookupStage prepare_lookup(gl::Renderer& renderer, gl::Renderer& sound, const raytrace::Tracer& tracer,
                            const ViewStage& view, const TruthStage& truth, const PointSetup& point, size_t strip_bytes);
 
-// What OpenGL shows: the technique on its own map, on the exact map, and on a map of ties.
+// What OpenGL shows: the technique on its own map, on the exact map and on the tie map.
 struct ShownStage {
   Image<float> r5, r4, ties, tie_lookup;
-  double time_ms = 0;  // of the lookup in its own map, the median of three
+  double time_ms = 0;  // the lookup in its own map, median of three
 };
-// asked: the settings that the lookup runs with; uploaded: those of the maps that are uploaded. Both are the point's but
-// in tests of planted defects.
+// asked: the settings of the lookup. uploaded: the settings of the maps that are uploaded. Both are the point's
+// settings except in tests of planted defects.
 ShownStage show(gl::Renderer& renderer, const gl::ShadowMap& map, const LookupStage& lookup, const TruthStage& truth,
                 const PointSetup& point, const Settings& asked, const MapSettings& uploaded);
 
 struct Climbed {
   Ladder ladder;
   std::map<std::string, double> soundness;  // compare/judge/soundness.h
-  std::optional<BiasCounts> counts;         // where a part is varied
+  std::optional<BiasCounts> counts;         // if a part is varied
 };
-// Brings the taps of strip after strip, and books them. varied: the part that a curve runs through, or null.
+// Traces the taps strip by strip and books them. varied: the part of the bias that a curve varies, or null.
 Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view, const TruthStage& truth,
                      const Image<float>& stored_map, const ShownStage& shown, const PointSetup& point,
                      const BiasPart* varied);

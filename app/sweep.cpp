@@ -35,7 +35,7 @@
 namespace noonmark {
 namespace {
 
-// A signal handler can reach nothing but a global.
+// A signal handler can use only globals.
 volatile std::sig_atomic_t stop_asked = 0;
 
 class StopOnSignal {
@@ -46,10 +46,11 @@ class StopOnSignal {
       struct sigaction action {};
       action.sa_handler = [](int) {
         stop_asked = 1;
-        static constexpr char text[] = "\nstopping after this point, which is then stored; once more to stop at once\n";
+        static constexpr char text[] =
+            "\nstopping after this point, which is then stored; a second signal stops at once\n";
         [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
       };
-      action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second signal ends the program
+      action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second signal ends the program
       sigaction(signals_[i], &action, &before_[i]);
     }
   }
@@ -64,7 +65,8 @@ class StopOnSignal {
   struct sigaction before_[2]{};
 };
 
-// What was set and changed nothing at any point of its part: a user should not believe that it was measured.
+// Reports settings that were set but had no effect at any point of their part, so that a user does not believe that
+// they were measured.
 class IdleNotes {
  public:
   void add(const std::string& part, const std::vector<IdleSetting>& idle) {
@@ -111,16 +113,16 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
   return info;
 }
 
-// "3 edges map.resolution = 512", for progress and messages.
+// "3 edges map.resolution = 512", for progress lines and messages.
 std::string name_of_point(const Experiment& experiment, int64_t id) {
   const std::string part = part_of_point(experiment, id).part, swept = swept_text(experiment, id);
   const std::string name = part + (part.empty() || swept.empty() ? "" : " ") + swept;
   return name.empty() ? "the only point" : name;
 }
 
-// What each point will take, and every scene remembered as it is now. Throws the error of the first point that cannot
-// be measured (settings that its light refuses, a map without volume), before any is. Each scene is met once, in the
-// order of the points.
+// Predicts the memory of each point and remembers the present contents of every scene. Before any point is measured, it
+// throws the error of the first point that cannot be measured (settings that its light refuses, a map without volume).
+// Each scene is loaded once, in the order of the points.
 std::vector<MemoryEstimate> survey(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points,
                                    SceneDigests& scenes) {
   std::vector<MemoryEstimate> memory;
@@ -142,8 +144,8 @@ void require_memory_of(const Workbench& bench, const Experiment& experiment, con
                  fmt::format("point {} ({})", id, name_of_point(experiment, static_cast<int64_t>(id))));
 }
 
-// Opens the store. It also removes the report and the table of an earlier run: they can show an old verdict, or other
-// results.
+// Opens the store. It also removes an earlier run's report and results.csv, because they can show an old verdict or
+// other results.
 ResultStore open_store(const ResultsFolder& folder, const std::string& fingerprint, bool overwrite) {
   try {
     ResultStore store(folder.path() + "/results.sqlite", fingerprint,
@@ -161,7 +163,7 @@ ResultStore open_store(const ResultsFolder& folder, const std::string& fingerpri
   }
 }
 
-// Every part's bounds and laws, asked of that part's points.
+// Judges every part's bounds and laws on that part's points.
 void judge(const Experiment& experiment, Results& results) {
   const auto reproduce = [&](const PointRecord& point) { return reproduce_command(experiment, point); };
   const auto judge_part = [&](const Experiment& part, std::span<const PointRecord> points) {
@@ -183,7 +185,7 @@ void judge(const Experiment& experiment, Results& results) {
   }
 }
 
-// Whether a stored point has the numbers that a sweep itself reads (require_sound, points_with_pictures).
+// Whether a stored point has the numbers that the sweep itself needs (require_sound, points_with_pictures).
 bool has_what_a_sweep_reads(const PointRecord& point) {
   const auto has = [&](std::string_view name) { return point.metrics.contains(std::string(name)); };
   return has("facing") && has("error") &&
@@ -226,7 +228,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   if (!before.empty())
     fmt::print(stderr, "{} of {} {} in {} already\n", before.size(), counted(planned.size(), "point"),
                total == 1 ? "is" : "are", printable(folder.path()));
-  // All of them, before the first is measured: hours later is too late to hear of it.
+  // All of them are checked before the first is measured, so that a user does not get the error hours later.
   const auto measured_before = [&](int64_t id) { return std::binary_search(before.begin(), before.end(), id); };
   for (int64_t id = 0; id < total; ++id)
     if (!measured_before(id)) require_memory_of(bench, experiment, memory, static_cast<size_t>(id));
@@ -239,7 +241,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     for (int64_t id = 0; id < total && !outcome.interrupted; ++id) {
       if (measured_before(id)) continue;
       require_memory_of(bench, experiment, memory,
-                        static_cast<size_t>(id));  // others may have taken it meanwhile
+                        static_cast<size_t>(id));  // other programs may have taken memory since
       const Experiment& part = part_of_point(experiment, id);
       scenes.require_unchanged(bench, planned[static_cast<size_t>(id)]);
       Measurement m = bench.measure(planned[static_cast<size_t>(id)],
@@ -296,7 +298,7 @@ void print_plan(const Experiment& experiment) {
   const auto taps = [](const Settings& s) {
     return static_cast<double>(s.view.width_px) * s.view.height_px * tap_pattern(s.filter).taps;
   };
-  // All that run asks for, in the same order.
+  // Checks the same things as run, in the same order.
   require_room_to_start(writes_pictures(experiment));
   Workbench bench(gl::DebugMode::log);
   if (writes_pictures(experiment)) require_image_files();
@@ -319,13 +321,13 @@ void print_plan(const Experiment& experiment) {
              most - memory.begin(), bytes_text(share.bytes), share.what,
              bench.memory_of_program(writes_pictures(experiment)).text());
   for (size_t i = 0; i < planned.size(); ++i) require_memory_of(bench, experiment, memory, i);
-  // Time is close to a constant for each point plus a share for each tap: two small pictures of the first point tell
+  // The time is almost a constant for each point plus a share for each tap. Two small pictures of the first point give
   // both.
   const auto seconds = [&](int divisor, double nudge) {
     Settings small = planned[0];
     small.view.width_px = std::max(1, small.view.width_px / divisor);
     small.view.height_px = std::max(1, small.view.height_px / divisor);
-    small.map.extent_scale *= nudge;  // or what is remembered of the point before would come for nothing
+    small.map.extent_scale *= nudge;  // so that nothing is reused from the point before
     const auto start = std::chrono::steady_clock::now();
     bench.measure(small, part_of_point(experiment, 0).curve);
     return std::pair(taps(small), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());

@@ -1,4 +1,4 @@
-// Runs an experiment: every point measured once, stored as it goes, and the files for people and programs written.
+// Runs an experiment: measures and stores every point once, and writes the files for people and programs.
 //
 //   SweepOutcome outcome = run_sweep(experiment, ResultsFolder("out/cube-room"), {.command = "noonmark run ..."});
 #pragma once
@@ -11,7 +11,7 @@
 namespace noonmark {
 
 struct SweepOptions {
-  bool overwrite = false;  // start anew, whatever the folder's store holds
+  bool overwrite = false;  // start anew; the results in the folder's store are lost
   std::string command;     // for the record
 };
 
@@ -20,21 +20,21 @@ struct SweepOutcome {
   bool interrupted = false;  // by SIGINT or SIGTERM; the finished points are stored
 };
 
-// Points that would not fit into memory are refused before any is measured. Resumes where an earlier run of the same
-// experiment stopped; what no longer holds together in its store is told and measured anew. Writes results.sqlite point
-// by point; then results.csv, report.html and, when pictures are asked for, images/. Throws Error: usage, scene,
-// device; defect when a measurement is not sound (after everything is stored).
+// Points that do not fit into memory are refused before any point is measured. The sweep resumes where an earlier run
+// of the same experiment stopped. Damaged parts of the store are reported and measured anew. Writes results.sqlite
+// point by point, then results.csv, report.html and, if pictures are asked for, images/. Throws Error: usage, scene,
+// device; and defect if a measurement is not sound, after everything is stored.
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options);
 
 // Throws Error(defect) at the first point with a metric beyond its limit in compare/judge/soundness.h. Points without a
-// facing receiver have nothing to contradict.
+// facing receiver are not checked.
 void require_sound(const Results& results);
 
-// report.html and results.csv from what is in the results' directory.
+// Writes report.html and results.csv from the contents of the results' folder.
 void write_report(const Results& results, const std::string& out);
 
-// What a run would do: every point and how much memory it takes, and about how long it would take, judged from small
-// pictures of the first point. Throws Error(usage) for a point that does not fit into memory.
+// Prints what a run would do: every point with its memory, and an estimate of the time from small pictures of the first
+// point. Throws Error(usage) for a point that does not fit into memory.
 void print_plan(const Experiment& experiment);
 
 }  // namespace noonmark

@@ -14,11 +14,11 @@
 namespace noonmark {
 namespace {
 
-// stdio knows its streams as globals; so does what stands behind them.
+// stdio's streams are globals, so this state is global too.
 struct Stream {
   int descriptor = -1;
-  int error = 0;          // of the first write that failed
-  std::string pending{};  // the beginning of a character whose end is still to come
+  int error = 0;          // errno of the first write that failed
+  std::string pending{};  // the beginning of an incomplete character
 };
 Stream output{.descriptor = STDOUT_FILENO}, errors{.descriptor = STDERR_FILENO};
 
@@ -27,7 +27,7 @@ int write_all(int descriptor, std::string_view bytes) {
     const ssize_t written = write(descriptor, bytes.data(), bytes.size());
     if (written > 0) {
       bytes.remove_prefix(static_cast<size_t>(written));
-    } else if (errno == EAGAIN) {  // somebody made it non-blocking
+    } else if (errno == EAGAIN) {  // another program made it non-blocking
       pollfd ready{descriptor, POLLOUT, 0};
       poll(&ready, 1, -1);
     } else if (errno != EINTR) {
@@ -37,11 +37,11 @@ int write_all(int descriptor, std::string_view bytes) {
   return 0;
 }
 
-// How many bytes at the end of text are a character that is cut short.
+// The number of bytes at the end of text that belong to an incomplete character.
 size_t cut_short(std::string_view text) {
   for (size_t length = 1; length <= 3 && length <= text.size(); ++length) {
     const auto first = static_cast<unsigned char>(text[text.size() - length]);
-    if ((first & 0xc0) == 0x80) continue;  // within a character
+    if ((first & 0xc0) == 0x80) continue;  // a continuation byte of a character
     const size_t whole = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : first >= 0xc0 ? 2 : 1;
     return whole > length ? length : 0;
   }
@@ -56,7 +56,7 @@ ssize_t write_cookie(void* cookie, const char* data, size_t size) {
   text.resize(text.size() - rest);
   const int error = write_all(stream.descriptor, printable(text, Lines::many));
   if (stream.error == 0) stream.error = error;
-  return static_cast<ssize_t>(size);  // stdio would try again, and fmt throw
+  return static_cast<ssize_t>(size);  // otherwise stdio would try again, and fmt would throw
 }
 
 int close_cookie(void* cookie) {
@@ -75,8 +75,8 @@ std::FILE* open_stream(Stream& stream, int buffering) {
   return file;
 }
 
-// A file that is opened while 0, 1 or 2 is closed gets that number, and what is printed would go into it. Read only, so
-// that a write fails and is noticed.
+// A file that is opened while 0, 1 or 2 is closed gets that number, and printed text would go into it. These numbers
+// are opened read-only here, so a write fails and is noticed.
 void occupy_standard_descriptors() {
   for (int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) {

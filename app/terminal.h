@@ -1,13 +1,14 @@
-// Standard output and standard error, as the whole program writes them through stdio and fmt::print.
+// Standard output and standard error, for all writes of the program through stdio and fmt::print.
 //
 //   const Terminal terminal;          // first thing in main
-//   fmt::print("{}\n", path);         // any path: what a terminal would obey arrives as \xNN
-//   if (terminal.lost() != 0) ...     // last thing: something said on standard output did not arrive
+//   fmt::print("{}\n", path);         // any path: control characters are printed as \xNN
+//   if (terminal.lost() != 0) ...     // last thing: a write to standard output has failed
 //
-// - No write that fails throws, kills or stops anything: a measurement is worth more than a line about it. A closed
-//   stream, a full disk, a reader that went away (SIGPIPE is ignored) and a file at its size limit are the same.
-// - Lines that are printed end as they were written; \n and \t pass, other control characters and bytes that are no
-//   UTF-8 do not. A text that must stay one line is printed by printable() (scenes/text.h).
+// - A write that fails does not throw, kill or stop anything, because a measurement is worth more than a line about it.
+//   This holds for a closed stream, a full disk, a reader that went away (SIGPIPE is ignored) and a file at its size
+//   limit.
+// - Line ends are printed unchanged: \n and \t pass. Other control characters and bytes that are not UTF-8 are
+//   replaced. A text that must stay in one line is printed with printable() (scenes/text.h).
 #pragma once
 #include <cstdio>
 #include <string_view>
@@ -21,8 +22,8 @@ class Terminal {
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
 
-  // errno of the first write to standard output that failed; 0 when all arrived, or when its reader had read enough and
-  // closed it (EPIPE), as `| head` does.
+  // errno of the first write to standard output that failed. 0 if all writes succeeded, or if the reader closed the
+  // stream early (EPIPE), as `| head` does.
   int lost() const;
 
  private:
@@ -30,7 +31,7 @@ class Terminal {
   std::FILE* const stderr_before_;
 };
 
-// To standard error as it is: for the program's own cursor movements.
+// Writes bytes to standard error unchanged, for the program's own cursor movements.
 void write_to_terminal(std::string_view bytes);
 
 }  // namespace noonmark

@@ -14,17 +14,17 @@
 namespace noonmark {
 namespace {
 
-// Beside those of the rays and the renderer: what Mesa, OpenEXR and OpenImageIO's libraries start for themselves, two
-// thirds of it measured on Debian 12.
+// Threads beside those of the rays and the renderer: Mesa, OpenEXR and OpenImageIO start them. Two thirds of this
+// number were measured on Debian 12.
 constexpr int threads_of_libraries = 12;
 
 struct Gate {
   pthread_mutex_t closed = PTHREAD_MUTEX_INITIALIZER;
 };
 
-// How many threads can live at once, up to `most`. Not std::thread, which frees memory as it ends: the C library then
-// sets aside 64 MB of address space for that thread, of some of them, by chance, and what is left under ulimit -v would
-// be another number in every run.
+// How many threads can live at the same time, up to `most`. std::thread is not used, because it frees memory when it
+// ends. Then the C library, for some threads and by chance, reserves 64 MB of address space, and the space left under
+// ulimit -v would differ from run to run.
 int startable(int most) {
   Gate gate;
   pthread_mutex_lock(&gate.closed);
@@ -57,7 +57,7 @@ ThreadLimit::ThreadLimit(int threads) {
                     possible, 2 + threads_of_libraries));
   if (possible < all) {
     threads = (possible - threads_of_libraries) / 2;
-    fmt::print(stderr, "note: no more than {} threads can be started here; going on with --threads {}\n", possible,
+    fmt::print(stderr, "note: no more than {} threads can be started here; continuing with --threads {}\n", possible,
                threads);
   }
   if (threads == 0) return;

@@ -1,4 +1,4 @@
-// How many threads the measurement takes. Results do not depend on it (tests/determinism_test.cpp).
+// Limits the number of threads of a measurement. Results do not depend on it (tests/determinism_test.cpp).
 #pragma once
 #include <tbb/global_control.h>
 
@@ -8,13 +8,14 @@ namespace noonmark {
 
 class ThreadLimit {
  public:
-  // threads: of the rays and of Mesa's software renderer; 0: as many as there are cores. Fewer, with a note on standard
-  // error, where the system does not let so many start. To be made before OpenGL is started. Throws Error(device) where
-  // not even one of each can start: libraries end the program without a word when a thread of theirs cannot.
+  // threads: the number for the rays and for Mesa's software renderer; 0: the number of cores. If the system does not
+  // let so many start, fewer are used, with a note on standard error. Make this object before OpenGL is started. Throws
+  // Error(device) if not even one thread of each kind can start, because libraries end the program without a message if
+  // they cannot start a thread.
   explicit ThreadLimit(int threads);
 
  private:
-  std::optional<tbb::global_control> rays_;  // holds as long as this object lives
+  std::optional<tbb::global_control> rays_;  // in effect as long as this object lives
 };
 
 }  // namespace noonmark

@@ -1,5 +1,5 @@
-// TOML values as an experiment file has them, read so that every message can name file:line:column. For
-// settings_reader.h alone: toml++ is a large header.
+// Reads TOML values of an experiment file, so that every message can name file:line:column. Only settings_reader.h
+// includes it, because toml++ is a large header.
 #pragma once
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,14 +20,14 @@
 
 namespace noonmark {
 
-// One key of a table and what it holds, in the order of the file (toml++ sorts keys by name).
+// One key of a table and its value, in the order of the file (toml++ sorts keys by name).
 struct Item {
   std::string key;
   toml::source_region where;
   const toml::node* node;
 };
 
-// An error whose message starts with its place already.
+// An error whose message already starts with its place.
 struct PlacedError : Error {
   using Error::Error;
 };
@@ -47,7 +47,7 @@ class TomlReader {
   }
   [[noreturn]] void fail(const toml::node& node, const std::string& what) const { fail(node.source(), what); }
 
-  // Runs f; an error that it throws gets the place in front, unless it has one.
+  // Runs f. An error that f throws gets the place in front, unless it already has one.
   template <class F>
   auto at(const toml::source_region& where, F f) const {
     try {
@@ -152,7 +152,8 @@ class TomlReader {
 
  private:
   // The arithmetic of a range misses a short decimal by a few units in the last place: 10 * 8^(2/3) gives
-  // 39.99999999999999. Such a value becomes the decimal, because `where` and --set name a value by its exact text.
+  // 39.99999999999999. Such a value is replaced by the decimal, because `where` and --set name a value by its exact
+  // text.
   static double short_decimal(double value, double magnitude) {
     constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();  // pow() over 12 decades: 13 of them
     if (std::abs(value) <= rounding * magnitude) return 0;

@@ -15,7 +15,7 @@ bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
 class Scanner {
  public:
   Scanner(std::string_view text, const std::string& path) : text_(text), path_(path) {
-    if (text_.starts_with("\xef\xbb\xbf")) at_ = begin_ = 3;  // a byte order mark; toml++ passes over it
+    if (text_.starts_with("\xef\xbb\xbf")) at_ = begin_ = 3;  // a byte order mark, which toml++ skips
   }
 
   void run() {
@@ -27,7 +27,7 @@ class Scanner {
         string(c);
         before_ = c;
       } else if (!is_ascii(c)) {
-        refuse("may stand in strings and comments only; put quotes around the name or the value");
+        refuse("is allowed in strings and comments only; put quotes around the name or the value");
       } else {
         outside(c);
         ++at_;
@@ -36,8 +36,9 @@ class Scanner {
   }
 
  private:
-  // One character outside of strings. Within a word (+"x") a quote begins no string: toml++ reads on to the word's end,
-  // and only then finds that it is none. A dot ends a word among the parts of a key, not among the digits of a number.
+  // Handles one character outside of strings. Within a word (+"x") a quote does not begin a string: toml++ reads to the
+  // word's end and only then refuses it. A dot ends a word among the parts of a key, but not among the digits of a
+  // number.
   void outside(char c) {
     const bool names_value = c == '=' && (is_key_character(before_) || before_ == '"' || before_ == '\'');
     in_word_ = !is_space(c) && !names_value && !(c == '.' && in_key_) && !is_bracket_or_comma(c);
@@ -57,7 +58,7 @@ class Scanner {
 
   bool at_end() const { return at_ >= text_.size(); }
 
-  // How many of `quote` follow one another from here on, at most 5: as many as can end a string of several lines.
+  // The number of consecutive `quote` characters from here on, at most 5, because 5 can end a string of several lines.
   size_t quotes(char quote) const {
     size_t count = 0;
     while (count < 5 && at_ + count < text_.size() && text_[at_ + count] == quote) ++count;
@@ -70,7 +71,7 @@ class Scanner {
       at_ += 3;
       long_string(quote);
     } else if (count == 2) {
-      at_ += 2;  // an empty one
+      at_ += 2;  // an empty string
     } else {
       ++at_;
       short_string(quote);
@@ -79,7 +80,7 @@ class Scanner {
 
   void short_string(char quote) {
     while (!at_end() && text_[at_] != quote) {
-      // Without its end on this line the text is no TOML, and toml++ reads no further than here.
+      // A string without its end on this line is not TOML, and toml++ reads no further.
       if (text_[at_] == '\n') {
         at_ = text_.size();
         return;
@@ -90,7 +91,7 @@ class Scanner {
   }
 
   void long_string(char quote) {
-    bool after_backslash = false;  // directly, or with nothing but white space between
+    bool after_backslash = false;  // directly, or with only white space between
     while (!at_end()) {
       const char c = text_[at_];
       if (c == quote) {
@@ -101,14 +102,14 @@ class Scanner {
       } else if (c == '\\' && quote == '"') {
         ++at_;
         after_backslash = true;
-        // A letter or a sign behind it is an escape, and over with that.
+        // A letter or a sign after the backslash is an escape, which ends here.
         if (!at_end() && is_ascii(text_[at_]) && !is_space(text_[at_])) {
           ++at_;
           after_backslash = false;
         }
       } else {
         if (after_backslash && !is_ascii(c))
-          refuse("cannot be read behind a backslash that ends a line; begin the next line with another character");
+          refuse("cannot be read after a backslash that ends a line; begin the next line with another character");
         after_backslash = after_backslash && is_space(c);
         ++at_;
       }
@@ -128,27 +129,28 @@ class Scanner {
                             1 + std::count_if(before.begin(), before.end(), starts_character), name_here(), why));
   }
 
-  // "the character U+00E9", or what is no character of UTF-8.
+  // "the character U+00E9", or a byte that is not UTF-8.
   std::string name_here() const {
     const auto first = static_cast<unsigned char>(text_[at_]);
     const size_t more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : first >= 0xc0 ? 1 : 0;
     uint32_t code = first & (0x3fu >> more);
     for (size_t i = 1; i <= more; ++i) {
       const unsigned next = at_ + i < text_.size() ? static_cast<unsigned char>(text_[at_ + i]) : 0;
-      if ((next & 0xc0) != 0x80) return fmt::format("the byte {:#x}, no UTF-8,", first);
+      if ((next & 0xc0) != 0x80) return fmt::format("the byte {:#x}, which is not UTF-8,", first);
       code = code << 6 | (next & 0x3f);
     }
-    return more == 0 ? fmt::format("the byte {:#x}, no UTF-8,", first) : fmt::format("the character U+{:04X}", code);
+    return more == 0 ? fmt::format("the byte {:#x}, which is not UTF-8,", first)
+                     : fmt::format("the character U+{:04X}", code);
   }
 
   std::string_view text_;
   const std::string& path_;
   size_t at_ = 0, begin_ = 0;
   char before_ =
-      '\n';  // the last character outside of strings and comments that was no white space; or a string's quote
-  bool in_word_ = false;  // at a bare key, a number, or what would be one
+      '\n';  // the last character outside of strings and comments that is not white space, or a string's quote
+  bool in_word_ = false;  // at a bare key, a number, or similar text
   bool in_key_ = true;    // before the '=' of a line that begins no value
-  int depth_ = 0;         // of lists and inline tables
+  int depth_ = 0;         // nesting of lists and inline tables
 };
 
 }  // namespace

@@ -1,14 +1,14 @@
-// A guard before toml++ 3.3: where white space may stand, it asks of every character beyond ASCII whether it is one,
-// and for most of them that question is undefined behaviour (é and あ among them; the well-known one is U+FCBF).
+// A guard before toml++ 3.3. Where white space may stand, toml++ tests every character beyond ASCII for being white
+// space, and for most of them that test is undefined behaviour (for é and あ too; the well-known case is U+FCBF).
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace noonmark {
 
-// Throws Error(usage) with path:line:column at the first character beyond ASCII that stands outside of strings and
-// comments, where TOML has none; or in a """string""" behind a backslash or a line that one ended, where TOML allows
-// it. Whatever else is wrong with the text is left to toml++.
+// Throws Error(usage) with path:line:column at the first character beyond ASCII outside of strings and comments, where
+// TOML has no such characters. Also throws for one in a """string""" after a backslash that ends a line, where TOML
+// allows it. All other mistakes in the text are left to toml++.
 void check_toml_text(std::string_view text, const std::string& path);
 
 }  // namespace noonmark

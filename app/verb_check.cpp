@@ -26,7 +26,8 @@ int check_one(const ListedExperiment& listed, const ExperimentArguments& argumen
   const std::string &path = listed.file, &out = listed.out;
   std::error_code none;
   if (listed.in_folder && fs::exists(path, none) && !fs::is_regular_file(path, none))
-    throw Error(ErrorKind::usage, fmt::format("{}: is not a regular file; only those of a folder are checked", path));
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: is not a regular file; in a folder only regular files are checked", path));
   const Experiment experiment = experiment_from(path, arguments);
   const auto promises = [](const Experiment& e) { return !e.bounds.empty() || !e.laws.empty(); };
   if (!promises(experiment) && std::none_of(experiment.parts.begin(), experiment.parts.end(), promises))
@@ -39,7 +40,7 @@ int check_one(const ListedExperiment& listed, const ExperimentArguments& argumen
   write_file_atomically(out + "/junit.xml", to_junit(outcome.results));
   write_file_atomically(out + "/summary.md", to_summary(outcome.results));
   if (outcome.interrupted) {
-    fmt::print("stopped after {} of {}; the same command goes on from there\n", outcome.results.points.size(),
+    fmt::print("stopped after {} of {}; the same command continues from there\n", outcome.results.points.size(),
                counted(static_cast<size_t>(outcome.results.planned_points), "point"));
     return static_cast<int>(ErrorKind::incomplete);
   }
@@ -63,7 +64,7 @@ int check_one(const ListedExperiment& listed, const ExperimentArguments& argumen
   return bounds_held == results.bounds.size() && laws_held == results.laws.size() ? 0 : 1;
 }
 
-// At the end, where the lines above may be many.
+// Printed at the end, because there may be many lines above.
 void tell_the_unchecked(const std::vector<std::string>& experiments, size_t of,
                         const std::vector<std::string>& folders) {
   std::string who;
@@ -96,7 +97,7 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
       failed.push_back(listed.file);
       if (folder.is_open()) write_unjudged(listed.out, listed.file, failure, arguments.command);
     }
-    if (worst == static_cast<int>(ErrorKind::incomplete)) break;  // somebody asked to stop
+    if (worst == static_cast<int>(ErrorKind::incomplete)) break;  // the user asked to stop
   }
   if (list.experiments.size() + unreadable.size() > 1 && failed.size() + unreadable.size() > 0)
     tell_the_unchecked(failed, list.experiments.size(), unreadable);

@@ -1,4 +1,4 @@
-// The verbs that only tell: report, scenes, settings, doctor.
+// The verbs that only print: report, scenes, settings, doctor.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -51,7 +51,7 @@ int verb_settings() {
     fmt::print("{:<28} {:<16} {}\n{:<45} {}\n", row.name, row.get(defaults), row.help, "", row.range_with_unit());
   fmt::print("\nMetrics: for [[bound]] and [plot].\n\n");
   for (const Metric& metric : metrics_table()) fmt::print("{:<32} {:<10} {}\n", metric.name, metric.unit, metric.help);
-  fmt::print("\nRead off the bias curve: for [[bound]].\n\n");
+  fmt::print("\nQuantities of the bias curve, for [[bound]]:\n\n");
   for (const CurveQuantity& quantity : curve_quantities())
     fmt::print("{:<32} {:<10} {}\n", quantity.name, quantity.unit, quantity.help);
   return 0;
@@ -88,7 +88,7 @@ int verb_doctor() {
     can_measure = false;
   }
   try {
-    if (room) {  // without it, loading the library ends the program
+    if (room) {  // without room, loading the library ends the program
       require_image_files();
       fmt::print("Pictures  OpenImageIO\n");
     }
@@ -100,8 +100,8 @@ int verb_doctor() {
   for (const LibraryVersion& library : facts.libraries)
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : "; ", library.name, library.version);
   fmt::print("Libraries {}\n", libraries);
-  fmt::print("{}\n", !can_measure          ? "Nothing can be measured here until this is mended."
-                     : !can_write_pictures ? "Only experiments with pictures = \"none\" run here until this is mended."
+  fmt::print("{}\n", !can_measure          ? "Nothing can be measured here until this is fixed."
+                     : !can_write_pictures ? "Only experiments with pictures = \"none\" run here until this is fixed."
                                            : "Everything that a measurement needs is here.");
   return can_measure && can_write_pictures ? 0 : static_cast<int>(ErrorKind::device);
 }

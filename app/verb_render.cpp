@@ -22,9 +22,10 @@ namespace {
 Settings the_point(const Experiment& experiment, long point) {
   const std::vector<Settings> all = points(experiment);
   if (point < 0 && all.size() > 1)
-    throw Error(ErrorKind::usage,
-                fmt::format("{} has {} points and render takes one; give --point 0 ... {}, or --set what is swept",
-                            experiment.path, all.size(), all.size() - 1));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{} has {} points, but render measures one; give --point 0 ... {}, or --set the swept settings",
+                    experiment.path, all.size(), all.size() - 1));
   if (point >= static_cast<long>(all.size()))
     throw Error(ErrorKind::usage, fmt::format("there is no point {}; the last one is {}", point, all.size() - 1));
   return all[static_cast<size_t>(std::max(point, 0L))];
@@ -62,15 +63,15 @@ void print_ladder(const Measurement& m) {
   if (c.acne_free_bias_depth && c.parameter == "bias.constant") {
     fmt::print("  free of acne from: {:.6g} depth = {:.4g} m{}", *c.acne_free_bias_depth,
                *c.acne_free_bias_depth * c.m_per_depth, m.frame.uniform() ? "" : " at the median receiver");
-    // The law in the parameter's own unit, which each receiver turns into depth for itself. Of what other parts of the
-    // bias gain it knows nothing.
+    // The law's bias in the parameter's own unit, which each receiver converts to depth by itself. The law does not
+    // include the effect of other parts of the bias.
     const Bias bias(m.settings.bias);
     if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset() || bias.moves_casters())
       fmt::print(", on top of the other parts");
     else if (m.frame.uniform() || m.settings.bias.unit == BiasUnit::m)
-      fmt::print("; by law 1 the planes in the picture ask for {:.4g} m", value("acne_free_bias_law_m"));
+      fmt::print("; by law 1 the planes in the picture need {:.4g} m", value("acne_free_bias_law_m"));
     else if (m.settings.bias.unit == BiasUnit::depth)
-      fmt::print("; by law 1 the planes in the picture ask for {:.4g} depth", value("acne_free_bias_law_depth"));
+      fmt::print("; by law 1 the planes in the picture need {:.4g} depth", value("acne_free_bias_law_depth"));
     fmt::print("\n");
   }
   fmt::print("  best {}: {:.6g} depth (error {:.5f}%)\n", c.parameter, c.best_bias_depth, 100 * c.best_error);

@@ -13,7 +13,7 @@ namespace noonmark {
 
 int verb_run(const std::string& path, const ExperimentArguments& arguments, bool dry_run) {
   const std::string out = out_folder(path, arguments);
-  // One that is not there yet holds no verdict, and is made only for an experiment that can be run.
+  // A folder that does not exist has no verdict. It is made only for an experiment that can be run.
   std::error_code none;
   const bool there = std::filesystem::is_directory(out, none);
   EarlyFolder folder;
@@ -26,7 +26,7 @@ int verb_run(const std::string& path, const ExperimentArguments& arguments, bool
   if (!there) folder.open(out);
   const SweepOutcome outcome = run_sweep(experiment, folder.get(), {arguments.overwrite, arguments.command});
   if (outcome.interrupted) {
-    fmt::print("stopped after {} of {}; the same command goes on from there\n", outcome.results.points.size(),
+    fmt::print("stopped after {} of {}; the same command continues from there\n", outcome.results.points.size(),
                counted(static_cast<size_t>(outcome.results.planned_points), "point"));
     return static_cast<int>(ErrorKind::incomplete);
   }

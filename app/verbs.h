@@ -1,4 +1,4 @@
-// The verbs of the command line: each in its own file, each returning the exit code. Errors are thrown.
+// The verbs of the command line. Each has its own file and returns the exit code. Errors are thrown.
 #pragma once
 #include <string>
 #include <vector>
@@ -15,9 +15,10 @@ struct ExperimentArguments {
 };
 
 int verb_run(const std::string& experiment, const ExperimentArguments& arguments, bool dry_run);
-// paths: experiment files, or folders whose *.toml are all checked. 0 when every bound held.
+// paths: experiment files, or folders, whose *.toml files are all checked. Returns 0 if every bound and law held.
 int verb_check(const std::vector<std::string>& paths, const ExperimentArguments& arguments);
-// experiment: may be empty (the default settings). point: of the experiment's sweep; -1: it must have one only.
+// experiment: may be empty (the default settings). point: of the experiment's sweep; -1: the sweep must have one point
+// only.
 int verb_render(const std::string& experiment, long point, const ExperimentArguments& arguments);
 int verb_report(const std::string& folder);
 int verb_scenes();

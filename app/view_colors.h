@@ -1,4 +1,4 @@
-// The colours of the views: greys by the sRGB transfer function, and the one palette of lines and scales.
+// The colours of the views: greys by the sRGB transfer function, and the palette of lines and scales.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -16,14 +16,14 @@ inline Color named_color(std::string_view name) {
   return {color->r, color->g, color->b};
 }
 
-// IEC 61966-2-1: of a value in linear light, where 1 is white. NaN is black.
+// IEC 61966-2-1: the 8-bit value of a linear light, where 1 is white. NaN is black.
 inline uint8_t encoded(double linear) {
   const double v = linear > 0 ? std::min(linear, 1.0) : 0;
   return static_cast<uint8_t>(std::lround(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055)));
 }
 inline Color grey(double linear) { return Color(encoded(linear)); }
 
-// Of a depth from 0, the nearest, to 1. In even steps of sRGB, which look even. NaN is black.
+// A grey for a depth from 0, the nearest, to 1. Steps are even in sRGB, so they look even. NaN is black.
 inline Color depth_grey(double depth) {
   return depth == depth ? Color(static_cast<uint8_t>(std::lround(255 * (0.97 - 0.8 * std::clamp(depth, 0.0, 1.0)))))
                         : Color(0);
@@ -31,12 +31,12 @@ inline Color depth_grey(double depth) {
 
 inline constexpr Color paper{12, 12, 14};  // around an unfolded cube
 
-// Lines of the light's frustum: Okabe and Ito's hues, as the causes' colours are.
+// Lines of the light's frustum, in Okabe and Ito's hues like the causes' colours.
 inline constexpr Color near_line{0, 158, 115}, far_line{213, 94, 0}, side_line{0, 114, 178}, cone_line{230, 159, 0},
     light_mark{204, 121, 167};
 
-// Of a difference in [0,1], dark to bright through violet, red and yellow: brightness alone tells the order. More is
-// the brightest, NaN is green, which is no difference's colour.
+// A colour for a difference in [0,1], from dark to bright through violet, red and yellow. The order is visible from
+// brightness alone. Differences above 1 get the brightest colour. NaN is green, which no difference has.
 inline Color difference_color(double value) {
   if (!(value == value)) return {0, 255, 0};
   static constexpr glm::vec3 stops[] = {{4, 4, 12},    {62, 18, 102},  {150, 38, 110},

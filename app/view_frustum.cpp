@@ -13,11 +13,11 @@ namespace noonmark {
 namespace {
 
 constexpr double half_width_px = 1.1;
-constexpr double dash_px = 5;  // on and off
+constexpr double dash_px = 5;  // length of a dash and of a gap
 constexpr double hidden_strength = 0.5;
 constexpr double mark_radius_px = 7;
-// A line in a surface is not hidden by it: the receiver's depth at the pixel's centre and the line's differ by what the
-// surface's slope makes of a pixel.
+// A line in a surface must not be hidden by that surface. The receiver's depth at the pixel's centre and the line's
+// depth differ by the surface's slope over one pixel.
 constexpr double in_front = 5e-3;
 
 using Corners = std::array<glm::dvec3, 4>;
@@ -46,7 +46,7 @@ WorldLine rim(const LightFrame& light, double z, Color color) {
   return line;
 }
 
-// 0: nothing of the line's colour, 1: all of it, for what is seen and what is hidden.
+// The share of the line's colour in a pixel, from 0 to 1, for seen and for hidden parts.
 struct Coverage {
   Image<float> seen, hidden;
 };
@@ -56,7 +56,7 @@ double receiver_depth(const CameraFrame& camera, const ReceiverImage& receivers,
   return glm::dot(glm::dvec3(receivers.position[i]) - camera.eye_m, camera.forward);
 }
 
-// along_px: where on the whole line the segment begins, for dashes that run on.
+// along_px: where the segment begins on the whole line, so that dashes continue.
 void cover(const ScreenSegment& s, double along_px, const CameraFrame& camera, const ReceiverImage& receivers,
            Coverage& out) {
   const glm::dvec2 way = s.to - s.from;
@@ -152,7 +152,7 @@ std::vector<WorldLine> frustum_lines(const LightFrame& light) {
 bool project_segment(const CameraFrame& camera, int width, int height, glm::dvec3 a, glm::dvec3 b, double margin_px,
                      ScreenSegment& out) {
   const bool perspective = camera.camera.projection == Projection::perspective;
-  // x and y in units of the picture's half sides times w; w is the depth, or 1.
+  // x and y in units of the picture's half sides, times w. w is the depth, or 1 for an orthographic camera.
   const auto seen = [&](glm::dvec3 p) {
     const glm::dvec3 d = p - camera.eye_m;
     const double depth = glm::dot(d, camera.forward);
@@ -162,7 +162,7 @@ bool project_segment(const CameraFrame& camera, int width, int height, glm::dvec
   const glm::dvec4 p = seen(a), q = seen(b);
   const double wide = 1 + 2 * margin_px / width, high = 1 + 2 * margin_px / height;
   const double near_m = camera.camera.near_m.value(), least_depth = perspective ? 1e-3 * near_m : near_m;
-  // Liang and Barsky 1984, in homogeneous places: each plane keeps where its function is not negative.
+  // Liang and Barsky 1984, in homogeneous coordinates: each plane keeps the part where its function is not negative.
   double first = 0, last = 1;
   const auto keep = [&](auto side) {
     const double from = side(p), to = side(q);
@@ -190,7 +190,7 @@ void draw_frustum(Image<Color>& picture, const LightFrame& light, const CameraFr
   const int width = picture.width, height = picture.height;
   const std::vector<WorldLine> lines = frustum_lines(light);
   for (size_t begin = 0;
-       begin < lines.size();) {  // runs of one colour are covered as one, so that joints are not twice as strong
+       begin < lines.size();) {  // runs of one colour are drawn as one, so that joints are not drawn twice
     Coverage coverage{Image<float>(width, height, 0), Image<float>(width, height, 0)};
     size_t end = begin;
     for (; end < lines.size() && lines[end].color == lines[begin].color; ++end) {

@@ -9,11 +9,11 @@
 namespace noonmark {
 namespace {
 
-constexpr int largest_side = 1024;  // of a picture of a flat map, or of a cube's face in the cross
+constexpr int largest_side = 1024;  // the longer side of the picture, in pixels
 constexpr int largest_cell = 512;
-constexpr float outside_cross = 2;  // no window depth
+constexpr float outside_cross = 2;  // not a window depth
 
-// Where a face's cell is in the cross, and which ways its picture's right and up lead in the world.
+// The cell of a face in the cross, and the world directions of right and up in its picture.
 struct CrossCell {
   int column, row;
   glm::dvec3 right, up;
@@ -29,7 +29,7 @@ const std::array<CrossCell, 6>& cross_cells() {
   return cells;
 }
 
-// The least of texels in [first, last) of each pixel, where pixel k of n covers texels from k N / n on.
+// The least of the texels in [first, last) of each pixel. Pixel k of n covers texels from k N / n on.
 struct Span {
   int first, last;
 };
@@ -38,7 +38,7 @@ Span covered(int pixel, int pixels, int texels) {
   return {at(pixel), std::max(at(pixel + 1), at(pixel) + 1)};
 }
 
-// std::min in this order: a NaN before any number stays, and shows as black.
+// The arguments of std::min have this order so that a NaN is kept, which is drawn black.
 Image<float> shrunk(const Image<float>& map, int side) {
   Image<float> out(side, side, 1);
   for (int y = 0; y < side; ++y)
@@ -60,7 +60,7 @@ Image<float> cube_cross(const Image<float>& map, int resolution, int cell, float
   for (int face = 0; face < 6; ++face) {
     const CrossCell& to = cross_cells()[static_cast<size_t>(face)];
     const CubeFace& from = cube_face(face);
-    // Both are along the same two axes of the world, so one of each pair of products is 0, the other 1 or -1.
+    // Both have the same two axes of the world, so one of each pair of products is 0, the other 1 or -1.
     const glm::ivec2 x_step(glm::dot(to.right, from.right), glm::dot(to.right, from.up));
     const glm::ivec2 y_step(glm::dot(to.up, from.right), glm::dot(to.up, from.up));
     for (int y = 0; y < cell; ++y)
@@ -69,7 +69,7 @@ Image<float> cube_cross(const Image<float>& map, int resolution, int cell, float
         float nearest = std::numeric_limits<float>::infinity();
         for (int b = along.first; b < along.last; ++b)
           for (int a = across.first; a < across.last; ++a) {
-            // From the face's middle in half texels, and back.
+            // Converts from the face's middle in half texels, and back.
             const glm::ivec2 twice = (2 * a + 1 - resolution) * x_step + (2 * b + 1 - resolution) * y_step;
             const glm::ivec2 texel = (twice + resolution - 1) / 2;
             nearest = std::min(nearest, map.at(texel.x, face * resolution + texel.y));

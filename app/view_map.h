@@ -1,5 +1,5 @@
-// A shadow map as a picture: near is bright, by metres rather than by window depth, which a perspective map crowds
-// against 1.
+// Draws a shadow map as a picture. Near is bright. Brightness follows metres and not window depth, because a
+// perspective map has almost all window depths near 1.
 #pragma once
 #include "app/image_file.h"
 #include "scenes/image.h"
@@ -14,12 +14,12 @@ namespace noonmark {
 //      -X  +Z  +X  -Z
 //          -Y
 //
-// Cells have `cell` pixels a side, at most the map's resolution; each pixel is the least of the texels that it covers.
-// Row 0 is the top; what is outside the cross is `outside`.
+// Cells have `cell` pixels a side, at most the map's resolution. Each pixel is the least of the texels that it covers.
+// Row 0 is the top. The area outside the cross is `outside`.
 Image<float> cube_cross(const Image<float>& map, int resolution, int cell, float outside);
 
-// stored: window depths as the lookup's sampler returns them, LightFrame::map_size(). Cleared texels are the
-// background's colour.
+// stored: window depths as the lookup's sampler returns them, of the size LightFrame::map_size(). Cleared texels get
+// the background's colour.
 Image<Color> map_picture(const Image<float>& stored, const LightFrame& frame);
 
 }  // namespace noonmark

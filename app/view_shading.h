@@ -1,10 +1,10 @@
-// The receivers as a lit grey clay, which is how people judge a shadow: Blinn-Phong (Blinn 1977), as the usual
-// shadow-mapping tutorials shade,
+// Shades the receivers as lit grey clay, so that people can judge the shadow in it. The model is Blinn-Phong (Blinn
+// 1977), as in the usual shadow-mapping tutorials,
 //
 //   colour = ambient + visibility * (diffuse + specular),
 //   ambient = 0.15 albedo, diffuse = albedo max(N.L, 0), specular = strength max(N.H, 0)^64,
 //
-// in linear light. With albedo 0.7 and strength 0.195 the brightest that can be is 1: nothing is cut off.
+// in linear light. With albedo 0.7 and strength 0.195 the largest value is 1, so nothing is cut off.
 #pragma once
 #include "scenes/camera_frame.h"
 #include "scenes/image.h"
@@ -20,16 +20,16 @@ struct Clay {
   static constexpr int specular_exponent = 64;
 };
 
-// What of the light a receiver would send to the eye if nothing stood between: diffuse + specular. L and the way to the
-// eye are unit and lead away from the surface, N is unit. 0 where N.L <= 0.
+// The light that an unshadowed receiver reflects to the eye: diffuse + specular. L and the direction to the eye are
+// unit vectors away from the surface, N is a unit vector. 0 if N.L <= 0.
 double clay_response(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye);
 
-// visibility: a rung of the ladder, 0 where not facing. Pixels without a surface are 0.
+// visibility: a rung of the ladder, 0 where the receiver is not facing. Pixels without a surface are 0.
 Image<float> shaded_frame(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera,
                           const Image<float>& visibility);
 
-// Root mean square difference of two such frames over the receivers: the metric shaded_rmse. NaN without
-// receivers, and where a visibility is.
+// Root mean square difference of two such frames over the receivers: the metric shaded_rmse. NaN without receivers, and
+// if a visibility is NaN.
 double shaded_rmse(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera,
                    const Image<float>& visibility, const Image<float>& other);
 

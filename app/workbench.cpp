@@ -21,8 +21,8 @@
 namespace noonmark {
 namespace {
 
-// One value and the settings that it was computed from. Points of a sweep come in an order in which neighbours share
-// most settings, so remembering the last one is enough.
+// One value and the settings from which it was computed. The points of a sweep come in an order in which neighbours
+// share most settings, so it is enough to remember the last value.
 template <class T>
 class Remembered {
  public:
@@ -31,7 +31,7 @@ class Remembered {
   template <class Make>
   T& get(const std::string& key, const Make& make) {
     if (!value_ || key != key_) {
-      value_.reset();  // before making the next: these are large
+      value_.reset();  // freed before the next is made, because these are large
       value_.emplace(make());
       key_ = key;
     }
@@ -43,21 +43,21 @@ class Remembered {
   std::optional<T> value_;
 };
 
-// What the probe and the truth of the taps depend on. A polygon offset is in units of the map's format.
+// The settings that the probe and the truth of the taps depend on. A polygon offset is in units of the map's format.
 std::string lookup_key_of(const Settings& settings) {
   const std::string key = settings_key(settings, {Stage::scene, Stage::view, Stage::lookup});
   return Bias(settings.bias).polygon_offset() ? key + find_setting("map.format").get(settings) : key;
 }
 
 std::string curve_key_of(const Settings& settings, const BiasPart& varied, const CurveOptions& options) {
-  // All but the part's amount, which runs.
+  // All settings except the amount of the part that the curve varies.
   return settings_key(settings, {Stage::scene, Stage::view, Stage::truth, Stage::map, Stage::lookup, Stage::ladder},
                       "bias." + std::string(varied.name)) +
          fmt::format("{} {} {} {}", varied.name, options.acne_bound, options.peter_panning_bound,
                      fmt::join(options.bias_depth, " "));
 }
 
-// What the ladder tells of the point, without times and without its curve.
+// The ladder's numbers for the point, without times and without its curve.
 PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, const Bias& bias, const LookupStage& lookup,
                       std::map<std::string, double> soundness) {
   const Image<float> occluders = tracer.occluder_distance(m.receivers, m.frame, peter_panning_mask(m.ladder));
@@ -111,12 +111,12 @@ namespace {
 
 size_t ray_threads() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
 
-// Bytes of address space. Held against the peaks (VmPeak) of runs by 2, 4 and 16 threads on Debian 12, of which what
-// was there before and the points' own share are taken off.
+// Bytes of address space. Compared with the peaks (VmPeak) of runs with 2, 4 and 16 threads on Debian 12, minus the
+// space that was used before and the points' own share.
 uint64_t room_to_start(bool pictures) {
   constexpr uint64_t base = uint64_t{384} << 20;  // libraries, shaders; with 2 threads it is 973 MB in all [880e6]
-  // OpenImageIO: 402 MB on 2 cores [386e6]. It starts a thread for each core and some more, of which each has a stack
-  // and 64 MB for its allocations.
+  // OpenImageIO: 402 MB on 2 cores [386e6]. It starts a thread for each core and some more, each with a stack and 64 MB
+  // for its allocations.
   const uint64_t images = (uint64_t{240} << 20) + std::thread::hardware_concurrency() * (uint64_t{72} << 20);
   return base + (pictures ? images : 0) + 2 * ray_threads() * address_space_of_a_thread;
 }
@@ -129,7 +129,7 @@ void require_room_to_start(bool pictures) {
 
 Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders, size_t strip_bytes) {
   require_room_to_start(false);
-  const AvailableMemory space = free_address_space();  // before anything is taken of it
+  const AvailableMemory space = free_address_space();  // read before any of it is used
   impl_ = std::make_unique<Impl>(debug, std::move(shaders), strip_bytes);
   impl_->space_at_start = space;
 }

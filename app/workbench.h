@@ -1,4 +1,4 @@
-// Measures points: drives gl, raytrace and compare, and computes once what consecutive points share.
+// Measures points: runs gl, raytrace and compare, and computes only once what consecutive points share.
 //
 //   Workbench bench(gl::DebugMode::log);
 //   Measurement m = bench.measure(settings, curve_options);
@@ -17,7 +17,7 @@
 
 namespace noonmark {
 
-// One measured point with the images behind its numbers. The references stay good until the bench's next measurement.
+// One measured point with the images behind its numbers. The references are valid until the bench's next measurement.
 struct Measurement {
   PointRecord record;  // without id and pictures
   Settings settings;
@@ -31,30 +31,31 @@ struct Measurement {
   const Image<float>& exact_map;
 };
 
-// Throws Error(device) where there is no room for what the driver, the rays and the image library take before anything
-// of a point's own: without it, what fails first is a library that cannot say so. pictures: files of them are written.
+// Throws Error(device) if there is not enough address space for the driver, the rays and the image library, before the
+// needs of any point are added. Without this check a library fails first, and it cannot report the reason. pictures:
+// whether files of pictures are written.
 void require_room_to_start(bool pictures);
 
 class Workbench {
  public:
-  // shaders: variants to measure in place of the program's own. strip_bytes: what the truth of a strip's taps may take;
-  // where all taps fit, points that share them share their truth. It changes no result.
+  // shaders: variants to measure in place of the program's own. strip_bytes: the most memory for the truth of a strip's
+  // taps; if all taps fit into one strip, points with the same taps share their truth. It changes no result.
   explicit Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders = {}, size_t strip_bytes = most_strip_bytes);
   ~Workbench();
 
-  // curve: none when empty, and where no part of the bias has one (curve_part). Throws Error.
+  // curve: no curve if it is empty, or if no part of the bias can have one (curve_part). Throws Error.
   Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve);
 
-  // What that would take of memory at its peak; pictures: with pictures and EXR files written of it. Throws Error.
+  // The peak memory that measure() would take. pictures: whether its pictures and EXR files are written. Throws Error.
   MemoryEstimate memory(const Settings& settings, bool curve, bool pictures);
 
-  // What such estimates are compared with.
+  // The memory with which such estimates are compared.
   AvailableMemory memory_of_program(bool pictures) const;
 
   const gl::DeviceInfo& device() const;
-  // Of the scene that the settings name; loads it when it is not the one at hand.
+  // The scene that the settings name. It is loaded if it is not the present one.
   const Scene& scene(const SceneSettings& settings);
-  // scene_digest of that scene, as it was loaded.
+  // scene_digest of that scene as it was loaded.
   const std::string& scene_identity(const SceneSettings& settings);
 
  private:

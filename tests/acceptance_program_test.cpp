@@ -127,7 +127,7 @@ TEST_F(Program, RenderNamesTheLawsBiasOnlyWhereAConstantIsAlone) {
   write("x.toml", one_point);
   const std::vector<std::string> render = {"render", "x.toml", "--out", "o", "--set", "bias.constant=0.001"};
   ASSERT_EQ(run(render), 0) << output_;
-  EXPECT_NE(output_.find("; by law 1 the planes in the picture ask for"), std::string::npos) << output_;
+  EXPECT_NE(output_.find("; by law 1 the planes in the picture need"), std::string::npos) << output_;
   for (const char* other : {"bias.normal_offset_sin=0.3", "bias.slope=0.01", "bias.polygon_units=1"}) {
     std::vector<std::string> with_other = render;
     with_other.insert(with_other.end(), {"--set", other});

@@ -130,7 +130,7 @@ TEST(Bounds, QuantitiesOfTheCurveCanBeBounded) {
   expect(without, false, nan_value, 0);
   EXPECT_EQ(describe(without, &points[0]).find("bias curve"), std::string::npos) << "why, nothing says";
   points[0].settings["bias.normal_offset"] = "1";
-  EXPECT_NE(describe(without, &points[0]).find("this point has none: bias.normal_offset moves the lookup"),
+  EXPECT_NE(describe(without, &points[0]).find("this point has no curve: bias.normal_offset moves the lookup"),
             std::string::npos)
       << describe(without, &points[0]);
 }
@@ -251,7 +251,7 @@ TEST(Summary, GivesTheVerdictFirst) {
   Results results = judged({0.1}, {at_most(0)});
   results.planned_points = 2;
   EXPECT_EQ(verdict(results),
-            "**Incomplete: 1 of 2 points are finished.** Run it again to go on. Broken so far: 1 of 1 bound.");
+            "**Incomplete: 1 of 2 points are finished.** Run it again to continue. Broken so far: 1 of 1 bound.");
 }
 
 TEST(Summary, OrdersByErrorAndKeepsTheTableWhole) {

@@ -187,7 +187,7 @@ TEST(Summarise, SaysWhenASamplerWeighsTheTaps) {
   const Synthetic s = random_evidence(3, {12, 9, 6, 1, true, Lookup::linear});
   const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored, bias_part("tan")), {}, {});
   EXPECT_EQ(c.parameter, "bias.tan");
-  EXPECT_EQ(c.made, "one pass, but for the sampler's weights");
+  EXPECT_EQ(c.made, "one pass, except for the sampler's weights");
 }
 
 // Under a spot light a metre at z is (far - near) z^2 / (far near) of them deep; under a point light 1 / far.

@@ -39,7 +39,7 @@ TEST(PoorView, NamesTheReasonThatHidesMost) {
   begins(with({}, {{"facing", 0}, {"counted", 0}, {"lit", nan}}),
          "no pixel of 10000 can be judged: of 9000 that see a surface 9000 see one that faces away");
   begins(with({}, {{"counted", 0}, {"lit", nan}}),
-         "no pixel of 10000 can be judged: of 8000 that face the light the truth of 8000 is ambiguous");
+         "no pixel of 10000 can be judged: 8000 face the light, but the truth of 8000 of them is ambiguous");
   begins(with({}, {{"clipped", 100}}), "at 100 pixels the camera's near or far plane cuts the surface off");
   begins(with({}, {{"lit", 0}}), "all of the 7990 pixels that can be judged are in shadow");
 }

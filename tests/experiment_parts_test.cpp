@@ -216,7 +216,7 @@ TEST(ExperimentLaws, MistakesAreNamedWithTheirPlace) {
   expect_error(law("measured = \"error\"\nequals = 0\nwhere = {map.resolution = 3}"), "5:", {"no point has"});
   expect_error("[curve]\nenabled = false\n" + law("measured = \"best_error\"\nequals = 0"),
                "3:", {"curve.enabled is false"});
-  expect_error("[let]\nerror = \"1\"\n" + law("measured = \"error\"\nequals = 0"), "3:", {"name of something else"});
+  expect_error("[let]\nerror = \"1\"\n" + law("measured = \"error\"\nequals = 0"), "3:", {"name that is already used"});
   expect_error("[law]\nname = \"l\"", "1:1", {"[[law]]"});
   const std::string slope = "measured = \"error\"\nequals = 0\njoin = \"slope\"\nover = \"map.resolution\"";
   expect_error(law(slope), "1:", {"map.resolution", "one value"});

@@ -78,7 +78,7 @@ const Case cases[] = {
     {"BufferShorterThanItSays", "buffers[0].byteLength: 1000 bytes, but only 60", [](json& d) { d["buffers"][0]["byteLength"] = 1000; }},
     {"HugeBuffer", "buffers[0]", [](json& d) { d["buffers"][0]["byteLength"] = uint64_t{1} << 50; }},
     {"BufferWithoutUri", "buffers[0]: has no uri", [](json& d) { d["buffers"][0].erase("uri"); }},
-    {"NotBase64", "buffers[0].uri: holds what is not base64",
+    {"NotBase64", "buffers[0].uri: holds text that is not base64",
      [](json& d) { d["buffers"][0]["uri"] = "data:application/octet-stream;base64,AAAA\tAAAA"; }},
     {"ImageAsBuffer", "buffers[0].uri", [](json& d) { d["buffers"][0]["uri"] = "data:image/png;base64,AAAA"; }},
     // Sparse.
@@ -140,7 +140,7 @@ const Case cases[] = {
        d["nodes"].push_back({{"camera", 0}, {"scale", {1, 0, 1}}});
        d["nodes"][0].erase("camera"), d["scenes"][0]["nodes"] = {0, 1};
      }},
-    {"ScaledToNothing", "holds no triangles: 1 node with a mesh scaled to nothing;", [](json& d) { d["nodes"][0]["scale"] = {0, 0, 0}; }},
+    {"ScaledToNothing", "holds no triangles: 1 node with a mesh scaled to zero;", [](json& d) { d["nodes"][0]["scale"] = {0, 0, 0}; }},
     {"AllHidden", "holds no triangles: 2 nodes with a mesh hidden by KHR_node_visibility;",
      [](json& d) {
        d["nodes"][0]["extensions"]["KHR_node_visibility"]["visible"] = false;
@@ -176,8 +176,8 @@ const Case cases[] = {
     {"SpotOuterBeyondARightAngle", "extensions.KHR_lights_punctual.lights[0].spot.outerConeAngle: 1.6 is", [](json& d) { add_spot(d, {{"outerConeAngle", 1.6}}); }},
     {"SpotAngleIsText", "extensions.KHR_lights_punctual.lights[0].spot.outerConeAngle: should be a finite number", [](json& d) { add_spot(d, {{"outerConeAngle", "wide"}}); }},
     {"SpotIsNumber", "extensions.KHR_lights_punctual.lights[0].spot: should be an object", [](json& d) { add_spot(d, 3); }},
-    {"SpotTooWideForAMap", "nodes[0].extensions.KHR_lights_punctual.light: a spot whose cone is 171.887", [](json& d) { add_spot(d, {{"outerConeAngle", 1.5}}); }},
-    {"SpotTooNarrowForAMap", "nodes[0].extensions.KHR_lights_punctual.light: a spot whose cone is 0.114", [](json& d) { add_spot(d, {{"outerConeAngle", 0.001}}); }},
+    {"SpotTooWideForAMap", "nodes[0].extensions.KHR_lights_punctual.light: a spot light with a cone of 171.887", [](json& d) { add_spot(d, {{"outerConeAngle", 1.5}}); }},
+    {"SpotTooNarrowForAMap", "nodes[0].extensions.KHR_lights_punctual.light: a spot light with a cone of 0.114", [](json& d) { add_spot(d, {{"outerConeAngle", 0.001}}); }},
     {"UnknownLight", "nodes[0].extensions.KHR_lights_punctual.light: its type 'ambient'",
      [](json& d) { add_spot(d, json::object()), d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "ambient"}}}; }},
     // The document.
@@ -230,8 +230,8 @@ TEST(GltfFiles, NoPathLeavesTheFolder) {
   expect_outside("up/inner2/mesh.bin", "is a link out of the scene's folder");
   expect_outside("file://" + secret, "is not a file of this folder");
   expect_outside("http://example.com/mesh.bin", "is not a file of this folder");
-  expect_outside("mesh.bin%00.png", "is not a file's name");
-  expect_outside("", "is not a file's name");
+  expect_outside("mesh.bin%00.png", "is not a name of a file");
+  expect_outside("", "is not a name of a file");
   expect_outside("absent.bin", "cannot be found");
 }
 

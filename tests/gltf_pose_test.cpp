@@ -127,10 +127,10 @@ TEST_F(GltfPose, BrokenSkinsAreRefused) {
   };
   expect([](json& d) { attributes(d).erase("WEIGHTS_0"); }, "JOINTS_0 without its weights");
   expect([](json& d) { attributes(d).erase("WEIGHTS_0"), attributes(d).erase("JOINTS_0"); }, "without JOINTS_0");
-  expect([](json& d) { attributes(d)["JOINTS_0"] = 0; }, "JOINTS_0: accessors[0] is no list of 4 joints");
-  expect([](json& d) { attributes(d)["JOINTS_0"] = 99; }, "JOINTS_0: accessors[99] is no list");
+  expect([](json& d) { attributes(d)["JOINTS_0"] = 0; }, "JOINTS_0: accessors[0] is not a list of 4 joints");
+  expect([](json& d) { attributes(d)["JOINTS_0"] = 99; }, "JOINTS_0: accessors[99] is not a list");
   expect([](json& d) { attributes(d)["WEIGHTS_0"] = -1; }, "WEIGHTS_0: should be an integer");
-  expect([&](json& d) { weights(d, std::vector<float>(16, 0)); }, "vertex 0 follows no joint");
+  expect([&](json& d) { weights(d, std::vector<float>(16, 0)); }, "vertex 0 has no joint");
   expect([&](json& d) { weights(d, std::vector<float>(16, -1)); }, "vertex 0 has a weight of -1");
   expect([&](json& d) { weights(d, std::vector<float>(16, 0.25)); }, "vertex 0 follows joint 9 of 2");
   expect([](json& d) { d["nodes"][0]["skin"] = 1; }, "nodes[0].skin: 1 refers beyond");
@@ -263,7 +263,8 @@ TEST_F(GltfPose, AtRestAnAnimationIsNotReadButSaid) {
   EXPECT_EQ(s.positions[1], glm::vec3(1, 0, 0));
   EXPECT_TRUE(noted(s, "2 animations at rest"));
   EXPECT_NE(refusal(d, {1.0, 0}).find("animations[0].channels: should be an array"), std::string::npos);
-  EXPECT_NE(refusal(d, {1.0, 2}).find("animations: there are 2, from 0, and 2 is asked for"), std::string::npos);
+  EXPECT_NE(refusal(d, {1.0, 2}).find("animations: there are 2, counted from 0, and 2 is requested"),
+            std::string::npos);
   EXPECT_NE(refusal(square(), {1.0, 0}).find("animations: there are none"), std::string::npos);
 }
 
@@ -335,7 +336,7 @@ TEST_F(GltfPose, WeightsJointsAndVisibilityAreAnimatedToo) {
       "/materials/0/emissiveFactor";
   const Scene shining = load(blink, {2.5, 0});
   EXPECT_EQ(shining.triangles.size(), 4u);
-  EXPECT_TRUE(noted(shining, "1 channel of the animation not of nodes"));
+  EXPECT_TRUE(noted(shining, "1 channel of the animation not read"));
 }
 
 TEST_F(GltfPose, BrokenAnimationsAreRefusedWhenTheyPose) {
@@ -362,9 +363,9 @@ TEST_F(GltfPose, BrokenAnimationsAreRefusedWhenTheyPose) {
       "the value of key 1 is not finite");
   expect([&](json& d) { sampler(d)["interpolation"] = "CUBICSPLINE"; }, "has 3 values for 3 keys of 3");
   expect([&](json& d) { sampler(d)["interpolation"] = "MAGIC"; }, "interpolation 'MAGIC'");
-  expect([&](json& d) { sampler(d)["output"] = 1; }, "of another type");
+  expect([&](json& d) { sampler(d)["output"] = 1; }, "the type of the property that it moves");
   expect([&](json& d) { sampler(d)["output"] = 99; }, "output 99 is beyond");
-  expect([&](json& d) { sampler(d)["input"] = 0; }, "accessors[0] is no list of times");
+  expect([&](json& d) { sampler(d)["input"] = 0; }, "accessors[0] is not a list of times");
   expect([&](json& d) { d["animations"][0]["channels"][0]["sampler"] = 3; }, "sampler 3 is beyond the 1 samplers");
   expect([&](json& d) { target(d)["node"] = 9; }, "node 9 is beyond the 1 nodes");
   expect([&](json& d) { target(d)["path"] = "weights"; }, "weights of a mesh without morph targets");

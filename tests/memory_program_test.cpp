@@ -189,7 +189,7 @@ TEST_F(Memory, APointThatDoesNotFitIsRefusedBeforeAnyIsMeasured) {
         output_,
         std::regex("noonmark: point 1 \\(map.resolution=16384\\) would take about [0-9.]+ GB of memory, [0-9.]+ GB "
                    "of it for the shadow map, and [0-9.]+ GB are available \\(the limit of the address space, "
-                   "ulimit -v, less what libraries and threads set aside\\); lower map.resolution\n")))
+                   "ulimit -v, minus the space that libraries and threads reserve\\); lower map.resolution\n")))
         << output_;
     EXPECT_FALSE(fs::exists(folder_ / "out/results.csv"));
   }

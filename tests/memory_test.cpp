@@ -160,7 +160,7 @@ TEST(MemoryOfProgram, HoldsWhatItHasAlready) {
 TEST(MemoryOfProgram, OfAddressSpaceIsToldFromTheStart) {
   const AvailableMemory start{1000 * MiB, "ulimit -v"};
   const AvailableMemory space = memory_of_program(start, 800 * MiB);
-  EXPECT_EQ(space.limit, "ulimit -v, less what libraries and threads set aside");
+  EXPECT_EQ(space.limit, "ulimit -v, minus the space that libraries and threads reserve");
   EXPECT_EQ(memory_of_program(start, 700 * MiB).bytes - space.bytes, 100 * MiB);
   EXPECT_EQ(memory_of_program(start, 2000 * MiB).bytes, memory_of_program(start, 1000 * MiB).bytes);
   EXPECT_GT(space.bytes, 400 * MiB) << "200 MiB and the program itself, which an estimate holds too";

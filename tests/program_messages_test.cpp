@@ -15,12 +15,12 @@ class Messages : public Program {};
 TEST_F(Messages, AWrongOptionIsNamedInPlainWords) {
   const std::string experiment = write("x.toml", one_point);
   EXPECT_EQ(run({"render", experiment, "--point", "abc"}), 2);
-  EXPECT_TRUE(says("--point: 'abc' is no whole number from 0 on")) << output_;
+  EXPECT_TRUE(says("--point: 'abc' is not a whole number from 0 on")) << output_;
   EXPECT_EQ(run({"render", experiment, "--point", "-1"}), 2);
-  EXPECT_TRUE(says("--point: '-1' is no whole number from 0 on")) << output_;
+  EXPECT_TRUE(says("--point: '-1' is not a whole number from 0 on")) << output_;
   for (const char* threads : {"0", "1025", "1.5", "99999999999999999999"}) {
     EXPECT_EQ(run({"run", experiment, "--threads", threads}), 2);
-    EXPECT_TRUE(says(std::string("--threads: '") + threads + "' is no whole number from 1 to 1024")) << output_;
+    EXPECT_TRUE(says(std::string("--threads: '") + threads + "' is not a whole number from 1 to 1024")) << output_;
   }
   EXPECT_EQ(run({"--foo"}), 2);
   EXPECT_TRUE(says("there is no option '--foo'")) << output_;

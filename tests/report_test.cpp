@@ -116,7 +116,7 @@ TEST(Report, DoesNotComparePointsOfDifferentParts) {
 }
 
 TEST(Report, SaysWhatTheScenesFileHoldsAndIsNotModelled) {
-  const std::string note = "Of the scene street: 2 animations at rest";
+  const std::string note = "About the scene street: 2 animations at rest";
   Results results = sample_results();
   results.info.scene_notes = {};
   EXPECT_EQ(render_report(results, sample_picture).find(note), std::string::npos);

@@ -153,7 +153,7 @@ TEST_F(StoreSeals, SealedRowsThatDoNotFitTogetherAreADamagedFile) {
       sqlite::Database db(path, sqlite::Database::Mode::existing);
       seal_point(db, point);
     }
-    EXPECT_NE(refusal().find("holds what Noonmark did not write"), std::string::npos);
+    EXPECT_NE(refusal().find("holds data that Noonmark did not write"), std::string::npos);
     ResultStore store(path, "x = 1\n", Existing::resume);
     try {
       store.repair(3, any_point);

@@ -1,5 +1,6 @@
-# Completion of noonmark's command line for bash. Verbs, options, settings and scenes are what the program itself lists, so
-# nothing here has to be kept up. Installed where bash-completion finds it; without that: source this file.
+# Completion of noonmark's command line for bash. The program itself lists its verbs, options, settings and scenes, so
+# this file needs no update when they change. It is installed where bash-completion finds it; otherwise source this
+# file.
 
 # The verbs, or a verb's options, as the help lists them: "  run   Measure ...", "  -h,--help   Print ...".
 _noonmark_verbs() { "$1" --help 2>/dev/null | awk '/^[A-Z]/ { on = /^Subcommands:/ } on && /^  [a-z]/ { print $1 }'; }
@@ -7,7 +8,7 @@ _noonmark_options() { "$@" --help 2>/dev/null | awk '/^  -/ { sub(/^-.,/, "", $1
 
 _noonmark_scenes() { "$1" scenes 2>/dev/null | awk '!NF { exit } { print $1 }'; }
 
-# The settings, each with "=" and what it can be, where that is a list: "map.wrap= repeat clamp_to_edge ...". The program
+# The settings, each with "=" and, if it is a choice, its choices: "map.wrap= repeat clamp_to_edge ...". The program
 # lists a setting in two lines, the second with its range: "repeat | clamp_to_edge", or "1 ... 170 deg, or auto".
 _noonmark_settings() {
   "$1" settings 2>/dev/null | awk '
@@ -21,7 +22,7 @@ _noonmark_settings() {
     }'
 }
 
-# The files whose names end in one of these patterns, and folders to look into.
+# The files whose names end in one of these patterns, and the folders that may contain such files.
 _noonmark_files() {
   local ending
   for ending in "${@:2}"; do compgen -f -X "!*.$ending" -- "$1"; done
@@ -31,7 +32,7 @@ _noonmark_files() {
 _noonmark() {
   COMPREPLY=()
   local program=${COMP_WORDS[0]/#\~/$HOME} word previous='' verb='' i
-  # Bash takes --set map.wrap=re for four words; here it is two.
+  # Bash splits --set map.wrap=re into four words; here they become two.
   local -a words=()
   for ((i = 1; i <= COMP_CWORD; ++i)); do
     word=${COMP_WORDS[i]}
@@ -68,7 +69,7 @@ _noonmark() {
   elif [[ $previous == --out ]]; then
     mapfile -t files < <(compgen -d -- "$word")
   elif [[ $previous == --part || $previous == --point || $previous == --threads ]]; then
-    :  # a name or a number that only its user knows
+    :  # a name or a number that cannot be listed
   elif [[ $word == -* ]]; then
     mapfile -t choices < <(_noonmark_options "$program" "$verb")
   elif [[ $verb == run || $verb == check || $verb == render ]]; then
@@ -76,7 +77,7 @@ _noonmark() {
   elif [[ $verb == report ]]; then
     mapfile -t files < <(compgen -d -- "$word")
   fi
-  # Where = parts words, bash replaces what stands after it alone.
+  # If = separates words, bash replaces only the text after it. Otherwise the replies need the text before it too.
   if [[ $COMP_WORDBREAKS != *=* && ${words[-1]} == *=* ]]; then
     local before=${words[-1]%"$word"}
     choices=("${choices[@]/#/$before}")

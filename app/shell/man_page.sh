@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Makes the man page: what the program says of itself (verbs, arguments, options, exit codes), in the places that the
-# template names: @VERSION@ in a line; @VERBS@ and @EXIT_STATUS@ alone in theirs.
+# Makes the man page from the program's own help (verbs, arguments, options, exit codes) and a template. The template
+# names the places: @VERSION@ within a line; @VERBS@ and @EXIT_STATUS@ on lines of their own.
 #   man_page.sh PROGRAM TEMPLATE OUT
 set -euo pipefail
 program=$1 template=$2 out=$3
 export LC_ALL=C
 
-# Awk for all that follows: text as roff has it, where - would become a hyphen and \ and a leading . or ' mean something.
+# A function for all awk programs below: escapes text for roff, where -, \ and a leading . or ' have a meaning.
 # shellcheck disable=SC2016  # awk's dollars
 roff='
   function roff(text) {
@@ -17,8 +17,8 @@ roff='
 
 verbs() { "$program" --help | awk '/^[A-Z]/ { listed = /^Subcommands:/ } listed && /^  [a-z]/ { print $1 }'; }
 
-# A verb: its synopsis, what it does, then its arguments and options as the help lists them:
-#   "  --name VALUE     what it means", the meaning in the next line where the name is long.
+# A verb: its synopsis, its description, then its arguments and options as the help lists them:
+#   "  --name VALUE     description". The description is in the next line if the name is long.
 # shellcheck disable=SC2016
 verb_section() {
   "$program" "$1" --help | awk -v verb="$1" "$roff"'
@@ -47,7 +47,8 @@ verb_section() {
     END { flush() }'
 }
 
-# "Exit codes: 0 done; 1 a bound ...; otherwise what has to change:\n2 the command line ...": a paragraph for each code.
+# "Exit codes: 0 done; 1 a bound ...; otherwise what has to change:\n2 the command line ...": one paragraph for each
+# code.
 # shellcheck disable=SC2016
 exit_status() {
   "$program" --help | awk "$roff"'

@@ -61,7 +61,7 @@ void judge(const Bound& bound, const std::vector<Value>& values, BoundResult& re
     const bool from_below = !bound.max || (below_min(result.found) && !above_max(result.found));
     result.point = (from_below ? smallest : largest).point->id;
   }
-  // A sum of finite values may overflow: not finite fails here too.
+  // A sum of finite values can overflow, so a joined value that is not finite breaks the bound too.
   result.held = std::isfinite(result.found) && !below_min(result.found) && !above_max(result.found);
 }
 
@@ -154,8 +154,7 @@ std::string found_text(const BoundResult& bound) {
 
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept) {
   std::string text = fmt::format("{}: {}", bound.held ? "held" : "broken", bound_text(bound));
-  if (bound.points == 0)
-    return text + "\n  no finished point matches it; change its where, or the values that are swept\n";
+  if (bound.points == 0) return text + "\n  no finished point matches it; change its where, or the swept values\n";
   text += fmt::format("; found {} ({} of {} point{})\n", found_text(bound), bound.join, bound.points,
                       bound.points == 1 ? "" : "s");
   if (bound.held) {
@@ -166,7 +165,7 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
   if (!std::isfinite(bound.found)) text += "  a value that could not be measured breaks every bound\n";
   if (const std::string poor = point ? why_poor_view(*point) : ""; !poor.empty()) text += fmt::format("  {}\n", poor);
   if (point && find_quantity(bound.metric).of_curve && !nothing_judged(*point) && !why_no_curve(*point).empty())
-    text += fmt::format("  it is read off the bias curve, and this point has none: {}\n", why_no_curve(*point));
+    text += fmt::format("  it is read off the bias curve, but this point has no curve: {}\n", why_no_curve(*point));
   if (point) {
     text += fmt::format("  {}\n", point_text(*point, swept));
     if (point->worst.x >= 0)

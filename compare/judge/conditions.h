@@ -1,4 +1,4 @@
-// Which points of a sweep a statement speaks of: settings, each with the values that are meant.
+// Conditions: select the points of a sweep by settings and the values that each may have.
 #pragma once
 #include <map>
 #include <string>
@@ -12,8 +12,9 @@ using Conditions = std::map<std::string, std::vector<std::string>>;  // setting 
 
 bool matches(const PointRecord& point, const Conditions& conditions);
 
-// Throws Error(usage) for an unknown setting (suggesting the nearest name), a value that it cannot take or that is not
-// in canonical form, and a setting without a value. `where`: what the file calls these conditions.
+// Throws Error(usage) for an unknown setting (with the nearest name as a suggestion), for a value that the setting
+// cannot have or that is not in canonical form, and for a setting without a value. `where`: the name of these
+// conditions in the file.
 void check_conditions(const Conditions& conditions, const std::string& where = "where");
 
 }  // namespace noonmark

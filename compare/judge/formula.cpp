@@ -49,7 +49,7 @@ Formula::Formula(const std::string& text) : impl_(std::make_unique<Impl>()) {
   mu::Parser& parser = impl_->parser;
   if (assigns(text)) throw Error(ErrorKind::usage, fmt::format("the formula '{}' assigns; compare with ==", text));
   try {
-    parser.ClearFun();  // its own list has more than is documented here, and a log whose base changed between versions
+    parser.ClearFun();  // muParser's own list has functions not documented here; its log changed base between versions
     parser.ClearConst();
     parser.DefineNameChars(name_characters);
     parser.DefineConst("pi", std::numbers::pi);
@@ -82,7 +82,7 @@ Formula::Formula(const std::string& text) : impl_(std::make_unique<Impl>()) {
     parser.SetExpr(text);
     for (const auto& [name, pointer] : parser.GetUsedVar()) impl_->names.push_back(name);
     for (const std::string& name : impl_->names) parser.DefineVar(name, &impl_->values[name]);
-    parser.Eval();  // what reading alone does not find: a wrong number of arguments, several results
+    parser.Eval();  // finds what parsing does not: a wrong number of arguments, several results
     if (parser.GetNumResults() != 1)
       throw Error(ErrorKind::usage, fmt::format("the formula '{}' has several values; write one", text));
   } catch (const mu::Parser::exception_type& error) {
@@ -98,7 +98,7 @@ Formula& Formula::operator=(Formula&&) noexcept = default;
 const std::vector<std::string>& Formula::names() const { return impl_->names; }
 
 double Formula::value(const std::function<double(const std::string&)>& value_of) const {
-  bool known = true;  // min, max and comparisons would pass over a NaN
+  bool known = true;  // min, max and comparisons would drop a NaN
   for (auto& [name, value] : impl_->values) {
     value = value_of(name);
     known = known && !std::isnan(value);

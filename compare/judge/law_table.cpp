@@ -1,4 +1,4 @@
-// Laws as text, for a terminal.
+// Writes laws as text for a terminal.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ std::string ratio_text(const LawResult& law) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   size_t told = 0;
   for (const LawResult::Sample& sample : law.samples) {
-    if (std::abs(sample.predicted) <= sample.allowed) continue;  // a ratio to next to nothing says nothing
+    if (std::abs(sample.predicted) <= sample.allowed) continue;  // a ratio to almost 0 has no meaning
     const double ratio = sample.measured / sample.predicted;
     if (!std::isfinite(ratio)) return "";
     ++told;
@@ -64,16 +64,15 @@ std::string law_table(std::span<const LawResult> laws) {
     if (law.held) continue;
     text += fmt::format("    {}\n", law_text(law));
     if (!worst)
-      text += "    no finished point matches it; change its where, or the values that are swept\n";
+      text += "    no finished point matches it; change its where, or the swept values\n";
     else
       text += std::isnan(worst->measured - worst->predicted)
-                  ? fmt::format("    point {}: what could not be measured breaks every law\n", worst->point)
+                  ? fmt::format("    point {}: a value that could not be measured breaks every law\n", worst->point)
                   : fmt::format("    point {}: off by {}, allowed {}\n", worst->point,
                                 short_number(worst->measured - worst->predicted), short_number(worst->allowed));
     if (!law.reproduce.empty()) text += fmt::format("    reproduce: {}\n", law.reproduce);
   }
-  return text +
-         "(predicted and measured are those of the sample furthest off; ratio is measured / predicted over all)\n";
+  return text + "(predicted and measured: the sample furthest off; ratio: measured / predicted over all samples)\n";
 }
 
 }  // namespace noonmark

@@ -31,7 +31,7 @@ bool is_number(const Setting& row) {
 
 constexpr std::string_view axes[] = {".x", ".y", ".z"};
 
-// Every name that a formula may use, but for the law's own definitions.
+// Every name that a formula may use, except the law's own definitions.
 std::vector<std::string> number_names() {
   std::vector<std::string> names;
   for (const Setting& row : settings_table()) {
@@ -44,7 +44,7 @@ std::vector<std::string> number_names() {
   return names;
 }
 
-// NaN for what the point does not have: a setting that is `auto`, a window that is empty.
+// NaN if the point has no such number: a setting that is `auto`, a window that is empty.
 double number_of(const PointRecord& point, const std::string& name) {
   if (const auto setting = point.settings.find(name); setting != point.settings.end()) {
     if (setting->second == "true") return 1;
@@ -66,7 +66,7 @@ double number_of(const PointRecord& point, const std::string& name) {
   throw Error(ErrorKind::usage, fmt::format("law '{}': {}", law.name, why));
 }
 
-// A law's formulas, read once.
+// A law's formulas, parsed once.
 class Reader {
  public:
   explicit Reader(const Law& law)
@@ -94,7 +94,7 @@ class Reader {
 
  private:
   struct Figure {
-    std::string before;  // the text up to it
+    std::string before;  // the text before the formula
     Formula formula;
     bool against;
   };
@@ -104,11 +104,11 @@ class Reader {
     std::string_view rest = law.found;
     for (size_t open; (open = rest.find('{')) != rest.npos;) {
       const size_t close = rest.find('}', open);
-      if (close == rest.npos) refuse(law, "found has a '{' without its '}'");
+      if (close == rest.npos) refuse(law, "found has a '{' without a '}'");
       std::string_view text = rest.substr(open + 1, close - open - 1);
       const bool against = text.starts_with(prefix);
       if (against) text.remove_prefix(prefix.size());
-      if (against && law.against.empty()) refuse(law, "found speaks of `against`, and the law has none");
+      if (against && law.against.empty()) refuse(law, "found uses `against`, but the law has none");
       figures_.push_back({std::string(rest.substr(0, open)), read(law, std::string(text)), against});
       rest.remove_prefix(close + 1);
     }
@@ -129,7 +129,7 @@ class Reader {
       for (const std::string& name : formula.names()) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         for (const Setting& row : settings_table())
-          if (row.name == name) refuse(law, fmt::format("{} is no number; name its values in where", name));
+          if (row.name == name) refuse(law, fmt::format("{} is no number; select its values with where", name));
         const std::vector<std::string_view> views(known.begin(), known.end());
         const std::string near = nearest_name(name, views);
         refuse(law, fmt::format("there is no setting, metric or definition '{}'{}", name,
@@ -139,7 +139,7 @@ class Reader {
     for (const auto& [name, formula] : definitions_) {
       check(formula);
       if (std::find(known.begin(), known.end(), name) != known.end())
-        refuse(law, fmt::format("the definition '{}' has the name of something else", name));
+        refuse(law, fmt::format("the definition '{}' has a name that is already used", name));
       known.push_back(name);
     }
     for (const Formula* formula : {&measured_, &predicted_, &slack_}) check(*formula);
@@ -168,7 +168,7 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-// The exponent p of y ~ x^p, by least squares of the logarithms; NaN unless everything is positive and two x differ.
+// The exponent p of y ~ x^p, by least squares of the logarithms. NaN unless all values are positive and two x differ.
 double exponent(const std::vector<std::pair<double, double>>& points) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
   const auto n = static_cast<double>(points.size());
@@ -185,7 +185,7 @@ double exponent(const std::vector<std::pair<double, double>>& points) {
   return sxx > 0 ? sxy / sxx : not_a_number;
 }
 
-// The point that differs from `point` in nothing but `against`; null when it is not there.
+// The point that differs from `point` only in the settings of `against`. Null if there is none.
 const PointRecord* partner(const PointRecord& point, const Conditions& against, std::span<const PointRecord> points) {
   std::map<std::string, std::string> settings = point.settings;
   for (const auto& [name, texts] : against) settings[name] = texts.front();
@@ -226,7 +226,7 @@ std::vector<LawResult::Sample> samples_of(const Law& law, const Reader& reader, 
   return {joined};
 }
 
-// How far a sample is beyond what its law says, in its own unit; below 0 where the law leaves room.
+// How far a sample is from the value that its law gives, in its own unit. Below 0 for a limit that is not reached.
 double deviation(LawRelation relation, const LawResult::Sample& sample) {
   switch (relation) {
     case LawRelation::equal:
@@ -244,8 +244,8 @@ bool holds(LawRelation relation, const LawResult::Sample& sample) {
          sample.allowed >= 0 && deviation(relation, sample) <= sample.allowed;
 }
 
-// How far off a sample is: up to 1 the part of what is allowed, beyond 1 by how much of its size it exceeds that. What
-// is not finite exceeds everything.
+// How far off a sample is. Up to 1: the part of the tolerance that it uses. Beyond 1: its excess over the tolerance, as
+// a share of its size. Infinite for values that are not finite.
 double excess(LawRelation relation, const LawResult::Sample& sample) {
   const double off = deviation(relation, sample), beyond = off - sample.allowed;
   if (!std::isfinite(beyond) || !(sample.allowed >= 0)) return std::numeric_limits<double>::infinity();
@@ -263,8 +263,8 @@ void check_law(const Law& law) {
   if (law.join != "each" && law.join != "mean" && law.join != "slope")
     refuse(law, fmt::format("join = '{}' is not one of each | mean | slope", law.join));
   if ((law.join == "slope") != !law.over.empty())
-    refuse(law,
-           law.over.empty() ? "a slope needs `over`, the setting along which it is taken" : "only a slope has `over`");
+    refuse(law, law.over.empty() ? "a slope needs `over`, the setting along which it is measured"
+                                 : "only a slope has `over`");
   if (!law.over.empty() && !is_number(find_setting(law.over)))
     refuse(law, fmt::format("a slope over {}, which is no number", law.over));
   check_conditions(law.where);

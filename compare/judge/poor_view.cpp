@@ -25,7 +25,7 @@ double pixels_of(const PointRecord& point) {
   return pixels;
 }
 
-// view.fit_depths fits what the scene's file gives; what view.near_m and view.far_m give stands.
+// view.fit_depths fits the planes that the scene's file gives. It does not change those of view.near_m and view.far_m.
 std::string advice_on_depths(const PointRecord& point) {
   const auto setting = [&](const char* name) {
     const auto found = point.settings.find(name);
@@ -36,7 +36,7 @@ std::string advice_on_depths(const PointRecord& point) {
   for (const char* name : {"view.near_m", "view.far_m"})
     if (const std::string given = setting(name); !given.empty() && given != "auto")
       back += fmt::format("{}{} = auto", back.empty() ? "" : " and ", name);
-  if (back.empty())  // a fitted near plane cuts off what is much nearer than the rest (scenes/camera_fit.h)
+  if (back.empty())  // a fitted near plane cuts off surfaces much nearer than the rest (scenes/camera_fit.h)
     return fitted ? "set view.near_m, or move the camera" : "set view.fit_depths = true, or view.near_m and view.far_m";
   return fmt::format("set {}{}", back,
                      fitted ? "" : " (with view.fit_depths = true, where the scene's file gives a near or far plane)");
@@ -47,7 +47,7 @@ std::string cut_off(const PointRecord& point) {
                      number(point, "clipped"), advice_on_depths(point));
 }
 
-// Of a picture with few surfaces: what is there and not seen, else where the camera looks.
+// For a picture with few surfaces: the reason why surfaces are not seen, or advice on the camera's direction.
 std::string why_few_surfaces(const PointRecord& point) {
   const double receivers = number(point, "receivers"), culled = number(point, "culled"),
                clipped = number(point, "clipped");
@@ -85,7 +85,8 @@ std::string why_poor_view(const PointRecord& point) {
         "its cone; move the camera or the light",
         receivers, receivers - facing);
   else
-    text += fmt::format("of {:.0f} that face the light the truth of {:.0f} is ambiguous", facing, facing - counted);
+    text +=
+        fmt::format("{:.0f} face the light, but the truth of {:.0f} of them is ambiguous", facing, facing - counted);
   return text;
 }
 

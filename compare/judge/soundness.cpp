@@ -29,8 +29,8 @@ double quantum(DepthFormat format, float depth) {
   return static_cast<double>(std::nextafter(depth, 2.0f)) - depth;
 }
 
-// Whether `visibility` is what the technique's definition makes of the probe and a map whose depths are of `format`.
-// Taps that count alike: their number, divided, bit for bit.
+// Whether `visibility` is what the technique's definition gives for the probe and a map whose depths are of `format`.
+// If all taps have the same weight, it must be the number of lit taps, divided, bit for bit.
 bool holds(const LookupEvidence& e, const Image<float>& map, DepthFormat format, size_t i, float visibility) {
   MapSettings settings = e.map;
   settings.format = format;
@@ -41,8 +41,8 @@ bool holds(const LookupEvidence& e, const Image<float>& map, DepthFormat format,
     for (int t = 0; t < taps; ++t) lit += tap_of(e.probe, e.taps, settings, map, i, t).lit(bias);
     return visibility == static_cast<float>(lit) / static_cast<float>(taps);
   }
-  // A sampler's comparison may round what it compares to the map's fixed-point format: within one step of the depth
-  // either verdict is right.
+  // A sampler's comparison may round the reference to the map's fixed-point format. So within one step of the depth
+  // both verdicts are right.
   double least = 0, most = 0;
   for (int t = 0; t < taps; ++t) {
     const Tap tap = tap_of(e.probe, e.taps, settings, map, i, t);
@@ -52,14 +52,14 @@ bool holds(const LookupEvidence& e, const Image<float>& map, DepthFormat format,
     if (lit && !tie) least += tap.weight;
     if (lit || tie) most += tap.weight;
   }
-  // Its weights have 8 bits, and the address that they come from is a rounded division, taken back to texels: 8 u of
-  // it. Visibility changes by at most 1 per texel along each of two axes.
+  // The sampler's weights have 8 bits. They come from an address that is a rounded division, which has an error of 8 u
+  // of the address in texels. Visibility changes by at most 1 per texel along each of two axes.
   const glm::dvec2 at = glm::abs(glm::dvec2(e.probe.map_texels[i]));
   const double weights = 2 * (0x1p-8 + 8 * 0x1p-24 * std::max({at.x, at.y, static_cast<double>(map.width)}));
   return visibility >= least - weights && visibility <= most + weights;
 }
 
-// Whether the float is what n bits read as: k / (2^n - 1), or a float beside it, where the driver's conversion rounds.
+// Whether the float is a depth of n bits: k / (2^n - 1), or a neighbouring float, if the driver's conversion rounds.
 bool held_by(int bits, float depth) {
   const double steps = std::exp2(bits) - 1;
   const float nearest = static_cast<float>(std::round(depth * steps) / steps);
@@ -95,7 +95,7 @@ SoundnessCheck::MapFound SoundnessCheck::compare_maps() const {
     if (found.bits == 16 && !held_by(16, in.stored_map[i])) found.bits = 24;
     if (found.bits == 24 && !held_by(24, in.stored_map[i])) found.bits = 32;
   }
-  if (errors.empty()) return found;  // nothing of the map was looked at
+  if (errors.empty()) return found;  // no texel of the map was read
   const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
   std::nth_element(errors.begin(), middle, errors.end());
   found.error_quanta = *middle;
@@ -128,7 +128,7 @@ void SoundnessCheck::add(PixelRange strip) {
         for (size_t i = range.begin(); i != range.end(); ++i) {
           if (!e.truth.facing[i]) continue;
           ++so_far.facing;
-          // Maps that are uploaded are 32-bit float whatever the settings say.
+          // Uploaded maps are 32-bit float, whatever format the settings name.
           so_far.broken += !(holds(e, e.exact_map, DepthFormat::d32f, i, e.r4[i]) &&
                              holds(e, in_.stored_map, e.map.format, i, e.r5[i]) &&
                              holds(e, in_.ties, DepthFormat::d32f, i, in_.tie_lookup[i]));

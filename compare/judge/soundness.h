@@ -1,9 +1,10 @@
-// Whether the renderer did what its settings say, told from numbers alone: the lookup's verdicts against those worked
-// out again from the probe, the maps and the technique's definition; the probe against the light's frame in double; the
-// map against the exact one. A shader that is wrong in the same way at R4 and at R5 shows as no precision, and one that
-// the probe shares moves the truth's texels with it; here both show.
+// Soundness: checks from numbers alone whether the renderer did what its settings say. It compares the lookup's
+// verdicts with verdicts computed from the probe, the maps and the technique's definition; the probe with the light's
+// frame in double; and the map with the exact map. A shader that is wrong in the same way at R4 and at R5 has no
+// precision error. If the shader's mistake is also in the probe, the truth is traced for the same wrong texels. This
+// check finds both.
 //
-//   Image<float> ties = tie_map(evidence);    // uploaded and looked up as R4's map is
+//   Image<float> ties = tie_map(evidence);    // uploaded and looked up like R4's map
 //   auto metrics = measure_soundness({evidence, map, ties, renderer.lookup(...), receivers, frame});
 #pragma once
 #include <map>
@@ -19,43 +20,46 @@
 
 namespace noonmark {
 
-// A map on which the lookup is decided by the last bit: each texel that a facing receiver's middle tap reads holds that
-// tap's biased reference itself (a tie, and a tie is lit) or, every second one, the next float below it (dark). Where
-// that is no depth, and elsewhere: 1. Scenes hardly ever show a tie; without it `>=` for `>` would go unseen.
+// The tie map, on which the last bit decides every comparison. Each texel that a facing receiver's middle tap reads
+// holds that tap's biased reference itself (a tie, which is lit), or at every second texel the next float below it
+// (dark). It holds 1 at all other texels, and where that value is no depth. The tie map is needed because scenes hardly
+// ever have a tie, and then a `>=` in place of `>` is not noticed.
 Image<float> tie_map(const LookupEvidence& evidence);
 
 struct SoundnessInput {
   const LookupEvidence& evidence;  // r4 on evidence.exact_map
   const Image<float>& stored_map;  // r5's map, as its sampler returns it
   const Image<float>& ties;        // tie_map(evidence)
-  const Image<float>& tie_lookup;  // the technique on it
+  const Image<float>& tie_lookup;  // the technique's result on the tie map
   const ReceiverImage& receivers;
   const LightFrame& frame;
-  glm::dvec3 eye_m;  // the camera's
+  glm::dvec3 eye_m;  // the camera's position
 };
 
-// Over the facing receivers, ambiguous ones included (that is a matter of the truth, not of the lookup):
+// Metrics over the facing receivers. Ambiguous ones are included, because only their truth is unsure and not their
+// lookup:
 //   contract              share whose visibility at R4, at R5 or on the tie map is not, bit for bit, what the
-//                         technique's definition makes of the probe's numbers and that map's. Where a sampler blends
-//                         the taps: is not within what the sampler may round. Sound: 0.
-//   rounding_excess       largest error of the probe's numbers against the frame in double, as a multiple of the most
-//                         that float arithmetic can make (compare/ladder/probe_errors.h). Sound: at most 1.
+//                         technique's definition gives for the probe's numbers and that map's. If a sampler blends the
+//                         taps: is not within the sampler's rounding. Sound: 0.
+//   rounding_excess       largest error of the probe's numbers against the frame in double, as a multiple of the
+//                         largest error of float arithmetic (compare/ladder/probe_errors.h). Sound: at most 1.
 //   address_error_texels  largest distance of the exact place where P (of a cube: each tap) is looked up from the texel
 //                         that the probe names; 0 inside it.
 //   reference_error_m     largest error of the reference depth.
 //   map_error_quanta      median |stored - exact| over the texels that middle taps read, in steps of the format that
-//                         the settings claim (32f: the spacing of floats at that depth).
-//   map_bits              16, 24 or 32: the coarsest format that could have stored the depths of those texels. More
-//                         than the settings claim: the driver stored another format. Fewer: it did so too, or all
-//                         depths lie beyond one half, where floats are no finer than 24 bits, or there are few depths.
-// Values that are not finite are broken contracts and errors without bound. Without a facing receiver: NaN.
+//                         the settings name (32f: the spacing of floats at that depth).
+//   map_bits              16, 24 or 32: the coarsest format that could have stored the depths of those texels. With
+//                         more bits than the settings name, the driver stored another format. With fewer, it did so
+//                         too, or all depths lie beyond one half, where floats are no finer than 24 bits, or there are
+//                         few depths.
+// Values that are not finite count as broken contracts and as infinite errors. Without a facing receiver: NaN.
 class SoundnessCheck {
  public:
-  explicit SoundnessCheck(const SoundnessInput& input);  // what it refers to must outlive this
+  explicit SoundnessCheck(const SoundnessInput& input);  // the objects it refers to must outlive this
 
-  // Every pixel once, strip by strip, where the evidence holds the taps of one strip at a time.
+  // Adds a strip; the evidence holds the taps of one strip at a time. Every pixel must be added once.
   void add(PixelRange strip);
-  std::map<std::string, double> metrics() const;  // of the strips added so far
+  std::map<std::string, double> metrics() const;  // over the strips added so far
 
  private:
   struct Found {
@@ -74,24 +78,24 @@ class SoundnessCheck {
   Found found_;
 };
 
-// Of the whole picture.
+// Measures the whole picture.
 std::map<std::string, double> measure_soundness(const SoundnessInput& input);
 
-// The most that a sound program shows of a metric of measure_soundness, and of the ladder's residuals; none for those
-// that have no such limit.
+// The largest value of a metric of measure_soundness, or of a residual of the ladder, that a sound program can have.
+// Some metrics have no such limit.
 struct SoundLimit {
   const char* metric;
   double most;
 };
 inline constexpr SoundLimit sound_limits[] = {
-    // Steps are sums of floats in [0,1]; a dozen roundings of 2^-24 stay below this.
+    // Steps are sums of floats in [0,1]. A dozen roundings of 2^-24 stay below this limit.
     {"residual", 1e-6},
     {"tap_residual", 1e-6},
     {"contract", 0},
     {"rounding_excess", 1},
 };
 
-// A number of a stored point that no sound program shows. Points in which nothing faces the light have none.
+// A number of a stored point that no sound program has. Points in which nothing faces the light have none.
 struct Unsound {
   int64_t point;
   const SoundLimit* limit;

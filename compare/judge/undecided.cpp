@@ -11,7 +11,7 @@
 namespace noonmark {
 namespace {
 
-// The metrics that an undecided tap may belong to.
+// The metrics to which an undecided tap may belong.
 constexpr std::array<std::string_view, 11> causes = {
     "filter",        "displacement", "aliasing",      "aliasing_dark",  "aliasing_light",   "acne",
     "peter_panning", "coverage",     "coverage_dark", "coverage_light", "peter_panning_lit"};
@@ -24,7 +24,7 @@ std::string undecided_note(std::span<const PointRecord> points) {
   for (const PointRecord& point : points) {
     const double undecided = metric_of(point, "undecided"), error = metric_of(point, "error");
     if (!(undecided > 0) || !(undecided >= much_undecided * error)) continue;
-    const double share = undecided / error;  // error 0: the taps' errors cancel in their pixels, and all is undecided
+    const double share = undecided / error;  // infinite if the taps' errors cancel in their pixels
     if (worst && !(share > most)) continue;
     most = share;
     worst = &point;
@@ -32,7 +32,8 @@ std::string undecided_note(std::span<const PointRecord> points) {
   if (!worst) return "";
   return fmt::format(
       "undecided is {:.3g}% where the error is {:.3g}%: that much is wrong at taps whose truth changes within float "
-      "error, and the causes' shares may be off by it (edges that meet to rounding only, or a scene far from the "
+      "error, and the causes' shares may be off by it (the edges of neighbouring faces differ by rounding, or the "
+      "scene is far from the "
       "origin)",
       100 * metric_of(*worst, "undecided"), 100 * metric_of(*worst, "error"));
 }

@@ -1,5 +1,5 @@
-// What a person must know of taps whose truth float error can change: they are booked as undecided, and a cause may be
-// larger by as much as that.
+// Warns of taps whose truth float error can change. They are booked as undecided, so a cause may be larger by their
+// weight.
 #pragma once
 #include <span>
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace noonmark {
 
-// Undecided weight is worth a word where it is at least this share of the error: then the shares of the causes may be
+// The undecided weight is reported if it is at least this share of the error, because the shares of the causes may be
 // off by as much.
 inline constexpr double much_undecided = 0.1;
 
-// "0.02% of the light is wrong at taps whose truth is undecided ...", of the point where it is the largest share of the
-// error; empty where there is nothing to say, and where the records do not say.
+// "undecided is 0.02% where the error is 0.1% ...", for the point at which it is the largest share of the error. Empty
+// if there is nothing to report, and if the records lack the numbers.
 std::string undecided_note(std::span<const PointRecord> points);
 
-// Of a bound on the filter or a cause that held at `point`, its worst: empty, or that it would not hold if all that is
-// undecided there had that cause.
+// For a bound on the filter or a cause that held at `point`, its worst point. Says that the bound would be broken if
+// everything undecided there had that cause. Otherwise empty.
 std::string undecided_note(const BoundResult& bound, const PointRecord& point);
 
 }  // namespace noonmark

@@ -18,7 +18,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct Taps {
   std::vector<float> thresholds;
-  std::vector<double> weights;  // empty where each weighs 1
+  std::vector<double> weights;  // empty if each weighs 1
 };
 
 struct Lists {
@@ -28,7 +28,7 @@ struct Lists {
   float stored_acne = 0;  // the largest threshold
 };
 
-// Empties `from`: with many taps these lists are gigabytes, and two copies of all of them would not do.
+// Empties `from`, because with many taps these lists are gigabytes and memory has no room for two copies.
 template <class T>
 void append(std::vector<T>& to, std::vector<T>& from) {
   if (to.empty()) to.swap(from);
@@ -40,8 +40,8 @@ void append(Taps& to, Taps& from) {
   append(to.weights, from.weights);
 }
 
-// The least amount of the varied part from which a tap of receiver i is lit. Every float step from the amount to the
-// bias is monotone in the one before, so that the thresholds of the steps are followed back one by one.
+// The least amount of the varied part from which a tap of receiver i is lit. Each float operation from the amount to
+// the bias is monotone, so the thresholds can be traced back one operation at a time.
 class Threshold {
  public:
   Threshold(const LookupEvidence& e, const BiasPart& varied, size_t i) : unit_(e.probe.bias_unit[i]) {
@@ -50,7 +50,7 @@ class Threshold {
     for (const ActivePart& active : e.bias.compared()) {
       if (active.part == &varied)
         varied_ = active;
-      else if (active.part < &varied)  // rows of one table, added in its order
+      else if (active.part < &varied)  // the rows of one table; the shader adds them in its order
         before_ += active.held(active.part->formula.factor(surface));
       else
         after_.push_back(active.held(active.part->formula.factor(surface)));
@@ -58,7 +58,7 @@ class Threshold {
   }
   float operator()(const Tap& tap) const {
     if (tap.always_lit) return 0;
-    if (tap.reference == infinity) return infinity;  // dark whatever the bias
+    if (tap.reference == infinity) return infinity;  // dark at any bias
     const float needed = lit_threshold(tap.reference, tap.depth);
     float sum = unit_ == 1 ? needed : factor_threshold(needed, unit_);
     for (auto part = after_.rbegin(); part != after_.rend(); ++part) sum = addend_threshold(sum, *part);
@@ -85,10 +85,10 @@ void receiver(const LookupEvidence& e, const Image<float>& stored_map, const Bia
   float least = infinity, most = 0;
   for (int t = 0; t < e.taps.taps_per_receiver; ++t) {
     const Tap exact = tap_of(e.probe, e.taps, e.map, e.exact_map, i, t);
-    if (exact.weight == 0) continue;  // P is right on a texel's centre: the sampler reads no other
+    if (exact.weight == 0) continue;  // P lies exactly on a texel's centre: the sampler reads no other texel
     const float at_r4 = threshold(exact);
-    // Wrong on one side of its threshold only: when dark if it should be lit, when lit if it should be dark. What it
-    // should be is D (compare/ladder/ladder.h), or where D is unsure the receiver's own truth.
+    // A tap is wrong on one side of its threshold only: if it should be lit, it is wrong while it is dark, and the
+    // reverse. It should have the verdict D (compare/ladder/ladder.h), or the receiver's own truth if D is unsure.
     const bool right = exact.moved_sure ? exact.moved_lit : e.truth.lit[i] != 0;
     if (!right || at_r4 > 0) {
       const Cause cause = exact.moved_sure ? tap_cause(exact, !right) : Cause::undecided;
@@ -132,7 +132,7 @@ void ThresholdSums::add(std::vector<float>& thresholds, std::vector<double>& wei
     tbb::parallel_sort(thresholds);
     for (size_t i = 0; i < thresholds.size(); ++i) count(thresholds[i], static_cast<double>(i + 1));
   } else {
-    // By weight too, so that sums do not depend on the order in which the cores came to them.
+    // Sorted by weight too, so that sums do not depend on the order in which the threads added them.
     std::vector<std::pair<float, double>> pairs(thresholds.size());
     for (size_t i = 0; i < pairs.size(); ++i) pairs[i] = {thresholds[i], weights[i]};
     tbb::parallel_sort(pairs);
@@ -213,8 +213,8 @@ double BiasCounts::caused(Cause cause, float x) const {
 
 float BiasCounts::acne_free_from(double share) const {
   const ThresholdSums& t = by_cause_[static_cast<size_t>(Cause::acne)];
-  // The fewest of the lowest thresholds that must be reached. The last one ends all acne, whatever rounding the sums
-  // have.
+  // The smallest number of lowest thresholds that must be reached. The last threshold ends all acne, even if the sums
+  // are rounded.
   size_t reached = 0, all = t.size();
   while (reached < all) {
     const size_t middle = reached + (all - reached) / 2;
@@ -236,7 +236,7 @@ float BiasCounts::peter_panning_free_to(double share) const {
     else
       beyond = middle;
   }
-  if (within == t.size() || t[within] == infinity) return infinity;  // infinity: what no bias reaches
+  if (within == t.size() || t[within] == infinity) return infinity;  // no bias reaches infinity
   return std::nextafter(t[within], -infinity);
 }
 
@@ -263,8 +263,8 @@ BiasCounts::Best BiasCounts::best(float most) const {
   });
   best.breakpoints = stretches - 1;
   const double limit = 1.1 * best.wrong_taps;
-  float flat_from = 0;  // of the unbroken run of flat stretches up to the one at hand
-  bool flat = false;    // whether that one is flat
+  float flat_from = 0;  // start of the unbroken run of flat stretches up to this one
+  bool flat = false;    // whether this stretch is flat
   for_each_stretch([&](float from, float to, double wrong) {
     if (!flat) flat_from = from;
     if (from <= best.from) {
@@ -291,7 +291,7 @@ BiasScale bias_scale(const LightFrame& frame, const ReceiverImage& receivers, co
     texels.push_back(frame.depth_per_bias_unit(BiasUnit::texel, light));
   }
   const auto median = [](std::vector<double>& values) {
-    if (values.empty()) return 1.0;  // then there is no curve to scale
+    if (values.empty()) return 1.0;  // without receivers there is no curve to scale
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
@@ -309,7 +309,7 @@ std::vector<double> default_bias_grid() {
 BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const CurveOptions& options) {
   BiasCurve curve;
   curve.parameter = "bias." + std::string(counts.varied().name);
-  curve.made = counts.blended() ? "one pass, but for the sampler's weights" : "one pass";
+  curve.made = counts.blended() ? "one pass, except for the sampler's weights" : "one pass";
   curve.bias_depth = options.bias_depth.empty() ? default_bias_grid() : options.bias_depth;
   const auto in_depth = [&](float x) { return x * scale.depth_per_unit; };
   for (double bias : curve.bias_depth) {
@@ -333,7 +333,7 @@ BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const Curv
     curve.best_error = std::numeric_limits<double>::quiet_NaN();
     return curve;
   }
-  // A bias of 1 in depth spans the whole map; nothing above it means anything.
+  // A bias of 1 in depth spans the whole map. A larger bias has no meaning.
   const auto most = static_cast<float>(1 / scale.depth_per_unit);
   const float from = counts.acne_free_from(options.acne_bound);
   const float to = counts.peter_panning_free_to(options.peter_panning_bound);
@@ -342,8 +342,8 @@ BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const Curv
     curve.window_max_depth = to >= most ? 1.0 : in_depth(to);
   }
   const BiasCounts::Best best = counts.best(most);
-  // Where nothing limits the bias from above, the middle would be half the map's depth; twice the need is advice
-  // enough.
+  // If nothing limits the bias from above, the middle would be half the map's depth. Twice the least bias is a better
+  // recommendation.
   const double start = in_depth(best.from), end = best.to >= most ? 1.0 : in_depth(best.to);
   curve.best_bias_depth = end >= 1 ? std::min(2 * start, 1.0) : (start + end) / 2;
   curve.best_error = share_of(best.wrong_taps, counts.taps());

@@ -1,17 +1,17 @@
-// The error at every bias, from one lookup pass. A tap is lit if and only if the bias reaches the tap's threshold, and
-// (F, V) names the cause that the tap has on either side of it. So the sorted thresholds give the exact error at every
-// bias, and one pass serves for all biases. Memory grows with the number of different thresholds, which float depths
-// limit, and not with the number of taps.
+// The error at every bias, computed from one lookup pass. A tap is lit if and only if the bias reaches the tap's
+// threshold. F and V give the cause that the tap has below its threshold and above it. So the sorted thresholds give
+// the exact error at every bias, and one pass is enough for all biases. Memory grows with the number of different
+// thresholds, which the precision of float depths limits. It does not grow with the number of taps.
 //
 //   BiasCounts curves(evidence, stored_map, *curve_part(settings.bias));
 //   curves.caused(Cause::acne, 0.005f);                   // taps, exactly as rendering with that bias would book
 //   BiasCurve curve = summarise(curves, bias_scale(...), options);
 //
-// A curve runs through the amount of one part of the compared depth (technique/bias_parts.h); the other parts, on
-// whatever they act, are held. Exact for filters that are means of comparisons. Of a filter whose taps a sampler blends
-// (hardware, gaussian) it is exact but for the sampler's rounding of weights. Thresholds are float because the shader's
-// comparison is, and in the parameter's own unit: what one of it is in depth differs from receiver to receiver
-// (LookupProbe::bias_unit).
+// A curve varies the amount of one part of the compared depth (technique/bias_parts.h). All other parts keep their
+// amounts. The curve is exact for filters that are means of comparisons. If a sampler blends the taps (hardware,
+// gaussian), the curve is exact except for the sampler's rounding of weights. Thresholds are float because the shader
+// compares floats. They are in the parameter's own unit, because the depth of one such unit differs from receiver to
+// receiver (LookupProbe::bias_unit).
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -24,10 +24,10 @@
 
 namespace noonmark {
 
-// Weights of thresholds, summed in ascending order; it holds each different threshold once.
+// Weights of thresholds, summed in ascending order. Each different threshold is stored once.
 class ThresholdSums {
  public:
-  // weights: one for each threshold, or empty where each weighs 1. Empties both.
+  // weights: one for each threshold, or empty if each weighs 1. This empties both lists.
   void add(std::vector<float>& thresholds, std::vector<double>& weights);
 
   double above(float x) const { return total() - up_to(x); }
@@ -36,54 +36,54 @@ class ThresholdSums {
 
   size_t size() const { return at_.size(); }
   float operator[](size_t i) const { return at_[i]; }
-  double before(size_t i) const { return i == 0 ? 0 : up_to_[i - 1]; }  // of the first i
+  double before(size_t i) const { return i == 0 ? 0 : up_to_[i - 1]; }  // the sum of the first i
 
  private:
   std::vector<float> at_;      // ascending
-  std::vector<double> up_to_;  // [i]: of all that are at most at_[i]
+  std::vector<double> up_to_;  // [i]: the sum of all thresholds that are at most at_[i]
 };
 
-// The thresholds of so many taps are listed before they are sorted and join the sums.
+// At most this many taps are listed before their thresholds are sorted and added to the sums.
 inline constexpr size_t curve_batch_taps = size_t{1} << 24;
 
 class BiasCounts {
  public:
-  // Of no receiver yet. varied: a part of evidence.bias, or one that is 0 there and has neither floor nor cap.
+  // Counts no receiver yet. varied: a part of evidence.bias, or a part that is 0 there and has neither floor nor cap.
   BiasCounts(const LookupProbe& probe, const BiasPart& varied);
-  // Adds a strip of the picture, where the evidence holds the taps of one strip at a time. stored_map: the GPU's map as
-  // its sampler returns it. evidence.r4 and r5 are not read. Only counted receivers (facing, not ambiguous) take part.
+  // Adds a strip of the picture; the evidence holds the taps of one strip at a time. stored_map: the GPU's map as its
+  // sampler returns it. evidence.r4 and r5 are not read. Only counted receivers (facing, not ambiguous) take part.
   void add(const LookupEvidence& evidence, const Image<float>& stored_map, PixelRange strip);
 
-  // Of the whole picture.
+  // Counts the whole picture.
   BiasCounts(const LookupEvidence& evidence, const Image<float>& stored_map, const BiasPart& varied);
 
   const BiasPart& varied() const { return *varied_; }
-  bool blended() const { return blended_; }  // by a sampler
+  bool blended() const { return blended_; }  // whether a sampler blends the taps
   uint64_t receivers() const { return receivers_; }
-  // Every sum of taps below is in these: whole numbers of taps, or where a sampler blends them, weights of which each
-  // receiver has 1.
+  // The unit of every sum of taps below: whole numbers of taps, or weights if a sampler blends the taps. Then the
+  // weights of each receiver sum to 1.
   double taps() const { return static_cast<double>(receivers_) * whole_; }
 
-  // Taps of R5 that differ from R1; divided by taps() it is the mean |R5 - R1|.
+  // The taps of R5 that differ from R1. This number divided by taps() is the mean |R5 - R1|.
   double wrong_taps(float x) const { return error_dark_.above(x) + error_light_.up_to(x); }
-  // Receivers with R5 != R1.
+  // The receivers with R5 != R1.
   uint64_t wrong_receivers(float x) const {
     return static_cast<uint64_t>(wrong_dark_.above(x) + wrong_light_.up_to(x));
   }
-  // Taps at R4, by cause. cause: one of the six that are booked tap by tap, or undecided (where taps that darken and
-  // taps that lighten do not cancel, as they do in a pixel's step).
+  // The taps at R4 that have this cause. cause: one of the six that are booked tap by tap, or undecided. Among
+  // undecided taps, those that darken and those that lighten do not cancel here, as they do in a pixel's step.
   double caused(Cause cause, float x) const;
 
-  // The least x at which acne is at most this share of taps(); the greatest at which Peter Panning is (infinity when it
-  // never is more).
+  // The least x at which acne is at most this share of taps(), and the greatest x at which Peter Panning is (infinity
+  // if it is never more than the share).
   float acne_free_from(double share) const;
   float peter_panning_free_to(double share) const;
-  // The least x from which the stored map darkens no covered tap that is lit at its exact place and at its texel's
-  // centre: what acne_free_from(0) is on the exact map.
+  // The least x from which the stored map darkens no covered tap that is lit both at its exact place and at its texel's
+  // centre. It corresponds to acne_free_from(0), which is about the exact map.
   float stored_acne_free_from() const { return stored_acne_free_from_; }
 
   struct Best {
-    float from = 0, to = 0;  // the stretch of least error in [0, most]; the lowest where several are equal
+    float from = 0, to = 0;  // the stretch of least error in [0, most]; the lowest of several equal ones
     double wrong_taps = 0;
     float flat_from = 0, flat_to = 0;  // around it, as far as the error stays within 10% of the least
     uint64_t breakpoints = 0;          // of the error as a function of the bias, in (0, most]
@@ -93,7 +93,8 @@ class BiasCounts {
  private:
   void add_batch(const LookupEvidence& evidence, const Image<float>& stored_map, PixelRange pixels);
 
-  // Taps that should be lit are wrong below their threshold; taps that should be dark are wrong from it on.
+  // Taps that should be lit are wrong below their threshold. Taps that should be dark are wrong from their threshold
+  // on.
   uint64_t receivers_ = 0;
   const BiasPart* varied_;
   bool blended_ = false;
@@ -103,7 +104,7 @@ class BiasCounts {
   std::array<ThresholdSums, cause_count> by_cause_;
 };
 
-// What one of the curve's units is in the others, at the place that BiasCurve::m_per_depth names.
+// The size of one unit of the curve in the other units, at the place that BiasCurve::m_per_depth names.
 struct BiasScale {
   double depth_per_unit = 1;  // of the parameter's own unit
   double m_per_depth = 1;

@@ -18,7 +18,7 @@ void transform(const std::vector<float>& f, std::vector<float>& d, std::vector<i
   int k = -1;
   for (int q = 0; q < n; ++q) {
     if (f[q] == infinity) continue;
-    double start = -infinity;  // double: beyond 4096 a float cannot tell this place from a pixel beside it
+    double start = -infinity;  // double: beyond 4096 a float cannot separate this place from a neighbouring pixel
     while (k >= 0) {
       const double p = root[k];
       start = ((f[q] + static_cast<double>(q) * q) - (f[root[k]] + p * p)) / (2.0 * (q - p));

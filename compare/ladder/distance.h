@@ -6,9 +6,9 @@
 
 namespace noonmark {
 
-// For every pixel the distance to the nearest pixel whose mask is not 0; infinity where there is none anywhere.
-// Felzenszwalb and Huttenlocher 2012, "Distance transforms of sampled functions". Float: distances in a picture need no
-// more, and squares of whole pixels up to 4096 are exact.
+// For every pixel, the distance to the nearest pixel whose mask is not 0; infinity if the mask is 0 everywhere. Method:
+// Felzenszwalb and Huttenlocher 2012, "Distance transforms of sampled functions". Float is precise enough for distances
+// in a picture, and squares of whole pixels up to 4096 are exact.
 Image<float> distance_to(const Image<uint8_t>& mask);
 
 }  // namespace noonmark

@@ -11,7 +11,7 @@
 namespace noonmark {
 namespace {
 
-// Like std::max, but a NaN stays: a residual that cannot be computed must not pass for none.
+// Like std::max, but it keeps a NaN: a residual that cannot be computed must not be taken for a residual of 0.
 double larger(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b);
 }
@@ -20,8 +20,8 @@ struct Residuals {
   double steps = 0, taps = 0;
 };
 
-// The class of a wrong pixel: unfiltered, the rung from which it stays wrong. With a filter several causes share a
-// pixel, and the largest share names it.
+// The cause that names a wrong pixel. Without a filter it is the cause of the step from which on the pixel stays wrong.
+// With a filter one pixel can have several causes, and the largest step gives the name.
 Cause pixel_cause(const Ladder& ladder, size_t i, bool filtered) {
   const float truth = ladder.truth()[i];
   if (ladder[Rung::shown][i] == truth) return Cause::none;
@@ -39,7 +39,7 @@ Cause pixel_cause(const Ladder& ladder, size_t i, bool filtered) {
   return largest;
 }
 
-// Whether P itself falls into the map; a cube has no outside.
+// Whether P itself lies inside the map. A cube map has no outside.
 bool inside(const LookupProbe& probe, size_t i, const Image<float>& map) {
   return probe.cube_resolution > 0 || inside_map(LookupProbe::floored(probe.map_texels[i]), {map.width, map.height});
 }
@@ -119,7 +119,8 @@ void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {
 
     const float bias = e.bias.at(e.probe, i);
     double exact_lit = 0, moved_lit = 0, texel_lit = 0, all_lit = 0, unsure = 0;
-    // What is undecided of the way from R1 to the exact places, from there to the moved ones, and on to R4. Signed.
+    // The undecided parts of three steps: from R1 to the exact places, from there to the places looked up, and from
+    // there to R4. They are signed.
     double before_exact = 0, before_moved = 0, before_r4 = 0;
     std::array<double, cause_count> booked{};
     for (int t = 0; t < taps; ++t) {
@@ -141,7 +142,7 @@ void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {
       if (cause == Cause::undecided) before_r4 += step(tap.moved_lit, lit);
     }
     if (unsure > 0) ladder.flags[i] |= flag_undecided;
-    // Double, rounded once to float: the shader's own count / N is that quotient in float.
+    // Computed in double and rounded once to float: the shader's own count / N is the same quotient in float.
     const auto share = [&](double weight) { return static_cast<float>(weight / whole); };
     const float r[std::size(rung_names)] = {e.truth.soft[i],  static_cast<float>(e.truth.lit[i]), share(exact_lit),
                                             share(texel_lit), blended ? share(all_lit) : e.r4[i], e.r5[i]};

@@ -15,7 +15,8 @@ bool capped(const LookupProbe& probe) {
   return probe.tap_reference->reads_cap && probe.plane_cap < std::numeric_limits<float>::max();
 }
 
-// NaN where each tap has to be asked: the taps are no square, or a cap keeps those far out from their plane.
+// NaN if each tap has to be computed by itself: the taps do not form a square, or a cap keeps the references of distant
+// taps away from their plane.
 double reach(const LookupProbe& probe) {
   if (probe.tap_reference->at_texel) return 0;
   if (probe.tap_reference->plane) return capped(probe) ? std::numeric_limits<double>::quiet_NaN() : 0.5;
@@ -26,8 +27,8 @@ double reach(const LookupProbe& probe) {
   return square ? k : std::numeric_limits<double>::quiet_NaN();
 }
 
-// What the plane rises towards the light up to the furthest of these taps, and half a texel more. carried: by how much,
-// in window depth, the reference goes along with the plane at most.
+// The rise of the plane towards the light up to the furthest of these taps, and half a texel more. carried: the most,
+// in window depth, that the reference follows the plane.
 double need_of(std::span<const glm::vec3> offsets, glm::dvec2 g, double carried = 0) {
   double rise = 0;
   for (const glm::vec3& o : offsets) rise = std::max(rise, -glm::dot(glm::dvec2(o), g));
@@ -47,7 +48,7 @@ double least_distance(glm::dvec3 n, double h, const CubeFace& face, glm::dvec2 l
   for (int side = 0; side < 4; ++side) {
     const glm::dvec3 a = corners[side], b = corners[(side + 1) % 4] - a;
     along(a);
-    // d(|c| / n.c) = 0 on c = a + x b; its terms in x^2 cancel.
+    // The solution of d(|c| / n.c) = 0 on c = a + x b. Its terms in x^2 cancel.
     const double x = (glm::dot(a, a) * glm::dot(n, b) - glm::dot(a, b) * glm::dot(n, a)) /
                      (glm::dot(b, b) * glm::dot(n, a) - glm::dot(a, b) * glm::dot(n, b));
     if (x > 0 && x < 1) along(a + x * b);
@@ -84,7 +85,7 @@ AcneLaw::AcneLaw(const LightFrame& frame, const LookupProbe& probe)
 
 double AcneLaw::at(size_t i, glm::dvec3 position, glm::dvec3 normal) const {
   if (frame_.map_shape() == MapShape::cube) return cube_need(i, position, normal);
-  if (reach_texels_ == 0) return 0;  // also where the light sees the plane edge on
+  if (reach_texels_ == 0) return 0;  // also if the light sees the plane edge on
   const glm::dvec2 g = depth_gradient(frame_, position, normal);
   if (!std::isnan(reach_texels_)) return reach_texels_ * (std::abs(g.x) + std::abs(g.y));
   const TapPattern& pattern = probe_.pattern;
@@ -98,14 +99,14 @@ double AcneLaw::cube_need(size_t i, glm::dvec3 position, glm::dvec3 normal) cons
   const glm::dvec3 p = frame_.to_light(position);
   const double h = -glm::dot(normal, p);              // the side that faces the light has n.P < 0
   if (!(h > 0)) return std::isnan(h) ? h : infinity;  // seen edge on
-  const double half = 1.0 / frame_.resolution;        // of a texel, on the face at distance 1
+  const double half = 1.0 / frame_.resolution;        // half a texel on the face at distance 1
   double need = 0;
   for (int t = 0; t < probe_.taps(); ++t) {
     const glm::dvec3 place = frame_.tap_place(p, glm::dvec3(probe_.offset(i, t)));
     const CubeFace& face = cube_face(cube_face_of(place));
     const glm::dvec2 at =
         glm::dvec2(glm::dot(place, face.right), glm::dot(place, face.up)) / glm::dot(place, face.forward);
-    // Every face's own texels end half a texel before its edge.
+    // The centres of a face's texels end half a texel before its edge.
     const glm::dvec2 low = glm::clamp(at - half, half - 1, 1 - half), high = glm::clamp(at + half, half - 1, 1 - half);
     need = std::max(need, glm::length(p) - least_distance(-normal, h, face, low, high));
   }

@@ -16,7 +16,7 @@
 namespace noonmark {
 namespace {
 
-// std::max that keeps a NaN, whichever of the two it is.
+// std::max that keeps a NaN, whichever value it is.
 void raise(double& value, double candidate) {
   if (!(candidate <= value) && !std::isnan(value)) value = candidate;
 }
@@ -32,7 +32,8 @@ bool is_counted(const Ladder& ladder, size_t i) {
   return (ladder.flags[i] & flag_facing) && !(ladder.flags[i] & flag_ambiguous);
 }
 
-// Law 1 apart, and on every core: under a point light each receiver asks it of every tap.
+// The maxima of law 1 are computed on all cores, apart from the sums: under a point light each receiver evaluates the
+// law for every tap.
 Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>& areas, double quantum) {
   Over over = tbb::parallel_reduce(
       tbb::blocked_range<size_t>(0, in.ladder.flags.size(), 8192), Over{},
@@ -57,10 +58,10 @@ Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>&
         raise(a.quantum_m, b.quantum_m);
         return a;
       });
-  // A quantum is the least that a law asks for, even where nothing is lit.
+  // A law requires at least half a quantum, even if nothing is lit.
   raise(over.law_depth, quantum / 2);
   raise(over.law_m, quantum / 2 / in.frame.window_depth_slope(in.frame.near_m));
-  for (size_t i = 0; i < in.ladder.flags.size(); ++i) {  // in the picture's order: the same sums on any machine
+  for (size_t i = 0; i < in.ladder.flags.size(); ++i) {  // in the picture's order: the sums are the same on any machine
     if (!is_counted(in.ladder, i)) continue;
     over.whole_area += areas[i];
     for (int c = 0; c < cause_count; ++c)
@@ -69,7 +70,7 @@ Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>&
   return over;
 }
 
-// Also what the camera does not see: the way from a receiver to its texel's centre may lead over it.
+// Includes triangles that the camera does not see, because they can lie between a receiver and its texel's centre.
 Over over_faces(const LawInput& in, const AcneLaw& law, double quantum) {
   Over over;
   over.law_depth = quantum / 2;
@@ -77,12 +78,12 @@ Over over_faces(const LawInput& in, const AcneLaw& law, double quantum) {
   for (const glm::uvec3& t : in.scene.triangles) {
     const glm::dvec3 corners[3] = {in.scene.positions[t.x], in.scene.positions[t.y], in.scene.positions[t.z]};
     const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    // Edge-on faces have no depth of their own in the light's plane; below 1e-9 of a face's size, the double's rounding
-    // of float coordinates decides which way it turns.
+    // Edge-on faces have no depth of their own in the light's plane. Below 1e-9 of a face's size, double's rounding of
+    // the float coordinates decides which way the face turns.
     if (!(glm::dot(normal, in.frame.direction_to_light(corners[0])) > 1e-9 * glm::length(normal)) ||
         in.frame.light().misses(in.frame, corners))
       continue;
-    // The least of the slopes: at the corner farthest from the light.
+    // The least of the slopes is at the corner farthest from the light.
     double farthest = -std::numeric_limits<double>::infinity();
     for (const glm::dvec3& corner : corners) farthest = std::max(farthest, in.frame.depth_m(in.frame.to_light(corner)));
     const double bias = law.of_face(corners, normal) + quantum / 2;
@@ -92,7 +93,7 @@ Over over_faces(const LawInput& in, const AcneLaw& law, double quantum) {
   return over;
 }
 
-// Of the counted receivers; NaN without any.
+// The median over the counted receivers. NaN if there are none.
 double median_texel_m(const LawInput& in) {
   std::vector<double> sizes;
   for (size_t i = 0; i < in.ladder.flags.size(); ++i)
@@ -120,7 +121,7 @@ double depth_quantum(DepthFormat format) {
 Image<double> light_plane_areas(const Camera& camera, const LightFrame& frame, const ReceiverImage& receivers) {
   const int width = receivers.width(), height = receivers.height();
   const CameraFrame view = make_camera_frame(camera, width, height);
-  // Perspective: on the plane at distance 1; orthographic: in m2.
+  // Perspective: the area on the plane at distance 1. Orthographic: the area in m2.
   const double pixel = 4 * view.half_width * view.half_height / (static_cast<double>(width) * height);
   Image<double> areas(width, height, 0);
   for (int y = 0; y < height; ++y) {
@@ -130,8 +131,8 @@ Image<double> light_plane_areas(const Camera& camera, const LightFrame& frame, c
       const double to_light = glm::dot(normal, frame.direction_to_light(receivers.position.at(x, y)));
       const glm::dvec3 way = view.pixel_ray(x, y, width, height).direction;
       double area = pixel / std::abs(glm::dot(normal, way)) * to_light;
-      // A pixel of area A on the plane at distance 1, seen along a ray of length |way|, is a solid angle of A /
-      // |way|^3. At depth z the ray has come z |way|, and meets the surface at the cosine |N.way| / |way|.
+      // A pixel of area A on the plane at distance 1, seen along a ray of length |way|, has the solid angle A /
+      // |way|^3. At depth z the ray has the length z |way|, and it meets the surface at the cosine |N.way| / |way|.
       if (camera.projection == Projection::perspective) {
         const double z = glm::dot(glm::dvec3(receivers.position.at(x, y)) - view.eye_m, view.forward);
         area *= z * z;

@@ -14,20 +14,20 @@ bool counted(const Ladder& ladder, size_t i) {
   return (ladder.flags[i] & flag_facing) && !(ladder.flags[i] & flag_ambiguous);
 }
 
-// Whether the receiver lies in a gap, lit between an occluder and its shadow: Peter Panning where the truth is dark.
-// Under a filter a tap of a receiver that is itself lit can show it too; that one has no occluder, and no distance to
-// it.
+// Whether the receiver lies in a gap, a lit strip between an occluder and its shadow: Peter Panning where the truth is
+// dark. With a filter, a receiver that is itself lit can have a tap with Peter Panning too. Such a receiver has no
+// occluder and so no distance to it.
 bool in_gap(const Ladder& ladder, size_t i) {
   return counted(ladder, i) && ladder[Cause::peter_panning][i] != 0 && ladder.truth()[i] == 0;
 }
 
-// std::max that keeps a NaN, whichever of the two it is.
+// std::max that keeps a NaN, whichever value it is.
 void raise(double& value, double candidate) {
   if (!(candidate <= value) && !std::isnan(value)) value = candidate;
 }
 
-// Largest distance in the picture from an aliased pixel to the nearest pixel whose truth is what the map said here.
-// Such a pixel may be hidden from the camera; then the picture does not say, and the pixel is left out.
+// The largest distance in the picture from an aliased pixel to the nearest pixel whose truth is the answer that the map
+// gave here. If no such pixel is visible, the picture has no such distance, and the aliased pixel is left out.
 double edge_displacement_pixels(const Ladder& ladder) {
   const int width = ladder.flags.width, height = ladder.flags.height;
   double largest = 0;
@@ -47,7 +47,7 @@ double edge_displacement_pixels(const Ladder& ladder) {
   return largest;
 }
 
-// A bias in window depth, in metres of what the map measures before `depth_m`.
+// Converts a bias in window depth to metres of the map's depth measure, before `depth_m`.
 double bias_m(const LightFrame& frame, double bias, double depth_m) {
   return depth_m - frame.depth_of_window(frame.window_depth(depth_m) - bias);
 }
@@ -60,8 +60,8 @@ double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
   const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
   const double sine = std::sqrt(1 - cosine * cosine);
   const double w = frame.texel_m(light);
-  // How far from P, across its ray, the centre of a tap's texel can lie: texels of a flat map along both axes; of a
-  // cube metres of the world, and half a texel's diagonal.
+  // How far from P, across its ray, the centre of a tap's texel can lie. Flat map: texels along both axes. Cube map:
+  // metres of the world, and half a texel's diagonal.
   double across = in.probe.pattern.reach_texels() * w * std::numbers::sqrt2;
   if (in.probe.pattern.in_world) {
     across = w * std::numbers::sqrt2 / 2;
@@ -70,13 +70,13 @@ double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
       longest = std::max(longest, static_cast<double>(glm::length(in.probe.offset(i, t))));
     across += longest;
   }
-  // Along the normal; along the light it reaches offset / cosine.
+  // The offset along the normal. Along the light it reaches offset / cosine.
   const glm::dvec3 normal(in.receivers.normal[i]);
   const double offset = glm::dot(in.bias.moved_m(frame, in.receivers.position[i], normal), normal);
   const double bias = bias_m(frame, in.bias.at(in.probe, i), frame.depth_m(light));
   if (frame.parallel()) return bias + (across * sine + offset) / cosine;
-  // Rays spread: one at an angle to P's meets P's plane, which stands at the angle theta to P's ray, at the distance
-  // |P| cos(theta) / cos(theta + angle); never where they are parallel.
+  // Rays spread. P's plane stands at the angle theta to P's ray. A ray at `angle` to P's ray meets that plane at the
+  // distance |P| cos(theta) / cos(theta + angle), or never if it is parallel to the plane.
   const double distance = glm::length(light), theta = std::acos(cosine);
   const double turned = theta + std::asin(std::min(1.0, across / distance));
   const double slope = turned < std::numbers::pi / 2 ? distance * (cosine / std::cos(turned) - 1)
@@ -116,13 +116,13 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     aliasing_squares += aliasing * aliasing;
     if (ladder.truth()[i] != 0) panning_lit += std::abs(static_cast<double>(ladder[Cause::peter_panning][i]));
     if (in_gap(ladder, i)) {
-      // The gap along the receiver: the light's way from P to the occluder, seen along the surface. What stands further
-      // off than the bias can reach casts no gap: there a steep receiver at the edge of a distant shadow is lit because
-      // its depth changes by as much within the taps (law 1).
+      // The gap along the receiver: the light's way from P to the occluder, projected onto the surface. An occluder
+      // that is farther away than the bias can reach makes no gap. At the edge of its shadow a steep receiver can still
+      // be lit, because its depth changes by as much within the taps (law 1).
       const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
       const double reach = panning_reach_m(in, i, in.frame.to_light(in.receivers.position[i]));
       const double distance = in.occluder_distance_m[i];
-      // A dark receiver without an occluder is a contradiction, and shows.
+      // A dark receiver without an occluder is a contradiction. It makes the metric not finite, so it is noticed.
       if (!(distance > reach) || !std::isfinite(distance)) raise(gap, distance * std::sqrt(1 - cosine * cosine));
     }
     if (ladder[Cause::aliasing_dark][i] != 0 || ladder[Cause::aliasing_light][i] != 0) {
@@ -132,7 +132,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     }
   }
 
-  // Without a counted receiver nothing was measured, and nothing may look like a perfect score.
+  // Without a counted receiver nothing was measured, and no metric may look like a perfect result.
   const auto measured = [&](double value) { return base == 0 ? std::numeric_limits<double>::quiet_NaN() : value; };
   const auto share = [&](double sum) { return measured(sum / static_cast<double>(base)); };
   const auto caused = [&](Cause cause) { return share(size[static_cast<size_t>(cause)]); };

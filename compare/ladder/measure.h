@@ -17,25 +17,25 @@ struct MeasureInput {
   const LookupProbe& probe;
   const Bias& bias;
   const Image<float>& edge_distance_texels;  // raytrace::LookupTruth
-  const Image<float>& occluder_distance_m;   // of the pixels in peter_panning_mask; others are not read
+  const Image<float>& occluder_distance_m;   // read only at the pixels of peter_panning_mask
 };
 
-// How far before a receiver, in metres along its light ray, Peter Panning can reach: the bias there, plus the most that
-// the receiver's own depth changes within the lookup's taps. Of a part that moves the caster, infinity.
-// light: P in the light's frame.
+// The largest distance before a receiver, in metres along its light ray, at which Peter Panning can occur. It is the
+// bias there, plus the largest change of the receiver's own depth within the lookup's taps. Infinity for a part
+// that moves the caster, because that is the occluder. light: P in the light's frame.
 double panning_reach_m(const MeasureInput& input, size_t i, glm::dvec3 light);
 
-// Every metric of the table but the times and those of compare/ladder/law_metrics.h; of a rung that was put on top of
-// R5, the mean step of its cause by the cause's name, and `error` is against that rung. A value that is not finite in
-// the images makes the metrics that it enters not finite; nothing is skipped. Without a counted receiver every
-// fraction, gap and displacement is NaN.
+// Every metric of the table except the times and the metrics of compare/ladder/law_metrics.h. If a rung was put on top
+// of R5, `error` is measured against that rung, and the mean step of its cause is added under the cause's name. A value
+// in the images that is not finite makes every metric that reads it not finite; nothing is skipped. Without a counted
+// receiver every fraction, gap and displacement is NaN.
 std::map<std::string, double> measure_ladder(const MeasureInput& input);
 
-// The counted pixels with any Peter Panning whose own truth is dark: those whose occluder's distance measure_ladder()
-// needs.
+// The counted pixels that have Peter Panning and whose own truth is dark. measure_ladder() needs the distance of their
+// occluders.
 Image<uint8_t> peter_panning_mask(const Ladder& ladder);
 
-// The counted receiver with the largest |R5 - R1|; x = -1 where there is none.
+// The counted receiver with the largest |R5 - R1|. x = -1 if there is no counted receiver.
 PointRecord::Worst worst_pixel(const Ladder& ladder);
 
 }  // namespace noonmark

@@ -11,11 +11,12 @@ namespace {
 constexpr double u = float_rounding;
 constexpr double division = float_division;
 constexpr double square_root = float_square_root;
-// length(): three squares of rounded differences (2 u each), their rounding and two sums, halved by the root.
+// length(): three squares of rounded differences (2 u each), the rounding of the squares (u) and two sums (2 u), halved
+// by the root.
 constexpr double length_of_difference = (2 * u + u + 2 * u) / 2 + square_root;
 
-// Samplers address texels with no fewer than 8 bits of a texel's fraction (as Vulkan asks of them by the name of
-// subTexelPrecisionBits, at least 4, and as those that run OpenGL 4.5 have it).
+// The least precision of a texel's fraction in a sampler's address: 8 bits. Vulkan requires at least 4
+// (subTexelPrecisionBits); samplers that run OpenGL 4.5 have at least 8.
 constexpr double sampler_texels = 0x1p-8;
 
 double sum_of(glm::dvec3 v) { return v.x + v.y + v.z; }
@@ -28,7 +29,7 @@ void raise_error(double& value, double candidate) {
 
 struct ProbeCheck::Place {
   glm::dvec3 world, light;
-  glm::dvec3 error;  // of each of the world's coordinates
+  glm::dvec3 error;  // the error of each world coordinate
 };
 
 ProbeCheck::ProbeCheck(const LookupEvidence& evidence, const ReceiverImage& receivers, const LightFrame& frame,
@@ -39,9 +40,10 @@ ProbeCheck::ProbeCheck(const LookupEvidence& evidence, const ReceiverImage& rece
   planes_ = glm::transpose(glm::inverse(glm::translate(clip_, light_position_)));
 }
 
-// P and the sum of offsets on it: each a rounded amount in metres times a direction of the formula's own. The amount:
-// the texel's size at P is a number of its own (directional), that times the axis' rounded product with rounded
-// differences (spot), or times the largest of those (point).
+// P and the sum of the offsets on it. Each offset is a rounded amount in metres times a direction that the formula
+// computes. The amount depends on the texel's size at P. That size is a constant (directional), or a constant times the
+// product of the rounded axis with rounded differences (spot), or a constant times the largest of those differences
+// (point).
 ProbeCheck::Place ProbeCheck::looked_up(size_t i) const {
   const glm::dvec3 at(receivers_.position[i]), normal(receivers_.normal[i]);
   Place place{at, {}, glm::dvec3(0)};
@@ -67,13 +69,13 @@ ProbeCheck::Place ProbeCheck::looked_up(size_t i) const {
   return place;
 }
 
-// Of a component of the direction to the light. One that the shader makes: a rounded difference over a length, or times
-// its inverse. The directional light's is a uniform.
+// The error of one component of the direction to the light. If the shader computes it, it is a rounded difference
+// divided by a length, or multiplied by the length's inverse. For a directional light it is a uniform.
 double ProbeCheck::direction_error() const {
   return frame_.parallel() ? 2 * u : u + length_of_difference + division + u;
 }
 
-// What the formulas of the moving parts read, with what float makes of it.
+// The inputs of the formulas of the moving parts, with their float errors.
 in_bounds::Surface ProbeCheck::bounded_surface(glm::dvec3 position, glm::dvec3 normal) const {
   const in_double::Surface exact = surface_at(frame_, position, normal);
   const auto off_by = [](glm::dvec3 v, double relative) {
@@ -90,12 +92,12 @@ in_bounds::Surface ProbeCheck::bounded_surface(glm::dvec3 position, glm::dvec3 n
   return surface;
 }
 
-// Clip coordinates: with S = sum |m_j p_j| of a row of the matrix, rounding the row is u S, four products and three
-// sums 4 u S, and P's own error |m_j| each. Where a coordinate is a difference of far larger numbers, S is what the
-// error grows with. What it is held to, the frame in double, rounds too: the matrix's last column (three products,
-// three sums), its product with P (four and three) and P's place in the light's frame (a difference, three products,
-// two sums), each of sum |m_j| (|p_j| + |origin_j|): that shows where a map of a million kilometres covers a scene of a
-// centimetre. An orthographic w is exactly 1.
+// Clip coordinates. Let S = sum |m_j p_j| over a row of the matrix. Rounding the row gives an error of u S, four
+// products and three sums give 4 u S, and P's own error gives |m_j| for each coordinate. If a coordinate is the
+// difference of far larger numbers, the error grows with S. The frame in double, with which it is compared, is rounded
+// too: the matrix's last column (three products, three sums), its product with P (four products, three sums), and P in
+// the light's frame (a difference, three products, two sums), each as a part of sum |m_j| (|p_j| + |origin_j|). This
+// matters if a map of a million kilometres covers a scene of a centimetre. An orthographic w is exactly 1.
 glm::dvec4 ProbeCheck::row_errors(const Place& place) const {
   constexpr double in_double = (6 + 7 + 6) * 0x1p-53;
   glm::dvec4 errors(0);
@@ -111,7 +113,8 @@ glm::dvec4 ProbeCheck::row_errors(const Place& place) const {
   return errors;
 }
 
-// Whether the lookup may take P for no place of the map: at the light, behind a spot light, or where floats end.
+// Whether the lookup may have no place for P in the map: P is at the light, behind a spot light, or beyond the range of
+// floats.
 bool ProbeCheck::may_ask_nothing(const Place& place) const {
   constexpr double largest = std::numeric_limits<float>::max();
   if (frame_.map_shape() == MapShape::cube) {
@@ -125,8 +128,8 @@ bool ProbeCheck::may_ask_nothing(const Place& place) const {
   return false;
 }
 
-// Window coordinates: the division adds the errors of both its sides and its own rounding; halving and adding one half
-// round once, multiplying by the resolution once more.
+// Window coordinates. The division adds the errors of both operands and its own rounding. Halving and adding one half
+// round once, and multiplying by the resolution rounds once more.
 void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) const {
   const glm::dvec4 clip = clip_ * glm::dvec4(place.world, 1), row_error = row_errors(place);
   const auto window = [&](int row) {
@@ -154,7 +157,7 @@ void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) 
   if (frame_.tile().depth == TileDepth::perspective && e_.bias.unit() != BiasUnit::depth) {
     const double expected = frame_.depth_per_bias_unit(e_.bias.unit(), place.light);
     const double axis = row_error[3] / std::abs(clip.w);  // w is the depth along the axis
-    // A rounded constant over w, or over its rounded square.
+    // The unit is a rounded constant divided by w, or by its rounded square.
     const double error = u + division + (e_.bias.unit() == BiasUnit::m ? 2 * axis + u : axis);
     raise_error(found.excess, std::abs(probe.bias_unit[i] - expected) / (expected * error));
   } else {
@@ -163,7 +166,8 @@ void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) 
   }
 }
 
-// Distances, and directions whose face and texel the sampler finds: the largest component divides the other two.
+// Distances and directions. The sampler finds a direction's face and texel: it divides two components by the largest
+// one.
 void ProbeCheck::compare_cube(size_t i, const Place& place, ProbeErrors& found) const {
   const LookupProbe& probe = e_.probe;
   const double distance = glm::length(place.light);
@@ -171,7 +175,7 @@ void ProbeCheck::compare_cube(size_t i, const Place& place, ProbeErrors& found) 
   const double reference = std::abs(probe.reference[i] - expected);
   const double moved = glm::dot(glm::abs(place.light), place.error) / (distance * frame_.far_m);
   raise_error(found.reference_m, reference * frame_.far_m);
-  // Far is rounded, and divides.
+  // Far is rounded, and the division is rounded.
   raise_error(found.excess, reference / (moved + expected * (length_of_difference + u + division)));
 
   const glm::dvec3 error = place.error + glm::abs(place.light) * u;
@@ -184,7 +188,7 @@ void ProbeCheck::compare_cube(size_t i, const Place& place, ProbeErrors& found) 
   for (int t = 0; t < probe.taps(); ++t) {
     const glm::dvec3 way = place.light + glm::dvec3(probe.offset(i, t));
     const glm::dvec3 way_error = error + glm::abs(way) * u;
-    // In the face that the sampler chose, also where the exact direction is just beyond its edge.
+    // Compared in the face that the sampler chose, even if the exact direction lies just beyond that face's edge.
     const glm::ivec2 texel = probe.texel(i, t);
     const MapTile face = frame_.tile(probe.tile(i, t));
     const glm::dvec2 in_face(texel - face.corner);
@@ -203,21 +207,21 @@ void ProbeCheck::compare_cube(size_t i, const Place& place, ProbeErrors& found) 
   }
 }
 
-// N.L, tan(theta) and the radius, which are of P itself.
+// N.L, tan(theta) and the radius. They belong to P itself and not to the place looked up.
 void ProbeCheck::compare_shading(size_t i, const Place&, ProbeErrors& found) const {
   const LookupProbe& probe = e_.probe;
   const glm::dvec3 at(receivers_.position[i]);
   const glm::dvec3 products = glm::dvec3(receivers_.normal[i]) * frame_.direction_to_light(at);
-  // Three products, of which the light's component is rounded, and two sums.
+  // Three products, in which the light's component is rounded, and two sums.
   raise_error(found.excess, std::abs(probe.n_dot_l[i] - sum_of(products)) /
                                 ((direction_error() + 3 * u) * sum_of(glm::abs(products))));
 
   if (e_.bias.reads_tan()) {
-    // tan(theta) of the probe's own cosine c: 1 - c c rounds twice, near 0 too; then a root and a division.
+    // tan(theta) from the probe's own cosine c. 1 - c c is rounded twice, also near 0; then come a root and a division.
     const double c = std::min(1.0, static_cast<double>(probe.n_dot_l[i])), squared = 1 - c * c;
     const double root = std::sqrt(squared);
     const double lost = squared > 0 ? std::min(std::sqrt(2 * u), 2 * u / root) : 0;
-    // Where N is all but across L the shader may end it at a number of its own.
+    // If N is almost perpendicular to L, the shader may limit tan(theta) to a number of its own.
     if (c > least_cosine)
       raise_error(found.excess, std::abs(probe.tan_theta[i] - root / c) /
                                     ((lost + (square_root + division) * root) / c + std::numeric_limits<float>::min()));
@@ -225,18 +229,18 @@ void ProbeCheck::compare_shading(size_t i, const Place&, ProbeErrors& found) con
   if (probe.pattern.scaled_by_view) {
     const glm::dvec3 way = at - eye_m_;
     const double distance = glm::length(way), x = distance / frame_.far_m;
-    // The camera's place is rounded; far is, and divides; 25 divides.
+    // The camera's place is rounded. Far is rounded, and its division is rounded. The division by 25 is rounded.
     const double x_error = glm::dot(glm::abs(way), glm::abs(eye_m_)) * u / (distance * frame_.far_m) +
                            x * (length_of_difference + u + division);
     raise_error(found.excess, std::abs(probe.radius[i] - (1 + x) / 25) / ((x_error + (1 + x) * (u + division)) / 25));
   }
 }
 
-// The plane (N, -N.V) with V from the light's position, carried to clip space: z of it is -(x X + y Y) / Z.
+// The plane is (N, -N.V), where V starts at the light's position. In clip space its z is -(x X + y Y) / Z.
 void ProbeCheck::compare_gradient(size_t i, const Place& place, ProbeErrors& found) const {
   const glm::dvec3 normal(receivers_.normal[i]), way = place.world - light_position_;
   const glm::dvec4 plane(normal, -glm::dot(normal, way));
-  // A rounded difference, a product and two sums; and where P is looked up itself.
+  // A rounded difference, a product and two sums, and the error of the place looked up.
   const double offset_error = 4 * u * sum_of(glm::abs(normal * way)) + glm::dot(glm::abs(normal), place.error);
   double value[3], error[3];
   for (int row = 0; row < 3; ++row) {
@@ -248,10 +252,10 @@ void ProbeCheck::compare_gradient(size_t i, const Place& place, ProbeErrors& fou
     }
     error[row] = 5 * u * sum + std::abs(planes_[3][row]) * offset_error;
   }
-  if (!(std::abs(value[2]) > error[2])) return;  // seen edge on within rounding: any slope is right
+  if (!(std::abs(value[2]) > error[2])) return;  // edge on within rounding: any slope is right
   for (int axis = 0; axis < 2; ++axis) {
     const double slope = -value[axis] / value[2];
-    // Not to first order: the divisor may be little more than its error.
+    // This bound is not to first order, because the divisor may be little more than its error.
     const double bound =
         (error[axis] + std::abs(slope) * error[2]) / (std::abs(value[2]) - error[2]) + 2 * division * std::abs(slope);
     raise_error(found.excess, std::abs(static_cast<double>(e_.probe.gradient[i][axis]) * frame_.resolution - slope) /

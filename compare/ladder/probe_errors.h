@@ -1,6 +1,6 @@
-// The probe's numbers at a receiver against the light's frame in double, as multiples of the most that the shader's
-// float arithmetic can be off by. What a shader does wrongly with its inputs moves the truth's texels with it, and the
-// ladder would not see it; here it shows.
+// Compares the probe's numbers at a receiver with the light's frame in double. The errors are multiples of the largest
+// error that the shader's float arithmetic can have. If a shader computes its inputs wrongly, the truth is traced for
+// the same wrong texels and the ladder does not show it. This check shows it.
 #pragma once
 #include <glm/glm.hpp>
 
@@ -16,20 +16,20 @@ struct ProbeErrors {
   double reference_m = 0;     // largest error of the reference depth
 };
 
-// std::max that takes a NaN for an error without bound.
+// std::max that treats a NaN as an infinite error.
 void raise_error(double& value, double candidate);
 
 class ProbeCheck {
  public:
-  // eye_m: the camera's.
+  // eye_m: the camera's position.
   ProbeCheck(const LookupEvidence& evidence, const ReceiverImage& receivers, const LightFrame& frame, glm::dvec3 eye_m);
 
   void compare(size_t i, ProbeErrors& found) const;
 
  private:
-  struct Place;  // where receiver i is looked up, and how far float may have it off
+  struct Place;  // the place looked up of receiver i, and its largest float error
   Place looked_up(size_t i) const;
-  double direction_error() const;  // relative, of the direction to the light as the shader has it
+  double direction_error() const;  // relative error of the shader's direction to the light
   in_bounds::Surface bounded_surface(glm::dvec3 position, glm::dvec3 normal) const;
   glm::dvec4 row_errors(const Place& place) const;
   bool may_ask_nothing(const Place& place) const;

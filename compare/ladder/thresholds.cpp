@@ -8,7 +8,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// The smallest float >= 0 for which `enough` holds, from a guess that is a few steps away at most. enough is monotone.
+// The smallest float >= 0 for which `enough` holds. guess: at most a few steps away. enough is monotone.
 template <class Enough>
 float smallest(float guess, const Enough& enough) {
   if (enough(0.0f)) return 0;
@@ -41,7 +41,7 @@ float factor_threshold(float product, float factor) {
 float addend_threshold(float sum, float addend) {
   if (sum == infinity) return infinity;
   if (addend >= sum) return 0;
-  if (addend == 0) return sum;  // nothing to search for: the bias has one part, as most have
+  if (addend == 0) return sum;  // no search needed: the bias has one part, as most biases have
   const double midpoint = (static_cast<double>(sum) + std::nextafter(sum, -infinity)) / 2;
   return smallest(static_cast<float>(midpoint - addend), [&](float x) { return addend + x >= sum; });
 }

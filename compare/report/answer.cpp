@@ -31,7 +31,7 @@ std::string_view unit_of(const std::string& metric) {
   return "";
 }
 
-// "All 4 bounds hold", as the coloured line on top.
+// "All 4 bounds hold", as the coloured line at the top.
 std::string verdict(const Results& results) {
   std::string out;
   const auto judge = [&](const auto& list, const char* noun, const char* alone) {
@@ -43,7 +43,7 @@ std::string verdict(const Results& results) {
     out += fmt::format("{}<span class=\"pill {}\">{}</span>", out.empty() ? "" : " ", broken ? "broken" : "held", text);
   };
   if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty()) {
-    // Whatever the bounds and laws say, they say it of numbers that are wrong.
+    // If the numbers are not sound, the verdicts on them have no meaning.
     out = "<span class=\"pill broken\">Not sound: the measurement contradicts itself</span>";
   } else {
     judge(results.bounds, "bound", "The bound holds");
@@ -64,7 +64,7 @@ std::vector<bool> flags_of(const Results& results, bool (*holds)(const PointReco
 
 bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), true) != flags.end(); }
 
-// "at 9 of 32 points", and which those are as a list to stand after the sentence.
+// "at 9 of 32 points", and a list of these points to follow the sentence.
 struct Where {
   std::string count, list;
 };
@@ -73,7 +73,7 @@ Where where_text(const Results& results, const std::vector<bool>& chosen, const 
   if (count == chosen.size())
     return {results.points.size() == 1 ? "here" : fmt::format("at every one of the {}", points_text(count)), ""};
   const std::vector<Rule> rules = describe_points(results, chosen, either_way);
-  constexpr size_t most_rules = 4;  // more than that reads worse than the table
+  constexpr size_t most_rules = 4;  // more rules are harder to read than the table
   std::string list;
   for (size_t i = 0; i < std::min(rules.size(), most_rules); ++i)
     list += fmt::format("<li>{}{}</li>", html(rule_phrase(rules[i])),
@@ -124,16 +124,17 @@ std::string window_items(const Results& results) {
   if (any(low)) {
     const Where where = where_text(results, low, fails);
     out += item("bad",
-                fmt::format("<b>The bias as set is too small {}</b>: it leaves acne that a larger one would not{}{}",
+                fmt::format("<b>The bias as set is too small {}</b>: it leaves acne, and a larger bias would not{}{}",
                             where.count, where.list.empty() ? "." : ", with", where.list));
   }
   if (any(high)) {
     const Where where = where_text(results, high, fails);
-    out += item("bad", fmt::format("<b>The bias as set is too large {}</b>: it detaches shadows more than it must{}{}",
-                                   where.count, where.list.empty() ? "." : ", with", where.list));
+    out +=
+        item("bad", fmt::format("<b>The bias as set is too large {}</b>: it detaches shadows more than necessary{}{}",
+                                where.count, where.list.empty() ? "." : ", with", where.list));
   }
   if (!any(low) && !any(high) && any(flags_of(results, has_usable_bias)))
-    out += item("good", "The bias as set lies within the usable window wherever there is one.");
+    out += item("good", "The bias as set lies within the usable window at every point that has one.");
   return out + why;
 }
 
@@ -151,10 +152,10 @@ std::string health_items(const Results& results) {
   constexpr size_t most_listed = 5;
   const std::vector<Unsound> unsound = find_unsound(results.points);
   for (size_t i = 0; i < std::min(unsound.size(), most_listed); ++i)
-    out += item("bad", fmt::format("A defect of Noonmark, so that nothing here is to be relied on: {}.",
-                                   html(text_of(unsound[i]))));
+    out += item("bad",
+                fmt::format("A defect of Noonmark, so do not rely on any number here: {}.", html(text_of(unsound[i]))));
   if (unsound.size() > most_listed)
-    out += item("bad", fmt::format("And {} more of the kind.", unsound.size() - most_listed));
+    out += item("bad", fmt::format("And {} more such defects.", unsound.size() - most_listed));
   size_t not_finite = 0;
   double ambiguous = 0;
   for (const PointRecord& point : results.points) {
@@ -166,35 +167,35 @@ std::string health_items(const Results& results) {
   }
   if (not_finite)
     out += item(
-        "bad", fmt::format(
-                   "{} ha{} a metric that is <b>not finite</b>: it could not be measured, and fails every bound on it.",
-                   points_text(not_finite), not_finite == 1 ? "s" : "ve"));
+        "bad",
+        fmt::format(
+            "{} ha{} a metric that is <b>not finite</b>: it could not be measured, which breaks every bound on it.",
+            points_text(not_finite), not_finite == 1 ? "s" : "ve"));
   if (const std::string poor = poor_view_note(results.points); !poor.empty()) out += item("bad", html(poor) + ".");
   if (const std::string doubt = undecided_note(results.points); !doubt.empty())
-    out += item("note", fmt::format("At the point where it matters most, {}.", html(doubt)));
+    out += item("note", fmt::format("At the point with the largest share, {}.", html(doubt)));
   if (ambiguous > 0)
-    out += item("note", fmt::format("The truth is ambiguous at no more than {} of facing receivers; they are left out.",
+    out += item("note", fmt::format("At most {} of the facing receivers have an ambiguous truth; they are left out.",
                                     quantity(ambiguous, "fraction")));
   for (const std::string& note : results.info.scene_notes)
-    out += item("note", fmt::format("Of the scene {}.", html(note)));
+    out += item("note", fmt::format("About the scene {}.", html(note)));
   return out;
 }
 
 std::string recommendation_box(const Results& results) {
   if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
     return fmt::format(
-        "<div class=\"recommend broken\"><h3>What to set</h3><p><b>Nothing was measured</b>: {}. This says nothing of "
-        "the method.</p></div>\n",
+        "<div class=\"recommend broken\"><h3>What to set</h3><p><b>Nothing was measured</b>: {}. This gives no "
+        "information about the method.</p></div>\n",
         html(poor_view_note(results.points)));
   const Recommendation found = recommend(results);
   if (found.outcome == Recommendation::Outcome::no_criterion)
-    return "<div class=\"recommend none\"><h3>What to set</h3><p>Nothing says what is good enough: set a bound, or "
-           "have a bias curve "
-           "measured.</p></div>\n";
+    return "<div class=\"recommend none\"><h3>What to set</h3><p>There is no criterion for good enough: set a bound, "
+           "or have a bias curve measured.</p></div>\n";
   if (found.outcome == Recommendation::Outcome::none_holds)
     return "<div class=\"recommend broken\"><h3>What to set</h3><p><b>None of the swept settings is good enough.</b> "
            "No point has a usable "
-           "bias window and holds every bound that speaks of it. Sweep a higher resolution, a smaller extent or "
+           "bias window and meets every bound that applies to it. Sweep a higher resolution, a smaller extent or "
            "another bias, or "
            "loosen a bound.</p></div>\n";
   const PointRecord& point = *found.point;
@@ -210,7 +211,7 @@ std::string recommendation_box(const Results& results) {
                         bias_phrase(found.bias->depth, curve));
     rows += fmt::format("<div><dt>usable from</dt><dd>{}</dd></div>\n<div><dt>to</dt><dd>{}</dd></div>\n",
                         bias_phrase(low, curve), bias_phrase(high, curve));
-    if (low == high) more = " Its window is a single value: expect it to break.";
+    if (low == high) more = " Its window is a single value, so a small change of the scene can break it.";
     if (low > 0 && high > low) more = fmt::format(" Its window is a factor {} wide.", number(high / low));
   }
   const PointRecord* only[] = {&point};
@@ -219,8 +220,8 @@ std::string recommendation_box(const Results& results) {
   std::string other;
   if (accurate.point != found.point)
     other = fmt::format(
-        "<p>The most accurate that is good enough: {}{}, for <b>{}</b> with <b>{}</b> error (<a href=\"#p{}\">point "
-        "{}</a>).</p>\n",
+        "<p>The most accurate point that is good enough: {}{}, for <b>{}</b> with <b>{}</b> error (<a "
+        "href=\"#p{}\">point {}</a>).</p>\n",
         html(settings_phrase(*accurate.point, results.info.swept)),
         accurate.bias ? ", " + html(accurate.point->curve->parameter) + " " +
                             bias_phrase(accurate.bias->depth, *accurate.point->curve)
@@ -229,9 +230,9 @@ std::string recommendation_box(const Results& results) {
   return fmt::format(
       "<div class=\"recommend held\"><h3>What to set</h3><p>The cheapest point that is good enough costs <b>{}</b> and "
       "shows <b>{}</b> error.{}</p>\n"
-      "<dl>{}</dl>\n{}{}<p class=\"small\">The cheapest is <a href=\"#p{}\">point {}</a>: the lowest time of shadow "
-      "map and lookup together among the "
-      "points where {}; times within {:.0f} % count as equal, and of those it has the least error.</p></div>\n",
+      "<dl>{}</dl>\n{}{}<p class=\"small\">The cheapest is <a href=\"#p{}\">point {}</a>. It has the lowest time of "
+      "shadow map and lookup together among the "
+      "points where {}. Times within {:.0f} % count as equal; among those it has the least error.</p></div>\n",
       quantity(found.cost_ms, "ms"), quantity(found.error, "fraction"), more, rows,
       causes.empty() ? "" : fmt::format("<p>Largest causes there, with the bias as rendered: {}.</p>\n", causes), other,
       point.id, point.id,
@@ -276,7 +277,7 @@ std::string answer_section(const Results& results) {
   if (results.points.empty())
     return "<section id=\"answer\"><h2>The answer</h2>" + verdict(results) +
            "<p>No point was measured.</p></section>\n";
-  // Points of different parts are not there to be compared: there is no cheapest among them.
+  // Points of different parts are not meant to be compared, so none of them is the cheapest.
   if (!results.points.front().part.empty())
     return "<section id=\"answer\"><h2>The answer</h2>" + verdict(results) + laws_table(results) +
            bounds_table(results) + "<ul class=\"findings\">\n" + health_items(results) + "</ul></section>\n";

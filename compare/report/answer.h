@@ -1,4 +1,4 @@
-// The report's first section: what breaks and what to set; bounds and laws.
+// The report's first section: the verdict, what breaks, what to set, bounds and laws.
 #pragma once
 #include <string>
 

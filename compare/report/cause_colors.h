@@ -1,7 +1,7 @@
-// The colour of each cause, once: the report's charts and legends and the PNG of the classes read it.
-// Warm colours are falsely dark, cool ones falsely lit, greys and pinks neither. The hues are Okabe and Ito's
-// ("Color Universal Design", 2008) and two of Paul Tol's, chosen to differ under the common colour-vision deficiencies
-// and on both a white and a near-black page.
+// The colour of each cause, defined once for the report's charts and legends and for the PNG of the classes. Warm
+// colours mean falsely dark, cool ones falsely lit, greys and pinks neither. The hues are Okabe and Ito's ("Color
+// Universal Design", 2008) and two of Paul Tol's. They differ under the common colour-vision deficiencies, on a white
+// and on a near-black page.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace noonmark {
 
 struct CauseColor {
-  std::string_view name;  // of the metric that measures the cause
+  std::string_view name;  // the metric that measures the cause
   uint8_t r, g, b;        // sRGB
   std::string_view label;
 };
@@ -27,11 +27,11 @@ inline constexpr std::array<CauseColor, 13> cause_colors{{
     {"precision", 204, 121, 167, "Precision"},
     {"undecided", 240, 228, 66, "Undecided (truth of a tap unsure)"},
     {"light_size", 202, 186, 60, "Light size"},
-    {"aliasing", 158, 170, 117, "Aliasing"},  // where dark and light are not told apart
-    {"coverage", 0, 158, 115, "Coverage"},    // likewise
+    {"aliasing", 158, 170, 117, "Aliasing"},  // for dark and light together
+    {"coverage", 0, 158, 115, "Coverage"},    // for dark and light together
 }};
 
-// What a pixel of a class picture is when no cause applies.
+// The colour of a pixel in a class picture that has no cause.
 inline constexpr std::array<CauseColor, 5> pixel_state_colors{{
     {"lit", 240, 240, 238, "Right, lit"},
     {"shadowed", 128, 130, 134, "Right, shadowed"},

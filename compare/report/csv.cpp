@@ -17,7 +17,7 @@ namespace {
 
 std::string number(double value) { return fmt::format("{}", value); }
 
-// A heading and what each point has there.
+// A heading and its value for each point.
 struct Column {
   std::string name;
   std::function<std::string(const PointRecord&)> cell;
@@ -28,7 +28,7 @@ std::string look_up(const std::map<std::string, double>& numbers, const std::str
   return found == numbers.end() ? std::string() : number(found->second);
 }
 
-// `known` in its order, then the names that only the points know (results of another version), sorted.
+// `known` in its order, then the names that only the points have (results of another version), sorted.
 std::vector<std::string> names(std::vector<std::string> known, const std::set<std::string>& present) {
   const std::set<std::string> table(known.begin(), known.end());
   std::set_difference(present.begin(), present.end(), table.begin(), table.end(), std::back_inserter(known));
@@ -72,7 +72,7 @@ std::vector<Column> columns(const Results& results) {
   list.push_back({"worst_y", [](const PointRecord& p) { return fmt::format("{}", p.worst.y); }});
   list.push_back({"worst_error", [](const PointRecord& p) { return number(p.worst.error); }});
   list.push_back({"worst_cause", [](const PointRecord& p) { return p.worst.cause; }});
-  // A time that is a metric too has its column already.
+  // A time that is also a metric has its column already.
   for (const std::string& name : present_times)
     if (!clocked.contains(name))
       at_the_end.push_back({name, [name](const PointRecord& p) { return look_up(p.times, name); }});

@@ -20,14 +20,14 @@ namespace {
 
 using nlohmann::json;
 
-// JSON has no word for these; charts leave them out, tables say "not finite".
+// JSON cannot write these values. Charts leave them out, tables show "not finite".
 json value_of(double value) {
   if (std::isnan(value)) return "NaN";
   if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
   return value;
 }
 
-// Six digits: a thousandth of a chart's pixel, at half the bytes.
+// Six digits are a thousandth of a chart's pixel, and take half the bytes.
 json drawn_value(double value) {
   return std::isfinite(value) ? json(std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr)) : value_of(value);
 }

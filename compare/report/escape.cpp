@@ -41,7 +41,7 @@ std::string markdown(std::string_view text) {
     else
       escaped += c;
   }
-  // At the start of a line these would begin a list or a quotation, or underline a heading.
+  // At the start of a line these characters would begin a list or a quotation, or underline a heading.
   if (!escaped.empty() && std::string_view("-+=>").find(escaped.front()) != std::string_view::npos)
     escaped.insert(0, 1, '\\');
   return escaped;

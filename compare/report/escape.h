@@ -1,22 +1,23 @@
-// Text of unknown origin in the formats that are written: one function for each format. For HTML it is report::html
-// (compare/report/text.h), for a terminal printable() (scenes/text.h).
+// Writes text of unknown origin safely, with one function for each format. The function for HTML is report::html
+// (compare/report/text.h), the one for a terminal is printable() (scenes/text.h).
 #pragma once
 #include <string>
 #include <string_view>
 
 namespace noonmark {
 
-// A cell of CSV that holds text: quoted where RFC 4180 asks for it; a text that a spreadsheet would take for a formula
-// (it begins with = + - @, a tab or a line break, and is no number: "-5,4,5" is none) gets an apostrophe before it.
+// A cell of CSV that holds text, quoted if RFC 4180 requires it. An apostrophe is added before a text that a
+// spreadsheet would treat as a formula: it begins with = + - @, a tab or a line break, and is not a number ("-5,4,5" is
+// not one).
 std::string csv_text(std::string_view text);
 
-// A run of Markdown, within a table's cell too: one line, nothing in it is taken for markup.
+// One line of Markdown, also for a table's cell. No part of it is read as markup.
 std::string markdown(std::string_view text);
 
-// Lines that Markdown shows unchanged: an indented block, which no run of backticks in a name can end.
+// Lines that Markdown shows unchanged, as an indented block, because backticks in a name cannot end such a block.
 std::string markdown_block(std::string_view lines);
 
-// XML 1.0, for text and attributes alike. What XML cannot hold, and control characters, become U+FFFD.
+// XML 1.0, for text and for attributes. Control characters and characters that XML cannot hold become U+FFFD.
 std::string xml_text(std::string_view text);
 
 }  // namespace noonmark

@@ -25,7 +25,7 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   if (after == 0) return y.front();
   if (after == x.size()) return y.back();
   const double t = (at - x[after - 1]) / (x[after] - x[after - 1]);
-  // t = 0 apart, so that a neighbour that is not finite does not spoil an exact entry.
+  // t = 0 is handled apart, so that a neighbour that is not finite does not spoil an exact entry.
   return t == 0 ? y[after - 1] : y[after - 1] + t * (y[after] - y[after - 1]);
 }
 
@@ -42,7 +42,7 @@ bool meets_all(const PointRecord& point, const std::vector<BoundResult>& bounds,
   });
 }
 
-// The bias within the usable window that meets the bounds with the least error.
+// The bias with the least error among those in the usable window that meet the bounds.
 std::optional<BiasChoice> choose_bias(const PointRecord& point, const std::vector<BoundResult>& bounds) {
   const BiasCurve& curve = *point.curve;
   if (!curve.window_min_depth || !curve.window_max_depth) return std::nullopt;
@@ -51,7 +51,8 @@ std::optional<BiasChoice> choose_bias(const PointRecord& point, const std::vecto
     if (!std::isfinite(error) || (best && error >= best->error) || !meets_all(point, bounds, depth)) return;
     best = BiasChoice{depth, error};
   };
-  // First what the curve calls best, moved into the window where it lies outside: its middle is safer than an entry.
+  // The curve's best bias is tried first, clamped to the window, because it is the middle of an interval and so is
+  // safer than an entry.
   const double middle = std::clamp(curve.best_bias_depth, *curve.window_min_depth, *curve.window_max_depth);
   consider(middle, middle == curve.best_bias_depth ? curve.best_error : *curve_value(curve, "error", middle));
   for (size_t i = 0; i < curve.bias_depth.size() && i < curve.error.size(); ++i)
@@ -91,7 +92,7 @@ bool meets(const PointRecord& point, const BoundResult& bound, std::optional<dou
 
 namespace {
 
-// better(a, b): whether a is to be taken before b. Points come in order of id, so that equals keep the lowest.
+// better(a, b): whether a is preferred to b. Points come in order of id, so among equals the lowest id is kept.
 template <class Better>
 Recommendation recommend_by(const Results& results, Better&& better) {
   using Outcome = Recommendation::Outcome;
@@ -151,7 +152,7 @@ std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points)
   std::vector<CauseShare> shares;
   double sum = 0;
   for (const CauseColor& cause : cause_colors) {
-    // Light size is no part of R5 - R1; the joined causes are there already as dark and light.
+    // Light size is not part of R5 - R1. Joined causes are already included as dark and light.
     if (cause.name == "light_size" || cause.name == "aliasing" || cause.name == "coverage") continue;
     CauseShare share{std::string(cause.name), 0, 0};
     size_t finite = 0;

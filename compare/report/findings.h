@@ -1,4 +1,4 @@
-// What the report concludes from the results: pure functions over records, no HTML.
+// Computes the report's conclusions from the results: pure functions over records, without HTML.
 #pragma once
 #include <optional>
 #include <span>
@@ -10,55 +10,58 @@
 
 namespace noonmark {
 
-// A series of the curve by its metric's name ("error", "acne", "aliasing" = dark + light ...) at a bias in window
-// depth, linear between the curve's entries and constant beyond its last. Empty when the curve has no such series.
+// The value of a curve's series at a bias in window depth. The series is named by its metric ("error", "acne",
+// "aliasing" = dark + light ...). It is linear between the curve's entries and constant beyond the last. Empty if the
+// curve has no such series.
 std::optional<double> curve_value(const BiasCurve& curve, const std::string& metric, double bias_depth);
 
-// The value in window depth that the point itself was rendered with, of the parameter that its curve varies.
-// Empty when the settings do not say.
+// The amount, in window depth, with which the point was rendered, of the parameter that its curve varies. Empty if the
+// settings do not give it.
 std::optional<double> bias_as_set(const PointRecord& point);
 
-// A bias of the curve's parameter that could be set. Metres and texels: multiply with the curve's two factors.
+// A bias that could be set for the curve's parameter. The curve's two factors convert it to metres and texels.
 struct BiasChoice {
   double depth = 0;
-  double error = 0;  // mean |R5 - R1| there
+  double error = 0;  // mean |R5 - R1| at this bias
 };
 
 struct Recommendation {
   enum class Outcome {
     found,
     none_holds,    // there are criteria, and no point meets them
-    no_criterion,  // neither a bound nor a curve: nothing says what is good enough
+    no_criterion,  // neither a bound nor a curve: no criterion for good enough
   } outcome = Outcome::no_criterion;
   const PointRecord* point = nullptr;  // found
-  double cost_ms = 0, error = 0;       // found; the error at `bias`, or as rendered without one
+  double cost_ms = 0, error = 0;       // found; the error at `bias`, or as rendered if there is no bias
   std::optional<BiasChoice> bias;      // found, and the point has a curve
 };
 
-// Times within this fraction of the cheapest are taken for equal, because a second run would order them otherwise.
+// Times within this fraction of the cheapest count as equal, because a second run could order them differently.
 inline constexpr double cost_tolerance = 0.1;
 
-// The cheapest point (lowest shadow_ms; among those alike in cost, the least error) that holds: every bound that speaks
-// of it is met, and where it has a curve its usable window is not empty. Bounds on what the curve knows are asked at
-// the bias that would be set (the least error within the window), the others at the point as it was rendered. A value
-// that is not finite (cost and error included) never holds. Among equals the lowest id.
+// The cheapest point that is good enough: it has the lowest shadow_ms, and the least error among points of equal cost.
+// A point is good enough if every bound that applies to it holds and, if it has a curve, its usable window is not
+// empty. Bounds on values of the curve are checked at the bias that would be set (the least error within the window),
+// other bounds at the point as it was rendered. A value that is not finite, also a cost or an error, is never good
+// enough. Among equal points the lowest id is taken.
 Recommendation recommend(const Results& results);
-// The same, but the point with the least error, then the lowest cost.
+// The same for the point with the least error, and among those the lowest cost.
 Recommendation recommend_accurate(const Results& results);
 
-// Whether one point meets a bound's limits; metrics that the curve knows are read at `bias`, when given.
+// Whether one point meets a bound's limits. Metrics of the curve are read at `bias`, if it is given.
 bool meets(const PointRecord& point, const BoundResult& bound, std::optional<double> bias_depth = std::nullopt);
 
-// Indices of the points that no other beats (lower or equal in both, lower in one), ascending in the first coordinate.
-// Equal points are all kept. Points with a value that is not finite are never on the front.
+// Indices of the points of the Pareto front, ascending in the first coordinate. No other point is lower or equal in
+// both coordinates and lower in one. Equal points are all kept. Points with a value that is not finite are never on the
+// front.
 std::vector<size_t> pareto_front(std::span<const std::pair<double, double>> points);
 
 struct CauseShare {
   std::string name;  // metric
-  double mean = 0;   // over the points where it is finite
-  double share = 0;  // of the sum over all causes
+  double mean = 0;   // over the points at which it is finite
+  double share = 0;  // its part of the sum over all causes
 };
-// The causes that make up R5 - R1, largest first; those that are 0 everywhere are left out.
+// The causes of R5 - R1, the largest first. Causes that are 0 everywhere are left out.
 std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points);
 
 }  // namespace noonmark

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
 constexpr std::string_view foot = "    <system-out/>\n    <system-err/>\n  </testsuite>\n</testsuites>\n";
 
-// The schema wants 2025-01-31T12:00:00 without a zone.
+// The schema requires the form 2025-01-31T12:00:00 without a time zone.
 std::string timestamp(const std::string& started) {
   constexpr size_t length = std::string_view("2025-01-31T12:00:00").size();
   return started.size() >= length ? started.substr(0, length) : "1970-01-01T00:00:00";
@@ -47,7 +47,7 @@ std::string to_junit(const Results& results) {
     xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, xml_text(value));
   xml += "    </properties>\n";
 
-  std::set<std::string> taken;  // CI servers follow a testcase by its name, so no two may share one
+  std::set<std::string> taken;  // CI servers identify a testcase by its name, so names must differ
   const auto testcase = [&](const std::string& title, bool held, std::string_view type, const auto& message,
                             const auto& text) {
     std::string name = title;
@@ -73,7 +73,7 @@ std::string to_junit(const Results& results) {
   if (incomplete)
     xml += fmt::format(
         "    <testcase classname=\"{}\" name=\"the sweep is complete\" time=\"0\">\n      <error "
-        "message=\"{} of {} points are finished; run it again to go on\" type=\"incomplete\"/>\n    </testcase>\n",
+        "message=\"{} of {} points are finished; run it again to continue\" type=\"incomplete\"/>\n    </testcase>\n",
         xml_text(suite), finished, results.planned_points);
   return xml.append(foot);
 }

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-// A chart of measured against predicted says something where there are several of each.
+// A chart of measured against predicted is useful only if there are several of each.
 bool charted(const LawResult& law) {
   double low = INFINITY, high = -INFINITY;
   for (const LawResult::Sample& sample : law.samples) {
@@ -31,7 +31,7 @@ std::string broken_rows(const LawResult& law) {
   std::string what = "no point matches";
   if (law.worst >= 0) {
     const LawResult::Sample& sample = law.samples[static_cast<size_t>(law.worst)];
-    what = fmt::format("Off by {} at <a href=\"#p{}\">point {}</a>, where {} is allowed.",
+    what = fmt::format("Off by {} at <a href=\"#p{}\">point {}</a>, where at most {} is allowed.",
                        number(sample.measured - sample.predicted), sample.point, sample.point, number(sample.allowed));
   }
   if (!law.reproduce.empty()) what += fmt::format(" See it: <code>{}</code>", html(law.reproduce));
@@ -58,12 +58,12 @@ std::string laws_table(const Results& results) {
   }
   std::string out = "<h3 id=\"laws\">Laws</h3>\n";
   if (std::any_of(results.laws.begin(), results.laws.end(), charted))
-    out += chart_place("laws", "Measured against predicted; the line is where the two are equal.");
+    out += chart_place("laws", "Measured against predicted. On the line the two are equal.");
   return out +
          "<div class=\"scroll\"><table class=\"bounds laws\"><thead><tr><th>Verdict</th><th>Law</th><th>Samples</th>"
          "<th>Predicted</th><th>Measured</th><th>Measured / predicted</th></tr></thead><tbody>\n" +
          rows +
-         "</tbody></table></div>\n<p class=\"small\">Predicted and measured are those of the sample that is furthest "
+         "</tbody></table></div>\n<p class=\"small\">Predicted and measured are from the sample that is furthest "
          "off.</p>\n";
 }
 

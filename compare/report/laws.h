@@ -7,10 +7,10 @@
 
 namespace noonmark::report {
 
-// With the place of the chart of measured against predicted; empty without laws.
+// The table of laws, with the place of the chart of measured against predicted. Empty without laws.
 std::string laws_table(const Results& results);
 
-// Of the laws whose samples can be drawn.
+// The data of the laws whose samples can be drawn.
 nlohmann::json law_data(const Results& results);
 
 }  // namespace noonmark::report

@@ -18,8 +18,8 @@
 namespace noonmark {
 namespace {
 
-// Vega (Debian: libjs-vega; BSD-3-Clause): the one well-kept charting library that Debian packages with its parts
-// apart, so that only those in use travel, and whose expressions run without eval, so that the page may forbid it.
+// Vega (Debian: libjs-vega; BSD-3-Clause) is the one well-maintained charting library that Debian packages in separate
+// parts, so that the page carries only the parts in use. Its expressions run without eval, so the page may forbid eval.
 // Debian ships it as CommonJS modules; page/vega.js links them in any order.
 constexpr std::array vega_modules{
     "vega-util",      "vega-time",       "vega-format",          "vega-loader",     "vega-dataflow",
@@ -37,7 +37,7 @@ std::string vega_script() {
   std::string out(file("report/page/vega.js"));
   for (const char* module : vega_modules) {
     std::string_view text = file(fmt::format("{}.min.js", module));
-    // The map's address would make developer tools ask for it.
+    // Without this, the map's address would make developer tools request it.
     if (const size_t map = text.rfind("//# sourceMappingURL="); map != std::string_view::npos)
       text = text.substr(0, map);
     out += fmt::format("noonmarkVega.define(\"{}\",function(exports,module,require){{{}\n}});\n", module, text);
@@ -56,7 +56,7 @@ std::string colour_rules() {
   return ":root{" + variables + "}\n" + classes;
 }
 
-// Replaces each {{name}} of the template once; what is put in is never searched again.
+// Replaces each {{name}} of the template once. Inserted text is not searched again.
 template <class Lookup>
 std::string fill(std::string_view page, Lookup&& lookup) {
   std::string out;
@@ -83,7 +83,8 @@ std::string subtitle(const Results& results) {
     out = "Scene " + report::html(info.scene_name) + " · ";
   out += fmt::format("{} point{}", results.points.size(), results.points.size() == 1 ? "" : "s");
   std::string swept;
-  for (const std::string& name : parts.empty() ? info.swept : std::vector<std::string>())  // no product of all
+  // Not if there are parts: each part sweeps its own settings.
+  for (const std::string& name : parts.empty() ? info.swept : std::vector<std::string>())
     swept += fmt::format("{}{} ({})", swept.empty() ? "" : " × ", report::html(report::setting_label(name)),
                          values_of(results, name).size());
   if (!swept.empty()) out += " · " + swept;
@@ -97,7 +98,7 @@ struct Section {
   const char* id;
   const char* label;  // in the page's head
   std::string (*html)(const Results&, const ReadFile&);
-  bool compares;  // the points with each other, which says nothing of points in different parts
+  bool compares;  // compares points with each other, which has no meaning across parts
 };
 template <std::string (*make)(const Results&)>
 std::string plain(const Results& results, const ReadFile&) {

@@ -32,7 +32,7 @@ bool within(const Mask& inner, const Mask& outer) {
 
 size_t count(const Mask& mask) { return static_cast<size_t>(std::count(mask.begin(), mask.end(), true)); }
 
-// Every single condition on one setting that some but not all points satisfy.
+// Every single condition on one setting that is true of some points but not of all.
 std::vector<Candidate> conditions_on(const Results& results, const std::string& setting) {
   std::vector<Candidate> out;
   std::vector<std::string> values = values_of(results, setting);
@@ -49,7 +49,8 @@ std::vector<Candidate> conditions_on(const Results& results, const std::string& 
     add(Condition::Is::equal, value, [&](const std::string& v) { return v == value; });
   for (size_t i = 0; numeric && i < values.size(); ++i) {
     const double limit = *number_of(values[i]);
-    // At an end it would say "equal" or nothing; only a texel's size is never said to equal a number.
+    // At an end of the values the condition would be "equal" or always true. The texel's size never gets the condition
+    // "equal".
     const bool first = i == 0, last = i + 1 == values.size(), derived = setting == texel_size;
     if (!last && (!first || derived))
       add(Condition::Is::at_most, values[i], [&](const std::string& v) { return *number_of(v) <= limit; });
@@ -70,7 +71,7 @@ std::optional<double> number_of(const std::string& text) {
 
 std::string rule_value(const PointRecord& point, const std::string& setting) {
   if (setting != texel_size) return setting_of(point, setting);
-  // Nine digits: extent / resolution reached by two ways of rounding is one size.
+  // Nine digits, so that two ways of rounding extent / resolution give one size.
   return point.curve ? fmt::format("{:.9g}", point.curve->m_per_depth / point.curve->texels_per_depth) : "";
 }
 
@@ -92,14 +93,14 @@ std::vector<Rule> describe_points(const Results& results, const std::vector<bool
   for (size_t i = 0; i < either_way.size(); ++i)
     if (either_way[i]) allowed[i] = true;
   std::vector<std::string> axes = results.info.swept;
-  // Resolution and extent act through the texel that they make together, so that one rule may say it for both.
+  // Resolution and extent act through the texel size that they make together. So one rule may replace rules on both.
   const std::vector<std::string> sizes = values_of(results, std::string(texel_size));
   if (!sizes.empty() && number_of(sizes.front())) axes.emplace_back(texel_size);
   std::vector<Candidate> singles;
   for (const std::string& setting : axes)
     for (Candidate& candidate : conditions_on(results, setting)) singles.push_back(std::move(candidate));
 
-  // Grown condition by condition; a rule that is already true of chosen points only needs no further one.
+  // Rules grow condition by condition. A rule that is true of chosen points only needs no further condition.
   std::vector<Candidate> rules, open = singles;
   for (int conditions = 1; conditions <= 3; ++conditions) {
     std::vector<Candidate> next;
@@ -113,7 +114,7 @@ std::vector<Rule> describe_points(const Results& results, const std::vector<bool
       const std::string last = candidate.rule.all.back().setting;
       const auto position = std::find(axes.begin(), axes.end(), last);
       for (const Candidate& single : singles) {
-        // In the order of the axes only, so that no pair is tried twice.
+        // Only in the order of the axes, so that no pair is tried twice.
         if (std::find(axes.begin(), position + 1, single.rule.all[0].setting) != position + 1) continue;
         Candidate grown = candidate;
         grown.rule.all.push_back(single.rule.all[0]);
@@ -128,11 +129,11 @@ std::vector<Rule> describe_points(const Results& results, const std::vector<bool
   while (count(left) > 0) {
     const Candidate* best = nullptr;
     size_t best_count = 0;
-    for (const Candidate& candidate : rules) {  // ordered by length: the first of equals is the shortest
+    for (const Candidate& candidate : rules) {  // sorted by length, so the first of equal rules is the shortest
       const size_t covered = count(both(candidate.matches, left));
       if (covered > best_count) best = &candidate, best_count = covered;
     }
-    if (!best) break;  // told apart by more than three settings; the caller sees from the counts that some are left
+    if (!best) break;  // more than three settings are needed; the caller sees from the counts that points are left
     out.push_back(best->rule);
     out.back().points = count(both(best->matches, chosen));
     for (size_t i = 0; i < left.size(); ++i)

@@ -1,4 +1,4 @@
-// Which points were chosen, said in few words: "resolution at most 512 texels and filter none".
+// Describes chosen points in few words: "resolution at most 512 texels and filter none".
 #pragma once
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace noonmark {
 
-// Stands in a Condition for the map's texel in metres, extent / resolution, which no setting holds by itself.
+// The name in a Condition for the map's texel in metres, extent / resolution, which is not a setting.
 inline constexpr std::string_view texel_size = "texel size";
 
 struct Condition {
@@ -17,20 +17,22 @@ struct Condition {
   std::string setting, value;
 };
 struct Rule {
-  std::vector<Condition> all;  // every one of these
-  size_t points = 0;           // how many chosen points the rule speaks for
+  std::vector<Condition> all;  // all conditions must be true
+  size_t points = 0;           // how many chosen points the rule describes
 };
-// Says in few words which points were chosen: rules of at most three conditions on swept settings or the texel's size,
-// each true of chosen points only, together true of every chosen point (greedy: the rule with the most points not yet
-// spoken for, shortest first). either_way: points that a rule may also be true of, because what is said does not arise
-// there; empty: none.
+// Finds rules that describe the chosen points. A rule has at most three conditions on swept settings or the texel's
+// size. Each rule is true of chosen points only, and together they are true of every chosen point. The search is
+// greedy: it takes the rule with the most points that no rule describes yet, the shortest first. either_way: points of
+// which a rule may be true although they are not chosen, because the statement has no meaning there; empty: none.
 std::vector<Rule> describe_points(const Results& results, const std::vector<bool>& chosen,
                                   const std::vector<bool>& either_way = {});
 
-// What a Condition compares: the setting's text, or the texel's size from the point's curve ("" without one).
+// The value that a Condition compares: the setting's text, or the texel's size from the point's curve ("" without a
+// curve).
 std::string rule_value(const PointRecord& point, const std::string& setting);
 
-// Distinct values of a setting over the points: by number when all are numbers, else in order of appearance.
+// The distinct values of a setting over the points, sorted as numbers if all are numbers, otherwise in order of
+// appearance.
 std::vector<std::string> values_of(const Results& results, const std::string& setting);
 std::optional<double> number_of(const std::string& text);
 

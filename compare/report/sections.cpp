@@ -1,5 +1,4 @@
-// The sections with charts: a place for each chart (filled by report/charts.js) and, beside it, the same numbers as a
-// table.
+// The sections with charts: a place for each chart, which report/charts.js fills, and the same numbers as a table.
 #include "compare/report/sections.h"
 
 #include <fmt/format.h>
@@ -25,7 +24,7 @@ std::string folded(const std::string& title, size_t rows, const std::string& inn
 
 std::string point_link(const PointRecord& point) { return fmt::format("<a href=\"#p{0}\">{0}</a>", point.id); }
 
-// Head cells and row cells for the swept settings: what tells one point from another.
+// Head cells and row cells for the swept settings, which distinguish the points.
 std::string swept_head(const Results& results) {
   std::string out = "<th>Point</th>";
   for (const std::string& name : results.info.swept) {
@@ -47,7 +46,7 @@ std::string bias_cell(double depth, const BiasCurve& curve) {
                      number(depth * curve.m_per_depth), number(depth * curve.texels_per_depth));
 }
 
-// The causes whose bars are stacked: the parts of R5 - R1.
+// The causes with stacked bars: the parts of R5 - R1.
 bool is_part(std::string_view cause) { return cause != "light_size" && cause != "aliasing" && cause != "coverage"; }
 
 }  // namespace
@@ -65,7 +64,7 @@ std::string bias_section(const Results& results) {
   std::string rows;
   size_t count = 0;
   const BiasCurve* first = nullptr;
-  bool alike = true;  // whether one sentence says for all curves what was varied and how they were made
+  bool alike = true;  // whether all curves vary the same parameter and were made in the same way
   for (const PointRecord& point : results.points) {
     if (!point.curve) continue;
     if (!first) first = &*point.curve;
@@ -78,7 +77,7 @@ std::string bias_section(const Results& results) {
     const bool usable = curve.window_min_depth && curve.window_max_depth;
     rows += fmt::format("<tr{}>{}", usable ? "" : " class=\"broken\"", swept_cells(results, point));
     rows += usable ? bias_cell(*curve.window_min_depth, curve) + bias_cell(*curve.window_max_depth, curve)
-                   : "<td colspan=\"6\" class=\"fails first\">none: the method fails here</td>";
+                   : "<td colspan=\"6\" class=\"fails first\">none: no bias is good enough</td>";
     rows += bias_cell(curve.best_bias_depth, curve);
     rows += fmt::format("<td>{}</td><td class=\"first\">{} … {}</td>", cell(curve.best_error, "fraction"),
                         number(curve.flat_min_depth), number(curve.flat_max_depth));
@@ -134,7 +133,7 @@ std::string sweep_section(const Results& results) {
         !std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); }))
       continue;
     ++charts;
-    // Mean and worst over everything else: the chart's trend in numbers.
+    // Mean and worst over all other settings: the chart's trend in numbers.
     std::string rows;
     for (const std::string& value : values) {
       double sum = 0, worst = 0, best_sum = 0;
@@ -156,9 +155,9 @@ std::string sweep_section(const Results& results) {
     }
     const std::string unit = setting_unit(name);
     out += fmt::format("<h3>{}</h3>\n", html(name));
-    out +=
-        chart_place(fmt::format("sweep-{}", charts),
-                    fmt::format("Error against {}; one line for each other swept setting.", html(setting_label(name))));
+    out += chart_place(fmt::format("sweep-{}", charts),
+                       fmt::format("Error against {}; one line for each combination of the other swept settings.",
+                                   html(setting_label(name))));
     out += fmt::format(
         "<div class=\"scroll fit\"><table class=\"numbers small-table\"><thead><tr><th>{}{}</th><th>Mean error "
         "<small>%</small></th>"
@@ -198,7 +197,7 @@ std::string budget_section(const Results& results) {
       sum += value;
       sizes.emplace_back(cause.name, value);
     }
-    // Percent of the bar: factors that sum to less than 1 would not fill it.
+    // Percent of the bar, because flex factors that sum to less than 1 would not fill it.
     for (const auto& [name, value] : sizes)
       parts += fmt::format("<i class=\"c-{}\" style=\"flex-grow:{:.4f}\"></i>", name, 100 * value / sum);
     const std::string phrase = settings_phrase(point, results.info.swept);
@@ -210,10 +209,10 @@ std::string budget_section(const Results& results) {
         largest > 0 ? sum / largest : 0, parts, quantity(metric_of(point, "error"), "fraction"));
   }
   return fmt::format(
-      "<section id=\"budget\"><h2>The error budget</h2>\n<p>What each cause adds to the error, with the bias as "
-      "rendered, as a share of counted "
-      "receivers. The number at the end is the whole error, mean |R5 − R1|; filtered causes may cancel in it, and "
-      "displacement with the others, so the bar can be longer.</p>\n"
+      "<section id=\"budget\"><h2>The error budget</h2>\n<p>The part of the error that each cause adds, with the bias "
+      "as rendered, as a share of counted "
+      "receivers. The number at the end is the whole error, mean |R5 − R1|. With a filter, causes can cancel in it, "
+      "and displacement can cancel with the others, so the bar can be longer.</p>\n"
       "<div class=\"legend\">{}</div>\n"
       "<div class=\"budget{}\"><input type=\"radio\" name=\"budget\" id=\"budget-size\" checked><label "
       "for=\"budget-size\">By size</label>"
@@ -229,9 +228,9 @@ std::string cost_section(const Results& results) {
   const std::vector<size_t> front = pareto_front(plane);
   std::string out = "<section id=\"cost\"><h2>Speed against accuracy</h2>\n";
   if (front.empty()) return out + "<p>No point has both a finite time and a finite error.</p></section>\n";
-  out += "<p>Points on the Pareto front: no other point is both faster and more accurate.</p>\n";
+  out += "<p>These points are on the Pareto front: no other point is both faster and more accurate.</p>\n";
   if (results.points.size() > 1)
-    out += chart_place("cost", "Error against the time of shadow map and lookup; the line is the Pareto front.");
+    out += chart_place("cost", "Error against the time of shadow map and lookup. The line is the Pareto front.");
   std::string rows;
   for (size_t i : front) {
     const PointRecord& point = results.points[i];

@@ -1,4 +1,4 @@
-// The sections with a chart, each a function from results to HTML.
+// The report's sections with a chart. Each is a function from results to HTML.
 #pragma once
 #include <string>
 
@@ -11,10 +11,10 @@ std::string sweep_section(const Results& results);   // error against resolution
 std::string budget_section(const Results& results);  // bars by cause
 std::string cost_section(const Results& results);    // speed against accuracy
 
-// The figure that charts.js fills; hidden without JavaScript, when the table below says the same.
+// The figure that charts.js fills. It is hidden without JavaScript; the table below it has the same numbers.
 std::string chart_place(const std::string& name, const std::string& caption);
 
-// "acne" -> a square of its colour, as HTML.
+// "acne" -> a square in the cause's colour, as HTML.
 std::string swatch(const std::string& cause);
 
 }  // namespace noonmark::report

@@ -29,7 +29,7 @@ void add_heading(std::string& text, const std::vector<std::string>& names) {
   add_row(text, std::vector<std::string>(names.size(), "---"));
 }
 
-// Four digits are enough for a page; the store has them all.
+// Four digits are enough for this page. The store has all digits.
 std::string short_number(std::optional<double> value) {
   if (!value) return "–";
   return std::isnan(*value) ? std::string(not_measured) : fmt::format("{:.4g}", *value);
@@ -56,7 +56,7 @@ std::string verdict(const Results& results) {
   if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty())
     text = fmt::format("**Not sound: {}.** Do not rely on these numbers.", text_of(unsound.front()));
   else if (finished < results.planned_points)
-    text = fmt::format("**Incomplete: {} of {} points are finished.** Run it again to go on.", finished,
+    text = fmt::format("**Incomplete: {} of {} points are finished.** Run it again to continue.", finished,
                        results.planned_points);
   else if (!broken.empty())
     text = fmt::format("**Broken: {}.**", broken);
@@ -110,7 +110,7 @@ std::string bounds_table(const Results& results) {
   return text;
 }
 
-// What the points' curves vary, or "bias" where they vary different parameters.
+// The parameter that the points' curves vary, or "bias" if they vary different ones.
 std::string curve_parameter(const Results& results) {
   std::string parameter;
   for (const PointRecord& point : results.points) {
@@ -127,7 +127,7 @@ std::string best_table(const Results& results) {
     if (std::isfinite(quantity(point, "error").value_or(std::numeric_limits<double>::infinity())))
       order.push_back(&point);
   if (order.empty()) return "\nNo point has an error that could be measured.\n";
-  // Least error first, then least time; what could not be measured last.
+  // Sorted by error, then by time. Points that could not be measured come last.
   const auto key = [](const PointRecord* point, std::string_view name) {
     const double value = quantity(*point, name).value_or(std::numeric_limits<double>::infinity());
     return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
@@ -186,7 +186,7 @@ std::string to_summary(const Results& results) {
     text += fmt::format("\nNote: {}.\n", markdown(doubt));
   if (!results.laws.empty()) text += laws_table(results);
   if (!results.bounds.empty()) text += bounds_table(results);
-  // Points of different parts are not there to be compared.
+  // Points of different parts are not meant to be compared.
   if (!results.points.empty() && results.points.front().part.empty()) text += best_table(results);
   text +=
       fmt::format("\nMade by noonmark {} ({}) on {}; Embree {} ({}).\n", markdown(info.version), markdown(info.commit),

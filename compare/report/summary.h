@@ -1,4 +1,4 @@
-// summary.md: the verdict for a person, small enough for a CI job's page.
+// summary.md: the verdict for a person, short enough for a CI job's page.
 #pragma once
 #include <string>
 
@@ -6,11 +6,11 @@
 
 namespace noonmark {
 
-// The verdict first, then the bounds, broken ones with what reproduces them, then the points with the least error and
-// the bias that each needs.
+// First the verdict, then the bounds (broken ones with the command that reproduces them), then the points with the
+// least error and the bias that each needs.
 std::string to_summary(const Results& results);
 
-// Why nothing could be judged.
+// The reason why nothing was judged.
 std::string to_summary(const Unjudged& unjudged);
 
 }  // namespace noonmark

@@ -43,7 +43,7 @@ std::string picture(const PictureRecord& record, const std::function<std::string
                      html(record.name), shown, html(record.caption));
 }
 
-// A metric that has the same value at every point needs no column.
+// A metric with the same value at every point needs no column.
 bool varies(const Results& results, const std::string& name) {
   const auto text = [&](const PointRecord& point) {
     return point.metrics.contains(name) ? fmt::format("{}", point.metrics.at(name)) : "";
@@ -106,7 +106,7 @@ std::string points_section(const Results& results) {
       same += fmt::format("{}{} {}", same.empty() ? "" : ", ", html(metric_label(name)),
                           quantity(metric_of(results.points.front(), name), metric.unit));
   }
-  const bool parts = !results.points.front().part.empty();  // then the page has no chart of bias curves
+  const bool parts = !results.points.front().part.empty();  // with parts the page has no chart of bias curves
   out += fmt::format("<p class=\"js-only small\">Click a head to sort{}.</p>\n",
                      parts ? "" : ", a row to see its bias curve");
   out += "<div class=\"scroll tall\"><table class=\"numbers sortable\"><thead><tr><th>Point</th>";
@@ -147,14 +147,14 @@ std::string points_section(const Results& results) {
 
 std::string meaning_section(const Results& results) {
   std::string out =
-      "<section id=\"meaning\"><h2>What the numbers mean</h2>\n<p>Every pixel that sees a surface facing the light is "
-      "asked the same question, how lit is "
-      "it?, by a ladder of methods that differ in one respect from rung to rung: R0 the light with its size; R1 one "
-      "exact ray to its centre; R2 the "
-      "filter's taps at their exact places (and, where the technique looks elsewhere, at those); R3 the taps where the "
-      "map sampled; R4 the technique on an exact depth map; R5 what the GPU showed. Each "
-      "step is the effect of one cause. Fractions are of the counted receivers: facing the light, and with a truth "
-      "that is not ambiguous.</p>\n<dl class=\"terms\">\n";
+      "<section id=\"meaning\"><h2>What the numbers mean</h2>\n<p>For every pixel that sees a surface facing the "
+      "light, a ladder of methods answers the same question: how lit is the surface? Each rung differs from the one "
+      "before in one respect. R0: the light with its size. R1: one exact ray to the light's centre. R2: the filter's "
+      "taps at their exact places (and, if the technique moves the lookup, at the moved places). R3: the taps at the "
+      "centres of their texels. R4: the technique on an exact depth map. R5: the result of the GPU. Each step is the "
+      "effect of one cause. Fractions are fractions of the counted receivers, which face the light and have a truth "
+      "that is not "
+      "ambiguous.</p>\n<dl class=\"terms\">\n";
   for (const Metric& metric : metrics_table())
     out += fmt::format("<div><dt>{} <code>{}</code>{}</dt><dd>{}</dd></div>\n", html(metric_label(metric.name)),
                        html(metric.name),
@@ -191,11 +191,10 @@ std::string making_section(const Results& results) {
   for (const char* software : {"llvmpipe", "softpipe", "swrast", "SwiftShader"})
     if (info.gl_renderer.find(software) != std::string::npos)
       out += fmt::format(
-          "<p class=\"note\">{} renders on the processor: its times are <b>software times</b>. They rank settings "
-          "roughly as a GPU would, and say "
-          "nothing about a GPU's milliseconds.</p>\n",
+          "<p class=\"note\">{} renders on the processor: its times are <b>software times</b>. They order settings "
+          "roughly as a GPU would, but they do not predict a GPU's milliseconds.</p>\n",
           software);
-  // Settings that every point shares, for whoever makes it again.
+  // The settings that all points share, for a reader who wants to repeat the experiment.
   std::string fixed;
   if (!results.points.empty())
     for (const auto& [name, value] : results.points.front().settings)

@@ -1,4 +1,4 @@
-// The sections below the charts: pictures, points, what the words mean, how the results were made.
+// The sections below the charts: pictures, points, the meaning of the numbers, how the results were made.
 #pragma once
 #include <functional>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace noonmark::report {
 
-// read_file: as render_report() has it.
+// read_file: as for render_report().
 std::string pictures_section(const Results& results, const std::function<std::string(const std::string&)>& read_file);
 std::string points_section(const Results& results);
 std::string meaning_section(const Results& results);

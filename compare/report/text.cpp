@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view thin_space = "\u202f";
 
-// Groups of three from 10 000 on; 1234 reads well as it is.
+// Groups of three digits from 10 000 on. 1234 is easy to read without them.
 std::string grouped(double whole) {
   std::string digits = fmt::format("{:.0f}", whole);
   const size_t first = digits.find_first_of("0123456789");
@@ -45,7 +45,7 @@ void strip_suffix(std::string& text, std::string_view suffix) {
 }  // namespace
 
 std::string html(std::string_view text) {
-  // nlohmann's writer replaces what is not UTF-8; reading back undoes only its escapes.
+  // nlohmann's writer replaces bytes that are not UTF-8. Reading its text back undoes only its escapes.
   const std::string dumped = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   const std::string valid = nlohmann::json::parse(dumped).get<std::string>();
   std::string out;
@@ -73,7 +73,7 @@ std::string html(std::string_view text) {
 std::string script_json(const nlohmann::json& value) {
   std::string out;
   for (char c : value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
-    // These stand only inside strings, where JSON takes an escape.
+    // These characters stand only inside strings, where JSON allows an escape.
     if (c == '<' || c == '>' || c == '&')
       out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
     else
@@ -152,7 +152,7 @@ std::string setting_unit(const std::string& name) {
 std::string settings_phrase(const PointRecord& point, const std::vector<std::string>& names) {
   std::string out;
   for (const std::string& name : names) {
-    // The unit of a bias is itself a setting.
+    // The unit of a bias is a setting itself.
     std::string unit = setting_unit(name);
     if (unit == "bias.unit") unit = setting_of(point, "bias.unit");
     out += fmt::format("{}{} {}", out.empty() ? "" : ", ", setting_label(name),

@@ -18,10 +18,10 @@ namespace {
 using sqlite::Database;
 using sqlite::Statement;
 
-constexpr size_t most_differences = 5;  // that a message names
-constexpr size_t longest_name = 60;     // in characters of a message; a foreign one may be of any length
+constexpr size_t most_differences = 5;  // the most that one message names
+constexpr size_t longest_name = 60;     // in characters; a foreign name can have any length
 
-// "table metrics": the table that it belongs to, and its SQL.
+// "table metrics" -> the table that it belongs to, and its SQL.
 using Schema = std::multimap<std::string, std::string>;
 
 Schema schema_of(Database& db) {
@@ -40,7 +40,7 @@ const Schema& own_schema() {
   return own;
 }
 
-// Empty where the schema is ours.
+// Empty if the schema is that of this Noonmark.
 std::string difference(const Schema& there) {
   const Schema& own = own_schema();
   std::vector<std::string> all;
@@ -52,7 +52,7 @@ std::string difference(const Schema& there) {
     if (ours == own.end())
       say(one->first, "is foreign");
     else if (there.count(one->first) > 1 || one->second != ours->second)
-      say(one->first, "is another");
+      say(one->first, "is different");
   }
   for (const auto& [name, sql] : own)
     if (!there.contains(name)) say(name, "is lost");
@@ -64,7 +64,7 @@ std::string difference(const Schema& there) {
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
-// SQLite begins with the headline "*** in database main ***".
+// SQLite's text begins with the headline "*** in database main ***".
 std::string first_finding(const std::string& text) {
   for (size_t begin = 0; begin < text.size();) {
     const size_t end = std::min(text.find('\n', begin), text.size());
@@ -84,11 +84,12 @@ void check_store(Database& db) {
     throw Error(ErrorKind::usage,
                 fmt::format("{}: was written by another version of Noonmark (store version {}, not {}); {}", db.path(),
                             version, store_version, db.way_out()));
-  // Before anything is read: a view can stand in a table's place and have no end.
+  // Checked before any row is read, because a view in a table's place can be endless.
   if (const std::string found = difference(schema_of(db)); !found.empty())
-    throw Error(ErrorKind::scene, fmt::format("{}: holds other tables than this Noonmark makes ({}); {}", db.path(),
-                                              found, db.way_out()));
-  // Not quick_check, which does not look at the order of rows: a search misses those that are out of order.
+    throw Error(ErrorKind::scene, fmt::format("{}: holds other tables than the ones that this Noonmark makes ({}); {}",
+                                              db.path(), found, db.way_out()));
+  // integrity_check and not quick_check, because quick_check does not look at the order of rows, and a search does not
+  // find rows that are out of order.
   if (const std::string found = db.ask("PRAGMA integrity_check(1)").value_or("?"); found != "ok")
     throw Error(ErrorKind::scene, fmt::format("{}: is damaged: {}; {}", db.path(), first_finding(found), db.way_out()));
 }

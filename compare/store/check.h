@@ -1,4 +1,4 @@
-// Whether a file is a whole store of this version, with nothing in it that works by itself.
+// Checks that a file is a complete store of this version, and that it contains nothing that runs by itself.
 #pragma once
 
 namespace noonmark {
@@ -7,8 +7,9 @@ namespace sqlite {
 class Database;
 }
 
-// Throws Error(usage) for the store of another version; Error(scene) for a database of somebody else's, for tables,
-// indexes, views and triggers other than those that store_schema() makes, and for damage, down to the order of rows.
+// Throws Error(usage) for the store of another version. Throws Error(scene) for a database that is not Noonmark's, for
+// tables, indexes, views and triggers that store_schema() does not make, and for damage, including a wrong order of
+// rows.
 void check_store(sqlite::Database& db);
 
 }  // namespace noonmark

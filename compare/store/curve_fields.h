@@ -1,5 +1,5 @@
-// What a bias curve holds, said once: each row names a number or a series of BiasCurve, its unit and its meaning. The
-// store's tables, point.json, the report's data, CSV, and what bounds and laws may ask for are read off the rows.
+// The fields of a bias curve, described once: each row has a number or a series of BiasCurve, its unit and its meaning.
+// The store's tables, point.json, the report's data, CSV and the names for bounds and laws are made from these rows.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,13 +14,14 @@
 namespace noonmark {
 
 struct CurveField {
-  std::string_view name;  // in the store, in JSON; of a quantity in depth it ends in "_depth"
+  std::string_view name;  // in the store and in JSON; the name of a depth ends in "_depth"
   std::string_view unit;  // "depth", "fraction" ...; text: ""
   std::string_view help;  // one sentence
   using Member = std::variant<std::string BiasCurve::*, double BiasCurve::*, std::optional<double> BiasCurve::*,
                               uint64_t BiasCurve::*>;
   Member member;
-  // Bounds, laws, CSV and tables may ask for it; of a depth also in metres and in texels (name ends in _m, _texels).
+  // Bounds, laws, CSV and tables may use it. A depth is also offered in metres and in texels (its name ends in _m,
+  // _texels).
   bool quantity = false;
 };
 std::span<const CurveField> curve_fields();

@@ -10,7 +10,7 @@
 namespace noonmark {
 namespace {
 
-// The lines "name = value" of a fingerprint, in order.
+// The lines "name = value" of a fingerprint, in their order.
 std::vector<std::pair<std::string, std::string>> named_lines(const std::string& text) {
   std::vector<std::pair<std::string, std::string>> lines;
   std::istringstream in(text);
@@ -29,7 +29,8 @@ std::string first_difference(const std::string& here, const std::string& there) 
     const auto other = find(b, name);
     if (other == b.end()) return fmt::format("now '{}', there nothing of the kind", line);
     if (other->second == line) continue;
-    // "scene street.glb (its settings) = a digest": the digests tell nobody anything.
+    // A line like "scene street.glb (its settings) = a digest". The message leaves out the digests, because they mean
+    // nothing to a reader.
     if (const size_t settings = name.rfind(" ("); name.starts_with("scene ") && settings != name.npos)
       return fmt::format("the contents of the {} have changed since these were stored", name.substr(0, settings));
     return fmt::format("now '{}', there '{}'", line, other->second);

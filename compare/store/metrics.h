@@ -1,5 +1,5 @@
-// The table of metrics: one row names a number of a point, its unit and its meaning. The store, the bounds, the
-// experiment file and the report read it; compare/ladder/ladder.h's findings are its input.
+// The table of metrics: each row describes one number of a point, with its unit and its meaning. The store, the bounds,
+// the experiment file and the report read it. The metrics are computed from the ladder (compare/ladder/ladder.h).
 #pragma once
 #include <span>
 #include <string_view>

@@ -13,7 +13,7 @@
 namespace noonmark {
 namespace {
 
-// The field's number; none where it is empty.
+// The field's number. No value if the field is empty.
 std::optional<double> number_of_field(const CurveField& field, const BiasCurve& curve) {
   return std::visit(
       [&](auto member) -> std::optional<double> {
@@ -27,7 +27,7 @@ std::optional<double> number_of_field(const CurveField& field, const BiasCurve& 
       field.member);
 }
 
-// 0 for an empty window, so that `window_width_depth` with a min is the bound "there is a usable bias".
+// The width is 0 for an empty window, so that a `min` of `window_width_depth` asserts that there is a usable bias.
 double window_width(const BiasCurve& c) {
   return c.window_min_depth && c.window_max_depth ? *c.window_max_depth - *c.window_min_depth : 0;
 }

@@ -1,4 +1,4 @@
-// Every number of a point that a bound, a column or a table can name: the metrics (metrics.h), and what is read off the
+// All numbers of a point that a bound, a column or a table can name: the metrics (metrics.h) and the quantities of the
 // bias curve.
 //
 //   std::optional<double> width = quantity(point, "window_width_depth");
@@ -13,42 +13,42 @@
 
 namespace noonmark {
 
-// Read off the rows of curve_fields() (curve_fields.h): each as it is, a depth also in metres and in texels; and the
-// window's width.
+// Made from the rows of curve_fields() (curve_fields.h): each number itself, each depth also in metres and in texels,
+// and the width of the window.
 struct CurveQuantity {
   std::string name;
   std::string unit;
   std::string help;  // one sentence
-  // Empty where the curve has no such number: the ends of a window that is empty.
+  // Empty if the curve has no such number, for example the ends of an empty window.
   std::function<std::optional<double>(const BiasCurve&)> value;
-  std::string sql;  // the same, of the store's table `curves` as c
+  std::string sql;  // the same as SQL over the store's table `curves` as c
 };
 std::span<const CurveQuantity> curve_quantities();
 
 struct QuantityInfo {
   std::string_view name, unit, help;
-  bool of_curve = false;  // known only where the point has a curve
+  bool of_curve = false;  // known only if the point has a curve
 };
 // Throws Error(usage) that suggests the nearest name.
 QuantityInfo find_quantity(std::string_view name);
 
-// Empty when the point does not have it (its curve is off, its window empty, its metric was not recorded).
+// Empty if the point does not have it: its curve is off, its window is empty, or its metric was not recorded.
 std::optional<double> quantity(const PointRecord& point, std::string_view name);
 
-// The metric, or NaN when the point has none of that name.
+// The metric, or NaN if the point has no metric of that name.
 double metric_of(const PointRecord& point, const std::string& name);
 // The setting's canonical text, or empty.
 std::string setting_of(const PointRecord& point, const std::string& name);
 
-// Whether no pixel could be judged, so that the point says nothing about the method. False for a record that lacks the
-// number of counted receivers.
+// Whether no pixel could be judged, so that the point gives no information about the method. False for a record without
+// the number of counted receivers.
 bool nothing_judged(const PointRecord& point);
 
-// In text, for a number that is NaN: there was nothing to measure it on.
+// The text for a number that is NaN, because there was nothing to measure.
 inline constexpr std::string_view not_measured = "not measured";
 
-// Why a point has no bias curve, as a sentence's end ("bias.normal_offset moves ..."); empty when it has one, and when
-// its settings do not say.
+// The reason why a point has no bias curve, as the end of a sentence ("bias.normal_offset moves ..."). Empty if it has
+// a curve, and if its settings do not give the reason.
 std::string why_no_curve(const PointRecord& point);
 
 }  // namespace noonmark

@@ -33,7 +33,7 @@ const Column<LawResult> relation_column = {"relation", "TEXT",
                                                  std::begin(relations), std::end(relations),
                                                  [&](const auto& relation) { return relation.second == sign; });
                                              if (found == std::end(relations))
-                                               throw std::runtime_error("a law whose relation is none");
+                                               throw std::runtime_error("a law with an unknown relation");
                                              law.relation = found->first;
                                            }};
 
@@ -109,7 +109,7 @@ void add_series(Database& db, int64_t point, const BiasCurve& curve) {
   std::string values = "?, ?";
   for (const CurveSeries& series : curve_series()) {
     if ((curve.*series.values).size() != count)
-      throw std::logic_error("a bias curve's series differ in length from its biases");
+      throw std::logic_error("a series of a bias curve has another length than its biases");
     values += ", ?";
   }
   Statement insert(db, fmt::format("INSERT INTO curve_points (point, i{}) VALUES ({})", series_names(), values));

@@ -1,5 +1,5 @@
-// The tables of the store that hold records, each described once (table.h). The others, of names and values, are in
-// schema.cpp.
+// The tables of the store that hold records, each described once (table.h). The other tables hold names and values and
+// are described in schema.cpp.
 #pragma once
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -10,9 +10,9 @@
 
 namespace noonmark {
 
-const Table<BiasCurve>& curves_table();        // by point; without the series
-const Table<PictureRecord>& pictures_table();  // by point and place in the list
-const Table<ImageRecord>& images_table();      // likewise
+const Table<BiasCurve>& curves_table();        // one row per point, without the series
+const Table<PictureRecord>& pictures_table();  // one row per point and place in the list
+const Table<ImageRecord>& images_table();      // the same keys
 const Table<BoundResult>& bounds_table();
 const Table<LawResult>& laws_table();  // without the samples
 const Table<LawResult::Sample>& law_samples_table();
@@ -22,10 +22,10 @@ void add_series(sqlite::Database& db, int64_t point, const BiasCurve& curve);
 // Calls curve_of(point) for each row, and adds the row's values to that curve's series.
 void read_series(sqlite::Database& db, const std::function<BiasCurve&(int64_t)>& curve_of);
 
-// The SQL that makes all of these.
+// The SQL that makes all these tables.
 std::string record_tables();
 
-// Paths may hold bytes that are no UTF-8: those, and only those, are replaced.
+// Paths may have bytes that are not UTF-8. Only those bytes are replaced.
 std::string json_text(const nlohmann::json& json);
 
 }  // namespace noonmark

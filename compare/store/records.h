@@ -1,5 +1,5 @@
-// What a sweep leaves behind of each point: plain numbers and text. The store keeps these, the report, the bounds, CSV,
-// JUnit and the summary read them.
+// Records: the results of a sweep for each point, as plain numbers and text. The store keeps them. The report, the
+// bounds, CSV, JUnit and the summary read them.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -9,35 +9,37 @@
 
 namespace noonmark {
 
-// Error as a function of the bias, from one lookup pass (compare/ladder/bias_curves.h), for the amount of one part of
-// the bias; all else, the part's own floor and cap too, is as the point has it. Parts that draw another map
-// or move the lookup have no curve. Every series has one value per entry of bias_depth: a fraction of the counted
-// receivers (facing and not ambiguous).
+// The error as a function of the amount of one part of the bias, from one lookup pass (compare/ladder/bias_curves.h).
+// All else is as in the point's settings, also the part's own floor and cap. Parts that draw another map or move the
+// lookup have no curve. Every series has one value for each entry of bias_depth, a fraction of the counted receivers
+// (facing and not ambiguous).
 //
-// The axis is window depth, and m_per_depth and texels_per_depth turn it into metres and texels. Under a spot light,
-// and a point light's texels, what a metre or a texel is in depth differs from receiver to receiver: then the two are
-// those of the median facing receiver (of each by itself), and where bias.unit is such a unit, the axis is the
-// parameter itself times that receiver's depth per unit. So metres and texels are always the parameter's own where that
-// is its unit, and a value read off the axis and set again gives what the curve says.
+// The axis is window depth; m_per_depth and texels_per_depth convert it to metres and texels. Under a spot light, and
+// for a point light's texels, the depth of a metre or a texel differs from receiver to receiver. Then each of the two
+// factors is its median over the facing receivers. If bias.unit is such a unit, the axis is the parameter times that
+// median depth per unit. So metres and texels are always the parameter's own if that is its unit, and a value that is
+// read from the axis and set as the bias gives the curve's error.
 struct BiasCurve {
   std::string parameter;  // "bias.constant": the setting that is varied
-  std::string made;       // "one pass": read off thresholds, exactly; "one pass, but for the sampler's weights"
+  std::string made;       // "one pass": exact, from thresholds; or "one pass, except for the sampler's weights"
   std::vector<double> bias_depth;  // ascending, window depth; the first is 0
   std::vector<double> error;       // mean |R5 - R1|
   std::vector<double> wrong;       // share of receivers with R5 != R1
   std::vector<double> acne, peter_panning, aliasing_dark, aliasing_light, coverage;  // at R4, booked tap by tap
-  double m_per_depth = 1;       // multiply a bias in depth by it to have metres; directional: far - near
+  double m_per_depth = 1;       // metres = this times depth; directional: far - near
   double texels_per_depth = 1;  // directional: (far - near) / w
-  // The usable window at the bounds below: every bias in [window_min, window_max] keeps both causes within them.
+  // The usable window at the bounds below: every bias in [window_min, window_max] keeps both causes within their
+  // bounds.
   double acne_bound = 0, peter_panning_bound = 0;  // fractions of counted receivers
   std::optional<double> window_min_depth,
-      window_max_depth;        // both empty: no bias is good enough, the method fails here
-  double best_bias_depth = 0;  // the middle of the stretch with the least error; twice its start where nothing ends it
+      window_max_depth;        // both empty: no bias is good enough
+  double best_bias_depth = 0;  // middle of the interval of least error; twice its start if it has no end
   double best_error = 0;
   double flat_min_depth = 0, flat_max_depth = 0;  // biases whose error is within 10% of the best
   uint64_t breakpoints = 0;                       // of the exact curve
-  // The least value of the parameter from which no tap is acne, whatever the bounds above: on the exact map, as `acne`
-  // is defined, and on the GPU's own with its format and rasteriser. Empty where no value is enough.
+  // The least value of the parameter from which on no tap is acne, independent of the bounds above. First on the exact
+  // map, where `acne` is defined, then on the GPU's own map with its format and rasteriser. Empty if no value is
+  // enough.
   std::optional<double> acne_free_bias_depth, acne_free_bias_stored_depth;
 };
 
@@ -46,7 +48,7 @@ struct PictureRecord {
   std::string name;      // "truth", "map", "classes", "difference", "shaded" ...
   std::string path;      // "images/p0003-truth.png"
   std::string caption;   // one sentence
-  std::string digest{};  // of the file, when it was written (digest_of, scenes/digest.h)
+  std::string digest{};  // of the file as it was written (digest_of, scenes/digest.h)
 };
 
 // An image of a point, for programs.
@@ -62,9 +64,9 @@ struct PointPictures {
 
 struct PointRecord : PointPictures {
   int64_t id = 0;                               // position in the sweep, from 0
-  std::string part;                             // of the experiment; empty where it has none
+  std::string part;                             // the experiment's part; empty if it has no parts
   std::map<std::string, std::string> settings;  // every setting by its row's name, in canonical text
-  std::map<std::string, double> metrics;  // by metric name; not finite = could not be measured, and fails any bound
+  std::map<std::string, double> metrics;  // by metric name; not finite: could not be measured, which breaks any bound
   std::map<std::string, double> times;    // "map_ms", "lookup_ms", "truth_ms", "rays" ...
   std::optional<BiasCurve> curve;
   struct Worst {
@@ -74,36 +76,36 @@ struct PointRecord : PointPictures {
   } worst;  // the worst pixel; row 0 on top
 };
 
-// A bound and what became of it (compare/judge/bounds.h).
+// A bound and its result (compare/judge/bounds.h).
 struct BoundResult {
   std::string metric;
   std::optional<double> max, min;
-  std::map<std::string, std::vector<std::string>> where;  // setting name -> the canonical texts it speaks of
+  std::map<std::string, std::vector<std::string>> where;  // setting name -> the canonical texts that match
   std::string join;                                       // "worst", "mean", "median"
   bool held = false;
-  double found = 0;       // the joined value; not finite when any value was not
+  double found = 0;       // the joined value; not finite if any value was not
   int64_t point = -1;     // the worst point
-  int points = 0;         // how many points it was asked of; 0 is a broken bound
+  int points = 0;         // the number of points it was checked on; 0 breaks the bound
   std::string reproduce;  // the command that renders the worst point
 };
 
 enum class LawRelation { equal, at_most, at_least };
 
-// A law and what became of it (compare/judge/laws.h).
+// A law and its result (compare/judge/laws.h).
 struct LawResult {
   std::string part, name, says;
-  std::string found;                // a sentence with its figures in it; empty where the law has none
+  std::string found;                // a sentence with its figures; empty if the law has none
   std::string measured, predicted;  // the formulas
   LawRelation relation = LawRelation::equal;
   std::string tolerance;  // "within 5%", "within 5% + depth_quantum_m"; empty: none
   std::string join;       // "each", "mean", "slope over map.resolution"
   struct Sample {
-    int64_t point = -1;  // the measured point; the first one where many are joined
+    int64_t point = -1;  // the measured point; the first one if several are joined
     double predicted = 0, measured = 0;
-    double allowed = 0;  // how far measured may be off
+    double allowed = 0;  // the largest difference allowed
   };
   std::vector<Sample> samples;
-  int worst = -1;  // index of the sample furthest off, in units of what is allowed; -1: no sample
+  int worst = -1;  // index of the sample furthest off relative to what is allowed; -1: no sample
   bool held = false;
   std::string reproduce;  // the command that renders the worst sample's point
 };
@@ -123,12 +125,12 @@ struct RunInfo {
   std::vector<std::string> plot;                 // metrics the experiment asks to plot
   std::string scene_name;
   uint64_t triangles = 0;
-  std::vector<std::string> scene_notes;  // a line for each scene that has something to say (Scene::notes)
+  std::vector<std::string> scene_notes;  // one line for each note of a scene (Scene::notes)
 };
 
 struct Results {
   RunInfo info;
-  std::vector<PointRecord> points;  // ordered by id; a sweep that was cut short has fewer than it should
+  std::vector<PointRecord> points;  // ordered by id; an interrupted sweep has fewer than planned
   int64_t planned_points = 0;
   std::vector<BoundResult> bounds;
   std::vector<LawResult> laws;

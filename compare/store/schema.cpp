@@ -13,7 +13,7 @@
 namespace noonmark {
 namespace {
 
-// settings.value: integers, reals and flags (0 or 1) as numbers, everything else as text; settings.text: canonical.
+// settings.value: integers, reals and flags (0 or 1) as numbers, all others as text. settings.text: canonical text.
 constexpr std::string_view tables = R"sql(
 CREATE TABLE info (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE finished (
@@ -31,7 +31,7 @@ std::string quoted(std::string_view text) {
   return result + "'";
 }
 
-// The view's columns and, row by row, their legend.
+// The view's columns, and their legend with one row per column.
 class View {
  public:
   void column(std::string_view name, std::string_view expression, std::string_view kind, std::string_view unit,
@@ -58,16 +58,16 @@ std::string value_of(std::string_view table, std::string_view name) {
 std::string store_schema() {
   View view;
   view.column("point", "f.point", "", "", "Position in the sweep, from 0.");
-  view.column("part", "f.part", "", "", "The experiment's part; empty where it has none.");
+  view.column("part", "f.part", "", "", "The experiment's part; empty if it has no parts.");
   for (const Setting& row : settings_table()) {
-    std::string name(row.name);  // a dot would have to be quoted in every query
+    std::string name(row.name);  // every query would have to quote a dot
     std::replace(name.begin(), name.end(), '.', '_');
     view.column(name, value_of("settings", row.name), "setting", row.unit, row.help);
   }
   for (const Metric& row : metrics_table())
     view.column(row.name, value_of("metrics", row.name), "metric", row.unit, row.help);
   view.column("not_measured", "(SELECT count(*) FROM metrics WHERE point = f.point AND value IS NULL)", "metric",
-              "count", "Metrics that are not a number: they could not be measured.");
+              "count", "Number of metrics that could not be measured (NaN).");
   for (const CurveQuantity& row : curve_quantities()) view.column(row.name, row.sql, "curve", row.unit, row.help);
   view.column("worst_x", "f.worst_x", "worst", "px", "The worst pixel's column.");
   view.column("worst_y", "f.worst_y", "worst", "px", "The worst pixel's row, 0 on top.");

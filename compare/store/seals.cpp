@@ -18,7 +18,7 @@ namespace {
 using sqlite::Database;
 using sqlite::Statement;
 
-// Each has a column `point`, and its first two columns give its rows an order.
+// Each table has a column `point`, and its first two columns give the order of its rows.
 constexpr std::string_view point_tables[] = {"finished", "settings",     "metrics",  "times",
                                              "curves",   "curve_points", "pictures", "images"};
 constexpr std::string_view info_tables[] = {"info"};
@@ -71,8 +71,8 @@ bool verdict_holds(Database& db) { return holds(db, "verdict", digest_of(db, ver
 void require_sealed(Database& db) {
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::scene,
-                fmt::format("{}: {} are not those that were stored (edited, lost, or of another store); run the "
-                            "experiment into this folder again, which measures anew what does not hold",
+                fmt::format("{}: {} are not those that were stored (edited or lost, or from another store); run the "
+                            "experiment into this folder again, which measures the damaged points anew",
                             db.path(), what));
   };
   if (const std::vector<int64_t> broken = broken_points(db); !broken.empty())

@@ -1,5 +1,5 @@
-// Seals of the store's rows: a digest of what was written, kept beside it, so that a row that was edited, lost or put
-// there by somebody else is noticed. Every column of every row counts, with its type.
+// Seals of the store's rows. A seal is a digest of the rows as they were written, stored beside them. It shows rows
+// that were edited, lost or added by another program. Every column of every row counts, with its type.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -10,18 +10,18 @@ namespace sqlite {
 class Database;
 }
 
-// Of what is in the tables now. To be called within the transaction that wrote it.
+// Seals the present rows. Call it within the transaction that wrote them.
 void seal_point(sqlite::Database& db, int64_t point);
 void seal_info(sqlite::Database& db);
 void seal_verdict(sqlite::Database& db);  // bounds and laws
 
-// Ids that some table of points has, ascending, and whose rows are not those that were sealed.
+// The ids of points with rows in any table that do not match their seal, ascending.
 std::vector<int64_t> broken_points(sqlite::Database& db);
 bool verdict_holds(sqlite::Database& db);
-// Throws Error(scene) that names what does not hold.
+// Throws Error(scene) that names the rows that do not match their seal.
 void require_sealed(sqlite::Database& db);
 
-// The rows of a point in every table, and its seal.
+// Removes a point's rows from every table, and its seal.
 void remove_point(sqlite::Database& db, int64_t point);
 
 }  // namespace noonmark

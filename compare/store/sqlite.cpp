@@ -14,10 +14,10 @@
 namespace noonmark::sqlite {
 namespace {
 
-// How long to wait for a reader, such as an analyst's query, to let go of the file.
+// How long to wait for a reader, such as a query of an analyst, to release the file.
 constexpr int busy_timeout_ms = 30000;
 
-// way_out: of Database.
+// way_out: from Database::way_out().
 std::string advice(int code, std::string_view way_out) {
   switch (code & 0xff) {
     case SQLITE_NOTADB:
@@ -37,7 +37,7 @@ std::string advice(int code, std::string_view way_out) {
   }
 }
 
-// SQLite opens these by itself, beside the file that a link leads to, and would wait without end for a pipe.
+// SQLite opens these files by itself, beside the file that a link leads to. It would wait without end for a pipe.
 void require_files_beside(const std::string& path, std::string_view way_out) {
   namespace fs = std::filesystem;
   std::error_code none;
@@ -62,14 +62,15 @@ Database::Database(const std::string& path, Mode mode) : path_(path), mode_(mode
   const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
   const int code = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
   if (code != SQLITE_OK) {
-    // A failed open leaves a handle that must be closed all the same; the destructor does not run.
+    // A failed open leaves a handle that must be closed here, because the destructor does not run.
     const std::string what = handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
     sqlite3_close(handle_);
     throw Error(ErrorKind::scene, fmt::format("{}: cannot be opened: {}; {}", path, what, advice(code, way_out())));
   }
   sqlite3_extended_result_codes(handle_, 1);
   sqlite3_busy_timeout(handle_, busy_timeout_ms);
-  // A file of unknown origin: nothing in it works by itself, and no statement can break it.
+  // The file may come from anyone. These options keep its contents from running by themselves, and statements from
+  // damaging it.
   for (const auto& [option, on] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1},
                                    {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
                                    {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0}})
@@ -100,7 +101,7 @@ void Database::fail(int code, std::string_view doing) const {
 }
 
 Transaction::~Transaction() {
-  // After some errors SQLite has rolled back by itself, and then this one has nothing left to do.
+  // After some errors SQLite has rolled back by itself. Then this statement has no effect.
   if (open_) sqlite3_exec(db_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 
@@ -132,7 +133,7 @@ void Statement::bind(int index, std::string_view value) {
 }
 void Statement::bind(int index, const std::optional<double>& value) {
   if (value && std::isnan(*value))
-    bind(index, std::string_view("nan"));  // SQLite takes a NaN for NULL, and NULL is what is not there
+    bind(index, std::string_view("nan"));  // SQLite stores a NaN as NULL, and NULL means that there is no value
   else if (value)
     bind(index, *value);
   else

@@ -1,11 +1,11 @@
-// The little of SQLite that the store needs: an owned connection, owned statements, errors as exceptions.
+// The part of SQLite that the store needs: an owned connection, owned statements, errors as exceptions.
 //
 //   sqlite::Statement insert(db, "INSERT INTO metrics VALUES (?, ?, ?)");
 //   insert.run(id, name, value);
 //   for (sqlite::Statement rows(db, "SELECT name, value FROM metrics"); rows.step();) use(rows.text(0), rows.real(1));
 //
-// A NaN that is written becomes NULL (SQLite has no NaN) and NULL reads back as NaN; a column of REAL forgets
-// the sign of a zero; infinities and every other double come back bit for bit.
+// A NaN is written as NULL, because SQLite has no NaN, and NULL is read back as NaN. A column of REAL loses the sign of
+// a zero. Infinities and all other doubles come back bit for bit.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -24,8 +24,8 @@ namespace noonmark::sqlite {
 class Database {
  public:
   enum class Mode { create, existing };
-  // Throws Error(scene) when the file cannot be opened, or is there and is no regular file (a pipe would never answer);
-  // the same of what SQLite keeps beside it, where a link is none either.
+  // Throws Error(scene) if the file cannot be opened or is not a regular file (reading a pipe would wait without end).
+  // The same holds for the files that SQLite keeps beside it; those must not be links either.
   Database(const std::string& path, Mode mode);
   ~Database();
   Database(const Database&) = delete;
@@ -33,13 +33,13 @@ class Database {
 
   // One or more statements without results.
   void execute(const std::string& sql);
-  // The first column of the first row, or empty without a row.
+  // Returns the first column of the first row, or empty if there is no row.
   std::optional<std::string> ask(const std::string& sql);
 
-  // Throws Error(scene) that says what SQLite says of `code` and what to do.
+  // Throws Error(scene) with SQLite's message for `code` and what to do.
   [[noreturn]] void fail(int code, std::string_view doing) const;
 
-  // What to do about a file that is no store of ours, or a damaged one.
+  // The advice for a file that is not a store of Noonmark, or is a damaged one.
   std::string_view way_out() const;
 
   const std::string& path() const { return path_; }
@@ -51,7 +51,7 @@ class Database {
   sqlite3* handle_ = nullptr;
 };
 
-// Everything between begin and commit happens, or nothing. Rolled back when destroyed before commit.
+// All statements between begin and commit take effect, or none. Rolled back if destroyed before commit.
 class Transaction {
  public:
   explicit Transaction(Database& db) : db_(db) { db_.execute("BEGIN IMMEDIATE"); }
@@ -72,7 +72,7 @@ class Statement {
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
 
-  // Binds the values in order, executes, and is ready to run again.
+  // Binds the values in order and executes. Then the statement can run again.
   template <class... Values>
   void run(const Values&... values) {
     int index = 0;
@@ -88,13 +88,13 @@ class Statement {
   void bind(int index, const char* value) { bind(index, std::string_view(value)); }
   void bind(int index, const std::optional<double>& value);  // empty: NULL; NaN: the text "nan"
 
-  // Moves to the next row; false after the last.
+  // Moves to the next row. Returns false after the last.
   bool step();
   bool null(int column) const;
   int64_t integer(int column) const;
   double real(int column) const;  // NULL and text: NaN
   std::string text(int column) const;
-  // Every column with its type.
+  // Adds every column with its type.
   void add_to(Digest& digest) const;
 
  private:

@@ -27,7 +27,7 @@ using sqlite::Database;
 using sqlite::Statement;
 using sqlite::Transaction;
 
-// The text members of RunInfo, by their key in the table `info`.
+// The text members of RunInfo, with their keys in the table `info`.
 constexpr std::pair<std::string_view, std::string RunInfo::*> info_texts[] = {
     {"experiment", &RunInfo::experiment},   {"title", &RunInfo::title},
     {"command", &RunInfo::command},         {"commit", &RunInfo::commit},
@@ -40,7 +40,8 @@ constexpr std::pair<std::string_view, std::string RunInfo::*> info_texts[] = {
 constexpr std::string_view library_prefix = "library.";
 
 void remove_store(const std::string& path) {
-  // The database first: a journal that is left alone is dropped by SQLite, a database without its journal may be torn.
+  // The database is removed first. SQLite drops a journal without a database, but a database without its journal may be
+  // damaged.
   for (const char* ending : {"", "-journal", "-wal", "-shm"}) {
     const std::string file = path + ending;
     if (::unlink(file.c_str()) != 0 && errno != ENOENT)
@@ -74,7 +75,7 @@ void add_numbers(Database& db, const char* table, int64_t point, const std::map<
 
 void add_curve(Database& db, int64_t point, const BiasCurve& curve) {
   if (curve.window_min_depth.has_value() != curve.window_max_depth.has_value())
-    throw std::logic_error("a usable bias window has two ends or none");
+    throw std::logic_error("a usable bias window must have two ends or none");
   Table<BiasCurve>::Insert(db, curves_table()).row({point}, curve);
   add_series(db, point, curve);
 }
@@ -104,7 +105,7 @@ void load_info(Database& db, Results& results) {
 void load_curves(Database& db, std::map<int64_t, PointRecord>& points) {
   curves_table().read(db, [&](std::span<const int64_t> key, BiasCurve curve) {
     if (curve.window_min_depth.has_value() != curve.window_max_depth.has_value())
-      throw std::runtime_error("a usable window with one end");
+      throw std::runtime_error("a usable window with only one end");
     if (curve.window_min_depth && *curve.window_min_depth > *curve.window_max_depth)
       throw std::runtime_error("a usable window that ends before it begins");
     points.at(key[0]).curve = std::move(curve);
@@ -151,11 +152,11 @@ std::vector<LawResult> load_laws(Database& db) {
   });
   for (const LawResult& law : laws)
     if (law.worst < -1 || law.worst >= static_cast<int>(law.samples.size()))
-      throw std::runtime_error("a law whose worst sample is none of its samples");
+      throw std::runtime_error("a law whose worst sample is not one of its samples");
   return laws;
 }
 
-// Rows that do not fit together, and text that is no JSON, are faults of the file.
+// Rows that contradict each other, and text that is not JSON, are faults of the file.
 template <class Read>
 auto read_rows(const Database& db, const Read& read) {
   try {
@@ -165,8 +166,8 @@ auto read_rows(const Database& db, const Read& read) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw Error(ErrorKind::scene,
-                fmt::format("{}: holds what Noonmark did not write ({}); {}", db.path(), error.what(), db.way_out()));
+    throw Error(ErrorKind::scene, fmt::format("{}: holds data that Noonmark did not write ({}); {}", db.path(),
+                                              error.what(), db.way_out()));
   }
 }
 
@@ -177,7 +178,7 @@ ResultStore::ResultStore(const std::string& path, const std::string& fingerprint
   db_ = std::make_unique<Database>(path, Database::Mode::create);
   db_->execute("PRAGMA synchronous = EXTRA");
   {
-    Transaction transaction(*db_);  // of two programs that start on an empty file, one makes the tables
+    Transaction transaction(*db_);  // if two programs start on an empty file, one of them makes the tables
     if (db_->ask("SELECT count(*) FROM sqlite_master") == "0") {
       db_->execute(store_schema());
       db_->execute(
@@ -190,7 +191,7 @@ ResultStore::ResultStore(const std::string& path, const std::string& fingerprint
     }
   }
   check_store(*db_);
-  db_->execute("PRAGMA journal_mode = DELETE");  // a person's tool may have left it otherwise
+  db_->execute("PRAGMA journal_mode = DELETE");  // another tool may have changed it
   const std::string there = this->fingerprint();
   if (there != fingerprint)
     throw OtherResults(fmt::format("{}: holds the results of another experiment ({}); {}", path,
@@ -227,12 +228,12 @@ std::vector<std::string> ResultStore::repair(int64_t planned_points,
   Transaction transaction(*db_);
   for (int64_t point : broken_points(*db_)) {
     remove_point(*db_, point);
-    say(point, "not those that were stored (edited, lost, or of another store)");
+    say(point, "not those that were stored (edited or lost, or from another store)");
   }
   for (const auto& [id, point] : read_rows(*db_, [&] { return load_points(*db_); })) {
     if (id >= 0 && id < planned_points && expected(point)) continue;
     remove_point(*db_, id);
-    say(id, "of another experiment");
+    say(id, "from another experiment");
   }
   if (!verdict_holds(*db_)) {
     db_->execute("DELETE FROM bounds; DELETE FROM laws; DELETE FROM law_samples");
@@ -316,7 +317,7 @@ void ResultStore::set_laws(const std::vector<LawResult>& laws) {
 
 Results ResultStore::load() const {
   Results results;
-  db_->execute("BEGIN");  // one moment of the store, whoever writes meanwhile
+  db_->execute("BEGIN");  // a consistent state, even if another program writes meanwhile
   try {
     require_sealed(*db_);
     read_rows(*db_, [&] {

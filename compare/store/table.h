@@ -1,5 +1,5 @@
-// A record's table in the store, described once: each column has a name, a type and a member. The SQL that makes the
-// table, writes it and reads it is made of the columns.
+// A table of the store for one kind of record, described once. Each column has a name, a type and a member. The SQL
+// that makes, writes and reads the table is made from the columns.
 //
 //   const Table<PictureRecord> pictures("pictures", {"point", "i"}, {column("name", &PictureRecord::name), ...});
 //   db.execute(pictures.create());
@@ -64,7 +64,7 @@ Column<Record> column(std::string_view name, Member Record::*member) {
 template <class Record>
 class Table {
  public:
-  // keys: the integers that a row begins with, and that no two rows share.
+  // keys: the integers with which each row begins. No two rows have the same keys.
   Table(std::string_view name, std::vector<std::string_view> keys, std::vector<Column<Record>> columns)
       : name_(name), keys_(std::move(keys)), columns_(std::move(columns)) {}
 

@@ -28,7 +28,7 @@ uint32_t read_unsigned(const uint8_t* at, int type) {
   }
 }
 
-// From byte `offset` of the view to the view's end.
+// The bytes from `offset` to the end of the view.
 std::span<const uint8_t> view_bytes(Buffers& buffers, int view, size_t offset) {
   return buffers.view(view).subspan(offset);
 }

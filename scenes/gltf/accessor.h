@@ -1,5 +1,5 @@
-// One accessor's elements, read straight from its buffer: tightly packed or strided, sparse, quantized, or all zero
-// where it has no view.
+// Reads the elements of one accessor directly from its buffer. They can be tightly packed or strided, sparse,
+// quantized, or all zero if the accessor has no view.
 //
 //   Readers readers(document, buffers);
 //   const AccessorReader& positions = readers(index);  // check_structure has checked that index is in range
@@ -15,24 +15,25 @@
 
 namespace noonmark::gltf {
 
-// Of a whole scene, instances included.
+// The limit for a whole scene, including instances.
 inline constexpr uint64_t max_triangles = max_scene_triangles;
 inline constexpr uint64_t max_vertices = 3 * max_triangles;
 
 class AccessorReader {
  public:
-  // Throws Error(scene) when a buffer cannot be read or sparse indices are not strictly increasing and in range.
+  // Throws Error(scene) if a buffer cannot be read or if sparse indices are not strictly increasing and in range.
   AccessorReader(const Document& document, Buffers& buffers, int accessor);
-  // Of an accessor whose elements stand elsewhere, packed: count times element_bytes, which stay where they are.
+  // For an accessor whose elements stand elsewhere, packed: count times element_bytes. The bytes must outlive the
+  // reader.
   AccessorReader(const tinygltf::Accessor& accessor, std::span<const uint8_t> packed);
 
   size_t count() const { return count_; }
-  // Component k of element i; normalized integers become [0,1] or [-1,1]. May not be finite.
+  // Component k of element i. Normalized integers become [0,1] or [-1,1]. The value may be not finite.
   double value(size_t i, size_t k) const;
-  glm::dvec3 vec3(size_t i) const;               // of a VEC3 or VEC4
-  glm::dmat4 mat4(size_t i) const;               // of a MAT4
-  uint32_t index(size_t i, size_t k = 0) const;  // of unsigned integers that are not normalized
-  // The value that OpenGL would take for "restart" rather than for an index.
+  glm::dvec3 vec3(size_t i) const;               // for a VEC3 or VEC4
+  glm::dmat4 mat4(size_t i) const;               // for a MAT4
+  uint32_t index(size_t i, size_t k = 0) const;  // for unsigned integers that are not normalized
+  // The index that OpenGL would read as "restart".
   uint32_t restart_index() const;
 
  private:

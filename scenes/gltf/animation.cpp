@@ -25,7 +25,8 @@ struct Target {
   std::optional<size_t> mesh;  // weights of a mesh rather than of a node
 };
 
-// "/nodes/3/translation" and its like (KHR_animation_pointer); nothing for what shadows do not depend on.
+// Reads "/nodes/3/translation" and similar pointers (KHR_animation_pointer). No value for properties that do not change
+// shadows.
 std::optional<Target> pointed_at(const std::string& pointer) {
   size_t index = 0;
   int used = 0;
@@ -67,7 +68,7 @@ class Poser {
       apply(*target, animation["samplers"][sampler]);
     }
     if (others > 0)
-      notes_.push_back(counted(others, "channel") + " of the animation not of nodes or morph targets: not read");
+      notes_.push_back(counted(others, "channel") + " of the animation not read: not for nodes or morph targets");
   }
 
  private:
@@ -83,7 +84,8 @@ class Poser {
       if (!found) return std::nullopt;
       out = *found;
     } else {
-      if (!target.contains("node")) return std::nullopt;  // for extensions: to be ignored (glTF 2.0, section 5.3)
+      if (!target.contains("node"))
+        return std::nullopt;  // channels of extensions have to be ignored (glTF 2.0, section 5.3)
       out.node = target["node"].get<size_t>();
       if (path == "translation")
         out.path = Path::translation;
@@ -111,12 +113,13 @@ class Poser {
     return d_.model.accessors[index];
   }
 
-  // The keys of a sampler, whose times are finite and strictly ascending; checked once, however many share them.
+  // The keys of a sampler. Their times are finite and strictly ascending. Each sampler is checked once, even if several
+  // channels share it.
   const AccessorReader& times(const json& sampler) {
     const tinygltf::Accessor& a = accessor(sampler, "input");
     const int index = sampler["input"].get<int>();
     if (a.type != TINYGLTF_TYPE_SCALAR || a.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
-      fail(fmt::format("accessors[{}] is no list of times (FLOAT, SCALAR)", index));
+      fail(fmt::format("accessors[{}] is not a list of times (FLOAT, SCALAR)", index));
     const AccessorReader& keys = readers_(index);
     if (!checked_.insert(index).second) return keys;
     for (size_t i = 0; i < keys.count(); ++i) {
@@ -145,7 +148,7 @@ class Poser {
     return false;
   }
 
-  // How many numbers a key has: of weights as many as there are targets.
+  // The number of values that a key has. For weights it is the number of targets.
   size_t width_of(const Target& target) const {
     if (target.path != Path::weights) return width_of(target.path);
     const int of_node = target.mesh ? -1 : d_.model.nodes[target.node].mesh;
@@ -162,16 +165,17 @@ class Poser {
     const std::string how = sampler.value("interpolation", "LINEAR");
     const bool cubic = how == "CUBICSPLINE";
     if (!cubic && how != "LINEAR" && how != "STEP")
-      fail(fmt::format("interpolation '{}' is none of glTF's", printable(how)));
+      fail(fmt::format("interpolation '{}' is not defined by glTF", printable(how)));
     const size_t width = width_of(target);
-    if (!fits(target.path, a)) fail(fmt::format("accessors[{}] is of another type than what it moves", output));
-    // Elements of a key: weights are SCALARs, one after the other.
+    if (!fits(target.path, a))
+      fail(fmt::format("accessors[{}] does not have the type of the property that it moves", output));
+    // The elements of a key. Weights are SCALARs, one after the other.
     const size_t elements = target.path == Path::weights ? width : 1;
     const size_t each = elements * (cubic ? 3 : 1);
     if (a.count / each != keys.count() || a.count % each != 0)
       fail(fmt::format("accessors[{}] has {} values for {} keys of {}", output, a.count, keys.count(), each));
     const AccessorReader& values = readers_(output);
-    // which: of a cubic key 0 is its in-tangent, 1 its value, 2 its out-tangent.
+    // which: for a cubic key, 0 is its in-tangent, 1 its value, 2 its out-tangent.
     const auto read = [&](size_t key, size_t which) {
       std::vector<double> out(width);
       const size_t first = key * each + (cubic ? which * elements : 0);

@@ -23,7 +23,7 @@ int hex_digit(char c) {
   return -1;
 }
 
-// RFC 3986, section 2.1. A percent sign that is no escape stays as it is, as browsers have it.
+// RFC 3986, section 2.1. A percent sign that is not an escape stays unchanged, as in browsers.
 std::string percent_decoded(std::string_view uri) {
   std::string out;
   for (size_t i = 0; i < uri.size(); ++i) {
@@ -34,7 +34,7 @@ std::string percent_decoded(std::string_view uri) {
   return out;
 }
 
-// "http:", "file:", "C:": letters, then digits + - . and a colon before any slash.
+// Recognises "http:", "file:", "C:": letters, then digits + - . and a colon before any slash.
 bool has_scheme(std::string_view uri) {
   const size_t colon = uri.find_first_of(":/");
   if (colon == std::string_view::npos || uri[colon] != ':' || colon == 0) return false;
@@ -42,13 +42,13 @@ bool has_scheme(std::string_view uri) {
                      [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.'; });
 }
 
-// Where the uri leads, links resolved; refused unless that is below the scene file's folder.
+// The file that the uri names, with links resolved. It is refused unless it lies below the scene file's folder.
 fs::path confined(const std::string& file, const std::string& uri, const std::string& place) {
   const std::string shown = "'" + printable(uri) + "'";
   constexpr std::string_view remedy = "put the file beside the scene and name it without a path";
   const std::string name = percent_decoded(uri);
   if (name.empty() || name.find('\0') != std::string::npos)
-    refuse(file, place, shown + " is not a file's name", remedy);
+    refuse(file, place, shown + " is not a name of a file", remedy);
   if (has_scheme(name)) refuse(file, place, shown + " is not a file of this folder", remedy);
   const fs::path relative = fs::path(name).lexically_normal();
   if (relative.is_absolute() || *relative.begin() == "..")
@@ -73,8 +73,8 @@ int base64_digit(char c) {
   return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-// RFC 4648, section 4, with or without padding. nothing: not base64. tinygltf's decoder stops silently at the first
-// wrong character.
+// RFC 4648, section 4, with or without padding. No value if the text is not base64. tinygltf's decoder is not used,
+// because it stops silently at the first wrong character.
 std::optional<std::vector<uint8_t>> base64_decoded(std::string_view text) {
   while (!text.empty() && text.back() == '=') text.remove_suffix(1);
   if (text.size() % 4 == 1) return std::nullopt;
@@ -141,12 +141,12 @@ std::vector<uint8_t> Buffers::load(size_t buffer, const std::string& place) cons
     for (std::string_view head : {"data:application/octet-stream;base64,", "data:application/gltf-buffer;base64,"}) {
       if (!uri.starts_with(head)) continue;
       std::optional<std::vector<uint8_t>> decoded = base64_decoded(uri.substr(head.size()));
-      if (!decoded) refuse(file, place + ".uri", "holds what is not base64", remedy);
+      if (!decoded) refuse(file, place + ".uri", "holds text that is not base64", remedy);
       data = std::move(*decoded);
       break;
     }
     if (data.empty()) {
-      refuse(file, place + ".uri", fmt::format("'{}' is no embedded buffer", printable(uri.substr(0, 40))),
+      refuse(file, place + ".uri", fmt::format("'{}' is not an embedded buffer", printable(uri.substr(0, 40))),
              "use data:application/octet-stream;base64,");
     }
   } else {

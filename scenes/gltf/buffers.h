@@ -1,4 +1,4 @@
-// The bytes of the buffers, read when first asked for and only from the scene file's own folder.
+// Reads the bytes of the buffers, when they are first needed and only from the scene file's own folder.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -14,9 +14,10 @@ class Buffers {
  public:
   explicit Buffers(const Document& document) : document_(document), loaded_(document.guarded.buffers.size()) {}
 
-  // Exactly byte_length bytes. Throws Error(scene): outside the folder, not a regular file, too short, not base64.
+  // Returns exactly byte_length bytes. Throws Error(scene) for a file outside the folder, a file that is not regular, a
+  // file that is too short, and data that are not base64.
   std::span<const uint8_t> bytes(size_t buffer);
-  // Of a view, decompressed where it is compressed (meshopt.h).
+  // The bytes of a view, decompressed if it is compressed (meshopt.h).
   std::span<const uint8_t> view(int view);
 
  private:

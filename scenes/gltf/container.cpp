@@ -89,7 +89,7 @@ std::vector<uint8_t> read_bytes(const std::filesystem::path& path, uint64_t want
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) refuse(file, place, "there is no such file", "check its name and folder");
-  // A directory, a pipe or a device would fail late, block, or never end.
+  // A directory would fail late, a pipe would block, and a device may never end.
   if (!std::filesystem::is_regular_file(status))
     refuse(file, place, shown.empty() ? "not a regular file" : fmt::format("'{}' is not a regular file", shown),
            "name a file");

@@ -1,4 +1,4 @@
-// The bytes of a scene file taken apart: the JSON text and, of a .glb, its binary chunk (glTF 2.0, section 4.4).
+// Splits the bytes of a scene file: the JSON text and, for a .glb, its binary chunk (glTF 2.0, section 4.4).
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -8,10 +8,10 @@
 
 namespace noonmark::gltf {
 
-// Larger files and sums of buffers are refused before they are read: what a .glb can hold at most (its lengths have 32
-// bits).
+// Larger files and larger sums of buffers are refused before they are read. A .glb cannot hold more, because its
+// lengths have 32 bits.
 inline constexpr uint64_t max_file_bytes = 0xffffffffu;
-// While JSON is parsed it takes up to 16 times its size in memory. Embedded buffers are part of the JSON.
+// JSON takes up to 16 times its size in memory while it is parsed. Embedded buffers are part of the JSON.
 inline constexpr uint64_t max_json_bytes = uint64_t{256} << 20;
 // Largest nesting of brackets. glTF needs about ten levels; recursive libraries run out of stack at about ten thousand.
 inline constexpr int max_json_depth = 256;
@@ -22,12 +22,12 @@ struct Container {
   bool has_bin = false;
 };
 
-// Throws Error(scene) for a file that is not regular or too large, and for a malformed .glb. Of the JSON only the
-// nesting is checked, against max_json_depth.
+// Throws Error(scene) for a file that is not regular or too large, and for a malformed .glb. In the JSON it checks only
+// the nesting, against max_json_depth.
 Container read_container(const std::string& file);
 
-// The first `wanted` bytes of a regular file (all of it when wanted is 0). file, place and shown (what the scene calls
-// it) are for the message.
+// The first `wanted` bytes of a regular file, or all of it if wanted is 0. file, place and shown (the scene's name for
+// the file) are used in the message.
 std::vector<uint8_t> read_bytes(const std::filesystem::path& path, uint64_t wanted, std::string_view file,
                                 std::string_view place, std::string_view shown = "");
 

@@ -9,7 +9,8 @@
 namespace noonmark::gltf {
 namespace {
 
-// tinygltf has nothing to read: the guard leaves it neither buffers nor images. Should it try, it finds nothing.
+// tinygltf does not need to read files, because the guard leaves it neither buffers nor images. If it tries, it finds
+// none.
 tinygltf::FsCallbacks no_files() {
   tinygltf::FsCallbacks fs{};
   fs.FileExists = [](const std::string&, void*) { return false; };

@@ -18,8 +18,8 @@ namespace {
 constexpr const char* extension = "KHR_draco_mesh_compression";
 constexpr std::string_view remedy = "export the file again, or without the compression";
 
-// The number of triangles that the head of the data promises (Draco's bitstream 2.2, the one that glTF names); nothing
-// where it is malformed. Asked before decoding: the decoder makes room for that many.
+// The number of triangles that the head of the data gives (Draco's bitstream 2.2, the version that glTF names). No
+// value if it is malformed. It is read before decoding, because the decoder allocates memory for that many.
 std::optional<uint64_t> promised_triangles(std::span<const uint8_t> data) {
   draco::DecoderBuffer in;
   in.Init(reinterpret_cast<const char*>(data.data()), data.size());
@@ -72,7 +72,7 @@ bool pack(const draco::PointAttribute& from, uint32_t points, int component_type
   }
 }
 
-// The data may be damaged and still decode. min and max are those of the values before or after they were quantized.
+// Damaged data can be decoded too. min and max are those of the values before or after quantization.
 std::string note_of_bounds(const Document& document, int accessor, std::span<const uint8_t> packed,
                            const std::string& place) {
   const tinygltf::Accessor& a = document.model.accessors[static_cast<size_t>(accessor)];
@@ -91,12 +91,12 @@ std::string note_of_bounds(const Document& document, int accessor, std::span<con
     extent = std::max(extent, high[axis] - low[axis]);
     off = std::max({off, std::abs(least[k] - low[axis]), std::abs(most[k] - high[axis])});
   }
-  // One step of 8 bits over the longest axis; exporters use 10 to 16. The other term: rounding to float.
+  // One step of 8 bits over the longest axis; exporters use 10 to 16 bits. The second term is the rounding to float.
   const double step = extent / 255 + 0x1p-22 * std::max(glm::length(least), glm::length(most));
   if (off <= step) return "";
   return fmt::format(
       "{}: the data reach {:.3g} beyond or short of the min and max of accessors[{}], more than "
-      "quantization does: drawn as decoded, they may be damaged",
+      "quantization can cause; they are drawn as decoded and may be damaged",
       place, off, accessor);
 }
 
@@ -118,7 +118,7 @@ DracoMesh decode_draco(const Document& document, Buffers& buffers, int mesh, siz
     fail(fmt::format("bufferView {} is beyond the {} bufferViews", view, model.bufferViews.size()));
   const std::span<const uint8_t> data = buffers.view(view);
   const std::optional<uint64_t> promised = promised_triangles(data);
-  if (!promised) fail(fmt::format("bufferViews[{}] holds no mesh of Draco's version 2.2", view));
+  if (!promised) fail(fmt::format("bufferViews[{}] does not hold a mesh of Draco's version 2.2", view));
   if (*promised > max_triangles)
     fail(fmt::format("{} triangles are more than the {} allowed", *promised, max_triangles));
   const int indices = indices_of(primitive);
@@ -137,7 +137,7 @@ DracoMesh decode_draco(const Document& document, Buffers& buffers, int mesh, siz
   DracoMesh out;
   for (draco::FaceIndex f(0); f < made.num_faces(); ++f) {
     for (size_t k = 0; k < 3; ++k) {
-      // The decoder does not look: damaged data make it count beyond its own points.
+      // The decoder does not check this: in damaged data a corner can be beyond the points.
       const uint32_t corner = made.face(f)[k].value();
       if (corner >= made.num_points()) fail(fmt::format("corner {} of {} points", corner, made.num_points()));
       out.corners.push_back(corner);
@@ -162,7 +162,7 @@ DracoMesh decode_draco(const Document& document, Buffers& buffers, int mesh, siz
       fail(fmt::format("{} cannot be converted to the type of accessors[{}]", name, accessor_index));
   }
   const int positions = primitive.attributes.at("POSITION");
-  if (!out.elements.contains(positions)) fail("POSITION is not among what is compressed");
+  if (!out.elements.contains(positions)) fail("POSITION is not among the compressed attributes");
   out.note = note_of_bounds(document, positions, out.elements.at(positions), place);
   return out;
 }

@@ -1,4 +1,4 @@
-// Primitives compressed with Draco: KHR_draco_mesh_compression.
+// Decodes primitives that are compressed with Draco: KHR_draco_mesh_compression.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -9,14 +9,14 @@
 namespace noonmark::gltf {
 
 struct DracoMesh {
-  std::vector<uint32_t> corners;                 // three to a triangle, whatever the primitive's mode
-  std::map<int, std::vector<uint8_t>> elements;  // of the accessors that stand for compressed attributes, packed
-  std::string note;  // that the positions are not where their accessor's min and max say; else empty
+  std::vector<uint32_t> corners;                 // three for each triangle in any mode of the primitive
+  std::map<int, std::vector<uint8_t>> elements;  // of the accessors of compressed attributes, packed
+  std::string note;                              // set if the positions are not within their accessor's min and max
 };
 
 bool is_draco(const tinygltf::Primitive& primitive);
 
-// Throws Error(scene) where the data cannot be decoded, hold more than max_triangles, or do not match the primitive's
+// Throws Error(scene) if the data cannot be decoded, have more than max_triangles, or do not match the primitive's
 // accessors.
 DracoMesh decode_draco(const Document& document, Buffers& buffers, int mesh, size_t primitive);
 

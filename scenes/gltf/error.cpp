@@ -14,7 +14,7 @@ void refuse(std::string_view file, std::string_view place, std::string_view what
 std::string printable(std::string_view text) {
   constexpr size_t longest = 80;
   std::string_view shown = text.substr(0, longest);
-  // Not within a character.
+  // Does not cut within a character.
   while (shown.size() < text.size() && !shown.empty() && (text[shown.size()] & 0xc0) == 0x80) shown.remove_suffix(1);
   return noonmark::printable(shown) + (shown.size() < text.size() ? "..." : "");
 }

@@ -17,8 +17,8 @@ constexpr std::string_view read_extensions[] = {
     "KHR_lights_punctual",     "KHR_mesh_quantization",   "KHR_meshopt_compression", "KHR_node_visibility",
 };
 
-// The others of the Khronos registry, ratified, of vendors and archived, that change shading, textures, sound, physics
-// or metadata only: shadows are right without them. Of MSFT_lod the finest level is what the node itself shows.
+// The other extensions of the Khronos registry (ratified, of vendors, archived) that change only shading, textures,
+// sound, physics or metadata. Shadows are right without them. With MSFT_lod the node itself shows the finest level.
 constexpr std::string_view harmless_extensions[] = {
     "ADOBE_materials_clearcoat_specular",
     "ADOBE_materials_clearcoat_tint",
@@ -62,7 +62,7 @@ constexpr std::string_view harmless_extensions[] = {
 
 bool known(std::string_view name) {
   const auto in = [&](const auto& list) { return std::find(std::begin(list), std::end(list), name) != std::end(list); };
-  // Extensions of materials say so in their names, also those that are still to come.
+  // Names of extensions of materials begin like this, also those of future extensions.
   return in(read_extensions) || in(harmless_extensions) || name.starts_with("KHR_materials_") ||
          name.starts_with("EXT_materials_");
 }
@@ -81,7 +81,7 @@ void check_extensions(const std::string& file, const json& document, std::vector
     const std::string name = needed[i].get<std::string>();
     if (known(name)) continue;
     refuse(file, fmt::format("extensionsRequired[{}]", i),
-           fmt::format("'{}' is not supported, and without it the file may show something else", printable(name)),
+           fmt::format("'{}' is not supported, and without it the scene may look different", printable(name)),
            "export without it");
   }
   std::set<std::string> unknown;

@@ -1,4 +1,4 @@
-// Which of glTF's extensions are read, which leave the geometry alone, and which stop the loading.
+// Decides which of glTF's extensions are read, which have no effect on the geometry, and which stop the loading.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -7,9 +7,8 @@
 
 namespace noonmark::gltf {
 
-// document: as guard.cpp has reduced it. Throws Error(scene) naming the first required extension that may change
-// what is drawn and is not read. Extensions that the file uses, can do without and that nobody here knows go into
-// notes.
+// document: the reduced one from guard.cpp. Throws Error(scene) that names the first required extension that may change
+// what is drawn and is not read. notes: gets the unknown extensions that the file uses but does not require.
 void check_extensions(const std::string& file, const nlohmann::json& document, std::vector<std::string>& notes);
 
 bool uses_extension(const nlohmann::json& document, std::string_view name);

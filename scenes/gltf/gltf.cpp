@@ -1,6 +1,5 @@
-// load_gltf (scenes/library.h): container -> guard -> tinygltf -> structure -> pose -> nodes -> geometry -> camera and
-// light.
-// Each step is a file of its own, scenes/gltf/*.h, whose head says what it refuses.
+// load_gltf (scenes/library.h) joins the steps: container -> guard -> tinygltf -> structure -> pose -> nodes ->
+// geometry -> camera and light. Each step has its own file in scenes/gltf/, whose head says what it refuses.
 #include <filesystem>
 #include <new>
 #include <optional>

@@ -19,8 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-// references: an object of indices by name, of which those of read_attribute() are kept; reference_lists: an array of
-// such.
+// references: an object with indices by name, of which the ones in read_attribute() are kept. reference_lists: an array
+// of such objects.
 enum class Kind { integer, integers, number, numbers, flag, text, texts, object, objects, references, reference_lists };
 
 constexpr uint64_t max_index = 0x7fffffff;        // tinygltf keeps these in an int
@@ -32,11 +32,11 @@ struct Field {
   std::string_view name;
   Kind kind;
   bool is_required = false;
-  uint64_t limit = max_index;       // integer(s): the largest; numbers: how many, any_count: as many as there are
-  std::span<const Field> fields{};  // object(s): what is read of it
+  uint64_t limit = max_index;       // integer(s): the largest; numbers: how many, any_count: any number
+  std::span<const Field> fields{};  // object(s): the properties that are read
 };
 
-// The properties that are read, from the leaves up (glTF 2.0, section 5).
+// The properties that are read, from the innermost objects outwards (glTF 2.0, section 5).
 constexpr Field sparse_indices[] = {
     {"bufferView", Kind::integer, required}, {"byteOffset", Kind::integer}, {"componentType", Kind::integer, required}};
 constexpr Field sparse_values[] = {{"bufferView", Kind::integer, required}, {"byteOffset", Kind::integer}};
@@ -50,7 +50,7 @@ constexpr Field accessor[] = {{"bufferView", Kind::integer},
                               {"count", Kind::integer, required, max_size},
                               {"type", Kind::text, required},
                               {"sparse", Kind::object, false, 0, sparse}};
-// EXT_meshopt_compression, KHR_meshopt_compression. tinygltf keeps all numbers of an extension in an int.
+// EXT_meshopt_compression, KHR_meshopt_compression. tinygltf stores all numbers of an extension in an int.
 constexpr Field meshopt[] = {{"buffer", Kind::integer, required},
                              {"byteOffset", Kind::integer},
                              {"byteLength", Kind::integer, required},
@@ -120,7 +120,7 @@ constexpr Field light[] = {
     {"name", Kind::text}, {"type", Kind::text, required}, {"spot", Kind::object, false, 0, spot}};
 constexpr Field root_lights[] = {{"lights", Kind::objects, required, 0, light}};
 constexpr Field root_extensions[] = {{"KHR_lights_punctual", Kind::object, false, 0, root_lights}};
-// Read when a pose is asked for, of one animation: files whose animations are broken stand still all the same.
+// Read only for the animation that poses the scene. So a file with broken animations can still be loaded at rest.
 constexpr Field pointer[] = {{"pointer", Kind::text, required}};
 constexpr Field target_extensions[] = {{"KHR_animation_pointer", Kind::object, false, 0, pointer}};
 constexpr Field channel_target[] = {
@@ -234,7 +234,7 @@ class Reducer {
     return to;
   }
 
-  // JSON has one kind of number: 3.0 is an integer too.
+  // JSON has one kind of number, so 3.0 is an integer too.
   json integer(const json& from, uint64_t limit, const std::string& place) const {
     const std::string expected = fmt::format("an integer from 0 to {}", limit);
     if (from.is_number_unsigned()) {
@@ -255,7 +255,7 @@ class Reducer {
   const std::string& file_;
 };
 
-// "2.1" -> {2, 1}. Anything but digits, a point and digits: nothing.
+// "2.1" -> {2, 1}. No value unless the text is digits, a point and digits.
 std::optional<std::pair<int, int>> version_of(const std::string& text) {
   int major = -1, minor = -1, used = 0;
   if (text.size() > 8 || std::sscanf(text.c_str(), "%d.%d%n", &major, &minor, &used) != 2) return std::nullopt;
@@ -263,7 +263,7 @@ std::optional<std::pair<int, int>> version_of(const std::string& text) {
   return std::pair(major, minor);
 }
 
-// glTF 2.0, section 3.2: minVersion, where it is given, is what a reader must support; else the major version is.
+// glTF 2.0, section 3.2: a reader must support minVersion if it is given, otherwise the major version.
 void check_version(const std::string& file, const json& document) {
   const json& found = document["asset"];
   const std::string text = found["version"].get<std::string>();
@@ -286,8 +286,8 @@ void check_version(const std::string& file, const json& document) {
   }
 }
 
-// The min and max of an accessor with three components. None if they are missing or not three numbers: that is no
-// error here, because only a note depends on them.
+// The min and max of an accessor with three components. No value if they are missing or are not three numbers. That is
+// not an error here, because only a note depends on them.
 std::optional<DeclaredBounds> declared_bounds(const json& from) {
   DeclaredBounds out;
   for (auto [name, to] : {std::pair("min", &out.min), std::pair("max", &out.max)}) {
@@ -301,15 +301,16 @@ std::optional<DeclaredBounds> declared_bounds(const json& from) {
   return out;
 }
 
-// The animation that is asked for; null where the document stands at rest.
+// The requested animation. Null if the scene is at rest.
 json chosen_animation(const std::string& file, const json& whole, std::optional<size_t> index) {
   if (!index) return nullptr;
   const auto found = whole.find("animations");
   const size_t count = found != whole.end() && found->is_array() ? found->size() : 0;
   if (*index >= count) {
-    refuse(file, "animations",
-           count == 0 ? "there are none" : fmt::format("there are {}, from 0, and {} is asked for", count, *index),
-           count == 0 ? "leave scene.time_s at auto" : "choose another scene.animation");
+    refuse(
+        file, "animations",
+        count == 0 ? "there are none" : fmt::format("there are {}, counted from 0, and {} is requested", count, *index),
+        count == 0 ? "leave scene.time_s at auto" : "choose another scene.animation");
   }
   return Reducer(file).object((*found)[*index], animation, fmt::format("animations[{}]", *index));
 }
@@ -320,7 +321,7 @@ GuardedDocument guard(const std::string& file, const std::string& text, std::opt
   const json whole = parse_json(file, text);
   GuardedDocument out;
   if (!whole.is_object()) refuse(file, "JSON", "not an object", "is this a glTF file?");
-  // Before the rest: a file of glTF 1.0 would fail on its first property and not say why.
+  // Checked first, because a file of glTF 1.0 would otherwise fail on its first property, without the reason.
   for (const char* list : {"scenes", "nodes", "meshes", "accessors"}) {
     if (whole.contains(list) && whole[list].is_object())
       refuse(file, list, "named objects where glTF 2.0 has an array: this is glTF 1.0", "export it as glTF 2.0");

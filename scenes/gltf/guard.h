@@ -14,11 +14,11 @@
 namespace noonmark::gltf {
 
 struct BufferInfo {
-  std::optional<std::string> uri;  // none: the binary chunk of the .glb
+  std::optional<std::string> uri;  // without a value: the binary chunk of the .glb
   uint64_t byte_length = 0;
 };
 
-// min and max of an accessor of three components.
+// min and max of an accessor with three components.
 struct DeclaredBounds {
   std::array<double, 3> min{}, max{};
 };
@@ -27,17 +27,17 @@ struct GuardedDocument {
   nlohmann::json json;  // without `buffers`
   std::vector<BufferInfo> buffers;
   bool quantized = false;    // KHR_mesh_quantization is in use: positions may be integers
-  nlohmann::json animation;  // the one that poses the scene; null: at rest
-  size_t animations = 0;     // how many the file has
-  // Objects of a type that glTF does not know, by index: nothing that is drawn may use them. To tinygltf they look like
-  // another type.
+  nlohmann::json animation;  // the animation that poses the scene; null: the scene is at rest
+  size_t animations = 0;     // the number of animations in the file
+  // Objects of a type that glTF does not define, by index. Nothing that is drawn may use them. In tinygltf's model they
+  // have another type.
   std::map<size_t, std::string> unknown_accessors, unknown_cameras;
   std::map<size_t, DeclaredBounds> declared_bounds;  // by accessor
-  std::vector<std::string> notes;                    // of extensions in use that are not read
+  std::vector<std::string> notes;                    // on used extensions that are not read
 };
 
-// animation: the index of the one that poses the scene. Throws Error(scene) naming the first place that is malformed,
-// of another version, or needs an unsupported extension, and where there is no such animation.
+// animation: the index of the animation that poses the scene. Throws Error(scene) that names the first place that is
+// malformed, has another version, or needs an unsupported extension. It also throws if there is no such animation.
 GuardedDocument guard(const std::string& file, const std::string& json, std::optional<size_t> animation);
 
 }  // namespace noonmark::gltf

@@ -14,7 +14,7 @@ constexpr std::string_view remedy = "export the file again, or without instances
 
 std::string place_of(size_t node) { return fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", node); }
 
-// The accessor of that name, or -1.
+// The accessor of the attribute with that name, or -1.
 int attribute(const Document& document, size_t node, const char* name) {
   const tinygltf::ExtensionMap& extensions = document.model.nodes[node].extensions;
   const auto found = extensions.find("EXT_mesh_gpu_instancing");
@@ -62,7 +62,7 @@ glm::dmat4 Instances::node_from_mesh(size_t i) const {
   glm::dmat3 axes(1);
   if (rotation_ != nullptr) {
     const glm::dquat q(rotation_->value(i, 3), rotation_->value(i, 0), rotation_->value(i, 1), rotation_->value(i, 2));
-    // 8 bits leave a quaternion's length within 1% of 1.
+    // With 8 bits a quaternion's length is within 1% of 1.
     constexpr double tolerance = 0.02;
     if (!(std::abs(glm::length(q) - 1) < tolerance))
       refuse(document_.file, place_of(node_) + ".attributes.ROTATION",

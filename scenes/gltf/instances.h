@@ -8,16 +8,16 @@
 
 namespace noonmark::gltf {
 
-// How many there are of a node's mesh: 1 without the extension, and where it has no attributes. Throws Error(scene)
-// where its attributes are of the wrong types or of different lengths.
+// The number of instances of a node's mesh. It is 1 without the extension, and if the extension has no attributes.
+// Throws Error(scene) if its attributes have wrong types or different lengths.
 uint64_t instance_count(const Document& document, size_t node);
 
-// Where the instances of a node stand. node_from_mesh(i) takes the mesh into the space of its node, for the instance
-// i = 0 ... instance_count() - 1.
+// The places of a node's instances. node_from_mesh(i) maps the mesh into the space of its node for instance i = 0 ...
+// instance_count() - 1.
 class Instances {
  public:
   Instances(const Document& document, Readers& readers, size_t node);
-  // Throws Error(scene): a rotation of no length.
+  // Throws Error(scene) for a rotation of length 0.
   glm::dmat4 node_from_mesh(size_t i) const;
 
  private:

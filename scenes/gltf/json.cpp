@@ -16,7 +16,7 @@ using nlohmann::json;
 
 constexpr std::string_view remedy = "export the file again, or correct it";
 
-// What the first bytes say, before a parser complains of them.
+// Checks the first bytes for another encoding, because the parser's message would not name the encoding.
 void check_encoding(const std::string& file, std::string_view text) {
   if (std::all_of(text.begin(), text.end(), [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }))
     refuse(file, "JSON", "there is none: the file is empty", remedy);
@@ -54,7 +54,7 @@ Fault fault_of(std::string_view text) {
   return fault;
 }
 
-// Watches the keys of the objects that are open while the parser goes through the text.
+// Checks the keys of the open objects while the parser reads the text.
 class Keys {
  public:
   explicit Keys(const std::string& file) : file_(file) {}
@@ -75,7 +75,7 @@ class Keys {
 
  private:
   struct Object {
-    bool free;  // in extras, where anything goes
+    bool free;  // in extras, where any keys are allowed
     std::set<std::string> keys;
     std::string last;
   };

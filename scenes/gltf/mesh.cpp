@@ -27,12 +27,12 @@ struct Drawable {
   int indices = -1;
   int mode = TINYGLTF_MODE_TRIANGLES;
   bool draco = false;
-  uint64_t corners = 0;  // of a Draco mesh without an accessor for its indices they are known when it is decoded
+  uint64_t corners = 0;  // for a Draco mesh without an accessor for its indices, known after it is decoded
   uint64_t triangles = 0;
   bool single_sided = true;
 };
 
-// Of a primitive without a material: the default one (glTF 2.0, section 3.9.6).
+// A primitive without a material has the default one (glTF 2.0, section 3.9.6).
 const tinygltf::Material& material_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
   static const tinygltf::Material by_default;
   return primitive.material == -1 ? by_default : model.materials[static_cast<size_t>(primitive.material)];
@@ -45,7 +45,7 @@ bool masked_out(const tinygltf::Material& material) {
 }
 
 uint64_t triangles_of(int mode, uint64_t corners) {
-  // What is left over of an incomplete triangle is ignored (glTF 2.0, section 3.7.2.1).
+  // The rest of an incomplete triangle is ignored (glTF 2.0, section 3.7.2.1).
   return corners < 3 ? 0 : mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners - 2;
 }
 
@@ -67,7 +67,7 @@ std::vector<Drawable> drawables(const tinygltf::Model& model, const tinygltf::Me
   return out;
 }
 
-// The corners of triangle t of a primitive, as places in its list of vertices (glTF 2.0, section 3.7.2.1).
+// The corners of triangle t of a primitive, as indices into its list of vertices (glTF 2.0, section 3.7.2.1).
 glm::uvec3 corners_of(int mode, uint32_t t) {
   if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) return {t, t + 1 + t % 2, t + 2 - t % 2};
   if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return {t + 1, t + 2, 0};
@@ -78,8 +78,8 @@ bool degenerate(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   return glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)) == glm::dvec3(0);
 }
 
-// Of a flattened mesh: whether rounding the corners to float can have made all of its width. Each corner may be off by
-// sqrt(3) / 2 of a float step of the largest coordinate, and two of them, on opposite sides, make the width.
+// Whether the whole width of a triangle of a flattened mesh can come from rounding its corners to float. Each corner
+// may be off by sqrt(3) / 2 of a float step of the largest coordinate. Two corners, on opposite sides, make the width.
 bool as_thin_as_rounding(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   const glm::dvec3 ab = glm::dvec3(b) - glm::dvec3(a), ac = glm::dvec3(c) - glm::dvec3(a), bc = ac - ab;
   const double longest = std::max({glm::length(ab), glm::length(ac), glm::length(bc)});
@@ -89,8 +89,8 @@ bool as_thin_as_rounding(const glm::vec3& a, const glm::vec3& b, const glm::vec3
   return glm::length(glm::cross(ab, ac)) <= 4 * 0x1p-24 * largest * longest;
 }
 
-// Where the file's vertices went in the scene. The range of indices that a primitive uses is often a small part of its
-// accessor; where it is far larger than their number, a list of the used ones takes less memory.
+// Maps the file's vertices to the scene's. A primitive often uses a small range of its accessor's indices. If the range
+// is far larger than the number of vertices used, a list of the used ones takes less memory.
 class VertexMap {
  public:
   explicit VertexMap(const std::vector<uint32_t>& used) {
@@ -118,8 +118,8 @@ class VertexMap {
   std::vector<uint32_t> places_;
 };
 
-// What a primitive is made of: its vertices in drawing order and the readers of its attributes, which are packed in
-// `draco` where they were compressed.
+// The data of a primitive: its vertices in drawing order, and the readers of its attributes. Attributes that were
+// compressed are packed in `draco`.
 struct Source {
   DracoMesh draco;
   std::map<int, AccessorReader> unpacked;
@@ -151,7 +151,7 @@ class Appender {
     Part part;
     part.first_triangle = static_cast<uint32_t>(scene_.triangles.size());
     const uint64_t instances = instance_count(d_, placed.node);
-    // Of a Draco mesh without an accessor for its indices, append_geometry could not count the triangles.
+    // append_geometry could not count the triangles of a Draco mesh without an accessor for its indices.
     if (scene_.triangles.size() + instances * (source.vertices.size() / 3) > max_triangles)
       refuse(d_.file, fmt::format("nodes[{}].mesh", placed.node),
              fmt::format("the scene has more than the {} triangles allowed", max_triangles), "simplify it or split it");
@@ -161,7 +161,8 @@ class Appender {
       count_reads(placed, source, 1 + positions.targets() + 2 * skin.sets());
       if (instances != 1 || d_.model.nodes[placed.node].extensions.contains("EXT_mesh_gpu_instancing"))
         refuse(d_.file, fmt::format("nodes[{}]", placed.node),
-               "instances of a mesh under a skin: glTF does not say where", "export without EXT_mesh_gpu_instancing");
+               "instances of a mesh under a skin: glTF does not define their places",
+               "export without EXT_mesh_gpu_instancing");
       append_triangles(placed, drawable, source, positions, false, [&](uint32_t v) { return skin.world_from_mesh(v); });
     } else {
       count_reads(placed, source, instances * (1 + positions.targets()));
@@ -181,7 +182,8 @@ class Appender {
   uint64_t degenerate_triangles() const { return degenerate_; }
 
  private:
-  // Morph targets and sets of joints multiply what is read for each vertex; a small file can ask for hours of it.
+  // Limits the number of values that are read. Morph targets and sets of joints multiply it for each vertex, so a small
+  // file could take hours.
   void count_reads(const PlacedNode& placed, const Source& source, uint64_t each) {
     constexpr uint64_t max_reads = uint64_t{1} << 31;
     reads_ += each > max_reads ? max_reads + 1 : each * source.vertices.size();
@@ -191,8 +193,8 @@ class Appender {
              "simplify it or split it");
   }
 
-  // world_from_mesh(v): of vertex v. flat: it has no inside and no outside; its triangles keep the order of their
-  // corners.
+  // world_from_mesh(v): the transform of vertex v. flat: the mesh has no inside and no outside, so its triangles keep
+  // the order of their corners.
   template <class WorldFromMesh>
   void append_triangles(const PlacedNode& placed, const Drawable& drawable, const Source& source,
                         const MorphedPositions& positions, bool flat, const WorldFromMesh& world_from_mesh) {
@@ -203,7 +205,7 @@ class Appender {
     for (uint32_t t = 0; t < count; ++t) {
       glm::uvec3 triangle = corners_of(mode, t);
       glm::vec3 corner[3];
-      double orientation = 0;  // below 0: mirrored, at most corners; joints may differ
+      double orientation = 0;  // below 0: mirrored at most corners; the joints may differ
       for (int k = 0; k < 3; ++k) {
         triangle[k] = vertices[triangle[k]];
         const glm::dmat4 world = world_from_mesh(triangle[k]);
@@ -231,7 +233,7 @@ class Appender {
     }
   }
 
-  // Decoded once, however many nodes show it.
+  // Decoded once, even if several nodes show it.
   const Source& decoded(int mesh, const Drawable& drawable) {
     const auto [found, fresh] = decoded_.try_emplace({mesh, drawable.primitive});
     Source& source = found->second;
@@ -244,7 +246,7 @@ class Appender {
     return source;
   }
 
-  // The vertices in drawing order, each below count.
+  // The vertices in drawing order, with each index below count.
   std::vector<uint32_t> vertex_list(int mesh, const Drawable& drawable, size_t count) {
     std::vector<uint32_t> list(drawable.corners);
     if (drawable.indices == -1) {
@@ -257,7 +259,7 @@ class Appender {
       if (list[i] < count && list[i] != indices.restart_index()) continue;
       refuse(d_.file, fmt::format("accessors[{}]", drawable.indices),
              fmt::format("element {} is {}, {} (meshes[{}].primitives[{}])", i, list[i],
-                         list[i] < count ? "which means restart and not a vertex"
+                         list[i] < count ? "which means restart and is not a vertex"
                                          : fmt::format("beyond the {} vertices", count),
                          mesh, drawable.primitive),
              "export the file again");
@@ -275,7 +277,7 @@ class Appender {
       if (!finite)
         refuse(d_.file, place, fmt::format("vertex {} is not finite", vertex), "repair the mesh and export again");
       refuse(d_.file, place,
-             fmt::format("vertex {} is {} m from the origin as nodes[{}] places it; at most {} m is allowed", vertex,
+             fmt::format("vertex {} is {} m from the origin in nodes[{}]; at most {} m is allowed", vertex,
                          std::abs(world[axis]), placed.node, max_coordinate_m),
              "scale the scene to metres");
     }
@@ -293,20 +295,21 @@ class Appender {
 
   const Document& d_;
   Buffers& buffers_;
-  Readers readers_;  // by accessor: instances share them
+  Readers readers_;  // by accessor, because instances share them
   Skins skins_;
   Scene& scene_;
-  std::map<std::pair<int, size_t>, Source> decoded_;  // Draco's, by mesh and primitive
+  std::map<std::pair<int, size_t>, Source> decoded_;  // Draco meshes, by mesh and primitive
   uint64_t reads_ = 0, degenerate_ = 0;
 };
 
-// Whether the node's mesh is seen. A skin goes by its joints: its own node may be scaled to nothing.
+// Whether the node's mesh is visible. A mesh with a skin depends on its joints only, so its own node may be scaled to
+// zero.
 bool draws(const tinygltf::Node& node, const PlacedNode& placed) {
   return node.mesh != -1 && placed.visible && (!placed.collapsed || node.skin != -1);
 }
 
-// How much the scene asks for, by its lists alone: no buffer is read. A Draco mesh whose indices have no accessor
-// counts as nothing until it is decoded.
+// The number of triangles and vertices, counted from the lists alone. No buffer is read. A Draco mesh whose indices
+// have no accessor counts as 0 until it is decoded.
 SceneSize count_geometry(const Document& document, const Placement& placement) {
   const tinygltf::Model& model = document.model;
   std::map<int, std::vector<Drawable>> meshes;
@@ -318,7 +321,7 @@ SceneSize count_geometry(const Document& document, const Placement& placement) {
     if (fresh) mesh->second = drawables(model, model.meshes[static_cast<size_t>(node.mesh)]);
     const uint64_t instances = instance_count(document, placed.node);
     for (const Drawable& drawable : mesh->second) {
-      // Each count is below 2^53 and the sum at most 2^26 before one is added: no overflow.
+      // Each count is below 2^53, and the sum is at most 2^26 before one is added, so there is no overflow.
       const bool too_many = drawable.triangles > max_triangles || instances > max_triangles;
       count.triangles += too_many ? max_triangles + 1 : drawable.triangles * instances;
       count.vertices +=
@@ -337,7 +340,7 @@ SceneSize count_geometry(const Document& document, const Placement& placement) {
 }  // namespace
 
 uint64_t append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene) {
-  // Counted before anything is made: instances turn a small file into a large scene.
+  // Counted before anything is allocated, because instances can turn a small file into a large scene.
   const SceneSize count = count_geometry(document, placement);
   const double needed = scene_bytes(count);
   if (const AvailableMemory available = available_memory(); needed > static_cast<double>(available.bytes)) {
@@ -356,7 +359,7 @@ uint64_t append_geometry(const Document& document, Buffers& buffers, const Place
     for (const Drawable& drawable : meshes[static_cast<size_t>(node.mesh)]) appender.append(placed, drawable);
   }
   const uint64_t dropped = appender.degenerate_triangles();
-  if (dropped > 0) scene.notes.push_back(counted(dropped, "triangle") + " without an area: left out, and not numbered");
+  if (dropped > 0) scene.notes.push_back(counted(dropped, "triangle") + " without an area left out and not numbered");
   return dropped;
 }
 

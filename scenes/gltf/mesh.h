@@ -1,4 +1,4 @@
-// The triangles of the placed nodes, in world space.
+// Makes the triangles of the placed nodes, in world space.
 #pragma once
 #include <vector>
 
@@ -8,16 +8,16 @@
 
 namespace noonmark::gltf {
 
-// Appends positions, triangles and parts. What is drawn:
-// - triangles, strips and fans; points and lines have no area to cast a shadow and are left out;
-// - positions with their morph targets (morph.h), where the node's place or its skin's joints put them
-//   (skin.h), once for each instance of the node (instances.h), out of Draco's data where there are any
-//   (draco.h);
-// - not a primitive whose material masks it wholly (MASK, no base colour texture, alpha below the cutoff). A masking
-//   texture is not read, so such a primitive is drawn whole;
-// - only the vertices that some triangle uses;
-// - no degenerate triangle: two equal corners, or corners in a line as far as double arithmetic tells. It has no normal
-//   and hides nothing. Scene::notes says how many: triangles are numbered without them.
+// Appends positions, triangles and parts. It draws:
+// - triangles, strips and fans. Points and lines are left out, because they have no area that casts a shadow;
+// - positions with their morph targets (morph.h), moved by the node's transform or by its skin's joints (skin.h), once
+//   for each instance of the node (instances.h), read from Draco's data if there are any (draco.h);
+// - no primitive that its material masks completely (MASK, no base colour texture, alpha below the cutoff). A masking
+//   texture is not read, so a primitive with one is drawn completely;
+// - only the vertices that a triangle uses;
+// - no degenerate triangle: two equal corners, or corners in a line within double arithmetic. Such a triangle has no
+//   normal and hides nothing. Scene::notes says how many there are, because triangles are numbered without them.
+//
 // A transform that mirrors reverses the winding, so that outsides stay outsides. A transform that flattens keeps the
 // order of the corners, and keeps only the triangles that still have an area. Triangles whose material is not
 // doubleSided are marked in scene.single_sided. Throws Error(scene) for indices that are out of range or mean restart;

@@ -28,8 +28,9 @@ bool layout_is_right(const MeshoptView& v) {
   return (v.stride == 2 || v.stride == 4) && v.filter == "NONE";
 }
 
-// The shortest data that the codecs take for an element: 4 bytes for a block of 256 rows at most and a byte of a row; 1
-// for a triangle; 1 for an index. What promises more from its data is refused before room is made for it.
+// The shortest data of the codecs per element: 4 bytes for a block of at most 256 rows and a byte of a row; 1 byte for
+// a triangle; 1 byte for an index. A view that has more elements than its data can hold is refused before memory is
+// allocated for it.
 constexpr size_t largest_ratio = 64;
 
 }  // namespace
@@ -57,14 +58,14 @@ std::optional<MeshoptView> meshopt_view(const Document& document, int view) {
       fail(fmt::format("ends at byte {} of buffers[{}], which has {}", out.offset + out.length, out.buffer,
                        buffers[out.buffer].byte_length));
     if (!layout_is_right(out))
-      fail(fmt::format("mode '{}', filter '{}' and byteStride {} do not go together", printable(out.mode),
+      fail(fmt::format("mode '{}', filter '{}' and byteStride {} cannot be combined", printable(out.mode),
                        printable(out.filter), out.stride));
     if (out.mode == "TRIANGLES" && out.count % 3 != 0)
-      fail(fmt::format("count {} is not a multiple of 3, which mode TRIANGLES asks for", out.count));
+      fail(fmt::format("count {} is not a multiple of 3, as mode TRIANGLES requires", out.count));
     if (out.count > parent.byteLength || out.count * out.stride != parent.byteLength)
       fail(fmt::format("{} elements of {} bytes do not fill the view's {}", out.count, out.stride, parent.byteLength));
     if (parent.byteLength / largest_ratio > out.length)
-      fail(fmt::format("{} bytes cannot come out of {}", parent.byteLength, out.length));
+      fail(fmt::format("{} bytes cannot be decoded from {}", parent.byteLength, out.length));
     return out;
   }
   return std::nullopt;
@@ -78,10 +79,10 @@ std::vector<uint8_t> decompress(const Document& document, const MeshoptView& vie
                          ? meshopt_decodeIndexBuffer(out.data(), view.count, view.stride, from.data(), from.size())
                          : meshopt_decodeIndexSequence(out.data(), view.count, view.stride, from.data(), from.size());
   if (result != 0) {
-    // The first byte: the codec in the high four bits, its version in the low ones.
+    // The first byte has the codec in the high four bits and its version in the low four.
     const bool later = !from.empty() && (from[0] & 0x0f) > (view.mode == "ATTRIBUTES" ? 0 : 1);
     refuse(document.file, view.place,
-           later ? fmt::format("its data are of version {} of the codec, which cannot be read here", from[0] & 0x0f)
+           later ? fmt::format("its data are of version {} of the codec, which is not supported", from[0] & 0x0f)
                  : "its data cannot be decoded",
            remedy);
   }

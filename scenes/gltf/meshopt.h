@@ -1,5 +1,6 @@
-// Views compressed with meshoptimizer's codecs: EXT_meshopt_compression, and KHR_meshopt_compression where its data are
-// of version 0 of the codec, which is the same (the library at hand knows no later one).
+// Decompresses views that are compressed with meshoptimizer's codecs: EXT_meshopt_compression, and
+// KHR_meshopt_compression if its data have version 0 of the codec, which is the same. The library used here does not
+// know a later version.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -14,15 +15,15 @@ namespace noonmark::gltf {
 struct MeshoptView {
   std::string place;                          // bufferViews[i].extensions.NAME
   size_t buffer = 0, offset = 0, length = 0;  // where the compressed bytes are
-  size_t count = 0, stride = 0;               // of the elements; together they fill the view
+  size_t count = 0, stride = 0;               // of the elements, which fill the view
   std::string mode, filter;
 };
 
-// Nothing for a view that is not compressed. Throws Error(scene) where the extension contradicts itself, the view or
-// its buffer, or promises more than such data can hold.
+// No value for a view that is not compressed. Throws Error(scene) if the extension contradicts itself, the view or its
+// buffer, or if it names more bytes than such data can hold.
 std::optional<MeshoptView> meshopt_view(const Document& document, int view);
 
-// count * stride bytes. Throws Error(scene) where `from` cannot be decoded.
+// Returns count * stride bytes. Throws Error(scene) if `from` cannot be decoded.
 std::vector<uint8_t> decompress(const Document& document, const MeshoptView& view, std::span<const uint8_t> from);
 
 }  // namespace noonmark::gltf

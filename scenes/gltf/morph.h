@@ -1,4 +1,4 @@
-// The positions of a primitive's vertices in its node, morph targets added.
+// The positions of a primitive's vertices in its node, including morph targets.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -11,8 +11,9 @@ namespace noonmark::gltf {
 
 class MorphedPositions {
  public:
-  // base: of the primitive's POSITION. The weights are the node's, else the mesh's, else 0 (glTF 2.0, section 3.7.2.2).
-  // Throws Error(scene): another number of weights than of targets, targets of another length than the base.
+  // base: the primitive's POSITION. The weights are the node's, otherwise the mesh's, otherwise 0 (glTF 2.0, section
+  // 3.7.2.2). Throws Error(scene) if the number of weights is not the number of targets, or if a target has another
+  // length than base.
   MorphedPositions(const Document& document, Readers& readers, const AccessorReader& base, const tinygltf::Node& node,
                    size_t primitive);
 
@@ -21,7 +22,7 @@ class MorphedPositions {
     for (const auto& [weight, target] : targets_) p += weight * target->vec3(vertex);
     return p;
   }
-  size_t targets() const { return targets_.size(); }  // those that move anything
+  size_t targets() const { return targets_.size(); }  // those with a weight other than 0
 
  private:
   const AccessorReader* base_;

@@ -13,7 +13,7 @@ namespace noonmark::gltf {
 namespace {
 
 constexpr std::string_view remedy = "correct the node in the modelling program and export again";
-// Exporters write quaternions as floats, or from 8-bit ones; what is further from unit length is no rotation.
+// Exporters write quaternions as floats, or from 8-bit values. A quaternion further from unit length is not a rotation.
 constexpr double unit_tolerance = 0.01;
 constexpr int no_parent = -1;
 
@@ -36,7 +36,7 @@ std::vector<int> find_parents(const Document& document) {
   return parents;
 }
 
-// Every node has at most one parent, so a walk from the roots meets every node once, unless some are on a cycle.
+// Every node has at most one parent. So a walk from the roots meets every node once, except nodes on a cycle.
 void refuse_cycles(const Document& document, const std::vector<int>& parents) {
   const auto& nodes = document.model.nodes;
   std::vector<bool> met(nodes.size(), false);
@@ -65,14 +65,14 @@ bool all_finite(const glm::dmat4& m) {
   return true;
 }
 
-// 1 for a right angle between unit axes, 0 for axes in one plane: free of the transform's scale.
+// 1 for right angles between unit axes, 0 for axes in one plane. The transform's scale has no influence.
 double relative_determinant(const glm::dmat4& m) {
   const glm::dmat3 axes(m);
   const double lengths = glm::length(axes[0]) * glm::length(axes[1]) * glm::length(axes[2]);
   return lengths > 0 && std::isfinite(lengths) ? std::abs(glm::determinant(axes)) / lengths : 0;
 }
 
-// What tinygltf cannot tell of a node's own transform.
+// Checks the parts of a node's transform that tinygltf does not check.
 void check_local_transform(const Document& document, size_t index) {
   const tinygltf::Node& node = document.model.nodes[index];
   if (const auto& m = node.matrix; !m.empty() && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
@@ -121,7 +121,7 @@ void check_place(const Document& document, size_t node, const glm::dmat4& world)
   }
 }
 
-// Every node of the file, placed.
+// Places every node of the file.
 std::vector<PlacedNode> place_all(const Document& document, const std::vector<int>& parents) {
   const auto& nodes = document.model.nodes;
   std::vector<PlacedNode> placed(nodes.size());
@@ -154,7 +154,7 @@ std::vector<size_t> find_roots(const Document& document, const std::vector<int>&
     for (size_t i = 0; i < parents.size(); ++i) {
       if (parents[i] == no_parent) roots.push_back(i);
     }
-    notes.push_back("it lists no scenes: all its nodes are shown");
+    notes.push_back("it lists no scenes, so all its nodes are shown");
     return roots;
   }
   const size_t shown = static_cast<size_t>(model.defaultScene == -1 ? 0 : model.defaultScene);
@@ -170,7 +170,7 @@ std::vector<size_t> find_roots(const Document& document, const std::vector<int>&
     listed[static_cast<size_t>(root)] = true;
     roots.push_back(static_cast<size_t>(root));
   }
-  // below_listed[i]: an ancestor of i is listed, so that i is drawn with it.
+  // below_listed[i]: an ancestor of i is listed, so i is drawn with that ancestor.
   std::vector<bool> below_listed(model.nodes.size(), false);
   std::vector<size_t> open;
   for (size_t i = 0; i < parents.size(); ++i) {
@@ -189,10 +189,10 @@ std::vector<size_t> find_roots(const Document& document, const std::vector<int>&
     below += below_listed[root];
     return below_listed[root];
   });
-  if (twice > 0) notes.push_back(counted(twice, "node") + " that the scene lists twice: drawn once");
-  if (below > 0) notes.push_back(counted(below, "node") + " that the scene lists beside an ancestor: drawn once");
+  if (twice > 0) notes.push_back(counted(twice, "node") + " that the scene lists twice, drawn once");
+  if (below > 0) notes.push_back(counted(below, "node") + " that the scene lists beside an ancestor, drawn once");
   if (children > 0)
-    notes.push_back(fmt::format("{} of the scene that {} parents: drawn where these put them",
+    notes.push_back(fmt::format("{} of the scene that {} parents, drawn where the parents place them",
                                 counted(children, "root"), children == 1 ? "has" : "have"));
   return roots;
 }
@@ -220,14 +220,16 @@ Placement place_nodes(const Document& document, std::vector<std::string>& notes)
 }
 
 bool flattens(const glm::dmat4& transform) {
-  // Below this the three axes lie in a plane as far as double arithmetic can tell (16 digits, less what products lose).
+  // Below this value the three axes lie in a plane within double arithmetic (16 digits, minus the loss of the
+  // products).
   constexpr double least_determinant = 1e-12;
   return !(relative_determinant(transform) > least_determinant);
 }
 
 void require_invertible(const Document& document, const PlacedNode& placed) {
   if (flattens(placed.world_from_node)) {
-    refuse(document.file, place_of(placed.node), "its transform cannot be inverted: it flattens what is below it",
+    refuse(document.file, place_of(placed.node),
+           "its transform cannot be inverted, because it flattens the nodes below it",
            "give every axis a scale other than 0");
   }
 }

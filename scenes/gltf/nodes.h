@@ -9,7 +9,7 @@
 
 namespace noonmark::gltf {
 
-// No coordinate of a vertex or a node may be larger: the largest extent that the table of settings allows a map
+// The largest coordinate that a vertex or a node may have. It is the largest extent of a map that the settings allow
 // (map.extent_m).
 inline constexpr double max_coordinate_m = 1e9;
 
@@ -27,13 +27,13 @@ struct Placement {
   std::vector<glm::dmat4> world_from_node;  // of every node of the file: joints may stand outside the scene
 };
 
-// Notes tell how the loader has decided where the file leaves a choice or breaks a rule: which scene was chosen; a node
-// that a scene lists although it is a child, and that is drawn once, at the place that its parents give it; a node that
-// a scene lists twice. Throws Error(scene) for cycles, for nodes with two parents, and for transforms that are not
+// The notes tell what the loader decided if the file leaves a choice or breaks a rule: the scene that was chosen; a
+// node that a scene lists although it is a child, which is drawn once, at the place that its parents give it; a node
+// that a scene lists twice. Throws Error(scene) for cycles, for nodes with two parents, and for transforms that are not
 // finite or beyond max_coordinate_m.
 Placement place_nodes(const Document& document, std::vector<std::string>& notes);
 
-// Whether it maps all of space into a plane, a line or a point.
+// Whether the transform maps all of space into a plane, a line or a point.
 bool flattens(const glm::dmat4& transform);
 
 // Throws Error(scene) if the node's transform to the world flattens it, because then a camera or a light in it has no

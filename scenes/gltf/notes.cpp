@@ -15,12 +15,12 @@ std::string_view is_or_are(uint64_t count) { return count == 1 ? "is" : "are"; }
 
 namespace {
 
-// What the shown nodes have beside triangles that can be seen.
+// The contents of the shown nodes beside visible triangles.
 struct Unseen {
   uint64_t meshes = 0;  // nodes that have one
   uint64_t hidden = 0, collapsed = 0;
   uint64_t points = 0, lines = 0;
-  std::set<int> materials;  // of the triangles
+  std::set<int> materials;  // the materials of the triangles
 };
 
 Unseen unseen(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes) {
@@ -58,7 +58,7 @@ std::string instead_of_triangles(const Document& document, const std::vector<Pla
   add(found.lines, "primitive", " of lines");
   add(without_area, "triangle", " without an area");
   add(found.hidden, "node", " with a mesh hidden by KHR_node_visibility");
-  add(found.collapsed, "node", " with a mesh scaled to nothing");
+  add(found.collapsed, "node", " with a mesh scaled to zero");
   if (found.meshes == 0) parts.push_back("no node has a mesh");
   return parts.empty() ? "" : fmt::format(": {}", fmt::join(parts, ", "));
 }
@@ -75,8 +75,7 @@ void note_contents(const Document& document, const std::vector<PlacedNode>& node
   }
   if (found.points > 0) notes.push_back(counted(found.points, "primitive") + " of points left out");
   if (found.lines > 0) notes.push_back(counted(found.lines, "primitive") + " of lines left out");
-  if (found.collapsed > 0)
-    notes.push_back(counted(found.collapsed, "node") + " with a mesh scaled to nothing: not drawn");
+  if (found.collapsed > 0) notes.push_back(counted(found.collapsed, "node") + " with a mesh scaled to zero, not drawn");
   if (masks > 0) notes.push_back(counted(masks, "material") + " masked by a texture (alphaMode MASK) taken as opaque");
   if (blends > 0) notes.push_back(counted(blends, "material") + " with alphaMode BLEND taken as opaque");
   if (transmissions > 0)

@@ -16,14 +16,14 @@ using nlohmann::json;
 constexpr std::string_view remedy = "export the file again, or correct it";
 
 void check_node(const std::string& file, const json& node, const std::string& place) {
-  // tinygltf drops what stands beside a matrix.
+  // tinygltf drops translation, rotation and scale beside a matrix.
   if (node.contains("matrix") &&
       (node.contains("translation") || node.contains("rotation") || node.contains("scale"))) {
     refuse(file, place, "has both a matrix and a translation, rotation or scale", remedy);
   }
 }
 
-// Empty, or why the camera's type is none of glTF's.
+// Empty, or the reason why the camera's type is not defined by glTF.
 std::string check_camera(const std::string& file, const json& camera, const std::string& place) {
   const std::string type = camera["type"].get<std::string>();
   if (type != "perspective" && type != "orthographic")
@@ -32,7 +32,7 @@ std::string check_camera(const std::string& file, const json& camera, const std:
   if (camera.contains("perspective") && camera.contains("orthographic")) {
     refuse(file, place, "has both perspective and orthographic", remedy);
   }
-  // tinygltf takes 0 for an absent zfar.
+  // tinygltf uses 0 for an absent zfar, so 0 must be refused here.
   if (type == "perspective" && camera[type].value("zfar", 1.0) == 0)
     refuse(file, place + ".perspective.zfar", "is 0", remedy);
   return "";
@@ -45,22 +45,22 @@ void check_light(const std::string& file, const json& light, const std::string& 
 void check_view(const std::string& file, const json& view, const std::string& place) {
   if (!view.contains("byteStride")) return;
   const uint64_t stride = view["byteStride"].get<uint64_t>();
-  // tinygltf takes 0 for an absent byteStride.
+  // tinygltf uses 0 for an absent byteStride, so 0 must be refused here.
   if (stride < 4 || stride % 4 != 0) {
     refuse(file, place + ".byteStride", fmt::format("{} is not a multiple of 4 from 4 to 252", stride), remedy);
   }
 }
 
-// Empty, or why the accessor's type is none of glTF's.
+// Empty, or the reason why the accessor's type is not defined by glTF.
 std::string unknown_type(const json& accessor) {
   constexpr std::array<std::string_view, 7> types = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
   constexpr std::array<int, 6> component_types = {5120, 5121, 5122, 5123, 5125, 5126};
   const std::string type = accessor["type"].get<std::string>();
   const int component = accessor["componentType"].get<int>();
   if (std::find(types.begin(), types.end(), type) == types.end())
-    return fmt::format("type: '{}' is none of glTF's", printable(type));
+    return fmt::format("type: '{}' is not defined by glTF", printable(type));
   if (std::find(component_types.begin(), component_types.end(), component) == component_types.end())
-    return fmt::format("componentType: {} is none of glTF's", component);
+    return fmt::format("componentType: {} is not defined by glTF", component);
   return "";
 }
 

@@ -1,5 +1,5 @@
-// The last step of the guard. It checks what tinygltf would change silently, or refuse without naming the place, or
-// refuse although glTF allows it.
+// The last step of the guard. It checks properties that tinygltf would change silently, would refuse without naming the
+// place, or would refuse although glTF allows them.
 #pragma once
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace noonmark::gltf {
 
-// tinygltf refuses indices whose accessor has no view (glTF: zeros, or sparse, or compressed), so a primitive's indices
-// are handed to it as an attribute of this name.
+// tinygltf refuses indices whose accessor has no view, although glTF allows it (zeros, sparse or compressed). So a
+// primitive's indices are passed to it as an attribute of this name.
 inline constexpr const char* indices_attribute = "INDICES";
 
-// guarded.json: after guard.h has left out what is not read, so that each property has the type that glTF gives
+// guarded.json: without the properties that are not read (guard.h), so that each property has the type that glTF gives
 // it. Throws Error(scene).
 void prepare_for_tinygltf(const std::string& file, GuardedDocument& guarded);
 

@@ -34,7 +34,8 @@ glm::dmat4 SkinnedVertices::world_from_mesh(uint32_t vertex) const {
       total += weight;
     }
   }
-  if (!(total > 0)) refuse(file_, place_, fmt::format("vertex {} follows no joint: its weights are 0", vertex), remedy);
+  if (!(total > 0))
+    refuse(file_, place_, fmt::format("vertex {} has no joint, because its weights are 0", vertex), remedy);
   return sum / total;
 }
 
@@ -71,7 +72,7 @@ std::vector<std::pair<int, int>> Skins::attribute_pairs(int mesh, size_t primiti
           !(of_joints ? is_integer(*a) && !a->normalized
                       : a->componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || (is_integer(*a) && a->normalized))) {
         refuse(document_.file, fmt::format("{}.{}", place, of_joints ? name : found->first),
-               fmt::format("accessors[{}] is no list of {} {}", index, count, of_joints ? "joints" : "weights"),
+               fmt::format("accessors[{}] is not a list of {} {}", index, count, of_joints ? "joints" : "weights"),
                remedy);
       }
     }

@@ -1,6 +1,6 @@
-// check_structure, after scenes/gltf/precheck.h: every reference in range, every accessor inside its view, every view
-// inside its buffer. All sizes are at most 2^53 (guard.cpp), so sums of two cannot overflow; products are tested
-// by division.
+// check_structure, called after scenes/gltf/precheck.h. It checks that every reference is in range, every accessor lies
+// in its view, and every view in its buffer. All sizes are at most 2^53 (guard.cpp), so sums of two cannot overflow;
+// products are tested by division.
 #include <fmt/format.h>
 
 #include <numbers>
@@ -37,7 +37,7 @@ class Checker {
     for (size_t i = 0; i < items.size(); ++i) (this->*check)(items[i], fmt::format("{}[{}]", name, i));
   }
 
-  // An accessor that is used: there, and of a type that glTF knows.
+  // The accessor that is used. It must exist and have a type that glTF defines.
   const tinygltf::Accessor& used(int index, const std::string& place) const {
     reference(index, m_.accessors.size(), place, "accessors");
     const auto unknown = d_.guarded.unknown_accessors.find(static_cast<size_t>(index));
@@ -68,7 +68,7 @@ class Checker {
     }
   }
 
-  // `count` elements of `bytes` each, `stride` apart, from `offset` of the view on.
+  // Checks that `count` elements of `bytes` each, `stride` apart, fit into the view from `offset` on.
   void fits(int view_index, size_t offset, size_t count, size_t stride, size_t bytes, size_t alignment,
             const std::string& place) const {
     reference(view_index, m_.bufferViews.size(), place + ".bufferView", "bufferViews");
@@ -95,7 +95,7 @@ class Checker {
         if (a.normalized) fail(place + ".normalized", "is only for integers of 8 and 16 bits");
         break;
       default:
-        fail(place + ".componentType", "is none of glTF's");
+        fail(place + ".componentType", "is not defined by glTF");
     }
     if (a.count == 0) fail(place + ".count", "is 0");
     const size_t component =
@@ -130,14 +130,14 @@ class Checker {
          element_bytes(a), component, place + ".values");
     for (int view_index : {a.sparse.indices.bufferView, a.sparse.values.bufferView}) {
       if (m_.bufferViews[static_cast<size_t>(view_index)].byteStride != 0) {
-        fail(place, fmt::format("bufferViews[{}] has a byteStride, which sparse data may not have", view_index));
+        fail(place, fmt::format("bufferViews[{}] has a byteStride, which is not allowed for sparse data", view_index));
       }
     }
   }
 
   void material(const tinygltf::Material& m, const std::string& place) const {
     if (m.alphaMode != "OPAQUE" && m.alphaMode != "MASK" && m.alphaMode != "BLEND") {
-      fail(place + ".alphaMode", fmt::format("'{}' is none of OPAQUE, MASK, BLEND", printable(m.alphaMode)));
+      fail(place + ".alphaMode", fmt::format("'{}' is not one of OPAQUE, MASK, BLEND", printable(m.alphaMode)));
     }
   }
 
@@ -168,7 +168,7 @@ class Checker {
     const std::string here = place + ".inverseBindMatrices";
     const tinygltf::Accessor& a = used(s.inverseBindMatrices, here);
     if (a.type != TINYGLTF_TYPE_MAT4 || a.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
-      fail(here, fmt::format("accessors[{}] is no MAT4 of FLOAT", s.inverseBindMatrices));
+      fail(here, fmt::format("accessors[{}] is not a MAT4 of FLOAT", s.inverseBindMatrices));
     if (a.count < s.joints.size())
       fail(here, fmt::format("{} {} for {} joints", a.count, a.count == 1 ? "matrix" : "matrices", s.joints.size()));
   }
@@ -182,7 +182,7 @@ class Checker {
              "list that extension in extensionsUsed and extensionsRequired, or export floats");
     }
     if (a.bufferView != -1 && element_stride(d_, a) % 4 != 0) {
-      fail(place, "vertices that are no multiple of 4 bytes apart: their view needs a byteStride");
+      fail(place, "vertices whose distance is not a multiple of 4 bytes; their view needs a byteStride");
     }
   }
 
@@ -202,14 +202,14 @@ class Checker {
     if (c.type == "perspective") {
       const tinygltf::PerspectiveCamera& p = c.perspective;
       const std::string here = place + ".perspective";
-      // Narrower or wider, the tangent of half the angle is no longer a number to divide by or to multiply with.
+      // For narrower or wider angles, the tangent of half the angle cannot be used to divide or to multiply.
       constexpr double least_yfov = 1e-4, largest_yfov = 3.1415;
       if (!(p.yfov >= least_yfov && p.yfov <= largest_yfov)) {
         fail(here + ".yfov",
              fmt::format("{} is not an angle of view, from {} to {} radians", p.yfov, least_yfov, largest_yfov));
       }
       if (!(p.znear > 0)) fail(here + ".znear", fmt::format("{} is not positive", p.znear));
-      // 0: absent, an infinite projection.
+      // 0 means absent, which is an infinite projection.
       if (p.zfar != 0 && !(p.zfar > p.znear))
         fail(here + ".zfar", fmt::format("{} is not beyond znear {}", p.zfar, p.znear));
     } else {
@@ -225,7 +225,7 @@ class Checker {
   void light(const tinygltf::Light& l, const std::string& place) const {
     if (l.type != "spot") return;
     const double inner = l.spot.innerConeAngle, outer = l.spot.outerConeAngle;
-    // Exporters write a right angle as a float, which is more than pi / 2 by 4e-8, or with five digits.
+    // Exporters write a right angle as a float, which is 4e-8 more than pi / 2, or with five digits.
     constexpr double right_angle = std::numbers::pi / 2 + 1e-5;
     if (!(outer > 0 && outer <= right_angle))
       fail(place + ".spot.outerConeAngle", fmt::format("{} is not from 0 to pi / 2 radians, without 0", outer));
@@ -264,8 +264,8 @@ size_t component_bytes(const tinygltf::Accessor& a) {
   return static_cast<size_t>(tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(a.componentType)));
 }
 
-// Rows of a matrix type, 0 of the others; and bytes from one of its columns to the next, a multiple of 4 (glTF 2.0,
-// section 3.6.2.4).
+// The rows of a matrix type (0 for other types), and the bytes from one of its columns to the next, a multiple of 4
+// (glTF 2.0, section 3.6.2.4).
 size_t matrix_rows(const tinygltf::Accessor& a) {
   return a.type == TINYGLTF_TYPE_MAT2 ? 2 : a.type == TINYGLTF_TYPE_MAT3 ? 3 : a.type == TINYGLTF_TYPE_MAT4 ? 4 : 0;
 }
@@ -273,7 +273,7 @@ size_t column_stride(const tinygltf::Accessor& a) { return (matrix_rows(a) * com
 
 }  // namespace
 
-// The last column needs no padding behind it.
+// The last column needs no padding after it.
 size_t element_bytes(const tinygltf::Accessor& a) {
   const size_t rows = matrix_rows(a);
   if (rows != 0) return (rows - 1) * column_stride(a) + rows * component_bytes(a);

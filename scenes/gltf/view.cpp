@@ -11,7 +11,7 @@
 namespace noonmark::gltf {
 namespace {
 
-// Cameras, directional lights and spots look along their node's -Z, up is +Y (glTF 2.0, section 3.10.1).
+// Cameras, directional lights and spot lights look along their node's -Z; up is +Y (glTF 2.0, section 3.10.1).
 glm::dvec3 forward_of(const PlacedNode& placed) { return -glm::normalize(glm::dvec3(placed.world_from_node[2])); }
 glm::dvec3 up_of(const PlacedNode& placed) { return glm::normalize(glm::dvec3(placed.world_from_node[1])); }
 glm::dvec3 origin_of(const PlacedNode& placed) { return glm::dvec3(placed.world_from_node[3]); }
@@ -23,7 +23,7 @@ const tinygltf::Light* light_of(const Document& document, const PlacedNode& plac
   return &document.model.lights[static_cast<size_t>(found->second.Get("light").GetNumberAsInt())];
 }
 
-// glTF counts from the axis. The default is pi / 4, of which tinygltf keeps ten digits.
+// glTF measures the angle from the axis. The default is pi / 4, of which tinygltf keeps ten digits.
 double cone_deg(const tinygltf::SpotLight& spot) {
   const bool by_default = spot.outerConeAngle == tinygltf::SpotLight().outerConeAngle;
   return by_default ? 90 : 2 * glm::degrees(spot.outerConeAngle);
@@ -48,10 +48,10 @@ std::optional<Camera> find_camera(const Document& document, const std::vector<Pl
   const tinygltf::Camera& from = document.model.cameras[index];
   Camera camera;
   camera.eye_m = origin_of(*found);
-  // Any point ahead will do for a target; the one nearest the scene's middle is the one that people expect.
+  // Any point ahead can be the target. The one nearest to the scene's middle is the one that people expect.
   const Sphere sphere = bounding_sphere(scene);
   const glm::dvec3 forward = forward_of(*found);
-  // A transform that shears can lay the camera's up along its view; then the picture has no upright.
+  // A transform that shears can make the camera's up parallel to its view. Then the picture has no upright direction.
   constexpr double least_sine = 1e-3;
   if (!(glm::length(glm::cross(forward, up_of(*found))) > least_sine)) {
     refuse(document.file, fmt::format("nodes[{}].camera", found->node), "its up and its view are almost parallel",
@@ -82,7 +82,7 @@ std::optional<Light> find_light(const Document& document, const std::vector<Plac
   const tinygltf::Light& from = *light_of(document, *found);
   if (from.type != "directional" && from.type != "point" && from.type != "spot") {
     refuse(document.file, fmt::format("nodes[{}].extensions.KHR_lights_punctual.light", found->node),
-           fmt::format("its type '{}' is none of directional, point, spot", printable(from.type)),
+           fmt::format("its type '{}' is not one of directional, point, spot", printable(from.type)),
            "remove the light, or correct it");
   }
   require_invertible(document, *found);
@@ -95,18 +95,18 @@ std::optional<Light> find_light(const Document& document, const std::vector<Plac
   const glm::dvec3 to_middle = sphere.centre_m - light.position_m;
   if (from.type == "point") {
     light.kind = LightKind::point;
-    // Means nothing, until somebody makes a spot of it (light.kind).
+    // A point light's target has no effect, unless a setting makes the light a spot light (light.kind).
     light.target_m = light.position_m + (glm::length(to_middle) > 0 ? to_middle : glm::dvec3(0, -1, 0));
     return light;
   }
   light.kind = LightKind::spot;
   light.target_m = light.position_m + forward * std::max(glm::dot(to_middle, forward), 1.0);
   light.cone_deg = cone_deg(from.spot);
-  // The same range as the setting light.cone_deg.
+  // The same range as that of the setting light.cone_deg.
   constexpr double least_cone_deg = 1, largest_cone_deg = 170;
   if (!(light.cone_deg >= least_cone_deg && light.cone_deg <= largest_cone_deg)) {
     refuse(document.file, fmt::format("nodes[{}].extensions.KHR_lights_punctual.light", found->node),
-           fmt::format("a spot whose cone is {:.6g} degrees wide; a shadow map can serve {} to {}", light.cone_deg,
+           fmt::format("a spot light with a cone of {:.6g} degrees; a shadow map can cover {} to {}", light.cone_deg,
                        least_cone_deg, largest_cone_deg),
            "change its outerConeAngle, or make it a point light");
   }

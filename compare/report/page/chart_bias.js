@@ -1,5 +1,5 @@
-// Error against bias for one point: causes as lines or stacked, the usable window shaded, 0 apart from the logarithmic
-// axis.
+// Error against bias for one point. Causes are lines or stacked areas, the usable window is shaded, and 0 stands apart
+// from the logarithmic axis.
 (function() {
 'use strict';
 var page = window.noonmarkPage, kit = page.kit, data = page.data;
@@ -39,7 +39,7 @@ function build(width) {
   var bounds = [curve.acne_bound, curve.peter_panning_bound].filter(function(v) {
     return v > 0;
   });
-  // Four decades below the largest are enough to see; less than that stands on the axis.
+  // The axis covers four decades below the largest value. Smaller values are drawn on the axis.
   var top = Math.max.apply(null, all.concat(bounds, [1e-6])) * 1.3,
       least = Math.min.apply(null, all.concat(bounds, [top / 100]));
   var bottom = Math.max(least / 1.5, top / 3e4), stacked = state.view === 'stacked';
@@ -48,7 +48,7 @@ function build(width) {
     (stacked ? ['error'] : lines).forEach(function(s) {
       var v = curve[s][i];
       if (!kit.finite(v)) return;
-      // Below the axis a line is left out, but for the stretch by which it enters or leaves.
+      // Below the axis a line is left out, except for the parts by which it enters or leaves.
       if (!stacked && v < bottom && !(curve[s][i - 1] >= bottom) && !(curve[s][i + 1] >= bottom && b > 0)) return;
       rows.push({b: b, s: s, v: stacked ? v : Math.max(v, bottom)});
     });
@@ -210,7 +210,7 @@ function build(width) {
   [[curve.best_bias_depth, 'best', 'var(--good)', 0], [curve.set_bias_depth, 'as set', 'var(--accent)', 1]].forEach(function(m) {
     if (!kit.finite(m[0])) return;
     var b = m[0] * k, beyond = b > high;
-    // The lesser of the two is named on its left, the greater on its right, unless an edge is near.
+    // The name of the lesser bias stands on its left, that of the greater on its right, unless an edge is near.
     var place = Math.log(Math.min(Math.max(b, low), high) / low) / Math.log(high / low),
         other = m[3] ? curve.best_bias_depth : curve.set_bias_depth;
     var side = place > 0.9 ? -1 : place < 0.1 ? 1 : kit.finite(other) && m[0] < other ? -1 : 1;
@@ -355,7 +355,7 @@ function describe() {
         'Usable from ', kit.make('b', {}, three(curve.window_min_depth, curve)), ' to ',
         kit.make('b', {}, three(curve.window_max_depth, curve)), '. ');
   else
-    facts.append(kit.make('b', {style: 'color:var(--bad)'}, 'No usable window: the method fails here. '));
+    facts.append(kit.make('b', {style: 'color:var(--bad)'}, 'No usable window: no bias is good enough. '));
   facts.append(
       'Best at ' + three(curve.best_bias_depth, curve) + ', with ' + kit.shown(curve.best_error, 'fraction') +
       ' error. Made: ' + curve.made + '.');
@@ -385,7 +385,7 @@ function controls() {
             kit.byId[state.id].settings[s.name], function(v) {
               var wanted = Object.assign({}, kit.byId[state.id].settings);
               wanted[s.name] = v;
-              // The point with these settings; in a sweep cut short, the one that shares most of them.
+              // The point with these settings. In an incomplete sweep, the point that shares most of them.
               var best = null, most = -1;
               curved.forEach(function(p) {
                 var n = data.swept.reduce(function(sum, t) {

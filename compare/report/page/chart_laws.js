@@ -1,4 +1,4 @@
-// Measured against predicted, one sign for each sample of the chosen law.
+// Measured against predicted, with one sign for each sample of the chosen law.
 (function() {
 'use strict';
 var page = window.noonmarkPage, kit = page.kit, laws = page.data.laws;
@@ -17,7 +17,7 @@ var self = kit.chart('laws', function(width) {
     });
     return [Math.min.apply(null, all), Math.max.apply(null, all)];
   }
-  // What spans more than a decade is drawn on logarithmic axes, without its zeros.
+  // Values that span more than a decade are drawn on logarithmic axes, without the zeros.
   var above = rows.filter(function(r) {
     return r.p > 0 && r.m > 0;
   });
@@ -105,7 +105,7 @@ var self = kit.chart('laws', function(width) {
             event,
             [
               ['predicted', kit.digits(d.p)], ['measured', kit.digits(d.m)], ['ratio', kit.digits(d.m / d.p)],
-              ['allowed to be off by', kit.digits(d.allowed)]
+              ['largest difference allowed', kit.digits(d.allowed)]
             ],
             'Point ' + d.point + (p && p.phrase ? ': ' + p.phrase : ''));
       });

@@ -3,7 +3,7 @@
 'use strict';
 var page = window.noonmarkPage, kit = page.kit, data = page.data;
 
-// The guide that the theory gives (an edge's error is proportional to a texel's size, extent / resolution).
+// The line that the theory predicts: an edge's error is proportional to a texel's size, extent / resolution.
 function slopeOf(name) {
   return name === 'map.resolution' ? -1 : name === 'map.extent_m' || name === 'map.extent_scale' ? 1 : 0;
 }
@@ -40,7 +40,8 @@ function sweepChart(swept, index) {
         }));
     self.plot.textContent = '';
     if (!floor) {
-      self.plot.append(kit.make('p', {class: 'small'}, found.length ? 'Zero at every point.' : 'Finite at no point.'));
+      self.plot.append(kit.make(
+          'p', {class: 'small'}, found.length ? 'The value is 0 at every point.' : 'No point has a finite value.'));
       return null;
     }
     rows.forEach(function(r) {
@@ -52,7 +53,7 @@ function sweepChart(swept, index) {
     });
     var marks = [], slope = slopeOf(swept.name), x0 = xs[0], x1 = xs[xs.length - 1];
     if (slope && logX && unit === 'fraction') {
-      // Through the middle of the data (geometric), from end to end.
+      // The line goes through the geometric mean of the data, from end to end.
       var mean = Math.exp(found.reduce(function(s, r) {
         return s + Math.log(r.y);
       }, 0) / found.length), mid = Math.sqrt(x0 * x1);
@@ -241,7 +242,7 @@ function costChart() {
     }));
     self.plot.textContent = '';
     if (!rows.length || !floor) {
-      self.plot.append(kit.make('p', {class: 'small'}, 'Nothing to draw.'));
+      self.plot.append(kit.make('p', {class: 'small'}, 'There is nothing to draw.'));
       return null;
     }
     rows.forEach(function(r) {

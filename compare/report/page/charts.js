@@ -1,5 +1,5 @@
-// The charts: each is a function from the page's data block to a Vega specification, and a few controls.
-// Colours are CSS variables, so that light, dark and print need no redrawing.
+// The report's charts. Each is a function from the page's data block to a Vega specification, with a few controls.
+// Colours are CSS variables, so light, dark and print need no redrawing.
 (function() {
 'use strict';
 var data = JSON.parse(document.getElementById('noonmark-data').textContent);
@@ -66,8 +66,8 @@ function unique(list) {
     return list.indexOf(v) === i;
   });
 }
-// What can be drawn against a sweep: the error, the error at the best bias, what the experiment asks for, then the
-// rest.
+// The quantities that can be drawn against a sweep: the error, the error at the best bias, the metrics that the
+// experiment asks to plot, then the others.
 function measures() {
   var list = ['error'].concat(
       data.points.some(function(p) {
@@ -89,7 +89,7 @@ function measures() {
     });
   });
 }
-// Ticks of a logarithmic axis: powers of ten, and 2 and 5 between when there is room.
+// Ticks of a logarithmic axis: powers of ten, and 2 and 5 between them if there is room.
 function logTicks(low, high) {
   var decades = Math.log10(high / low),
       steps = decades < 1.2 ? [1, 1.5, 2, 3, 5, 7] :
@@ -236,8 +236,8 @@ function segments(options, chosen, changed) {
   return box;
 }
 
-// ---- how a swept setting is told apart: the first by colour, the second by shape (of lines: and dash), the third of
-// points by being hollow; any more can be chosen by a picker
+// ---- how swept settings are distinguished: the first by colour, the second by shape (for lines also by dashes), the
+// third, for points only, by hollow signs. A picker chooses the values of any further settings.
 var categorical =
     ['peter_panning', 'acne', 'coverage_light', 'precision', 'aliasing_dark', 'aliasing_light', 'coverage_dark'];
 var dashes = [[1, 0], [7, 4], [2, 3], [9, 3, 2, 3], [12, 4], [1, 2]],
@@ -251,7 +251,7 @@ var shapePaths = {
   'triangle-down': 'M13 10l5-9h-10z'
 };
 function tellApart(names, points) {
-  // Numbers go to the colours' order, a choice to the shapes.
+  // Numbers get the ordered colours, choices get the shapes.
   var several = names
                     .filter(function(s) {
                       return s.values.length > 1;
@@ -332,7 +332,7 @@ function tellApart(names, points) {
   };
 }
 
-// A logarithmic axis cannot show zeros: they stand on a floor below the least positive value, hollow.
+// A logarithmic axis cannot show zeros. They are drawn hollow, on a line below the least positive value.
 function logFloor(values) {
   var positive = values.filter(function(v) {
     return v > 0;

@@ -1,4 +1,4 @@
-// The page around the charts: pictures to flip between, the sortable table, selection, and the first drawing.
+// The page around the charts: pictures to switch between, the sortable table, the selection, and the first drawing.
 (function() {
 'use strict';
 var page = window.noonmarkPage, kit = page.kit, make = kit.make;
@@ -40,7 +40,7 @@ function choose(set) {
     s.hidden = s !== set;
   });
 }
-// A picture with fewer pixels than its place shows them as squares, since each pixel was judged by itself.
+// A picture with fewer pixels than its place is enlarged with square pixels, because each pixel was judged by itself.
 function enlarge() {
   document.querySelectorAll('.stage img').forEach(function(i) {
     i.classList.toggle('enlarged', i.naturalWidth > 0 && i.naturalWidth < i.clientWidth);
@@ -62,7 +62,7 @@ if (sets.length) {
               current.show(Math.min(kept, current.count - 1));
             }));
 }
-// Keys work while the pictures are in sight, and nothing that takes keys has the focus.
+// Keys work while the pictures are in view and no element that takes keys has the focus.
 document.addEventListener('keydown', function(event) {
   if (!current || event.ctrlKey || event.metaKey || event.altKey ||
       /^(SELECT|INPUT|TEXTAREA)$/.test(document.activeElement.tagName))
@@ -103,7 +103,7 @@ document.querySelectorAll('table.sortable').forEach(function(table) {
     });
     rows.sort(function(a, b) {
       if (!numeric) return (a.t < b.t ? -1 : a.t > b.t ? 1 : 0) * (down ? -1 : 1);
-      if (isNaN(a.n) || isNaN(b.n)) return isNaN(a.n) - isNaN(b.n);  // what is not finite goes last either way
+      if (isNaN(a.n) || isNaN(b.n)) return isNaN(a.n) - isNaN(b.n);  // values that are not finite are always last
       return (a.n - b.n) * (down ? -1 : 1);
     });
     rows.forEach(function(x) {

@@ -1,9 +1,9 @@
-// Links Vega's CommonJS modules, as Debian packages them, into one object with what the charts need.
+// Links Vega's CommonJS modules, as Debian packages them, into one object with the functions that the charts need.
 var noonmarkVega = (function() {
   'use strict';
   var sources = {}, loaded = {};
   function require(name) {
-    if (name === 'vega-selections') name = 'vega-selection';  // vega-functions asks for it by this name
+    if (name === 'vega-selections') name = 'vega-selection';  // vega-functions requires it by this name
     if (!loaded[name]) {
       if (!sources[name]) throw new Error('no module ' + name);
       var module = {exports: (loaded[name] = {})};
@@ -15,7 +15,7 @@ var noonmarkVega = (function() {
     define: function(name, source) {
       sources[name] = source;
     },
-    // Draws a specification into an element and gives the view. Expressions run in Vega's interpreter: no eval.
+    // Draws a specification into an element and returns the view. Expressions run in Vega's interpreter, without eval.
     draw: function(specification, element) {
       var dataflow = require('vega-dataflow');
       ['vega-transforms', 'vega-view-transforms', 'vega-encode'].forEach(function(name) {
