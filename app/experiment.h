@@ -53,12 +53,6 @@ struct Experiment {
 // A sweep with more points than this is taken for a mistake in the file.
 constexpr int64_t max_points = 100000;
 
-// Throws Error(usage) with file:line:column, and for an unknown name with the nearest known one. A relative path of a
-// scene file starts at the experiment file's folder.
-Experiment load_experiment(const std::string& path);
-// The same from text; path is used for messages and for relative scene paths.
-Experiment parse_experiment(std::string_view toml, const std::string& path);
-
 // assignment: "name=value" as in `--set`, with one value in the form that the setting's row reads ("2048", "auto",
 // "1,2,3"). It replaces the file's value; if the setting was swept, it is no longer swept. Relative paths start at the
 // working directory of the program. Bounds stay: a bound whose `where` no longer matches a point is broken and not

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/experiment.h"
+#include "app/experiment_file.h"
 #include "app/verbs.h"
 
 namespace noonmark {

@@ -1,4 +1,5 @@
-// Reads the experiment file. All the code runs inside one Reader, so that each message can name file:line:column.
+#include "app/experiment_file.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -1,4 +1,4 @@
-// Writes a measured point as files: PNGs for people, EXRs and point.json for checks by other programs.
+// The PNGs of a measured point, for people. app/point_files.h writes the files for other programs.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,13 +11,5 @@ namespace noonmark {
 // Writes the point's PNGs as <folder>/<stem>-<name>.png. The paths in the records begin with `relative`, not `folder`.
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
                                           const std::string& stem);
-
-// Writes <folder>/<prefix>ladder.exr and map.exr: every rung and the numbers behind it, with 32 bits a channel.
-// app/point_files.cpp describes the channels.
-std::vector<ImageRecord> write_images(const Measurement& m, const std::string& folder, const std::string& relative,
-                                      const std::string& prefix);
-
-// Returns every setting, metric and time, camera and light in full precision, the list of causes and the bits of flags.
-std::string point_json(const Measurement& m, const std::string& command);
 
 }  // namespace noonmark

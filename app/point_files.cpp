@@ -1,3 +1,5 @@
+#include "app/point_files.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,7 +9,7 @@
 #include <string_view>
 
 #include "app/build_facts.h"
-#include "app/pictures.h"
+#include "app/image_file.h"
 #include "compare/store/curve_fields.h"
 #include "compare/store/metrics.h"
 #include "scenes/camera_frame.h"

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "app/pictures.h"
+#include "app/point_files.h"
 #include "scenes/digest.h"
 #include "scenes/error.h"
 #include "scenes/file.h"

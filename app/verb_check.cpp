@@ -10,6 +10,7 @@
 #include "app/sweep.h"
 #include "app/verbs.h"
 #include "compare/judge/bounds.h"
+#include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"

@@ -14,6 +14,7 @@
 #include "compare/store/store.h"
 #include "gl/renderer.h"
 #include "raytrace/tracer.h"
+#include "scenes/builtin.h"
 #include "scenes/error.h"
 #include "scenes/library.h"
 #include "scenes/text.h"

@@ -2,6 +2,7 @@
 
 #include "app/experiment_arguments.h"
 #include "app/pictures.h"
+#include "app/point_files.h"
 #include "app/results_folder.h"
 #include "app/verbs.h"
 #include "app/workbench.h"

@@ -1,4 +1,5 @@
-// The built-in scenes. Each is small and is made to provoke one kind of error.
+#include "scenes/builtin.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/builtin.h"
 #include "scenes/error.h"
 #include "scenes/memory.h"
 #include "scenes/remesh.h"

@@ -14,14 +14,6 @@
 
 namespace noonmark {
 
-struct BuiltinScene {
-  std::string_view name;
-  std::string_view provokes;  // what the scene is made to show
-  Scene (*make)(const SceneSettings&);
-};
-
-std::span<const BuiltinScene> builtin_scenes();
-
 // Whether scene.name is the path of a file rather than a built-in name.
 bool names_file(std::string_view scene_name);
 

@@ -8,6 +8,7 @@
 #include "compare/ladder/measure.h"
 #include "gl/renderer.h"
 #include "raytrace/tracer.h"
+#include "scenes/builtin.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "tests/acceptance_support.h"

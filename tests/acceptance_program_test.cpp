@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "scenes/builtin.h"
 #include "scenes/file.h"
 #include "tests/acceptance_support.h"
 #include "tests/program_fixture.h"

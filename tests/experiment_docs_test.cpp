@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/experiment.h"
+#include "app/experiment_file.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/experiment.h"
+#include "app/experiment_file.h"
 #include "scenes/error.h"
 
 namespace noonmark {

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <set>
 
+#include "app/experiment_file.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "tests/sample_results.h"

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gl_fixture.h"
+#include "scenes/builtin.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "scenes/library.h"

@@ -14,6 +14,7 @@
 #include <set>
 
 #include "app/pictures.h"
+#include "app/point_files.h"
 #include "compare/report/cause_colors.h"
 #include "compare/store/metrics.h"
 #include "scenes/error.h"

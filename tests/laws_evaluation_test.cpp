@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "compare/judge/formula.h"
+#include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "scenes/error.h"
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "scenes/builtin.h"
 #include "tests/laws_support.h"
 #include "tests/raytrace_fixture.h"
 

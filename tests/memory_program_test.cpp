@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "app/experiment.h"
+#include "app/experiment_file.h"
 #include "app/memory_estimate.h"
 #include "app/workbench.h"
 #include "tests/gltf_files.h"

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/experiment.h"
+#include "app/experiment_file.h"
 #include "tests/program_fixture.h"
 
 namespace noonmark::acceptance {

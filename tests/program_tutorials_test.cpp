@@ -3,6 +3,7 @@
 #include <regex>
 
 #include "app/experiment.h"
+#include "app/experiment_file.h"
 #include "tests/program_fixture.h"
 
 namespace noonmark::acceptance {

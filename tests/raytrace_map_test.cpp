@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "raytrace_fixture.h"
+#include "scenes/builtin.h"
 #include "tests/bias_of.h"
 
 namespace noonmark::raytrace {

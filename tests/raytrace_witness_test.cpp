@@ -8,6 +8,7 @@
 #include "closed_form.h"
 #include "raytrace/embree_scene.h"
 #include "raytrace_fixture.h"
+#include "scenes/builtin.h"
 #include "scenes/camera_frame.h"
 
 namespace noonmark::raytrace {

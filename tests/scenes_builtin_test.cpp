@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "scenes/builtin.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "scenes/library.h"

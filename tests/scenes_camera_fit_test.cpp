@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "scenes/builtin.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"

@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
+#include "scenes/builtin.h"
 #include "scenes/interior.h"
 #include "scenes/library.h"
 #include "scenes/shapes.h"

@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "scenes/builtin.h"
 #include "scenes/error.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"

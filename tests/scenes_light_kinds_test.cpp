@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "scenes/builtin.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/experiment.h"
+#include "app/experiment_file.h"
 #include "scenes/error.h"
 
 namespace noonmark {

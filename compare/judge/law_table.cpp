@@ -1,4 +1,5 @@
-// Writes laws as text for a terminal.
+#include "compare/judge/law_table.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -65,8 +65,4 @@ std::string predicted_text(const LawResult& law);
 // tolerance. Empty if there is no such sample, if one is not finite, and for limits, for which a ratio has no meaning.
 std::string ratio_text(const LawResult& law);
 
-// A table for a terminal: law, points, predicted, measured, deviation, verdict. Below each broken law it shows the
-// worst sample and the command that reproduces it.
-std::string law_table(std::span<const LawResult> laws);
-
 }  // namespace noonmark

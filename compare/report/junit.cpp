@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "compare/judge/bounds.h"
+#include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "compare/report/escape.h"
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "compare/judge/bounds.h"
+#include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"

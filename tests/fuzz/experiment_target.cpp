@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/experiment.h"
+#include "app/experiment_file.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/laws.h"
 #include "scenes/error.h"

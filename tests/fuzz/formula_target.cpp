@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "compare/judge/formula.h"
+#include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "scenes/error.h"
 #include "tests/fuzz/names.h"

@@ -15,6 +15,7 @@
 #include "app/workbench.h"
 #include "compare/judge/soundness.h"
 #include "compare/store/metrics.h"
+#include "scenes/builtin.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "scenes/library.h"

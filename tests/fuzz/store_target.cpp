@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/judge/bounds.h"
+#include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "compare/report/csv.h"
 #include "compare/report/junit.h"

@@ -1,0 +1,19 @@
+// The built-in scenes, each small and made to provoke something.
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "scenes/scene.h"
+#include "scenes/scene_settings.h"
+
+namespace noonmark {
+
+struct BuiltinScene {
+  std::string_view name;
+  std::string_view provokes;  // what the scene is made to show
+  Scene (*make)(const SceneSettings&);
+};
+
+std::span<const BuiltinScene> builtin_scenes();
+
+}  // namespace noonmark
