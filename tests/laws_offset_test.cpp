@@ -11,20 +11,15 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <tuple>
 
 #include "compare/ladder/law_metrics.h"
-#include "tests/acceptance_support.h"
 #include "tests/bias_of.h"
+#include "tests/laws_support.h"
 
 namespace noonmark::acceptance {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-constexpr double radians(double degrees) { return degrees * pi / 180; }
-std::string text(double value) { return std::to_string(value); }
 
 double texel_axes_1(const LightFrame& frame, glm::dvec3 normal) {
   return std::abs(glm::dot(normal, frame.right)) + std::abs(glm::dot(normal, frame.up));

@@ -8,10 +8,10 @@
 #include "scenes/builtin.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
-#include "scenes/error.h"
 #include "scenes/library.h"
 #include "scenes/receivers.h"
 #include "scenes/shapes.h"
+#include "tests/kind_thrown.h"
 
 namespace noonmark {
 namespace {
@@ -35,12 +35,7 @@ std::vector<double> depths_met(const Scene& scene, const Ray& ray) {
 }
 
 int kind_of_error(const Scene& scene, const ViewSettings& view) {
-  try {
-    effective_camera(scene, view);
-  } catch (const Error& error) {
-    return error.exit_code();
-  }
-  return 0;
+  return kind_thrown([&] { effective_camera(scene, view); });
 }
 
 // Small, long and thin, near and far: some cross the eye's plane, some stand behind it, some are all around.

@@ -9,17 +9,13 @@
 #include "scenes/library.h"
 #include "scenes/receivers.h"
 #include "scenes/shapes.h"
+#include "tests/kind_thrown.h"
 
 namespace noonmark {
 namespace {
 
 int kind_of_error(const Camera& camera) {
-  try {
-    make_camera_frame(camera, 16, 9);
-  } catch (const Error& e) {
-    return e.exit_code();
-  }
-  return 0;
+  return kind_thrown([&] { make_camera_frame(camera, 16, 9); });
 }
 
 Camera some_camera(Projection projection) {
