@@ -105,7 +105,7 @@ inline Settings random_settings(std::mt19937& random, LightKind kind) {
   s.bias["polygon_factor"] = maybe(2);
   s.bias["polygon_units"] = maybe(10);
   for (const BiasPart& part : bias_parts())
-    if (part.acts_on == BiasPlace::place_looked_up && random() % 8 == 0) s.bias[part.name] = 3 * unit(random);
+    if (part.formula.way && random() % 8 == 0) s.bias[part.name] = 3 * unit(random);
   if (random() % 2) s.bias.plane_cap = 0.01 * unit(random);
   s.filter.size = one_of(random, {1, 3, 3, 5, 5, 7, 31});
   s.filter.step_texels = one_of(random, {0.5, 1.0, 1.7, 3.0});

@@ -188,7 +188,7 @@ TEST_F(Memory, APointThatDoesNotFitIsRefusedBeforeAnyIsMeasured) {
     EXPECT_EQ(run_within(space, arguments), 2) << output_;
     EXPECT_TRUE(std::regex_search(
         output_,
-        std::regex("noonmark: point 1 \\(map.resolution=16384\\) would take about [0-9.]+ GB of memory, [0-9.]+ GB "
+        std::regex("noonmark: point 1 \\(map.resolution = 16384\\) would take about [0-9.]+ GB of memory, [0-9.]+ GB "
                    "of it for the shadow map, and [0-9.]+ GB are available \\(the limit of the address space, "
                    "ulimit -v, minus the space that libraries and threads reserve\\); lower map.resolution\n")))
         << output_;

@@ -216,7 +216,7 @@ TEST_F(Adversity, NothingIsWrittenThroughALinkInTheImagesPlace) {
   fs::remove(folder_ / "out/images");
   write("out/images", "a file");
   EXPECT_EQ(run({"run", experiment, "--out", "out"}), 3);
-  expect_one_line("out/images: is no folder");
+  expect_one_line("out/images: is not a folder");
   fs::remove(folder_ / "out/images");
   EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
 }
