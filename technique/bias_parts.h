@@ -1,17 +1,18 @@
-// The parts that a bias is the sum of. A part is one file, technique/bias/<name>.glsl, which the shader and the host
-// compile, and one row of the table in bias_parts.cpp. Settings, uniforms, the shader's text, cache keys, idle settings
-// and the bias curve are read off the rows.
+// The parts of a bias. A bias is the sum of its parts. A part is one file, technique/bias/<name>.glsl, which the shader
+// and the host compile, and one row of the table in bias_parts.cpp. The settings, uniforms, the shader's text, cache keys,
+// idle settings and the bias curve are made from the rows.
 //
 //   for (const BiasPart& part : bias_parts()) print(part.name, part.help);
 //   settings.bias["normal_offset"] = 1.5;   // technique/settings.h
 //
 // A part acts at one of three places:
-// - The compared depth: amount * <name>_factor(Surface), held between the part's floor and cap where it has them. The
-//   sum of these parts, in units of bias.unit, is subtracted from the depth that a tap is compared with.
-// - The place looked up: amount * <name>_way(Surface), a vector of the world. The receiver is looked up as if it lay
-//   that far from where it is.
-// - The caster: what the map holds is moved.
-// And beside the sum there is a choice, the reference: what a tap is compared with before the bias is subtracted.
+// - The compared depth. The part is amount * <name>_factor(Surface), clamped to the part's floor and cap if it has them.
+//   The sum of these parts, in units of bias.unit, is subtracted from the depth that a tap is compared with.
+// - The place looked up. The part is amount * <name>_way(Surface), a vector in the world. The lookup uses the receiver's
+//   position plus this vector.
+// - The caster. amount * <name>_way(Surface) moves each vertex while the map is drawn (technique/casters.h); Surface is
+//   that of the vertex. The polygon offset is OpenGL's own and has no formula.
+// The reference is a separate choice: the depth that a tap is compared with before the bias is subtracted.
 #pragma once
 #include <span>
 #include <string>
@@ -27,7 +28,7 @@ enum class BiasPlace { compared_depth, place_looked_up, caster };
 // A formula as the host has it.
 struct BiasFormula {
   float (*factor)(in_float::Surface) = nullptr;          // compared_depth
-  in_double::vec3 (*way)(in_double::Surface) = nullptr;  // place_looked_up
+  in_double::vec3 (*way)(in_double::Surface) = nullptr;  // place_looked_up, caster
   in_bounds::vec3 (*bounded_way)(in_bounds::Surface) = nullptr;
 };
 
@@ -39,7 +40,7 @@ struct BiasPart {
   std::string_view help;
   std::string_view floor_help = {};  // where it has a floor: setting bias.<name>_floor
   std::string_view cap_help = {};    // where it has a cap: setting bias.<name>_cap
-  std::string_view no_curve = {};    // why no one lookup pass gives the error at its every amount; empty: one does
+  std::string_view no_curve = {};    // why one lookup pass cannot give the error at every amount; empty: it can
   BiasFormula formula = {};          // empty: OpenGL's own polygon offset
 };
 

@@ -1,17 +1,17 @@
-// The frame of a light and of its map, in double: the exact places that the ladder speaks of. The float matrices that
-// OpenGL gets are rounded from it, and what that rounding costs shows as precision.
+// The frame of a light and of its map, in double. The ladder's places and depths are computed in it. The float matrices
+// for OpenGL are rounded from it; the error of that rounding is part of the cause `precision`.
 //
 //   LightFrame frame = make_light_frame(scene, settings);
 //   glm::dvec3 p = frame.to_light(P);                     // metres along right, up and forward, from the light
 //   double d = frame.window_depth(frame.depth_m(p));      // what the map holds of P
 //   glm::dvec3 x = frame.texel_place({i, j});             // the place of a texel's centre
 //
-// A *place* is where a light-side ray goes. It is homogeneous: of a directional light (u, v, 1) with u and v in metres
-// of the light's plane; of a spot and a point light the ray's direction in the light's axes, of any length. So three
-// places lie on one line of the map exactly when their determinant is 0, whatever the light.
+// A *place* names a light-side ray. It is a homogeneous vector. For a directional light it is (u, v, 1), with u and v in
+// metres in the light's plane. For a spot and a point light it is the direction of the ray in the light's axes, of any
+// length. So for every light, three places lie on one line of the map if and only if their determinant is 0.
 //
-// The map of a point light is six faces, in OpenGL's order +X -X +Y -Y +Z -Z, one above the other in an image of
-// resolution x 6 resolution: texel (i, j) of face f is (i, f * resolution + j).
+// The map of a point light has six faces, in OpenGL's order +X -X +Y -Y +Z -Z. They stand one above the other in an image
+// of resolution x 6 resolution texels: texel (i, j) of face f is (i, f * resolution + j).
 #pragma once
 #include <glm/glm.hpp>
 
