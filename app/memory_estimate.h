@@ -1,6 +1,7 @@
 // Predicts from a point's settings the peak memory of its measurement, before the measurement starts.
 //
-//   const MemoryEstimate estimate = estimate_memory({settings, LightKind::point, scene_size, open_edges, true, false});
+//   const MemoryEstimate estimate =
+//       estimate_memory({settings, LightKind::point, scene_size(scene), open_edges, outside_texels, true, false});
 //   require_memory(estimate, bench.memory_of_program(false), "point 3");   // throws if it would not fit
 //
 // The prediction is an upper bound, made of constants per pixel, tap, texel, triangle and vertex. If one of these

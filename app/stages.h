@@ -3,12 +3,13 @@
 //   scene → view → truth → map → lookup → shown → ladder
 //
 //   SceneStage scene = load_scene(settings, renderer);
+//   PointSetup point{settings, frame, Bias(settings.bias)};
 //   ViewStage view = take_view(renderer, *scene.scene, settings.view);
 //   TruthStage truth = trace_truth(*scene.tracer, view, frame, light, settings.truth);
-//   MapStage map = draw_map(renderer, frame, settings);
-//   LookupStage lookup = prepare_lookup(renderer, *scene.tracer, view, truth, frame, settings, strip_bytes);
-//   ShownStage shown = show(renderer, map, lookup, evidence_of(...));
-//   Climbed climbed = climb_strips(...);
+//   MapStage map = draw_map(renderer, *scene.scene, point);
+//   LookupStage lookup = prepare_lookup(renderer, renderer, *scene.tracer, view, truth, point, strip_bytes);
+//   ShownStage shown = show(renderer, map.map, lookup, truth, point, settings, settings.map);
+//   Climbed climbed = climb_strips(renderer, lookup, view, truth, map.depth, shown, point, varied);
 //
 // app/workbench.h joins these stages and keeps the results that consecutive points share. The settings' rows name the
 // stages that read them (technique/settings.h). tests/planted_support.h joins the same functions around a renderer with

@@ -329,7 +329,8 @@ void print_plan(const Experiment& experiment) {
     small.view.height_px = std::max(1, small.view.height_px / divisor);
     small.map.extent_scale *= nudge;  // so that nothing is reused from the point before
     const auto start = std::chrono::steady_clock::now();
-    bench.measure(small, part_of_point(experiment, 0).curve);
+    const Experiment& part = part_of_point(experiment, 0);
+    bench.measure(small, part.curve_enabled ? std::optional(part.curve) : std::nullopt);
     return std::pair(taps(small), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   };
   seconds(4, 1);  // loads the scene and compiles the shaders

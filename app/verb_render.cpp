@@ -42,7 +42,7 @@ void print_ladder(const Measurement& m) {
   if (nothing_judged(m.record)) return;
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_table())
-    if (metric.unit == "fraction" && metric.name != "ambiguous")
+    if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract")  // of facing receivers
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
   fmt::print("\n");
   if (const std::string doubt = undecided_note({&m.record, 1}); !doubt.empty()) fmt::print("  {}\n\n", doubt);

@@ -1,5 +1,5 @@
-// The lights and filters of the lookup shader. To add a light: its GLSL file, and its row in lookup_parts.cpp. A filter
-// names its GLSL file in its own row (technique/filters.cpp).
+// The lights and filters of the lookup shader. The file of a light is gl/shaders/light/<name>.glsl, with the name that
+// technique/light_kind.h gives it. A filter names its file in its own row (technique/filters.cpp).
 #pragma once
 #include "gl/program.h"
 #include "technique/bias.h"
@@ -7,9 +7,6 @@
 #include "technique/settings.h"
 
 namespace noonmark::gl {
-
-// Defines what gl/shaders/light/view.glsl lists, and includes the kind of map that the light has.
-const char* light_file(LightKind kind);
 
 // The slots of a program that includes shaders/receiver.glsl: <light>, and <bias> (gl/bias_text.h), whose text it
 // defines in `programs`.

@@ -164,14 +164,17 @@ std::vector<Setting> make_table() {
       real("light.angular_diameter_deg", "deg", 0, 90,
            "directional: angular diameter of the sun, for R0 (the real sun: 0.53); 0: no size; auto: the scene's.",
            MEMBER(light.angular_diameter_deg))
+          .only_read_by({Stage::truth})
           .idle(only_on_directional),
       real("light.radius_m", "m", 0, 1e6, "spot, point: radius of the light, for R0; 0: no size; auto: the scene's.",
            MEMBER(light.radius_m))
+          .only_read_by({Stage::truth})
           .idle(not_on_directional),
       choice("light.shape", {"sphere", "disc"},
              "spot, point: shape of a light with a size, for R0. sphere; disc: across a spot light's axis, or facing "
              "each receiver for a point light.",
              MEMBER(light.shape))
+          .only_read_by({Stage::truth})
           .idle(not_on_directional),
       real("light.cone_deg", "deg", 1, 170,
            "spot: whole angle of the cone; outside it nothing is lit; auto: the scene's.", MEMBER(light.cone_deg))

@@ -102,7 +102,7 @@ struct Settings {
   TruthSettings truth;
 };
 
-// The stages of a measurement (app/workbench.h), in their order.
+// The stages of a measurement (app/stages.h), in their order.
 enum class Stage : uint8_t { scene = 1, view = 2, truth = 4, map = 8, lookup = 16, ladder = 32 };
 
 struct Stages {

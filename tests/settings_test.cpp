@@ -398,6 +398,7 @@ TEST(Settings, TheKeyOfAStageChangesWithWhatItReadsAndNothingElse) {
   const std::pair<const char*, Stages> expected[] = {{"scene.theta_deg", {Stage::scene}},
                                                      {"view.eye_m", {Stage::view}},
                                                      {"light.position_m", {Stage::truth, Stage::map, Stage::lookup}},
+                                                     {"light.radius_m", {Stage::truth}},  // R0 alone
                                                      {"map.resolution", {Stage::map, Stage::lookup}},
                                                      {"map.format", {Stage::map}},
                                                      {"map.lit_beyond_far", {Stage::ladder}},

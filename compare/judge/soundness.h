@@ -5,7 +5,7 @@
 // check finds both.
 //
 //   Image<float> ties = tie_map(evidence);    // uploaded and looked up like R4's map
-//   auto metrics = measure_soundness({evidence, map, ties, renderer.lookup(...), receivers, frame});
+//   auto metrics = measure_soundness({evidence, map, ties, renderer.lookup(...), receivers, frame, eye_m});
 #pragma once
 #include <map>
 #include <span>

@@ -1,7 +1,7 @@
 // The ladder: why each pixel is wrong. Every cause is defined here, and nowhere else.
 //
 //   Ladder ladder = climb({truth, probe, taps, exact_map, settings.map, bias, r4, r5});
-//   PointMetrics m = measure(ladder, ...);               // compare/ladder/measure.h
+//   std::map<std::string, double> metrics = measure_ladder({ladder, ...});   // compare/ladder/measure.h
 //
 // Rungs: R0 is the light with its size; R1 one exact shadow ray; R2 the filter's taps at their exact places; R3 the
 // taps at the centres of the texels that they read; R4 the technique on an exact map; R5 the result of the GPU. R0, R1,
@@ -118,6 +118,11 @@ struct Ladder {
   const Image<float>& shown() const { return rungs.back().lit; }  // the judged picture: R5, or the rung put on top
   std::string_view cause_of(size_t pixel) const { return causes[cause[pixel]].name; }
 };
+
+// The receivers that every fraction is a fraction of.
+inline bool is_counted(const Ladder& ladder, size_t i) {
+  return (ladder.flags[i] & flag_facing) && !(ladder.flags[i] & flag_ambiguous);
+}
 
 // Puts a picture on top of the ladder. From then on this picture is judged, and the step to it from the rung below has
 // the one cause `cause`. If that step is larger than each step below it, that cause names the pixel. picture:

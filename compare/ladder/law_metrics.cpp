@@ -28,10 +28,6 @@ struct Over {
   std::array<double, cause_count> area{};
 };
 
-bool is_counted(const Ladder& ladder, size_t i) {
-  return (ladder.flags[i] & flag_facing) && !(ladder.flags[i] & flag_ambiguous);
-}
-
 // The maxima of law 1 are computed on all cores, apart from the sums: under a point light each receiver evaluates the
 // law for every tap.
 Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>& areas, double quantum) {

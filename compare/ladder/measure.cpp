@@ -10,15 +10,11 @@
 namespace noonmark {
 namespace {
 
-bool counted(const Ladder& ladder, size_t i) {
-  return (ladder.flags[i] & flag_facing) && !(ladder.flags[i] & flag_ambiguous);
-}
-
 // Whether the receiver lies in a gap, a lit strip between an occluder and its shadow: Peter Panning where the truth is
 // dark. With a filter, a receiver that is itself lit can have a tap with Peter Panning too. Such a receiver has no
 // occluder and so no distance to it.
 bool in_gap(const Ladder& ladder, size_t i) {
-  return counted(ladder, i) && ladder[Cause::peter_panning][i] != 0 && ladder.truth()[i] == 0;
+  return is_counted(ladder, i) && ladder[Cause::peter_panning][i] != 0 && ladder.truth()[i] == 0;
 }
 
 // std::max that keeps a NaN, whichever value it is.
@@ -42,7 +38,7 @@ double edge_displacement_pixels(const Ladder& ladder) {
     if (!any) continue;
     const Image<float> distance = distance_to(mask);
     for (size_t i = 0; i < mask.size(); ++i)
-      if (counted(ladder, i) && step[i] != 0 && std::isfinite(distance[i])) raise(largest, distance[i]);
+      if (is_counted(ladder, i) && step[i] != 0 && std::isfinite(distance[i])) raise(largest, distance[i]);
   }
   return largest;
 }
@@ -183,7 +179,7 @@ PointRecord::Worst worst_pixel(const Ladder& ladder) {
   for (int y = 0; y < ladder.flags.height; ++y) {
     for (int x = 0; x < ladder.flags.width; ++x) {
       const size_t i = ladder.flags.index(x, y);
-      if (!counted(ladder, i)) continue;
+      if (!is_counted(ladder, i)) continue;
       const double error = std::abs(static_cast<double>(ladder.shown()[i]) - ladder.truth()[i]);
       if (worst.x < 0 || !(error <= worst.error)) {
         worst = {x, y, error, std::string(ladder.cause_of(i))};

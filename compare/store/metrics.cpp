@@ -69,7 +69,9 @@ constexpr Metric table[] = {
      true},
     {"receivers", "count", "Number of pixels that see a surface.", false},
     {"facing", "count", "Number of receivers that face the light.", false},
-    {"counted", "count", "Number of facing receivers that are not ambiguous. Every fraction is a fraction of these.",
+    {"counted", "count",
+     "Number of facing receivers that are not ambiguous. Every fraction is a fraction of these, unless its text names "
+     "others.",
      false},
     {"clipped", "count",
      "Number of pixels that see nothing because the camera's near or far plane cuts the surface off.", false},

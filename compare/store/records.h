@@ -67,7 +67,7 @@ struct PointRecord : PointPictures {
   std::string part;                             // the experiment's part; empty if it has no parts
   std::map<std::string, std::string> settings;  // every setting by its row's name, in canonical text
   std::map<std::string, double> metrics;  // by metric name; not finite: could not be measured, which breaks any bound
-  std::map<std::string, double> times;    // "map_ms", "lookup_ms", "truth_ms", "rays" ...
+  std::map<std::string, double> times;    // of stages: "hard_truth_ms", "texel_rays" ...
   std::optional<BiasCurve> curve;
   struct Worst {
     int x = -1, y = -1;
