@@ -35,7 +35,7 @@ struct BiasFormula {
 struct BiasPart {
   std::string_view name;  // name of its setting bias.<name> and of its file, if it has one
   BiasPlace acts_on = BiasPlace::compared_depth;
-  std::string_view unit;  // of the amount: "bias.unit"; "texels" of the map at the receiver; "" ...
+  std::string_view unit;  // the unit of the amount: "bias.unit"; "texels" of the map at the receiver; "" ...
   double most = 0;        // the amount is in 0 ... most
   std::string_view help;
   std::string_view floor_help = {};  // empty: the part has no floor; otherwise help of the setting bias.<name>_floor

@@ -62,10 +62,8 @@ struct LightFrame {
   glm::dvec3 direction_to_light(glm::dvec3 world) const { return light().direction_to_light(*this, world); }  // unit
   // The same for a directional light: its direction does not depend on the place.
   glm::dvec3 direction_to_light() const { return -forward; }
-  bool reaches(glm::dvec3 world) const {
-    return light().reaches(*this, world);
-  }  // false only outside the cone of a
-     // spot light
+  // True if the point can get light. It is false only outside the cone of a spot light.
+  bool reaches(glm::dvec3 world) const { return light().reaches(*this, world); }
 
   // The quantity that the map's depth measures, for a point in the light's frame: metres along the axis, or the
   // distance. It is the same in all tiles.

@@ -65,10 +65,8 @@ class KindOfLight {
   virtual WayToLight way_to_centre(const LightFrame& frame, glm::dvec3 world) const;
   // Two unit vectors perpendicular to the ray to a point of the world.
   virtual void axes_across(const LightFrame& frame, glm::dvec3 world, glm::dvec3& right, glm::dvec3& up) const;
-  virtual bool reaches(const LightFrame& /*frame*/, glm::dvec3 /*world*/) const {
-    return true;
-  }  // spot: true inside
-     // the cone
+  // True if the point can get light. Under a spot light it must be inside the cone.
+  virtual bool reaches(const LightFrame& /*frame*/, glm::dvec3 /*world*/) const { return true; }
   // True if the light does not reach any point of the triangle. It is false too if a quick test cannot decide that.
   virtual bool misses(const LightFrame& /*frame*/, const glm::dvec3 (&/*corners*/)[3]) const { return false; }
   // True if a point in the light's frame has a place in the map. A point behind a spot light has none.
@@ -78,16 +76,14 @@ class KindOfLight {
   // The offset is in texels for a flat map, in metres of the world for a cube.
   virtual glm::dvec3 tap_place(const LightFrame& frame, glm::dvec3 light, glm::dvec3 offset) const;
 
-  // ---- its size, for R0
+  // ---- the size of the light, for R0
 
   // The radius in metres; for parallel rays the tangent of half the angle. 0 means that the light has no size.
   virtual double disc_radius(const Light& light) const { return light.radius_m; }
   // The way from p to the place on the light that belongs to u, a point of the unit square.
   virtual WayToLight way_to_disc(const LightFrame& frame, const LightDisc& disc, glm::dvec3 p, glm::dvec2 u) const;
-  virtual bool has_axis() const {
-    return true;
-  }  // true: a disc is perpendicular to the axis; false: it faces each
-     // receiver
+  // True if a disc is perpendicular to the light's axis. Otherwise the disc faces each receiver.
+  virtual bool has_axis() const { return true; }
   virtual bool surrounds(const LightFrame& frame, const LightDisc& disc, glm::dvec3 p) const;
 
   // ---- text

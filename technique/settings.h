@@ -62,7 +62,7 @@ struct MapSettings {
 
 // A bias is the sum of its parts (technique/bias_parts.h). Each part is 0 unless it is set.
 struct BiasSettings {
-  BiasUnit unit = BiasUnit::depth;       // of the parts whose unit is bias.unit
+  BiasUnit unit = BiasUnit::depth;       // the unit of the parts whose own unit is "bias.unit"
   std::string reference = "own_depth";   // the name of one of tap_references()
   std::optional<double> plane_cap = {};  // in bias.unit; empty: no cap
 
@@ -76,12 +76,12 @@ struct BiasSettings {
 };
 
 struct FilterSettings {
-  std::string kind = "none";  // of filters()
+  std::string kind = "none";  // the name of one of filters()
   int size = 3;               // box, gaussian: taps on a side, odd
   double step_texels = 1;     // box: distance of neighbouring taps
   double sigma_texels = 1;    // gaussian: standard deviation
   double radius_texels = 2;   // poisson, vogel: radius of the disk
-  int taps = 16;              // vogel
+  int taps = 16;              // vogel: number of taps
   bool rotate = false;        // poisson, vogel: another rotation of the disk at each pixel
   double offset_m = 0.1;      // cube_grid: taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world
   DiskRadius disk = DiskRadius::fixed;  // cube_disk: radius_m, or (1 + view distance / far) / 25 metres
