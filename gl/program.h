@@ -1,4 +1,4 @@
-// OpenGL programs made of the embedded GLSL files (gl/shaders), each built once per context.
+// OpenGL programs that are made of the embedded GLSL files (gl/shaders). Each program is built once per context.
 //
 //   Program& lookup = programs.get({"shaders/screen.vert", "shaders/lookup.frag"},
 //                                  {{"filter", "shaders/filter/box.glsl"}, ...});
