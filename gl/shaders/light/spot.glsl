@@ -1,3 +1,4 @@
+// A spot light with one perspective map.
 #include "shaders/light/projected.glsl"
 
 uniform vec3 light_axis;  // unit, away from the light
