@@ -7,7 +7,7 @@ namespace {
 
 std::string formula_file(std::string_view name) { return fmt::format("technique/bias/{}.glsl", name); }
 
-// "bias_slope", "bias_slope_floor", "bias_slope_cap"
+// The name of the uniform: "bias_slope", "bias_slope_floor" or "bias_slope_cap".
 std::string uniform(const ActivePart& active, std::string_view parameter = "") {
   return fmt::format("bias_{}{}", active.part->name, parameter);
 }
@@ -19,7 +19,7 @@ void declare(std::string& text, const ActivePart& active) {
   if (!active.part->cap_help.empty()) text += fmt::format("uniform float {};\n", uniform(active, "_cap"));
 }
 
-// Each sum is a statement of its own, so that the shader adds in the host's order.
+// Each sum is a statement of its own, so that the shader adds in the same order as the host.
 std::string looked_up_text(const Bias& bias) {
   if (!bias.moves_lookup()) return "vec3 looked_up(vec3 position, Surface surface) { return position; }\n";
   std::string text = "vec3 looked_up(vec3 position, Surface surface) {\n  float texel_m = texel_m_at(position);\n";

@@ -39,7 +39,7 @@ void DebugLog::install(DebugMode mode) {
   mode_ = mode;
   if (mode == DebugMode::off) return;
   glEnable(GL_DEBUG_OUTPUT);
-  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);  // so that check() at the end of a call sees all of that call's messages
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);  // so that check() at the end of a call finds all messages of that call
   glDebugMessageCallback(callback, this);
 }
 
@@ -67,7 +67,7 @@ void DebugLog::check(const char* where) {
 }
 
 void DebugLog::forget() {
-  // A lost context may report errors for ever; more than this many are not distinct flags.
+  // A lost context may report errors without end. There are fewer than 16 distinct error flags.
   for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
   }
   first_error_.clear();

@@ -1,5 +1,5 @@
-// What the driver says through KHR_debug and glGetError. The callback only stores: an exception may not cross the
-// driver's frames.
+// The driver's messages and errors, from KHR_debug and glGetError. The callback only stores a message, because an
+// exception must not pass through the driver's stack frames.
 #pragma once
 #include <string>
 
@@ -9,7 +9,7 @@ namespace noonmark::gl {
 
 class DebugLog {
  public:
-  // Installs the callback in the current context, which keeps this object's address.
+  // Installs the callback in the current context. The context keeps the address of this object.
   void install(DebugMode mode);
 
   // Throws Error(defect) with the first stored message (DebugMode::fatal), or Error(device) with glGetError's name.

@@ -16,8 +16,9 @@ namespace {
 
 constexpr const char* what_to_install = "on Debian, apt install libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri";
 
-// libepoxy ends the process when it cannot open what it needs, so look first, for what it looks for (1.5.10): EGL, and
-// OpenGL from the first of two. They stay open: epoxy holds pointers into them.
+// libepoxy ends the process if it cannot open a library that it needs. So this function first tries to open the same
+// libraries as libepoxy 1.5.10: EGL, and the first of two names for OpenGL. They are not closed, because libepoxy keeps
+// pointers into them.
 void require_libraries() {
   const auto opens = [](const char* name) { return dlopen(name, RTLD_LAZY | RTLD_LOCAL) != nullptr; };
   const auto fail = [] {
@@ -46,11 +47,11 @@ bool software_wanted() {
   return value && *value && std::string_view(value) != "0" && std::string_view(value) != "false";
 }
 
-// Best first: GPUs in the order in which EGL enumerates them, then Mesa's surfaceless platform.
+// The best first: GPUs in the order of EGL's enumeration, then Mesa's surfaceless platform.
 std::vector<Candidate> candidates() {
   const char* client_extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   std::vector<Candidate> found;
-  // Without it there is no eglGetPlatformDisplayEXT, and libepoxy ends the process when it is called.
+  // Without this extension there is no eglGetPlatformDisplayEXT. libepoxy ends the process if it is called then.
   if (!has_word(client_extensions, "EGL_EXT_platform_base")) return found;
   if (has_word(client_extensions, "EGL_EXT_device_enumeration") &&
       has_word(client_extensions, "EGL_EXT_platform_device") && !software_wanted()) {
@@ -66,7 +67,7 @@ std::vector<Candidate> candidates() {
   return found;
 }
 
-// Of at least this version; of a core profile.
+// A context of the core profile, of at least this version.
 EGLContext core_context(EGLDisplay display, EGLint major, EGLint minor, bool debug) {
   const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
                                major,
@@ -80,10 +81,10 @@ EGLContext core_context(EGLDisplay display, EGLint major, EGLint minor, bool deb
   return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
 }
 
-// "OpenGL 3.3 (Core Profile) Mesa 22.3.6 (softpipe)": the most that a driver without 4.5 offers; empty when it has
-// none.
+// The best that a driver without 4.5 offers, such as "OpenGL 3.3 (Core Profile) Mesa 22.3.6 (softpipe)". It is empty if
+// the driver gives no context.
 std::string offered(EGLDisplay display) {
-  // 3.1 is the first version that a context can be asked for; the driver gives the highest one that is compatible.
+  // 3.1 is the lowest version that can be requested. The driver returns the highest version that is compatible with it.
   EGLContext context = core_context(display, 3, 1, false);
   if (context == EGL_NO_CONTEXT) context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, nullptr);
   if (context == EGL_NO_CONTEXT) return "";
@@ -100,7 +101,8 @@ std::string offered(EGLDisplay display) {
   return text;
 }
 
-// Mesa's and GLVND's, which choose a driver or what it says of itself: "GALLIUM_DRIVER=softpipe, ..."
+// The variables of Mesa and GLVND that choose a driver or change its description, with their values:
+// "GALLIUM_DRIVER=softpipe, ..."
 std::string choosing_variables() {
   std::string set;
   for (const char* name :
@@ -112,12 +114,13 @@ std::string choosing_variables() {
 
 struct Refusal {
   std::string reason;
-  bool too_old = false;  // there is a driver, and nothing is missing
+  bool too_old = false;  // there is a driver, and only its version is too low
 };
 
-// EGL_NO_CONTEXT and a reason when this candidate cannot give an OpenGL 4.5 core context.
+// Returns EGL_NO_CONTEXT and a reason if this candidate cannot give an OpenGL 4.5 core context.
 EGLContext make_context(const Candidate& candidate, bool debug, EGLDisplay& display, Refusal& refusal) {
-  // Not eglGetPlatformDisplay: libepoxy aborts on it, because before there is a display it cannot know of EGL 1.5.
+  // eglGetPlatformDisplay cannot be used: libepoxy aborts on it, because it cannot know the version EGL 1.5 before
+  // there is a display.
   display = eglGetPlatformDisplayEXT(candidate.platform, candidate.native, nullptr);
   EGLint major = 0, minor = 0;
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor)) {
@@ -178,7 +181,8 @@ EglContext::EglContext(DebugMode debug) {
 EglContext::~EglContext() {
   if (eglGetCurrentContext() == context_) eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
-  // No eglTerminate: EGL hands every context of a device the same display, and terminating it would end the others'.
+  // eglTerminate is not called, because EGL gives the same display to all contexts of a device. It would end the other
+  // contexts too.
 }
 
 void EglContext::make_current() const {

@@ -1,7 +1,7 @@
-// An OpenGL 4.5 core context without window or display, and what its driver says.
+// An OpenGL 4.5 core context without window or display, and the errors of its driver.
 //
-// The hardware is found by EGL's device enumeration (a GPU with any vendor's driver); without one, Mesa's surfaceless
-// platform gives llvmpipe. LIBGL_ALWAYS_SOFTWARE=1, Mesa's own switch, keeps GPUs out.
+// EGL's device enumeration finds the GPU, with the driver of any vendor. Without a GPU, Mesa's surfaceless platform
+// gives llvmpipe. LIBGL_ALWAYS_SOFTWARE=1, which is Mesa's own switch, excludes GPUs.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,20 +13,21 @@ namespace noonmark::gl {
 
 class EglContext {
  public:
-  // Throws Error(device) that says what to install.
+  // Throws Error(device); the message names what to install.
   explicit EglContext(DebugMode debug);
   ~EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
 
-  // Cheap when it is current already. Throws Error(defect) when it is current on another thread.
+  // Costs little if the context is current already. Throws Error(defect) if it is current on another thread.
   void make_current() const;
 
   const std::string& platform() const { return platform_; }
 
-  // Errors of the calls so far, by whatever way the driver reports them; see DebugLog. `where`: the caller, for people.
+  // Throws for the errors of the calls so far, by each way in which the driver reports them; see DebugLog. `where`
+  // names the caller in the message.
   void check(const char* where) { log_.check(where); }
-  // Drops them: for a caller that has already thrown a better message.
+  // Drops these errors, for a caller that has already thrown a better message.
   void forget_errors() { log_.forget(); }
 
  private:

@@ -1,4 +1,4 @@
-// Move-only owners of OpenGL objects. The context that made an object must be current when it dies.
+// Move-only owners of OpenGL objects. The context that made an object must be current when the object is destroyed.
 #pragma once
 #include <epoxy/gl.h>
 
@@ -60,8 +60,8 @@ using Query = Owned<QueryKind>;
 using Shader = Owned<ShaderKind>;
 using ProgramObject = Owned<ProgramKind>;
 
-// A 2D texture or a cube map with one level and nearest filtering, its contents undefined. Check for GL_OUT_OF_MEMORY
-// afterwards.
+// A 2D texture or a cube map with one level and nearest filtering. Its contents are undefined. The caller must check
+// for GL_OUT_OF_MEMORY.
 inline Texture make_texture(GLenum format, int width, int height, GLenum target = GL_TEXTURE_2D) {
   GLuint id = 0;
   glCreateTextures(target, 1, &id);
@@ -71,19 +71,19 @@ inline Texture make_texture(GLenum format, int width, int height, GLenum target 
   return Texture(id);
 }
 
-// One face of a cube map as a 2D texture with nearest filtering; it shares the texels.
+// One face of a cube map as a 2D texture with nearest filtering. Both have the same texels in memory.
 inline Texture make_face_view(const Texture& cube, int face) {
   GLint format = 0;
   glGetTextureLevelParameteriv(cube.id(), 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
   GLuint id = 0;
-  glGenTextures(1, &id);  // glTextureView wants a name that has no target yet
+  glGenTextures(1, &id);  // glTextureView needs a name that has no target yet
   glTextureView(id, GL_TEXTURE_2D, cube.id(), static_cast<GLenum>(format), 0, 1, static_cast<GLuint>(face), 1);
   glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return Texture(id);
 }
 
-// data: may be null, for contents undefined. Size 0 is allowed here, though not in OpenGL.
+// data may be null; then the contents are undefined. The size may be 0 here, which OpenGL does not allow.
 inline Buffer make_buffer(const void* data, size_t bytes) {
   GLuint id = 0;
   glCreateBuffers(1, &id);

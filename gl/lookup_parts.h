@@ -12,11 +12,12 @@ namespace noonmark::gl {
 // defines in `programs`.
 ShaderSlots receiver_slots(ProgramCache& programs, LightKind light, const Bias& bias);
 
-// And of one that looks up: <filter>, a file that defines
-//   float lit(Receiver receiver, float bias)  the number of lit taps; of blended ones their weighted mean
+// The slots of a program that looks up the map. They are those of receiver_slots() and <filter>, a file that defines
+//   float lit(Receiver receiver, float bias)  the number of lit taps; for blended taps their weighted mean
 //   float all_lit()                           its greatest value
-// and, for a filter whose taps have weights by a formula, <weights>, which it defines in `programs` too:
-//   float filter_weight(int texel, float s)   of texel 0 ... filter_size along one axis
+// If a formula gives the weights of the filter's taps, there is also the slot <weights>, whose text is defined in
+// `programs` too:
+//   float filter_weight(int texel, float s)   the weight of texel 0 ... filter_size along one axis
 ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bias, const Filter& filter);
 
 }  // namespace noonmark::gl

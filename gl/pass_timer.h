@@ -1,5 +1,5 @@
-// How long a pass took: GPU timer queries on hardware; on software renderers, whose queries are wrong by orders of
-// magnitude, glFinish around a steady clock.
+// The time of a pass. On hardware it is measured by GPU timer queries. The queries of software renderers are wrong by
+// orders of magnitude, so there a steady clock is read before and after, with glFinish.
 #pragma once
 #include <chrono>
 #include <functional>
@@ -17,7 +17,7 @@ class PassTimer {
   double measure(const std::function<void()>& pass);
 
  private:
-  Query query_;  // empty: clock
+  Query query_;  // empty: the clock is used
 };
 
 }  // namespace noonmark::gl

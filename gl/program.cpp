@@ -62,7 +62,7 @@ void Program::set(const char* uniform, const glm::mat4& value) { set(uniform, st
 void Program::set(const char* uniform, std::span<const glm::mat4> values) {
   glProgramUniformMatrix4fv(id(), location(uniform), static_cast<GLsizei>(values.size()), GL_FALSE, &values[0][0][0]);
 }
-// OpenGL ignores location -1.
+// A uniform that is not used has the location -1, and OpenGL ignores it.
 void Program::set_if_used(const char* uniform, float value) {
   glProgramUniform1f(id(), glGetUniformLocation(id(), uniform), value);
 }
@@ -78,7 +78,8 @@ void Program::set_if_used(const char* uniform, const glm::mat4& value) {
 
 namespace {
 
-// The files of gl/shaders, and of technique/ those that C++ compiles too; empty when there is no such file.
+// The text of a file of gl/shaders or of a file of technique/ that C++ compiles too. It is empty if there is no such
+// file.
 std::string_view embedded(std::string_view name) {
   constexpr std::string_view shared = "technique/";
   return name.starts_with(shared) ? technique_files::embedded(name.substr(shared.size())) : shaders::embedded(name);

@@ -1,4 +1,4 @@
-// OpenGL programs made of the embedded GLSL files (gl/shaders), each built once per context.
+// OpenGL programs that are made of the embedded GLSL files (gl/shaders). Each program is built once per context.
 //
 //   Program& lookup = programs.get({"shaders/screen.vert", "shaders/lookup.frag"},
 //                                  {{"filter", "shaders/filter/box.glsl"}, ...});
@@ -33,7 +33,7 @@ class Program {
   void set(const char* uniform, glm::vec3 value);
   void set(const char* uniform, const glm::mat4& value);
   void set(const char* uniform, std::span<const glm::mat4> values);
-  // For what only some slots' files use.
+  // The same, but without an error if the program does not use the uniform. Only some files of a slot use these.
   void set_if_used(const char* uniform, float value);
   void set_if_used(const char* uniform, int value);
   void set_if_used(const char* uniform, glm::vec3 value);
@@ -46,10 +46,11 @@ class Program {
 
 class ProgramCache {
  public:
-  // replaced: texts that stand in for embedded files. Throws Error(usage) when one of them is not embedded.
+  // replaced: texts to use instead of embedded files. Throws Error(usage) if one of these files is not embedded.
   explicit ProgramCache(std::map<std::string, std::string> replaced = {});
 
-  // A text that slots and includes may name as they name a file. One that is defined already stays as it is.
+  // Defines a text by a name, which slots and includes may use like the name of a file. A text that is already defined
+  // is not changed.
   void define(const std::string& name, std::string text);
 
   Program& get(const ShaderStages& stages, const ShaderSlots& slots = {});

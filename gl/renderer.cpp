@@ -69,7 +69,8 @@ Renderer::Impl::Impl(DebugMode debug, ShaderReplacements shaders)
   context->check("Renderer");
 }
 
-// Ends the program where the context is current on another thread: deleting would hit another context's objects.
+// Ends the program if the context is current on another thread, because the deletions would then act on the objects of
+// another context.
 Renderer::Impl::~Impl() { context->make_current(); }
 
 void Renderer::Impl::check_memory(const char* what, int width, int height) {
@@ -83,7 +84,7 @@ void Renderer::Impl::check_memory(const char* what, int width, int height) {
 
 void Renderer::Impl::require(Target& target, GLenum format, int width, int height) {
   if (target.texture && target.format == format && target.width == width && target.height == height) return;
-  target = Target{};  // first, so that both are never held at once
+  target = Target{};  // first, so that memory never holds both
   Texture texture = make_texture(format, width, height);
   check_memory("an image", width, height);
   target = Target{std::move(texture), format, width, height};

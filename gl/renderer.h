@@ -1,4 +1,4 @@
-// The OpenGL side of the measurement: shadow maps and lookups as an engine would make them.
+// The OpenGL side of the measurement: it draws shadow maps and looks them up as an engine does.
 //
 //   gl::Renderer renderer(gl::DebugMode::fatal);
 //   renderer.load_scene(scene);
@@ -7,8 +7,8 @@
 //   gl::ShadowMap map = renderer.render_map(frame, settings);
 //   Image<float> r5 = renderer.lookup(map, frame, settings);
 //
-// Conventions: scenes/scene.h. One Renderer owns one EGL context, current on the thread that made it; all calls come
-// from that thread. Throws Error(device) for drivers and shaders (with the shader's file and line).
+// Conventions: scenes/scene.h. One Renderer owns one EGL context, which is current on the thread that made it. All
+// calls must come from that thread. Throws Error(device) for drivers and shaders, with the shader's file and line.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -31,22 +31,22 @@ enum class DebugMode {
   fatal,  // an error message from the driver throws Error(defect) at the next call; for tests
 };
 
-// Whole texts that stand in for GLSL files of the program, by name ("shaders/compare.glsl"): to measure one's own
-// variant of a shader, and to prove that a defect in one shows. What is replaced keeps its interface, or does not
-// compile.
+// Whole texts to use instead of GLSL files of the program, by file name ("shaders/compare.glsl"). With them a user can
+// measure a variant of a shader, and a test can show that a defect in a shader is found. A replaced file must keep its
+// interface, or it does not compile.
 using ShaderReplacements = std::map<std::string, std::string>;
 
-// The program's own text of a GLSL file, to make a variant from. Throws Error(usage) where there is no such file.
+// The program's own text of a GLSL file, as the start of a variant. Throws Error(usage) if there is no such file.
 std::string shader_file(const std::string& name);
 
 struct DeviceInfo {
   std::string vendor, renderer, version, egl_platform;
-  bool software = false;       // llvmpipe and its kin
-  bool timer_queries = false;  // whether times come from GPU timer queries, or from glFinish and a steady clock
+  bool software = false;       // llvmpipe and other software renderers
+  bool timer_queries = false;  // true: times come from GPU timer queries; false: from glFinish and a steady clock
   int max_map_resolution = 0;
 };
 
-// Which taps a probe knows the texels of; the middle one always.
+// The taps whose texels a probe holds. The texel of the middle tap is always known.
 enum class ProbeTaps { all, none };
 
 // A shadow map on the device. Move-only.
@@ -66,7 +66,7 @@ class ShadowMap {
 
 class Renderer {
  public:
-  // Throws Error(usage) when a replaced file is none of the program's.
+  // Throws Error(usage) if a replaced file is not a file of the program.
   explicit Renderer(DebugMode debug, ShaderReplacements shaders = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
@@ -74,14 +74,15 @@ class Renderer {
 
   const DeviceInfo& info() const;
 
-  // Uploads the scene's triangles; replaces any scene before it.
+  // Uploads the scene's triangles. They replace those of the scene before.
   void load_scene(const Scene& scene);
 
-  // For each pixel the index of the visible triangle, or no_primitive. unseen: the triangles that this camera looks
-  // through, as unseen_backs() has them (scenes/receivers.h); the others are seen from both sides.
+  // For each pixel the index of the visible triangle, or no_primitive. unseen: the triangles that this camera does not
+  // see, from unseen_backs() (scenes/receivers.h). The pixel shows what lies behind them. All other triangles are seen
+  // from both sides.
   Image<uint32_t> render_primitives(const Camera& camera, int width, int height, std::span<const uint32_t> unseen = {});
 
-  // Uploads P and N. eye_m: the camera, for filters that grow with the view distance.
+  // Uploads P and N. eye_m is the position of the camera, for filters that grow with the view distance.
   void load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m);
 
   // Renders the scene's depth from the light. Reads settings.map and the polygon offset of settings.bias; parts that move
@@ -91,30 +92,32 @@ class Renderer {
   ShadowMap render_map(const LightFrame& frame, const Settings& settings, double* time_ms = nullptr,
                        std::span<const glm::vec3> casters = {});
 
-  // A map made elsewhere (R4's exact one): 32-bit float depth whatever settings.format says, wrap as settings has it.
-  // depth: of LightFrame::map_size(); six times as high as wide it is a cube.
-  // Throws Error(defect) for depths outside [0,1] and for NaN: OpenGL may clamp them.
+  // Uploads a map that was made elsewhere, such as the exact map of R4. Its format is 32-bit float depth, whatever
+  // settings.format is; its wrap mode is the one of the settings. depth has the size LightFrame::map_size(); an image
+  // six times as high as wide is a cube map. Throws Error(defect) for NaN and for depths outside [0, 1], because OpenGL
+  // may clamp them.
   ShadowMap upload_map(const Image<float>& depth, const MapSettings& settings);
 
-  // The depths as the lookup's sampler returns them, bit for bit; laid out as LightFrame::map_size() says.
+  // The depths that the lookup's sampler returns, bit for bit, in the layout of LightFrame::map_size().
   Image<float> read_map(const ShadowMap& map);
 
-  // What one unit of glPolygonOffset is on this device, in window depth, measured by drawing with it; of 32-bit float,
-  // whose unit depends on the primitive's depth, NaN.
+  // One unit of glPolygonOffset on this device, in window depth. It is measured by drawing with it. For 32-bit float it
+  // is NaN, because the unit depends on the depth of the primitive.
   double polygon_offset_unit(DepthFormat format);
 
-  // The technique: for every receiver its visibility in [0,1]. Background pixels, and those at or behind the light: 0.
-  // Of filters that compare in hardware OpenGL clamps the biased reference to [0,1] where the map's format is a fixed-
-  // point one: with lit_beyond_far off, what lies beyond far is still lit where the map is empty.
+  // The technique's result: the visibility of every receiver, in [0, 1]. Background pixels and receivers at or behind
+  // the light have 0. For filters that compare in hardware, OpenGL clamps the biased reference to [0, 1] if the format
+  // of the map is fixed-point. So even with lit_beyond_far off, a receiver beyond far is lit where the map is empty.
   Image<float> lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings,
                       double* time_ms = nullptr);
 
-  // What lookup computes before it compares. Independent of the map's contents and of the bias, but for parts that move
-  // the lookup.
+  // The numbers that lookup computes before it compares. They do not depend on the contents of the map. Of the bias,
+  // they depend only on the parts that move the lookup.
   LookupProbe probe(const LightFrame& frame, const Settings& settings, ProbeTaps taps = ProbeTaps::all);
 
-  // Puts these pixels' taps, whole rows of the picture, in the place of those that the probe holds. Only a cube's
-  // sampler chooses the texel of each tap: of a flat map every tap is known, and this does nothing.
+  // Replaces the taps that the probe holds by those of these pixels, which are whole rows of the picture. This is
+  // needed for a cube only, because there the sampler chooses the texel of each tap. For a flat map every tap is known,
+  // and this function does nothing.
   void probe_strip(LookupProbe& probe, const LightFrame& frame, const Settings& settings, PixelRange strip);
 
  private:

@@ -1,6 +1,6 @@
-// What a Renderer holds, for its own source files: renderer.cpp (life, scene), renderer_receivers.cpp,
-// renderer_map.cpp (maps as engines draw them), renderer_map_data.cpp (uploaded and read back), renderer_lookup.cpp and
-// renderer_probe.cpp.
+// The members of a Renderer, for its own source files: renderer.cpp (construction, scene), renderer_receivers.cpp,
+// renderer_map.cpp (maps drawn as engines draw them), renderer_map_data.cpp (maps uploaded and read back),
+// renderer_lookup.cpp and renderer_probe.cpp.
 #pragma once
 #include <map>
 #include <memory>
@@ -22,7 +22,7 @@ inline constexpr GLfloat lit_border[4] = {1, 1, 1, 1};
 GLint gl_wrap(Wrap wrap);
 
 struct ShadowMap::Impl {
-  // Keeps the context, whose texture this is; a map may outlive its Renderer.
+  // Keeps the context alive, because the texture belongs to it. A map may exist longer than its Renderer.
   std::shared_ptr<EglContext> context;
   Texture depth;
   int resolution = 0;
@@ -46,16 +46,16 @@ struct Box {
 };
 
 struct Renderer::Impl {
-  std::shared_ptr<EglContext> context;  // first, so that it dies last
+  std::shared_ptr<EglContext> context;  // the first member, so that it is destroyed last
   DeviceInfo info;
   std::optional<PassTimer> timer;
   ProgramCache programs;
-  std::set<std::string> warm;  // passes that have run once, so that no driver's compiler is in their times
+  std::set<std::string> warm;  // passes that have run once, so that their times contain no compilation by the driver
 
   VertexArray scene_vertices, no_vertices;
   Buffer positions, triangles;
   GLsizei index_count = 0;
-  Box scene_box;  // of the positions
+  Box scene_box;  // the box around the positions
 
   Framebuffer framebuffer;
   Target primitive_colour, primitive_depth;
@@ -64,39 +64,40 @@ struct Renderer::Impl {
   Target lit, map_strip;
   Target probe_scalars, probe_texels, probe_radius;
   Buffer tap_rows;
-  Sampler comparing;   // of hardware comparison
-  Texture cube_index;  // each texel's own place in the map's image, for cubes of ...
+  Sampler comparing;   // for hardware comparison
+  Texture cube_index;  // each texel holds its own place in the map's image; for cubes of ...
   int cube_index_resolution = 0;
   std::map<DepthFormat, double> polygon_offset_units;
 
   Impl(DebugMode debug, ShaderReplacements shaders);
   ~Impl();
 
-  // Makes `target` of this format and size, if it is not already. Throws Error(device) when memory is short.
+  // Gives `target` this format and size, if it does not have them already. Throws Error(device) if memory is short.
   void require(Target& target, GLenum format, int width, int height);
   void check_memory(const char* what, int width, int height);
 
-  // Binds the framebuffer with these textures alone (colour i at location i) and sets the viewport.
+  // Binds the framebuffer with only these textures (colour i at location i) and sets the viewport.
   void draw_into(std::initializer_list<GLuint> colours, GLuint depth, int width, int height);
-  // Ends draw_into: nothing stays attached, so that a deleted texture is not kept alive.
+  // Ends draw_into. It detaches all textures, because an attached texture stays in memory after it is deleted.
   void detach(size_t colours);
 
   void draw_scene(const Program& program);
-  // depth_test: GL_NONE for none.
+  // depth_test: GL_NONE means no test.
   void draw_screen(const Program& program, GLenum depth_test = GL_NONE);
 
-  // Runs the pass; when time_ms is given, its time goes there, after one untimed run if `key` is not warm.
+  // Runs the pass. If time_ms is given, it receives the time. If `key` is not in `warm`, an untimed run comes first.
   void run(const std::string& key, double* time_ms, const std::function<void()>& pass);
 
-  // Throw Error(usage) when the device, or its memory, has no such map.
+  // Throw Error(usage) if the device or its memory does not allow such a map.
   void check_resolution(int resolution, bool cube) const;
   Texture make_map_texture(GLenum format, int resolution, bool cube, Wrap wrap);
 
-  // What light, bias and receiver need of a program that includes shaders/receiver.glsl; binds the receivers.
+  // Sets the uniforms of light, bias and receiver in a program that includes shaders/receiver.glsl, and binds the
+  // receivers.
   void set_receiver_uniforms(Program& program, const LightFrame& frame, const Settings& settings);
-  // Uploads and binds the pattern of a program that includes shaders/pattern.glsl.
+  // Uploads and binds the pattern for a program that includes shaders/pattern.glsl.
   void set_pattern(Program& program, const TapPattern& pattern);
-  // The texels that these taps of those rows' receivers read in a cube map: LookupProbe::cube_texel.
+  // The texels in a cube map that these taps of the receivers in those rows read: LookupProbe::cube_texel.
   struct Rows {
     int begin = 0, end = 0;
   };
@@ -104,7 +105,7 @@ struct Renderer::Impl {
                                     Rows rows, int tap_begin, int tap_end);
 };
 
-// The whole of level 0, row 0 first.
+// Reads all of level 0, beginning with row 0.
 template <class T>
 Image<T> read_back(const Target& target, GLenum format, GLenum type) {
   Image<T> image(target.width, target.height);

@@ -1,4 +1,4 @@
-// The technique over the receivers.
+// The lookup pass: the technique's result for all receivers.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace noonmark::gl {
 namespace {
 
-// As shaders/light/view.glsl has them.
+// shaders/light/view.glsl uses these numbers.
 static_assert(static_cast<int>(BiasUnit::depth) == 0 && static_cast<int>(BiasUnit::m) == 1 &&
               static_cast<int>(BiasUnit::texel) == 2);
 
@@ -50,7 +50,8 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
   if (!position_image.texture) throw std::logic_error("load_receivers comes before lookup and probe");
   const glm::vec3 light_position(frame.origin_m);
   const auto set = [&](const char* name, double value) { program.set_if_used(name, static_cast<float>(value)); };
-  // The light: shaders/light/view.glsl and the files beside it. At one metre along the axis, in the light's frame:
+  // The uniforms of the light, for shaders/light/view.glsl and the files beside it. Texel size and bias unit are those
+  // at one metre along the axis, in the light's frame.
   const glm::dvec3 one_metre(0, 0, 1);
   program.set_if_used("light_position", light_position);
   set("light_texel_m", frame.texel_m(one_metre));
@@ -59,18 +60,18 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
   set("light_far_m", frame.far_m);
   if (frame.map_shape() == MapShape::flat) {
     const glm::dmat4 clip_from_world = frame.clip_from_world();
-    // Relative to the light, so that a plane's offset is small.
+    // Planes are relative to the light, so that their offsets are small.
     const glm::dmat4 clip_from_light = glm::translate(clip_from_world, glm::dvec3(light_position));
     program.set("clip_from_world", glm::mat4(clip_from_world));
     program.set_if_used("clip_from_world_planes", glm::mat4(glm::transpose(glm::inverse(clip_from_light))));
     program.set("resolution", frame.resolution);
-    program.set_if_used("direction_to_light", glm::vec3(frame.direction_to_light()));  // of parallel rays
+    program.set_if_used("direction_to_light", glm::vec3(frame.direction_to_light()));  // for parallel rays
     program.set_if_used("light_axis", glm::vec3(frame.forward));
     program.set_if_used("light_right", glm::vec3(frame.right));
     program.set_if_used("light_up", glm::vec3(frame.up));
   }
   set_bias_uniforms(program, Bias(settings.bias));
-  // The receivers.
+  // The uniforms and images of the receivers.
   program.set_if_used("eye_m", eye_m);
   glBindTextureUnit(0, position_image.texture.id());
   glBindTextureUnit(1, normal_image.texture.id());
@@ -79,7 +80,7 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
 void Renderer::Impl::set_pattern(Program& program, const TapPattern& pattern) {
   std::vector<glm::vec4> rows = tap_table(pattern);
   const int taps = static_cast<int>(rows.size()) / pattern.variants;
-  // A uniform block of 16 KiB is what every OpenGL has.
+  // Every OpenGL allows a uniform block of 16 KiB.
   constexpr size_t block_rows = most_listed_taps;
   if (rows.size() > block_rows) throw std::logic_error("a pattern of more taps than shaders/pattern.glsl holds");
   rows.resize(block_rows, glm::vec4(0));

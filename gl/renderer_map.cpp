@@ -1,4 +1,4 @@
-// Shadow maps as engines draw them.
+// The shadow-map pass: it draws shadow maps as engines do.
 #include <fmt/format.h>
 
 #include <array>
@@ -71,8 +71,8 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
     glClearBufferfv(GL_DEPTH, 0, &far_depth);
     r.draw_scene(program);
   };
-  // The same map as by layers. llvmpipe rounds vertices from a geometry shader otherwise on their way to the viewport,
-  // so that it is the same to the last bit only where the side is a power of two.
+  // This draws the same map as the layered pass. But llvmpipe rounds vertices from a geometry shader differently in the
+  // transform to the viewport. So the two maps are bit for bit the same only if the side is a power of two.
   const auto draw_faces = [&] {
     for (int face = 0; face < 6; ++face) {
       glNamedFramebufferTextureLayer(r.framebuffer.id(), GL_DEPTH_ATTACHMENT, depth.id(), 0, face);
@@ -85,22 +85,23 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
   else
     program.set("clip_from_world", clip_from_world[0]);
 
-  Buffer moved;  // while it lives, the map's pass draws it
+  Buffer moved;  // the map's pass draws this buffer while it exists
   if (!casters.empty()) {
     moved = make_buffer(casters.data(), casters.size() * sizeof(glm::vec3));
     glVertexArrayVertexBuffer(r.scene_vertices.id(), 0, moved.id(), 0, sizeof(glm::vec3));
   }
-  r.draw_into({}, depth.id(), side, side);  // of a cube all layers
+  r.draw_into({}, depth.id(), side, side);  // all layers if it is a cube
   const std::optional<Bias::PolygonOffset> offset = Bias(settings.bias).polygon_offset();
   glDepthMask(GL_TRUE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   set_culling(settings.map.cull);
   set_enabled(GL_DEPTH_CLAMP, settings.map.depth_clamp);
-  // Where the shader writes its depth, as a cube's does, OpenGL has no use for the offset.
+  // OpenGL ignores the offset if the shader writes its own depth, as it does for a cube.
   set_enabled(GL_POLYGON_OFFSET_FILL, offset.has_value());
   if (offset) glPolygonOffset(offset->factor, offset->units);
-  // An engine's map has been written before; the first touch of fresh memory is not the pass's cost.
+  // In an engine the map's memory is already in use. The first write to new memory is not a cost of the pass, so it is
+  // done here, untimed.
   if (time_ms) glClearBufferfv(GL_DEPTH, 0, &far_depth);
   const std::string key = fmt::format("map {} {} {} {}", static_cast<int>(settings.map.format),
                                       static_cast<int>(settings.map.cull), cube, layered);
@@ -119,10 +120,12 @@ double Renderer::polygon_offset_unit(DepthFormat format) {
   if (format == DepthFormat::d32f) return std::nan("");
   const auto known = r.polygon_offset_units.find(format);
   if (known != r.polygon_offset_units.end()) return known->second;
-  // As many units as are an eighth of the range, so that neither the map's rounding nor a float's shows in one of them.
+  // This number of units is an eighth of the depth range. It is so large that the rounding of the map, or of a float,
+  // does not show in one unit.
   const double units = std::ldexp(1.0, (format == DepthFormat::d16 ? 16 : 24) - 3);
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/depth.frag"});
-  const auto depth_with = [&](double offset) {  // of a face across the view, half way
+  // The depth of a triangle parallel to the image plane, at half the range.
+  const auto depth_with = [&](double offset) {
     ShadowMap map(std::make_unique<ShadowMap::Impl>(
         r.context, r.make_map_texture(gl_format(format), 1, false, Wrap::clamp_to_edge), 1, false,
         Wrap::clamp_to_edge));

@@ -1,4 +1,4 @@
-// Shadow maps as data: their textures, uploaded and read back.
+// The data of shadow maps: making their textures, uploading and reading back.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace noonmark::gl {
 namespace {
 
-// A cube of this side and its index texture (renderer_probe.cpp) take 400 MB each.
+// A cube of this side takes 400 MB, and so does its index texture (renderer_probe.cpp).
 constexpr int largest_cube = 4096;
 
 }  // namespace
@@ -43,7 +43,8 @@ Texture Renderer::Impl::make_map_texture(GLenum format, int resolution, bool cub
   check_resolution(resolution, cube);
   Texture texture = make_texture(format, resolution, resolution, cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D);
   check_memory("a shadow map", resolution, resolution);
-  // A direction is always inside a cube; rounding at an edge must not wrap to the other side of the face.
+  // A direction always hits a cube. At an edge, rounding must not wrap to the other side of the face, so the mode is
+  // clamp to edge.
   const GLint mode = gl_wrap(cube ? Wrap::clamp_to_edge : wrap);
   glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, mode);
   glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, mode);
@@ -60,7 +61,7 @@ ShadowMap Renderer::upload_map(const Image<float>& depth, const MapSettings& set
   if ((!cube && depth.height != side) || side != settings.resolution)
     throw Error(ErrorKind::defect, fmt::format("upload_map: the image is {} x {}, the settings ask for {} texels", side,
                                                depth.height, settings.resolution));
-  // OpenGL may clamp what lies outside, so it would not come back as it went.
+  // OpenGL may clamp values outside this range; then the map would not be the uploaded one.
   const auto outside =
       std::find_if(depth.pixels.begin(), depth.pixels.end(), [](float d) { return !(d >= 0 && d <= 1); });
   if (outside != depth.pixels.end())
@@ -79,14 +80,14 @@ Image<float> Renderer::read_map(const ShadowMap& map) {
   Impl& r = *impl_;
   r.context->make_current();
   const int side = map.resolution(), faces = map.impl_->cube ? 6 : 1;
-  // In strips of at most 64 MiB, so that a large map does not need its own size again on the device.
+  // The map is read in strips of at most 64 MiB. So a large map does not need its own size a second time on the device.
   const int rows = std::clamp((1 << 24) / side, 1, side);
   r.require(r.map_strip, GL_R32F, side, rows);
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/read_map.frag"});
   Image<float> image(side, faces * side);
   r.draw_into({r.map_strip.texture.id()}, 0, side, rows);
   for (int face = 0; face < faces; ++face) {
-    Texture view;  // of one face, as a flat map with the same texels
+    Texture view;  // one face as a flat map with the same texels
     if (map.impl_->cube) view = make_face_view(map.impl_->depth, face);
     glBindTextureUnit(2, view ? view.id() : map.impl_->depth.id());
     for (int first = 0; first < side; first += rows) {

@@ -1,4 +1,4 @@
-// What the lookup computes before it compares, read back from it.
+// The probe pass: the numbers that the lookup computes before it compares, read back from the GPU.
 #include <algorithm>
 #include <stdexcept>
 
@@ -9,7 +9,7 @@
 namespace noonmark::gl {
 namespace {
 
-// Each texel's place in the map's image as LightFrame::map_size() lays it out: j * resolution + i.
+// The texture of texel indices: each texel holds its place in the image of LightFrame::map_size(), j * resolution + i.
 Texture make_cube_index(int side) {
   Texture texture = make_texture(GL_R32UI, side, side, GL_TEXTURE_CUBE_MAP);
   glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -85,7 +85,7 @@ void Renderer::probe_strip(LookupProbe& probe, const LightFrame& frame, const Se
   const auto width = static_cast<size_t>(r.position_image.width);
   if (strip.first % width != 0 || strip.end % width != 0) throw std::logic_error("a strip is of whole rows");
   r.context->make_current();
-  std::vector<uint32_t>().swap(probe.cube_texel);  // before the next: it is large
+  std::vector<uint32_t>().swap(probe.cube_texel);  // before the next one is made, because it is large
   probe.cube_texel =
       r.cube_texels(probe, frame, settings,
                     {static_cast<int>(strip.first / width), static_cast<int>(strip.end / width)}, 0, probe.taps());
@@ -97,7 +97,7 @@ std::vector<uint32_t> Renderer::Impl::cube_texels(const LookupProbe& probe, cons
                                                   const Settings& settings, Rows rows, int tap_begin, int tap_end) {
   if (cube_index_resolution != frame.resolution) {
     cube_index_resolution = 0;
-    cube_index = {};  // first, so that both are never held at once
+    cube_index = {};  // first, so that memory never holds both
     cube_index = make_cube_index(frame.resolution);
     check_memory("a cube map's index", frame.resolution, 6 * frame.resolution);
     cube_index_resolution = frame.resolution;
@@ -110,8 +110,8 @@ std::vector<uint32_t> Renderer::Impl::cube_texels(const LookupProbe& probe, cons
   program.set("tap_count", tap_end - tap_begin);
   const int width = position_image.width, height = position_image.height;
   const size_t row_texels = static_cast<size_t>(width) * static_cast<size_t>(tap_end - tap_begin);
-  // Some rows at a time, at most 16 MiB, so that the device does not hold all; OpenGL promises a shader's buffer 128
-  // MiB.
+  // The rows are done in groups of at most 16 MiB, so that the device need not hold all of them. OpenGL guarantees 128
+  // MiB for a shader's buffer.
   const int most = static_cast<int>(std::clamp<size_t>((size_t{1} << 24) / (row_texels * sizeof(uint32_t)), 1,
                                                        static_cast<size_t>(rows.end - rows.begin)));
   const Buffer buffer = make_buffer(nullptr, row_texels * static_cast<size_t>(most) * sizeof(uint32_t));
@@ -119,7 +119,7 @@ std::vector<uint32_t> Renderer::Impl::cube_texels(const LookupProbe& probe, cons
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.id());
   glBindTextureUnit(3, cube_index.id());
   require(probe_radius, GL_R32F, width, height);
-  draw_into({probe_radius.texture.id()}, 0, width, height);  // for its size: the shader writes to the buffer
+  draw_into({probe_radius.texture.id()}, 0, width, height);  // only its size is used: the shader writes to the buffer
   std::vector<uint32_t> texels(row_texels * static_cast<size_t>(rows.end - rows.begin));
   for (int first = rows.begin; first < rows.end; first += most) {
     const int count = std::min(most, rows.end - first);

@@ -1,4 +1,4 @@
-// The receiver pass: which triangle each pixel's centre sees.
+// The receiver pass: it finds the triangle that is visible at the centre of each pixel.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,11 +13,12 @@
 namespace noonmark::gl {
 namespace {
 
-// The camera's matrix with window depth from 1 at near down to 0 at far (glClipControl's zero to one). Of a perspective
-// camera that is about near / depth, which a float holds to the same share at any distance, whatever near is: the
-// usual order, 1 - near / depth, leaves no bits to what stands a million times farther off than near. Near and far are
-// first drawn together to what the scene's box holds, which cuts nothing off: the orthographic depth is spread evenly.
-// Lengyel, "Projection matrix tricks", GDC 2007; Reed, "Depth precision visualized", 2015.
+// The camera's matrix, with window depth from 1 at near down to 0 at far (the zero-to-one mode of glClipControl). For a
+// perspective camera the window depth is about near / depth, and a float holds this with the same relative error at any
+// distance, whatever near is. The usual depth, 1 - near / depth, leaves no bits for a surface a million times farther
+// away than near. Near and far are first moved to the limits of the scene's box, which cuts off no part of the scene.
+// This is for the orthographic camera, whose depth is spread evenly.
+// Sources: Lengyel, "Projection matrix tricks", GDC 2007; Reed, "Depth precision visualized", 2015.
 glm::mat4 reversed_clip_from_world(const CameraFrame& frame, const Box& box) {
   double near_m = frame.camera.near_m.value(), far_m = frame.camera.far_m.value();
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
@@ -28,14 +29,14 @@ glm::mat4 reversed_clip_from_world(const CameraFrame& frame, const Box& box) {
     nearest = std::min(nearest, depth);
     farthest = std::max(farthest, depth);
   }
-  // More than rounding the matrix to float moves a plane.
+  // The margin is greater than the distance by which a plane moves when the matrix is rounded to float.
   const double margin = 0x1p-10 * (farthest - nearest) + 0x1p-20 * (glm::length(frame.eye_m) + std::abs(farthest));
   if (nearest - margin < far_m && farthest + margin > near_m) {
     near_m = std::max(near_m, nearest - margin);
     far_m = std::min(far_m, farthest + margin);
   }
   const bool perspective = frame.camera.projection == Projection::perspective;
-  // A float's exponent ends at 2^-126.
+  // The window depth at far is near / far. It must stay well above the smallest normal float, 2^-126.
   if (perspective) near_m = std::max(near_m, 0x1p-60 * far_m);
   glm::dmat4 clip = frame.clip_from_world();  // clip[column][row]
   const double scale = (perspective ? near_m : 1) / (far_m - near_m);
@@ -85,7 +86,7 @@ Image<uint32_t> Renderer::render_primitives(const Camera& camera, int width, int
 
   Image<uint32_t> image = read_back<uint32_t>(r.primitive_colour, GL_RED_INTEGER, GL_UNSIGNED_INT);
   r.context->check("render_primitives");
-  // OpenGL's row 0 is the bottom one, a picture's the top one.
+  // Row 0 is the bottom row in OpenGL, but the top row in a picture.
   for (int y = 0; y < height / 2; ++y) {
     const auto row = image.pixels.begin() + static_cast<std::ptrdiff_t>(image.index(0, y));
     std::swap_ranges(row, row + width,

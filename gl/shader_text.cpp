@@ -27,8 +27,8 @@ class Expansion {
 
     std::istringstream lines{std::string(text)};
     std::string line;
-    // A #version must stay the first thing in the text, so the outermost file gets no #line at its head. Its number is
-    // 0 and its lines count from 1 in any case.
+    // A #version must be the first thing in the text, so the outermost file gets no #line at its beginning. Its source
+    // number is 0 and its lines count from 1 without that directive.
     if (number != 0) result.text += fmt::format("#line 1 {}\n", number);
     for (int at = 1; std::getline(lines, line); ++at) {
       const size_t hash = line.find_first_not_of(" \t");
@@ -70,7 +70,7 @@ ShaderText expand_includes(const std::string& name, const ShaderSlots& slots, co
 }
 
 std::string name_lines(const std::string& log, const std::vector<std::string>& files) {
-  // Mesa "1:12(5): error", NVIDIA "1(12) : error", glslang and its kin "ERROR: 1:12: ".
+  // The forms are: Mesa "1:12(5): error", NVIDIA "1(12) : error", the glslang family "ERROR: 1:12: ".
   static const std::regex forms[] = {std::regex(R"(^(\d+):(\d+)\(\d+\): )"), std::regex(R"(^(\d+)\((\d+)\) : )"),
                                      std::regex(R"(^(?:ERROR|WARNING): (\d+):(\d+): )")};
   std::istringstream lines(log);

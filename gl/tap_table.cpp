@@ -9,8 +9,8 @@ namespace {
 
 constexpr double whole = 0x1p24;
 
-// Rounds weights of sum 1 to multiples of 1 / whole with that sum, each by less than one of them: those that were cut
-// by most are raised.
+// Rounds weights of sum 1 to multiples of 1 / whole and keeps the sum. Each weight changes by less than one multiple:
+// all are rounded down, and then those that lost most are rounded up instead.
 std::vector<double> quantised(const std::vector<double>& weights) {
   std::vector<double> units, cut;
   for (double w : weights) {
@@ -34,7 +34,7 @@ std::vector<glm::vec4> tap_table(const TapPattern& pattern) {
     for (const glm::vec3& offset : pattern.offsets) table.emplace_back(offset, 0);
     return table;
   }
-  if (pattern.axis_weight) return table;  // by a formula of the shader's own
+  if (pattern.axis_weight) return table;  // the shader has a formula for the weights
   const size_t n = pattern.kernel.size();
   std::vector<double> weights;
   for (size_t y = 0; y < n; ++y)

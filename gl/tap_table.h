@@ -1,4 +1,4 @@
-// What the lookup shader reads of a pattern of taps (gl/shaders/pattern.glsl).
+// The table of taps that the lookup shader reads (gl/shaders/pattern.glsl).
 #pragma once
 #include <glm/glm.hpp>
 #include <vector>
@@ -7,9 +7,10 @@
 
 namespace noonmark::gl {
 
-// [variant * rows + row]: offset, and in w a weight. A row is a tap; of bilinear patterns a fetch, which blends four
-// taps, and the weights are whole multiples of 2^-24 whose sum is exactly 1: any float sum of them is exact, so that
-// all lit is exactly 1, as it is for filters that count. Empty where the taps have weights by a formula.
+// [variant * rows + row]: xyz is an offset and w a weight. A row is a tap. For bilinear patterns it is a fetch, which
+// blends four taps. There the weights are integer multiples of 2^-24 whose sum is exactly 1, so every float sum of them
+// is exact. So "all lit" is exactly 1, as it is for filters that count. The table is empty if a formula gives the
+// weights.
 std::vector<glm::vec4> tap_table(const TapPattern& pattern);
 
 }  // namespace noonmark::gl

@@ -5,7 +5,7 @@
 namespace noonmark {
 namespace {
 
-// What float cannot hold is as good as no cap.
+// A value beyond the range of float becomes the greatest float, which has the same effect as no cap.
 float rounded(double value) { return static_cast<float>(std::min<double>(value, std::numeric_limits<float>::max())); }
 
 bool acts(const BiasSettings& settings, const BiasPart& part) {
@@ -40,7 +40,7 @@ Bias::Bias(const BiasSettings& settings)
 float Bias::at(const LookupProbe& probe, size_t i) const {
   if (compared_.empty()) return 0;
   const in_float::Surface surface = surface_of(probe, i);
-  float sum = 0;  // exact: the first part's sum with it is that part
+  float sum = 0;  // exact: 0 plus the first part is that part
   for (const ActivePart& active : compared_) sum += active.held(active.part->formula.factor(surface));
   return sum * probe.bias_unit[i];
 }

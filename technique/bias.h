@@ -1,9 +1,9 @@
-// A bias in the numbers that the shader works with: the parts of technique/bias_parts.h that are not 0, and the
+// A bias as the numbers that the shader computes with: the parts of technique/bias_parts.h that are not 0, and the
 // reference of a tap.
 //
 //   Bias bias(settings.bias);
 //   float depth = bias.at(probe, i);                        // what the shader subtracts at receiver i
-//   glm::dvec3 p = bias.looked_up(frame, P, N);             // where the receiver is looked up, in double
+//   glm::dvec3 p = bias.looked_up(frame, P, N);             // the place looked up of the receiver, in double
 #pragma once
 #include <algorithm>
 #include <limits>
@@ -19,16 +19,18 @@
 
 namespace noonmark {
 
-// Amounts are floats because the shader's are. A part without a floor or a cap has one that no number reaches.
+// A part with its amount. Amounts are floats because the shader's are floats. A part without a floor or a cap has a
+// limit that no number reaches.
 struct ActivePart {
   const BiasPart* part;
   float amount = 0, floor = std::numeric_limits<float>::lowest(), cap = std::numeric_limits<float>::max();
 
-  // Of a part of the compared depth: amount * factor, held between floor and cap, as the shader computes it.
+  // The value of a part that acts on the compared depth: amount * factor, limited to floor ... cap, with the shader's
+  // arithmetic.
   float held(float factor) const { return std::min(std::max(amount * factor, floor), cap); }
 };
 
-// What no part is asked for does not act: a part whose amount and floor are 0 is not there.
+// All active parts of the bias. A part whose amount and floor are both 0 is not in the lists.
 class Bias {
  public:
   Bias() = default;  // none
@@ -38,32 +40,32 @@ class Bias {
   const TapReference& reference() const { return *reference_; }
   float plane_cap() const { return plane_cap_; }  // in units of bias.unit
 
-  // The parts that act there, in the order of the table.
+  // The parts that act on each of the three places, in the order of the table.
   std::span<const ActivePart> compared() const { return compared_; }
   std::span<const ActivePart> moving() const { return moving_; }
-  std::span<const ActivePart> casting() const { return casting_; }  // but for the polygon offset
+  std::span<const ActivePart> casting() const { return casting_; }  // without the polygon offset
 
-  // What the shader subtracts from the reference depth at receiver i, in its own float arithmetic (the host is built
-  // without contraction).
+  // The depth that the shader subtracts from the reference at receiver i, in the shader's own float arithmetic. The
+  // host is built without contraction.
   float at(const LookupProbe& probe, size_t i) const;
 
-  // Whether at() depends on tan_theta.
+  // True if at() depends on tan_theta.
   bool reads_tan() const;
 
-  // Whether the lookup falls elsewhere than without a bias: what it asks of the map, and of the truth, moves with it.
+  // True if the bias moves the place looked up. The probe and the truth of the taps then depend on the bias.
   bool moves_lookup() const { return !moving_.empty(); }
-  // By how much, in double. position, normal: in the world.
+  // The vector by which the lookup is moved, in double. position and normal are in the world.
   glm::dvec3 moved_m(const LightFrame& frame, glm::dvec3 position, glm::dvec3 normal) const;
-  // Where the receiver is looked up.
+  // The place looked up of the receiver.
   glm::dvec3 looked_up(const LightFrame& frame, glm::dvec3 position, glm::dvec3 normal) const {
     return position + moved_m(frame, position, normal);
   }
 
-  // Whether the map is drawn of other vertices than the scene's (technique/casters.h).
+  // True if the map is drawn from moved vertices (technique/casters.h).
   bool moves_casters() const { return !casting_.empty(); }
 
-  // glPolygonOffset(factor, units) while the map is drawn; a fragment shader that writes its own depth, a point
-  // light's, has none.
+  // The arguments of glPolygonOffset(factor, units) while the map is drawn. It has no effect on a point light's map,
+  // because that fragment shader writes its own depth.
   struct PolygonOffset {
     float factor = 0, units = 0;
   };
@@ -77,7 +79,7 @@ class Bias {
   std::optional<PolygonOffset> polygon_offset_;
 };
 
-// What the compared parts' formulas read of receiver i, as the shader has it.
+// The numbers of receiver i that the formulas of the compared parts read, as the shader computed them.
 inline in_float::Surface surface_of(const LookupProbe& probe, size_t i) {
   in_float::Surface surface{};
   surface.n_dot_l = probe.n_dot_l[i];
@@ -85,11 +87,11 @@ inline in_float::Surface surface_of(const LookupProbe& probe, size_t i) {
   return surface;
 }
 
-// What the moving parts' formulas read of the receiver at this place, in double.
+// The numbers that the formulas of the moving parts read, in double, for the receiver at this position.
 in_double::Surface surface_at(const LightFrame& frame, glm::dvec3 position, glm::dvec3 normal);
 
-// The part whose amount a bias curve runs through: the first that acts and has a curve, and constant where none acts.
-// Null where parts act and none of them has a curve.
+// The part whose amount a bias curve varies: the first active part that has a curve, or `constant` if no part is
+// active. It is null if parts are active but none of them has a curve.
 const BiasPart* curve_part(const BiasSettings& settings);
 
 }  // namespace noonmark

@@ -1,15 +1,15 @@
 // The parts of a bias. A bias is the sum of its parts. A part is one file, technique/bias/<name>.glsl, which the shader
-// and the host compile, and one row of the table in bias_parts.cpp. The settings, uniforms, the shader's text, cache keys,
-// idle settings and the bias curve are made from the rows.
+// and the host compile, and one row of the table in bias_parts.cpp. The settings, uniforms, the shader's text, cache
+// keys, idle settings and the bias curve are made from the rows.
 //
 //   for (const BiasPart& part : bias_parts()) print(part.name, part.help);
 //   settings.bias["normal_offset"] = 1.5;   // technique/settings.h
 //
 // A part acts at one of three places:
-// - The compared depth. The part is amount * <name>_factor(Surface), clamped to the part's floor and cap if it has them.
-//   The sum of these parts, in units of bias.unit, is subtracted from the depth that a tap is compared with.
-// - The place looked up. The part is amount * <name>_way(Surface), a vector in the world. The lookup uses the receiver's
-//   position plus this vector.
+// - The compared depth. The part is amount * <name>_factor(Surface), clamped to the part's floor and cap if it has
+//   them. The sum of these parts, in units of bias.unit, is subtracted from the depth that a tap is compared with.
+// - The place looked up. The part is amount * <name>_way(Surface), a vector in the world. The lookup uses the
+//   receiver's position plus this vector.
 // - The caster. amount * <name>_way(Surface) moves each vertex while the map is drawn (technique/casters.h); Surface is
 //   that of the vertex. The polygon offset is OpenGL's own and has no formula.
 // The reference is a separate choice: the depth that a tap is compared with before the bias is subtracted.
@@ -25,7 +25,7 @@ namespace noonmark {
 
 enum class BiasPlace { compared_depth, place_looked_up, caster };
 
-// A formula as the host has it.
+// The functions that the host compiles from the formula of a part.
 struct BiasFormula {
   float (*factor)(in_float::Surface) = nullptr;          // compared_depth
   in_double::vec3 (*way)(in_double::Surface) = nullptr;  // place_looked_up, caster
@@ -33,23 +33,23 @@ struct BiasFormula {
 };
 
 struct BiasPart {
-  std::string_view name;  // of its setting, bias.<name>; and of its file, where it has one
+  std::string_view name;  // name of its setting bias.<name> and of its file, if it has one
   BiasPlace acts_on = BiasPlace::compared_depth;
-  std::string_view unit;  // of the amount: "bias.unit"; "texels" of the map at the receiver; "" ...
-  double most = 0;        // the amount is 0 ... most
+  std::string_view unit;  // the unit of the amount: "bias.unit"; "texels" of the map at the receiver; "" ...
+  double most = 0;        // the amount is in 0 ... most
   std::string_view help;
-  std::string_view floor_help = {};  // where it has a floor: setting bias.<name>_floor
-  std::string_view cap_help = {};    // where it has a cap: setting bias.<name>_cap
+  std::string_view floor_help = {};  // empty: the part has no floor; otherwise help of the setting bias.<name>_floor
+  std::string_view cap_help = {};    // empty: the part has no cap; otherwise help of the setting bias.<name>_cap
   std::string_view no_curve = {};    // why one lookup pass cannot give the error at every amount; empty: it can
-  BiasFormula formula = {};          // empty: OpenGL's own polygon offset
+  BiasFormula formula = {};          // empty: the part is OpenGL's polygon offset
 };
 
 std::span<const BiasPart> bias_parts();
 
-// Throws std::logic_error where there is none of that name.
+// Throws std::logic_error if no row has that name.
 const BiasPart& bias_part(std::string_view name);
 
-// One number of a part, which is a setting: its amount, floor or cap.
+// One number of a part: its amount, floor or cap. Each is a setting.
 struct BiasParameter {
   enum class Role { amount, floor, cap };
   const BiasPart* part;
@@ -59,9 +59,9 @@ struct BiasParameter {
   std::string_view help;
 };
 
-// In the order of the parts: amount, floor, cap of each.
+// In the order of the parts; for each part amount, floor, cap.
 std::span<const BiasParameter> bias_parameters();
-size_t bias_parameter_index(std::string_view name);  // throws std::logic_error where there is none
+size_t bias_parameter_index(std::string_view name);  // throws std::logic_error if no parameter has that name
 
 // The depth that a tap of the map is compared with, before the bias is subtracted from it. The formula is the function
 // <name>(TapPlace) in the file technique/bias/<name>.glsl.
@@ -69,13 +69,14 @@ struct TapReference {
   std::string_view name;  // a choice of bias.reference
   std::string_view help;
   float (*depth)(in_float::TapPlace) = nullptr;
-  bool plane = false;      // of the receiver's plane: needs a flat map, and a depth of its own for each texel read
-  bool at_texel = false;   // the way that it is given leads to the centre of the tap's texel, not to its exact place
-  bool reads_cap = false;  // bias.plane_cap
+  bool plane = false;      // the reference is the depth of the receiver's plane; this needs a flat map and a depth of
+                           // its own for each texel that is read
+  bool at_texel = false;   // true: TapPlace::way leads to the centre of the tap's texel; false: to its exact place
+  bool reads_cap = false;  // true: the formula reads bias.plane_cap
 };
 
 std::span<const TapReference> tap_references();  // the first is own_depth
-// Throws std::logic_error where there is none of that name.
+// Throws std::logic_error if no row has that name.
 const TapReference& tap_reference(std::string_view name);
 
 }  // namespace noonmark

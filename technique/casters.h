@@ -1,4 +1,5 @@
-// The scene's vertices as a map's pass draws them, when a part of the bias moves the caster (technique/bias_parts.h).
+// The scene's vertices as they are drawn into the map, when a part of the bias moves the caster
+// (technique/bias_parts.h).
 //
 //   if (bias.moves_casters()) renderer.render_map(frame, settings, &ms, caster_positions(scene, frame, bias));
 #pragma once
@@ -11,13 +12,13 @@
 
 namespace noonmark {
 
-// Unit, in the world: the sum of the area vectors of the faces that share the vertex's index. Scenes carry no normals of
-// their own. A vertex without a face that has an area: 0.
+// Unit vectors in the world: the normalised sum of the area vectors of the faces that share the vertex's index. They
+// are computed because scenes have no vertex normals. A vertex gets 0 if none of its faces has an area.
 std::vector<glm::vec3> vertex_normals(const Scene& scene);
 
-// Computed in double, each rounded once to float. The drawn map and the exact one both use these vertices, so a part of
-// the caster needs no shader. A part's amount is in texels at the vertex; behind a spot light, where no texel has a size, a
-// vertex stays.
+// The moved vertices, computed in double and rounded once to float. The map on the GPU and the exact map both use these
+// vertices, so a part of the caster needs no shader. A part's amount is in texels at the vertex. A vertex behind a spot
+// light is not moved, because a texel has no size there.
 std::vector<glm::vec3> caster_positions(const Scene& scene, const LightFrame& frame, const Bias& bias);
 
 }  // namespace noonmark

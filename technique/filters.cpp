@@ -22,7 +22,7 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-// The taps of a filter whose formula gives each texel's weight.
+// The taps of a filter whose formula gives the weight of each texel.
 template <double (*weight)(int, double, int)>
 TapPattern weighted(const FilterSettings& settings) {
   return weighted_texels(settings.size, weight);

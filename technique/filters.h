@@ -1,12 +1,12 @@
-// The filters of a lookup. A filter is one file in technique/filters/ and one row of the table in filters.cpp: the
-// choices of filter.kind, the shader, and which settings are read are read off the rows.
+// The filters of a lookup. A filter is one file in technique/filters/ and one row of the table in filters.cpp. The row
+// gives the choice of filter.kind, the shader, and the settings that are read.
 //
 //   TapPattern pattern = tap_pattern(settings.filter);     // technique/tap_pattern.h
 //   for (const Filter& filter : filters()) print(filter.name, filter.help);
 //
-// Taps that all count alike are a table of offsets, made by <name>.cpp; the shader counts them. Taps that the sampler
-// of a hardware comparison blends have weights: <name>.glsl gives those of one axis, and the shader and the host
-// compile it.
+// Taps of equal weight are a table of offsets, made by <name>.cpp; the shader counts the lit ones. Taps that the
+// sampler of a hardware comparison blends have weights. <name>.glsl gives the weights along one axis, and both the
+// shader and the host compile that file.
 #pragma once
 #include <span>
 #include <string_view>
@@ -22,18 +22,19 @@ enum class FilterMap { any, flat, cube };
 struct Filter {
   std::string_view name;  // a choice of filter.kind
   std::string_view help;
-  FilterMap map = FilterMap::flat;  // the maps that it can look up
+  FilterMap map = FilterMap::flat;  // the shapes of map that it can read
   std::string_view shader;          // gl/shaders/filter/<shader>.glsl
   TapPattern (*taps)(const FilterSettings&) = nullptr;
-  std::vector<std::string_view> reads = {};  // its settings, besides filter.kind
-  bool blended = false;                      // by a comparison sampler: one reference for the texels of a fetch
-  // Blended by weights that the file <name>.glsl gives: filter.size is one of these.
+  std::vector<std::string_view> reads = {};  // the settings that it reads, besides filter.kind
+  bool blended = false;                      // a comparison sampler blends the taps: one reference for all texels of a
+                                             // fetch
+  // If the file <name>.glsl gives the weights of the blend: the sizes that filter.size may have.
   std::vector<int> sizes = {};
 };
 
 std::span<const Filter> filters();
 
-// Throws std::logic_error where there is none of that name.
+// Throws std::logic_error if no row has that name.
 const Filter& find_filter(std::string_view name);
 
 }  // namespace noonmark

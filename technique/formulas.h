@@ -1,7 +1,8 @@
-// The formulas of technique/bias/*.glsl on the host, compiled three times: in float, as the shader computes (the host
-// is built without contraction); in double, for the truth; and with error bounds (technique/bounded.h), for the
-// contract check. The files use the words that GLSL and C++ share: vec2, vec3, dot, abs, min, max, clamp, sqrt; `real`
-// is the number, `precise` is GLSL's, and a constant is written real(1).
+// The formulas of technique/bias/*.glsl on the host. They are compiled three times: in float, with the shader's
+// arithmetic (the host is built without contraction); in double, for the truth; and with error bounds
+// (technique/bounded.h), for the contract check. The files use only words that GLSL and C++ share: vec2, vec3, dot,
+// abs, min, max, clamp, sqrt. `real` is the type of a number, `precise` is GLSL's keyword, and a constant is written
+// real(1).
 #pragma once
 #include <glm/glm.hpp>
 

@@ -10,7 +10,7 @@
 
 namespace noonmark {
 
-// OpenGL 4.5 core, table 8.19: which axes are s and t of each face.
+// OpenGL 4.5 core, table 8.19: the axes s and t of each face.
 const CubeFace& cube_face(int face) {
   static const std::array<CubeFace, 6> faces = {{
       {{0, 0, -1}, {0, -1, 0}, {1, 0, 0}},
@@ -101,7 +101,7 @@ Light effective_light(const Scene& scene, const Settings& settings) {
 LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
   const Light light = effective_light(scene, settings);
   validate(settings, light.kind);
-  // The scene's own volume was chosen for the scene's own light.
+  // The scene's own map volume fits only the scene's own light.
   const bool own = light.kind == scene.light.kind && !settings.light.position_m && !settings.light.target_m;
   const bool scenes_own = scene.map && own && settings.map.fit == MapFit::scene;
   const MapVolume volume = scenes_own ? *scene.map : fit_map(scene, light);

@@ -6,12 +6,12 @@
 //   double d = frame.window_depth(frame.depth_m(p));      // what the map holds of P
 //   glm::dvec3 x = frame.texel_place({i, j});             // the place of a texel's centre
 //
-// A *place* names a light-side ray. It is a homogeneous vector. For a directional light it is (u, v, 1), with u and v in
-// metres in the light's plane. For a spot and a point light it is the direction of the ray in the light's axes, of any
-// length. So for every light, three places lie on one line of the map if and only if their determinant is 0.
+// A *place* names a light-side ray. It is a homogeneous vector. For a directional light it is (u, v, 1), with u and v
+// in metres in the light's plane. For a spot and a point light it is the direction of the ray in the light's axes, of
+// any length. So for every light, three places lie on one line of the map if and only if their determinant is 0.
 //
-// The map of a point light has six faces, in OpenGL's order +X -X +Y -Y +Z -Z. They stand one above the other in an image
-// of resolution x 6 resolution texels: texel (i, j) of face f is (i, f * resolution + j).
+// The map of a point light has six faces, in OpenGL's order +X -X +Y -Y +Z -Z. They stand one above the other in an
+// image of resolution x 6 resolution texels: texel (i, j) of face f is (i, f * resolution + j).
 #pragma once
 #include <glm/glm.hpp>
 
@@ -21,24 +21,25 @@
 
 namespace noonmark {
 
-// Where N is across L, tan(theta) ends at this cosine of theta and stays a number.
+// tan(theta) is computed with a cosine of at least this value, so that it is a finite number where N is perpendicular
+// to L.
 inline constexpr double least_cosine = 1e-6;
 
 struct LightFrame {
   LightKind kind = LightKind::directional;
-  // Spot and point: the light's position, exactly a float, because every ray starts there. Directional: where u, v and
-  // z are 0, which is the light's position moved by map.shift_*_texels and map.snap.
+  // Spot and point: the light's position. It is exactly a float, because every ray starts there. Directional: the point
+  // where u, v and z are 0. It is the light's position moved by map.shift_*_texels and map.snap.
   glm::dvec3 origin_m{0};
-  // Unit vectors. Of a point light they are the world's axes.
+  // Unit vectors. For a point light they are the axes of the world.
   glm::dvec3 right{1, 0, 0};
   glm::dvec3 up{0, 1, 0};
-  glm::dvec3 forward{0, 0, -1};  // directional: the way the light travels; spot: its axis
-  // Directional: the direction of every light-side ray, exactly a float. forward is this vector normalised in double, so
-  // rays and frame agree to the last bit of the float.
+  glm::dvec3 forward{0, 0, -1};  // directional: the direction in which the light travels; spot: its axis
+  // Directional: the direction of every light-side ray, exactly a float. forward is this vector, normalised in double.
+  // So rays and frame have the same direction, to the last bit of the float.
   glm::vec3 ray_direction{0, 0, -1};
   double extent_m = 1;         // directional
-  double tan_half_fov = 1;     // spot: of half the map's angle; point: 1
-  double cos_half_cone = -1;   // spot: of half the light's cone
+  double tan_half_fov = 1;     // spot: tangent of half the map's angle; point: 1
+  double cos_half_cone = -1;   // spot: cosine of half the light's cone
   glm::dvec2 shift_texels{0};  // spot: map.shift_*_texels
   double near_m = 0;
   double far_m = 1;
@@ -47,10 +48,10 @@ struct LightFrame {
   const KindOfLight& light() const { return kind_of_light(kind); }
   bool parallel() const { return light().parallel_rays(); }
   MapShape map_shape() const { return light().map_shape(); }
-  // One size of a texel and one step of depth, everywhere.
+  // True if the size of a texel and the step of depth are the same everywhere in the map.
   bool uniform() const { return parallel(); }
 
-  // The map's tiles, one above the other in its image.
+  // The map's tiles. They stand one above the other in its image.
   int tiles() const { return light().tiles(); }
   MapTile tile(int index = 0) const { return light().tile(*this, index); }
   int tile_of(glm::dvec3 place) const { return light().tile_of(place); }
@@ -59,54 +60,59 @@ struct LightFrame {
   glm::dvec3 to_light(glm::dvec3 world) const;
   glm::dvec3 to_world(glm::dvec3 light) const;
   glm::dvec3 direction_to_light(glm::dvec3 world) const { return light().direction_to_light(*this, world); }  // unit
-  // Of a directional light, which has the same everywhere.
+  // The same for a directional light: its direction does not depend on the place.
   glm::dvec3 direction_to_light() const { return -forward; }
-  bool reaches(glm::dvec3 world) const { return light().reaches(*this, world); }  // true but for a spot light's outside
+  // True if the point can get light. It is false only outside the cone of a spot light.
+  bool reaches(glm::dvec3 world) const { return light().reaches(*this, world); }
 
-  // What the map's depth measures, of a point in the light's frame: metres along the axis, or the distance. All tiles
-  // share it.
+  // The quantity that the map's depth measures, for a point in the light's frame: metres along the axis, or the
+  // distance. It is the same in all tiles.
   double depth_m(glm::dvec3 point) const { return tile().depth_m(point); }
   double window_depth(double depth_m) const { return tile().window_depth(depth_m); }
   double depth_of_window(double window_depth) const { return tile().depth_of_window(window_depth); }
   double window_depth_slope(double depth_m) const { return tile().window_depth_slope(depth_m); }
 
-  // The world size of one texel at a point in the light's frame. texel_m(): of a directional light, everywhere.
+  // The width of one texel in the world at a point in the light's frame. texel_m() is for a directional light, where it
+  // is the same everywhere.
   double texel_m(glm::dvec3 point) const { return tile(tile_of(point)).texel_m(point); }
   double texel_m() const { return extent_m / resolution; }
 
   glm::dvec3 place(glm::dvec3 point) const { return light().place(point); }  // of a point in the light's frame
-  // Of one tap of a lookup at this point: offset in texels of a flat map, in metres of the world for a point light.
+  // The place of one tap of a lookup at this point. The offset is in texels for a flat map, in metres of the world for
+  // a point light.
   glm::dvec3 tap_place(glm::dvec3 point, glm::dvec3 offset) const { return light().tap_place(*this, point, offset); }
-  // Of a texel's centre; flat maps: any integers, also outside the map.
+  // The place of a texel's centre. For flat maps the texel may be any integers, also outside the map.
   glm::dvec3 texel_place(glm::ivec2 texel) const {
     const int index = tiles() > 1 ? texel.y / resolution : 0;
     return tile(index).place_of(texel);
   }
-  // Where a place lies in the map, in texels; floor() of it is the texel.
+  // The position of a place in the map, in texels; floor() of it is the texel.
   glm::dvec2 map_texels(glm::dvec3 place) const { return tile(tile_of(place)).texels(place); }
   // Directional: u and v of a texel's centre.
   glm::dvec2 texel_centre(glm::ivec2 texel) const { return glm::dvec2(texel_place(texel)); }
 
   glm::dmat4 clip_from_world(int tile = 0) const;
-  // One unit of bias (settings.bias.unit) in window depth, at a point in the light's frame.
+  // The window depth of one unit of bias (settings.bias.unit), at a point in the light's frame.
   double depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const;
 };
 
-// The axes of a cube face in the world's, as OpenGL lays them down: s to the right, t up, and the way it looks.
+// The axes of a cube face in the world, as OpenGL defines them: s points right, t points up, forward is the direction
+// of view.
 struct CubeFace {
   glm::dvec3 right, up, forward;
 };
 const CubeFace& cube_face(int face);  // 0 ... 5
 int cube_face_of(glm::dvec3 direction);
 
-// The scene's light with what settings.light changes of it.
+// The scene's light, changed by settings.light.
 Light effective_light(const Scene& scene, const Settings& settings);
 
-// Throws Error(usage) when near >= far, the extent is not positive, near is not before a spot or point light, or a
-// directional or spot light's position is its target.
+// Throws Error(usage) if near >= far, if the extent is not positive, if near is not before a spot or point light, or if
+// the position of a directional or spot light is its target.
 LightFrame make_light_frame(const Scene& scene, const Settings& settings);
 
-// The smallest volume around the scene as the light sees it: extent, near and far so that all it can light is inside.
+// The smallest map volume around the scene: extent, near and far are such that everything the light can reach is
+// inside.
 MapVolume fit_map(const Scene& scene, const Light& light);
 
 }  // namespace noonmark

@@ -9,7 +9,7 @@
 
 namespace noonmark {
 
-extern const KindOfLight& directional_light;  // technique/lights/
+extern const KindOfLight& directional_light;  // defined in technique/lights/
 extern const KindOfLight& spot_light;
 extern const KindOfLight& point_light;
 
@@ -43,7 +43,7 @@ glm::dvec3 KindOfLight::tap_place(const LightFrame& frame, glm::dvec3 light, glm
   return place(light + glm::dvec3(offset.x * w, offset.y * w, 0));
 }
 
-// Of a sphere or a disc around the light's centre.
+// For a light that is a sphere or a disc around its centre.
 WayToLight KindOfLight::way_to_disc(const LightFrame& frame, const LightDisc& disc, glm::dvec3 p, glm::dvec2 u) const {
   const double phi = 2 * std::numbers::pi * u.y;
   const glm::dvec3 centre = frame.origin_m - p;
@@ -56,8 +56,8 @@ WayToLight KindOfLight::way_to_disc(const LightFrame& frame, const LightDisc& di
     const glm::dvec3 way = centre + disc.radius * std::sqrt(u.x) * around;
     return {glm::vec3(glm::normalize(way)), static_cast<float>(glm::length(way)), p + way};
   }
-  // The sphere's cone, uniformly in solid angle, which is uniformly in the cosine. 1 - cos is computed without
-  // cancellation, for small lights.
+  // The cone of directions to the sphere is sampled uniformly in solid angle, which is uniformly in the cosine. 1 - cos
+  // is computed without cancellation, because it is small for small lights.
   const double sine = disc.radius / distance;
   const double rest = u.x * (sine * sine / (1 + std::sqrt(1 - sine * sine)));  // 1 - cosine
   const double off = std::sqrt(rest * (2 - rest)), along = distance * (1 - rest);

@@ -1,6 +1,6 @@
-// A kind of light: one file in technique/lights/, one row in light_kind.cpp, and its shader gl/shaders/light/<name>.glsl.
-// Everything that differs between directional, spot and point lights is behind this interface; the rest of the program
-// asks it, through LightFrame.
+// A kind of light. It is one file in technique/lights/, one row in light_kind.cpp, and its shader
+// gl/shaders/light/<name>.glsl. This interface holds everything that differs between directional, spot and point
+// lights. The rest of the program calls it through LightFrame.
 #pragma once
 #include <glm/glm.hpp>
 #include <limits>
@@ -15,17 +15,17 @@ namespace noonmark {
 
 struct LightFrame;
 
-// What a lookup samples: a flat map by texels, or a cube map by a direction.
+// The shape of a map: a lookup reads a flat map by texels, and a cube map by a direction.
 enum class MapShape { flat, cube };
 
-// From a receiver to the light, or to a place on it.
+// The way from a receiver to the light, or to a place on the light.
 struct WayToLight {
-  glm::vec3 direction{0, 1, 0};  // unit, to float's rounding
+  glm::vec3 direction{0, 1, 0};  // unit, up to the rounding of a float
   float reach = std::numeric_limits<float>::infinity();
-  glm::dvec3 end{0};  // finite reach: the place
+  glm::dvec3 end{0};  // the place, if reach is finite
 };
 
-// What a light with a size is, seen from a receiver.
+// The shape and the size of the light as a receiver sees it.
 struct LightDisc {
   LightShape shape = LightShape::sphere;
   double radius = 0;  // KindOfLight::disc_radius
@@ -37,17 +37,17 @@ class KindOfLight {
 
   virtual std::string_view name() const = 0;  // a choice of light.kind
   virtual std::string_view help() const = 0;
-  virtual bool parallel_rays() const { return false; }  // or all from one point
+  virtual bool parallel_rays() const { return false; }  // false: all rays come from one point
   virtual MapShape map_shape() const { return MapShape::flat; }
 
   // ---- the frame
 
-  // Place and axes. Throws SettingConflict where they give no direction.
+  // Position and axes of the frame. Throws SettingConflict if they give no direction.
   virtual LightFrame axes(const Light& light) const = 0;
-  // The smallest volume around all of the scene that the light can reach.
+  // The smallest volume around all parts of the scene that the light can reach.
   virtual MapVolume fit(const Scene& scene, const LightFrame& frame) const = 0;
-  // What the settings say of the map: extent, angle, shift. frame.near_m, far_m and resolution are set. Throws
-  // SettingConflict.
+  // Sets what the settings define of the map: extent, angle, shift. The caller has set frame.near_m, far_m and
+  // resolution. Throws SettingConflict.
   virtual void lay_map(LightFrame& frame, const Light& light, const MapVolume& volume,
                        const MapSettings& settings) const = 0;
 
@@ -56,40 +56,42 @@ class KindOfLight {
   virtual int tiles() const { return 1; }
   virtual MapTile tile(const LightFrame& frame, int index) const = 0;
   virtual int tile_of(glm::dvec3 /*place*/) const { return 0; }
-  // The axes of the texels at a point in the light's frame, in the world; of a cube's faces without sign.
+  // The axes of the texels in the world, at a point in the light's frame. For the faces of a cube they have no sign.
   virtual void texel_axes(const LightFrame& frame, glm::dvec3 light, glm::dvec3& right, glm::dvec3& up) const;
 
   // ---- rays and places (technique/light_frame.h says what a place is)
 
   virtual glm::dvec3 direction_to_light(const LightFrame& frame, glm::dvec3 world) const;
   virtual WayToLight way_to_centre(const LightFrame& frame, glm::dvec3 world) const;
-  // Two unit vectors across the ray to a point of the world.
+  // Two unit vectors perpendicular to the ray to a point of the world.
   virtual void axes_across(const LightFrame& frame, glm::dvec3 world, glm::dvec3& right, glm::dvec3& up) const;
-  virtual bool reaches(const LightFrame& /*frame*/, glm::dvec3 /*world*/) const { return true; }  // in a spot's cone
-  // Whether the whole triangle lies where the light does not reach; false where that is not known at once.
+  // True if the point can get light. Under a spot light it must be inside the cone.
+  virtual bool reaches(const LightFrame& /*frame*/, glm::dvec3 /*world*/) const { return true; }
+  // True if the light does not reach any point of the triangle. It is false too if a quick test cannot decide that.
   virtual bool misses(const LightFrame& /*frame*/, const glm::dvec3 (&/*corners*/)[3]) const { return false; }
-  // Whether a point of the light's frame has a place in the map: not behind a spot light.
+  // True if a point in the light's frame has a place in the map. A point behind a spot light has none.
   virtual bool has_place(glm::dvec3 /*light*/) const { return true; }
   virtual glm::dvec3 place(glm::dvec3 light) const { return light; }
   virtual glm::dvec3 normal_place(glm::dvec3 place) const = 0;
-  // offset: texels of a flat map, metres of the world of a cube.
+  // The offset is in texels for a flat map, in metres of the world for a cube.
   virtual glm::dvec3 tap_place(const LightFrame& frame, glm::dvec3 light, glm::dvec3 offset) const;
 
-  // ---- its size, for R0
+  // ---- the size of the light, for R0
 
-  // Metres; of parallel rays the tangent of half the angle. 0: it has no size.
+  // The radius in metres; for parallel rays the tangent of half the angle. 0 means that the light has no size.
   virtual double disc_radius(const Light& light) const { return light.radius_m; }
-  // The way from p to the place on the light that u, in the unit square, stands for.
+  // The way from p to the place on the light that belongs to u, a point of the unit square.
   virtual WayToLight way_to_disc(const LightFrame& frame, const LightDisc& disc, glm::dvec3 p, glm::dvec2 u) const;
-  virtual bool has_axis() const { return true; }  // a disc lies across it; without one it faces each receiver
+  // True if a disc is perpendicular to the light's axis. Otherwise the disc faces each receiver.
+  virtual bool has_axis() const { return true; }
   virtual bool surrounds(const LightFrame& frame, const LightDisc& disc, glm::dvec3 p) const;
 
-  // ---- words
+  // ---- text
 
   virtual std::string_view frustum_caption() const = 0;
 };
 
-// In the order of LightKind.
+// All kinds, in the order of LightKind.
 std::span<const KindOfLight* const> kinds_of_light();
 const KindOfLight& kind_of_light(LightKind kind);
 

@@ -1,5 +1,5 @@
-// What a lookup outside the map finds, for the two places that must agree with OpenGL's sampler: the exact map's texels
-// and the thresholds read off a map.
+// The texel that a lookup outside the map reads. Two parts of the program use it and must agree with OpenGL's sampler:
+// the texels of the exact map, and the thresholds that are read off a map.
 #pragma once
 #include <algorithm>
 #include <glm/glm.hpp>
@@ -10,7 +10,7 @@ namespace noonmark {
 
 inline constexpr float border_depth = 1.0f;  // lit
 
-// size: of the map's image, LightFrame::map_size(). A cube's texels are always inside.
+// size: the size of the map's image, LightFrame::map_size(). A cube's texels are always inside.
 inline bool inside_map(glm::ivec2 texel, glm::ivec2 size) {
   return texel.x >= 0 && texel.y >= 0 && texel.x < size.x && texel.y < size.y;
 }

@@ -1,5 +1,5 @@
-// One tile of a light's map: a square of texels with its own volume, projection and texel size. A directional and a spot
-// light have one, a point light six, the faces of its cube.
+// One tile of a light's map: a square of texels with its own volume, projection and texel size. The map of a
+// directional or spot light has one tile. The map of a point light has six, the faces of its cube.
 //
 //   const MapTile tile = frame.tile(frame.tile_of(place));
 //   glm::dvec2 at = tile.texels(place);        // floor() of it is the texel, in the map's image
@@ -9,7 +9,7 @@
 
 namespace noonmark {
 
-// What window depth is of what the map measures, depth_m, in metres.
+// The formula of window depth, from depth_m, which is the metres that the map measures.
 enum class TileDepth {
   linear,       // (z - near) / (far - near), z along the tile's axis
   perspective,  // far (z - near) / (z (far - near))
@@ -17,28 +17,29 @@ enum class TileDepth {
 };
 
 struct MapTile {
-  // In the light's frame: along the rows of texels, along the columns, and the way the tile looks. Unit.
+  // Unit vectors in the light's frame: along the rows of texels, along the columns, and in the tile's direction of
+  // view.
   glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1};
   bool orthographic = true;
-  double half = 1;  // of its side: metres (orthographic), or the tangent of half its angle
+  double half = 1;  // half of its side in metres (orthographic), or the tangent of half its angle
   double near_m = 0, far_m = 1;
   TileDepth depth = TileDepth::linear;
   int resolution = 1;          // texels on a side
-  glm::ivec2 corner{0};        // its first texel in the map's image
-  glm::dvec2 shift_texels{0};  // perspective: how far its grid is moved
+  glm::ivec2 corner{0};        // the position of its first texel in the map's image
+  glm::dvec2 shift_texels{0};  // perspective: the shift of its grid
 
-  // Metres of a point in the light's frame: along the axis, or the distance.
+  // The depth in metres of a point in the light's frame: along the axis, or the distance.
   double depth_m(glm::dvec3 light) const { return depth == TileDepth::distance ? glm::length(light) : along(light); }
   double along(glm::dvec3 v) const { return glm::dot(v, forward); }
   double window_depth(double depth_m) const;
   double depth_of_window(double window_depth) const;  // its inverse
   double window_depth_slope(double depth_m) const;    // its derivative, per metre
-  // Where the near plane cuts the ray of a place; of distances, the place is a unit vector.
+  // The depth at which the near plane cuts the ray of a place. If depths are distances, the place is a unit vector.
   double near_depth(glm::dvec3 place) const { return depth == TileDepth::distance ? near_m / along(place) : near_m; }
 
   double texel_m(glm::dvec3 light) const;       // the width of a texel at a point in the light's frame
-  glm::dvec3 place_of(glm::ivec2 texel) const;  // of the centre of a texel of the map's image
-  glm::dvec2 texels(glm::dvec3 place) const;    // where a place lies in the map's image
+  glm::dvec3 place_of(glm::ivec2 texel) const;  // the place of the centre of a texel of the map's image
+  glm::dvec2 texels(glm::dvec3 place) const;    // the position of a place in the map's image
 };
 
 }  // namespace noonmark

@@ -1,4 +1,5 @@
-// Which of a pattern's variants a pixel uses: a 32-bit integer hash (Wellons' lowbias32 constants). GLSL and C++ compile it.
+// The hash that chooses a pixel's variant of the tap pattern: a 32-bit integer hash with the constants of Wellons'
+// lowbias32. GLSL and C++ compile this file.
 uint hash_pixel(uint x) {
   x ^= x >> 16;
   x *= 0x7feb352du;

@@ -1,5 +1,5 @@
-// How the rows of technique/settings.cpp are made: what reads and writes a member as text, one function for each kind
-// of member. For that file alone.
+// Functions that make the rows of technique/settings.cpp. There is one for each kind of member; it makes the functions
+// that read and write the member as text. Only settings.cpp includes this file.
 #pragma once
 #include <fmt/format.h>
 
@@ -22,18 +22,18 @@ std::optional<T> parse_number(std::string_view text) {
   return value;
 }
 
-// Throws Error(usage): what the row takes.
+// Throws Error(usage) with the values that the row accepts.
 [[noreturn]] void refuse(const Setting& row, std::string_view text);
 
 // The shortest decimal that reads back as the same double. -0 becomes 0, so that equal values have equal keys.
 std::string number_text(double value);
 std::string point_text(glm::dvec3 p);
 
-// Throw Error(usage) for text that is no number, no point, or outside the row's range.
+// Throw Error(usage) if the text is not a number or a point, or is outside the row's range.
 double parse_real(const Setting& row, std::string_view text);
 glm::dvec3 parse_point(const Setting& row, std::string_view text);
 
-// A row for each kind of member. `member` maps Settings& to a reference.
+// Each function below makes a row for one kind of member. `member` maps Settings& to a reference.
 
 template <class Member>
 Setting integer(std::string_view name, std::string_view unit, double min, double max, std::string_view help,
@@ -99,7 +99,7 @@ Setting flag(std::string_view name, std::string_view help, Member member) {
   return row;
 }
 
-// choices: in the order of the enumerators.
+// choices: the names in the order of the enumerators.
 template <class Member>
 Setting choice(std::string_view name, std::vector<std::string_view> choices, std::string_view help, Member member) {
   Setting row{name, "", ValueType::choice, 0, 0, false, choices, std::string(help), {}, {}};
@@ -126,7 +126,7 @@ Setting text(std::string_view name, std::string_view help, Member member) {
   return row;
 }
 
-// A choice by the name of a row of a table. help: of the setting; the rows' own is added.
+// A choice whose values are the names of the rows of a table. The help text is `help` and then the help of each row.
 template <class Rows, class Member>
 Setting named(std::string_view name, std::string_view help, const Rows& rows, Member member) {
   Setting row{name, "", ValueType::choice, 0, 0, false, {}, std::string(help), {}, {}};

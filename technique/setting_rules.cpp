@@ -15,7 +15,7 @@ namespace {
 
 std::string on_a(LightKind light) { return fmt::format("on a {} light", kind_of_light(light).name()); }
 
-// "none, box or poisson": the names of the filters that are meant.
+// The names of the filters for which `meant` is true, as text: "none, box or poisson".
 template <class Meant>
 std::string filters_that(const Meant& meant) {
   std::vector<std::string_view> names;

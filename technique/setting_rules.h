@@ -1,6 +1,6 @@
-// What the settings of a point say of one another. Each rule belongs to a row of the table of settings
-// (technique/settings.cpp): which stages of the measurement read the setting, when it is not read at all, and with what
-// it cannot stand. The functions here ask all rows.
+// The rules between the settings of a point. Each rule belongs to a row of the table of settings
+// (technique/settings.cpp). It says which stages of the measurement read the setting, when the setting is not read at
+// all, or with which other settings it conflicts. The functions here ask all rows.
 //
 //   validate(settings, frame.kind);                                   // throws SettingConflict
 //   for (const IdleSetting& idle : idle_settings(frame.kind, settings)) print(idle.name, idle.why);
@@ -17,19 +17,19 @@
 
 namespace noonmark {
 
-// Settings that are each in their range and do not go together. The message names them, and what to do.
+// Settings that are each in their range but conflict with each other. The message names them and says what to change.
 class SettingConflict : public Error {
  public:
   SettingConflict(std::string_view setting, const std::string& message)
       : Error(ErrorKind::usage, message), setting_(setting) {}
-  const std::string& setting() const { return setting_; }  // the one whose row found it
+  const std::string& setting() const { return setting_; }  // the setting whose row found the conflict
 
  private:
   std::string setting_;
 };
 
-// light: what the scene's light is after `light.kind`; empty while the scene is not loaded, and then what only some
-// kinds of light refuse passes. Throws SettingConflict.
+// Throws SettingConflict if settings conflict. light: the kind of the scene's light after `light.kind` is applied. It
+// is empty while the scene is not loaded. Then the rules that hold for some kinds of light only are not checked.
 void validate(const Settings& settings, std::optional<LightKind> light = std::nullopt);
 
 struct IdleSetting {
@@ -40,13 +40,13 @@ struct IdleSetting {
 // Every setting that differs from its default and is not read at this point.
 std::vector<IdleSetting> idle_settings(LightKind light, const Settings& settings);
 
-// The settings that these stages read, one "name=value" a line. except: the name of one that is left out.
+// The settings that these stages read, one "name=value" on each line, without the setting named `except`.
 std::string settings_key(const Settings& settings, std::initializer_list<Stage> stages, std::string_view except = {});
 
-// Rules that rows of technique/settings.cpp name.
+// The rules that the rows of technique/settings.cpp name.
 namespace setting_rules {
 
-// Why the setting is not read; empty where it is.
+// The reason why the setting is not read; empty if it is read.
 std::string in_builtin_scene(const Settings&, LightKind);
 std::string without_time(const Settings&, LightKind);
 std::string where_depths_are_fitted(const Settings&, LightKind);
@@ -59,7 +59,7 @@ std::string only_on_point(const Settings&, LightKind);
 std::string without_capped_plane(const Settings&, LightKind);
 std::string where_disk_follows_view(const Settings&, LightKind);
 
-// What is wrong, as a whole message; empty where nothing is. light: as validate() has it.
+// The conflict as a whole message; empty if there is none. light: as for validate().
 std::string even_or_unknown_size(const Settings&, std::optional<LightKind>);
 std::string map_near_beyond_far(const Settings&, std::optional<LightKind>);
 std::string view_near_beyond_far(const Settings&, std::optional<LightKind>);

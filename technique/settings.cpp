@@ -22,8 +22,8 @@ using namespace setting_rules;
 
 #define MEMBER(path) [](Settings& s) -> decltype((s.path)) { return s.path; }
 
-// What moves the lookup or the caster changes which texels are read and what they hold; what is subtracted from the
-// compared depth only changes the verdict.
+// A part that moves the lookup or the caster changes which texels are read or what they hold. A part that is subtracted
+// from the compared depth changes the verdict only.
 Stages stages_of(BiasPlace place) {
   switch (place) {
     case BiasPlace::compared_depth:
@@ -36,7 +36,7 @@ Stages stages_of(BiasPlace place) {
   throw std::logic_error("a part of the bias that acts nowhere");
 }
 
-// A parameter of a part of the bias.
+// The row of one parameter of a part of the bias.
 Setting bias_row(const BiasParameter& parameter) {
   const bool is_cap = parameter.role == BiasParameter::Role::cap;
   Setting row{parameter.setting,
@@ -79,7 +79,7 @@ Setting bias_row(const BiasParameter& parameter) {
   return row;
 }
 
-// The stages that read a setting of this group, but for those rows that say otherwise.
+// The stages that read the settings of this group, except for rows with stages of their own.
 Stages stages_of_group(std::string_view group) {
   if (group == "scene") return {Stage::scene};
   if (group == "view") return {Stage::view};
@@ -90,7 +90,7 @@ Stages stages_of_group(std::string_view group) {
   throw std::logic_error("no stage reads the group of settings '" + std::string(group) + "'");
 }
 
-// The kinds are read off their table; LightChoice counts them behind `auto`.
+// The choices are read from the table of lights. LightChoice has the same order, with `auto` before it.
 Setting light_kind_row() {
   std::vector<std::string_view> choices = {"auto"};
   std::string help = "auto: the scene's";
@@ -267,12 +267,12 @@ std::vector<Setting> make_table() {
            "Largest standard error of R0 at a receiver, for a light with a size. A smaller value takes more rays.",
            MEMBER(truth.standard_error)),
   };
-  // After the other settings of the bias.
+  // The rows of the parts stand after the other settings of the bias.
   auto at = std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "bias.plane_cap"; });
   for (const BiasParameter& parameter : bias_parameters()) at = table.insert(at + 1, bias_row(parameter));
   for (Setting& row : table)
     if (row.read_by.bits == 0) row.read_by = stages_of_group(row.name.substr(0, row.name.find('.')));
-  // "box, gaussian: ...": the filters that read a setting of filters; with others it is idle.
+  // "box, gaussian: ..." in the help: the filters that read the setting. With any other filter it is idle.
   for (Setting& row : table) {
     if (!row.name.starts_with("filter.") || row.name == "filter.kind") continue;
     std::vector<std::string_view> readers;

@@ -1,7 +1,7 @@
-// Every setting of a measurement: a struct member with a default, and one row in the table of settings.cpp (name, unit,
-// range, help; which stages read it, when it is idle, with what it cannot stand). The command line, the experiment
-// file, the sweep, the result store and the report all read that row. Adding a setting is one member here and one row
-// there.
+// Every setting of a measurement. A setting is a struct member with a default here and one row in the table of
+// settings.cpp: name, unit, range, help, the stages that read it, when it is idle, and the settings that it conflicts
+// with. The command line, the experiment file, the sweep, the result store and the report all read that row. To add a
+// setting, add one member here and one row there.
 //
 //   Settings s;
 //   find_setting("map.resolution").set(s, "2048");       // throws Error(usage) naming the range
@@ -31,7 +31,7 @@ enum class BiasUnit { depth, m, texel };
 enum class DiskRadius { fixed, view_distance };
 enum class LightChoice { automatic, directional, spot, point };
 
-struct LightSettings {  // automatic and empty: the scene's
+struct LightSettings {  // automatic and empty: as the scene's light
   LightChoice kind = LightChoice::automatic;
   std::optional<glm::dvec3> position_m;
   std::optional<glm::dvec3> target_m;
@@ -44,29 +44,29 @@ struct LightSettings {  // automatic and empty: the scene's
 struct MapSettings {
   int resolution = 1024;  // texels on a side
   DepthFormat format = DepthFormat::d24;
-  MapFit fit = MapFit::scene;      // where extent, near and far are empty: the scene's own, or fitted tightly
-  std::optional<double> extent_m;  // directional: whole width; empty: by `fit`
-  double extent_scale = 1;         // multiplies the extent, however it came about
+  MapFit fit = MapFit::scene;      // the source of empty extent, near and far: the scene's own values, or a tight fit
+  std::optional<double> extent_m;  // directional: whole width; empty: from `fit`
+  double extent_scale = 1;         // multiplies the extent, from whichever source it is
   std::optional<double> fov_deg;   // spot: whole angle of the map; empty: the light's cone
   bool snap = false;               // directional: the grid stays fixed in the world when the light's position moves
-  double shift_u_texels = 0;       // moves the whole grid in the light's plane, along its right ...
-  double shift_v_texels = 0;       // ... and its up
-  std::optional<double> near_m;    // along the light's axis from its position; empty: the scene's, or fitted
+  double shift_u_texels = 0;       // moves the whole grid in the light's plane: along `right` ...
+  double shift_v_texels = 0;       // ... and along `up`
+  std::optional<double> near_m;    // along the light's axis from its position; empty: the scene's own, or fitted
   std::optional<double> far_m;
-  Wrap wrap = Wrap::clamp_to_border;  // the border's depth is 1: lit
+  Wrap wrap = Wrap::clamp_to_border;  // the depth of the border is 1, which is lit
   bool lit_beyond_far = true;
   CulledFaces cull = CulledFaces::none;
   bool depth_clamp = false;  // geometry before near or beyond far is kept, at depth 0 or 1, instead of clipped
-  CubePass cube_pass = CubePass::layered;  // point: how the six faces are drawn; the map is the same
+  CubePass cube_pass = CubePass::layered;  // point: the method to draw the six faces; the map is the same
 };
 
-// A bias is what its parts add up to (technique/bias_parts.h); each is 0 unless it is set.
+// A bias is the sum of its parts (technique/bias_parts.h). Each part is 0 unless it is set.
 struct BiasSettings {
-  BiasUnit unit = BiasUnit::depth;       // of the parts whose unit is bias.unit
-  std::string reference = "own_depth";   // of tap_references()
-  std::optional<double> plane_cap = {};  // bias.unit; empty: none
+  BiasUnit unit = BiasUnit::depth;       // the unit of the parts whose own unit is "bias.unit"
+  std::string reference = "own_depth";   // the name of one of tap_references()
+  std::optional<double> plane_cap = {};  // in bias.unit; empty: no cap
 
-  // A parameter of a part: its amount ("slope"), floor ("slope_floor") or cap ("tan_cap"; infinity: none).
+  // A parameter of a part: its amount ("slope"), floor ("slope_floor") or cap ("tan_cap"; infinity means no cap).
   double& operator[](std::string_view parameter) { return values_[bias_parameter_index(parameter)]; }
   double operator[](std::string_view parameter) const { return values_[bias_parameter_index(parameter)]; }
 
@@ -76,12 +76,12 @@ struct BiasSettings {
 };
 
 struct FilterSettings {
-  std::string kind = "none";  // of filters()
+  std::string kind = "none";  // the name of one of filters()
   int size = 3;               // box, gaussian: taps on a side, odd
-  double step_texels = 1;     // box: from tap to tap
+  double step_texels = 1;     // box: distance of neighbouring taps
   double sigma_texels = 1;    // gaussian: standard deviation
-  double radius_texels = 2;   // poisson, vogel: of the disk
-  int taps = 16;              // vogel
+  double radius_texels = 2;   // poisson, vogel: radius of the disk
+  int taps = 16;              // vogel: number of taps
   bool rotate = false;        // poisson, vogel: another rotation of the disk at each pixel
   double offset_m = 0.1;      // cube_grid: taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world
   DiskRadius disk = DiskRadius::fixed;  // cube_disk: radius_m, or (1 + view distance / far) / 25 metres
@@ -89,7 +89,7 @@ struct FilterSettings {
 };
 
 struct TruthSettings {
-  double standard_error = 0.01;  // of R0 at each receiver, for a light with a size
+  double standard_error = 0.01;  // standard error of R0 at each receiver, for a light with a size
 };
 
 struct Settings {
@@ -115,24 +115,27 @@ struct Stages {
 
 enum class ValueType { integer, real, flag, choice, text, point };
 
-// One row. Values travel as text in one canonical form each ("auto" for an empty optional, "x,y,z" for a point, the
-// shortest decimal that reads back as the same double), so that the same value always has the same key in the store.
+// One row of the table. A value is stored as text in one canonical form: "auto" for an empty optional, "x,y,z" for a
+// point, the shortest decimal that reads back as the same double. So the same value always has the same key in the
+// store.
 struct Setting {
   std::string_view name;  // "map.resolution"
   std::string_view unit;  // "texels", "m", "deg", "" ...
   ValueType type;
-  double min = 0, max = 0;                // integer, real: inclusive
+  double min = 0, max = 0;                // integer, real: inclusive limits
   bool may_be_auto = false;               // "auto" is a value
   std::vector<std::string_view> choices;  // choice
   std::string help;                       // one sentence
   std::function<std::string(const Settings&)> get;
   std::function<void(Settings&, std::string_view)> set;  // throws Error(usage): what, range
 
-  // The stages that read it: what they made is kept while it stays the same.
+  // The stages that read it. The results of these stages are kept while the value stays the same.
   Stages read_by = {};
-  // Why it is not read at this point ("on a point light"); empty text: it is. Empty function: it always is.
+  // The reason why it is not read at this point ("on a point light"). Empty text: it is read. Empty function: it is
+  // always read.
   std::function<std::string(const Settings&, LightKind)> why_idle = {};
-  // Why it cannot stand with the others (technique/setting_rules.h); empty text: it can. Empty function: it always can.
+  // The reason why it conflicts with other settings (technique/setting_rules.h). Empty text: no conflict. Empty
+  // function: it never conflicts.
   std::function<std::string(const Settings&, std::optional<LightKind>)> why_refused = {};
 
   // For the rows of the table.

@@ -1,15 +1,15 @@
-// What a part of a bias may read of the receiver. GLSL and C++ compile this file and technique/bias/*.glsl; the words that
-// GLSL lacks are in gl/shaders/words.glsl, those that C++ lacks in technique/formulas.h.
+// The numbers that a part of a bias may read of the receiver. GLSL and C++ compile this file and technique/bias/*.glsl.
+// gl/shaders/words.glsl defines the words that GLSL lacks, and technique/formulas.h those that C++ lacks.
 struct Surface {
   vec3 normal;       // N, unit
   vec3 to_light;     // L, unit
-  vec3 texel_right;  // unit: along the rows of the map's texels, in the world; of a cube's face without sign
-  vec3 texel_up;     // and along its columns
+  vec3 texel_right;  // unit, in the world: along the rows of the map's texels; for a face of a cube without sign
+  vec3 texel_up;     // unit, in the world: along their columns
   real n_dot_l;
-  real tan_theta;  // of the angle between N and L, which stays a number where N is across L
+  real tan_theta;  // tangent of the angle between N and L; finite also where N is perpendicular to L
 };
 
-// What the depth that a tap is compared with may depend on, before the bias is subtracted.
+// The numbers that the reference of a tap, before the bias is subtracted, may depend on.
 struct TapPlace {
   real reference;  // window depth of the receiver
   vec2 gradient;   // window depth per texel of the receiver's plane

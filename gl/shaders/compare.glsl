@@ -1,4 +1,4 @@
-// The comparison of one tap (Williams 1978). Precise, because the exact bias curves reproduce it on the host.
+// The comparison of one tap (Williams 1978). It is precise, because the host repeats it for the exact bias curves.
 float biased_depth(float reference, float bias) {
   precise float biased = reference - bias;
   return biased;

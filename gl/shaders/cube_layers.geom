@@ -1,5 +1,5 @@
 #version 450 core
-// All six faces of a cube map in one pass: each triangle goes to each layer.
+// Draws all six faces of a cube map in one pass: each triangle is emitted once for each layer.
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 18) out;
 in vec3 vertex_m[];

@@ -1,5 +1,5 @@
 #version 450 core
-// Linear depth of a point light's map.
+// The linear depth in the map of a point light.
 in vec3 place_m;  // world
 uniform vec3 light_position;
 uniform float light_far_m;

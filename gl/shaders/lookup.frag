@@ -1,6 +1,6 @@
 #version 450 core
-// The technique: how lit a receiver is. Where taps count alike it is their number that comes out: the host divides,
-// because OpenGL's own division need not be correctly rounded.
+// The technique's result for a receiver. For taps of equal weight it is the number of lit taps. The host divides it,
+// because a division in OpenGL need not be correctly rounded.
 #include "shaders/receiver.glsl"
 #include "shaders/compare.glsl"
 #include <filter>

@@ -1,14 +1,14 @@
-// Where the taps lie: the table of technique/tap_pattern.h.
+// The offsets of the taps: the table of technique/tap_pattern.h.
 #include "technique/pixel_hash.glsl"
 
 layout(std140, binding = 0) uniform TapPattern {
-  vec4 tap_offsets[1024];  // [variant * taps + tap]; w: the tap's weight, where taps do not count alike
+  vec4 tap_offsets[1024];  // [variant * taps + tap]; w: the tap's weight, if weights differ
 };
 uniform int taps;
 uniform int variants;
 uniform int scaled_by_view;
 
-// Index of the first tap of the receiver's variant.
+// The index of the first tap of the receiver's variant.
 int first_tap(Receiver receiver) {
   return variants == 1 ? 0 : taps * int(hash_pixel(receiver.pixel) % uint(variants));
 }

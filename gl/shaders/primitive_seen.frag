@@ -1,8 +1,9 @@
 #version 450 core
-// As primitive.frag, but for triangles that the camera does not see: what lies behind them is seen.
+// The shader of primitive.frag, for scenes with triangles that the camera does not see. It discards them, so that the
+// surface behind them is visible.
 layout(location = 0) out uint primitive;
 layout(std430, binding = 0) readonly buffer Unseen {
-  uint unseen[];  // bit t % 32 of word t / 32: triangle t
+  uint unseen[];  // triangle t has bit t % 32 of word t / 32
 };
 
 void main() {

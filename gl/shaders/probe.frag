@@ -1,5 +1,5 @@
 #version 450 core
-// What the lookup computes before it compares.
+// The probe: the numbers that the lookup computes before it compares.
 #include "shaders/receiver.glsl"
 
 layout(location = 0) out vec4 scalars;  // reference, n_dot_l, bias_unit, tan_theta

@@ -1,12 +1,13 @@
 #version 450 core
-// The texels that a receiver's taps read in a cube map, as the sampler itself chooses them; some rows of the picture at
-// a time.
+// The texels in a cube map that a receiver's taps read, as the sampler itself chooses them. One pass does some rows of
+// the picture.
 #include "shaders/receiver.glsl"
 #include "shaders/pattern.glsl"
 
 layout(binding = 3) uniform usamplerCube index_map;  // nearest; each texel's own index
 layout(std430, binding = 0) writeonly buffer CubeTexels {
-  uint cube_texels[];  // [pixel * tap_count + tap], from the first pixel of these rows and the first of these taps on
+  uint cube_texels[];  // [pixel * tap_count + tap], beginning with the first pixel of these rows and the first of these
+                       // taps
 };
 uniform int first_pixel;
 uniform int tap_begin, tap_count;

@@ -1,5 +1,5 @@
 #version 450 core
-// The map as the lookup's sampler returns it, a strip of rows at a time.
+// Reads the map through the lookup's sampler, one strip of rows in each pass.
 #include "shaders/map/flat.glsl"
 
 uniform int first_row;

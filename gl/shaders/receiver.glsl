@@ -1,28 +1,28 @@
-// The receiver at a pixel and its place in the light's map. The lookup and the probe share it, and all of it is
-// precise, so that the probe's numbers are the lookup's to the last bit in whatever program they are computed.
+// The receiver at a pixel and its place in the light's map. The lookup and the probe share this file. All of it is
+// precise, so that the numbers of the probe are bit for bit those of the lookup, whichever program computes them.
 #include "shaders/words.glsl"
 #include <light>
 
-layout(binding = 0) uniform sampler2D position_image;  // P, world, metres; w: 1 where there is a receiver, else 0
+layout(binding = 0) uniform sampler2D position_image;  // P, world, metres; w: 1 if there is a receiver, else 0
 layout(binding = 1) uniform sampler2D normal_image;    // N, unit
 uniform vec3 eye_m;
 
-// What is "of P" is of where P is looked up; surface and radius are of P itself.
+// P in this struct is the place looked up. surface and radius belong to the receiver itself.
 struct Receiver {
-  bool present;     // false for background, and where the light's view of P is not valid
+  bool present;     // false for background, and if the light's view of P is not valid
   float reference;  // window depth of P
-  vec2 map_texels;  // flat maps: where P lies in the map, in texels
-  vec3 from_light;  // of P, metres
+  vec2 map_texels;  // flat maps: the position of P in the map, in texels
+  vec3 from_light;  // from the light to P, metres
   Surface surface;
   float bias_unit;     // window depth of one unit of bias at P
   vec2 gradient;       // window depth per texel of the receiver's plane
-  float radius;        // metres; of patterns that grow with the view distance
-  uint pixel;          // its index, row 0 on top
+  float radius;        // metres; for patterns that grow with the view distance
+  uint pixel;          // the pixel's index, row 0 on top
 };
 
 #include <bias>
 
-// Where N is across L, tan(theta) ends here and stays a number.
+// tan(theta) is computed with a cosine of at least this value, so that it is finite where N is perpendicular to L.
 const float least_cosine = 1e-6;
 
 Surface surface_at(vec3 position, vec3 normal) {
@@ -47,7 +47,7 @@ Receiver receiver_at(ivec2 pixel) {
   LightView view = seen_by_light(looked_up(position.xyz, surface));
   if (position.w == 0.0 || !view.valid)
     return Receiver(false, 0.0, vec2(0.0), vec3(0.0), surface, 0.0, vec2(0.0), 0.0, index);
-  // The tutorials' radius for soft point shadows.
+  // The radius that the tutorials use for soft shadows of point lights.
   precise float radius = (1.0 + distance(eye_m, position.xyz) / light_far_m) / 25.0;
   return Receiver(true, view.depth, view.map_texels, view.from_light, surface, bias_unit_at(view),
                   plane_gradient(normal, view), radius, index);

@@ -1,5 +1,5 @@
 #version 450 core
-// One triangle over the whole viewport; no vertex buffer.
+// One triangle that covers the whole viewport. It needs no vertex buffer.
 void main() {
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
   gl_Position = vec4(corner, 0.0, 1.0);

@@ -1,2 +1,3 @@
-// The caster's vertex is moved away from the light (URP's depth bias). On a plane it gains what a constant bias gains.
+// The caster's vertex is moved away from the light (URP's depth bias). On a plane this has the effect of a constant
+// bias.
 vec3 caster_offset_way(Surface at) { return real(-1) * at.to_light; }

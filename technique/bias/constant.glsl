@@ -1,2 +1,2 @@
-// The same bias everywhere (Williams 1978).
+// The bias is the same everywhere (Williams 1978).
 real constant_factor(Surface at) { return real(1); }

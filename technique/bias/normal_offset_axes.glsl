@@ -1,5 +1,6 @@
-// Along the normal by how far it leans over each of the texel's two axes (Filament's normal bias since 2026): law 3 with
-// the slope's own azimuth, so that k texels are enough at every azimuth, and no more than enough.
+// The place looked up is moved along the normal, in proportion to the sum of the normal's components along the texel's
+// two axes (Filament's normal bias since 2026). This is law 3 with the azimuth of the slope itself, so k texels are
+// exactly enough at every azimuth.
 vec3 normal_offset_axes_way(Surface at) {
   precise real right = dot(at.normal, at.texel_right);
   precise real up = dot(at.normal, at.texel_up);

@@ -1,5 +1,5 @@
-// As normal_offset_turned, without its part along the light: the place in the map moves, the depth does not (Godot's
-// normal bias).
+// The offset of normal_offset_turned without its component along the light. So the place in the map changes, but the
+// depth does not (Godot's normal bias).
 vec3 normal_offset_lateral_way(Surface at) {
   precise real turned = real(1) - at.n_dot_l;
   precise vec3 along = at.n_dot_l * at.to_light;

@@ -1,4 +1,4 @@
-// The tutorials' slope-scaled bias: grows as the surface turns from the light.
+// The slope-scaled bias of the tutorials. It grows with the angle between the surface normal and the light.
 real slope_factor(Surface at) {
   precise real turned = real(1) - at.n_dot_l;
   return turned;

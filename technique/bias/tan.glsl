@@ -1,2 +1,2 @@
-// As steep as the surface is against the light. A map of texels of one size needs exactly this (law 1).
+// The bias grows with the tangent of the slope. A map with texels of one size needs exactly this (law 1).
 real tan_factor(Surface at) { return at.tan_theta; }

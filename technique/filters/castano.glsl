@@ -1,6 +1,8 @@
-// Castaño's kernels (Witness, "Shadow Mapping Summary - Part 1", 2013): a triangle-like kernel of 3, 5 or 7 hardware
-// comparisons to a side in 4, 9 or 16 fetches. Each fetch blends two texels of either axis by where it lies between them.
-// Weight of texel `texel` (0 ... size) of the size + 1 that one axis reads; s: where P lies between the middle two, 0 ... 1.
+// Castaño's kernels (Witness, "Shadow Mapping Summary - Part 1", 2013): a kernel close to a triangle, of 3, 5 or 7
+// hardware comparisons on a side, read in 4, 9 or 16 fetches. Each fetch blends two texels along either axis by its
+// position between them.
+// castano_weight: the weight of texel `texel` (0 ... size) of the size + 1 that are read along one axis. s: the
+// position of P between the middle two, 0 ... 1.
 int castano_kernel(int tap, int size) {
   int d = abs(tap - size / 2);
   if (d > size / 2) return 0;

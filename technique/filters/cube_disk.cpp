@@ -4,7 +4,7 @@
 
 namespace noonmark {
 
-// The corners of a cube and the middles of its edges, of lengths sqrt(3) and sqrt(2).
+// The corners of a cube and the middles of its edges; their distances from the centre are sqrt(3) and sqrt(2).
 TapPattern cube_disk_taps(const FilterSettings& f) {
   TapPattern pattern;
   pattern.in_world = true;

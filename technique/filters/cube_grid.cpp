@@ -2,7 +2,8 @@
 
 namespace noonmark {
 
-// The tutorials' loops from -offset up to, but without, +offset: a grid that is not centred on the receiver.
+// The tutorials' loops run from -offset up to +offset, without +offset itself. So the grid is not centred on the
+// receiver.
 TapPattern cube_grid_taps(const FilterSettings& f) {
   TapPattern pattern;
   pattern.taps = 64;

@@ -8,8 +8,8 @@
 namespace noonmark {
 namespace {
 
-// 16 points of the unit disk, each the best of many candidates: the one furthest from those before it (Mitchell 1991).
-// The generator's bits are the standard's, so every platform has the same points.
+// 16 points of the unit disk. Each is the candidate, out of many, that is furthest from the points before it (Mitchell
+// 1991). The C++ standard defines the generator's bits, so every platform has the same points.
 const std::array<glm::dvec2, 16>& poisson_disk() {
   static const std::array<glm::dvec2, 16> disk = [] {
     std::array<glm::dvec2, 16> points;

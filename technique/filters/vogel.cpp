@@ -6,7 +6,7 @@
 
 namespace noonmark {
 
-// A disk of taps along a spiral of the golden angle, all of the same area (Vogel 1979).
+// A disk of taps on a spiral with the golden angle. Each tap stands for the same area (Vogel 1979).
 TapPattern vogel_taps(const FilterSettings& f) {
   TapPattern pattern;
   pattern.taps = f.taps;

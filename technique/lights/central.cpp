@@ -11,8 +11,8 @@
 namespace noonmark::lights {
 namespace {
 
-// The point of the triangle that is nearest to the origin (Ericson, Real-Time Collision Detection, 5.1.5: by the
-// regions of its corners, edges and inside).
+// The distance of the triangle from the origin. The nearest point is found by the regions of corners, edges and inside
+// (Ericson, Real-Time Collision Detection, 5.1.5).
 double nearest_to_origin(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
   const auto segment = [](glm::dvec3 p, glm::dvec3 q) {
     const glm::dvec3 way = q - p;
@@ -42,8 +42,8 @@ glm::dvec3 way_of(const Light& light) {
   return glm::normalize(way);
 }
 
-// The near plane of a perspective map cannot be 0: nothing nearer than a thousandth of far is fitted, and what lies there
-// is clipped (coverage shows it).
+// The near plane of a perspective map cannot be 0, so the fit never puts it nearer than a thousandth of far. Geometry
+// before it is clipped, and the cause `coverage` shows this.
 MapVolume fit_central(const Scene& scene, const LightFrame& frame, bool (*behind)(const glm::dvec3 (&corners)[3])) {
   constexpr double least_near = 1e-3;
   double near_m = std::numeric_limits<double>::infinity(), far_m = 0;
@@ -51,13 +51,14 @@ MapVolume fit_central(const Scene& scene, const LightFrame& frame, bool (*behind
     glm::dvec3 corner[3];
     for (int i = 0; i < 3; ++i) corner[i] = frame.to_light(scene.positions[t[i]]);
     if (behind && behind(corner)) continue;
-    // A cube's face clips at its own axis' depth: at a corner of the face sqrt(3) nearer than the distance. Along a
-    // spot light's axis the depth is at least the distance times the cosine at the cone's corner.
+    // A face of a cube clips by the depth along its own axis. At a corner of the face this depth is smaller than the
+    // distance by the factor sqrt(3). Along a spot light's axis the depth is at least the distance times the cosine at
+    // the cone's corner.
     const double cosine = 1 / std::sqrt(1 + 2 * frame.tan_half_fov * frame.tan_half_fov);
     near_m = std::min(near_m, nearest_to_origin(corner[0], corner[1], corner[2]) * cosine);
     for (const glm::dvec3& p : corner) far_m = std::max(far_m, frame.depth_m(p));
   }
-  if (!(far_m > 0)) far_m = 1;  // nothing to light
+  if (!(far_m > 0)) far_m = 1;  // there is nothing to light
   far_m *= 1 + map_margin;
   return {1, std::max(std::min(near_m, far_m / 2) * (1 - map_margin), far_m * least_near), far_m};
 }

@@ -50,7 +50,7 @@ class Directional final : public KindOfLight {
       throw SettingConflict("map.extent_m",
                             fmt::format("the map's extent is {} m; set map.extent_m to more than 0", frame.extent_m));
     const double w = frame.texel_m();
-    // Texels, matrix and depths are all relative to the origin, so the grid moves as one.
+    // The texels, the matrix and the depths are all relative to the origin, so the whole grid moves together.
     if (map.snap) {
       const auto to_grid = [&](double along) { return std::round(along / w) * w - along; };
       frame.origin_m += to_grid(glm::dot(frame.origin_m, frame.right)) * frame.right +
@@ -79,7 +79,7 @@ class Directional final : public KindOfLight {
   glm::dvec3 place(glm::dvec3 light) const override { return {light.x, light.y, 1}; }
   glm::dvec3 normal_place(glm::dvec3 place) const override { return place; }
 
-  // A disc of directions.
+  // The size of the light is a disc of directions.
   double disc_radius(const Light& light) const override {
     return std::tan(light.angular_diameter_deg * std::numbers::pi / 360);
   }

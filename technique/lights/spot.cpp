@@ -53,7 +53,7 @@ class Spot final : public KindOfLight {
     return glm::dot(glm::normalize(world - frame.origin_m), frame.forward) >= frame.cos_half_cone;
   }
 
-  // Beyond one side of the square pyramid around the cone.
+  // True if all corners are outside the same side of the square pyramid around the cone.
   bool misses(const LightFrame& frame, const glm::dvec3 (&corners)[3]) const override {
     const double tangent = std::sqrt(1 - frame.cos_half_cone * frame.cos_half_cone) / frame.cos_half_cone;
     for (int axis = 0; axis < 2; ++axis)

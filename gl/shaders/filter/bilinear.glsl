@@ -1,7 +1,7 @@
-// Fetches that compare four texels each and blend the verdicts, in the sampler's hardware, with weights of their own.
+// Weighted fetches. The sampler's hardware compares four texels in each fetch and blends the four verdicts.
 #include "shaders/pattern.glsl"
 
-// Linear; GL_LEQUAL, so that a tie is lit.
+// The sampler is linear, with GL_LEQUAL so that a tie is lit.
 layout(binding = 3) uniform sampler2DShadow comparing_map;
 
 float all_lit() { return 1.0; }

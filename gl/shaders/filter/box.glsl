@@ -1,5 +1,5 @@
-// Percentage-closer filtering over a square of taps (Reeves, Salesin, Cook 1987), by two loops as engines have them. The
-// offsets are the pattern's to the last bit: its step is a float.
+// Percentage-closer filtering over a square of taps (Reeves, Salesin, Cook 1987), with two loops as in engines. The
+// offsets are bit for bit those of the pattern, because its step is a float.
 uniform int box_radius;   // taps on each side of the middle one
 uniform float box_step;  // texels
 

@@ -1,8 +1,9 @@
-// A kernel of weights along each axis over hardware comparisons: each fetch blends two texels of either axis by where it
-// lies between them, and carries the weight of both, so that half as many fetches as texels are enough.
+// A kernel of hardware comparisons with a weight for each texel along each axis. Each fetch blends two texels along
+// either axis by its position between them, and has the weight of both. So half as many fetches as texels are enough
+// along each axis.
 #include <weights>
 
-// Linear; GL_LEQUAL, so that a tie is lit.
+// The sampler is linear, with GL_LEQUAL so that a tie is lit.
 layout(binding = 3) uniform sampler2DShadow comparing_map;
 
 float all_lit() { return 1.0; }
@@ -23,6 +24,6 @@ float lit(Receiver receiver, float bias) {
       sum += weight * textureLod(comparing_map, vec3(place, biased), 0.0);
     }
   }
-  // The weights' sum is 1 but for rounding: what is all lit is 1.
+  // The sum of the weights is 1 except for rounding. If all taps are lit, the result is exactly 1.
   return sum == whole ? 1.0 : sum / whole;
 }

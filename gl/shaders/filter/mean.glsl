@@ -1,4 +1,4 @@
-// How many of a pattern's taps are lit: percentage-closer filtering over any of them.
+// The number of lit taps of a pattern: percentage-closer filtering with any pattern.
 #include "shaders/pattern.glsl"
 
 float all_lit() { return float(taps); }

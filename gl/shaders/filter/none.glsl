@@ -1,3 +1,4 @@
+// A lookup without a filter: one tap, at the place looked up.
 float all_lit() { return 1.0; }
 
 float lit(Receiver receiver, float bias) {

@@ -1,3 +1,4 @@
+// A directional light with one orthographic map.
 #include "shaders/light/projected.glsl"
 
 uniform vec3 direction_to_light;

@@ -1,4 +1,4 @@
-// Linear depth: distance / far.
+// A point light with a cube map. Its depth is linear: distance / far.
 #include "shaders/light/view.glsl"
 #include "shaders/map/cube.glsl"
 
@@ -25,7 +25,7 @@ float bias_unit_at(LightView view) {
   return bias_unit == 2 ? per_texel : light_bias_unit;
 }
 
-// The two axes of the world that are not the face's own (OpenGL 4.5 core, table 8.19).
+// The two axes of the world that are perpendicular to the face's own axis (OpenGL 4.5 core, table 8.19).
 vec3 texel_right_at(vec3 place_m) {
   vec3 a = abs(place_m - light_position);
   return a.x >= a.y && a.x >= a.z ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
@@ -36,4 +36,4 @@ vec3 texel_up_at(vec3 place_m) {
   return y_is_major ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0);
 }
 
-vec2 plane_gradient(vec3 normal, LightView view) { return vec2(0.0); }  // of a cube, there is none
+vec2 plane_gradient(vec3 normal, LightView view) { return vec2(0.0); }  // a cube map has none

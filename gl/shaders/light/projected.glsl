@@ -1,9 +1,9 @@
-// Lights with one flat map, which a matrix projects onto.
+// Functions for lights with one flat map, onto which a matrix projects.
 #include "shaders/light/view.glsl"
 #include "shaders/map/flat.glsl"
 
 uniform mat4 clip_from_world;
-uniform mat4 clip_from_world_planes;  // carries planes, (normal, offset from light_position), to clip space
+uniform mat4 clip_from_world_planes;  // transforms planes, (normal, offset from light_position), to clip space
 uniform int resolution;
 uniform vec3 light_right;  // unit, in the world: along the rows of the map's texels
 uniform vec3 light_up;
@@ -17,7 +17,7 @@ LightView seen_by_light(vec3 place_m) {
   return LightView(clip.w > 0.0 && is_finite(window), window.z, map_texels, from_light, clip.w);
 }
 
-// 0 for a plane that the light sees edge on: no depth is its depth.
+// The result is 0 for a plane that the light sees edge-on, because such a plane has no single depth at a place.
 vec2 plane_gradient(vec3 normal, LightView view) {
   precise vec4 plane = clip_from_world_planes * vec4(normal, -dot(normal, view.from_light));
   precise vec2 gradient = (-plane.xy / plane.z) / float(resolution);

@@ -1,3 +1,4 @@
+// A spot light with one perspective map.
 #include "shaders/light/projected.glsl"
 
 uniform vec3 light_axis;  // unit, away from the light
@@ -12,7 +13,7 @@ float texel_m_at(vec3 place_m) {
   return size_m;
 }
 
-// A perspective map's depth changes with the inverse square of the distance along the axis.
+// The window depth of a perspective map changes with the inverse square of the distance along the axis.
 float bias_unit_at(LightView view) {
   precise float per_m = light_bias_unit / (view.axis_m * view.axis_m);
   precise float per_texel = light_bias_unit / view.axis_m;
