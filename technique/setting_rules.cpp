@@ -47,7 +47,6 @@ std::string where_depths_are_fitted(const Settings& s, LightKind) {
 std::string not_on_directional(const Settings&, LightKind light) {
   return light == LightKind::directional ? on_a(light) : "";
 }
-std::string not_on_spot(const Settings&, LightKind light) { return light == LightKind::spot ? on_a(light) : ""; }
 std::string not_on_point(const Settings&, LightKind light) { return light == LightKind::point ? on_a(light) : ""; }
 std::string only_on_directional(const Settings&, LightKind light) {
   return light == LightKind::directional ? "" : on_a(light);

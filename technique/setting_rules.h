@@ -51,7 +51,6 @@ std::string in_builtin_scene(const Settings&, LightKind);
 std::string without_time(const Settings&, LightKind);
 std::string where_depths_are_fitted(const Settings&, LightKind);
 std::string not_on_directional(const Settings&, LightKind);
-std::string not_on_spot(const Settings&, LightKind);
 std::string not_on_point(const Settings&, LightKind);
 std::string only_on_directional(const Settings&, LightKind);
 std::string only_on_spot(const Settings&, LightKind);
