@@ -31,8 +31,8 @@ struct Measurement {
   const Image<float>& exact_map;
 };
 
-// Throws Error(device) if there is not enough address space for the driver, the rays and the image library, before the
-// needs of any point are added. Without this check a library fails first, and it cannot report the reason. pictures:
+// Checks the address space that the driver, the rays and the image library need before the first point. Throws
+// Error(device) if there is not enough. Without this check a library would fail later and could not say why. pictures:
 // whether files of pictures are written.
 void require_room_to_start(bool pictures);
 

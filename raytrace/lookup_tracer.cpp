@@ -43,7 +43,7 @@ std::optional<double> first_from_near(const EmbreeScene& seen, const LightView& 
   }
 }
 
-// The depths that the map's pass draws: of the scene, or of other vertices where the bias moves the casters.
+// The depths that the map's pass draws. If the bias moves the casters, it draws the moved vertices.
 Image<float> exact_map_of(const TracedScene& traced, const LightView& scenes_own, const TexelRays& texels,
                           const MapSettings& settings, const Bias& bias, const std::optional<PolygonOffset>& offset) {
   const LightFrame& frame = scenes_own.frame();
@@ -54,16 +54,17 @@ Image<float> exact_map_of(const TracedScene& traced, const LightView& scenes_own
   }
   const Scene& drawn = moved ? *moved : traced.scene;
   const LightView view = moved ? LightView(*moved, frame) : scenes_own;
-  std::optional<EmbreeScene> uncut;  // other vertices, or only the faces that the rasteriser keeps
+  // A tree of its own, if the map is drawn of other vertices or without the culled faces.
+  std::optional<EmbreeScene> own_tree;
   bool nothing_kept = false;
   if (settings.cull != CulledFaces::none) {
     std::vector<uint32_t> kept = kept_triangles(drawn, moved ? nullptr : &traced.adjacency, frame, settings.cull);
     nothing_kept = kept.empty();
-    if (!nothing_kept) uncut.emplace(traced.device, drawn, std::move(kept));
+    if (!nothing_kept) own_tree.emplace(traced.device, drawn, std::move(kept));
   } else if (moved) {
-    uncut.emplace(traced.device, drawn);
+    own_tree.emplace(traced.device, drawn);
   }
-  const EmbreeScene& seen = uncut ? *uncut : traced.embree;
+  const EmbreeScene& seen = own_tree ? *own_tree : traced.embree;
   const glm::ivec2 size = frame.map_size();
   Image<float> map(size.x, size.y, 1.0f);
   if (nothing_kept) return map;
@@ -72,7 +73,7 @@ Image<float> exact_map_of(const TracedScene& traced, const LightView& scenes_own
   for_each_packet(list.size(), [&](size_t first, int n) {
     uint32_t hits[packet_size];
     glm::dvec3 places[packet_size];
-    if (uncut) {
+    if (own_tree) {
       for (int i = 0; i < n; ++i) places[i] = view.texel_place(list[first + i]);
       view.first_hits(seen, n, places, hits);
     } else {

@@ -5,7 +5,7 @@
 //   db.execute(pictures.create());
 //   Table<PictureRecord>::Insert insert(db, pictures);
 //   insert.row({7, 0}, record);
-//   pictures.read(db, "", [](std::span<const int64_t> key, PictureRecord record) { ... });
+//   pictures.read(db, [](std::span<const int64_t> key, PictureRecord record) { ... });
 #pragma once
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -68,14 +68,12 @@ class Table {
   Table(std::string_view name, std::vector<std::string_view> keys, std::vector<Column<Record>> columns)
       : name_(name), keys_(std::move(keys)), columns_(std::move(columns)) {}
 
-  // more: further columns, such as generated ones.
-  std::string create(std::string_view more = {}) const {
+  std::string create() const {
     std::string sql = fmt::format("CREATE TABLE {} (", name_);
     for (std::string_view key : keys_)
       sql += fmt::format("{} INTEGER{}, ", key, keys_.size() == 1 ? " PRIMARY KEY" : "");
     for (size_t i = 0; i < columns_.size(); ++i)
       sql += fmt::format("{}{} {}", i ? ", " : "", columns_[i].name, columns_[i].type);
-    if (!more.empty()) sql += fmt::format(", {}", more);
     if (keys_.size() == 1) return sql + ");\n";
     return sql + fmt::format(", PRIMARY KEY ({})) WITHOUT ROWID;\n", fmt::join(keys_, ", "));
   }

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "scenes/camera_frame.h"
-#include "technique/lights/central.h"
+#include "technique/lights/shared.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {

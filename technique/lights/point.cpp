@@ -1,5 +1,5 @@
 // A point light: rays from a point in all directions, a cube map of distances.
-#include "technique/lights/central.h"
+#include "technique/lights/shared.h"
 
 namespace noonmark {
 namespace {
@@ -53,8 +53,7 @@ class Point final : public KindOfLight {
 
   std::string_view frustum_caption() const override {
     return "What the cube map can see: green is near, orange-red is far, blue joins them along the faces' edges, pink "
-           "is "
-           "the light, dashed where the scene is before it.";
+           "is the light, dashed where the scene is before it.";
   }
 };
 

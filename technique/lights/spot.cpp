@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "scenes/camera_frame.h"
-#include "technique/lights/central.h"
+#include "technique/lights/shared.h"
 
 namespace noonmark {
 namespace {

@@ -1,4 +1,5 @@
-// Functions that spot and point lights share. All rays of these lights come from one point.
+// What the kinds of light share: the margin of a map and the direction to the target, used by several kinds; and the
+// functions of spot and point lights, whose rays come from one point.
 #pragma once
 #include "technique/light_frame.h"
 

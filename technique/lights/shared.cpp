@@ -1,4 +1,4 @@
-#include "technique/lights/central.h"
+#include "technique/lights/shared.h"
 
 #include <fmt/format.h>
 
