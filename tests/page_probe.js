@@ -29,6 +29,9 @@ function marks(figure) {
   ['line', 'area', 'symbol', 'rule'].forEach(function(kind) {
     count[kind] = all('.mark-' + kind + ' path, .mark-' + kind + ' line', figure).length;
   });
+  count.zero = all('.mark-text.role-mark text', figure).filter(function(t) {
+    return t.textContent === '0';
+  }).length;
   return count;
 }
 function selected() {

@@ -40,6 +40,7 @@ class Page : public testing::Test {
     browser.pop_back();
     Results results = sample_results();
     results.points[3].metrics["error"] = std::numeric_limits<double>::quiet_NaN();
+    results.points[4].metrics["error"] = 0;
     results.points[26].pictures.push_back({"map", "images/p0018-map.png", "The map of another."});
     std::string page = render_report(results, sample_picture);
     const auto insert = [&](const std::string& before, const std::string& script) {
@@ -86,6 +87,8 @@ TEST_F(Page, ChartsHaveTheirMarks) {
     EXPECT_GE(marks(sweep, "line"), 8) << sweep << ": a line for each of the other settings, and a guide";
   }
   EXPECT_GE(marks("chart-cost", "symbol"), 31);
+  for (const char* chart : {"chart-sweep-1", "chart-sweep-2", "chart-cost"})
+    EXPECT_GE(marks(chart, "zero"), 1) << chart << ": a logarithmic axis has no place of its own for an error of 0";
   EXPECT_EQ(marks("chart-bias", "line"), 5) << "the error and the causes that are not 0";
   EXPECT_EQ(marks("chart-bias", "area"), 0);
   const json& bias = saw_["bias"];

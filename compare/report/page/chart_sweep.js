@@ -128,19 +128,7 @@ function sweepChart(swept, index) {
         update: {size: {value: 52}}
       }
     });
-    if (floor.zero)
-      marks.push({
-        type: 'text',
-        encode: {
-          enter: {
-            x: {value: -10},
-            y: {scale: 'y', value: floor.zero},
-            align: {value: 'right'},
-            baseline: {value: 'middle'},
-            text: {value: '0'}
-          }
-        }
-      });
+    marks = marks.concat(kit.zeroLabel(floor));
     if (missing)
       marks.push({
         type: 'text',
@@ -175,19 +163,10 @@ function sweepChart(swept, index) {
             domain: logX ? [x0 / pad, x1 * pad] : [x0 - span, x1 + span],
             range: [0, w]
           },
-          {name: 'y', type: 'log', zero: false, domain: [floor.low, floor.high], range: [height, 0]}
+          kit.measureScale(floor, height)
         ],
         axes: [
-          {
-            orient: 'left',
-            scale: 'y',
-            grid: true,
-            domain: false,
-            ticks: false,
-            values: kit.logTicks(floor.zero ? floor.low * 1.6 : floor.low, floor.high),
-            title: kit.measureLabel(measure),
-            encode: {labels: {update: {text: {signal: kit.axisLabel(unit)}}}}
-          },
+          kit.measureAxis(floor, measure),
           {
             orient: 'bottom',
             scale: 'x',
@@ -276,19 +255,10 @@ function costChart() {
             domain: logX ? [low / 1.1, high * 1.1] : [0, high * 1.05 || 1],
             range: [0, w]
           },
-          {name: 'y', type: 'log', zero: false, domain: [floor.low, floor.high], range: [height, 0]}
+          kit.measureScale(floor, height)
         ],
         axes: [
-          {
-            orient: 'left',
-            scale: 'y',
-            grid: true,
-            domain: false,
-            ticks: false,
-            values: kit.logTicks(floor.low, floor.high),
-            title: kit.measureLabel(measure),
-            encode: {labels: {update: {text: {signal: kit.axisLabel('fraction')}}}}
-          },
+          kit.measureAxis(floor, measure),
           {
             orient: 'bottom',
             scale: 'x',
@@ -363,7 +333,7 @@ function costChart() {
               }
             }
           }
-        ]
+        ].concat(kit.zeroLabel(floor))
       }
     };
   });

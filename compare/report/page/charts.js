@@ -343,6 +343,40 @@ function logFloor(values) {
   return {low: zeros ? low / 2.2 : low / 1.25, high: high * 1.25, zero: zeros ? low / 2.2 : null};
 }
 
+// The scale, the axis and the label of zero of a chart whose values were given to logFloor.
+function measureScale(floor, height) {
+  return {name: 'y', type: 'log', zero: false, domain: [floor.low, floor.high], range: [height, 0]};
+}
+// No value is labelled at the place where zeros are drawn, because a zero would look like that value.
+function measureAxis(floor, measure) {
+  return {
+    orient: 'left',
+    scale: 'y',
+    grid: true,
+    domain: false,
+    ticks: false,
+    values: logTicks(floor.zero ? floor.low * 1.6 : floor.low, floor.high),
+    title: measureLabel(measure),
+    encode: {labels: {update: {text: {signal: axisLabel(measureUnit(measure))}}}}
+  };
+}
+// The list of marks is empty if no value is zero.
+function zeroLabel(floor) {
+  if (!floor.zero) return [];
+  return [{
+    type: 'text',
+    encode: {
+      enter: {
+        x: {value: -10},
+        y: {scale: 'y', value: floor.zero},
+        align: {value: 'right'},
+        baseline: {value: 'middle'},
+        text: {value: '0'}
+      }
+    }
+  }];
+}
+
 page.kit = {
   make: make,
   finite: finite,
@@ -361,6 +395,9 @@ page.kit = {
   segments: segments,
   tellApart: tellApart,
   logFloor: logFloor,
+  measureScale: measureScale,
+  measureAxis: measureAxis,
+  zeroLabel: zeroLabel,
   causeLabel: causeLabel,
   byId: byId,
   drawn: drawn,
