@@ -57,19 +57,22 @@ std::string markdown_block(std::string_view lines) {
   return text;
 }
 
+std::string_view markup_entity(std::string_view character) {
+  if (character == "&") return "&amp;";
+  if (character == "<") return "&lt;";
+  if (character == ">") return "&gt;";
+  if (character == "\"") return "&quot;";
+  if (character == "'") return "&#39;";
+  return {};
+}
+
 std::string xml_text(std::string_view text) {
   std::string escaped;
   while (!text.empty()) {
     const size_t length = utf8_length(text);
     const std::string_view character = text.substr(0, std::max<size_t>(length, 1));
-    if (character == "&")
-      escaped += "&amp;";
-    else if (character == "<")
-      escaped += "&lt;";
-    else if (character == ">")
-      escaped += "&gt;";
-    else if (character == "\"")
-      escaped += "&quot;";
+    if (const std::string_view entity = markup_entity(character); !entity.empty())
+      escaped += entity;
     else if (character == "\n")
       escaped += "&#10;";
     else if (character == "\r")

@@ -17,6 +17,9 @@ std::string markdown(std::string_view text);
 // Lines that Markdown shows unchanged, as an indented block, because backticks in a name cannot end such a block.
 std::string markdown_block(std::string_view lines);
 
+// The entity for a character that HTML and XML can read as markup (& < > " '); "" for other characters.
+std::string_view markup_entity(std::string_view character);
+
 // XML 1.0, for text and for attributes. Control characters and characters that XML cannot hold become U+FFFD.
 std::string xml_text(std::string_view text);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "compare/report/escape.h"
 #include "compare/report/rules.h"
 #include "compare/store/quantities.h"
 #include "scenes/text.h"
@@ -52,16 +53,8 @@ std::string html(std::string_view text) {
   for (std::string_view rest = valid; !rest.empty();) {
     const std::string_view character = rest.substr(0, std::max<size_t>(utf8_length(rest), 1));
     rest.remove_prefix(character.size());
-    if (character == "&")
-      out += "&amp;";
-    else if (character == "<")
-      out += "&lt;";
-    else if (character == ">")
-      out += "&gt;";
-    else if (character == "\"")
-      out += "&quot;";
-    else if (character == "'")
-      out += "&#39;";
+    if (const std::string_view entity = markup_entity(character); !entity.empty())
+      out += entity;
     else if (is_control(character) && character != "\n" && character != "\t")
       out += "\uFFFD";
     else
