@@ -32,8 +32,8 @@ struct Measurement {
 };
 
 // Checks the address space that the driver, the rays and the image library need before the first point. Throws
-// Error(device) if there is not enough. Without this check a library would fail later and could not say why. pictures:
-// whether files of pictures are written.
+// Error(device) if there is not enough. Without this check a library would fail later and could not say why.
+// pictures: true if the run writes picture files.
 void require_room_to_start(bool pictures);
 
 class Workbench {

@@ -17,7 +17,7 @@ constexpr std::string_view read_extensions[] = {
     "KHR_lights_punctual",     "KHR_mesh_quantization",   "KHR_meshopt_compression", "KHR_node_visibility",
 };
 
-// The other extensions of the Khronos registry (ratified, of vendors, archived) that change only shading, textures,
+// The other extensions of the Khronos registry (ratified, vendor and archived ones) that change only shading, textures,
 // sound, physics or metadata. Shadows are right without them. With MSFT_lod the node itself shows the finest level.
 constexpr std::string_view harmless_extensions[] = {
     "ADOBE_materials_clearcoat_specular",

@@ -72,9 +72,8 @@ class Spot final : public KindOfLight {
   glm::dvec3 normal_place(glm::dvec3 place) const override { return {place.x / place.z, place.y / place.z, 1}; }
 
   std::string_view frustum_caption() const override {
-    return "What the map can see: green is near, orange-red is far, blue joins them, yellow is the light's cone, pink "
-           "the "
-           "light, dashed where the scene is before it.";
+    return "What the map can see: green is near, orange-red is far, blue joins them, yellow is the light's cone, "
+           "pink is the light, dashed where the scene is before it.";
   }
 };
 
