@@ -5,7 +5,7 @@
 //   require_memory(estimate, bench.memory_of_program(false), "point 3");   // throws if it would not fit
 //
 // The prediction is an upper bound, made of constants per pixel, tap, texel, triangle and vertex. If one of these
-// dominates, the prediction is at most estimate_factor times the memory used (tests/memory_test.cpp). A map on a
+// dominates, the prediction is at most estimate_factor times the memory used (tests/app/memory_test.cpp). A map on a
 // graphics card is counted as if it was in main memory, as it is with llvmpipe.
 #pragma once
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Limits the number of threads of a measurement. Results do not depend on it (tests/determinism_test.cpp).
+// Limits the number of threads of a measurement. Results do not depend on it (tests/program/determinism_test.cpp).
 #pragma once
 #include <tbb/global_control.h>
 

@@ -1,7 +1,7 @@
 # The include law: which folder may include which, and where the headers of OpenGL, Embree and tinygltf may stand.
 #   cmake -DROOT=<source folder> -P cmake/include_law.cmake
 # Fails with one line for each breach. Run by every build of `all` (target include_law) and by CTest; how it fails is
-# tested by tests/include_law_test.cmake. A new module or a new guarded library is one entry below.
+# tested by tests/project/include_law_test.cmake. A new module or a new guarded library is one entry below.
 cmake_minimum_required(VERSION 3.25)
 
 set(modules scenes technique gl raytrace compare app tests)
@@ -20,7 +20,7 @@ set(may_include_compare_ladder store)
 set(may_include_compare_judge store ladder)
 set(may_include_compare_report store ladder judge)
 
-# Libraries whose types stay inside one folder and that folder's own tests (tests/<folder>_*), by the beginning of their
+# Libraries whose types stay inside one folder and that folder's own tests (tests/<folder>/), by the beginning of their
 # headers' paths.
 set(guarded OpenGL Embree tinygltf)
 set(headers_OpenGL "^(epoxy|GL|GLES[0-9]?|EGL|KHR|glad)/")
@@ -89,7 +89,7 @@ foreach(file ${files})
       breach("${file} stands in none of compare's folders; put it into one of them")
     endif()
     foreach(library ${guarded})
-      if(target MATCHES "${headers_${library}}" AND NOT module STREQUAL home_${library} AND NOT file MATCHES "^tests/${home_${library}}_")
+      if(target MATCHES "${headers_${library}}" AND NOT module STREQUAL home_${library} AND NOT file MATCHES "^tests/${home_${library}}/")
         breach("${file} includes <${target}>: ${library} headers stay inside ${home_${library}}/")
       endif()
     endforeach()

@@ -1,7 +1,7 @@
 // The same surface in other triangles, and the same scene at another place. A shadow does not depend on how a surface
 // is cut into triangles, on their order, on the meshes that they belong to, or on where the scene stands in the world.
 // So a verdict and its cause may not depend on these either: law 11 (experiments/laws.toml,
-// tests/laws_surface_test.cpp).
+// tests/laws/surface_test.cpp).
 //
 //   Scene again = remeshed(make_scene(settings), MeshForm::split);
 //   Scene far = remeshed(scene, MeshForm::tiles, {.turn_deg = 17, .move_m = {300, 0, 0}});

@@ -13,7 +13,7 @@
 #include "technique/setting_rules.h"
 #include "tests/fuzz/names.h"
 #include "tests/fuzz/targets.h"
-#include "tests/sample_results.h"
+#include "tests/support/sample_results.h"
 
 namespace noonmark::fuzz {
 namespace {

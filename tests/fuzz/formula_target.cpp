@@ -12,7 +12,7 @@
 #include "scenes/error.h"
 #include "tests/fuzz/names.h"
 #include "tests/fuzz/targets.h"
-#include "tests/sample_results.h"
+#include "tests/support/sample_results.h"
 
 namespace noonmark::fuzz {
 namespace {

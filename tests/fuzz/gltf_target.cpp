@@ -8,8 +8,8 @@
 #include "scenes/library.h"
 #include "tests/fuzz/json_mutator.h"
 #include "tests/fuzz/targets.h"
-#include "tests/gltf_compressed_files.h"
-#include "tests/gltf_expect.h"
+#include "tests/scenes/gltf/compressed_files.h"
+#include "tests/scenes/gltf/expect.h"
 
 namespace noonmark::fuzz {
 namespace {

@@ -20,7 +20,7 @@
 #include "scenes/file.h"
 #include "scenes/library.h"
 #include "tests/fuzz/targets.h"
-#include "tests/gltf_files.h"
+#include "tests/scenes/gltf/files.h"
 
 namespace noonmark::fuzz {
 namespace {

@@ -20,9 +20,9 @@
 #include "compare/store/store.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
+#include "tests/compare/report/sample.h"
 #include "tests/fuzz/targets.h"
-#include "tests/report_sample.h"
-#include "tests/sample_results.h"
+#include "tests/support/sample_results.h"
 
 namespace noonmark::fuzz {
 namespace {

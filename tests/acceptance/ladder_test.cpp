@@ -1,0 +1,253 @@
+// The ladder on real scenes: steps add up at every receiver, classes are what a person would say, and the one-pass bias
+// curve is what rendering with each bias gives.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "compare/ladder/measure.h"
+#include "gl/renderer.h"
+#include "raytrace/tracer.h"
+#include "scenes/builtin.h"
+#include "scenes/camera_fit.h"
+#include "scenes/camera_frame.h"
+#include "tests/support/measured.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+std::vector<std::string> all_scenes() {
+  std::vector<std::string> names;
+  for (const BuiltinScene& scene : builtin_scenes()) names.emplace_back(scene.name);
+  names.push_back(model("FlightHelmet"));
+  names.push_back(model("Lantern"));
+  return names;
+}
+
+class EveryScene : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (GetParam().ends_with(".gltf") && !std::filesystem::exists(GetParam()))
+      GTEST_SKIP() << GetParam() << " is not here";
+  }
+};
+
+const std::vector<std::vector<Assignment>> techniques = {
+    {{"bias.constant", "0"}},
+    {{"bias.constant", "0.005"}},
+    {{"bias.constant", "0.02"}, {"filter.kind", "box"}},
+    {{"bias.constant", "0"},
+     {"bias.slope", "0.05"},
+     {"bias.slope_floor", "0.005"},
+     {"filter.kind", "box"},
+     {"filter.size", "5"},
+     {"map.format", "16"}},
+    {{"bias.constant", "0"},
+     {"bias.slope", "0.05"},
+     {"bias.slope_floor", "0.005"},
+     {"map.format", "32f"},
+     {"map.cull", "back"}},
+    {{"bias.constant", "0"}, {"map.cull", "front"}},
+    {{"bias.constant", "0.003"}, {"map.wrap", "repeat"}, {"map.lit_beyond_far", "false"}, {"map.extent_scale", "0.4"}},
+    {{"bias.constant", "1.5"},
+     {"bias.unit", "texel"},
+     {"map.wrap", "clamp_to_edge"},
+     {"map.extent_scale", "0.4"},
+     {"filter.kind", "box"}},
+    {{"bias.constant", "0.002"}, {"light.angular_diameter_deg", "2"}, {"truth.standard_error", "0.1"}},
+    {{"bias.constant", "0"}, {"bias.normal_offset", "1"}},
+    {{"bias.constant", "0"}, {"bias.normal_offset", "2.2"}, {"filter.kind", "box"}, {"map.extent_scale", "0.4"}},
+};
+
+TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
+  Workbench bench(gl::DebugMode::fatal);
+  for (const auto& technique : techniques) {
+    Settings settings = with({{"map.resolution", "300"}}, small(GetParam()));
+    for (const auto& [name, value] : technique) find_setting(name).set(settings, value);
+    // A cube map has filters of its own.
+    if (settings.filter.kind == "box" && bench.scene(settings.scene).light.kind == LightKind::point)
+      settings.filter.kind = "cube_disk";
+    SCOPED_TRACE(testing::PrintToString(technique));
+    const Measurement m = bench.measure(settings, std::nullopt);
+    const Ladder& ladder = m.ladder;
+    const bool filtered = tap_pattern(settings.filter).taps > 1;
+    uint64_t facing = 0, broken_steps = 0, broken_taps = 0, unclassed = 0, classed_though_right = 0, several = 0;
+    for (size_t i = 0; i < ladder.flags.size(); ++i) {
+      if (!(ladder.flags[i] & flag_facing)) continue;
+      ++facing;
+      double all = 0, taps = 0;
+      int classes = 0;
+      for (int c = 1; c < cause_count; ++c) {
+        const double step = ladder.causes[c].step[i];
+        all += step;
+        const Cause cause = static_cast<Cause>(c);
+        const bool of_taps = cause != Cause::light_size && cause != Cause::filter && cause != Cause::precision;
+        if (cause != Cause::light_size && cause != Cause::precision) taps += step;
+        classes += of_taps && cause != Cause::displacement && step != 0;
+      }
+      // Written so that a NaN is broken.
+      broken_steps += !(std::abs((ladder.shown()[i] - ladder.soft_truth()[i]) - all) <= rounding_of_steps);
+      broken_taps += !(std::abs((ladder[Rung::on_exact_map][i] - ladder.truth()[i]) - taps) <= rounding_of_steps);
+      if (filtered) continue;
+      several += classes > 1;
+      const bool wrong = ladder.shown()[i] != ladder.truth()[i];
+      unclassed += wrong && ladder.cause[i] == static_cast<uint8_t>(Cause::none);
+      classed_though_right += !wrong && ladder.cause[i] != static_cast<uint8_t>(Cause::none);
+      if (wrong && ladder.cause[i] != static_cast<uint8_t>(Cause::precision)) {
+        EXPECT_NE(ladder.causes[ladder.cause[i]].step[i], 0) << "the class of pixel " << i << " has no step";
+      }
+    }
+    EXPECT_GT(facing, 1000u);
+    EXPECT_EQ(broken_steps, 0u);
+    EXPECT_EQ(broken_taps, 0u);
+    EXPECT_EQ(several, 0u) << "an unfiltered receiver has one tap, so at most one class";
+    EXPECT_EQ(unclassed, 0u);
+    EXPECT_EQ(classed_though_right, 0u);
+    EXPECT_LE(metric(m, "residual"), rounding_of_steps);
+    EXPECT_LE(metric(m, "tap_residual"), rounding_of_steps);
+    EXPECT_EQ(metric(m, "contract"), 0) << "the GPU's verdicts are the technique's, to the last bit";
+    EXPECT_LE(metric(m, "rounding_excess"), 1);
+    EXPECT_LE(metric(m, "map_bits"), m.settings.map.format == DepthFormat::d16   ? 16
+                                     : m.settings.map.format == DepthFormat::d24 ? 24
+                                                                                 : 32);
+    EXPECT_LT(metric(m, "ambiguous"), 0.001);
+    for (const auto& [name, value] : m.record.metrics) EXPECT_TRUE(std::isfinite(value)) << name;
+  }
+}
+
+// A wide map's texels are so large that an offset of one carries the lookup over to behind a spot light, where it asks
+// nothing: all of it is coverage, and the steps add up.
+TEST(Acceptance, ALookupMovedBehindTheLightIsCoverage) {
+  Workbench bench(gl::DebugMode::fatal);
+  for (const char* filter : {"none", "box", "hardware"}) {
+    const Settings settings = with({{"map.resolution", "32"},
+                                    {"map.extent_scale", "600"},
+                                    {"light.kind", "spot"},
+                                    {"bias.constant", "0"},
+                                    {"bias.normal_offset", "1"},
+                                    {"filter.kind", filter}},
+                                   small("plate", 64, 48));
+    const Measurement m = bench.measure(settings, std::nullopt);
+    SCOPED_TRACE(filter);
+    EXPECT_GT(metric(m, "counted"), 100);
+    EXPECT_EQ(metric(m, "error"), metric(m, "lit")) << "what is lit in truth is dark";
+    // Under a filter a dark receiver has taps that are lit at their exact places.
+    EXPECT_GE(metric(m, "coverage_dark"), metric(m, "lit"));
+    EXPECT_EQ(metric(m, "acne") + metric(m, "aliasing") + metric(m, "peter_panning") + metric(m, "undecided"), 0);
+    EXPECT_EQ(metric(m, "displacement"), 0);
+    EXPECT_LE(metric(m, "residual"), rounding_of_steps);
+    EXPECT_LE(metric(m, "tap_residual"), rounding_of_steps);
+    EXPECT_EQ(metric(m, "contract"), 0);
+    EXPECT_LE(metric(m, "rounding_excess"), 1);
+  }
+}
+
+// A map of a million kilometres, moved by a texel of it, over a few centimetres: there the frame's own double shows.
+TEST(Acceptance, TheFramesOwnRoundingIsNoExcess) {
+  Workbench bench(gl::DebugMode::fatal);
+  const glm::dvec3 light(7.264404296875, 3.06494140625, -1.736572265625);
+  for (const double reach : {0.01, 0.003}) {
+    Settings settings = with({{"map.resolution", "32"},
+                              {"map.extent_m", "1e9"},
+                              {"map.shift_u_texels", "1"},
+                              {"scene.height_m", "0"},
+                              {"view.eye_m", "0.003,0.03,0.002"},
+                              {"view.target_m", "0,0,0"},
+                              {"view.fov_deg", "20"}},
+                             small("plate", 16, 12));
+    settings.light.position_m = light;
+    settings.map.near_m = glm::length(light) - reach;
+    settings.map.far_m = glm::length(light) + reach;
+    EXPECT_LE(metric(bench.measure(settings, std::nullopt), "rounding_excess"), 1) << reach;
+  }
+}
+
+// Law 8: without an occluder there is no Peter Panning and no aliasing, whatever the setting. Peter Panning is 0 on lit
+// unfiltered receivers always.
+TEST_P(EveryScene, LitReceiversHaveNoPeterPanning) {
+  Workbench bench(gl::DebugMode::fatal);
+  for (const char* bias : {"0", "0.01", "0.3"}) {
+    const Measurement m =
+        bench.measure(with({{"map.resolution", "256"}, {"bias.constant", bias}}, small(GetParam())), std::nullopt);
+    const Image<float>& panning = m.ladder[Cause::peter_panning];
+    uint64_t on_lit = 0;
+    for (size_t i = 0; i < panning.size(); ++i) on_lit += panning[i] != 0 && m.ladder.truth()[i] == 1;
+    EXPECT_EQ(on_lit, 0u) << "bias " << bias;
+  }
+}
+
+std::string scene_test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = std::filesystem::path(info.param).stem().string();
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(all_scenes()), scene_test_name);
+
+class OneCurve : public testing::TestWithParam<std::string> {};
+
+// 100 random biases, each rendered by OpenGL with that bias, against the counts read off one pass.
+TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
+  const Settings base = with({{"map.resolution", "400"}}, small(GetParam(), 320, 180));
+  const Scene scene = make_scene(base.scene);
+  gl::Renderer renderer(gl::DebugMode::fatal);
+  renderer.load_scene(scene);
+  const Camera camera = effective_camera(scene, base.view);
+  const ReceiverImage receivers =
+      resolve_receivers(scene, camera, renderer.render_primitives(camera, base.view.width_px, base.view.height_px));
+  const raytrace::Tracer tracer(scene);
+  const LightFrame frame = make_light_frame(scene, base);
+  renderer.load_receivers(receivers, camera.eye_m);
+  const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {});
+  const gl::ShadowMap map = renderer.render_map(frame, base);
+  const Image<float> stored = renderer.read_map(map);
+  std::mt19937 random(20260301);
+
+  for (const char* kind : {"none", "box"}) {
+    for (const char* varied : {"constant", "slope"}) {
+      SCOPED_TRACE(std::string(kind) + " " + varied);
+      Settings settings = with({{"filter.kind", kind}, {"bias.slope_floor", "0.0007"}}, base);
+      const LookupProbe probe = renderer.probe(frame, settings);
+      const raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, probe, frame, settings.map);
+      const gl::ShadowMap exact = renderer.upload_map(taps.exact_map, settings.map);
+      const Image<float> nothing;
+      const LookupEvidence evidence{truth,   probe,  taps.taps, taps.exact_map, settings.map, Bias(settings.bias),
+                                    nothing, nothing};
+      const BiasCounts counts(evidence, stored, bias_part(varied));
+      ASSERT_GT(counts.receivers(), 10000u);
+
+      uint64_t different_counts = 0;
+      for (int trial = 0; trial < 100; ++trial) {
+        const float x = static_cast<float>(std::pow(10.0, std::uniform_real_distribution<>(-5, 0)(random)));
+        settings.bias[varied] = x;
+        const Image<float> r5 = renderer.lookup(map, frame, settings);
+        const Image<float> r4 = renderer.lookup(exact, frame, settings);
+        const Ladder ladder =
+            climb({truth, probe, taps.taps, taps.exact_map, settings.map, Bias(settings.bias), r4, r5});
+        uint64_t wrong_receivers = 0;
+        double wrong_taps = 0;
+        std::array<double, cause_count> booked{};
+        for (size_t i = 0; i < r5.size(); ++i) {
+          if (!truth.facing[i] || truth.ambiguous[i]) continue;
+          wrong_receivers += r5[i] != static_cast<float>(truth.lit[i]);
+          wrong_taps += std::abs(static_cast<double>(r5[i]) - truth.lit[i]) * taps.taps.taps_per_receiver;
+          for (int c = 0; c < cause_count; ++c)
+            booked[c] += std::abs(static_cast<double>(ladder.causes[c].step[i])) * taps.taps.taps_per_receiver;
+        }
+        EXPECT_EQ(counts.wrong_receivers(x), wrong_receivers) << x;
+        // Ninths are not exact in float; their sum over the picture is within half a tap of a whole number.
+        EXPECT_EQ(counts.wrong_taps(x), static_cast<double>(std::llround(wrong_taps))) << x;
+        for (Cause cause : {Cause::acne, Cause::peter_panning, Cause::aliasing_dark, Cause::aliasing_light,
+                            Cause::coverage_dark, Cause::coverage_light})
+          EXPECT_EQ(counts.caused(cause, x), static_cast<double>(std::llround(booked[static_cast<size_t>(cause)])))
+              << cause_name(cause) << " at " << x;
+        different_counts += wrong_receivers != counts.wrong_receivers(0);
+      }
+      // Slopes below the floor change nothing, and they are up to two thirds of those tried.
+      EXPECT_GT(different_counts, 25u) << "the biases tried must matter";
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, OneCurve, testing::Values("cube-room", "wall", "fence"), scene_test_name);
+
+}  // namespace
+}  // namespace noonmark::acceptance

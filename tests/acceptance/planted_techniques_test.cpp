@@ -1,0 +1,154 @@
+// Planted defects of filters, biases and map options, under the directional light of cube-room.
+#include "tests/acceptance/planted_defect.h"
+
+namespace noonmark::planted {
+namespace {
+
+const char* const bilinear = "shaders/filter/bilinear.glsl";
+
+Settings hardware() { return cubes({{"filter.kind", "hardware"}, {"bias.constant", "0.006"}}); }
+Settings gaussian() { return cubes({{"filter.kind", "gaussian"}, {"bias.constant", "0.009"}}); }
+Settings rotated() {
+  return cubes({{"filter.kind", "poisson"}, {"filter.rotate", "true"}, {"bias.constant", "0.009"}});
+}
+
+std::vector<Planted> defects() {
+  std::vector<Planted> all;
+
+  // --- Filters. -----------------------------------------------------------------------------------------------------
+
+  // The other comparison: what is lit is dark, but for the sixth of the receivers that lies beyond far.
+  all.push_back({"HardwareComparesTheOtherWay",
+                 hardware(),
+                 {.shaders = patched(bilinear, "textureLod(comparing_map, vec3(at, biased), 0.0)",
+                                     "(1.0 - textureLod(comparing_map, vec3(at, biased), 0.0))")},
+                 {{"contract", 0, 0.8}, {"precision", 1e-3, 0.8}, {"error", 0.03, 0.8}},
+                 {"rounding_excess"}});
+  // Texel centres taken for corners: the four texels are others, and their shares too.
+  all.push_back({"HardwareHalfATexelOff",
+                 hardware(),
+                 {.shaders = patched(bilinear, "receiver.map_texels + row.xy", "receiver.map_texels + row.xy + 0.5")},
+                 {{"contract", 0, 0.01}, {"precision", 1e-3, 5e-3}},
+                 {"rounding_excess"}});
+  // The bell itself, 1 in its middle: what is lit is lit five times.
+  all.push_back({"GaussianWeightsNotNormalised",
+                 gaussian(),
+                 {.shaders = patched(bilinear, "row.w *", "row.w / tap_offsets[taps / 2].w *")},
+                 {{"contract", 0, 0.7}, {"precision", 1e-3, 0.7}},
+                 {"rounding_excess"}});
+  // Nine fetches that count alike.
+  all.push_back({"GaussianWithEqualWeights",
+                 gaussian(),
+                 {.shaders = patched(bilinear, "row.w *", "1.0 / float(taps) *")},
+                 {{"contract", 0, 0.01}, {"precision", 1e-3, 1e-3}},
+                 {"rounding_excess"}});
+  all.push_back({"PoissonNotRotated",
+                 rotated(),
+                 {.shaders = patched("shaders/pattern.glsl", "variants == 1 ? 0", "variants >= 1 ? 0")},
+                 {{"contract", 0, 0.01}, {"tap_residual", 1e-6, 0.2}},
+                 {"rounding_excess"}});
+  // A step of 2 texels was asked for, and drawn is one.
+  all.push_back({"BoxWithoutItsStep",
+                 cubes_3x3({{"filter.step_texels", "2"}, {"bias.constant", "0.015"}}),
+                 {.asked = [](Settings& s) { s.filter.step_texels = 1; }},
+                 {{"contract", 0, 0.01}, {"tap_residual", 1e-6, 0.3}},
+                 {"rounding_excess"}});
+
+  // --- Bias forms. --------------------------------------------------------------------------------------------------
+
+  const Settings tan =
+      cubes({{"bias.constant", "0"}, {"bias.tan", "0.01"}, {"bias.tan_floor", "0"}, {"bias.tan_cap", "0.004"}});
+  all.push_back({"TanWithoutItsCap",
+                 tan,
+                 {.asked = [](Settings& s) { s.bias["tan_cap"] = 1; }},
+                 {{"contract", 0, 0.01}, {"tap_residual", 1e-6, 1}},
+                 {"rounding_excess"}});
+  // tan(theta) from the cosine alone: 1 / cos.
+  all.push_back({"TanOfAnotherAngle",
+                 tan,
+                 {.shaders = patched(receiver, "sqrt(1.0 - cosine * cosine) / cosine", "1.0 / cosine")},
+                 {{"rounding_excess", 1, 1000}},
+                 {"contract", "address_error_texels", "reference_error_m"}});
+  // With a box a receiver plane needs what one tap needs without; its sign turned, more than without it.
+  const Settings plane = cubes_3x3({{"bias.reference", "receiver_plane"}, {"bias.constant", "0.003"}});
+  all.push_back(
+      {"ReceiverPlaneTurnedInTheLookup",
+       plane,
+       {.shaders = patched("technique/bias/receiver_plane.glsl", "at.reference + rise", "at.reference - rise")},
+       {{"contract", 0, 0.1}, {"tap_residual", 1e-6, 0.3}},
+       {"rounding_excess"}});
+  all.push_back({"ReceiverPlaneTurned",
+                 plane,
+                 {.shaders = patched(projected, "-plane.xy / plane.z", "plane.xy / plane.z")},
+                 {{"rounding_excess", 1, 1000}, {"acne", 0.005, 0.2}},
+                 {"contract", "address_error_texels", "reference_error_m"}});
+  // Per map instead of per texel, the other common slip.
+  all.push_back({"ReceiverPlanePerMap",
+                 plane,
+                 {.shaders = patched(projected, "(-plane.xy / plane.z) / float(resolution)", "-plane.xy / plane.z")},
+                 {{"rounding_excess", 1, 1000}, {"acne", 0.005, 0.2}},
+                 {"contract"}});
+  // The receiver plane in the place of the texel's: what the grid needs is missing.
+  all.push_back({"TexelPlaneAtTheTap",
+                 cubes_3x3({{"bias.reference", "texel_plane"}, {"bias.constant", "0.0001"}}),
+                 {.asked = [](Settings& s) { s.bias.reference = "receiver_plane"; }},
+                 {{"contract", 0, 0.3}, {"tap_residual", 1e-6, 0.3}, {"error", 0.03, 0.1}},
+                 {"rounding_excess"}});
+  // glEnable(GL_POLYGON_OFFSET_FILL) forgotten: the map is the scene's own, and all slopes have acne.
+  const Settings offset = cubes({{"bias.constant", "0"}, {"bias.polygon_factor", "1.1"}, {"bias.polygon_units", "4"}});
+  all.push_back({"PolygonOffsetNotEnabled",
+                 offset,
+                 {.drawn_bias = [](BiasSettings& bias) { bias = {}; }},
+                 {{"precision", 1e-3, 0.2}, {"map_error_quanta", 50, 1000}},
+                 {"contract", "rounding_excess", "acne"}});
+  all.push_back({"PolygonOffsetsSwapped",
+                 offset,
+                 {.drawn_bias = [](BiasSettings& bias) { std::swap(bias["polygon_factor"], bias["polygon_units"]); }},
+                 {{"precision", 1e-6, 1e-4}, {"map_error_quanta", 50, 1000}},
+                 {"contract", "rounding_excess"}});
+
+  // The map is drawn of the scene's own vertices, not of the moved ones.
+  all.push_back({"CastersNotMoved",
+                 cubes({{"bias.constant", "0"}, {"bias.caster_normal_offset_sin", "1.1"}}),
+                 {.drawn_bias = [](BiasSettings& bias) { bias = {}; }},
+                 {{"precision", 1e-3, 0.2}, {"map_error_quanta", 50, 10000}},
+                 {"contract", "rounding_excess", "acne"}});
+
+  // --- Map options. -------------------------------------------------------------------------------------------------
+
+  // Near lies behind the floating cube, which depth clamp keeps in the map at depth 0.
+  all.push_back({"DepthClampOff",
+                 cubes({{"map.near_m", "3.5"}, {"map.depth_clamp", "true"}, {"bias.constant", "0.005"}}),
+                 {.drawn_map = [](LightFrame&, MapSettings& map) { map.depth_clamp = false; }},
+                 {{"precision", 1e-3, 0.004}},
+                 {"contract", "rounding_excess"}});
+  all.push_back({"DepthClampNotAskedFor",
+                 cubes({{"map.near_m", "3.5"}, {"bias.constant", "0.005"}}),
+                 {.drawn_map = [](LightFrame&, MapSettings& map) { map.depth_clamp = true; }},
+                 {{"precision", 1e-3, 0.004}},
+                 {"contract", "rounding_excess"}});
+  // Snapping is a matter of the frame. Forgotten while the map is drawn, the map is of a grid that lies elsewhere; at
+  // the tightest bias a quarter of a texel is seen.
+  all.push_back(
+      {"MapNotSnapped",
+       cubes({{"map.snap", "true"}}),
+       {.drawn_map = [](LightFrame& frame,
+                        MapSettings&) { frame.origin_m += 0.25 * frame.texel_m() * (frame.right + frame.up); }},
+       {{"precision", 1e-3, 0.004}, {"map_error_quanta", 2, 1000}},
+       {"contract", "rounding_excess"}});
+  // And while it is looked up: the settings' own shift stands in for a frame that was not moved.
+  all.push_back(
+      {"LookupNotSnapped",
+       cubes({{"map.snap", "true"}}),
+       {.shaders = patched(projected, "window.xy * float(resolution)", "window.xy * float(resolution) + 0.25")},
+       {{"address_error_texels", 1e-4, 0.24}, {"rounding_excess", 1, 1000}},
+       {"contract", "reference_error_m"}});
+  return all;
+}
+
+class PlantedTechniqueDefect : public testing::TestWithParam<Planted> {};
+TEST_P(PlantedTechniqueDefect, MovesItsMetric) { expect_moves(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(Each, PlantedTechniqueDefect, testing::ValuesIn(defects()), name_of);
+
+}  // namespace
+}  // namespace noonmark::planted

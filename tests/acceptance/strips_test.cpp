@@ -1,0 +1,90 @@
+// A picture whose taps are too many to be held at once is measured strip by strip, and nothing of its results differs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scenes/library.h"
+#include "tests/support/measured.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+struct Case {
+  const char* name;
+  const char* scene;
+  std::vector<Assignment> settings;
+};
+std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+class Strips : public testing::TestWithParam<Case> {};
+
+TEST_P(Strips, ChangeNoResult) {
+  Settings settings = small(GetParam().scene, 160, 100);
+  for (const auto& [name, value] : GetParam().settings) find_setting(name).set(settings, value);
+  Workbench whole(gl::DebugMode::fatal);
+  // Of seven rows, of one row each; and once more, for a point that shares what strips do not keep.
+  for (const size_t strip_bytes : {size_t{7} * 160 * 9 * 5, size_t{1}}) {
+    Workbench in_strips(gl::DebugMode::fatal, {}, strip_bytes);
+    for (const char* bias : {"0.002", "0.01"}) {
+      find_setting("bias.constant").set(settings, bias);
+      const Measurement a = whole.measure(settings, CurveOptions{}), b = in_strips.measure(settings, CurveOptions{});
+      for (const auto& [name, value] : a.record.metrics) {
+        if (name.ends_with("_ms")) continue;
+        const double other = b.record.metrics.at(name);
+        EXPECT_TRUE(value == other || (std::isnan(value) && std::isnan(other)))
+            << name << ": " << value << ", " << other;
+      }
+      for (size_t n = 0; n < a.ladder.rungs.size(); ++n)
+        EXPECT_EQ(a.ladder.rungs[n].lit.pixels, b.ladder.rungs[n].lit.pixels) << n;
+      for (size_t c = 0; c < a.ladder.causes.size(); ++c)
+        EXPECT_EQ(a.ladder.causes[c].step.pixels, b.ladder.causes[c].step.pixels) << c;
+      EXPECT_EQ(a.ladder.cause.pixels, b.ladder.cause.pixels);
+      EXPECT_EQ(a.exact_map.pixels, b.exact_map.pixels);
+      ASSERT_EQ(a.record.curve.has_value(), b.record.curve.has_value());
+      if (!a.record.curve) continue;
+      const BiasCurve &c = *a.record.curve, &d = *b.record.curve;
+      // Whole numbers of taps are summed exactly; a sampler's weights in double, strip by strip.
+      const double rounding = c.made == "one pass" ? 0 : 1e-12;
+      const auto same = [&](const std::vector<double>& one, const std::vector<double>& other) {
+        ASSERT_EQ(one.size(), other.size());
+        for (size_t i = 0; i < one.size(); ++i) EXPECT_NEAR(one[i], other[i], rounding) << i;
+      };
+      for (const auto values : {&BiasCurve::error, &BiasCurve::wrong, &BiasCurve::acne, &BiasCurve::peter_panning,
+                                &BiasCurve::aliasing_dark, &BiasCurve::aliasing_light, &BiasCurve::coverage})
+        same(c.*values, d.*values);
+      EXPECT_EQ(c.window_min_depth, d.window_min_depth);
+      EXPECT_EQ(c.window_max_depth, d.window_max_depth);
+      EXPECT_EQ(c.breakpoints, d.breakpoints);
+      EXPECT_NEAR(c.best_error, d.best_error, rounding);
+      EXPECT_EQ(c.acne_free_bias_depth, d.acne_free_bias_depth);
+      EXPECT_EQ(c.acne_free_bias_stored_depth, d.acne_free_bias_stored_depth);
+      if (rounding == 0) {
+        EXPECT_EQ(c.best_bias_depth, d.best_bias_depth);
+        EXPECT_EQ(c.flat_max_depth, d.flat_max_depth);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, Strips,
+    testing::Values(
+        Case{"box", "cube-room", {{"filter.kind", "box"}, {"map.resolution", "200"}, {"map.extent_scale", "0.5"}}},
+        Case{"hardware", "cube-room", {{"filter.kind", "hardware"}, {"map.resolution", "200"}}},
+        Case{"texel_planes",
+             "spot-room",
+             {{"filter.kind", "box"},
+              {"bias.reference", "texel_plane"},
+              {"bias.constant", "0.005"},
+              {"map.resolution", "200"}}},
+        Case{"moved",
+             "fence",
+             {{"filter.kind", "poisson"},
+              {"bias.constant", "0"},
+              {"bias.normal_offset", "1"},
+              {"map.resolution", "200"}}},
+        Case{"cube", "point-room", {{"map.resolution", "100"}}},
+        Case{"cube_disk", "point-room", {{"filter.kind", "cube_disk"}, {"map.resolution", "100"}}}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+}  // namespace
+}  // namespace noonmark::acceptance

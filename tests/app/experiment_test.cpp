@@ -1,0 +1,423 @@
+// Experiment files: what they expand to, and that every mistake names its place and what was meant.
+#include "app/experiment.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "app/experiment_file.h"
+#include "scenes/error.h"
+#include "scenes/file.h"
+#include "tests/support/sample_results.h"
+
+namespace noonmark {
+namespace {
+
+Experiment parse(const std::string& toml) { return parse_experiment(toml, "folder/x.toml"); }
+
+std::vector<std::string> values_of(const Experiment& experiment, const std::string& name) {
+  std::vector<std::string> texts;
+  for (const Settings& settings : points(experiment)) texts.push_back(find_setting(name).get(settings));
+  return texts;
+}
+using Texts = std::vector<std::string>;
+PointRecord point_of(const Experiment& experiment, int64_t id) {
+  PointRecord point;
+  point.id = id;
+  point.settings = settings_map(points(experiment).at(static_cast<size_t>(id)));
+  return point;
+}
+
+TEST(Experiment, WithoutAnythingIsOnePointOfDefaults) {
+  const Experiment experiment = parse("");
+  EXPECT_EQ(point_count(experiment), 1);
+  EXPECT_EQ(settings_map(points(experiment).at(0)), settings_map(Settings{}));
+  EXPECT_TRUE(experiment.curve_enabled);
+  EXPECT_EQ(experiment.pictures, "first");
+}
+
+TEST(Experiment, ReadsEveryPart) {
+  const Experiment e = parse(R"(
+title = "A title"
+pictures = "worst"
+[scene]
+name = "plane"
+theta_deg = 30
+[view]
+eye_m = [1, 2.5, -3]
+target_m = "auto"
+[map]
+format = 16
+lit_beyond_far = false
+cull = "back"
+[plot]
+metrics = ["acne", "window_width_m"]
+[curve]
+acne_bound = 0.01
+peter_panning_bound = 0
+bias_depth = [0.001, 0.5]
+[[bound]]
+metric = "acne"
+max = 1
+[[bound]]
+metric = "best_error"
+min = 0
+max = 0.5
+join = "mean"
+where.map = { format = 16, cull = ["back"] }
+where.view.eye_m = [1, 2.5, -3]
+)");
+  EXPECT_EQ(e.title, "A title");
+  EXPECT_EQ(e.pictures, "worst");
+  EXPECT_EQ(e.base.scene.name, "plane");
+  EXPECT_EQ(e.base.scene.theta_deg, 30);
+  EXPECT_EQ(e.base.view.eye_m, glm::dvec3(1, 2.5, -3));
+  EXPECT_EQ(e.base.view.target_m, std::nullopt);
+  EXPECT_EQ(e.base.map.format, DepthFormat::d16);
+  EXPECT_FALSE(e.base.map.lit_beyond_far);
+  EXPECT_EQ(e.plot, (Texts{"acne", "window_width_m"}));
+  EXPECT_EQ(e.curve.acne_bound, 0.01);
+  EXPECT_EQ(e.curve.peter_panning_bound, 0);
+  EXPECT_EQ(e.curve.bias_depth, (std::vector<double>{0, 0.001, 0.5})) << "a curve starts at 0";
+  ASSERT_EQ(e.bounds.size(), 2u);
+  EXPECT_EQ(e.bounds[0].max, 1);
+  EXPECT_EQ(e.bounds[0].join, "worst");
+  EXPECT_EQ(e.bounds[1].min, 0);
+  EXPECT_EQ(e.bounds[1].join, "mean");
+  EXPECT_EQ(e.bounds[1].where.at("map.format"), Texts{"16"});
+  EXPECT_EQ(e.bounds[1].where.at("map.cull"), Texts{"back"});
+  EXPECT_EQ(e.bounds[1].where.at("view.eye_m"), Texts{"1,2.5,-3"});
+}
+
+TEST(Experiment, SweepsEveryCombinationFirstNamedOutermost) {
+  // Neither in the order of names nor of groups: the file's order alone decides.
+  const Experiment e = parse(
+      "[sweep]\nmap.resolution = [512, 1024]\nfilter.kind = [\"none\", \"box\"]\nmap.cull = [\"front\", \"back\"]\n");
+  EXPECT_EQ(values_of(e, "map.resolution"), (Texts{"512", "512", "512", "512", "1024", "1024", "1024", "1024"}));
+  EXPECT_EQ(values_of(e, "filter.kind"), (Texts{"none", "none", "box", "box", "none", "none", "box", "box"}));
+  EXPECT_EQ(values_of(e, "map.cull"), (Texts{"front", "back", "front", "back", "front", "back", "front", "back"}));
+}
+
+TEST(Experiment, TheSweepMayBeWrittenThreeWays) {
+  const std::string expected = fingerprint(parse("[sweep]\nmap.resolution = [512, 1024]\n"), {});
+  EXPECT_EQ(fingerprint(parse("[sweep.map]\nresolution = [512, 1024]\n"), {}), expected);
+  EXPECT_EQ(fingerprint(parse("[sweep]\n\"map.resolution\" = [512, 1024]\n"), {}), expected);
+}
+
+TEST(Experiment, RangesHoldBothEnds) {
+  const Experiment linear = parse("[sweep]\nbias.constant = {min = 0, max = 0.3, steps = 4}\n");
+  EXPECT_EQ(values_of(linear, "bias.constant"), (Texts{"0", "0.1", "0.2", "0.3"}));
+
+  const Experiment doubling = parse("[sweep]\nmap.resolution = {min = 128, max = 8192, steps = 7, scale = \"log\"}\n");
+  EXPECT_EQ(values_of(doubling, "map.resolution"), (Texts{"128", "256", "512", "1024", "2048", "4096", "8192"}));
+
+  const std::vector<Settings> logarithmic =
+      points(parse("[sweep]\nbias.constant = {min = 1e-4, max = 1e-1, steps = 7, scale = \"log\"}\n"));
+  ASSERT_EQ(logarithmic.size(), 7u);
+  for (int i = 0; i < 7; ++i)  // 4 units in the last place: pow() and one product
+    EXPECT_NEAR(logarithmic[i].bias["constant"] / std::pow(10.0, -4 + i / 2.0), 1, 1e-15);
+  EXPECT_EQ(logarithmic.back().bias["constant"], 1e-1);
+}
+
+// `where` and --set name a value by its text, so no value may be 39.99999999999999 where 40 is meant.
+TEST(Experiment, RangesGiveShortDecimals) {
+  const auto swept = [](const std::string& name, const std::string& range) {
+    return values_of(parse("[sweep]\n" + name + " = {" + range + "}\n"), name);
+  };
+  EXPECT_EQ(swept("map.extent_m", "min = 10, max = 80, steps = 4, scale = \"log\""), (Texts{"10", "20", "40", "80"}));
+  EXPECT_EQ(swept("map.shift_u_texels", "min = -0.3, max = 0.3, steps = 7"),
+            (Texts{"-0.3", "-0.2", "-0.1", "0", "0.1", "0.2", "0.3"}));
+  EXPECT_EQ(swept("bias.constant", "min = 1e-6, max = 1e6, steps = 13, scale = \"log\""),
+            (Texts{"1e-06", "1e-05", "0.0001", "0.001", "0.01", "0.1", "1", "10", "100", "1000", "10000", "100000",
+                   "1000000"}));
+  EXPECT_EQ(swept("map.extent_m", "min = 1, max = 2, steps = 4").at(1), "1.3333333333333333") << "no short decimal";
+}
+
+TEST(Experiment, ScenePathsStartAtTheFilesFolder) {
+  EXPECT_EQ(parse("scene = \"models/a.gltf\"").base.scene.name, "folder/models/a.gltf");
+  EXPECT_EQ(parse("scene = \"../a.GLB\"").base.scene.name, "a.GLB");
+  EXPECT_EQ(parse("[scene]\nname = \"/abs/a.glb\"").base.scene.name, "/abs/a.glb");
+  EXPECT_EQ(parse("scene = \"cube-room\"").base.scene.name, "cube-room");
+  EXPECT_EQ(values_of(parse("[sweep]\nscene.name = [\"plane\", \"b.glb\"]"), "scene.name"),
+            (Texts{"plane", "folder/b.glb"}));
+}
+
+TEST(Experiment, OverridesReplaceTheValueAndItsSweep) {
+  Experiment e = parse("[sweep]\nmap.resolution = [512, 1024]\nmap.cull = [\"none\", \"back\"]\n");
+  apply_override(e, "map.resolution=2048");
+  apply_override(e, "view.eye_m=1,2,3");
+  EXPECT_EQ(values_of(e, "map.resolution"), (Texts{"2048", "2048"}));
+  EXPECT_EQ(e.base.view.eye_m, glm::dvec3(1, 2, 3));
+  apply_override(e, "scene=plane");
+  EXPECT_EQ(e.base.scene.name, "plane");
+  EXPECT_EQ(reproduce_command(e, point_of(e, 1)),
+            "noonmark render folder/x.toml --set map.resolution=2048 --set view.eye_m=1,2,3 --set scene.name=plane "
+            "--set map.cull=back");
+  for (const char* bad : {"map.resolution", "=3", "map.resolution=0", "map.resolution=512,1024", "map.resolutio=1"})
+    EXPECT_THROW(apply_override(e, bad), Error) << bad;
+  apply_override(e, "filter.size=4");
+  EXPECT_THROW(points(e), Error);
+}
+
+TEST(Experiment, TheReproducingCommandSurvivesTheShell) {
+  Experiment e = parse_experiment("[sweep]\nscene.name = [\"it's a $cene.gltf\"]\n", "my exp.toml");
+  EXPECT_EQ(reproduce_command(e, point_of(e, 0)),
+            R"(noonmark render 'my exp.toml' --set 'scene.name=it'\''s a $cene.gltf')");
+}
+
+// What a terminal would obey, and what is no UTF-8, as text: a line that is printed is the line that is pasted.
+TEST(Experiment, AWordWithControlBytesIsQuotedAsText) {
+  EXPECT_EQ(shell_quoted("a\x1b[0m"), R"($'a\033[0m')");
+  EXPECT_EQ(shell_quoted("it's\n\\"), R"($'it\'s\012\\')");
+  EXPECT_EQ(shell_quoted("\xff"
+                         "1"),
+            R"($'\3771')");
+  EXPECT_EQ(shell_quoted("\u202e"), R"($'\342\200\256')");
+  EXPECT_EQ(shell_quoted("Größe 1"), "'Größe 1'");
+}
+
+TEST(Experiment, TheFingerprintTellsWhatChangesResultsOnly) {
+  const std::string file =
+      "title = \"a\"\n[map]\nformat = 24\n[sweep]\nmap.resolution = [512, 1024]\n[curve]\nacne_bound = 0.1\n";
+  const auto print = [](const std::string& toml) { return fingerprint(parse(toml), {}); };
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string toml = file;
+    return print(toml.replace(toml.find(from), from.size(), to));
+  };
+  EXPECT_EQ(changed("\"a\"", "\"b\""), print(file));
+  EXPECT_EQ(print(file + "[plot]\nmetrics = [\"acne\"]\n[[bound]]\nmetric = \"acne\"\nmax = 1\n"), print(file));
+  EXPECT_NE(changed("24", "16"), print(file));
+  EXPECT_NE(changed("512, 1024", "1024, 512"), print(file)) << "ids follow the order";
+  EXPECT_NE(changed("1024", "2048"), print(file));
+  EXPECT_NE(changed("0.1", "0.2"), print(file));
+  EXPECT_NE(changed("acne_bound = 0.1", "enabled = false"), print(file));
+  const std::pair<std::string, std::string> gl[] = {{"gl_renderer", "llvmpipe"}};
+  EXPECT_NE(fingerprint(parse(file), gl), print(file));
+}
+
+// Any values that the rows take, swept: one point per combination, and each point's text sets the same text again.
+RC_GTEST_PROP(ExperimentProperty, PointsAreTheProductOfTheLists, ()) {
+  Experiment experiment;
+  int64_t product = 1;
+  for (const Setting& row : settings_table()) {
+    std::set<std::string> values;
+    const int count = *rc::gen::inRange(0, product > 200 ? 1 : 4);
+    for (int i = 0; i < count; ++i) {
+      std::string text = "auto";
+      if (row.type == ValueType::flag) text = *rc::gen::element<std::string>("true", "false");
+      if (row.type == ValueType::choice) text = std::string(*rc::gen::elementOf(row.choices));
+      if (row.type == ValueType::text) text = *rc::gen::nonEmpty(rc::gen::string<std::string>());
+      if (row.type == ValueType::point && i > 0) text = std::to_string(*rc::gen::inRange(-9, 9)) + ",0.1, -1e-7";
+      if (row.type == ValueType::integer)
+        text =
+            std::to_string(*rc::gen::inRange(static_cast<int>(row.min) / 2, static_cast<int>(row.max + 1) / 2) * 2 + 1);
+      if (row.type == ValueType::real && !(row.may_be_auto && i == 0)) {
+        const double share = *rc::gen::inRange(0, 1 << 30) / static_cast<double>(1 << 30);
+        text = std::to_string(row.min + (row.max - row.min) * share);
+      }
+      // Some filters have these sizes alone.
+      if (row.name == "filter.size") text = std::to_string(*rc::gen::elementOf(std::vector<int>{3, 5, 7}));
+      // near < far needs the two apart.
+      if (row.name == "map.near_m" && text != "auto") text = "-" + std::to_string(i + 1);
+      if (row.name == "map.far_m" && text != "auto") text = std::to_string(i + 1);
+      if (row.name == "view.near_m" && text != "auto") text = std::to_string(0.1 * (i + 1));
+      if (row.name == "view.far_m" && text != "auto") text = std::to_string(i + 1);
+      // A plane needs a filter that the sampler does not blend.
+      if (row.name == "bias.reference") text = "own_depth";
+      // And floor <= cap.
+      if (row.name == "bias.tan_floor") text = std::to_string(0.001 * (i + 1));
+      if (row.name == "bias.tan_cap" && text != "auto") text = std::to_string(0.1 * (i + 1));
+      Settings settings;
+      row.set(settings, text);
+      const std::string canonical = row.get(settings);
+      Settings again;
+      row.set(again, canonical);
+      RC_ASSERT(row.get(again) == canonical);
+      values.insert(canonical);
+    }
+    if (values.empty()) continue;
+    experiment.swept.push_back({std::string(row.name), {values.begin(), values.end()}});
+    product *= static_cast<int64_t>(values.size());
+  }
+  const std::vector<Settings> all = points(experiment);
+  RC_ASSERT(static_cast<int64_t>(all.size()) == product);
+  RC_ASSERT(point_count(experiment) == product);
+  std::set<std::map<std::string, std::string>> different;
+  for (const Settings& settings : all) {
+    const std::map<std::string, std::string> texts = settings_map(settings);
+    Settings again;
+    for (const auto& [name, text] : texts) find_setting(name).set(again, text);
+    RC_ASSERT(settings_map(again) == texts);
+    different.insert(texts);
+  }
+  RC_ASSERT(static_cast<int64_t>(different.size()) == product);
+}
+
+struct Mistake {
+  std::string toml;
+  std::string place;  // line:column
+  std::string says;   // a part of the message
+};
+
+TEST(Experiment, EveryMistakeNamesItsPlaceAndWhatWasMeant) {
+  const Mistake mistakes[] = {
+      {"title = ", "1:9", ""},
+      {"\ntitle = 3", "2:9", "title must be a string"},
+      {"titel = \"x\"", "1:1", "did you mean 'title'?"},
+      {"[mpa]\nresolution = 1", "1:2", "did you mean 'map'?"},
+      {"bound = 3", "1:9", "[[bound]]"},
+      {"map = 3", "1:7", "[map] must be a table"},
+      {"pictures = \"frist\"", "1:12", "did you mean 'first'?"},
+      {"scene = 3", "1:9", "[scene] must be a table"},
+      {"[map]\nresolutoin = 512", "2:1", "did you mean 'map.resolution'?"},
+      {"[map]\nresolution = 0", "2:14", "1 ... 16384"},
+      {"[map]\nresolution = 512.5", "2:14", "1 ... 16384"},
+      {"[map]\nresolution = \"512\"", "2:14", "without quotes"},
+      {"[map]\nresolution = [512]", "2:14", "cannot be this kind"},
+      {"[map]\nextent_m = nan", "2:12", "map.extent_m = 'nan' is not allowed"},
+      {"[map]\nextent_m = inf", "2:12", "is not allowed"},
+      {"[map]\nwrap = 1\nformat = 1", "2:8", "map.wrap = '1'"},  // of two mistakes, the first in the file
+      {"[map]\nlit_beyond_far = 1", "2:18", "true | false"},
+      {"[map]\nwrap = \"repaet\"", "2:8", "repeat | clamp_to_edge"},
+      {"[view]\neye_m = [1, 2]", "2:9", "x,y,z"},
+      {"[view]\neye_m = [1, 2, 3, 4]", "2:9", "x,y,z"},
+      {"[view]\neye_m = [1, 2, true]", "2:16", "finite number"},
+      {"[filter]\nsize = 4", "2:8", "filter.size = 4 is even"},
+      {"[map]\nnear_m = 5\nfar_m = 1", "2:10", "not less than map.far_m"},
+      {"[sweep]\nfilter.size = [3, 4]", "2:15", "point 1 (filter.size = 4)"},
+      {"[sweep]\nmap.resolution = []", "2:18", "empty list"},
+      {"[sweep]\nmap.resolution = 512", "2:18", "must be a list or a range"},
+      {"[sweep]\nmap.resolution = [512, 1024, 512]", "2:30", "map.resolution = 512 is swept twice"},
+      {"[sweep]\nmap.extent_m = [20, 20.0]", "2:21", "swept twice"},
+      {"[sweep]\nmap.resolution = [512]\n\"map.resolution\" = [1024]", "3:20", "map.resolution is swept twice"},
+      {"[sweep]\nmap.resolution = [512]\nmap.resolution = [1024]", "3:18", "redefine"},
+      {"[map]\nresolution = 512\n[sweep]\nmap.resolution = [512, 1024]", "4:18", "both fixed and swept"},
+      {"[sweep]\nmap.resolutoin = [512]", "2:5", "did you mean 'map.resolution'?"},
+      {"[sweep]\nmap = [512]", "2:7", "name one, such as map.resolution"},
+      {"[sweep]\nresolution = [512]", "2:1", "did you mean 'map.resolution'?"},
+      {"[sweep]\nmap.resolution = [512, 99999]", "2:24", "1 ... 16384"},
+      {"[sweep]\nmap.extent_m = {min = 1, max = 2}", "2:16", "needs min, max and steps"},
+      {"[sweep]\nmap.extent_m = {min = 1, max = 2, step = 3}", "2:35", "did you mean 'map.extent_m.steps'?"},
+      {"[sweep]\nmap.extent_m = {min = 2, max = 1, steps = 3}", "2:16", "not below max"},
+      {"[sweep]\nmap.extent_m = {min = 1, max = 2, steps = 1}", "2:43", "2 ... 100000"},
+      {"[sweep]\nmap.extent_m = {min = 1, max = 2, steps = 3.5}", "2:43", "integer"},
+      {"[sweep]\nbias.constant = {min = 0, max = 1, steps = 3, scale = \"log\"}", "2:17", "min above 0"},
+      {"[sweep]\nbias.constant = {min = 0, max = 1, steps = 3, scale = \"lgo\"}", "2:55", "did you mean 'log'?"},
+      {"[sweep]\nmap.resolution = {min = 1, max = 4, steps = 3}", "2:18", "takes integers, and the range gives 2.5"},
+      {"[sweep]\nmap.wrap = {min = 1, max = 4, steps = 3}", "2:12", "list its values"},
+      {"[sweep]\nbias.constant = {min = 0, max = 1, steps = 400}\nbias.slope = {min = 0, max = 1, steps = 400}", "1:1",
+       "more than 100000 points"},
+      {"[plot]\nmetrics = [\"acme\"]", "2:12", "did you mean 'acne'?"},
+      {"[plot]\nmetrics = [\"acne\", \"acne\"]", "2:20", "twice"},
+      {"[plot]\nmetric = [\"acne\"]", "2:1", "did you mean 'plot.metrics'?"},
+      {"[curve]\nenabeld = true", "2:1", "did you mean 'curve.enabled'?"},
+      {"[curve]\nenabled = 1", "2:11", "true or false"},
+      {"[curve]\nacne_bound = 2", "2:14", "0 ... 1"},
+      {"[curve]\nbias_depth = [0.1, 0.1]", "2:14", "ascend"},
+      {"[curve]\nbias_depth = [-0.1, 0.1]", "2:14", "0 or more"},
+      {"[[bound]]\nmax = 1", "1:1", "needs a metric"},
+      {"[[bound]]\nmetric = \"acne\"", "1:1", "neither max nor min"},
+      {"[[bound]]\nmetric = \"acen\"\nmax = 1", "2:10", "did you mean 'acne'?"},
+      {"[[bound]]\nmetric = \"acne\"\nmxa = 1", "3:1", "did you mean 'bound.max'?"},
+      {"[[bound]]\nmetric = \"acne\"\nmax = nan", "3:7", "finite"},
+      {"[[bound]]\nmetric = \"acne\"\nmax = 1\nmin = 2", "1:1", "above max"},
+      {"[[bound]]\nmetric = \"acne\"\nmax = 1\njoin = \"men\"", "4:8", "did you mean 'mean'?"},
+      {"[[bound]]\nmetric = \"acne\"\nmax = 1\nwhere = {\"map.resolutio\" = 512}", "4:10",
+       "did you mean 'map.resolution'?"},
+      {"[[bound]]\nmetric = \"acne\"\nmax = 1\nwhere = {map.resolution = 512}", "4:27",
+       "no point has map.resolution = 512; it is 1024"},
+      {"[sweep]\nmap.resolution = [256, 512]\n[[bound]]\nmetric = \"acne\"\nmax = 1\nwhere.map.resolution = [512, "
+       "1024]",
+       "6:30", "it is 256 | 512"},
+      {"[curve]\nenabled = false\n[[bound]]\nmetric = \"best_error\"\nmax = 1", "4:10", "curve.enabled is false"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    try {
+      parse(mistake.toml);
+      ADD_FAILURE() << "was read:\n" << mistake.toml;
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      EXPECT_TRUE(what.starts_with("folder/x.toml:" + mistake.place + ": ")) << what << "\n" << mistake.toml;
+      EXPECT_NE(what.find(mistake.says), std::string::npos) << what << "\n" << mistake.toml;
+      EXPECT_EQ(what.find("folder/x.toml", 1), std::string::npos) << "the place stands twice: " << what;
+    }
+  }
+}
+
+TEST(Experiment, AFileThatIsNotThereIsAnError) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(load_experiment(folder.file("none.toml")), Error);
+  EXPECT_THROW(load_experiment(folder.path().string()), Error);
+}
+
+TEST(Experiment, HostileFilesAreErrors) {
+  EXPECT_THROW(parse(std::string(100000, '[')), Error);
+  EXPECT_THROW(parse("x = " + std::string(100000, '[')), Error);
+  EXPECT_THROW(parse("title = \"\xff\""), Error);
+  EXPECT_THROW(parse(std::string("title\0= 1", 9)), Error);
+}
+
+TEST(Experiment, EveryFileInTheRepositoryIsGood) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(NOONMARK_SOURCE_DIR) + "/experiments"))
+    if (entry.path().extension() == ".toml") {
+      EXPECT_GT(points(load_experiment(entry.path().string())).size(), 0u);
+      ++files;
+    }
+  EXPECT_GT(files, 0);
+}
+
+TEST(AtomicWrite, ReplacesAFileWhole) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder.file("a"), "old");
+  const std::string bytes(1 << 20, '\0');
+  write_file_atomically(folder.file("a"), bytes);
+  EXPECT_EQ(read_file(folder.file("a")), bytes);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(AtomicWrite, LeavesNothingWhereItCannotReplace) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "taken" / "inside");  // refuses the rename, after all was written
+  EXPECT_THROW(write_file_atomically(folder.file("taken"), "bytes"), Error);
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "taken" / "inside"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  EXPECT_THROW(write_file_atomically(folder.file("absent/file"), "bytes"), Error);
+}
+
+// A limit on the size of files stands for a full disk: the write fails after its first part.
+TEST(AtomicWrite, KeepsTheOldFileWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a");
+  write_file_atomically(path, "old");
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      write_file_atomically(path, std::string(5000, 'x'));
+    } catch (const Error&) {
+      ::_exit(42);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 42) << "no error was thrown";
+  EXPECT_EQ(read_file(path), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+}  // namespace
+}  // namespace noonmark

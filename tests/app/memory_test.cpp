@@ -1,0 +1,185 @@
+// How much memory there is, and the arithmetic of what a point takes. What it really takes: memory_program_test.cpp.
+#include "scenes/memory.h"
+
+#include <gtest/gtest.h>
+
+#include "app/memory_estimate.h"
+#include "scenes/error.h"
+#include "scenes/library.h"
+#include "tests/scenes/gltf/files.h"
+
+namespace noonmark {
+namespace {
+
+constexpr uint64_t MiB = 1 << 20;
+
+TEST(AvailableMemory, IsTheLeastOfTheMachinesAndTheGroups) {
+  const test::TemporaryFolder root;
+  const auto available = [&] { return available_memory(root.path().string()); };
+  EXPECT_EQ(available().bytes, UINT64_MAX) << "nothing is known";
+
+  root.write("proc/meminfo", "MemTotal:       9000 kB\nMemFree:  100 kB\nMemAvailable:    8192 kB\n");
+  EXPECT_EQ(available().bytes, 8 * MiB);
+  EXPECT_EQ(available().limit, "the machine's free memory");
+
+  // Version 2: 7 MiB allowed, 4 in use, 1 of them file cache that can be given back.
+  root.write("proc/self/cgroup", "0::/a.slice/b.service\n");
+  root.write("sys/fs/cgroup/a.slice/b.service/memory.max", "7340032\n");
+  root.write("sys/fs/cgroup/a.slice/b.service/memory.current", "4194304\n");
+  root.write("sys/fs/cgroup/a.slice/b.service/memory.stat", "anon 3145728\ninactive_file 1048576\n");
+  EXPECT_EQ(available().bytes, 4 * MiB);
+  EXPECT_EQ(available().limit, "the control group's limit");
+  EXPECT_EQ(available().text(), "4.2 MB are available (the control group's limit)");
+
+  // A group above it may allow less.
+  root.write("sys/fs/cgroup/a.slice/memory.max", "6291456\n");
+  root.write("sys/fs/cgroup/a.slice/memory.current", "4194304\n");
+  EXPECT_EQ(available().bytes, 2 * MiB);
+  root.write("sys/fs/cgroup/a.slice/memory.max", "max\n");
+  EXPECT_EQ(available().bytes, 4 * MiB);
+  root.write("sys/fs/cgroup/a.slice/b.service/memory.max", "1024\n");
+  EXPECT_EQ(available().bytes, 0u) << "more is in use than is allowed now";
+}
+
+TEST(AvailableMemory, KnowsGroupsOfVersionOneAndInsideContainers) {
+  const test::TemporaryFolder root;
+  const auto available = [&] { return available_memory(root.path().string()); };
+  root.write("proc/meminfo", "MemAvailable:    8192 kB\n");
+  root.write("proc/self/cgroup", "9:name=systemd:/x\n4:cpu,memory:/docker/1234\n2:cpuacct:/y\n");
+  root.write("sys/fs/cgroup/memory/docker/1234/memory.limit_in_bytes", "5242880\n");
+  root.write("sys/fs/cgroup/memory/docker/1234/memory.usage_in_bytes", "2097152\n");
+  EXPECT_EQ(available().bytes, 3 * MiB);
+
+  // The path is the host's and is not there: the container's own group is mounted at the top.
+  root.write("proc/self/cgroup", "4:memory:/docker/5678\n");
+  root.write("sys/fs/cgroup/memory/memory.limit_in_bytes", "4194304\n");
+  root.write("sys/fs/cgroup/memory/memory.usage_in_bytes", "3145728\n");
+  EXPECT_EQ(available().bytes, 1 * MiB);
+  // No limit is a number near 2^63 there.
+  root.write("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
+  EXPECT_EQ(available().bytes, 8 * MiB);
+}
+
+TEST(AvailableMemory, IsKnownHere) {
+  EXPECT_LT(available_memory().bytes, uint64_t{1} << 50);
+  EXPECT_GT(resident_bytes(), 1 * MiB);
+}
+
+TEST(AvailableMemory, IsToldInTwoDigits) {
+  EXPECT_EQ(bytes_text(999), "999 bytes");
+  EXPECT_EQ(bytes_text(1234), "1.2 kB");
+  EXPECT_EQ(bytes_text(9.96e6), "10 MB");
+  EXPECT_EQ(bytes_text(640e6), "640 MB");
+  EXPECT_EQ(bytes_text(999.6e6), "1.0 GB");
+  EXPECT_EQ(bytes_text(2.5e13), "25 TB");
+}
+
+class Estimate : public testing::Test {
+ protected:
+  MemoryEstimate estimate(LightKind light = LightKind::directional, SceneSize scene = {100, 100}, bool curve = true,
+                          bool pictures = false) const {
+    return estimate_memory({settings_, light, scene, 0, 0, curve, pictures});
+  }
+  double bytes(LightKind light = LightKind::directional, SceneSize scene = {100, 100}, bool curve = true,
+               bool pictures = false) const {
+    return estimate(light, scene, curve, pictures).bytes();
+  }
+  Settings settings_;
+};
+
+// Large points of several kinds.
+TEST_F(Estimate, SeesWhatTakesTooMuch) {
+  EXPECT_LT(bytes(), 1e9) << "the default settings";
+  settings_.map.resolution = 16384;
+  EXPECT_GT(bytes(LightKind::point), 50e9);
+  EXPECT_EQ(estimate(LightKind::point).largest().what, std::string("the shadow map"));
+  settings_.map.resolution = 1024;
+  const SceneSize instances = {67'000'000 / 2, 67'000'000};
+  EXPECT_GT(bytes(LightKind::directional, instances), 19e9);
+  EXPECT_EQ(estimate(LightKind::directional, instances).largest().what, std::string("the scene"));
+}
+
+// 31 x 31 taps took 6.7 kB a pixel before they were traced in strips.
+TEST_F(Estimate, DoesNotGrowWithTheKernelBeyondAStrip) {
+  settings_.filter.kind = "box";
+  settings_.filter.size = 31;
+  const double most = bytes();
+  EXPECT_EQ(estimate().largest().what, std::string("the taps"));
+  EXPECT_LT(most, 2.2e9);
+  settings_.filter.size = 25;
+  EXPECT_EQ(bytes(), most);
+  settings_.view.width_px *= 2;
+  settings_.view.height_px *= 2;
+  const double larger = bytes();
+  settings_.filter.size = 31;
+  EXPECT_EQ(bytes(), larger);
+  settings_.filter.size = 3;
+  EXPECT_LT(bytes(), larger);
+}
+
+TEST_F(Estimate, GrowsWithWhatIsAskedFor) {
+  const double plain = bytes();
+  EXPECT_GT(bytes(LightKind::point), plain);
+  EXPECT_GT(bytes(LightKind::directional, {100, 100}, true, true), plain);
+  EXPECT_LT(bytes(LightKind::directional, {100, 100}, false), plain);
+  EXPECT_GE(bytes(LightKind::directional, {100, 100, 1'000'000}), plain + 1e6) << "tiles are parts";
+  EXPECT_GT(bytes(LightKind::directional, {100, 100, 1'000'000}, true, true),
+            bytes(LightKind::directional, {100, 100, 0}, true, true) + 4e6)
+      << "and point.json lists them";
+  settings_.bias["normal_offset"] = 1;  // has no curve
+  EXPECT_EQ(bytes(), bytes(LightKind::directional, {100, 100}, false));
+  settings_.map.cull = CulledFaces::front;
+  EXPECT_GT(bytes(), bytes(LightKind::directional, {100, 100}, false) - 1);
+}
+
+TEST_F(Estimate, IsRefusedWithTheSettingToChange) {
+  settings_.map.resolution = 16384;
+  const MemoryEstimate cube = estimate(LightKind::point);
+  EXPECT_TRUE(fits(cube, {UINT64_MAX, ""}));
+  EXPECT_FALSE(fits(cube, {uint64_t{1} << 30, ""}));
+  const auto needed = static_cast<uint64_t>(cube.bytes());
+  EXPECT_FALSE(fits(cube, {needed - 64 * MiB, ""}));
+  EXPECT_TRUE(fits(cube, {needed + 1, ""}));
+  try {
+    require_memory(cube, {uint64_t{1} << 30, "a limit"}, "point 3");
+    ADD_FAILURE() << "it does not fit";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_TRUE(std::string(error.what()).ends_with("and 1.1 GB are available (a limit); lower map.resolution"));
+  }
+}
+
+// What the process holds is part of what it may hold, and is said where that decides.
+TEST(MemoryOfProgram, HoldsWhatItHasAlready) {
+  const AvailableMemory machine = memory_of_program({}, 0);
+  EXPECT_TRUE(machine.limit.ends_with(" that the program holds already")) << machine.limit;
+  EXPECT_GT(machine.bytes, resident_bytes());
+}
+
+// However much address space the process has taken since it was asked.
+TEST(MemoryOfProgram, OfAddressSpaceIsToldFromTheStart) {
+  const AvailableMemory start{1000 * MiB, "ulimit -v"};
+  const AvailableMemory space = memory_of_program(start, 800 * MiB);
+  EXPECT_EQ(space.limit, "ulimit -v, minus the space that libraries and threads reserve");
+  EXPECT_EQ(memory_of_program(start, 700 * MiB).bytes - space.bytes, 100 * MiB);
+  EXPECT_EQ(memory_of_program(start, 2000 * MiB).bytes, memory_of_program(start, 1000 * MiB).bytes);
+  EXPECT_GT(space.bytes, 400 * MiB) << "200 MiB and the program itself, which an estimate holds too";
+  const std::vector<char> more(64 * MiB, 1);
+  EXPECT_EQ(memory_of_program(start, 800 * MiB).bytes, space.bytes);
+}
+
+// A texel beside the map costs more than one in it.
+TEST(OutsideTexels, AreThoseThatTheSceneReaches) {
+  Settings settings;
+  settings.scene.name = "cube-room";
+  settings.map.fit = MapFit::tight;
+  const Scene scene = make_scene(settings.scene);
+  const auto outside = [&] { return outside_texels(scene, make_light_frame(scene, settings), settings.filter); };
+  const double resolution = settings.map.resolution;
+  EXPECT_LT(outside(), 8.1 * resolution) << "a rim of two texels around a map that holds all";
+  settings.map.extent_scale = 0.5;
+  EXPECT_GT(outside(), 1.5 * resolution * resolution) << "the scene, longer than wide, is 3.5 maps large now";
+}
+
+}  // namespace
+}  // namespace noonmark

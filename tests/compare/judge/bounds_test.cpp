@@ -1,0 +1,271 @@
+// What holds a bound and what breaks it, and how JUnit and the summary say so.
+#include "compare/judge/bounds.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "compare/report/junit.h"
+#include "compare/report/summary.h"
+#include "compare/store/quantities.h"
+#include "scenes/error.h"
+#include "tests/support/sample_results.h"
+
+namespace noonmark {
+namespace {
+
+// Points 0, 1, 2 ... with these values of acne; resolutions as sample_point has them: 256, 512, 1024, 2048, 256 ...
+std::vector<PointRecord> points_with(const std::vector<double>& acne) {
+  std::vector<PointRecord> points;
+  for (size_t i = 0; i < acne.size(); ++i) {
+    points.push_back(sample_point(static_cast<int64_t>(i)));
+    points.back().metrics["acne"] = acne[i];
+  }
+  return points;
+}
+
+Bound at_most(double max, std::string join = "worst") {
+  Bound bound;
+  bound.metric = "acne";
+  bound.max = max;
+  bound.join = std::move(join);
+  return bound;
+}
+Bound at_least(double min, std::string join = "worst") {
+  Bound bound;
+  bound.metric = "acne";
+  bound.min = min;
+  bound.join = std::move(join);
+  return bound;
+}
+
+std::string command_of(const PointRecord& point) { return "render " + std::to_string(point.id); }
+
+BoundResult ask(const std::vector<double>& acne, const Bound& bound) {
+  const std::vector<PointRecord> points = points_with(acne);
+  return evaluate_bounds(points, std::span(&bound, 1), command_of).at(0);
+}
+
+void expect(const BoundResult& result, bool held, double found, int64_t point) {
+  EXPECT_EQ(result.held, held);
+  EXPECT_TRUE(same(result.found, found)) << result.found;
+  EXPECT_EQ(result.point, point);
+  EXPECT_EQ(result.reproduce, "render " + std::to_string(point));
+}
+
+TEST(Bounds, WorstIsTheLargestForAMaxAndTheSmallestForAMin) {
+  expect(ask({0.1, 0.5, 0.3}, at_most(0.5)), true, 0.5, 1);
+  expect(ask({0.1, 0.5, 0.3}, at_most(0.4)), false, 0.5, 1);
+  expect(ask({0.4, 0.5, 0.3}, at_least(0.3)), true, 0.3, 2);
+  expect(ask({0.4, 0.5, 0.3}, at_least(0.31)), false, 0.3, 2);
+}
+
+TEST(Bounds, WithBothLimitsTheBrokenSideIsReported) {
+  Bound both = at_most(0.4);
+  both.min = 0.2;
+  expect(ask({0.2, 0.4}, both), true, 0.4, 1);
+  expect(ask({0.1, 0.4}, both), false, 0.1, 0);
+  expect(ask({0.2, 0.5}, both), false, 0.5, 1);
+  both.join = "mean";
+  expect(ask({0.1, 0.2}, both), false, 0.1 / 2 + 0.2 / 2, 0);
+}
+
+TEST(Bounds, MeanAndMedianJoinTheValuesAndNameTheWorstPoint) {
+  expect(ask({1, 2, 6}, at_most(3, "mean")), true, 3, 2);
+  expect(ask({1, 2, 6}, at_most(2.9, "mean")), false, 3, 2);
+  expect(ask({1, 2, 6}, at_most(2, "median")), true, 2, 2);
+  expect(ask({6, 1, 2, 3}, at_most(2.4, "median")), false, 2.5, 0);
+  expect(ask({6, 1, 2, 3}, at_least(2.6, "median")), false, 2.5, 1);
+}
+
+TEST(Bounds, AValueThatIsNotFiniteBreaksEveryJoin) {
+  for (const char* join : {"worst", "mean", "median"}) {
+    for (double bad : {nan_value, inf_value, -inf_value}) {
+      expect(ask({0, bad, 0}, at_most(1, join)), false, bad, 1);
+      expect(ask({1, bad, 1}, at_least(0, join)), false, bad, 1);
+    }
+  }
+  expect(ask({1.7e308, 1.7e308}, at_most(1.75e308, "mean")), false, inf_value, 0);  // the sum overflows
+}
+
+TEST(Bounds, AMetricThatWasNotRecordedBreaksTheBound) {
+  std::vector<PointRecord> points = points_with({0, 0});
+  points[1].metrics.erase("acne");
+  const Bound bound = at_most(1);
+  expect(evaluate_bounds(points, std::span(&bound, 1), command_of).at(0), false, nan_value, 1);
+}
+
+TEST(Bounds, NoPointToAskBreaksTheBoundAndSaysSo) {
+  const BoundResult empty = ask({}, at_most(1));
+  EXPECT_FALSE(empty.held);
+  EXPECT_EQ(empty.points, 0);
+  EXPECT_EQ(empty.point, -1);
+  EXPECT_NE(describe(empty, nullptr).find("no finished point matches"), std::string::npos);
+
+  Bound elsewhere = at_most(1);
+  elsewhere.where["map.resolution"] = {"4096"};
+  EXPECT_FALSE(ask({0, 0}, elsewhere).held);
+}
+
+TEST(Bounds, WhereChoosesThePoints) {
+  Bound bound = at_most(0.2);
+  bound.where["map.resolution"] = {"256", "1024"};
+  bound.where["filter.kind"] = {"none"};
+  const BoundResult result = ask({0.1, 0.9, 0.2, 0.9, 0.15}, bound);
+  expect(result, true, 0.2, 2);
+  EXPECT_EQ(result.points, 3);
+  EXPECT_EQ(bound_text(result), "acne <= 0.2 where filter.kind = none and map.resolution = 256 | 1024");
+}
+
+TEST(Bounds, QuantitiesOfTheCurveCanBeBounded) {
+  Bound usable;
+  usable.metric = "window_width_texels";
+  usable.min = 1;
+  std::vector<PointRecord> points = {sample_point(0)};
+  const double width = (0.2 / 3 - 0.1 / 3) * points[0].curve->texels_per_depth;
+  expect(evaluate_bounds(points, std::span(&usable, 1), command_of).at(0), true, width, 0);
+  points[0].curve->window_min_depth = points[0].curve->window_max_depth = std::nullopt;
+  expect(evaluate_bounds(points, std::span(&usable, 1), command_of).at(0), false, 0, 0);
+  points[0].curve.reset();
+  const BoundResult without = evaluate_bounds(points, std::span(&usable, 1), command_of).at(0);
+  expect(without, false, nan_value, 0);
+  EXPECT_EQ(describe(without, &points[0]).find("bias curve"), std::string::npos) << "why, nothing says";
+  points[0].settings["bias.normal_offset"] = "1";
+  EXPECT_NE(describe(without, &points[0]).find("this point has no curve: bias.normal_offset moves the lookup"),
+            std::string::npos)
+      << describe(without, &points[0]);
+}
+
+TEST(Bounds, MistakesNameWhatWasMeant) {
+  const auto message = [](const Bound& bound) -> std::string {
+    try {
+      check_bound(bound);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      return error.what();
+    }
+    return "";
+  };
+  const auto expect_part = [&](const Bound& bound, const std::string& part) {
+    EXPECT_NE(message(bound).find(part), std::string::npos) << message(bound);
+  };
+  Bound bound = at_most(1);
+  EXPECT_EQ(message(bound), "");
+  bound.metric = "acme";
+  expect_part(bound, "did you mean 'acne'?");
+  bound.metric = "best_eror";
+  expect_part(bound, "did you mean 'best_error'?");
+  bound = at_most(1);
+  bound.where["map.resolutoin"] = {"512"};
+  expect_part(bound, "did you mean 'map.resolution'?");
+  bound.where = {{"map.resolution", {"0"}}};
+  expect_part(bound, "1 ... 16384");
+  bound.where = {{"map.extent_m", {"20.0"}}};  // would never equal a point's canonical "20"
+  expect_part(bound, "must be written '20'");
+  expect_part(at_most(1, "meen"), "did you mean 'mean'?");
+  expect_part(at_most(nan_value), "finite");
+  bound = at_most(1);
+  bound.min = 2;
+  expect_part(bound, "min = 2 is above max = 1");
+  bound = {};
+  bound.metric = "acne";
+  expect_part(bound, "neither max nor min");
+}
+
+TEST(Bounds, ABrokenBoundSaysWhereAndHowToSeeIt) {
+  const std::vector<PointRecord> points = points_with({0.1, 0.5});
+  const Bound bound = at_most(0.4);
+  const BoundResult result = evaluate_bounds(points, std::span(&bound, 1), command_of).at(0);
+  const std::vector<std::string> swept = {"map.resolution"};
+  EXPECT_EQ(describe(result, &points[1], swept),
+            "broken: acne <= 0.4; found 0.5 (worst of 2 points)\n"
+            "  point 1: map.resolution = 512\n"
+            "  worst pixel by |R5 - R1|: x = 12, y = 34 (row 0 on top), error 0.6666666666666666, acne\n"
+            "  reproduce: render 1\n");
+  EXPECT_EQ(describe(ask({0.1}, bound), &points[0], swept), "held: acne <= 0.4; found 0.1 (worst of 1 point)\n");
+}
+
+// The definition, straight: held exactly when every value is finite and none is beyond the limit.
+RC_GTEST_PROP(BoundsProperty, WorstHoldsExactlyWhenEveryPointDoes, (const std::vector<double>& values, double max)) {
+  RC_PRE(!values.empty());
+  const bool expected =
+      std::all_of(values.begin(), values.end(), [&](double v) { return std::isfinite(v) && v <= max; });
+  RC_ASSERT(ask(values, at_most(max)).held == expected);
+  std::vector<double> negated;
+  for (double v : values) negated.push_back(-v);
+  RC_ASSERT(ask(negated, at_least(-max)).held == expected);
+}
+
+Results judged(const std::vector<double>& acne, const std::vector<Bound>& bounds) {
+  Results results;
+  results.info = sample_info();
+  results.points = points_with(acne);
+  results.planned_points = static_cast<int64_t>(acne.size());
+  results.bounds = evaluate_bounds(results.points, bounds, command_of);
+  return results;
+}
+
+size_t count(const std::string& text, const std::string& part) {
+  size_t found = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(Junit, HasOneCasePerBoundAndCountsTheBroken) {
+  const std::string xml = to_junit(judged({0.1, 0.5}, {at_most(1), at_most(0.4), at_most(0.4)}));
+  EXPECT_EQ(count(xml, "<testcase "), 3u);
+  EXPECT_EQ(count(xml, "<failure "), 2u);
+  EXPECT_NE(xml.find("tests=\"3\" failures=\"2\" errors=\"0\""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("timestamp=\"2025-01-31T12:00:00\""), std::string::npos) << "no zone: the schema forbids it";
+  EXPECT_NE(xml.find("name=\"acne &lt;= 0.4 #2\""), std::string::npos) << "names are unique";
+  EXPECT_NE(xml.find("reproduce: render 1"), std::string::npos);
+}
+
+TEST(Junit, AnUnfinishedSweepIsAnError) {
+  Results results = judged({0.1}, {at_most(1)});
+  results.planned_points = 3;
+  const std::string xml = to_junit(results);
+  EXPECT_NE(xml.find("tests=\"2\" failures=\"0\" errors=\"1\""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("<error message=\"1 of 3 points are finished"), std::string::npos) << xml;
+}
+
+TEST(Junit, EscapesWhatXmlCannotHold) {
+  Results results = judged({0.1}, {at_most(1)});
+  results.info.title = "a<b>&\"c\"\x01 \xff \xc3\xa4 \xed\xa0\x80 \xf4\x90\x80\x80 \xef\xbf\xbf\n\xe2\x82";
+  const std::string xml = to_junit(results);
+  const std::string bad = "\xef\xbf\xbd";
+  EXPECT_NE(xml.find("a&lt;b&gt;&amp;&quot;c&quot;" + bad + " " + bad + " \xc3\xa4 " + bad + bad + bad + " " + bad +
+                     bad + bad + bad + " " + bad + "&#10;" + bad + bad + "\""),
+            std::string::npos)
+      << xml;
+}
+
+TEST(Summary, GivesTheVerdictFirst) {
+  const auto verdict = [](const Results& results) {
+    const std::string text = to_summary(results);
+    const size_t second = text.find("\n\n") + 2;
+    return text.substr(second, text.find('\n', second) - second);
+  };
+  EXPECT_EQ(verdict(judged({0.1, 0.2}, {at_most(1), at_most(2)})), "**Held: all 2 bounds over 2 points.**");
+  EXPECT_EQ(verdict(judged({0.1, 0.2}, {at_most(1), at_most(0.1)})), "**Broken: 1 of 2 bounds.**");
+  EXPECT_EQ(verdict(judged({0.1}, {})), "**Measured 1 point.** The experiment sets no bounds.");
+  Results results = judged({0.1}, {at_most(0)});
+  results.planned_points = 2;
+  EXPECT_EQ(verdict(results),
+            "**Incomplete: 1 of 2 points are finished.** Run it again to continue. Broken so far: 1 of 1 bound.");
+}
+
+TEST(Summary, OrdersByErrorAndKeepsTheTableWhole) {
+  Results results = judged({0.1, 0.2, 0.3}, {at_most(0.2)});
+  for (int i = 0; i < 3; ++i) results.points[i].metrics["error"] = std::vector{nan_value, 0.02, 0.01}[i];
+  results.points[2].settings["filter.kind"] = "a|b`<script>";
+  results.points[2].curve->window_min_depth = results.points[2].curve->window_max_depth = std::nullopt;
+  const std::string text = to_summary(results);
+  const std::string best = text.substr(text.find("## Best"));
+  EXPECT_LT(best.find("| 1024 | a\\|b\\`&lt;script> | 0.01 |"), best.find("| 512 | none | 0.02 |")) << best;
+  EXPECT_LT(best.find("| 512 | none | 0.02 |"), best.find("| 256 | none | not measured |")) << best;
+  EXPECT_NE(best.find("At 1 of 3 points no bias"), std::string::npos) << best;
+  EXPECT_NE(text.find("    broken: acne <= 0.2; found 0.3"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace noonmark

@@ -1,0 +1,157 @@
+// The contract on evidence made at random: 0 for verdicts that the plain reading gives, and exact when some are
+// changed.
+#include "compare/judge/soundness.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "tests/compare/ladder/evidence.h"
+
+namespace noonmark {
+namespace {
+
+struct Case {
+  Synthetic s;
+  Image<float> ties, tie_lookup;
+  ReceiverImage receivers;
+  LightFrame frame;
+
+  explicit Case(uint64_t seed, int kernel, Lookup lookup = Lookup::box)
+      : s(random_evidence(seed, {.kernel = kernel, .lookup = lookup})) {
+    set_verdicts(s);
+    ties = tie_map(s.evidence());
+    tie_lookup = Image<float>(s.r4.width, s.r4.height, 0);
+    for (size_t i = 0; i < s.r4.size(); ++i) tie_lookup[i] = naive::visibility(s, ties, i, DepthFormat::d32f);
+    receivers = {Image<glm::vec3>(s.r4.width, s.r4.height, glm::vec3(0)),
+                 Image<glm::vec3>(s.r4.width, s.r4.height, glm::vec3(0)), Image<uint32_t>(s.r4.width, s.r4.height, 0)};
+  }
+  std::map<std::string, double> metrics() {
+    return measure_soundness({s.evidence(), s.stored, ties, tie_lookup, receivers, frame, {}});
+  }
+};
+
+TEST(Contract, CountsEveryBrokenReceiverOnce) {
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    Case c(seed, seed % 3 == 0 ? 1 : 3, seed % 2 ? Lookup::box : Lookup::cube);
+    std::vector<size_t> facing;
+    for (size_t i = 0; i < c.s.truth.facing.size(); ++i)
+      if (c.s.truth.facing[i]) facing.push_back(i);
+    ASSERT_GT(facing.size(), 20u);
+    const double count = static_cast<double>(facing.size());
+    EXPECT_EQ(c.metrics().at("contract"), 0) << seed;
+    c.s.r4[facing[1]] += 0.25f;
+    EXPECT_DOUBLE_EQ(c.metrics().at("contract"), 1 / count);
+    c.s.r5[facing[1]] += 0.25f;
+    c.s.r5[facing[2]] = std::nextafter(c.s.r5[facing[2]], 2.0f);
+    EXPECT_DOUBLE_EQ(c.metrics().at("contract"), 2 / count) << "one float beside is broken, and twice counts once";
+    c.tie_lookup[facing[3]] -= 0.5f;
+    c.s.r5[facing[4]] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_DOUBLE_EQ(c.metrics().at("contract"), 4 / count);
+    for (size_t i = 0; i < c.s.truth.facing.size(); ++i)
+      if (!c.s.truth.facing[i]) c.s.r5[i] = 7;  // dark by shading: nobody asked
+    EXPECT_DOUBLE_EQ(c.metrics().at("contract"), 4 / count);
+  }
+}
+
+TEST(Contract, AndTheRestAreTheSameInStrips) {
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    Case c(seed, 3, static_cast<Lookup>(seed % 3));
+    for (size_t i = 0; i < c.s.r5.size(); i += 7) c.s.r5[i] += 0.25f;
+    const std::map<std::string, double> whole = c.metrics();
+    Synthetic held = c.s;  // what the evidence refers to, strip after strip
+    const LookupEvidence evidence = held.evidence();
+    SoundnessCheck check({evidence, c.s.stored, c.ties, c.tie_lookup, c.receivers, c.frame, {}});
+    for_each_strip(c.s, seed, [&](const Synthetic& part, PixelRange strip) {
+      held.taps = part.taps;
+      held.probe = part.probe;
+      check.add(strip);
+    });
+    for (const auto& [name, value] : check.metrics()) EXPECT_EQ(value, whole.at(name)) << name << " " << seed;
+  }
+}
+
+// Where a sampler blends the taps, what it may round is allowed, and no more.
+TEST(Contract, AllowsASamplerItsWeights) {
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    Case c(seed, seed % 3 == 0 ? 3 : 1, Lookup::linear);
+    ASSERT_EQ(c.metrics().at("contract"), 0) << seed;
+    double facing = 0, shifted = 0;
+    for (size_t i = 0; i < c.s.r4.size(); ++i) {
+      if (!c.s.truth.facing[i]) continue;
+      ++facing;
+      (seed % 2 ? c.s.r4 : c.tie_lookup)[i] += shifted++ < 5 ? 0x1p-6f : 0x1p-8f;  // more than allowed, and less
+    }
+    EXPECT_DOUBLE_EQ(c.metrics().at("contract"), 5 / facing);
+  }
+}
+
+// On fixed-point depths a sampler may round what it compares; on floats a tie is a tie.
+TEST(Contract, AllowsASamplerTiesOfFixedPointDepthsOnly) {
+  for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {
+    Case c(1, 1, Lookup::linear);
+    c.s.map.format = format;
+    c.s.map.wrap = Wrap::clamp_to_edge;
+    c.s.bias = {};
+    for (size_t i = 0; i < c.s.r4.size(); ++i) {
+      c.s.probe.reference[i] = 0.5f;
+      c.s.probe.map_texels[i] = {2.5f, 2.5f};
+    }
+    for (float& depth : c.s.stored.pixels) depth = 0.5f;
+    for (float& depth : c.s.exact.pixels) depth = 0.25f;
+    c.ties = tie_map(c.s.evidence());
+    set_verdicts(c.s);
+    for (size_t i = 0; i < c.s.r4.size(); ++i) {
+      ASSERT_EQ(c.s.r5[i], 1);
+      c.tie_lookup[i] = naive::visibility(c.s, c.ties, i, DepthFormat::d32f);
+    }
+    ASSERT_EQ(c.metrics().at("contract"), 0);
+    for (float& v : c.s.r5.pixels) v = 0;  // `<` for `<=`
+    EXPECT_EQ(c.metrics().at("contract"), format == DepthFormat::d32f ? 1 : 0);
+    for (float& v : c.s.r5.pixels) v = 1;
+    for (float& v : c.tie_lookup.pixels) v = 1 - v;
+    EXPECT_EQ(c.metrics().at("contract"), 1) << "the map of ties is of floats";
+  }
+}
+
+// A lit tie in every second texel that a receiver with a depth falls into, and the next float below in the others.
+TEST(TieMap, IsDecidedByTheLastBit) {
+  uint64_t ties = 0, below = 0;
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    const Case c(seed, 1, seed % 3 ? Lookup::box : Lookup::cube);
+    for (size_t i = 0; i < c.s.truth.facing.size(); ++i) {
+      if (!c.s.truth.facing[i]) continue;
+      // The texel's index stands in for its depth, so that the plain reading says which it is.
+      Image<float> index(c.ties.width, c.ties.height);
+      for (size_t t = 0; t < index.size(); ++t) index[t] = static_cast<float>(t + 2);
+      const naive::Tap tap = naive::taps_of(c.s, index, i).front();
+      if (tap.depth == 1) continue;  // the border
+      const int at = static_cast<int>(tap.depth) - 2;
+      const glm::ivec2 read(at % index.width, at / index.width);
+      const float biased = tap.reference - naive::bias_at(c.s, i);
+      const float depth = c.ties.at(read.x, read.y);
+      ties += depth == biased && (read.x + read.y) % 2 == 0;
+      below += depth < biased && biased == std::nextafter(depth, 2.0f) && (read.x + read.y) % 2 == 1;
+    }
+    for (float depth : c.ties.pixels) EXPECT_TRUE(depth > 0 && depth <= 1);
+  }
+  EXPECT_GT(ties, 500u);
+  EXPECT_GT(below, 500u);
+}
+
+TEST(Soundness, IsNotMeasuredWithoutAFacingReceiver) {
+  Case c(1, 1);
+  for (uint8_t& facing : c.s.truth.facing.pixels) facing = 0;
+  std::set<std::string> names;
+  for (const auto& [name, value] : c.metrics()) {
+    EXPECT_TRUE(std::isnan(value)) << name;
+    names.insert(name);
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"contract", "rounding_excess", "address_error_texels", "reference_error_m",
+                                          "map_error_quanta", "map_bits"}));
+}
+
+}  // namespace
+}  // namespace noonmark

@@ -1,0 +1,151 @@
+// results.csv, read back by a reader of our own that knows only RFC 4180.
+#include "compare/report/csv.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "compare/store/quantities.h"
+#include "tests/support/sample_results.h"
+
+namespace noonmark {
+namespace {
+
+using Row = std::vector<std::string>;
+
+// Fails the test on what RFC 4180 does not allow.
+std::vector<Row> parse(const std::string& csv) {
+  std::vector<Row> rows;
+  size_t at = 0;
+  while (at < csv.size()) {
+    Row row;
+    for (;;) {
+      std::string field;
+      if (at < csv.size() && csv[at] == '"') {
+        for (++at;; ++at) {
+          if (at >= csv.size()) {
+            ADD_FAILURE() << "a quote that does not end";
+            return rows;
+          }
+          if (csv[at] == '"' && csv.compare(at, 2, "\"\"") != 0) break;
+          if (csv[at] == '"') ++at;
+          field += csv[at];
+        }
+        ++at;
+      } else {
+        while (at < csv.size() && csv[at] != ',' && csv[at] != '\r') {
+          EXPECT_TRUE(csv[at] != '"' && csv[at] != '\n') << "in an unquoted field";
+          field += csv[at++];
+        }
+      }
+      row.push_back(field);
+      if (at < csv.size() && csv[at] == ',') {
+        ++at;
+        continue;
+      }
+      EXPECT_EQ(csv.compare(at, 2, "\r\n"), 0);
+      at += 2;
+      break;
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+size_t column(const Row& heading, const std::string& name) {
+  const auto found = std::find(heading.begin(), heading.end(), name);
+  EXPECT_NE(found, heading.end()) << name;
+  EXPECT_EQ(std::count(heading.begin(), heading.end(), name), 1) << name;
+  return static_cast<size_t>(found - heading.begin());
+}
+
+double number(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  EXPECT_TRUE(error == std::errc{} && end == text.data() + text.size()) << text;
+  return value;
+}
+
+Results sample() {
+  Results results;
+  results.info = sample_info();
+  results.points = {sample_point(0), sample_point(1, false), sample_point(2)};
+  results.points[1].settings["scene.name"] = "a, \"b\"\r\nc.gltf";
+  results.points[1].settings["light.position_m"] = "1,2,3";
+  results.points[1].settings["map.wrap"] = "x\ny";
+  results.points[2].metrics["acne"] = nan_value;
+  results.points[2].metrics["error"] = inf_value;
+  results.points[2].curve->window_min_depth = results.points[2].curve->window_max_depth = std::nullopt;
+  return results;
+}
+
+TEST(Csv, HoldsEverySettingMetricAndQuantity) {
+  const Results results = sample();
+  const std::vector<Row> rows = parse(to_csv(results));
+  ASSERT_EQ(rows.size(), 4u);
+  for (size_t i = 0; i < 3; ++i) {
+    const PointRecord& point = results.points[i];
+    ASSERT_EQ(rows[i + 1].size(), rows[0].size());
+    EXPECT_EQ(rows[i + 1][column(rows[0], "point")], std::to_string(i));
+    for (const auto& [name, text] : point.settings) EXPECT_EQ(rows[i + 1][column(rows[0], name)], text);
+    for (const auto& [name, value] : point.metrics)
+      EXPECT_TRUE(same(number(rows[i + 1][column(rows[0], name)]), value)) << name;
+    for (const CurveQuantity& row : curve_quantities()) {
+      const std::string& text = rows[i + 1][column(rows[0], std::string(row.name))];
+      const std::optional<double> value = quantity(point, row.name);
+      if (value)
+        EXPECT_EQ(number(text), *value) << row.name;
+      else
+        EXPECT_EQ(text, "") << row.name;
+    }
+  }
+  EXPECT_EQ(rows[3][column(rows[0], "acne")], "nan");
+  EXPECT_EQ(rows[3][column(rows[0], "error")], "inf");
+  EXPECT_EQ(rows[3][column(rows[0], "window_min_depth")], "");
+  EXPECT_EQ(rows[3][column(rows[0], "window_width_depth")], "0");
+}
+
+TEST(Csv, GuardsAPlaceAndLeavesNumbersAlone) {
+  Results results = sample();
+  results.points[0].settings["light.position_m"] = "-5,4,5";
+  results.points[0].settings["map.shift_u_texels"] = "-0.25";
+  results.points[0].metrics["error"] = -inf_value;
+  const std::vector<Row> rows = parse(to_csv(results));
+  EXPECT_EQ(rows[1][column(rows[0], "light.position_m")], "'-5,4,5");
+  EXPECT_EQ(rows[1][column(rows[0], "map.shift_u_texels")], "-0.25");
+  EXPECT_EQ(rows[1][column(rows[0], "error")], "-inf");
+}
+
+TEST(Csv, OnlyTheLastColumnsChangeWithTheClock) {
+  Results slow = sample();
+  for (PointRecord& point : slow.points) {
+    for (auto& [name, value] : point.times) value *= 3;
+    for (const char* name : {"map_ms", "lookup_ms", "shadow_ms"}) point.metrics[name] *= 3;
+  }
+  const std::vector<Row> a = parse(to_csv(sample())), b = parse(to_csv(slow));
+  const size_t first_time = column(a[0], "map_ms");
+  ASSERT_GT(a[0].size(), first_time);
+  for (size_t row = 0; row < a.size(); ++row)
+    for (size_t i = 0; i < a[row].size(); ++i) {
+      if (i < first_time || row == 0)
+        EXPECT_EQ(a[row][i], b[row][i]);
+      else
+        EXPECT_NE(a[row][i], b[row][i]) << a[0][i] << " is no time";
+    }
+}
+
+TEST(Csv, KeepsNamesThatItDoesNotKnow) {
+  Results results = sample();
+  results.points[0].settings["map.future"] = "x";
+  results.points[0].metrics["future"] = 1;
+  const std::vector<Row> rows = parse(to_csv(results));
+  EXPECT_EQ(rows[1][column(rows[0], "map.future")], "x");
+  EXPECT_EQ(rows[2][column(rows[0], "map.future")], "");
+  EXPECT_EQ(rows[1][column(rows[0], "future")], "1");
+}
+
+TEST(Csv, OfNoPointsIsItsHeading) { EXPECT_EQ(parse(to_csv(Results{})).size(), 1u); }
+
+}  // namespace
+}  // namespace noonmark

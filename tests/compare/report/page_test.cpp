@@ -1,0 +1,131 @@
+// The report's page in a real browser, headless Chromium: what its scripts draw, and what clicks and keys do.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "compare/report/report.h"
+#include "scenes/file.h"
+#include "tests/compare/report/sample.h"
+
+namespace noonmark {
+namespace {
+
+using nlohmann::json;
+
+std::string output_of(const std::string& command) {
+  FILE* const pipe = popen(command.c_str(), "r");
+  std::string text;
+  char block[65536];
+  for (size_t n = 0; pipe && (n = fread(block, 1, sizeof block, pipe)) > 0;) text.append(block, n);
+  if (pipe) pclose(pipe);
+  return text;
+}
+
+class Page : public testing::Test {
+ protected:
+  // Where there is no browser the tests skip, and the reason says so.
+  void SetUp() override {
+    std::string browser = output_of("command -v chromium || command -v chromium-browser || command -v google-chrome");
+    if (browser.empty()) GTEST_SKIP() << "no chromium here: the page's scripts are not tried";
+    browser.pop_back();
+    Results results = sample_results();
+    results.points[3].metrics["error"] = std::numeric_limits<double>::quiet_NaN();
+    results.points[4].metrics["error"] = 0;
+    results.points[26].pictures.push_back({"map", "images/p0018-map.png", "The map of another."});
+    std::string page = render_report(results, sample_picture);
+    const auto insert = [&](const std::string& before, const std::string& script) {
+      const size_t at = page.rfind(before);
+      ASSERT_NE(at, std::string::npos);
+      page.insert(at, "<script>" + script + "</script>");
+    };
+    insert("</body>", read_file(NOONMARK_SOURCE_DIR "/tests/compare/report/page_probe.js"));
+    insert("</head>",
+           "var errors = []; addEventListener('error', function(e) { errors.push(e.message); });"
+           "addEventListener('securitypolicyviolation', function(e) { errors.push(e.violatedDirective); });"
+           "['error', 'warn'].forEach(function(k) { console[k] = function(what) { errors.push(String(what)); }; });");
+    folder_ = std::filesystem::path(testing::TempDir()) / ("noonmark-page-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+    const std::string file = (folder_ / "report.html").string();
+    write_file_atomically(file, page);
+    const std::string dom = output_of(
+        "HOME='" + folder_.string() + "' timeout 100 '" + browser +
+        "' --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --window-size=1200,900 "
+        "--virtual-time-budget=2000 --user-data-dir='" +
+        (folder_ / "profile").string() + "' --dump-dom 'file://" + file + "' 2>'" + (folder_ / "browser.txt").string() +
+        "'");
+    const std::string head = "<pre id=\"probe\">";
+    const size_t begin = dom.rfind(head);
+    ASSERT_NE(begin, std::string::npos) << "the page's scripts stopped; the browser says "
+                                        << read_file((folder_ / "browser.txt").string());
+    saw_ = json::parse(dom.substr(begin + head.size(), dom.find("</pre>", begin) - begin - head.size()));
+    EXPECT_EQ(saw_["errors"], json::array()) << "of the page's scripts";
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+  }
+  int marks(const char* chart, const char* kind) const { return saw_["charts"].at(chart).at(kind); }
+
+  std::filesystem::path folder_;
+  json saw_;
+};
+
+TEST_F(Page, ChartsHaveTheirMarks) {
+  // 4 resolutions, 4 extents, 2 filters: 32 points, of which one has no error.
+  for (const char* sweep : {"chart-sweep-1", "chart-sweep-2"}) {
+    EXPECT_EQ(marks(sweep, "symbol"), 31) << sweep;
+    EXPECT_GE(marks(sweep, "line"), 8) << sweep << ": a line for each of the other settings, and a guide";
+  }
+  EXPECT_GE(marks("chart-cost", "symbol"), 31);
+  for (const char* chart : {"chart-sweep-1", "chart-sweep-2", "chart-cost"})
+    EXPECT_GE(marks(chart, "zero"), 1) << chart << ": a logarithmic axis has no place of its own for an error of 0";
+  EXPECT_EQ(marks("chart-bias", "line"), 5) << "the error and the causes that are not 0";
+  EXPECT_EQ(marks("chart-bias", "area"), 0);
+  const json& bias = saw_["bias"];
+  EXPECT_EQ(bias["stacked"]["area"], 5) << "a layer for each cause";
+  EXPECT_EQ(bias["depth"].back(), "bias.constant (depth)");
+  EXPECT_EQ(bias["texels"].back(), "bias.constant (texels)");
+  EXPECT_EQ(bias["pressed"], json({"texels", "Stacked"}));
+  EXPECT_EQ(bias["facts"].get<std::string>().find("Usable from "), 0u);
+  EXPECT_NE(bias["tip"].get<std::string>().find(" texels"), std::string::npos) << bias["tip"];
+  EXPECT_TRUE(bias["tip_hidden"]) << "once the pointer has left";
+}
+
+TEST_F(Page, TheTableSortsAndSelects) {
+  const json& table = saw_["table"];
+  std::vector<double> up, down;
+  for (const json& cell : table["error"][0]) up.push_back(std::strtod(cell.get<std::string>().c_str(), nullptr));
+  for (const json& cell : table["error"][1]) down.push_back(std::strtod(cell.get<std::string>().c_str(), nullptr));
+  ASSERT_EQ(up.size(), 32u);
+  ASSERT_EQ(down.size(), 32u);
+  EXPECT_TRUE(std::isnan(up.back()) && std::isnan(down.back())) << "what is not finite goes last either way";
+  EXPECT_TRUE(std::is_sorted(up.begin(), up.end() - 1));
+  EXPECT_TRUE(std::is_sorted(down.begin(), down.end() - 1, std::greater<>()));
+  EXPECT_EQ(table["sorted"], "descending");
+  EXPECT_EQ(table["filter"][0], "box") << "words sort as words do, with the keyboard too";
+  EXPECT_EQ(table["filter"][31], "none");
+  EXPECT_EQ(saw_["selected_by_row"], json({5}));
+  EXPECT_NE(saw_["facts_of_5"], saw_["bias"]["facts"]) << "the chart is of the point that was chosen";
+  EXPECT_EQ(saw_["selected_by_symbol"], json({saw_["symbol"]}));
+}
+
+TEST_F(Page, KeysFlipThePicturesInSight) {
+  EXPECT_EQ(saw_["flips"], json({"1 18 truth",  // out of sight
+                                 "1 18 map", "1 18 classes", "1 18 truth", "1 18 classes", "1 18 map",
+                                 "1 18 map",     // there is no ninth
+                                 "1 18 map",     // the list has the focus
+                                 "1 26 map"}));  // another point, the same picture
+}
+
+}  // namespace
+}  // namespace noonmark

@@ -1,0 +1,41 @@
+// Residuals are no shares: the report and the summary show them as the plain numbers that the limit of 1e-6 is about.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "compare/report/report.h"
+#include "compare/report/summary.h"
+#include "compare/report/text.h"
+#include "compare/store/metrics.h"
+#include "tests/compare/report/sample.h"
+
+namespace noonmark {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(ReportUnits, ShowResidualsPlainly) {
+  const Results results = sample_results();  // residual 2.4e-7, and a bound of 1e-6 on it
+  const std::string page = render_report(results, sample_picture);
+  EXPECT_TRUE(contains(page, "2.4×10⁻⁷"));
+  EXPECT_FALSE(contains(page, "2.4×10⁻⁵")) << "as a percentage";
+  const std::string summary = to_summary(results);
+  EXPECT_TRUE(contains(summary, "2.4e-07") || contains(summary, "2.4e-7")) << summary;
+  EXPECT_FALSE(contains(summary, "2.4e-05"));
+}
+
+TEST(ReportUnits, FollowTheMetricsTable) {
+  const std::set<std::string_view> plain = {"residual", "tap_residual", "rounding_excess", "map_error_quanta",
+                                            "map_bits", "shaded_rmse",  "scene_behind"};
+  for (const Metric& metric : metrics_table()) {
+    EXPECT_EQ(metric.unit.empty(), plain.contains(metric.name)) << metric.name;
+    const std::string shown = report::quantity(0.25, metric.unit);
+    EXPECT_EQ(shown.ends_with('%'), metric.unit == "fraction") << metric.name << ": " << shown;
+    if (metric.unit.empty()) {
+      EXPECT_EQ(shown, "0.25") << metric.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace noonmark

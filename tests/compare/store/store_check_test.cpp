@@ -1,0 +1,155 @@
+// What is no whole store of ours is refused before anything in it is believed, or works.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "compare/store/check.h"
+#include "compare/store/sqlite.h"
+#include "compare/store/store.h"
+#include "scenes/error.h"
+#include "scenes/file.h"
+#include "tests/support/kind_thrown.h"
+#include "tests/support/sample_results.h"
+
+namespace noonmark {
+namespace {
+
+const std::string fingerprint = "version = 0.1.0\n";
+
+class StoreCheck : public testing::Test {
+ protected:
+  ResultStore fresh() { return ResultStore(path, fingerprint, Existing::resume); }
+  // The message of the Error(scene) that opening throws.
+  std::string refusal() {
+    std::string message = "was opened";
+    EXPECT_EQ(kind_thrown([&] { fresh(); }, &message), static_cast<int>(ErrorKind::scene)) << message;
+    return message;
+  }
+  TemporaryFolder folder;
+  const std::string path = folder.file("results.sqlite");
+};
+
+TEST_F(StoreCheck, RefusesWhatIsNoFileBesideIt) {
+  fresh().add(sample_point(1));
+  for (const char* ending : {"-journal", "-wal", "-shm"}) {
+    const std::string beside = path + ending;
+    ASSERT_EQ(::mkfifo(beside.c_str(), 0600), 0);
+    ::alarm(60);  // opening a pipe waits for a writer: after 60 s the test ends as failed
+    const std::string message = refusal();
+    ::alarm(0);
+    EXPECT_NE(message.find(beside + ": is not a regular file"), std::string::npos) << message;
+    EXPECT_NE(message.find("--overwrite"), std::string::npos) << message;
+    EXPECT_THROW(ResultStore::open(path), Error);
+    ::unlink(beside.c_str());
+    std::filesystem::create_symlink("elsewhere", beside);
+    EXPECT_NE(refusal().find(beside + ": is not a regular file"), std::string::npos);
+    ::unlink(beside.c_str());
+  }
+  EXPECT_EQ(fresh().finished().size(), 1u);
+  // SQLite looks beside the file itself, where the store is a link to it.
+  const std::string file = folder.file("file.sqlite");
+  std::filesystem::rename(path, file);
+  std::filesystem::create_symlink("file.sqlite", path);
+  EXPECT_EQ(fresh().finished().size(), 1u);
+  ASSERT_EQ(::mkfifo((file + "-journal").c_str(), 0600), 0);
+  ::alarm(60);
+  EXPECT_NE(refusal().find("file.sqlite-journal: is not a regular file"), std::string::npos);
+  ::alarm(0);
+}
+
+TEST_F(StoreCheck, RefusesASchemaThatIsNotItsOwn) {
+  struct Case {
+    const char *sql, *says;
+  };
+  const Case cases[] = {
+      {"CREATE TRIGGER t AFTER INSERT ON metrics WHEN new.name = 'error' BEGIN "
+       "UPDATE metrics SET value = 0 WHERE name = 'acne'; END",
+       "trigger t"},
+      {"CREATE TRIGGER t INSTEAD OF INSERT ON points BEGIN DELETE FROM metrics; END", "trigger t"},
+      {"CREATE VIEW mine AS SELECT 1 AS x", "view mine"},
+      {"CREATE TABLE mine (x)", "table mine"},
+      {"CREATE INDEX mine ON metrics (value)", "index mine"},
+      {"DROP TABLE curves", "table curves is lost"},
+      {"DROP VIEW points", "view points is lost"},
+      {"ALTER TABLE finished ADD COLUMN mine", "table finished"},
+      {"DROP TABLE info; CREATE VIEW info AS SELECT 'fingerprint' AS key, 'x' AS value", "view info"},
+      {"DROP VIEW points; CREATE VIEW points AS SELECT 0 AS acne", "view points"},
+  };
+  fresh().add(sample_point(1));
+  const std::string whole = read_file(path);
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.sql);
+    write_file_atomically(path, whole);
+    sqlite::Database(path, sqlite::Database::Mode::existing).execute(one.sql);
+    const std::string message = refusal();
+    EXPECT_NE(message.find(one.says), std::string::npos) << message;
+    EXPECT_NE(message.find("--overwrite"), std::string::npos) << message;
+    try {
+      ResultStore::open(path);
+      ADD_FAILURE() << "was opened";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::scene);
+      EXPECT_NE(std::string(error.what()).find("--overwrite"), std::string::npos) << error.what();
+    }
+  }
+  ResultStore(path, fingerprint, Existing::overwrite).add(sample_point(1));
+  EXPECT_EQ(fresh().finished().size(), 1u);
+}
+
+// A check is followed by statements, and somebody else may write in between.
+TEST_F(StoreCheck, LetsNoTriggerOfAFileFire) {
+  sqlite::Database db(path, sqlite::Database::Mode::create);
+  db.execute(
+      "CREATE TABLE a (x); CREATE TABLE b (x); "
+      "CREATE TRIGGER t AFTER INSERT ON a BEGIN INSERT INTO b VALUES (1); END; INSERT INTO a VALUES (1)");
+  EXPECT_EQ(db.ask("SELECT count(*) FROM a"), "1");
+  EXPECT_EQ(db.ask("SELECT count(*) FROM b"), "0");
+}
+
+// Rows in the wrong order are missed by every search; SQLite's quick check does not look at the order.
+TEST_F(StoreCheck, RefusesAStoreWhosePagesWereExchanged) {
+  {
+    ResultStore store = fresh();
+    for (int id = 0; id < 20; ++id) store.add(sample_point(id));
+  }
+  const std::string whole = read_file(path);
+  constexpr size_t page = 4096;
+  constexpr char leaf_of_rows_by_key = 10;  // a page's type, in its first byte
+  const auto what_sqlite_says = [&](const char* pragma) {
+    return sqlite::Database(path, sqlite::Database::Mode::existing).ask(pragma);
+  };
+  int found = 0;
+  for (size_t at = page; at + 2 * page <= whole.size(); at += page) {
+    if (whole[at] != leaf_of_rows_by_key || whole[at + page] != leaf_of_rows_by_key) continue;
+    std::string bytes = whole;
+    std::swap_ranges(bytes.begin() + static_cast<ptrdiff_t>(at), bytes.begin() + static_cast<ptrdiff_t>(at + page),
+                     bytes.begin() + static_cast<ptrdiff_t>(at + page));
+    write_file_atomically(path, bytes);
+    // Of two tables, or both empty: of no interest here.
+    if (what_sqlite_says("PRAGMA quick_check") != "ok" || what_sqlite_says("PRAGMA integrity_check") == "ok") continue;
+    ++found;
+    const std::string message = refusal();
+    EXPECT_NE(message.find("is damaged: "), std::string::npos) << message;
+    EXPECT_NE(message.find("--overwrite"), std::string::npos) << message;
+    EXPECT_THROW(ResultStore::open(path), Error);
+  }
+  EXPECT_GT(found, 0);
+}
+
+TEST_F(StoreCheck, SaysOfDamageWhatSqliteFound) {
+  fresh().add(sample_point(1));
+  std::string bytes = read_file(path);
+  bytes[4096 + 7] ^= 5;  // of the second page: how many bytes lie between its rows
+  write_file_atomically(path, bytes);
+  const std::string message = refusal();
+  EXPECT_NE(message.find("is damaged: Fragmentation of "), std::string::npos) << "without its headline: " << message;
+  EXPECT_NE(message.find("--overwrite"), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace noonmark

@@ -1,0 +1,176 @@
+// The store notices what was done to its rows, whichever cell it is.
+#include <gtest/gtest.h>
+
+#include "compare/store/seals.h"
+#include "compare/store/sqlite.h"
+#include "compare/store/store.h"
+#include "scenes/error.h"
+#include "tests/support/sample_results.h"
+
+namespace noonmark {
+namespace {
+
+const auto any_point = [](const PointRecord&) { return true; };
+
+class StoreSeals : public testing::Test {
+ protected:
+  void SetUp() override {
+    ResultStore store(whole, "x = 1\n", Existing::overwrite);
+    store.set_info(sample_info(), 3);
+    for (int id = 0; id < 3; ++id) store.add(sample_point(id));
+    BoundResult bound;
+    bound.metric = "acne";
+    bound.max = 0.1;
+    bound.found = 0.2;
+    store.set_bounds({bound});
+    store.set_laws({sample_law()});
+    afresh();
+  }
+  void afresh() { std::filesystem::copy_file(whole, path, std::filesystem::copy_options::overwrite_existing); }
+  void edit(const std::string& sql) {
+    sqlite::Database db(path, sqlite::Database::Mode::existing);
+    db.execute("PRAGMA synchronous = OFF;" + sql);
+    ASSERT_NE(db.ask("SELECT total_changes()"), "0") << "changed nothing: " << sql;
+  }
+  // Loading says it, in one line that names the file; returns the message.
+  std::string refusal() const {
+    try {
+      ResultStore::open(path).load();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::scene);
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find(path), std::string::npos);
+      return error.what();
+    }
+    ADD_FAILURE() << "was loaded";
+    return "";
+  }
+  std::vector<std::string> columns(const std::string& table) const {
+    sqlite::Database db(path, sqlite::Database::Mode::existing);
+    std::vector<std::string> names;
+    for (sqlite::Statement rows(db, "SELECT name FROM pragma_table_info('" + table + "')"); rows.step();)
+      names.push_back(rows.text(0));  // but for generated columns, which nobody can set
+    return names;
+  }
+  TemporaryFolder folder;
+  const std::string whole = folder.file("whole.sqlite"), path = folder.file("results.sqlite");
+};
+
+TEST_F(StoreSeals, HoldWhatWasStored) {
+  EXPECT_EQ(ResultStore::open(path).load().points.size(), 3u);
+  EXPECT_TRUE(ResultStore(path, "x = 1\n", Existing::resume).repair(3, any_point).empty());
+  EXPECT_EQ(ResultStore::open(path).finished().size(), 3u);
+}
+
+TEST_F(StoreSeals, NoticeEveryCellOfAPoint) {
+  int cells = 0;
+  for (const char* table : {"finished", "settings", "metrics", "times", "curves", "curve_points", "pictures", "images"})
+    for (const std::string& column : columns(table)) {
+      SCOPED_TRACE(std::string(table) + "." + column);
+      if (column == "point") continue;  // below
+      afresh();
+      // The value with a digit more, whatever it is; of point 1 alone, and of one row of it.
+      edit("UPDATE " + std::string(table) + " SET " + column + " = coalesce(" + column +
+           ", '') || '1' WHERE point = 1 AND " + columns(table)[1] + " = (SELECT max(" + columns(table)[1] + ") FROM " +
+           table + " WHERE point = 1)");
+      EXPECT_NE(refusal().find("rows of point 1 "), std::string::npos);
+      ResultStore store(path, "x = 1\n", Existing::resume);
+      EXPECT_EQ(store.repair(3, any_point).size(), 1u);
+      EXPECT_EQ(store.finished(), (std::vector<int64_t>{0, 2}));
+      store.add(sample_point(1));  // nothing of the old one is in the way
+      EXPECT_TRUE(same(store.load().points.at(1), sample_point(1)));
+      ++cells;
+    }
+  EXPECT_GT(cells, 40);
+}
+
+TEST_F(StoreSeals, NoticeLostAndForeignRows) {
+  for (const char* sql : {
+           "DELETE FROM metrics WHERE point = 1 AND name = 'acne'",
+           "DELETE FROM finished WHERE point = 1",
+           "DELETE FROM curve_points WHERE point = 1",
+           "DELETE FROM seals WHERE name = 'point 1'",
+           "INSERT INTO metrics VALUES (1, 'another', 1)",
+           "UPDATE metrics SET value = NULL WHERE point = 1 AND name = 'acne'",
+       }) {
+    SCOPED_TRACE(sql);
+    afresh();
+    edit(sql);
+    EXPECT_NE(refusal().find("rows of point 1 "), std::string::npos);
+    ResultStore store(path, "x = 1\n", Existing::resume);
+    EXPECT_EQ(store.repair(3, any_point).size(), 1u);
+    EXPECT_EQ(store.finished(), (std::vector<int64_t>{0, 2}));
+    EXPECT_EQ(store.load().points.size(), 2u);
+  }
+  afresh();
+  edit("INSERT INTO metrics VALUES (8, 'acne', 1)");
+  EXPECT_NE(refusal().find("rows of point 8 "), std::string::npos);
+  ResultStore store(path, "x = 1\n", Existing::resume);
+  EXPECT_EQ(store.repair(3, any_point).size(), 1u);
+  EXPECT_EQ(store.load().points.size(), 3u);
+}
+
+// A point moved to another's place carries its own seal along with its numbers, but not its name.
+TEST_F(StoreSeals, NoticeARenumberedPoint) {
+  for (const char* table : {"finished", "settings", "metrics", "times", "curves", "curve_points", "pictures", "images"})
+    edit("UPDATE " + std::string(table) + " SET point = 9 WHERE point = 1");
+  edit("UPDATE seals SET name = 'point 9' WHERE name = 'point 1'");
+  EXPECT_NE(refusal().find("rows of point 9 "), std::string::npos);
+}
+
+TEST_F(StoreSeals, NoticeAnEditedVerdict) {
+  for (const char* sql : {"UPDATE bounds SET held = 1", "UPDATE laws SET held = 1 - held", "DELETE FROM bounds",
+                          "UPDATE law_samples SET measured = 0 WHERE i = 0"}) {
+    SCOPED_TRACE(sql);
+    afresh();
+    edit(sql);
+    EXPECT_NE(refusal().find("bounds and laws"), std::string::npos);
+    ResultStore store(path, "x = 1\n", Existing::resume);
+    EXPECT_EQ(store.repair(3, any_point).size(), 1u);
+    EXPECT_TRUE(store.load().bounds.empty()) << "to be judged anew";
+  }
+}
+
+TEST_F(StoreSeals, NoticeEditedFactsOfTheRun) {
+  edit("UPDATE info SET value = '2' WHERE key = 'planned_points'");
+  EXPECT_NE(refusal().find("facts of the run"), std::string::npos);
+  ResultStore(path, "x = 1\n", Existing::resume).set_info(sample_info(), 3);  // as every run begins
+  EXPECT_EQ(ResultStore::open(path).load().planned_points, 3);
+}
+
+// Somebody who can write rows can seal them too. Rows that belong to no point then are a damaged file's, not our
+// defect.
+TEST_F(StoreSeals, SealedRowsThatDoNotFitTogetherAreADamagedFile) {
+  for (const auto& [point, sql] :
+       {std::pair(8, "INSERT INTO metrics VALUES (8, 'acne', 1)"),
+        {8, "INSERT INTO curves (point) VALUES (8)"},
+        {8, "INSERT INTO images VALUES (8, 0, 'a', 'b')"},
+        {1, "UPDATE curves SET window_min_depth = 2, window_max_depth = 1 WHERE point = 1"}}) {
+    SCOPED_TRACE(sql);
+    afresh();
+    edit(sql);
+    {
+      sqlite::Database db(path, sqlite::Database::Mode::existing);
+      seal_point(db, point);
+    }
+    EXPECT_NE(refusal().find("holds data that Noonmark did not write"), std::string::npos);
+    ResultStore store(path, "x = 1\n", Existing::resume);
+    try {
+      store.repair(3, any_point);
+      ADD_FAILURE() << "was repaired";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::scene);
+      EXPECT_NE(std::string(error.what()).find("--overwrite"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(StoreSeals, RemoveWhatTheExperimentDoesNotExpect) {
+  ResultStore store(path, "x = 1\n", Existing::resume);
+  const auto only_two = [](const PointRecord& point) { return point.id != 2; };
+  EXPECT_EQ(store.repair(3, only_two).size(), 1u);
+  EXPECT_EQ(store.finished(), (std::vector<int64_t>{0, 1}));
+}
+
+}  // namespace
+}  // namespace noonmark

@@ -1,0 +1,407 @@
+// The lookup against a second implementation on the host that starts from what the probe and the map say.
+#include <set>
+
+#include "technique/setting_rules.h"
+#include "tests/gl/lookup_host.h"
+
+namespace noonmark::gl {
+namespace {
+
+constexpr LightKind kinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
+constexpr const char* kind_names[] = {"directional", "spot", "point"};
+
+// How far a sampler's blended verdict may be from the exact weights. llvmpipe blends in floats: a place among up to
+// 1024 texels is rounded three times, each by 2^-15 of a texel at most, along both axes (seen: 1e-5). GPUs keep 8 bits
+// of a texel's fraction: half of 2^-8 more along each axis.
+double sampler_error(const DeviceInfo& info) { return 6 * 0x1p-15 + (info.software ? 0 : 2 * 0x1p-9); }
+
+TEST_F(GlLookupTest, EqualsTheHost) {
+  std::mt19937 random(1978);
+  double worst_blend = 0;
+  std::set<std::string> parts_met, references_met;
+  std::set<std::string> filters_met;
+  for (const LightKind kind : kinds) {
+    Met met;
+    for (int k = 0; k < 4; ++k) {
+      const Scene scene = random_scene(random, kind);
+      const ReceiverImage receivers = load(scene, 83, 61);
+      for (int j = 0; j < 36; ++j) {
+        const Settings settings = random_settings(random, kind);
+        const LightFrame frame = make_light_frame(scene, settings);
+        const ShadowMap map = renderer.render_map(frame, settings);
+        const LookupProbe probe = renderer.probe(frame, settings);
+        const Image<double> host = lookup_on_host(probe, receivers, renderer.read_map(map), settings, met);
+        const Image<float> gpu = renderer.lookup(map, frame, settings);
+        const double allowed = probe.pattern.bilinear() ? sampler_error(renderer.info()) : 0;
+        for (const BiasPart& part : bias_parts())
+          if (settings.bias[part.name] != 0) parts_met.emplace(part.name);
+        references_met.insert(settings.bias.reference);
+        filters_met.insert(settings.filter.kind);
+        ASSERT_EQ(gpu.size(), host.size());
+        size_t different = 0, first = 0;
+        for (size_t i = gpu.size(); i-- > 0;) {
+          const double off = std::abs(gpu[i] - host[i]);
+          if (probe.pattern.bilinear()) worst_blend = std::max(worst_blend, off);
+          if (!(off <= allowed)) ++different, first = i;
+          ASSERT_TRUE(gpu[i] >= 0 && gpu[i] <= 1) << gpu[i];
+        }
+        EXPECT_EQ(different, 0u) << kind_names[static_cast<int>(kind)] << " " << describe(settings)
+                                 << ": first at index " << first << ", shader " << gpu[first] << ", host "
+                                 << host[first];
+      }
+    }
+    constexpr size_t enough = 1000;
+    EXPECT_GT(met.lit, enough);
+    EXPECT_GT(met.dark, enough);
+    EXPECT_GT(met.fractions, enough);
+    EXPECT_GT(met.outside + (kind == LightKind::point ? enough + 1 : 0), enough);
+    EXPECT_GT(met.beyond_far, enough);
+    EXPECT_GT(met.background, enough);
+  }
+  RecordProperty("worst_blend", std::to_string(worst_blend));
+  EXPECT_EQ(parts_met.size(), bias_parts().size());
+  EXPECT_EQ(references_met.size(), tap_references().size());
+  EXPECT_EQ(filters_met.size(), find_setting("filter.kind").choices.size());
+}
+
+// Lit and dark are exactly 1 and 0 whatever the filter, its size and its weights.
+TEST_F(GlLookupTest, AllLitIsOneAndAllDarkIsNought) {
+  std::mt19937 random(1);
+  int filters = 0;
+  for (const LightKind kind : kinds) {
+    const Scene scene = random_scene(random, kind);
+    const ReceiverImage receivers = load(scene, 40, 30);
+    for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f)
+      for (const int size : {3, 5, 9, 31}) {
+        Settings settings;
+        settings.map.resolution = 64;
+        settings.map.wrap = Wrap::clamp_to_edge;
+        settings.map.far_m = 30;
+        settings.bias = {};
+        settings.filter.kind = std::string(find_setting("filter.kind").choices[f]);
+        settings.filter.size = size;
+        settings.filter.sigma_texels = 0.3 * size;
+        if (kind_thrown([&] { validate(settings, kind); })) continue;
+        ++filters;
+        const LightFrame frame = make_light_frame(scene, settings);
+        const LookupProbe probe = renderer.probe(frame, settings);
+        for (const float depth : {0.0f, 1.0f}) {
+          const ShadowMap map = renderer.upload_map(Image<float>(64, frame.map_size().y, depth), settings.map);
+          const Image<float> seen = renderer.lookup(map, frame, settings);
+          for (size_t i = 0; i < seen.size(); ++i) {
+            if (probe.bias_unit[i] == 0 || probe.reference[i] <= 0) continue;
+            ASSERT_EQ(seen[i], depth) << describe(settings);
+          }
+        }
+      }
+  }
+  // Each of four sizes, but two that are there in 3 and 5 only.
+  constexpr int flat = 6 * 4 + 2 * 2, cube = 3 * 4;
+  EXPECT_EQ(filters, 2 * flat + cube);
+}
+
+// Every filter's comparison is strict: what lies at the stored depth is lit, and a float nearer to the light it is not.
+TEST_F(GlLookupTest, ATieIsLit) {
+  std::mt19937 random(3);
+  for (const LightKind kind : kinds) {
+    const Scene scene = random_scene(random, kind);
+    for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f) {
+      Settings settings;
+      settings.map.resolution = 8;
+      settings.map.wrap = Wrap::clamp_to_edge;
+      settings.map.far_m = 40;
+      settings.bias = {};
+      settings.filter.kind = std::string(find_setting("filter.kind").choices[f]);
+      if (kind_thrown([&] { validate(settings, kind); })) continue;
+      load(scene, 1, 1);
+      const LightFrame frame = make_light_frame(scene, settings);
+      const float reference = renderer.probe(frame, settings).reference[0];
+      ASSERT_GT(reference, 0);
+      const auto seen_with = [&](float depth) {
+        return renderer.lookup(renderer.upload_map(Image<float>(8, frame.map_size().y, depth), settings.map), frame,
+                               settings)[0];
+      };
+      EXPECT_EQ(seen_with(reference), 1) << describe(settings);
+      EXPECT_EQ(seen_with(std::nextafter(reference, 0.0f)), 0) << describe(settings);
+    }
+  }
+}
+
+// A map whose left half is dark, looked up across its middle: what each filter makes of an edge, from its definition.
+TEST_F(GlLookupTest, AnEdgeThroughEachFilter) {
+  Scene scene;
+  scene.light = light_from_above();
+  scene.camera = camera_from_above(4);
+  add_floor(scene, 0, 4);
+  load(scene, 128, 128);  // 8 pixels to a texel, whose centres lie at odd sixteenths
+  Settings settings;
+  settings.map.resolution = 16;
+  settings.map.extent_m = 4;
+  settings.map.near_m = 0;
+  settings.map.far_m = 20;
+  settings.map.wrap = Wrap::clamp_to_edge;
+  settings.bias = {};
+  Image<float> half(16, 16, 1.0f);
+  const LightFrame frame = make_light_frame(scene, settings);
+  const bool right_is_plus_x = frame.right.x > 0;
+  for (int j = 0; j < 16; ++j)
+    for (int i = 0; i < 8; ++i) half.at(i, j) = 0.25f;
+  const ShadowMap map = renderer.upload_map(half, settings.map);
+  const auto row = [&](FilterSettings filter) {
+    settings.filter = filter;
+    return renderer.lookup(map, frame, settings);
+  };
+  // Of one axis: P at `at` texels is lit by the share of its taps that lie in texels 8 and up.
+  const auto expect_edge = [&](FilterSettings filter, auto&& lit_at) {
+    const Image<float> seen = row(filter);
+    int fractions = 0;
+    for (int x = 0; x < 128; ++x) {
+      const double at = right_is_plus_x ? (x + 0.5) / 8 : 16 - (x + 0.5) / 8;
+      ASSERT_NEAR(seen.at(x, 64), lit_at(at), sampler_error(renderer.info()))
+          << find_setting("filter.kind").get(settings) << " at " << at;
+      fractions += seen.at(x, 64) > 0 && seen.at(x, 64) < 1;
+    }
+    EXPECT_EQ(fractions > 0, filter.kind != "none");
+  };
+  const auto nearest = [](double at) { return std::floor(at) >= 8 ? 1.0 : 0.0; };
+  const auto ramp = [](double at) { return std::clamp(at - 7.5, 0.0, 1.0); };
+  expect_edge({.kind = "none"}, nearest);
+  expect_edge({.kind = "box", .size = 3},
+              [&](double at) { return (nearest(at - 1) + nearest(at) + nearest(at + 1)) / 3; });
+  expect_edge({.kind = "box", .size = 3, .step_texels = 2.5},
+              [&](double at) { return (nearest(at - 2.5) + nearest(at) + nearest(at + 2.5)) / 3; });
+  expect_edge({.kind = "hardware"}, ramp);
+  const double g = std::exp(-1 / (2 * 0.8 * 0.8)), sum = 1 + 2 * g;
+  expect_edge({.kind = "gaussian", .size = 3, .sigma_texels = 0.8},
+              [&](double at) { return (g * ramp(at - 1) + ramp(at) + g * ramp(at + 1)) / sum; });
+}
+
+// A lone tilted plane. Its own map shadows it but where the comparison follows the plane: at the tap (which leaves what
+// the grid rounds the tap to), or at the texel's centre, where the map holds that very depth.
+TEST_F(GlLookupTest, PlaneFormsFreeAPlaneOfAcne) {
+  for (const LightKind kind : {LightKind::directional, LightKind::spot}) {
+    Scene scene;
+    scene.light = light_from_above();
+    scene.light.kind = kind;
+    scene.light.cone_deg = 40;
+    scene.camera = camera_from_above(3);
+    const double rise = 1.5;
+    const glm::dvec3 u(8, 8 * rise, 0), v(0, 2, -8);
+    add_quad(scene, "plane", -0.5 * (u + v), u, v);
+    const ReceiverImage receivers = load(scene, 64, 64);
+    Settings settings;
+    settings.map.resolution = 64;
+    settings.map.format = DepthFormat::d32f;
+    settings.map.extent_m = 8;
+    settings.map.near_m = 1;
+    settings.map.far_m = 30;
+    settings.filter.kind = "box";
+    settings.filter.size = 5;
+    const LightFrame frame = make_light_frame(scene, settings);
+    const ShadowMap map = renderer.render_map(frame, settings);
+    const auto dark_share = [&](const char* reference, double constant) {
+      settings.bias.reference = reference;
+      settings.bias["constant"] = constant;
+      const Image<float> seen = renderer.lookup(map, frame, settings);
+      double dark = 0;
+      for (float s : seen.pixels) dark += 1 - static_cast<double>(s);
+      return dark / static_cast<double>(seen.size());
+    };
+    // Half a texel of the steepest depth gradient that any receiver has, along both axes.
+    settings.bias.reference = "receiver_plane";
+    const LookupProbe probe = renderer.probe(frame, settings);
+    double half_texel = 0;
+    for (size_t i = 0; i < probe.gradient.size(); ++i) {
+      ASSERT_NE(receivers.primitive[i], no_primitive);
+      half_texel = std::max(half_texel, 0.5 * (std::abs(probe.gradient[i].x) + std::abs(probe.gradient[i].y)));
+    }
+    // The rasteriser's 2 places and a handful of the shader's (2^-24 each), times the kernel's reach.
+    constexpr double float_error = 32 * 0x1p-24;
+    EXPECT_GT(half_texel, 100 * float_error);
+    EXPECT_GT(dark_share("own_depth", 0), 0.3) << "two fifths of the taps lie uphill";
+    EXPECT_GT(dark_share("own_depth", 4 * half_texel), 0.01) << "its kernel wants five times as much";
+    EXPECT_EQ(dark_share("own_depth", 5 * half_texel + float_error), 0);
+    EXPECT_GT(dark_share("receiver_plane", 0), 0.3);
+    EXPECT_GT(dark_share("receiver_plane", 0.7 * half_texel), 0.001);
+    EXPECT_EQ(dark_share("receiver_plane", half_texel + float_error), 0);
+    EXPECT_EQ(dark_share("texel_plane", float_error), 0);
+  }
+}
+
+// At the very float where a pixel's verdict turns: the comparison is strict, and one float less bias is dark.
+TEST_F(GlLookupTest, TurnsAtTheExactFloat) {
+  std::mt19937 random(29);
+  const Scene scene = random_scene(random);
+  const ReceiverImage receivers = load(scene, 64, 48);
+  Settings settings;
+  settings.map.resolution = 64;
+  settings.map.near_m = 0;
+  settings.map.far_m = 30;
+  const LightFrame frame = make_light_frame(scene, settings);
+  const ShadowMap map = renderer.render_map(frame, settings);
+  const LookupProbe probe = renderer.probe(frame, settings);
+  const Image<float> stored = renderer.read_map(map);
+  int turned = 0;
+  for (size_t i = 0; i < receivers.primitive.size() && turned < 40; i += 17) {
+    if (receivers.primitive[i] == no_primitive) continue;
+    const float reference = probe.reference[i], z = stored_at(stored, settings.map.wrap, probe.texel(i, 0));
+    if (!(reference > z)) continue;
+    float bias = reference - z;  // near the least one that lights the pixel; then walk to it
+    while (reference - bias > z) bias = std::nextafter(bias, 1.0f);
+    while (!(reference - std::nextafter(bias, 0.0f) > z)) bias = std::nextafter(bias, 0.0f);
+    settings.bias["constant"] = bias;
+    EXPECT_EQ(renderer.lookup(map, frame, settings)[i], 1.0f) << bias;
+    settings.bias["constant"] = std::nextafter(bias, 0.0f);
+    EXPECT_EQ(renderer.lookup(map, frame, settings)[i], 0.0f) << bias;
+    ++turned;
+  }
+  EXPECT_EQ(turned, 40);
+}
+
+// One floor that reaches far beyond a map whose every texel is darkened by a lid: what does the outside say?
+TEST_F(GlLookupTest, OutsideTheMap) {
+  Scene scene;
+  scene.light = light_from_above();
+  scene.camera = camera_from_above(8);
+  add_floor(scene, 0, 4);
+  load(scene, 16, 16);
+  Settings settings;
+  settings.map.resolution = 8;
+  settings.map.extent_m = 2;  // the middle 4 x 4 pixels
+  settings.map.near_m = 0;
+  settings.map.far_m = 20;
+  const auto at_rim = [&](Wrap wrap) {
+    settings.map.wrap = wrap;
+    const LightFrame frame = make_light_frame(scene, settings);
+    const ShadowMap map = renderer.upload_map(Image<float>(8, 8, 0.25f), settings.map);
+    const Image<float> visibility = renderer.lookup(map, frame, settings);
+    EXPECT_EQ(visibility.at(8, 8), settings.map.far_m == 20 ? 0.0f : 1.0f) << "inside: dark, or beyond far";
+    return visibility.at(0, 15);
+  };
+  EXPECT_EQ(at_rim(Wrap::clamp_to_border), 1.0f);
+  EXPECT_EQ(at_rim(Wrap::clamp_to_edge), 0.0f);
+  EXPECT_EQ(at_rim(Wrap::repeat), 0.0f);
+  settings.map.far_m = 5;  // the floor is 10 m away: beyond far
+  EXPECT_EQ(at_rim(Wrap::repeat), 1.0f);
+}
+
+TEST_F(GlLookupTest, BeyondFarIsLitOnlyWhenAsked) {
+  Scene scene;
+  scene.light = light_from_above();
+  scene.camera = camera_from_above(2);
+  add_floor(scene, 0, 4);
+  const ReceiverImage receivers = load(scene, 8, 8);
+  Settings settings;
+  settings.map.resolution = 8;
+  settings.map.extent_m = 8;
+  settings.map.near_m = 0;
+  settings.map.far_m = 5;
+  const LightFrame frame = make_light_frame(scene, settings);
+  const ShadowMap map = renderer.render_map(frame, settings);  // empty: all 1, and the reference is 2
+  EXPECT_EQ(renderer.lookup(map, frame, settings).at(4, 4), 1.0f);
+  settings.map.lit_beyond_far = false;
+  EXPECT_EQ(renderer.lookup(map, frame, settings).at(4, 4), 0.0f);
+}
+
+TEST_F(GlLookupTest, ReceiversThatAreNotFiniteAreDark) {
+  Scene scene;
+  scene.light = light_from_above();
+  Settings settings;
+  settings.map.resolution = 2;
+  settings.map.extent_m = 0.5;
+  settings.map.near_m = 0;
+  settings.map.far_m = 20;
+  ReceiverImage receivers{Image<glm::vec3>(6, 1, glm::vec3(0)), Image<glm::vec3>(6, 1, glm::vec3(0, 1, 0)),
+                          Image<uint32_t>(6, 1, 0u)};
+  receivers.position[1].x = NAN;
+  receivers.position[2].y = INFINITY;
+  receivers.normal[3].z = NAN;
+  receivers.position[4] = glm::vec3(3e38f);  // finite, but not after the matrix
+  receivers.primitive[5] = no_primitive;
+  const LightFrame frame = make_light_frame(scene, settings);
+  renderer.load_receivers(receivers, {0, 5, 5});
+  const ShadowMap map = renderer.upload_map(Image<float>(2, 2, 1.0f), settings.map);
+  EXPECT_EQ(renderer.lookup(map, frame, settings).pixels, (std::vector<float>{1, 0, 0, 0, 0, 0}));
+  const LookupProbe probe = renderer.probe(frame, settings);
+  for (size_t i = 1; i < 6; ++i) EXPECT_EQ(probe.reference[i], 0.0f) << i;
+}
+
+// Behind a spot light, and where a point light is, there is no direction from which to look a receiver up.
+TEST_F(GlLookupTest, ReceiversWithoutAPlaceInTheMapAreDark) {
+  Scene scene;
+  scene.light.position_m = {0, 2, 0};
+  scene.light.target_m = {0, 2, -1};
+  ReceiverImage receivers{Image<glm::vec3>(4, 1), Image<glm::vec3>(4, 1, glm::vec3(0, 1, 0)),
+                          Image<uint32_t>(4, 1, 0u)};
+  receivers.position.pixels = {{0.1f, 1.9f, -3}, {0.1f, 1.9f, 3}, {0.5f, 2, 0}, {0, 2, 0}};
+  renderer.load_receivers(receivers, {0, 5, 5});
+  Settings settings;
+  settings.map.resolution = 4;
+  settings.map.near_m = 1;
+  settings.map.far_m = 20;
+  const auto seen_by = [&](LightKind kind) {
+    scene.light.kind = kind;
+    const LightFrame frame = make_light_frame(scene, settings);
+    const LookupProbe probe = renderer.probe(frame, settings);
+    for (size_t i = 0; i < 4; ++i) EXPECT_TRUE(std::isfinite(probe.n_dot_l[i]) && std::isfinite(probe.reference[i]));
+    const Image<float> open(4, frame.map_size().y, 1.0f);
+    return renderer.lookup(renderer.upload_map(open, settings.map), frame, settings).pixels;
+  };
+  EXPECT_EQ(seen_by(LightKind::spot), (std::vector<float>{1, 0, 0, 0}));
+  EXPECT_EQ(seen_by(LightKind::point), (std::vector<float>{1, 1, 1, 0}));
+}
+
+TEST_F(GlLookupTest, TimesArePositiveAndDifferentSizesFollowEachOther) {
+  std::mt19937 random(5);
+  const Scene scene = random_scene(random);
+  Settings settings;
+  settings.map.resolution = 64;
+  settings.filter = {"box", 5};
+  const LightFrame frame = make_light_frame(scene, settings);
+  for (const int width : {32, 200, 32}) {
+    load(scene, width, 24);
+    double ms = -1;
+    const Image<float> seen = renderer.lookup(renderer.render_map(frame, settings), frame, settings, &ms);
+    EXPECT_EQ(seen.width, width);
+    EXPECT_GT(ms, 0);
+  }
+}
+
+// The time is of the work done, not of the calls that ask for it: 961 taps cost more than one.
+TEST_F(GlLookupTest, TimesIncludeTheWork) {
+  std::mt19937 random(6);
+  const Scene scene = random_scene(random);
+  Settings settings;
+  settings.map.resolution = 64;
+  const LightFrame frame = make_light_frame(scene, settings);
+  load(scene, 320, 180);
+  const ShadowMap map = renderer.render_map(frame, settings);
+  const auto fastest = [&](FilterSettings filter) {
+    settings.filter = filter;
+    double best = INFINITY;
+    for (int k = 0; k < 3; ++k) {
+      double ms = 0;
+      renderer.lookup(map, frame, settings, &ms);
+      best = std::min(best, ms);
+    }
+    return best;
+  };
+  // Seen: about 50 on llvmpipe. A GPU may be idle for most of so small a picture.
+  const double least_ratio = renderer.info().software ? 5 : 1;
+  EXPECT_GT(fastest({"box", 31}), least_ratio * fastest({"none", 1}));
+}
+
+TEST_F(GlLookupTest, AMapOfAnotherResolutionIsADefect) {
+  Scene scene;
+  add_floor(scene, 0, 4);
+  load(scene, 8, 8);
+  Settings settings;
+  settings.map.resolution = 8;
+  const ShadowMap map = renderer.upload_map(Image<float>(8, 8, 1.0f), settings.map);
+  settings.map.resolution = 16;
+  EXPECT_EQ(kind_thrown([&] { renderer.lookup(map, make_light_frame(scene, settings), settings); }),
+            static_cast<int>(ErrorKind::defect));
+}
+
+}  // namespace
+}  // namespace noonmark::gl

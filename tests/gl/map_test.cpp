@@ -1,0 +1,254 @@
+// Depth maps against closed forms.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/gl/fixture.h"
+
+namespace noonmark::gl {
+namespace {
+
+struct Format {
+  DepthFormat format;
+  const char* name;
+  double quantum;  // window depth to which the format rounds
+};
+// A 32-bit float is not rounded again when it is stored.
+constexpr Format formats[] = {
+    {DepthFormat::d16, "d16", 1.0 / 65535}, {DepthFormat::d24, "d24", 1.0 / 16777215}, {DepthFormat::d32f, "d32f", 0}};
+
+// The rasteriser's own error: the matrix, the vertices, the plane's equation and its evaluation are floats, each off by
+// half a place of a depth near 1 (2^-24). llvmpipe 22.3 was seen at up to 1.74 places; 2 is what the tool's precision
+// rung counts with.
+constexpr double rasteriser_error = 2 * 0x1p-24;
+// What comes back is a float: half a place of one in [0.5, 1).
+constexpr double read_back_error = 0x1p-25;
+
+// A lone plane tilted by theta towards azimuth phi, filling a map of 2 m x 2 m, depths within [0.1, 0.9].
+TEST_F(GlTest, DepthOfATiltedPlane) {
+  for (const double theta_deg : {0.0, 20.0, 45.0, 60.0})
+    for (const double phi_deg : {0.0, 33.0, 90.0}) {
+      const double slope = std::tan(glm::radians(theta_deg));
+      const glm::dvec2 uphill(std::cos(glm::radians(phi_deg)), std::sin(glm::radians(phi_deg)));
+      const glm::dvec3 u(4, 4 * slope * uphill.x, 0), v(0, -4 * slope * uphill.y, -4);
+      Scene scene;
+      scene.light = light_from_above();
+      add_quad(scene, "plane", -0.5 * (u + v), u, v);
+      Settings settings;
+      settings.map.resolution = 64;
+      settings.map.extent_m = 2;
+      settings.map.near_m = 5;
+      settings.map.far_m = 15;
+      renderer.load_scene(scene);
+      const LightFrame frame = make_light_frame(scene, settings);
+      // The plane of the float positions, which are the scene.
+      const glm::uvec3 t = scene.triangles[0];
+      const glm::dvec3 a = scene.positions[t.x], b = scene.positions[t.y], c = scene.positions[t.z];
+      const glm::dvec3 normal = glm::cross(b - a, c - a);
+      for (const Format& f : formats) {
+        settings.map.format = f.format;
+        const Image<float> map = renderer.read_map(renderer.render_map(frame, settings));
+        double worst = 0;
+        for (int j = 0; j < 64; ++j)
+          for (int i = 0; i < 64; ++i) {
+            const glm::dvec2 centre = frame.texel_centre({i, j});
+            const glm::dvec3 start = frame.to_world({centre, 0});
+            const double z = glm::dot(normal, a - start) / glm::dot(normal, frame.forward);
+            worst = std::max(worst, std::abs(map.at(i, j) - frame.window_depth(z)));
+          }
+        EXPECT_LE(worst, rasteriser_error + f.quantum / 2 + read_back_error)
+            << f.name << " theta " << theta_deg << " phi " << phi_deg << ": " << worst * 0x1p24 << " x 2^-24";
+        if (theta_deg > 0) {
+          EXPECT_GT(worst, f.quantum / 4) << f.name << ": a slope's depths fall between the quanta";
+        }
+      }
+    }
+}
+
+TEST_F(GlTest, FixedPointDepthsAreWholeQuanta) {
+  Scene scene;
+  scene.light = light_from_above();
+  add_quad(scene, "plane", {-2, -1, 2}, {4, 2, 0}, {0, 0, -4});
+  renderer.load_scene(scene);
+  Settings settings;
+  settings.map.resolution = 32;
+  settings.map.extent_m = 2;
+  settings.map.near_m = 5;
+  settings.map.far_m = 15;
+  const LightFrame frame = make_light_frame(scene, settings);
+  for (const Format& f : {formats[0], formats[1]}) {
+    settings.map.format = f.format;
+    for (float depth : renderer.read_map(renderer.render_map(frame, settings)).pixels) {
+      // A float near 0.5 has 24 bits: it cannot hold k / (2^24 - 1) better than to 2^-25.
+      const double quanta = depth / f.quantum;
+      ASSERT_NEAR(quanta, std::round(quanta), f.format == DepthFormat::d16 ? 0.01 : 0.5001) << f.name;
+    }
+  }
+  // 16 bits really are fewer: the slope's 32 depths in 0.1 of the range differ from the 24-bit ones.
+  settings.map.format = DepthFormat::d16;
+  const Image<float> coarse = renderer.read_map(renderer.render_map(frame, settings));
+  settings.map.format = DepthFormat::d24;
+  EXPECT_NE(coarse.pixels, renderer.read_map(renderer.render_map(frame, settings)).pixels);
+}
+
+// Clipping is by the matrix: what lies before near or beyond far leaves no depth, and is not clamped either.
+TEST_F(GlTest, NearAndFarClip) {
+  Scene scene;
+  scene.light = light_from_above();
+  add_floor(scene, 8, 1);  // 2 m from the light
+  add_floor(scene, 5, 1);  // 5 m
+  add_floor(scene, 0, 3);  // 10 m
+  renderer.load_scene(scene);
+  Settings settings;
+  settings.map.resolution = 16;
+  settings.map.extent_m = 4;  // the upper two fill the middle half
+  settings.map.format = DepthFormat::d32f;
+  const auto depths = [&](double near_m, double far_m) {
+    settings.map.near_m = near_m;
+    settings.map.far_m = far_m;
+    const Image<float> map = renderer.read_map(renderer.render_map(make_light_frame(scene, settings), settings));
+    return std::pair(map.at(8, 8), map.at(0, 0));
+  };
+  constexpr float rounding = 1e-6f;  // a few float ulps of a depth near 1
+  auto [middle, rim] = depths(1, 11);
+  EXPECT_NEAR(middle, 0.1f, rounding);
+  EXPECT_NEAR(rim, 0.9f, rounding);
+  std::tie(middle, rim) = depths(3, 11);  // the topmost is before near
+  EXPECT_NEAR(middle, 0.25f, rounding);
+  EXPECT_NEAR(rim, 0.875f, rounding);
+  std::tie(middle, rim) = depths(3, 9);  // and the lowest beyond far
+  EXPECT_NEAR(middle, 1.0f / 3, rounding);
+  EXPECT_EQ(rim, 1.0f);
+}
+
+TEST_F(GlTest, CullingChoosesTheStoredFace) {
+  Scene scene;
+  scene.light = light_from_above();
+  add_box(scene, "box", {-1, 2, -1}, {1, 4, 1});
+  renderer.load_scene(scene);
+  Settings settings;
+  settings.map.resolution = 8;
+  settings.map.extent_m = 1;
+  settings.map.near_m = 0;
+  settings.map.far_m = 10;
+  settings.map.format = DepthFormat::d32f;
+  const LightFrame frame = make_light_frame(scene, settings);
+  const auto stored = [&](CulledFaces cull) {
+    settings.map.cull = cull;
+    return renderer.read_map(renderer.render_map(frame, settings)).at(3, 5);
+  };
+  constexpr float rounding = 1e-6f;
+  EXPECT_NEAR(stored(CulledFaces::none), 0.6f, rounding);
+  EXPECT_NEAR(stored(CulledFaces::back), 0.6f, rounding);
+  EXPECT_NEAR(stored(CulledFaces::front), 0.8f, rounding);
+  // A single sheet tells back from none.
+  Scene sheet;
+  sheet.light = scene.light;
+  add_floor(sheet, 4, 1);
+  renderer.load_scene(sheet);
+  EXPECT_NEAR(stored(CulledFaces::none), 0.6f, rounding);
+  EXPECT_NEAR(stored(CulledFaces::back), 0.6f, rounding);
+  EXPECT_EQ(stored(CulledFaces::front), 1.0f);
+  std::swap(sheet.triangles[0].y, sheet.triangles[0].z);
+  std::swap(sheet.triangles[1].y, sheet.triangles[1].z);
+  renderer.load_scene(sheet);
+  EXPECT_EQ(stored(CulledFaces::back), 1.0f);
+}
+
+// Row 0 of a map is at the lowest v: the light's up.
+TEST_F(GlTest, MapRowsRunUpwards) {
+  Scene scene;
+  scene.light = light_from_above();
+  scene.light.position_m = {3, 10, 2};
+  add_box(scene, "box", {0.3, 0, 0.7}, {0.8, 0.4, 0.9});
+  renderer.load_scene(scene);
+  Settings settings;
+  settings.map.resolution = 128;
+  settings.map.extent_m = 4;
+  settings.map.near_m = 0;
+  settings.map.far_m = 20;
+  const LightFrame frame = make_light_frame(scene, settings);
+  const Image<float> map = renderer.read_map(renderer.render_map(frame, settings));
+  const glm::dvec3 middle = frame.to_light({0.55, 0.2, 0.8});
+  const glm::ivec2 texel(glm::floor((glm::dvec2(middle) + 2.0) / frame.texel_m()));
+  EXPECT_LT(map.at(texel.x, texel.y), 1.0f);
+  EXPECT_EQ(map.at(texel.x, 127 - texel.y), 1.0f);
+  EXPECT_EQ(map.at(127 - texel.x, texel.y), 1.0f);
+}
+
+TEST_F(GlTest, UploadedMapsComeBackBitForBit) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> any(0, 1);
+  std::uniform_int_distribution<int> exponent(-126, 0);
+  for (const int side : {1, 3, 64, 333}) {
+    Settings settings;
+    settings.map.resolution = side;
+    Image<float> depth(side, side);
+    for (float& d : depth.pixels) d = random() % 4 ? any(random) : std::ldexp(1.0f, exponent(random));
+    depth.pixels.front() = 0;
+    depth.pixels.back() = 1;
+    if (side > 2) depth.pixels[1] = std::nextafter(1.0f, 0.0f);
+    const Image<float> back = renderer.read_map(renderer.upload_map(depth, settings.map));
+    ASSERT_EQ(back.width, side);
+    for (size_t i = 0; i < depth.size(); ++i)
+      ASSERT_TRUE(same_bits(depth[i], back[i])) << side << ": " << depth[i] << " came back as " << back[i];
+  }
+}
+
+// A map of more rows than one strip of the read-back holds.
+TEST_F(GlTest, LargeMapsComeBackWhole) {
+  Settings settings;
+  settings.map.resolution = 5000;
+  Image<float> depth(5000, 5000);
+  std::mt19937 random(11);
+  for (float& d : depth.pixels) d = static_cast<float>(random() >> 8) * 0x1p-24f;
+  EXPECT_TRUE(renderer.read_map(renderer.upload_map(depth, settings.map)).pixels == depth.pixels);
+}
+
+TEST_F(GlTest, DepthsThatOpenGlWouldClampAreRefused) {
+  Settings settings;
+  settings.map.resolution = 2;
+  for (const float bad : {-0.1f, 1.0001f, NAN, INFINITY}) {
+    Image<float> depth(2, 2, 0.5f);
+    depth[3] = bad;
+    EXPECT_EQ(kind_thrown([&] { renderer.upload_map(depth, settings.map); }), static_cast<int>(ErrorKind::defect))
+        << bad;
+  }
+}
+
+TEST_F(GlTest, TooLargeAMapIsAUsageErrorThatNamesTheLimit) {
+  Settings settings;
+  const int limit = renderer.info().max_map_resolution;
+  settings.map.resolution = limit + 1;
+  LightFrame frame;
+  frame.resolution = limit + 1;
+  std::string message;
+  EXPECT_EQ(kind_thrown([&] { renderer.render_map(frame, settings); }, &message), static_cast<int>(ErrorKind::usage));
+  EXPECT_NE(message.find(std::to_string(limit)), std::string::npos) << message;
+  EXPECT_NE(message.find("map.resolution"), std::string::npos) << message;
+}
+
+TEST_F(GlTest, TimesArePositiveAndGrowWithTheMap) {
+  Scene scene;
+  scene.light = light_from_above();
+  add_floor(scene, 0, 3);
+  renderer.load_scene(scene);
+  Settings settings;
+  settings.map.extent_m = 4;
+  settings.map.near_m = 0;
+  settings.map.far_m = 20;
+  const auto fastest = [&](int side) {
+    settings.map.resolution = side;
+    double best = INFINITY;
+    for (int k = 0; k < 5; ++k) {
+      double ms = -1;
+      renderer.render_map(make_light_frame(scene, settings), settings, &ms);
+      EXPECT_GT(ms, 0);
+      best = std::min(best, ms);
+    }
+    return best;
+  };
+  EXPECT_GT(fastest(4096), fastest(64)) << "4096 times the texels";
+}
+
+}  // namespace
+}  // namespace noonmark::gl

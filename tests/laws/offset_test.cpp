@@ -1,0 +1,217 @@
+// Law 3, of the normal offset (Holbert 2011): what offset d frees of acne, how far it moves shadows, and what it leaves
+// alone. theta: between a receiver's normal N and the light; w: one texel; |N|_1 = |N.u| + |N.v| over the texel axes,
+// which is A sin(theta) with A = |cos phi| + |sin phi|; k = r + 1/2 for nearest taps of a box of radius r.
+//
+// P' = P + d N stands d above its face, so d / cos(theta) before it along the light. A tap k texels off along both axes
+// finds the face k w |g|_1 = k w |N|_1 / cos(theta) nearer to the light than beneath P'. So the face does not shade
+// itself from d = k w |N|_1 = k w A sin(theta) on, and the plane of another face B which P' stands h_B before does not
+// from h_B = k w |N_B|_1 on.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <optional>
+#include <tuple>
+
+#include "compare/ladder/law_metrics.h"
+#include "tests/laws/support.h"
+#include "tests/support/bias_of.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+double texel_axes_1(const LightFrame& frame, glm::dvec3 normal) {
+  return std::abs(glm::dot(normal, frame.right)) + std::abs(glm::dot(normal, frame.up));
+}
+
+Settings plane_settings(double theta, double phi, int size) {
+  return with({{"scene.theta_deg", text(theta)},
+               {"scene.phi_deg", text(phi)},
+               {"map.resolution", "128"},
+               {"bias.constant", "0"},
+               {"bias.normal_offset", "1"},
+               {"filter.kind", "box"},
+               {"filter.size", std::to_string(size)}},
+              small("plane", 240, 136));
+}
+
+// In texels.
+double plane_law(double theta, double phi, int size) {
+  return size / 2.0 * (std::abs(std::cos(radians(phi))) + std::abs(std::sin(radians(phi)))) * std::sin(radians(theta));
+}
+
+double acne_at(Workbench& bench, Settings settings, double offset_texels) {
+  settings.bias["normal_offset"] = offset_texels;
+  return metric(bench.measure(settings, std::nullopt), "acne");
+}
+
+TEST(Law3, NamesTheThresholdOfAPlane) {
+  Workbench bench(gl::DebugMode::fatal);
+  for (const auto& [theta, phi, size] :
+       {std::tuple(20.0, 0.0, 1), std::tuple(50.0, 45.0, 1), std::tuple(75.0, 20.0, 3)}) {
+    const Settings settings = plane_settings(theta, phi, size);
+    double dark = 0, free = 4;  // in units of the law
+    ASSERT_EQ(acne_at(bench, settings, free * plane_law(theta, phi, size)), 0);
+    for (int halving = 0; halving < 8; ++halving) {
+      const double middle = (dark + free) / 2;
+      (acne_at(bench, settings, middle * plane_law(theta, phi, size)) > 0 ? dark : free) = middle;
+    }
+    std::cout << "theta " << theta << ", phi " << phi << ", box " << size << ": threshold / law between " << dark
+              << " and " << free << "\n";
+    // It is a supremum over alignments, of which the picture has 30,000; 1/64 is the bisection's last step.
+    EXPECT_GE(free, 0.95);
+    EXPECT_LE(dark, 1 + 1.0 / 64);
+  }
+}
+
+// Is the floor's point in the shadow of the built-in plate (phi 0), grown by `margin_m` on all sides? Slabs, in double.
+bool in_plates_shadow(glm::dvec3 p, glm::dvec3 to_light, const SceneSettings& scene, double margin_m) {
+  const glm::dvec3 low(-0.8, scene.height_m - scene.thickness_m, -0.6), high(0.8, scene.height_m, 0.6);
+  double from = 0, to = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    double a = (low[axis] - margin_m - p[axis]) / to_light[axis],
+           b = (high[axis] + margin_m - p[axis]) / to_light[axis];
+    if (a > b) std::swap(a, b);
+    from = std::max(from, a);
+    to = std::min(to, b);
+  }
+  return from < to;
+}
+
+// Every receiver has the truth of the place d tan(theta) further from the light: shadow edges move by that towards it.
+TEST(Law3, MovesShadowsTowardsTheLight) {
+  Workbench bench(gl::DebugMode::fatal);
+  const double height_m = 1;
+  for (const char* offset : {"0.5", "1"}) {
+    const Measurement m = bench.measure(with({{"scene.height_m", text(height_m)},
+                                              {"map.resolution", "128"},
+                                              {"bias.constant", "0"},
+                                              {"bias.normal_offset", offset}},
+                                             small("plate", 640, 360)),
+                                        std::nullopt);
+    const glm::dvec3 to_light = m.frame.direction_to_light();
+    const double cosine = to_light.y, sine = std::sqrt(1 - cosine * cosine);
+    const double d = std::stod(offset) * m.frame.texel_m();
+    const glm::dvec3 away = -glm::normalize(glm::dvec3(to_light.x, 0, to_light.z));
+    uint64_t floor = 0, displaced = 0, undecided = 0;
+    glm::dvec3 truth_sum(0), map_sum(0);
+    double truth_dark = 0, map_dark = 0;
+    const Image<float>& step = m.ladder[Cause::displacement];
+    const Image<double> areas = light_plane_areas(m.camera, m.frame, m.receivers);
+    for (int y = 0; y < step.height; ++y) {
+      for (int x = 0; x < step.width; ++x) {
+        const size_t i = step.index(x, y);
+        if (!(m.ladder.flags[i] & flag_facing) || (m.ladder.flags[i] & flag_ambiguous)) continue;
+        if (m.receivers.primitive[i] >= 2) {
+          EXPECT_EQ(step[i], 0) << "on the plate itself nothing moves";
+          continue;
+        }
+        const glm::dvec3 p = m.receivers.position[i], further = p + d * sine / cosine * away;
+        const auto lit = [&](glm::dvec3 at) {
+          const bool in = in_plates_shadow(at, to_light, m.settings.scene, -1e-5),
+                     out = in_plates_shadow(at, to_light, m.settings.scene, 1e-5);
+          undecided += in != out;  // beyond what float positions say
+          return in != out ? std::optional<float>() : std::optional<float>(in ? 0.0f : 1.0f);
+        };
+        ++floor;
+        EXPECT_EQ(m.ladder[Rung::filtered][i], lit(p).value_or(m.ladder[Rung::filtered][i]));
+        const float moved = m.ladder[Rung::filtered][i] + step[i];
+        EXPECT_EQ(moved, lit(further).value_or(moved)) << x << ", " << y;
+        displaced += step[i] != 0;
+        const double area = areas.at(x, y) / cosine;
+        truth_sum += area * (1 - m.ladder.truth()[i]) * p;
+        truth_dark += area * (1 - m.ladder.truth()[i]);
+        map_sum += area * (1 - m.ladder.shown()[i]) * p;
+        map_dark += area * (1 - m.ladder.shown()[i]);
+      }
+    }
+    EXPECT_GT(floor, 50000u);
+    EXPECT_GT(displaced, 200u);
+    EXPECT_LT(undecided, 20u);
+    // What the map shows has moved as a whole. Its edges are a texel's staircase each, but there are 40 texels to a
+    // side and the centre is the mean of two opposite sides.
+    const glm::dvec3 moved = map_sum / map_dark - truth_sum / truth_dark;
+    std::cout << "d tan(theta) = " << d * sine / cosine << " m; the shadow moved by " << -glm::dot(moved, away)
+              << " m towards the light and " << glm::length(moved - glm::dot(moved, away) * away) << " m aside\n";
+    EXPECT_NEAR(-glm::dot(moved, away), d * sine / cosine, 0.1 * m.frame.texel_m() / cosine);
+    EXPECT_LT(glm::length(moved - glm::dot(moved, away) * away), 0.1 * m.frame.texel_m());
+    // Law 4, from the place where the lookup asks: half a texel's diagonal, and the float address's rounding.
+    EXPECT_LE(metric(m, "edge_displacement_texels"), std::sqrt(0.5) + 128 * 0x1p-22);
+    EXPECT_GT(metric(m, "edge_displacement_texels"), 0.5);
+    // Each edge, d tan(theta) along the light's trace: over the light's plane 2 d sin(theta) times the shadow's width.
+    // Exact up to where the sides meet, as long as d is less than the plate's thickness.
+    const double width = 1.6 * std::abs(away.z) + 1.2 * std::abs(away.x);
+    EXPECT_NEAR(metric(m, "displacement_area_m2") / (2 * d * sine * width), 1, 0.02);
+  }
+}
+
+// Seen from its shadow's side, a cube shows what the form is known for: a shadow that is displaced and nothing else
+// that a bias does. But for the corners of its foot, where P' may stand less than k w |N_B|_1 behind a lit face B, so
+// that a tap finds B behind P': there light shows as far as that.
+TEST(Law3, DisplacesACubesShadowAndNothingElse) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Settings settings = with({{"map.resolution", "256"},
+                                  {"view.eye_m", "5.2,2.5,4.4"},
+                                  {"view.target_m", "2.9,-0.4,1.4"},
+                                  {"view.fov_deg", "22"},
+                                  {"bias.constant", "0"},
+                                  {"bias.normal_offset", "0.7072"}},  // sqrt(1/2): enough for any unfiltered face
+                                 small("cube-room", 480, 270));
+  const Measurement m = bench.measure(settings, std::nullopt);
+  EXPECT_GT(metric(m, "displacement"), 0.001);
+  EXPECT_EQ(metric(m, "acne"), 0);
+  EXPECT_EQ(metric(m, "contract"), 0);
+  EXPECT_LE(metric(m, "rounding_excess"), 1);
+  uint64_t panning = 0, away_from_corners = 0;
+  for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {
+    if (m.ladder[Cause::peter_panning][i] == 0) continue;
+    ++panning;
+    const glm::dvec3 p = m.receivers.position[i];
+    const auto behind = [&](double distance, glm::dvec3 normal) {
+      return distance <= 0.5 * m.frame.texel_m() * texel_axes_1(m.frame, normal);
+    };
+    away_from_corners += !behind(p.x - 1.5, {1, 0, 0}) && !behind(p.z - 0.5, {0, 0, 1});
+  }
+  EXPECT_EQ(away_from_corners, 0u);
+  EXPECT_LE(panning, 10u);
+  // A bias lights the corners too, as deep as it reaches (law 2); 4 texels free the lit sides as well.
+  const Measurement b = bench.measure(
+      with({{"bias.normal_offset", "0"}, {"bias.constant", "4"}, {"bias.unit", "texel"}}, settings), std::nullopt);
+  EXPECT_GT(metric(b, "peter_panning"), 10 * metric(m, "peter_panning"));
+  EXPECT_EQ(metric(b, "displacement"), 0);
+  std::cout << "displacement " << metric(m, "displacement") << ", aliasing " << metric(m, "aliasing") << ", " << panning
+            << " pixels of Peter Panning; with a constant bias of 4 texels " << metric(b, "peter_panning")
+            << " of all\n";
+}
+
+// An occluder that stands lower than d above the receiver is passed by P', and its shadow is lost; the grid makes that
+// d plus or minus k w |N|_1, here a twentieth. Higher ones lose what P' stands within k w |N_B|_1 behind a lit side B
+// of.
+TEST(Law3, LosesAPlateBelowItsOffset) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Settings base = with(
+      {{"map.resolution", "1024"}, {"scene.thickness_m", "0.01"}, {"bias.constant", "0"}, {"bias.normal_offset", "8"}},
+      small("plate", 640, 360));
+  const double offset_m = 8 * make_light_frame(make_scene(base.scene), base).texel_m();
+  const auto lost = [&](double share) {
+    const Measurement m = bench.measure(with({{"scene.height_m", text(share * offset_m)}}, base), std::nullopt);
+    uint64_t dark = 0, panning = 0;
+    for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {
+      const float truth = m.ladder[Rung::filtered][i] + m.ladder[Cause::displacement][i];
+      if (m.receivers.primitive[i] >= 2 || !(m.ladder.flags[i] & flag_facing) || truth != 0) continue;
+      const auto reach = [&](glm::dvec3 normal) { return 0.5 * m.frame.texel_m() * texel_axes_1(m.frame, normal); };
+      const glm::dvec3 p = m.receivers.position[i];
+      if (p.x + 0.8 < reach({1, 0, 0}) || p.z + 0.6 < reach({0, 0, 1})) continue;
+      ++dark;
+      panning += m.ladder[Cause::peter_panning][i] != 0;
+    }
+    EXPECT_GT(dark, 300u);
+    return static_cast<double>(panning) / static_cast<double>(dark);
+  };
+  EXPECT_GT(lost(0.9), 0.9);  // all but the taps at its edges, which are aliasing
+  EXPECT_EQ(lost(1.1), 0);
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

@@ -1,0 +1,107 @@
+// The same experiment gives the same bytes: on one thread and on two, in another run, and after a kill.
+#include <signal.h>
+
+#include <set>
+#include <sstream>
+
+#include "tests/program/fixture.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+// Something of everything: a light with a size (sampled), filters, slopes, formats, culled faces, curves.
+const std::string sweep = R"(
+scene = "cube-room"
+pictures = "none"
+[view]
+width_px = 160
+height_px = 90
+[light]
+angular_diameter_deg = 2
+[bias]
+slope_floor = 0.005
+[truth]
+standard_error = 0.05
+[sweep]
+map.resolution = [100, 256]
+map.format = ["16", "32f"]
+map.cull = ["none", "front"]
+bias.slope = [0, 0.05]
+filter.kind = ["none", "box"]
+[[bound]]
+metric = "residual"
+max = 1e-6
+)";
+
+class Determinism : public Program {
+ protected:
+  // results.csv of a folder without its columns of times.
+  std::string results(const std::string& out) const {
+    std::istringstream lines(read_file((folder_ / out / "results.csv").string()));
+    std::set<size_t> times;
+    std::string kept;
+    bool head = true;
+    for (std::string line; std::getline(lines, line); head = false) {
+      std::istringstream cells(line);
+      std::string cell;
+      for (size_t i = 0; std::getline(cells, cell, ','); ++i) {
+        if (head && cell.find("_ms") != std::string::npos) times.insert(i);
+        if (!times.contains(i)) kept += cell + ",";
+      }
+      kept += "\n";
+    }
+    EXPECT_GT(times.size(), 3u);
+    EXPECT_GT(kept.size(), 32u * 200u);
+    return kept;
+  }
+};
+
+TEST_F(Determinism, OneThreadOrTwoAndAgain) {
+  write("x.toml", sweep);
+  ASSERT_EQ(run({"run", "x.toml", "--out", "one", "--threads", "1"}), 0) << output_;
+  ASSERT_EQ(run({"run", "x.toml", "--out", "two", "--threads", "2"}), 0) << output_;
+  ASSERT_EQ(run({"run", "x.toml", "--out", "again"}), 0) << output_;
+  const std::string expected = results("one");
+  EXPECT_EQ(results("two"), expected);
+  EXPECT_EQ(results("again"), expected);
+}
+
+TEST_F(Determinism, AKilledRunOnTwoThreadsGoesOnOnOne) {
+  write("x.toml", sweep);
+  ASSERT_EQ(run({"run", "x.toml", "--out", "whole"}), 0) << output_;
+  const pid_t child = start_until("[5/32]", {"run", "x.toml", "--out", "killed", "--threads", "2"});
+  kill(child, SIGKILL);
+  wait_for(child);
+  EXPECT_FALSE(fs::exists(folder_ / "killed/results.csv")) << "it was over before it could be killed";
+  ASSERT_EQ(run({"run", "x.toml", "--out", "killed", "--threads", "1"}), 0) << output_;
+  EXPECT_TRUE(says("points are in killed already")) << output_;
+  EXPECT_EQ(results("killed"), results("whole"));
+}
+
+// Points are measured with what an earlier one left in memory; none of it may show.
+TEST_F(Determinism, APointDoesNotDependOnThoseBefore) {
+  write("x.toml", sweep);
+  std::string reversed = sweep;
+  const auto swap_values = [&](const std::string& from, const std::string& to) {
+    const size_t at = reversed.find(from);
+    ASSERT_NE(at, std::string::npos);
+    reversed.replace(at, from.size(), to);
+  };
+  swap_values("[100, 256]", "[256, 100]");
+  swap_values("[\"16\", \"32f\"]", "[\"32f\", \"16\"]");
+  swap_values("bias.slope = [0, 0.05]", "bias.slope = [0.05, 0]");
+  write("r.toml", reversed);
+  ASSERT_EQ(run({"run", "x.toml", "--out", "a"}), 0) << output_;
+  ASSERT_EQ(run({"run", "r.toml", "--out", "b"}), 0) << output_;
+  // The same lines in another order, under other numbers.
+  const auto lines = [&](const std::string& out) {
+    std::multiset<std::string> set;
+    std::istringstream in(results(out));
+    for (std::string line; std::getline(in, line);) set.insert(line.substr(line.find(',')));
+    return set;
+  };
+  EXPECT_EQ(lines("a"), lines("b"));
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

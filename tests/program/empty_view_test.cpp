@@ -1,0 +1,146 @@
+// Pictures in which next to nothing can be judged: the program says so, and why, and no number is made up.
+#include <gtest/gtest.h>
+
+#include "tests/program/fixture.h"
+#include "tests/scenes/gltf/files.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+class EmptyView : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    nlohmann::json square = test::square();  // in the plane z = 0, 1 m wide, seen from +Z only
+    write("square.gltf", square.dump());
+    square["materials"] = {{{"doubleSided", true}}};
+    square["meshes"][0]["primitives"][0]["material"] = 0;
+    write("both.gltf", square.dump());
+    square["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.5}, {"zfar", 20}}}}};
+    square["nodes"].push_back({{"camera", 0}, {"translation", {0.5, 0.5, 2}}});
+    square["scenes"][0]["nodes"].push_back(square["nodes"].size() - 1);
+    write("near_and_far.gltf", square.dump());
+  }
+  static std::vector<std::string> render(const std::vector<std::string>& sets) {
+    std::vector<std::string> arguments = {
+        "render", "--set", "view.width_px=64", "--set", "view.height_px=36", "--set", "map.resolution=128"};
+    for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
+    return arguments;
+  }
+};
+
+struct Case {
+  std::vector<std::string> sets;
+  std::string says;
+};
+
+TEST_F(EmptyView, RenderSaysWhy) {
+  const std::vector<Case> cases = {
+      {{"view.eye_m=0,1,100", "view.target_m=0,1,200"}, "no pixel of 2304 can be judged: the whole scene is behind"},
+      {{"view.eye_m=0,1,100", "view.target_m=1000,1,0"}, "no pixel of 2304 can be judged: the camera looks past"},
+      {{"view.near_m=60"}, "the camera's near or far plane cuts the surface off"},
+      {{"view.far_m=0.2"}, "set view.far_m = auto"},
+      {{"scene.name=near_and_far.gltf", "view.eye_m=0.5,0.5,40"}, "cuts the surface off; set view.fit_depths = true"},
+      {{"scene.name=square.gltf", "view.eye_m=0.5,0.5,-2", "view.target_m=0.5,0.5,0"}, "backs of single-sided faces"},
+      {{"scene.name=square.gltf", "view.eye_m=0.5,0.5,30"}, "only"},
+      {{"scene.name=both.gltf", "view.eye_m=0.5,0.5,2", "light.position_m=0.5,0.5,-3", "light.target_m=0.5,0.5,0"},
+       "see one that faces away from the light"},
+      {{"scene.name=point-room", "light.kind=directional", "light.position_m=9,20,3", "light.target_m=0,0,0"},
+       "are in shadow: the light reaches nothing"},
+  };
+  for (const Case& one : cases) {
+    SCOPED_TRACE(testing::PrintToString(one.sets));
+    EXPECT_EQ(run(render(one.sets)), 0) << output_;
+    EXPECT_TRUE(says(one.says)) << output_;
+    EXPECT_FALSE(says("nan")) << output_;
+    EXPECT_FALSE(says("\n\n\n")) << output_;
+  }
+  const std::vector<std::vector<std::string>> enough = {
+      {},
+      {"view.eye_m=500,500,500", "view.fov_deg=5"},
+      {"scene.name=near_and_far.gltf"},
+      {"scene.name=near_and_far.gltf", "view.eye_m=0.5,0.5,40", "view.fov_deg=3", "view.fit_depths=true"},
+      {"scene.name=square.gltf"},
+      {"scene.name=both.gltf", "view.eye_m=0.5,0.5,-2", "view.target_m=0.5,0.5,0", "light.position_m=0.5,2,-3"}};
+  for (const std::vector<std::string>& sets : enough) {
+    EXPECT_EQ(run(render(sets)), 0) << output_;
+    EXPECT_FALSE(says("can be judged")) << output_;
+  }
+}
+
+TEST_F(EmptyView, ABoundOverNothingFailsAndEveryPageSaysWhy) {
+  write("empty.toml", R"(
+scene = "cube-room"
+view = {width_px = 64, height_px = 36, eye_m = [0, 1, 100], target_m = [0, 1, 200]}
+[sweep]
+map.resolution = [64, 128]
+[[bound]]
+metric = "acne"
+max = 1
+[[bound]]
+metric = "shaded_rmse"
+max = 1
+[[bound]]
+metric = "window_width_m"
+min = 0
+[[bound]]
+metric = "best_bias_depth"
+max = 0.01
+[[bound]]
+metric = "flat_min_depth"
+max = 0.01
+[[law]]
+name = "a law over nothing"
+measured = "error"
+at_most = "1"
+found = "an error of {100 * error}%"
+)");
+  EXPECT_EQ(run({"check", "empty.toml", "--out", "out"}), 1) << output_;
+  const std::string why = "the whole scene is behind the camera";
+  EXPECT_TRUE(says("note: the picture is poor at 2 of 2 points; at point 0, no pixel of 2304")) << output_;
+  EXPECT_TRUE(says("0 of 5 bounds held, 0 of 1 law holds") && says("found not measured")) << output_;
+  EXPECT_FALSE(says("nan")) << output_;
+  for (const char* page : {"summary.md", "junit.xml", "report.html"}) {
+    const std::string text = read_file((folder_ / "out" / page).string());
+    EXPECT_NE(text.find(why), std::string::npos) << page;
+    EXPECT_EQ(text.find("nan%"), std::string::npos) << page;
+  }
+  const std::string report = read_file((folder_ / "out" / "report.html").string());
+  EXPECT_NE(report.find("<b>Nothing was measured</b>: the picture is poor at 2 of 2 points"), std::string::npos);
+  const std::string shown = report.substr(0, report.find("<script"));
+  for (const char* claim : {"method fails", "good enough", "usable bias exists"})
+    EXPECT_EQ(shown.find(claim), std::string::npos) << claim;
+  for (const char* page : {"summary.md", "junit.xml"})
+    EXPECT_EQ(read_file((folder_ / "out" / page).string()).find("nan"), std::string::npos) << page;
+}
+
+// The picture is whole wherever the eye is put, and no bound holds on what a near plane left.
+TEST_F(EmptyView, MovingTheEyeCutsNothingOff) {
+  write("moved.toml", R"(
+scene = "square.gltf"
+view = {width_px = 64, height_px = 36, eye_m = [0.5, 0.5, 0.1], target_m = [0.5, 0.5, 0]}
+[[bound]]
+metric = "receivers"
+min = 2304
+)");
+  EXPECT_EQ(run({"check", "moved.toml", "--out", "out"}), 0) << output_;
+}
+
+TEST_F(EmptyView, CamerasThatAreNoneAreUsageErrors) {
+  for (const Case& one : std::vector<Case>{
+           {{"view.up=0,0,0"}, "view.up = 0,0,0"},
+           {{"view.eye_m=0,5,0", "view.target_m=0,0,0", "view.up=0,1,0"}, "view.up = 0,1,0 is parallel to the view"},
+           {{"view.near_m=5", "view.far_m=5"}, "view.near_m = 5 is not less than view.far_m = 5"},
+           {{"scene.name=near_and_far.gltf", "view.near_m=200"},
+            "near plane (200 m) is not before its far plane (20 m)"},
+           {{"view.near_m=0"}, "view.near_m = '0' is not allowed"},
+           {{"view.eye_m=1,1,1", "view.target_m=1,1,1"}, "eye is its target"}}) {
+    SCOPED_TRACE(testing::PrintToString(one.sets));
+    EXPECT_EQ(run(render(one.sets)), 2) << output_;
+    EXPECT_TRUE(says(one.says)) << output_;
+    EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+  }
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

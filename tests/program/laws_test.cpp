@@ -1,0 +1,95 @@
+// `noonmark check` on laws: those that ship hold, and one that does not is told with what there is to know of it.
+#include <algorithm>
+#include <cctype>
+#include <regex>
+#include <set>
+
+#include "app/experiment.h"
+#include "app/experiment_file.h"
+#include "tests/program/fixture.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+class ProgramLaws : public Program {};
+
+const std::string& laws_file() {
+  static const std::string path = std::string(NOONMARK_SOURCE_DIR) + "/experiments/laws.toml";
+  return path;
+}
+// Each part of the laws is a test of its own: together they take minutes, and CTest runs several tests at a time.
+std::vector<std::string> law_parts() {
+  std::vector<std::string> names;
+  for (const Experiment& part : load_experiment(laws_file()).parts) names.push_back(part.part);
+  return names;
+}
+
+class LawPart : public Program, public testing::WithParamInterface<std::string> {};
+
+TEST_P(LawPart, Holds) {
+  EXPECT_EQ(run({"check", laws_file(), "--part", GetParam(), "--out", "laws"}), 0) << output_;
+  EXPECT_FALSE(says("BROKEN")) << output_;
+  for (const char* column : {"law ", "predicted", "measured", "verdict"}) EXPECT_TRUE(says(column)) << column;
+  // Each of its laws has a row that begins with the law's name, which begins with the law's number.
+  Experiment experiment = load_experiment(laws_file());
+  choose_parts(experiment, {GetParam()});
+  ASSERT_FALSE(experiment.parts.at(0).laws.empty());
+  for (const Law& law : experiment.parts[0].laws) {
+    const size_t row = output_.find("\n" + law.name + " ");
+    ASSERT_NE(row, std::string::npos) << law.name << " is not in\n" << output_;
+    EXPECT_TRUE(output_.substr(row + 1, output_.find('\n', row + 1) - row - 1).ends_with(" holds")) << output_;
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "laws/report.html"));
+}
+INSTANTIATE_TEST_SUITE_P(Laws, LawPart, testing::ValuesIn(law_parts()), [](const auto& part) {
+  std::string name = part.param;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+  return name;
+});
+
+TEST(Laws, EachOfShadowMapsIsAsserted) {
+  std::set<int> numbers;
+  for (const Experiment& part : load_experiment(laws_file()).parts)
+    for (const Law& law : part.laws) numbers.insert(std::stoi(law.name));
+  for (int number = 1; number <= 11; ++number) EXPECT_TRUE(numbers.contains(number)) << number;
+}
+
+TEST_F(ProgramLaws, ABrokenLawIsExitCodeOne) {
+  write("x.toml", R"toml(
+[view]
+width_px = 160
+height_px = 90
+[map]
+resolution = 64
+[[part]]
+name = "slopes"
+scene = "plane"
+[part.sweep]
+scene.theta_deg = [30, 60]
+[[part.law]]
+name = "right"
+measured = "acne_free_bias_m"
+at_most = "texel_m / 2 * tan_deg(scene.theta_deg)"
+within = 0.001
+[[part.law]]
+name = "half of what it takes"
+measured = "acne_free_bias_m"
+at_most = "texel_m / 4 * tan_deg(scene.theta_deg)"
+)toml");
+  EXPECT_EQ(run({"check", "x.toml", "--out", "out"}), 1) << output_;
+  EXPECT_TRUE(says("x.toml: 1 of 2 laws hold")) << output_;
+  EXPECT_TRUE(std::regex_search(output_, std::regex("right .* holds"))) << output_;
+  EXPECT_TRUE(std::regex_search(output_, std::regex("half of what it takes .* BROKEN"))) << output_;
+  EXPECT_TRUE(std::regex_search(output_, std::regex("reproduce: noonmark render x.toml --point [01]"))) << output_;
+  const std::string junit = read_file((folder_ / "out/junit.xml").string());
+  EXPECT_NE(junit.find("tests=\"2\" failures=\"1\""), std::string::npos) << junit;
+  EXPECT_NE(read_file((folder_ / "out/summary.md").string()).find("**Broken: 1 of 2 laws.**"), std::string::npos);
+  // The command that it names is one that works.
+  EXPECT_EQ(run({"render", "x.toml", "--point", "1"}), 0) << output_;
+  EXPECT_TRUE(says("plane:")) << output_;
+  EXPECT_EQ(run({"render", "x.toml"}), 2) << "it has two points";
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

@@ -1,0 +1,147 @@
+// Which shared libraries the program loads, and what it says where one is missing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <regex>
+#include <tuple>
+
+#include "tests/program/fixture.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
+class Libraries : public Program {
+ protected:
+  // A file that is no library, found first, stands for a missing one: the loader looks no further.
+  int run_without(const std::vector<std::string>& libraries, const std::vector<std::string>& arguments) {
+    const fs::path hiding = folder_ / "hiding";
+    fs::remove_all(hiding);
+    fs::create_directories(hiding);
+    for (const std::string& library : libraries) write("hiding/" + library, "");
+    setenv("LD_LIBRARY_PATH", hiding.c_str(), 1);
+    const int code = run(arguments);
+    unsetenv("LD_LIBRARY_PATH");
+    return code;
+  }
+};
+
+const std::vector<std::string> small_picture = {"render", "--set", "view.width_px=16", "--set", "view.height_px=9"};
+
+// 250 of OpenImageIO's would take a quarter of a second, before `--version` as well.
+TEST_F(Libraries, StartsWithThoseAloneThatEveryMeasurementNeeds) {
+  setenv("LD_TRACE_LOADED_OBJECTS", "1", 1);  // the loader lists them in place of running the program
+  const int code = run({});
+  unsetenv("LD_TRACE_LOADED_OBJECTS");
+  ASSERT_EQ(code, 0) << output_;
+  EXPECT_TRUE(says("libembree")) << output_;
+  for (const char* later : {"OpenImageIO", "libGL.so", "libOpenGL.so", "libEGL.so"})
+    EXPECT_FALSE(says(later)) << output_;
+  EXPECT_LT(std::count(output_.begin(), output_.end(), '\n'), 30) << output_;
+}
+
+// Of one that is missing here the system's loader speaks, in words of its own, so README says which they are.
+TEST_F(Libraries, ReadmeNamesEveryOneThatTheProgramIsLinkedWith) {
+  if (sanitized) GTEST_SKIP() << "the sanitizers' libraries are linked as well";
+  FILE* const listing = popen("readelf -d '" NOONMARK_PROGRAM "' 2>/dev/null", "r");
+  ASSERT_NE(listing, nullptr);
+  std::string dynamic;
+  for (int c = 0; (c = std::fgetc(listing)) != EOF;) dynamic += static_cast<char>(c);
+  if (pclose(listing) != 0) GTEST_SKIP() << "no readelf here";
+  const std::string readme = read_file(NOONMARK_SOURCE_DIR "/README.md");
+  const size_t begin = readme.find("What the program is linked with"), end = readme.find("ends with 127", begin);
+  ASSERT_NE(end, std::string::npos);
+  const auto in_small_letters = [](std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
+  const std::string sentence = in_small_letters(readme.substr(begin, end - begin));
+  // Where README's word is not the file's name.
+  const std::map<std::string, std::string> words = {{"tbb", "onetbb"},  {"tomlplusplus", "toml++"}, {"stdc++", "c++"},
+                                                    {"m", "c and c++"}, {"c", "c and c++"},         {"gcc_s", "c++"}};
+  const std::regex needed("\\[lib([^\\]]+?)[0-9]*\\.so");
+  int count = 0;
+  for (std::sregex_iterator one(dynamic.begin(), dynamic.end(), needed), none; one != none; ++one, ++count) {
+    const auto other = words.find((*one)[1]);
+    const std::string word = other == words.end() ? (*one)[1].str() : other->second;
+    EXPECT_NE(sentence.find(in_small_letters(word)), std::string::npos) << word;
+  }
+  EXPECT_GT(count, 10);
+}
+
+TEST_F(Libraries, WithoutOpenGlSaysWhatToInstall) {
+  const std::vector<std::vector<std::string>> needed = {
+      {"libEGL.so.1"}, {"libOpenGL.so.0", "libGL.so.1"}, {"libGLdispatch.so.0"}, {"libEGL_mesa.so.0"}};
+  for (const std::vector<std::string>& missing : needed) {
+    SCOPED_TRACE(missing.back());
+    EXPECT_EQ(run_without(missing, {"doctor"}), 4) << output_;
+    EXPECT_TRUE(says("OpenGL    NOT USABLE") && says("apt install libegl1")) << output_;
+    EXPECT_TRUE(says("Embree    ")) << "the rest is told as well: " << output_;
+    EXPECT_EQ(run_without(missing, small_picture), 4) << output_;
+    EXPECT_TRUE(says("apt install libegl1")) << output_;
+    EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+    EXPECT_EQ(run_without(missing, {"settings"}), 0) << output_;
+  }
+  for (const char* one : {"libOpenGL.so.0", "libGL.so.1"})
+    EXPECT_EQ(run_without({one}, {"doctor"}), 0) << "the other one will do: " << output_;
+}
+
+TEST_F(Libraries, WithoutOpenImageIoMeasuresAndRefusesPictures) {
+  const std::string pictures = "scene = \"plate\"\n[view]\nwidth_px = 16\nheight_px = 9\n";
+  write("pictures.toml", pictures);
+  write("none.toml", "pictures = \"none\"\n" + pictures);
+  const std::vector<std::string> missing = {"noonmark_images.so"};
+  EXPECT_EQ(run_without(missing, {"doctor"}), 4) << output_;
+  EXPECT_TRUE(says("Pictures  NOT USABLE") && says("noonmark_images.so")) << output_;
+  EXPECT_TRUE(says("it belongs beside the program") && !says("apt install")) << output_;
+  EXPECT_EQ(run_without(missing, small_picture), 4) << output_;
+  EXPECT_TRUE(says("it belongs beside the program")) << output_;
+  EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+  EXPECT_EQ(run_without(missing, {"run", "pictures.toml", "--out", "out"}), 4) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "out/results.sqlite")) << "said before anything is measured";
+  EXPECT_EQ(run_without(missing, {"run", "none.toml", "--out", "out"}), 0) << output_;
+}
+
+TEST_F(Libraries, AdvisesOnTheOneThatIsMissing) {
+  EXPECT_EQ(run_without({"libOpenImageIO.so.2.4"}, {"doctor"}), 4) << output_;
+  EXPECT_TRUE(says("Pictures  NOT USABLE") && says("apt install libopenimageio2.4")) << output_;
+  EXPECT_TRUE(says("OpenGL    ") && !says("OpenGL    NOT USABLE")) << output_;
+  // Of what OpenImageIO needs, one that the program itself does not.
+  EXPECT_EQ(run_without({"libGLX.so.0"}, {"doctor"}), 4) << output_;
+  EXPECT_TRUE(says("libGLX.so.0 is a library that OpenImageIO needs")) << output_;
+  EXPECT_FALSE(says("apt install libopenimageio")) << output_;
+}
+
+// Nothing is missing there: the driver that was chosen has too little, or was told to say so.
+TEST_F(Libraries, ADriverOfAnOlderOpenGlSaysWhatItOffersAndWhoChoseIt) {
+  const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
+      {"GALLIUM_DRIVER", "softpipe", "(softpipe)"},
+      {"MESA_GL_VERSION_OVERRIDE", "3.0", "OpenGL 3.0"},
+      {"MESA_GL_VERSION_OVERRIDE", "4.4", "OpenGL 4.4"}};
+  for (const auto& [name, value, offers] : cases) {
+    SCOPED_TRACE(name + "=" + value);
+    const auto chosen = [&] {
+      setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);  // the variables are Mesa's, and a GPU may have another driver
+      setenv(name.c_str(), value.c_str(), 1);
+    };
+    EXPECT_EQ(run({"doctor"}, chosen), 4) << output_;
+    EXPECT_TRUE(says("its driver offers OpenGL ") && says(offers) && says(" only; what is set can be the reason: "))
+        << output_;
+    EXPECT_TRUE(says(name + "=" + value)) << output_;
+    EXPECT_FALSE(says("apt install")) << output_;
+    EXPECT_EQ(run(small_picture, chosen), 4) << output_;
+    EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
+  }
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

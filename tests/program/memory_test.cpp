@@ -1,0 +1,263 @@
+// What measurements really take of memory, against the prediction; and that nothing begins that would not fit.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "app/experiment.h"
+#include "app/experiment_file.h"
+#include "app/memory_estimate.h"
+#include "app/workbench.h"
+#include "tests/program/fixture.h"
+#include "tests/scenes/gltf/files.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+class Memory : public Program {
+ protected:
+  // Peak of a whole run of the program, in bytes.
+  double peak(const std::vector<std::string>& arguments) {
+    const pid_t child = start(arguments);
+    int status = 0;
+    struct rusage usage {};
+    wait4(child, &status, 0, &usage);
+    output_ = read_file((folder_ / "output.txt").string());
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << output_;
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+  }
+  // With an address space of so many bytes: what the machine has must not decide a test.
+  int run_within(rlim_t bytes, const std::vector<std::string>& arguments) {
+    struct rlimit before {};
+    getrlimit(RLIMIT_AS, &before);
+    struct rlimit less = before;
+    less.rlim_cur = bytes;
+    setrlimit(RLIMIT_AS, &less);  // of this process too, for as long as it takes to start the other
+    const pid_t child = start(arguments);
+    setrlimit(RLIMIT_AS, &before);
+    const int code = wait_for(child);
+    output_ = read_file((folder_ / "output.txt").string());
+    return code;
+  }
+  // A bumpy square of 2 n^2 triangles, drawn `instances` times under this name.
+  std::string grid(uint16_t n, int instances, const std::string& name = "grid") {
+    std::vector<float> positions;
+    for (int y = 0; y <= n; ++y)
+      for (int x = 0; x <= n; ++x)
+        for (float value :
+             {static_cast<float>(x) / n, static_cast<float>(y) / n, 0.01f * static_cast<float>((x * 7 + y * 13) % 5)})
+          positions.push_back(value);
+    std::vector<uint16_t> indices;
+    for (uint16_t y = 0; y < n; ++y)
+      for (uint16_t x = 0; x < n; ++x) {
+        const auto a = static_cast<uint16_t>(y * (n + 1) + x), b = static_cast<uint16_t>(a + 1),
+                   c = static_cast<uint16_t>(a + n + 1), d = static_cast<uint16_t>(c + 1);
+        for (uint16_t v : {a, b, d, a, d, c}) indices.push_back(v);
+      }
+    test::json document = test::square();
+    test::json& primitive = document["meshes"][0]["primitives"][0];
+    primitive["attributes"]["POSITION"] =
+        test::add_accessor(document, test::raw(positions), 5126, "VEC3", positions.size() / 3);
+    document["accessors"].back()["min"] = {0, 0, 0};
+    document["accessors"].back()["max"] = {1, 1, 1};
+    document["meshes"][0]["primitives"][0]["indices"] =
+        test::add_accessor(document, test::raw(indices), 5123, "SCALAR", indices.size());
+    document["nodes"] = test::json::array();
+    document["scenes"][0]["nodes"] = test::json::array();
+    for (int i = 0; i < instances; ++i) {
+      document["nodes"].push_back({{"mesh", 0}, {"name", name}, {"translation", {i % 16, i / 16, 0}}});
+      document["scenes"][0]["nodes"].push_back(i);
+    }
+    return write("grid.gltf", document.dump());
+  }
+};
+
+// So many squares, each a little above the one before: all their edges lie on one another as the light sees them.
+test::json stack(int squares) {
+  test::json document = test::square();
+  document["nodes"] = test::json::array();
+  document["scenes"][0]["nodes"] = test::json::array();
+  for (int i = 0; i < squares; ++i) {
+    document["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 1e-5 * i}}});
+    document["scenes"][0]["nodes"].push_back(i);
+  }
+  return document;
+}
+
+struct Case {
+  const char* name;
+  const char* toml;
+};
+std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
+class MemoryOf : public Memory, public testing::WithParamInterface<Case> {};
+
+// The peak is at most what was predicted, and the prediction at most estimate_factor times the peak; of what a point
+// adds to a program that measures next to nothing, too.
+TEST_P(MemoryOf, APointIsPredicted) {
+  if (std::string(GetParam().name) == "triangles") grid(100, 40);
+  if (std::string(GetParam().name) == "overlapping") write("stack.gltf", stack(40000).dump());
+  const std::string small =
+      write("small.toml", "pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = 16\n");
+  const std::string file = write("x.toml", GetParam().toml);
+  const double nothing = peak({"run", small, "--out", "small"}), measured = peak({"run", file, "--out", "out"});
+  const Experiment experiment = load_experiment(file);
+  const double predicted =
+      Workbench(gl::DebugMode::log).memory(experiment.base, true, experiment.pictures != "none").bytes();
+  EXPECT_LE(measured, predicted);
+  EXPECT_GT(measured, 1.4 * nothing) << "the point is too small to say anything";
+  EXPECT_LE(predicted - nothing, estimate_factor * (measured - nothing));
+}
+INSTANTIATE_TEST_SUITE_P(
+    Dominated, MemoryOf,
+    testing::Values(
+        Case{"pixels", "pictures = \"first\"\n[view]\nwidth_px = 1280\nheight_px = 720\n[map]\nresolution = 64\n"},
+        Case{"taps",
+             "pictures = \"none\"\n[view]\nwidth_px = 640\nheight_px = 360\n[map]\nextent_scale = 4\n[filter]\nkind = "
+             "\"box\"\nsize = 9\n"},
+        Case{"texels", "pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = 4096\n"},
+        Case{"cube",
+             "scene = \"point-room\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "
+             "1024\n"},
+        Case{"triangles",
+             "scene = \"grid.gltf\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "
+             "64\n"},
+        Case{"overlapping",
+             "scene = \"stack.gltf\"\npictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = "
+             "64\n"}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+// render lists every part in point.json too.
+TEST_F(Memory, TilesAreListedAsPredicted) {
+  const std::string scene = grid(40, 3, std::string(200, 'n'));
+  const std::string file = write("x.toml",
+                                 "[scene]\nname = \"grid.gltf\"\nmesh = \"tiles\"\n[view]\nwidth_px = 16\nheight_px = "
+                                 "16\n[map]\nresolution = 64\n");
+  const double measured = peak({"render", file, "--out", "out"});
+  const double predicted = Workbench(gl::DebugMode::log).memory(load_experiment(file).base, true, true).bytes();
+  EXPECT_LE(measured, predicted);
+  EXPECT_LE(predicted, estimate_factor * measured);
+}
+
+// In strips of half a MB, of which the widest kernel's taps fill 30.
+TEST_F(Memory, DoesNotGrowWithTheKernel) {
+  const auto peak_of = [](const char* size) {
+    const pid_t child = fork();
+    if (child == 0) {
+      Settings settings;
+      for (const auto& [name, value] :
+           std::initializer_list<std::pair<const char*, const char*>>{{"scene.name", "plane"},
+                                                                      {"view.width_px", "160"},
+                                                                      {"view.height_px", "100"},
+                                                                      {"filter.kind", "box"},
+                                                                      {"filter.size", size},
+                                                                      {"map.resolution", "256"}})
+        find_setting(name).set(settings, value);
+      const Measurement m = Workbench(gl::DebugMode::log, {}, 1 << 19).measure(settings, std::nullopt);
+      _exit(m.record.metrics.at("contract") == 0 ? 0 : 1);
+    }
+    int status = 0;
+    struct rusage usage {};
+    wait4(child, &status, 0, &usage);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+  };
+  const double narrow = peak_of("3"), wide = peak_of("31");
+  EXPECT_LT(wide - narrow, 7e6) << "of 15 MB that all taps take";
+}
+
+TEST_F(Memory, ADryRunNamesIt) {
+  const std::string file =
+      write("x.toml", "[view]\nwidth_px = 64\nheight_px = 36\n[sweep]\nmap.resolution = [64, 2048]\n");
+  ASSERT_EQ(run({"run", file, "--dry-run"}), 0) << output_;
+  EXPECT_TRUE(std::regex_search(output_, std::regex("map.resolution = 64  \\([0-9.]+ MB\\)"))) << output_;
+  EXPECT_TRUE(
+      std::regex_search(output_, std::regex("memory: at most [0-9.]+ MB, by point 1 \\([0-9.]+ MB of it for the "
+                                            "[a-z ]+\\); [0-9.]+ [MG]B are available \\([a-z' ]+, with [0-9.]+ MB "
+                                            "that the program holds already\\)")))
+      << output_;
+}
+
+TEST_F(Memory, APointThatDoesNotFitIsRefusedBeforeAnyIsMeasured) {
+  const std::string file = write("x.toml",
+                                 "pictures = \"none\"\n[view]\nwidth_px = 64\nheight_px = "
+                                 "36\n[sweep]\nmap.resolution = [64, 16384]\n");
+  const rlim_t space = rlim_t{4} << 30;
+  for (const char* dry : {"", "--dry-run"}) {
+    std::vector<std::string> arguments = {"run", file, "--out", "out"};
+    if (*dry) arguments.push_back(dry);
+    EXPECT_EQ(run_within(space, arguments), 2) << output_;
+    EXPECT_TRUE(std::regex_search(
+        output_,
+        std::regex("noonmark: point 1 \\(map.resolution = 16384\\) would take about [0-9.]+ GB of memory, [0-9.]+ GB "
+                   "of it for the shadow map, and [0-9.]+ GB are available \\(the limit of the address space, "
+                   "ulimit -v, minus the space that libraries and threads reserve\\); lower map.resolution\n")))
+        << output_;
+    EXPECT_FALSE(fs::exists(folder_ / "out/results.csv"));
+  }
+  EXPECT_EQ(run_within(space, {"render", file, "--point", "1", "--out", "out"}), 2) << output_;
+  EXPECT_TRUE(says("lower map.resolution")) << output_;
+  EXPECT_EQ(run_within(space, {"run", file, "--out", "small", "--set", "map.resolution=64"}), 0) << output_;
+}
+
+// At every limit of address space: a sweep is refused before its first point or measured whole, and a dry run says
+// which. Points of different kernels free and take memory between them, which the C library keeps.
+TEST_F(Memory, ADryRunSaysWhatARunWillSay) {
+  int refused = 0, measured = 0;
+  for (const char* pictures : {"none", "first"}) {
+    const std::string file = write("x.toml", "scene = \"cube-room\"\npictures = \"" + std::string(pictures) +
+                                                 "\"\n[view]\nwidth_px = 320\nheight_px = 180\n[filter]\nkind = "
+                                                 "\"box\"\n[sweep]\nfilter.size = [3, 5]\n");
+    for (rlim_t megabytes = 1060; megabytes <= 1660; megabytes += 200) {
+      SCOPED_TRACE(std::string(pictures) + " " + std::to_string(megabytes));
+      const auto code = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"run", file, "--threads", "2", "--out", "out"});
+        return run_within(megabytes * 1'000'000, more);
+      };
+      fs::remove_all(folder_ / "out");
+      const int dry = code({"--dry-run"});
+      const std::string said = output_;
+      EXPECT_EQ(code({}), dry) << said << output_;
+      EXPECT_TRUE(dry == 0 || dry == 2 || dry == 4) << said;
+      EXPECT_EQ(fs::exists(folder_ / "out/results.csv"), dry == 0) << output_;
+      EXPECT_FALSE(says("1/2") && dry != 0) << "a point was measured: " << output_;
+      ++(dry == 0 ? measured : refused);
+    }
+  }
+  EXPECT_GT(refused, 1);
+  EXPECT_GT(measured, 1);
+}
+
+TEST_F(Memory, InstancesAreCountedBeforeTheyAreMade) {
+  const std::string scene = grid(100, 3350);  // 67 million triangles in a file of half a megabyte
+  EXPECT_LT(fs::file_size(scene), 1'200'000u);
+  EXPECT_EQ(run_within(rlim_t{8} << 30, {"render", "--set", "scene.name=" + scene}), 3) << output_;
+  EXPECT_TRUE(
+      std::regex_search(output_, std::regex("its 67000000 triangles, instances counted, take at least [0-9.]+ GB "
+                                            "of memory and [0-9.]+ GB are available .*fewer instances")))
+      << output_;
+}
+
+TEST_F(Memory, OtherTrianglesAreCountedBeforeTheyAreMade) {
+  const auto render = [&](const std::string& scene, const char* mesh) {
+    return run_within(rlim_t{8} << 30, {"render", "--set", "scene.name=" + scene, "--set",
+                                        std::string("scene.mesh=") + mesh, "--out", "out"});
+  };
+  const std::string below = grid(100, 50);  // 64 million tiles
+  EXPECT_EQ(render(below, "tiles"), 2) << output_;
+  EXPECT_TRUE(std::regex_search(
+      output_, std::regex("noonmark: .*grid.gltf: scene.mesh = tiles makes 64000000 triangles of its 1000000, which "
+                          "take at least [0-9.]+ GB of memory, and [0-9.]+ GB are available \\(the limit of the "
+                          "address space, ulimit -v\\); choose another scene.mesh or ")))
+      << output_;
+  EXPECT_EQ(render(below, "t_junctions"), 2) << output_;
+  EXPECT_TRUE(says("scene.mesh = t_junctions makes 23000000 triangles of its 1000000")) << output_;
+  const std::string above = grid(100, 60);
+  EXPECT_EQ(render(above, "tiles"), 2) << output_;
+  EXPECT_TRUE(
+      says("scene.mesh = tiles makes 76800000 triangles of its 1200000, which are more than the 67108864 "
+           "allowed; choose another scene.mesh or "))
+      << output_;
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

@@ -1,0 +1,122 @@
+// The power fails at any moment of a check: what was said to be measured is there, and the check goes on to the same
+// results. The kill tests cannot see this: what a killed program wrote, the system still writes to the disk.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <random>
+
+#include "compare/store/store.h"
+#include "scenes/error.h"
+#include "tests/program/fixture.h"
+#include "tests/program/lossy_disk.h"
+#include "tests/support/sample_results.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+const std::string sweep = R"(
+scene = "plate"
+pictures = "first"
+[view]
+width_px = 32
+height_px = 18
+[curve]
+bias_depth = [0, 0.001, 0.01]
+[sweep]
+map.resolution = [16, 24, 32]
+bias.constant = [0, 0.01]
+[[bound]]
+metric = "residual"
+max = 1e-6
+)";
+constexpr int64_t points = 6;
+
+class PowerCut : public Program {
+ protected:
+  // Checks into disk/out and returns what it did to the folder disk.
+  std::vector<test::DiskStep> traced_check() {
+    make_folder((folder_ / "disk").string());
+    const auto prepare = [&] {
+      setenv("LD_PRELOAD", NOONMARK_PRELOAD_DISK, 1);
+      setenv("NOONMARK_TEST_DISK_ROOT", (folder_ / "disk").c_str(), 1);
+      setenv("NOONMARK_TEST_DISK_LOG", (folder_ / "trace").c_str(), 1);
+    };
+    EXPECT_EQ(run({"check", write("sweep.toml", sweep), "--out", "disk/new/out"}, prepare), 0) << output_;
+    return test::read_trace((folder_ / "trace").string());
+  }
+};
+
+TEST_F(PowerCut, LosesNothingThatWasSaidToBeMeasured) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "AddressSanitizer must be loaded before anything else";
+#endif
+  const std::vector<test::DiskStep> steps = traced_check();
+  ASSERT_GT(steps.size(), 300u);
+  const std::string root = (folder_ / "disk").string(), after = (folder_ / "after").string();
+  const std::string store = "/new/out/results.sqlite";
+  const Results whole = ResultStore::open(root + store).load();
+  const std::string fingerprint = ResultStore::open(root + store).fingerprint();
+  ASSERT_EQ(whole.points.size(), static_cast<size_t>(points));
+  const std::string csv = without_times(root + "/new/out/results.csv");
+
+  std::mt19937 random(1);
+  test::LossyDisk disk(root);
+  int64_t said = 0, most_found = 0;
+  int cuts = 0, resumed = 0, lost = 0;
+  for (size_t i = 0; i < steps.size(); ++i) {
+    SCOPED_TRACE("after step " + std::to_string(i));
+    disk.play(steps[i]);
+    if (steps[i].op == test::DiskOp::said && steps[i].data.starts_with("[")) ++said;
+    // Where something becomes durable, is moved or said; and a third of the rest.
+    if (steps[i].op == test::DiskOp::write && random() % 3 != 0) continue;
+    fs::remove_all(after);
+    fs::create_directories(after);
+    disk.cut_power(after, random);
+    ++cuts;
+    if (!fs::exists(after + store)) {
+      ASSERT_EQ(said, 0);
+      ++lost;
+      continue;
+    }
+    {
+      ResultStore opened(after + store, fingerprint, Existing::resume);
+      const Results left = opened.load();  // its seals hold
+      const auto found = static_cast<int64_t>(left.points.size());
+      ASSERT_GE(found, said) << "what was said to be measured is gone";
+      ASSERT_LE(found, said + 1) << "the one that was being stored";
+      for (int64_t id = 0; id < found; ++id)
+        ASSERT_TRUE(same(left.points[static_cast<size_t>(id)].metrics, whole.points[static_cast<size_t>(id)].metrics));
+      most_found = std::max(most_found, found);
+    }
+    // What is written beside and renamed is whole or not there.
+    for (const char* name : {"results.csv", "report.html", "junit.xml", "summary.md", "images/p0000-truth.png"}) {
+      const std::string file = after + "/new/out/" + name;
+      if (fs::exists(file)) {
+        ASSERT_EQ(read_file(file), read_file(root + "/new/out/" + name)) << name;
+      }
+    }
+    if (cuts % 97 != 60) continue;
+    ++resumed;
+    ASSERT_EQ(run({"check", (folder_ / "sweep.toml").string(), "--out", "after/new/out"}), 0) << output_;
+    EXPECT_EQ(without_times(after + "/new/out/results.csv"), csv);
+    for (const auto& entry : fs::recursive_directory_iterator(after))
+      EXPECT_NE(entry.path().extension(), ".tmp") << "left of the run that was cut off";
+  }
+  EXPECT_EQ(said, points);
+  EXPECT_EQ(most_found, points);
+  EXPECT_GT(lost, 0) << "the store's own making was never cut off";
+  EXPECT_GT(cuts, 150);
+  RecordProperty("cuts", cuts);
+  EXPECT_GE(resumed, 2);
+  // The trace has seen everything that the program did, or the disk above is not the program's.
+  int files = 0;
+  for (const auto& [path, bytes] : disk.whole()) {
+    EXPECT_EQ(bytes, read_file(path)) << path;
+    ++files;
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(root)) files -= entry.is_regular_file();
+  EXPECT_EQ(files, 0);
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

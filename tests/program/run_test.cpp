@@ -1,0 +1,240 @@
+// The program as a user meets it: verbs, exit codes, messages, files; a killed sweep that resumes.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sqlite3.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "scenes/builtin.h"
+#include "scenes/file.h"
+#include "tests/program/fixture.h"
+#include "tests/support/measured.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+const std::string sweep = R"(
+title = "A small sweep"
+scene = "cube-room"
+pictures = "none"
+[view]
+width_px = 160
+height_px = 90
+[sweep]
+map.resolution = [64, 100, 128, 200, 256, 300, 400, 512]
+filter.kind = ["none", "box"]
+bias.constant = [0, 0.002, 0.01]
+[[bound]]
+metric = "residual"
+max = 1e-6
+)";
+
+int points_in(const fs::path& store) {
+  sqlite3* db = nullptr;
+  int count = 0;
+  if (sqlite3_open_v2(store.c_str(), &db, SQLITE_OPEN_READONLY, nullptr) == SQLITE_OK)
+    sqlite3_exec(
+        db, "SELECT count(*) FROM points",
+        [](void* out, int, char** values, char**) {
+          *static_cast<int*>(out) = std::stoi(values[0]);
+          return 0;
+        },
+        &count, nullptr);
+  sqlite3_close(db);
+  return count;
+}
+
+TEST_F(Program, ResumesAfterSigkillWithTheSameResults) {
+  const std::string experiment = write("sweep.toml", sweep);
+  ASSERT_EQ(run({"run", experiment, "--out", "whole"}), 0) << output_;
+  ASSERT_EQ(points_in(folder_ / "whole/results.sqlite"), 48);
+
+  const pid_t child = start_until("[10/48]", {"run", experiment, "--out", "killed"});
+  kill(child, SIGKILL);
+  ASSERT_EQ(wait_for(child), -SIGKILL) << "it must not have finished before it was killed";
+  const int left = points_in(folder_ / "killed/results.sqlite");
+  EXPECT_GE(left, 10);
+  EXPECT_LT(left, 48);
+  EXPECT_FALSE(fs::exists(folder_ / "killed/results.csv"));
+
+  ASSERT_EQ(run({"run", experiment, "--out", "killed"}), 0) << output_;
+  EXPECT_TRUE(says(" of 48 points are in killed already")) << output_;
+  EXPECT_EQ(without_times(folder_ / "killed/results.csv"), without_times(folder_ / "whole/results.csv"));
+  for (const auto& entry : fs::directory_iterator(folder_ / "killed"))
+    EXPECT_TRUE(entry.path().filename() == "results.sqlite" || entry.path().filename() == "results.csv" ||
+                entry.path().filename() == "report.html")
+        << entry;
+
+  // A changed experiment does not mix with what is there.
+  const std::string other = write("sweep.toml", sweep + "\n[map]\nformat = \"16\"\n");
+  EXPECT_EQ(run({"run", other, "--out", "killed"}), 2) << output_;
+  EXPECT_TRUE(says("map.format")) << output_;
+}
+
+TEST_F(Program, StopsAtSigtermAndSaysThatItIsIncomplete) {
+  const std::string experiment = write("sweep.toml", sweep);
+  const pid_t child = start_until("[3/48]", {"check", experiment, "--out", "out"});
+  kill(child, SIGTERM);
+  EXPECT_EQ(wait_for(child), 6);
+  EXPECT_NE(read_file((folder_ / "out/summary.md").string()).find("Incomplete"), std::string::npos);
+}
+
+TEST_F(Program, KeepsASecondRunOutOfTheFolder) {
+  const std::string experiment = write("sweep.toml", sweep);
+  const pid_t first = start_until("[1/48]", {"run", experiment, "--out", "out"});
+  kill(first, SIGSTOP);  // or it might end before the second has begun
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 2);
+  EXPECT_TRUE(says("another run is writing into out")) << output_;
+  kill(first, SIGKILL);
+  wait_for(first);
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << "a killed run leaves no lock: " << output_;
+}
+
+TEST_F(Program, ChecksAFolderWithAResultsFolderForEachExperiment) {
+  const std::string one =
+      "scene = \"plate\"\n[view]\nwidth_px = 64\nheight_px = 36\n[[bound]]\nmetric = \"residual\"\nmax = ";
+  fs::create_directories(folder_ / "exps/a");
+  fs::create_directories(folder_ / "exps/b");
+  write("exps/a/x.toml", one + "1e-6\n");
+  write("exps/b/x.toml", one + "1e-6\n");
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}), 0) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "out/a/x/junit.xml") && fs::exists(folder_ / "out/b/x/junit.xml")) << output_;
+  write("exps/b/x.toml", one + "-1\n");  // no residual is below 0
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}), 1) << output_;
+}
+
+TEST_F(Program, ChecksTheExperimentOfTheDemo) {
+  const std::string shipped = std::string(NOONMARK_SOURCE_DIR) + "/experiments/cube-room.toml";
+  // Every point, in a quarter of the pixels: the bounds are shares of the receivers.
+  const auto check = [&](const std::string& file) {
+    return run({"check", file, "--out", "out", "--set", "view.width_px=480", "--set", "view.height_px=270"});
+  };
+  ASSERT_EQ(check(shipped), 0) << output_;
+  for (const char* file : {"report.html", "results.csv", "results.sqlite", "junit.xml", "summary.md"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
+
+  // The same results judged by a tighter bound: broken, with the point, the pixel and the command.
+  const std::string tightened =
+      write("tight.toml", read_file(shipped) + "\n[[bound]]\nmetric = \"aliasing\"\nmax = 1e-9\n");
+  ASSERT_EQ(check(tightened), 1) << output_;
+  EXPECT_TRUE(says("noonmark render")) << output_;
+  EXPECT_TRUE(says("pixel")) << output_;
+  EXPECT_NE(read_file((folder_ / "out/junit.xml").string()).find("<failure"), std::string::npos);
+}
+
+// What a constant has to add to an offset is not what the law says of a constant alone.
+TEST_F(Program, RenderNamesTheLawsBiasOnlyWhereAConstantIsAlone) {
+  write("x.toml", one_point);
+  const std::vector<std::string> render = {"render", "x.toml", "--out", "o", "--set", "bias.constant=0.001"};
+  ASSERT_EQ(run(render), 0) << output_;
+  EXPECT_NE(output_.find("; by law 1 the planes in the picture need"), std::string::npos) << output_;
+  for (const char* other : {"bias.normal_offset_sin=0.3", "bias.slope=0.01", "bias.polygon_units=1"}) {
+    std::vector<std::string> with_other = render;
+    with_other.insert(with_other.end(), {"--set", other});
+    ASSERT_EQ(run(with_other), 0) << output_;
+    EXPECT_EQ(output_.find("by law 1"), std::string::npos) << output_;
+    EXPECT_NE(output_.find("on top of the other parts"), std::string::npos) << output_;
+  }
+}
+
+TEST_F(Program, RendersOnePointWithAllThatASecondOpinionNeeds) {
+  ASSERT_EQ(run({"render", "--set", "view.width_px=160", "--set", "view.height_px=90", "--set", "map.resolution=128",
+                 "--out", "one"}),
+            0)
+      << output_;
+  for (const char* file :
+       {"point.json", "ladder.exr", "map.exr", "point-truth.png", "point-map.png", "point-classes.png"})
+    EXPECT_GT(fs::file_size(folder_ / "one" / file), 200u) << file;
+  const std::string experiment = write("sweep.toml", sweep);
+  EXPECT_EQ(run({"render", experiment}), 2);
+  EXPECT_TRUE(says("--point")) << output_;
+  EXPECT_EQ(run({"render", experiment, "--point", "48"}), 2) << output_;
+  EXPECT_EQ(run({"render", experiment, "--point", "47", "--out", "one"}), 0) << output_;
+}
+
+TEST_F(Program, RebuildsTheReportFromTheStore) {
+  const std::string experiment = write("sweep.toml", sweep);
+  ASSERT_EQ(run({"run", experiment, "--set", "map.resolution=64", "--out", "out"}), 0) << output_;
+  const std::string report = read_file((folder_ / "out/report.html").string());
+  fs::remove(folder_ / "out/report.html");
+  ASSERT_EQ(run({"report", "out"}), 0) << output_;
+  EXPECT_EQ(read_file((folder_ / "out/report.html").string()), report);
+  EXPECT_EQ(run({"report", "nowhere"}), 3) << output_;
+}
+
+// A triangle over a floor, of a file that holds more than is measured: said on the terminal, in point.json, in the
+// report and in the report that is rebuilt from the store.
+TEST_F(Program, SaysWhatAFileHoldsAndIsNotModelled) {
+  const std::string note = "busy: 1 primitive of lines left out; 1 animation at rest";
+  write("busy.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}, {"attributes": {"POSITION": 0}, "mode": 1}]}],
+    "animations": [{}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri":
+      "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/"}]})");
+  const std::string experiment =
+      write("busy.toml", "scene = \"busy.gltf\"\n[view]\nwidth_px = 48\nheight_px = 32\n[map]\nresolution = 64\n");
+  ASSERT_EQ(run({"render", experiment, "--out", "one"}), 0) << output_;
+  EXPECT_TRUE(says("note: " + note)) << output_;
+  EXPECT_NE(read_file((folder_ / "one/point.json").string()).find("\"1 primitive of lines left out\""),
+            std::string::npos);
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  EXPECT_TRUE(says("note: " + note)) << output_;
+  EXPECT_NE(read_file((folder_ / "out/report.html").string()).find(note), std::string::npos);
+  fs::remove(folder_ / "out/report.html");
+  ASSERT_EQ(run({"report", "out"}), 0) << output_;
+  EXPECT_NE(read_file((folder_ / "out/report.html").string()).find(note), std::string::npos);
+}
+
+struct Mistake {
+  std::vector<std::string> arguments;
+  int exit_code;
+  std::string says;
+};
+
+TEST_F(Program, AnswersMistakesWithOneLineAndTheDocumentedCode) {
+  write("bad.toml", "scene = \"cube-room\"\n[map]\nresolutoin = 5\n");
+  write("no-bounds.toml", "scene = \"cube-room\"\n");
+  write("broken.gltf", "{\"asset\": {\"version\": \"2.0\"}");
+  const std::vector<Mistake> mistakes = {
+      {{"run", "nowhere.toml"}, 2, "nowhere.toml"},
+      {{"run", "bad.toml"}, 2, "did you mean"},
+      {{"run", "no-bounds.toml", "--set", "map.resolutin=5"}, 2, "map.resolution"},
+      {{"run", "no-bounds.toml", "--set", "map.resolution=0"}, 2, "1 ... 16384"},
+      {{"run", "no-bounds.toml", "--set", "scene.name=cube-rom"}, 2, "did you mean 'cube-room'"},
+      {{"check", "no-bounds.toml"}, 2, "[[bound]]"},
+      {{"render", "--set", "scene.name=broken.gltf"}, 3, "broken.gltf"},
+      {{"render", "--set", "scene.name=missing.glb"}, 3, "missing.glb"},
+      {{"render", "--set", "map.near_m=5", "--set", "map.far_m=4"}, 2, "map.near_m"},
+      {{"render", "--set", "light.position_m=1,1,1", "--set", "light.target_m=1,1,1"}, 2, "light"},
+      {{"render", "--set", "filter.kind=box", "--set", "filter.size=4"}, 2, "odd"},
+      {{"dance"}, 2, "dance"},
+      {{}, 2, "subcommand"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    SCOPED_TRACE(testing::PrintToString(mistake.arguments));
+    EXPECT_EQ(run(mistake.arguments), mistake.exit_code) << output_;
+    EXPECT_TRUE(says(mistake.says)) << output_;
+    EXPECT_FALSE(says("defect")) << output_;
+  }
+}
+
+TEST_F(Program, TellsWhatThereIs) {
+  ASSERT_EQ(run({"doctor"}), 0) << output_;
+  EXPECT_TRUE(says("OpenGL") && says("Embree") && says("ISA")) << output_;
+  ASSERT_EQ(run({"scenes"}), 0);
+  for (const BuiltinScene& scene : builtin_scenes()) EXPECT_TRUE(says(std::string(scene.name)));
+  ASSERT_EQ(run({"settings"}), 0);
+  for (const Setting& row : settings_table()) EXPECT_TRUE(says(std::string(row.name)));
+  ASSERT_EQ(run({"--help"}), 0);
+  EXPECT_TRUE(says("Exit codes"));
+  const std::string experiment = write("sweep.toml", sweep);
+  ASSERT_EQ(run({"run", experiment, "--dry-run"}), 0) << output_;
+  EXPECT_TRUE(says("48 points")) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

@@ -1,0 +1,369 @@
+// Nothing of an earlier run is taken for this one's: scenes that were edited, verdicts, stored numbers, pictures.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "compare/store/seals.h"
+#include "compare/store/sqlite.h"
+#include "compare/store/store.h"
+#include "scenes/digest.h"
+#include "tests/program/fixture.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+class Stale : public Program {
+ protected:
+  bool there(const std::string& file) const { return fs::exists(folder_ / file); }
+  std::string good() { return write("x.toml", one_point + held_bound); }
+};
+
+// A floor and a spot light above it, with the cone that is given, in radians.
+std::string lit_floor(const std::string& cone) {
+  const std::string down = R"("rotation": [-0.70710678118654757, 0, 0, 0.70710678118654757])";
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+"extensionsUsed": ["KHR_lights_punctual"],
+"extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"outerConeAngle": )" +
+         cone + R"(}}]}},
+"cameras": [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.5, "zfar": 40}}],
+"nodes": [{"mesh": 0, )" +
+         down + R"(, "scale": [8, 8, 1], "translation": [-4, 0, 4]},
+ {"camera": 0, )" +
+         down + R"(, "translation": [0, 6, 0]},
+ {"extensions": {"KHR_lights_punctual": {"light": 0}}, )" +
+         down +
+         R"(, "translation": [0, 4, 0]}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
+ {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+"bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+"buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64,)"
+         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAgD8AAAAAAAAAAAAAgD8AAAAAAAABAAIAAAACAAMA\"}]}";
+}
+
+TEST_F(Stale, AnEditedSpotConeIsAnotherScene) {
+  write("floor.gltf", lit_floor("0.6"));
+  const std::string experiment = write("x.toml", "scene = \"floor.gltf\"\n" + small_view);
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  const std::string csv = text("out/results.csv");
+  write("floor.gltf", lit_floor("0.3"));
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 2) << output_;
+  EXPECT_TRUE(says("floor.gltf have changed since these were stored") && says("--overwrite")) << output_;
+  ASSERT_EQ(run({"run", experiment, "--out", "out", "--overwrite"}), 0) << output_;
+  EXPECT_NE(without_times(folder_ / "out/results.csv"), csv);
+  write("floor.gltf", "\n" + lit_floor("0.3") + "\n");  // the same scene in other bytes
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  EXPECT_TRUE(says("1 of 1 point is in out already")) << output_;
+}
+
+TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveARunThatFails) {
+  const std::string experiment = good();
+  const auto held = [&] {
+    ASSERT_EQ(run({"check", experiment, "--out", "out", "--overwrite"}), 0) << output_;
+    ASSERT_NE(text("out/summary.md").find("Held"), std::string::npos);
+  };
+  const auto verdict_says = [&](const std::string& why) {
+    EXPECT_NE(text("out/junit.xml").find("errors=\"1\""), std::string::npos);
+    EXPECT_NE(text("out/junit.xml").find(why), std::string::npos) << text("out/junit.xml");
+    EXPECT_NE(text("out/summary.md").find("Not judged"), std::string::npos);
+    EXPECT_EQ(text("out/summary.md").find("Held"), std::string::npos);
+  };
+  held();
+  write("x.toml", "scene = \n");
+  EXPECT_EQ(run({"check", experiment, "--out", "out"}), 2);
+  verdict_says("x.toml:1");
+
+  good();
+  held();
+  fs::remove(folder_ / "x.toml");
+  EXPECT_EQ(run({"check", experiment, "--out", "out"}), 2);
+  verdict_says("cannot be read");
+
+  good();
+  held();
+  EXPECT_EQ(run({"check", experiment, "--out", "out", "--set", "scene.name=absent.glb", "--overwrite"}), 3);
+  verdict_says("absent.glb");
+
+  good();
+  held();
+  EXPECT_EQ(run({"check", experiment, "--out", "out", "--set", "map.resolution=64"}), 2)
+      << "another experiment's store";
+  verdict_says("map.resolution");
+
+  good();
+  held();
+  EXPECT_EQ(run({"run", experiment, "--out", "out", "--set", "map.resolution=64"}), 2);
+  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md")) << "a run does not judge";
+
+  held();
+  write("x.toml", "scene = \n");
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 2);
+  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md"));
+}
+
+// Which folder was meant can be told although the command line is wrong.
+TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAWrongCommandLine) {
+  const std::string experiment = good();
+  const auto held = [&](const std::string& folder) {
+    ASSERT_EQ(run({"check", experiment, "--out", folder, "--overwrite"}), 0) << output_;
+    ASSERT_NE(text(folder + "/summary.md").find("Held"), std::string::npos);
+  };
+  const auto not_judged = [&](const std::string& folder, const std::string& why) {
+    EXPECT_NE(text(folder + "/junit.xml").find("errors=\"1\""), std::string::npos);
+    EXPECT_NE(text(folder + "/junit.xml").find(why), std::string::npos) << text(folder + "/junit.xml");
+    EXPECT_NE(text(folder + "/summary.md").find("Not judged"), std::string::npos);
+  };
+  using Words = std::vector<std::string>;
+  for (const auto& [words, why] : std::vector<std::pair<Words, std::string>>{
+           {{"check", experiment, "--threads", "0", "--out", "out"}, "--threads"},
+           {{"check", experiment, "--threads", "many", "--out=out"}, "--threads"},
+           {{"check", "--out", "out", experiment, "--foo"}, "--foo"},
+           {{"check", "--foo", "7", "--out", "out", "--", experiment}, "not expected"},
+           {{"check", experiment, "--out", "out", "--set"}, "--set"},
+           {{"check", experiment, "--out", "other", "--out", "out"}, "--out"},
+           {{"check", "--out", "out"}, "experiments"},
+           {{"--foo", "check", experiment, "--out", "out"}, "--foo"},
+           {{"chek", experiment, "--out", "out"}, "chek"}}) {
+    SCOPED_TRACE(why);
+    held("out");
+    EXPECT_EQ(run(words), 2) << output_;
+    EXPECT_TRUE(says(why)) << output_;
+    not_judged("out", why);
+    EXPECT_FALSE(there("other")) << "a folder is not made for a mistake";
+  }
+
+  held("out/x");  // where it goes without --out
+  EXPECT_EQ(run({"check", experiment, "--threads", "0"}), 2);
+  not_judged("out/x", "--threads");
+  held("all/x");
+  write("y.toml", "");
+  EXPECT_EQ(run({"check", experiment, "y.toml", "--foo", "--out", "all"}), 2);
+  not_judged("all/x", "--foo");
+  held("all/x");
+  EXPECT_EQ(run({"check", experiment, experiment, "--out", "all"}), 2) << "two that would share one folder";
+  not_judged("all/x", "share");
+  fs::create_directories(folder_ / "exps/sub");
+  fs::copy_file(experiment, folder_ / "exps/sub/x.toml");
+  held("all/sub/x");
+  write("exps/y.toml", "");
+  EXPECT_EQ(run({"check", "exps", "--foo", "--out", "all"}), 2);
+  not_judged("all/sub/x", "--foo");
+
+  held("out");
+  EXPECT_EQ(run({"run", experiment, "--out", "out", "--foo"}), 2);
+  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md")) << "a run does not judge";
+  held("out");
+  EXPECT_EQ(run({"render", experiment, "--out", "out", "--foo"}), 2);
+  EXPECT_EQ(run({"check", "--help", "--out", "out"}), 0);
+  EXPECT_TRUE(there("out/junit.xml")) << "neither measures into this folder";
+}
+
+TEST_F(Stale, AReportOfOtherResultsGoesWithThem) {
+  const std::string experiment = good();
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  const std::string csv = text("out/results.csv"), report = text("out/report.html");
+  EXPECT_EQ(run({"run", experiment, "--out", "out", "--set", "map.resolution=64"}), 2);
+  EXPECT_FALSE(there("out/report.html") || there("out/results.csv"));
+  EXPECT_TRUE(says("noonmark report out")) << "how to have them again: " << output_;
+  ASSERT_EQ(run({"report", "out"}), 0) << output_;
+  EXPECT_EQ(text("out/results.csv"), csv);
+  EXPECT_EQ(text("out/report.html"), report);
+  // Where the store was not looked at, they are what they were: the report of what is in it.
+  EXPECT_EQ(run({"run", "absent.toml", "--out", "out"}), 2);
+  EXPECT_TRUE(there("out/report.html") && there("out/results.csv"));
+}
+
+// The bounds are no part of what the store is resumed by, and the report shows their verdict.
+TEST_F(Stale, AReportWithAnEarlierVerdictDoesNotOutliveARunThatFails) {
+  const std::string experiment = good();
+  ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+  write("x.toml", one_point + "[[bound]]\nmetric = \"residual\"\nmax = -1\n");
+  fs::remove(folder_ / "out/results.csv");
+  fs::create_directories(folder_ / "out/results.csv/in the way");
+  EXPECT_EQ(run({"check", experiment, "--out", "out"}), 3) << output_;
+  EXPECT_FALSE(there("out/report.html"));
+}
+
+TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAKill) {
+  ASSERT_EQ(run({"check", good(), "--out", "out"}), 0) << output_;
+  ASSERT_TRUE(there("out/junit.xml"));
+  const std::string longer =
+      write("x.toml", one_point + "[sweep]\nmap.shift_u_texels = {min = 0, max = 1, steps = 500}\n" + held_bound);
+  const pid_t child = start_until("[1/500]", {"check", longer, "--out", "out", "--overwrite"});
+  kill(child, SIGKILL);
+  ASSERT_EQ(wait_for(child), -SIGKILL);
+  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md") || there("out/report.html") ||
+               there("out/results.csv"));
+}
+
+TEST_F(Stale, AFolderIsCheckedToItsEnd) {
+  fs::create_directories(folder_ / "exps/sub");
+  write("exps/a.toml", one_point + held_bound);
+  write("exps/b.toml", "scne = \"plate\"\n");
+  write("exps/c.toml", "scene = \"absent.glb\"\n" + small_view + held_bound);
+  write("exps/sub/d.toml", one_point + "[[bound]]\nmetric = \"residual\"\nmax = -1\n");
+  write("exps/sub/e.toml", one_point);  // promises nothing
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}), 3) << "the worst of 0, 2, 3, 1 and 2: " << output_;
+  EXPECT_TRUE(says("did you mean 'scene'") && says("absent.glb") && says("has no [[bound]]")) << output_;
+  EXPECT_TRUE(says("3 of 5 experiments could not be checked")) << output_;
+  EXPECT_NE(text("out/a/summary.md").find("Held"), std::string::npos);
+  EXPECT_NE(text("out/b/junit.xml").find("did you mean"), std::string::npos);
+  EXPECT_NE(text("out/c/junit.xml").find("exit code 3"), std::string::npos);
+  EXPECT_NE(text("out/sub/d/junit.xml").find("<failure"), std::string::npos)
+      << "what comes after a bad file is checked";
+  EXPECT_NE(text("out/sub/e/summary.md").find("Not judged"), std::string::npos);
+}
+
+TEST_F(Stale, APipeInAFolderIsSaidAndTheRestIsChecked) {
+  fs::create_directories(folder_ / "exps");
+  write("exps/b.toml", one_point + held_bound);
+  ASSERT_EQ(mkfifo((folder_ / "exps/a.toml").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder_ / "exps/c.toml");
+  EXPECT_EQ(run({"check", "exps", "--out", "out"}, [] { alarm(60); }), 2) << output_;
+  for (const char* name : {"a", "c"}) {
+    EXPECT_TRUE(says(std::string("exps/") + name + ".toml: is not a regular file")) << output_;
+    EXPECT_NE(text(std::string("out/") + name + "/junit.xml").find("not a regular file"), std::string::npos);
+  }
+  EXPECT_NE(text("out/b/summary.md").find("Held"), std::string::npos);
+}
+
+TEST_F(Stale, StoredNumbersThatWereEditedAreMeasuredAnew) {
+  const std::string experiment = write("x.toml", one_point + "[sweep]\nmap.resolution = [16, 32]\n" + held_bound);
+  ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+  const std::string csv = without_times(folder_ / "out/results.csv");
+  const auto edit = [&](const char* sql) {
+    sqlite::Database((folder_ / "out/results.sqlite").string(), sqlite::Database::Mode::existing).execute(sql);
+  };
+  for (const char* sql :
+       {"UPDATE metrics SET value = 0.5 WHERE point = 1 AND name = 'residual'",
+        "DELETE FROM metrics WHERE point = 1 AND name = 'error'", "INSERT INTO metrics VALUES (7, 'residual', 3)"}) {
+    SCOPED_TRACE(sql);
+    edit(sql);
+    EXPECT_EQ(run({"report", "out"}), 3) << output_;
+    EXPECT_TRUE(says("are not those that were stored")) << output_;
+    EXPECT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+    EXPECT_TRUE(says(std::string(sql).find("VALUES (7") != std::string::npos
+                         ? "point 7, which this experiment does not "
+                           "have; they are dropped"
+                         : "it is measured anew"))
+        << output_;
+    EXPECT_EQ(without_times(folder_ / "out/results.csv"), csv);
+  }
+}
+
+// Somebody who can edit rows can seal them too; what the sweep itself reads must still be there.
+TEST_F(Stale, AStoredPointThatLacksNumbersIsMeasuredAnew) {
+  const std::string experiment = write("x.toml", one_point + "[sweep]\nmap.resolution = [16, 32]\n" + held_bound);
+  ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+  const std::string csv = without_times(folder_ / "out/results.csv");
+  for (const char* lost : {"residual", "facing", "error"}) {
+    SCOPED_TRACE(lost);
+    {
+      sqlite::Database db((folder_ / "out/results.sqlite").string(), sqlite::Database::Mode::existing);
+      db.execute(std::string("DELETE FROM metrics WHERE point = 1 AND name = '") + lost + "'");
+      seal_point(db, 1);
+    }
+    EXPECT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
+    EXPECT_TRUE(says("it is measured anew")) << output_;
+    EXPECT_EQ(without_times(folder_ / "out/results.csv"), csv);
+  }
+}
+
+TEST_F(Stale, ResultsOfAnotherProgramDriverOrMachineAreNotGoneOnWith) {
+  const std::string experiment = good();
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  for (const char* fact : {"noonmark", "program", "opengl", "embree", "machine"}) {
+    const std::string line = std::string(fact) + " = ";
+    sqlite::Database((folder_ / "out/results.sqlite").string(), sqlite::Database::Mode::existing)
+        .execute("UPDATE info SET value = replace(value, '" + line + "', '" + line +
+                 "other ') WHERE key = 'fingerprint'");
+    EXPECT_EQ(run({"run", experiment, "--out", "out"}), 2) << output_;
+    EXPECT_TRUE(says("now '" + line) && says("there '" + line + "other ")) << output_;
+    sqlite::Database((folder_ / "out/results.sqlite").string(), sqlite::Database::Mode::existing)
+        .execute("UPDATE info SET value = replace(value, 'other ', '') WHERE key = 'fingerprint'");
+  }
+}
+
+TEST_F(Stale, TheReportReadsItsOwnPicturesOnly) {
+  const std::string experiment =
+      write("x.toml", "scene = \"plate\"\npictures = \"first\"\n[view]\nwidth_px = 48\nheight_px = 27\n");
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  write("secret.png", "SECRET-BYTES");
+  const std::string encoded = "U0VDUkVULUJZVEVT";  // base64 of those
+  ResultStore store = ResultStore::open((folder_ / "out/results.sqlite").string());
+  fs::create_symlink("../../secret.png", folder_ / "out/images/link.png");
+  fs::create_symlink("/dev/zero", folder_ / "out/images/zero.png");
+  ASSERT_EQ(mkfifo((folder_ / "out/images/fifo.png").c_str(), 0600), 0);
+  const std::string secret = digest_of("SECRET-BYTES"), own = digest_of(text("out/images/p0000-truth.png"));
+  store.set_pictures(0, {{{"a", "images/link.png", "", secret},
+                          {"b", "../secret.png", "", secret},
+                          {"c", (folder_ / "secret.png").string(), "", secret},
+                          {"d", "images/zero.png", "", ""},
+                          {"e", "images/fifo.png", "", ""},
+                          {"f", "images/p0000-truth.png", "", own}},
+                         {}});
+  ASSERT_EQ(run({"report", "out"}, [] { alarm(60); }), 0) << "must not wait for a pipe: " << output_;
+  const std::string report = text("out/report.html");
+  EXPECT_EQ(report.find(encoded), std::string::npos);
+  size_t missing = 0;
+  for (size_t at = 0; (at = report.find("class=\"missing\"", at)) != std::string::npos; ++at) ++missing;
+  EXPECT_EQ(missing, 5u);
+  EXPECT_NE(report.find("data:image/png;base64,"), std::string::npos) << "its own is shown";
+}
+
+TEST_F(Stale, PicturesThatAreLostOrAnothersAreMadeAgain) {
+  for (const char* which : {"first", "extremes", "all"}) {
+    SCOPED_TRACE(which);
+    const std::string experiment =
+        write("x.toml", "scene = \"plate\"\npictures = \"" + std::string(which) +
+                            "\"\n[view]\nwidth_px = 48\nheight_px = 27\n[sweep]\nmap.resolution = [16, 32]\n");
+    ASSERT_EQ(run({"run", experiment, "--out", "out", "--overwrite"}), 0) << output_;
+    const std::string report = text("out/report.html");
+    std::vector<std::string> files;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/images"))
+      files.push_back(entry.path().filename().string());
+    ASSERT_GE(files.size(), 11u);
+    const std::string first =
+        std::string("out/images/p000") + (fs::exists(folder_ / "out/images/p0000-map.exr") ? "0" : "1");
+    for (const auto& [file, damage] : std::vector<std::pair<std::string, std::string>>{
+             {"-truth.png", "lost"}, {"-ladder.exr", "lost"}, {"-map.png", "edited"}, {"-map.exr", "edited"}}) {
+      SCOPED_TRACE(file);
+      const std::string bytes = text(first + file);
+      fs::remove(folder_ / (first + file));
+      if (damage == "edited") write(first + file, bytes + " ");
+      EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+      EXPECT_TRUE(says("pictures of point ") && says("made again") && says("2 of 2 points are in out already"))
+          << output_;
+      ASSERT_TRUE(there(first + file));
+      EXPECT_TRUE(text(first + file) == bytes || file.ends_with(".exr")) << "the same, but for an EXR's date";
+    }
+    EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0);
+    EXPECT_FALSE(says("made again")) << output_;
+  }
+}
+
+TEST_F(Stale, OnlyAPictureThatWasWrittenIsShown) {
+  const std::string experiment =
+      write("x.toml", "scene = \"plate\"\npictures = \"first\"\n[view]\nwidth_px = 48\nheight_px = 27\n");
+  ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
+  const std::string secret = "SECRET-BYTES", picture = text("out/images/p0000-truth.png");
+  write("secret", secret);
+  const auto replace = [&](const std::string& file, const std::string& by) {
+    fs::remove(folder_ / "out/images" / file);
+    fs::create_hard_link(folder_ / by, folder_ / "out/images" / file);
+  };
+  replace("p0000-truth.png", "secret");
+  replace("p0000-map.png", "out/images/p0000-classes.png");  // a picture, but not this one
+  ASSERT_EQ(run({"report", "out"}), 0) << output_;
+  const std::string report = text("out/report.html");
+  EXPECT_EQ(report.find("U0VDUkVULUJZVEVT"), std::string::npos);
+  EXPECT_NE(report.find("images/p0000-truth.png is not shown"), std::string::npos);
+  EXPECT_NE(report.find("images/p0000-map.png is not shown"), std::string::npos);
+  // Also where the store was made to say that it belongs there.
+  ResultStore::open((folder_ / "out/results.sqlite").string())
+      .set_pictures(0, {{{"truth", "images/p0000-truth.png", "", digest_of(secret)}}, {}});
+  ASSERT_EQ(run({"report", "out"}), 0) << output_;
+  EXPECT_EQ(text("out/report.html").find("U0VDUkVULUJZVEVT"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

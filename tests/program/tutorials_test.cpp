@@ -1,0 +1,62 @@
+// The gallery of the tutorials' chapters: each shows its artefact and its cure, and says in one sentence what it found.
+#include <algorithm>
+#include <regex>
+
+#include "app/experiment.h"
+#include "app/experiment_file.h"
+#include "tests/program/fixture.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+std::vector<std::string> chapters() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(std::string(NOONMARK_SOURCE_DIR) + "/experiments/tutorials"))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+std::string path_of(const std::string& chapter) {
+  return std::string(NOONMARK_SOURCE_DIR) + "/experiments/tutorials/" + chapter + ".toml";
+}
+
+class Tutorial : public Program, public testing::WithParamInterface<std::string> {};
+
+TEST_P(Tutorial, ShowsItsArtefactAndItsCure) {
+  std::vector<std::string> check = {"check", path_of(GetParam()), "--out", "out"};
+  // A cube map's six sides of rays are most of the gallery's time; what is claimed of them holds in fewer pixels too.
+  if (GetParam().ends_with("-point") || GetParam().ends_with("-point-pcf"))
+    check.insert(check.end(), {"--set", "view.width_px=240", "--set", "view.height_px=135"});
+  EXPECT_EQ(run(check), 0) << output_;
+  EXPECT_TRUE(std::regex_search(output_, std::regex("found: [^\n]*[0-9][^\n]*\\."))) << output_;
+  EXPECT_FALSE(says("nan")) << "a figure that could not be measured: " << output_;
+}
+INSTANTIATE_TEST_SUITE_P(Chapters, Tutorial, testing::ValuesIn(chapters()), [](const auto& chapter) {
+  std::string name = chapter.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+// A chapter that asserts no artefact, or no cure, or compares nothing with anything, teaches nothing.
+TEST(Tutorials, EachAssertsBeforeAndAfter) {
+  EXPECT_EQ(chapters().size(), 16u);
+  for (const std::string& chapter : chapters()) {
+    const Experiment experiment = load_experiment(path_of(chapter));
+    std::vector<Experiment> parts = experiment.parts;
+    if (parts.empty()) parts.push_back(experiment);
+    bool artefact = false, compared = false, told = false;
+    for (const Experiment& part : parts) {
+      for (const Bound& bound : part.bounds) artefact = artefact || bound.min;
+      for (const Law& law : part.laws) {
+        compared = compared || !law.against.empty() || law.predicted != "0";
+        told = told || law.found.find('{') != law.found.npos;
+      }
+    }
+    EXPECT_TRUE(artefact) << chapter << " asserts no artefact";
+    EXPECT_TRUE(compared) << chapter << " compares nothing";
+    EXPECT_TRUE(told) << chapter << " says nothing of what it found";
+  }
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

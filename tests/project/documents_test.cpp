@@ -1,0 +1,221 @@
+// What documents and comments point to is there: files of this repository, chapters of its documents, settings.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "scenes/file.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = NOONMARK_SOURCE_DIR;
+const std::vector<std::string> folders = {"app",      "cmake",  "compare", "docs",      "experiments", "gl",
+                                          "raytrace", "scenes", "scripts", "technique", "tests"};
+
+std::string text_of(const fs::path& file) { return read_file(file.string(), uint64_t{1} << 24); }
+
+// Documents for people. CHANGELOG.md tells of files that are gone.
+std::vector<fs::path> documents() {
+  std::vector<fs::path> files = {root / "README.md", root / "CONTRIBUTING.md"};
+  for (const auto& entry : fs::directory_iterator(root / "docs"))
+    if (entry.path().extension() == ".md") files.push_back(entry.path());
+  return files;
+}
+
+// Every file with text that people write, but for patches and for the test that plants files.
+std::vector<fs::path> all_texts() {
+  const std::set<std::string> endings = {".h",   ".cpp",  ".glsl", ".vert", ".frag", ".geom", ".cmake",
+                                         ".txt", ".toml", ".js",   ".css",  ".md",   ""};
+  std::vector<fs::path> files = {root / "README.md", root / "CONTRIBUTING.md", root / "CMakeLists.txt"};
+  for (const std::string& folder : folders)
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const fs::path& path = entry.path();
+      if (entry.is_regular_file() && endings.contains(path.extension().string()) &&
+          path.string().find("tests/fuzz/regressions") == std::string::npos &&
+          path.filename() != "include_law_test.cmake")
+        files.push_back(path);
+    }
+  return files;
+}
+
+std::vector<std::string> path_like_words(const std::string& text) {
+  std::vector<std::string> words(1);
+  for (char c : text) {
+    if (std::isalnum(static_cast<unsigned char>(c)) || std::string_view("_/.*-").find(c) != std::string_view::npos)
+      words.back() += c;
+    else if (!words.back().empty())
+      words.emplace_back();
+  }
+  for (std::string& word : words)
+    while (word.ends_with('.')) word.pop_back();
+  return words;
+}
+
+// "*" stands for any characters within one name.
+bool matches(std::string_view name, std::string_view pattern) {
+  const size_t star = pattern.find('*');
+  if (star == std::string_view::npos) return name == pattern;
+  if (!name.starts_with(pattern.substr(0, star))) return false;
+  for (size_t skipped = star; skipped <= name.size(); ++skipped)
+    if (matches(name.substr(skipped), pattern.substr(star + 1))) return true;
+  return false;
+}
+
+bool is_there(const std::string& path) {
+  if (path.find('*') == std::string::npos) return fs::exists(root / path);
+  const fs::path pattern(path);
+  if (!fs::is_directory(root / pattern.parent_path())) return false;
+  for (const auto& entry : fs::directory_iterator(root / pattern.parent_path()))
+    if (matches(entry.path().filename().string(), pattern.filename().string())) return true;
+  return false;
+}
+
+bool begins_with_a_folder(const std::string& word) {
+  return std::any_of(folders.begin(), folders.end(),
+                     [&](const std::string& folder) { return word.starts_with(folder + "/"); });
+}
+
+TEST(Documents, EveryFileThatIsNamedIsThere) {
+  int named = 0;
+  for (const fs::path& file : all_texts())
+    for (const std::string& word : path_like_words(text_of(file))) {
+      if (!begins_with_a_folder(word)) continue;
+      const std::string ending = fs::path(word).extension().string();
+      if (ending.size() < 2 || !std::isalpha(static_cast<unsigned char>(ending[1]))) continue;
+      ++named;
+      EXPECT_TRUE(is_there(word) || fs::exists(file.parent_path() / word))
+          << fs::relative(file, root).string() << " names " << word;
+    }
+  EXPECT_GT(named, 1000);
+}
+
+// "`app/`" and "`tests/fuzz/*_target.cpp`": what stands between backticks in one line.
+std::vector<std::string> in_backticks(const std::string& markdown) {
+  std::vector<std::string> words;
+  bool fenced = false;
+  std::istringstream lines(markdown);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) fenced = !fenced;
+    if (fenced || line.starts_with("```")) continue;
+    for (size_t open = line.find('`'); open != std::string::npos;) {
+      const size_t close = line.find('`', open + 1);
+      if (close == std::string::npos) break;
+      words.push_back(line.substr(open + 1, close - open - 1));
+      open = line.find('`', close + 1);
+    }
+  }
+  return words;
+}
+
+TEST(Documents, EveryFolderThatIsNamedIsThere) {
+  for (const fs::path& file : documents())
+    for (const std::string& word : in_backticks(text_of(file)))
+      if (begins_with_a_folder(word) && word.find_first_of("<> :") == std::string::npos) {
+        EXPECT_TRUE(is_there(word)) << fs::relative(file, root).string() << " names " << word;
+      }
+}
+
+// A setting that was renamed stays nowhere under its old name.
+TEST(Documents, EverySettingThatIsNamedIsThere) {
+  std::set<std::string> groups, names;
+  for (const Setting& row : settings_table()) {
+    groups.insert(std::string(row.name.substr(0, row.name.find('.'))));
+    names.insert(std::string(row.name));
+  }
+  const std::set<std::string> endings = {".h", ".cpp", ".exr", ".glsl"};
+  for (const fs::path& file : documents())
+    for (const std::string& word : in_backticks(text_of(file))) {
+      const std::string name = word.substr(0, word.find_first_of(" =\""));
+      const size_t dot = name.find('.');
+      if (dot == std::string::npos || !groups.contains(name.substr(0, dot))) continue;
+      if (endings.contains(name.substr(dot)) || name.find_first_of("*<") != std::string::npos) continue;
+      EXPECT_TRUE(names.contains(name)) << fs::relative(file, root).string() << " names " << word;
+    }
+}
+
+// No comment cites a document that readers of this repository do not have. summary.md is what `check` writes.
+TEST(Documents, EveryDocumentThatIsCitedIsThere) {
+  for (const fs::path& file : all_texts())
+    for (const std::string& word : path_like_words(text_of(file)))
+      if (word.ends_with(".md") && word != ".md" && fs::path(word).filename() != "summary.md") {
+        const std::string from_root = word.substr(word.find_first_not_of('/'));
+        EXPECT_TRUE(fs::exists(root / from_root) || fs::exists(file.parent_path() / word))
+            << fs::relative(file, root).string() << " cites " << word;
+      }
+}
+
+// Nor one that it names by a word alone.
+TEST(Documents, NoCommentSpeaksOfADesign) {
+  for (const fs::path& file : all_texts()) {
+    const std::string text = text_of(file);
+    for (const char* phrase : {"(desig"
+                               "n",
+                               "the desig"
+                               "n"})
+      EXPECT_EQ(text.find(phrase), std::string::npos) << fs::relative(file, root).string() << ": " << phrase;
+  }
+}
+
+// A number that the next commit makes wrong: a command that counts stands in its place.
+TEST(Documents, NoCountThatChangesIsWrittenByHand) {
+  const std::regex count("\\b[0-9]+( [a-z]+)? (mutants|breakages|patches|tests|defects)\\b");
+  for (const fs::path& file : documents()) {
+    std::istringstream lines(text_of(file));
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_FALSE(std::regex_search(line, count)) << fs::relative(file, root).string() << ": " << line;
+    }
+  }
+}
+
+// GitHub's name of a heading.
+std::string anchor_of(std::string_view heading) {
+  std::string anchor;
+  for (char c : heading) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) || c == '_' || c == '-' || byte >= 0x80) anchor += static_cast<char>(std::tolower(byte));
+    if (c == ' ') anchor += '-';
+  }
+  return anchor;
+}
+
+std::set<std::string> anchors_of(const std::string& markdown) {
+  std::set<std::string> anchors;
+  std::istringstream lines(markdown);
+  for (std::string line; std::getline(lines, line);)
+    if (const size_t text = line.find_first_not_of('#'); text != 0 && text != std::string::npos && line[text] == ' ')
+      anchors.insert(anchor_of(line.substr(text + 1)));
+  return anchors;
+}
+
+TEST(Documents, EveryLinkLeadsSomewhere) {
+  int links = 0;
+  for (const fs::path& file : documents()) {
+    const std::string text = text_of(file);
+    for (size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
+      const std::string link = text.substr(at + 2, text.find(')', at) - at - 2);
+      if (link.starts_with("http")) continue;
+      ++links;
+      const size_t hash = link.find('#');
+      const fs::path target = hash == 0 ? file : file.parent_path() / link.substr(0, hash);
+      ASSERT_TRUE(fs::exists(target)) << fs::relative(file, root).string() << " links to " << link;
+      if (hash != std::string::npos) {
+        EXPECT_TRUE(anchors_of(text_of(target)).contains(link.substr(hash + 1)))
+            << fs::relative(file, root).string() << " links to " << link;
+      }
+    }
+  }
+  EXPECT_GT(links, 20);
+}
+
+}  // namespace
+}  // namespace noonmark

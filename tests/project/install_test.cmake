@@ -1,0 +1,150 @@
+# An installed Noonmark, as an outside project and a user meet it. STEP is one of:
+#   prefix    installs the build into WORK/prefix and looks at what is there; the other steps need it
+#   program   the installed program does what the built one does, and writes pictures
+#   consumer  tests/project/consumer configures, builds and runs against it
+#   headers   every installed header compiles, every component links, and what app/ includes is among them
+#   cmake -DSTEP=... -DSOURCE=... -DBUILD=... -DWORK=... -DPROGRAM=... -DBUILD_TYPE=... -DGENERATOR=... -DCXX=... -DCXX_FLAGS=... -P
+cmake_minimum_required(VERSION 3.25)
+set(prefix ${WORK}/prefix)
+
+# run(WHAT command...): fails the test where the command fails; `output` is what it said.
+macro(run what)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${what} ended with ${result}:\n${output}${errors}")
+  endif()
+endmacro()
+
+# build(NAME SOURCE): configures and builds it against the prefix into WORK/NAME.
+macro(build name source)
+  file(REMOVE_RECURSE ${WORK}/${name})
+  run("configuring ${name}" ${CMAKE_COMMAND} -S ${source} -B ${WORK}/${name} -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
+      -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${CXX_FLAGS})
+  run("building ${name}" ${CMAKE_COMMAND} --build ${WORK}/${name})
+endmacro()
+
+if(STEP STREQUAL "prefix")
+  file(REMOVE_RECURSE ${WORK})
+  file(MAKE_DIRECTORY ${WORK})
+  run("cmake --install" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
+  # Moved, so that what remembers where it was installed breaks.
+  file(RENAME ${WORK}/first ${prefix})
+  foreach(file bin/noonmark share/man/man1/noonmark.1 share/bash-completion/completions/noonmark
+               include/noonmark/compare/ladder/ladder.h include/noonmark/technique/surface.glsl)
+    if(NOT EXISTS ${prefix}/${file})
+      message(SEND_ERROR "${file} is not installed")
+    endif()
+  endforeach()
+  # Debug information names sources, and may.
+  set(places ${prefix})
+  if(NOT BUILD_TYPE STREQUAL Release)
+    set(places ${prefix}/include ${prefix}/share)
+    file(GLOB_RECURSE cmake_files ${prefix}/*.cmake)
+    list(APPEND places ${cmake_files})
+  endif()
+  foreach(folder ${SOURCE} ${BUILD} ${WORK}/first)
+    string(REGEX REPLACE "([][+.*^$(){}|?\\])" "\\\\\\1" pattern ${folder})
+    execute_process(COMMAND grep -arlE "(^|[^A-Za-z0-9._}/-])${pattern}(/|$)" ${places} OUTPUT_VARIABLE found)
+    if(found)
+      message(SEND_ERROR "these name ${folder}, which need not be there when they are used:\n${found}")
+    endif()
+  endforeach()
+
+elseif(STEP STREQUAL "program")
+  set(installed ${prefix}/bin/noonmark)
+  foreach(arguments --version scenes settings)
+    run("the built ${arguments}" ${PROGRAM} ${arguments})
+    set(expected "${output}")
+    run("the installed ${arguments}" ${installed} ${arguments})
+    if(NOT output STREQUAL expected)
+      message(FATAL_ERROR "the installed program's ${arguments} differs from the built one's:\n${output}")
+    endif()
+  endforeach()
+  execute_process(COMMAND ${PROGRAM} doctor RESULT_VARIABLE result OUTPUT_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message("SKIPPED: this machine cannot measure:\n${output}")
+    return()
+  endif()
+  run("the installed doctor" ${installed} doctor)
+  file(REMOVE_RECURSE ${WORK}/pictures)
+  run("the installed render" ${installed} render --out ${WORK}/pictures --set scene.name=plate --set view.width_px=64 --set view.height_px=36)
+  file(GLOB pngs ${WORK}/pictures/*.png ${WORK}/pictures/*/*.png)
+  file(GLOB exrs ${WORK}/pictures/*.exr ${WORK}/pictures/*/*.exr)
+  if(NOT pngs OR NOT exrs)
+    message(FATAL_ERROR "the installed program wrote no PNG or no EXR:\n${output}")
+  endif()
+  # It opens its own picture library, not the build's.
+  file(GLOB_RECURSE library ${prefix}/noonmark_images.so)
+  file(RENAME ${library} ${WORK}/taken_away.so)
+  execute_process(COMMAND ${installed} doctor RESULT_VARIABLE result OUTPUT_VARIABLE output)
+  file(RENAME ${WORK}/taken_away.so ${library})
+  if(NOT result EQUAL 4 OR NOT output MATCHES "noonmark_images.so: .*it belongs")
+    message(FATAL_ERROR "without its picture library the installed doctor ended with ${result}:\n${output}")
+  endif()
+
+elseif(STEP STREQUAL "consumer")
+  # Away from the sources, where no header can be found by chance.
+  file(REMOVE_RECURSE ${WORK}/consumer_source)
+  file(COPY ${SOURCE}/tests/project/consumer/ DESTINATION ${WORK}/consumer_source)
+  build(consumer ${WORK}/consumer_source)
+  run("the consumer" ${WORK}/consumer/consumer)
+  set(expected "pixel 0: none
+pixel 1: acne
+pixel 2: peter_panning
+pixel 3: aliasing_dark
+free of acne from a bias of 0.125 on
+acne <= 0.01: broken
+")
+  if(NOT output STREQUAL expected)
+    message(FATAL_ERROR "the consumer said\n${output}instead of\n${expected}")
+  endif()
+
+elseif(STEP STREQUAL "headers")
+  file(GLOB_RECURSE headers RELATIVE ${prefix}/include/noonmark ${prefix}/include/noonmark/*.h)
+  # scenes/digest.h writes with fmt, which is linked privately.
+  set(not_installed scenes/digest.h)
+  file(GLOB sources ${SOURCE}/app/*.h ${SOURCE}/app/*.cpp)
+  foreach(source ${sources})
+    file(STRINGS ${source} lines REGEX "^#include \"(scenes|technique|gl|raytrace|compare)/")
+    foreach(line ${lines})
+      string(REGEX REPLACE ".*\"(.*)\".*" "\\1" header ${line})
+      if(NOT header IN_LIST headers AND NOT header IN_LIST not_installed)
+        list(APPEND missing ${header})
+      endif()
+    endforeach()
+  endforeach()
+  if(missing)
+    list(REMOVE_DUPLICATES missing)
+    message(FATAL_ERROR "app/ includes what is not installed: ${missing}; add it to noonmark_library() in its folder's CMakeLists.txt")
+  endif()
+  list(TRANSFORM headers REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE includes)
+  list(JOIN includes "" includes)
+  file(WRITE ${WORK}/headers_source/main.cpp "${includes}
+int main() {
+  using namespace noonmark;
+  const bool all = !builtin_scenes().empty() && !settings_table().empty() && !metrics_table().empty() &&
+                   !gl::shader_file(\"shaders/compare.glsl\").empty() && !raytrace::tracer_info().version.empty();
+  return all ? 0 : 1;
+}
+")
+  file(WRITE ${WORK}/headers_source/CMakeLists.txt [[
+cmake_minimum_required(VERSION 3.25)
+project(headers LANGUAGES CXX)
+find_package(noonmark QUIET COMPONENTS compare no_such_component)
+if(noonmark_FOUND)
+  message(FATAL_ERROR "a component that does not exist is found")
+endif()
+find_package(noonmark REQUIRED)
+get_target_property(options noonmark::options INTERFACE_COMPILE_OPTIONS)
+if(NOT "-ffp-contract=off" IN_LIST options OR options MATCHES "-W")
+  message(FATAL_ERROR "the compile options that travel are ${options}")
+endif()
+add_executable(headers main.cpp)
+target_link_libraries(headers PRIVATE noonmark::scenes noonmark::technique noonmark::gl noonmark::raytrace noonmark::compare)
+]])
+  build(headers ${WORK}/headers_source)
+  run("the program of all headers" ${WORK}/headers/headers)
+
+else()
+  message(FATAL_ERROR "there is no STEP '${STEP}'")
+endif()

@@ -1,0 +1,235 @@
+// Random scenes of analytic shapes for the property tests, and the triangles that stand for them.
+//
+// Every corner lies on a grid so coarse that floats hold it exactly, so a turned box's rounded faces are planes still,
+// and its triangles ARE the analytic box. Spheres and discs cannot be: each has an inner and an outer shape, between
+// which its triangles lie, made from the vertices as they were rounded.
+#pragma once
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+#include <ostream>
+#include <utility>
+#include <vector>
+
+#include "scenes/shapes.h"
+#include "tests/raytrace/closed_form.h"
+
+namespace noonmark::test {
+
+struct ShapeSpec {
+  int kind = 0;             // ShapeKind
+  int x = 0, y = 0, z = 0;  // thousandths of 4 m
+  int a = 0, b = 0, c = 0;  // sizes, thousandths of 2 m ...
+  int decade = 0;           // ... over 10^decade
+  int yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
+};
+
+struct SceneSpec {
+  std::vector<ShapeSpec> shapes;
+  int light_elevation_deg = 45, light_azimuth_deg = 0;
+  int resolution = 64, kernel_radius = 0;
+  int camera_azimuth_deg = 0, camera_elevation_deg = 20;
+  int near_cut = 0;  // percent of the fitted depth range that the near plane cuts off
+  uint32_t seed = 1;
+};
+
+inline std::ostream& operator<<(std::ostream& out, const ShapeSpec& s) {
+  static constexpr const char* names[] = {"rectangle", "box", "disc", "sphere"};
+  return out << "\n  " << names[s.kind] << " at " << s.x << ' ' << s.y << ' ' << s.z << " size " << s.a << ' ' << s.b
+             << ' ' << s.c << " / 10^" << s.decade << " turned " << s.yaw_deg << ' ' << s.pitch_deg << ' '
+             << s.roll_deg;
+}
+inline std::ostream& operator<<(std::ostream& out, const SceneSpec& s) {
+  for (const ShapeSpec& shape : s.shapes) out << shape;
+  return out << "\n  light " << s.light_elevation_deg << ' ' << s.light_azimuth_deg << ", resolution " << s.resolution
+             << ", kernel radius " << s.kernel_radius << ", camera " << s.camera_azimuth_deg << ' '
+             << s.camera_elevation_deg << ", near cut " << s.near_cut << "%, seed " << s.seed;
+}
+
+// Where the scene stands: everything is rounded to multiples of grid_m, which floats hold exactly there; sizes are
+// multiplied by scale, so that the small things survive that.
+struct Site {
+  const char* name;
+  glm::dvec3 origin_m;
+  double grid_m;
+  double scale;
+};
+inline constexpr double half_floor_m = 5;
+inline const Site at_origin{"origin", {0, 0, 0}, 0x1p-20, 1};           // floats below 16 m: 2^-20 at the coarsest
+inline const Site at_1_km{"1 km", {1000, -300, 700}, 0x1p-13, 1};       // below 2^11 m: 2^-13
+inline const Site at_1000_km{"1000 km", {1e6, -3e5, 7e5}, 0x1p-4, 64};  // below 2^20 m: 2^-4
+
+struct Modelled {
+  Scene scene;
+  std::vector<Shape> inner, outer;         // equal but for spheres and discs
+  std::vector<std::pair<int, int>> owner;  // of each triangle: shape and face
+  bool round = false;                      // has spheres or discs
+};
+
+class Builder {
+ public:
+  Builder(const Site& site, int segments) : site_(site), segments_(segments) {}
+
+  void add(const ShapeSpec& s) {
+    const glm::dvec3 at = snapped(site_.origin_m + site_.scale * 0.004 * glm::dvec3(s.x, s.y, s.z));
+    const double unit = site_.scale * 0.002 * std::pow(10.0, -s.decade);
+    glm::dmat4 turn = glm::rotate(glm::dmat4(1), glm::radians(static_cast<double>(s.yaw_deg)), {0, 1, 0});
+    turn = glm::rotate(turn, glm::radians(static_cast<double>(s.pitch_deg)), {1, 0, 0});
+    turn = glm::rotate(turn, glm::radians(static_cast<double>(s.roll_deg)), {0, 0, 1});
+    // What is not many times larger than a ray's error (a grid step or two) does not survive the rounding; and what is
+    // not many times larger than what rounding makes of its plane where it is carried across the scene has no edge that
+    // a formula and the program can be asked to agree on.
+    const bool flat = s.kind == static_cast<int>(ShapeKind::rectangle) || s.kind == static_cast<int>(ShapeKind::box);
+    if (unit * (flat ? std::min({s.a, s.b, s.c}) : s.a) < 64 * site_.grid_m) return;
+    const glm::dvec3 e[3] = {snapped(glm::dvec3(turn[0]) * (unit * s.a)), snapped(glm::dvec3(turn[1]) * (unit * s.b)),
+                             snapped(glm::dvec3(turn[2]) * (unit * s.c))};
+    switch (static_cast<ShapeKind>(s.kind)) {
+      case ShapeKind::rectangle:
+        return rectangle(at, e[2], e[0]);
+      case ShapeKind::box:
+        return box(at, e[0], e[1], e[2]);
+      case ShapeKind::disc:
+        return disc(at, unit * s.a, s.yaw_deg % 3);
+      case ShapeKind::sphere:
+        return sphere(at, unit * s.a);
+    }
+  }
+
+  void rectangle(glm::dvec3 at, glm::dvec3 u, glm::dvec3 v) {
+    if (!(glm::length(glm::cross(u, v)) > 0)) return;
+    add_quad(m_.scene, "rectangle", at, u, v);
+    finish({.kind = ShapeKind::rectangle, .at = at, .edge = {u, v, {}}}, 0);
+  }
+
+  void box(glm::dvec3 at, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+    if (!(glm::dot(glm::cross(a, b), c) > 0)) return;  // too small for the grid
+    const glm::dmat4 placed(glm::dvec4(a / 2.0, 0), glm::dvec4(b / 2.0, 0), glm::dvec4(c / 2.0, 0),
+                            glm::dvec4(at + (a + b + c) / 2.0, 1));
+    add_box(m_.scene, "box", glm::dvec3(1), placed);
+    finish({.kind = ShapeKind::box, .at = at, .edge = {a, b, c}}, 1);
+  }
+
+  // In a plane whose grid floats hold: (2, 1, -2) and (1, 2, 2) are orthogonal and both 3 long.
+  void disc(glm::dvec3 at, double radius, int plane) {
+    static const glm::dvec3 axes[3][2] = {{{0, 0, 3}, {3, 0, 0}}, {{2, 1, -2}, {1, 2, 2}}, {{1, 2, 2}, {2, -2, 1}}};
+    const glm::dvec3 u = axes[plane][0] * site_.grid_m, v = axes[plane][1] * site_.grid_m;
+    const double step = 3 * site_.grid_m;
+    std::vector<glm::dvec3> rim;
+    for (int i = 0; i < segments_; ++i) {
+      const double turn = 2 * std::numbers::pi * i / segments_;
+      rim.push_back(std::round(radius * std::cos(turn) / step) * u + std::round(radius * std::sin(turn) / step) * v);
+    }
+    Shape in{.kind = ShapeKind::disc, .at = at, .edge = {u, v, {}}, .radius = radius}, out = in;
+    out.radius = 0;
+    for (int i = 0; i < segments_; ++i) {
+      const glm::dvec3 a = rim[static_cast<size_t>(i)], b = rim[static_cast<size_t>((i + 1) % segments_)];
+      if (!(glm::dot(glm::cross(a, b), glm::cross(u, v)) > 0)) return;  // too small for the grid
+      out.radius = std::max(out.radius, glm::length(a));
+      in.radius = std::min(in.radius, glm::length(glm::cross(a, b)) / glm::length(b - a));
+    }
+    const uint32_t base = static_cast<uint32_t>(m_.scene.positions.size()), n = static_cast<uint32_t>(segments_);
+    m_.scene.positions.push_back(glm::vec3(at));
+    for (const glm::dvec3& p : rim) m_.scene.positions.push_back(glm::vec3(at + p));
+    for (uint32_t i = 0; i < n; ++i) m_.scene.triangles.push_back({base, base + 1 + i, base + 1 + (i + 1) % n});
+    finish(in, 0, &out);
+  }
+
+  void sphere(glm::dvec3 at, double radius) {
+    if (radius < 64 * site_.grid_m) return;  // not round any more
+    const size_t first = m_.scene.triangles.size();
+    add_surface(m_.scene, "sphere", segments_, segments_ / 2, true, [&](double s, double t) {
+      const double phi = 2 * std::numbers::pi * s, polar = std::numbers::pi * t;
+      const double r = t == 0 || t == 1 ? 0 : std::sin(polar);
+      return at + radius * glm::dvec3(r * std::sin(phi), -std::cos(polar), r * std::cos(phi));
+    });
+    Shape in{.kind = ShapeKind::sphere, .at = at, .edge = {}, .radius = radius}, out = in;
+    out.radius = 0;
+    for (size_t t = first; t < m_.scene.triangles.size(); ++t) {
+      glm::dvec3 p[3];
+      for (int i = 0; i < 3; ++i) {
+        p[i] = glm::dvec3(m_.scene.positions[m_.scene.triangles[t][i]]) - at;
+        out.radius = std::max(out.radius, glm::length(p[i]));
+      }
+      in.radius = std::min(in.radius, glm::dot(p[0], glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]))));
+    }
+    finish(in, 0, &out);
+  }
+
+  Modelled build() const { return m_; }
+
+ private:
+  glm::dvec3 snapped(glm::dvec3 p) const { return glm::round(p / site_.grid_m) * site_.grid_m; }
+
+  void finish(const Shape& in, int faces_of_two, const Shape* out = nullptr) {
+    const int shape = static_cast<int>(m_.inner.size());
+    for (size_t t = m_.owner.size(), first = t; t < m_.scene.triangles.size(); ++t)
+      m_.owner.push_back({shape, faces_of_two ? static_cast<int>((t - first) / 2) : 0});
+    m_.inner.push_back(in);
+    m_.outer.push_back(out ? *out : in);
+    m_.round |= out != nullptr;
+  }
+
+  Site site_;
+  int segments_;
+  Modelled m_;
+};
+
+inline glm::dvec3 toward(int azimuth_deg, int elevation_deg) {
+  const double a = glm::radians(static_cast<double>(azimuth_deg)), e = glm::radians(static_cast<double>(elevation_deg));
+  return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
+}
+
+inline Modelled model_of(const SceneSpec& spec, const Site& site, int segments) {
+  Builder builder(site, segments);
+  const double half = std::round(half_floor_m * site.scale);
+  const glm::dvec3 corner = glm::round(site.origin_m);
+  builder.rectangle(corner + glm::dvec3(-half, 0, -half), {0, 0, 2 * half}, {2 * half, 0, 0});
+  for (const ShapeSpec& s : spec.shapes) builder.add(s);
+  Modelled m = builder.build();
+  const glm::dvec3 target = site.origin_m;
+  m.scene.name = site.name;
+  m.scene.light = {.position_m = target + 12 * site.scale * toward(spec.light_azimuth_deg, spec.light_elevation_deg),
+                   .target_m = target};
+  m.scene.camera = {.eye_m = target + 9 * site.scale * toward(spec.camera_azimuth_deg, spec.camera_elevation_deg),
+                    .target_m = target + glm::dvec3(0, 0.5 * site.scale, 0),
+                    .fov_y_deg = 40,
+                    .near_m = 0.1,
+                    .far_m = 100 * site.scale};
+  return m;
+}
+
+inline constexpr int most_shapes = 14;
+
+// rapidcheck begins with small numbers; here every scene takes its numbers from their whole ranges.
+inline rc::Gen<ShapeSpec> any_shape(int kinds) {
+  using rc::gen::inRange, rc::gen::set;
+  const auto place = inRange(-1000, 1001);
+  const auto size = inRange(20, 1001);
+  // Half of all shapes are not turned, and y = 0 is where the floor is: contacts and coplanar faces on purpose.
+  const auto turn = rc::gen::oneOf(rc::gen::just(0), inRange(0, 360));
+  return rc::gen::resize(rc::kNominalSize, rc::gen::build<ShapeSpec>(
+                                               set(&ShapeSpec::kind, inRange(0, kinds)), set(&ShapeSpec::x, place),
+                                               set(&ShapeSpec::y, rc::gen::oneOf(rc::gen::just(0), inRange(-100, 500))),
+                                               set(&ShapeSpec::z, place), set(&ShapeSpec::a, size),
+                                               set(&ShapeSpec::b, size), set(&ShapeSpec::c, size),
+                                               set(&ShapeSpec::decade, inRange(0, 3)), set(&ShapeSpec::yaw_deg, turn),
+                                               set(&ShapeSpec::pitch_deg, turn), set(&ShapeSpec::roll_deg, turn)));
+}
+
+inline rc::Gen<SceneSpec> any_scene(int kinds) {
+  using rc::gen::inRange, rc::gen::set;
+  return rc::gen::resize(
+      rc::kNominalSize,
+      rc::gen::build<SceneSpec>(
+          set(&SceneSpec::shapes,
+              rc::gen::resize(most_shapes, rc::gen::container<std::vector<ShapeSpec>>(any_shape(kinds)))),
+          set(&SceneSpec::light_elevation_deg, inRange(5, 91)), set(&SceneSpec::light_azimuth_deg, inRange(0, 360)),
+          set(&SceneSpec::resolution, inRange(3, 600)), set(&SceneSpec::kernel_radius, inRange(0, 3)),
+          set(&SceneSpec::camera_azimuth_deg, inRange(0, 360)), set(&SceneSpec::camera_elevation_deg, inRange(3, 90)),
+          set(&SceneSpec::near_cut, rc::gen::oneOf(rc::gen::just(0), inRange(0, 80))),
+          set(&SceneSpec::seed, inRange<uint32_t>(1, 1u << 30))));
+}
+
+}  // namespace noonmark::test

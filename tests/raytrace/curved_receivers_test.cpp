@@ -1,0 +1,310 @@
+// The own-surface rule of R3 on curved and creased receivers: causes as a person would name them. Receivers are random
+// points of the surfaces, the grid is shifted and turned at random, and no OpenGL takes part: what is judged are the
+// taps' truths F (at the tap's exact place) and V (at the texel's centre), and the causes that follow from them.
+//
+// Aliasing needs F != V, at whatever bias; so "no aliasing" is tested on the taps themselves.
+#include <gtest/gtest.h>
+
+#include "tests/raytrace/curved_support.h"
+
+namespace noonmark::curved {
+namespace {
+
+// How a shape is that shades nothing of itself.
+struct Lone {
+  // A texel beyond a receiver's own fold may show another limb, higher than the fold, and the light's view jumps on the
+  // way there: for receivers so near to a fold aliasing is allowed, and rare.
+  bool has_folds = false;
+  bool flat = false;  // square to the light: no acne either
+  double most_ambiguous = 0.001;
+};
+
+// Nothing here shades anything: all is lit, and at every bias there is acne or nothing.
+void expect_acne_only(const Scene& scene, uint32_t seed, const Lone& lone = {}) {
+  uint64_t acne = 0, all_taps = 0;
+  on_many_grids(scene, seed, 3000, [&](const Judged& j) {
+    const TrueEdges edges(scene, j.frame);
+    const auto inner = [&](size_t i) {
+      return !edges.outline_within(glm::dvec2(j.frame.to_light(j.receivers.position[i])), j.reach());
+    };
+    const auto chosen = lone.has_folds ? std::function<bool(size_t)>(inner) : nullptr;
+    const Tally sum = tally(j, chosen), everywhere = tally(j);
+    EXPECT_LE(everywhere.differ, everywhere.taps / 100);
+    uint64_t unlit = 0;
+    for (size_t i = 0; i < j.truth.facing.size(); ++i) unlit += j.counted(i) && !j.truth.lit[i];
+    EXPECT_EQ(unlit, 0u);
+    all_taps += sum.taps;
+    EXPECT_EQ(sum.dark, 0u);
+    EXPECT_EQ(sum.differ, 0u);
+    EXPECT_LE(static_cast<double>(sum.ambiguous), lone.most_ambiguous * static_cast<double>(sum.facing));
+    for (double bias : {0.0, 0.02, 0.5}) {
+      const Judged::Causes causes = j.causes(bias * j.frame.texel_m() * 10, chosen);
+      acne += causes[at(Cause::acne)];
+      EXPECT_EQ(causes[at(Cause::none)] + causes[at(Cause::acne)], sum.taps) << "bias " << bias;
+    }
+  });
+  EXPECT_GT(all_taps, 5000u);
+  EXPECT_TRUE(lone.flat || acne > 1000) << "at bias 0 about half of every slope is dark";
+}
+
+// --- Where no point shades another
+
+// A height field hides nothing of itself from a light straight above, steep or not, concave or not: of every vertical
+// line it holds one point. Coarse cells are creased where their two triangles meet, in ridges and in valleys.
+TEST(HeightField, UnderALightFromAboveShowsAcneOnly) {
+  const std::function<double(double, double)> heights[] = {
+      [](double x, double z) { return 0.8 * (x * x - z * z); },                          // saddle
+      [](double x, double z) { return 0.7 * (x * x * x - 3 * x * z * z); },              // monkey saddle
+      [](double x, double z) { return 0.5 * (x * x + z * z); },                          // bowl
+      [](double x, double z) { return 0.3 * std::sin(5 * x + 1) * std::cos(4 * z); },    // egg crate
+      [](double x, double z) { return 0.5 * std::abs(x) + 0.2 * std::abs(z - 0.3); },    // valleys with a crease
+      [](double x, double z) { return -1.5 * std::abs(x - 0.2) - 0.4 * std::abs(z); }};  // ridges
+  uint32_t seed = 1;
+  for (const auto& height : heights) {
+    for (int cells : {3, 8, 40}) {
+      SCOPED_TRACE(testing::Message() << "height field " << seed << " of " << cells << " cells");
+      Scene scene;
+      add_height_field(scene, cells, height);
+      test::light_from_above(scene);
+      expect_acne_only(scene, seed++);
+    }
+  }
+}
+
+// Seen along its axis a torus shows its upper half, and nothing of that lies before anything else of it: its cross
+// section is convex. Its rims, within and without, are folds with nothing beyond. However the whole is turned.
+TEST(Torus, SeenOnItsAxisShowsAcneOnly) {
+  uint32_t seed = 100;
+  for (const auto& [columns, rows] : {std::pair(8, 6), std::pair(17, 8), std::pair(96, 48)}) {
+    for (double angle : {0.0, 0.7, 2.1}) {
+      SCOPED_TRACE(testing::Message() << columns << " x " << rows << " turned by " << angle);
+      Scene scene;
+      add_torus(scene, columns, rows, 1, 0.4);
+      test::light_from_above(scene);
+      turn(scene, glm::dmat3(glm::rotate(glm::dmat4(1), angle, glm::normalize(glm::dvec3(1, 0.3, 0.5)))));
+      expect_acne_only(scene, seed++, {.has_folds = true});
+    }
+  }
+}
+
+// A convex solid hides nothing that faces the light, from wherever the light comes.
+TEST(Sphere, AloneShowsAcneOnly) {
+  uint32_t seed = 200;
+  for (const auto& [columns, rows] : {std::pair(5, 3), std::pair(12, 6), std::pair(128, 64)}) {
+    for (const glm::dvec3 light : {glm::dvec3(0, 10, 0), glm::dvec3(-4, 3, 5), glm::dvec3(6, -0.1, 1)}) {
+      Scene scene;
+      add_sphere(scene, columns, rows, 1, 0);
+      scene.light = {.position_m = light, .target_m = {0, 0, 0}};
+      expect_acne_only(scene, seed++);
+    }
+  }
+}
+
+// A decal of the very plane that it lies on, above or below by what float makes of its corners at most, and a floor
+// that is there twice: neither is an occluder, though their depths may differ in the last bit either way.
+TEST(CoplanarFaces, ShowAcneOnly) {
+  for (double tilt : {0.0, 0.6, 1.2}) {
+    Scene scene;
+    add_quad(scene, "wall", {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
+    add_quad(scene, "decal", {-0.31, 0, -0.17}, {0.1, 0, 0.5}, {0.63, 0, -0.05});
+    add_quad(scene, "wall again", {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
+    for (glm::vec3& p : scene.positions)
+      p = glm::vec3(glm::dmat3(glm::rotate(glm::dmat4(1), tilt, glm::normalize(glm::dvec3(0.4, 0.1, 1)))) *
+                    glm::dvec3(p));
+    test::light_from_above(scene);
+    SCOPED_TRACE(testing::Message() << "tilted by " << tilt);
+    // Under the decal, of which 0.32 of 4 (and of as much again) square metres lie over the wall, the truth hangs on
+    // the corners' rounding: ambiguous, and not a verdict.
+    expect_acne_only(scene, 300, {.flat = tilt == 0, .most_ambiguous = 2 * 0.32 / 8 + 0.01});
+  }
+}
+
+// --- Where something does
+
+// From the side a torus shades its own far half: the near tube's shadow falls on the inner slope beyond the hole.
+TEST(Torus, ObliquelyLitAliasesAtItsShadowsEdgesOnly) {
+  uint32_t seed = 400;
+  std::vector<std::vector<double>> shares;
+  for (const auto& [columns, rows] : {std::pair(12, 8), std::pair(36, 18), std::pair(128, 64)}) {
+    SCOPED_TRACE(testing::Message() << columns << " x " << rows);
+    Scene scene;
+    add_torus(scene, columns, rows, 1, 0.4);
+    scene.light = {.position_m = {-5, 3, 1}, .target_m = {0, 0, 0}};
+    uint64_t differ = 0, dark = 0, taps = 0;
+    Judged::Causes small{}, large{};
+    on_many_grids(scene, seed++, 4000, [&](const Judged& j) {
+      expect_aliasing_at_true_edges(j, TrueEdges(scene, j.frame));
+      const Tally sum = tally(j);
+      differ += sum.differ, dark += sum.dark, taps += sum.taps;
+      const Judged::Causes without = j.causes(0), with = j.causes(2);
+      for (int c = 0; c < cause_count; ++c) small[c] += without[c], large[c] += with[c];
+      EXPECT_EQ(without[at(Cause::peter_panning)], 0u) << "without a bias nothing dark is lit but by the grid";
+    });
+    EXPECT_GT(dark, taps / 100) << "it does shade itself";
+    EXPECT_GT(differ, 200u);
+    EXPECT_GT(small[at(Cause::acne)], taps / 5);
+    EXPECT_GT(large[at(Cause::peter_panning)], 100u) << "the near tube stands 1.2 m off and more";
+    shares.push_back({});
+    for (Cause cause : {Cause::aliasing_dark, Cause::aliasing_light, Cause::acne})
+      shares.back().push_back(static_cast<double>(small[at(cause)]) / static_cast<double>(taps));
+    shares.back().push_back(static_cast<double>(large[at(Cause::peter_panning)]) / static_cast<double>(taps));
+  }
+  // The same causes, coarse or fine: a coarse torus is thinner and its edges are elsewhere, but no cause takes the
+  // place of another. 12 x 8 has a tenth less of a tube; half and double hold all that and the sampling.
+  for (const auto& coarse : shares)
+    for (size_t c = 0; c < coarse.size(); ++c) {
+      EXPECT_GT(coarse[c], 0.5 * shares.back()[c]) << c;
+      EXPECT_LT(coarse[c], 2 * shares.back()[c]) << c;
+    }
+}
+
+// Height fields under an oblique light do shade themselves.
+TEST(HeightField, ObliquelyLitAliasesAtItsShadowsEdgesOnly) {
+  uint32_t seed = 500;
+  for (int cells : {8, 40}) {
+    Scene scene;
+    add_height_field(scene, cells, [](double x, double z) { return 0.3 * std::sin(7 * x + 1) * std::cos(6 * z); });
+    scene.light = {.position_m = {-5, 2.5, 1}, .target_m = {0, 0, 0}};
+    uint64_t differ = 0, dark = 0;
+    on_many_grids(scene, seed++, 4000, [&](const Judged& j) {
+      expect_aliasing_at_true_edges(j, TrueEdges(scene, j.frame));
+      const Tally sum = tally(j);
+      differ += sum.differ, dark += sum.dark;
+    });
+    EXPECT_GT(dark, 2000u);
+    EXPECT_GT(differ, 200u);
+  }
+}
+
+// A sphere of 1 m on a floor, touching it in one point, sunk, floating, and sunk so deep that the light sees the crease
+// where it leaves the floor.
+class SphereOnFloor : public testing::TestWithParam<double> {};
+
+TEST_P(SphereOnFloor, AcneOnTheSphereAndAliasingAtItsShadowsEdge) {
+  const double centre_y = GetParam();
+  for (const auto& [columns, rows] : {std::pair(8, 5), std::pair(24, 12), std::pair(128, 64)}) {
+    SCOPED_TRACE(testing::Message() << columns << " x " << rows);
+    Scene scene;
+    add_floor(scene, 4);
+    add_sphere(scene, columns, rows, 1, centre_y);
+    scene.light = {.position_m = {-3, 4, 1}, .target_m = {0, 0, 0}};
+    Scene sphere_alone;
+    add_sphere(sphere_alone, columns, rows, 1, centre_y);
+    uint64_t floor_differ = 0, panning = 0, crease = 0, sphere_taps = 0;
+    on_many_grids(scene, 600, 5000, [&](const Judged& j) {
+      const LightFrame& frame = j.frame;
+      const TrueEdges edges(scene, frame);
+      // What lies below the floor, or of the floor within the sphere, no camera sees.
+      const auto on_floor = [&](size_t i) {
+        const glm::dvec3 p = j.receivers.position[i];
+        return j.receivers.primitive[i] < 2 && (centre_y >= 1 || glm::length(p - glm::dvec3(0, centre_y, 0)) > 1);
+      };
+      const auto on_sphere = [&](size_t i) { return j.receivers.primitive[i] >= 2 && j.receivers.position[i].y > 0; };
+      const auto inner = [&](size_t i) {  // further from the terminator than its taps reach
+        return on_sphere(i) && !edges.outline_within(glm::dvec2(frame.to_light(j.receivers.position[i])), j.reach());
+      };
+      const Tally sphere = tally(j, inner);
+      sphere_taps += sphere.taps;
+      EXPECT_EQ(sphere.differ, 0u) << "convex: what faces the light is lit";
+      EXPECT_EQ(sphere.dark, 0u);
+      for (double bias : {0.0, 0.05, 4.0}) {
+        const Judged::Causes causes = j.causes(bias, inner);
+        EXPECT_EQ(causes[at(Cause::none)] + causes[at(Cause::acne)], sphere.taps) << "bias " << bias;
+        panning += j.causes(bias, on_floor)[at(Cause::peter_panning)];
+      }
+      EXPECT_LT(tally(j).ambiguous, 5u);
+
+      const LightBins bins(sphere_alone, frame);
+      expect_aliasing_at_true_edges(j, edges, on_floor);
+      expect_aliasing_at_true_edges(j, edges, on_sphere);
+      uint64_t wrong_dark = 0, off_crease = 0, panning_in_light = 0, outside_the_circle = 0;
+      const glm::dvec2 centre = glm::dvec2(frame.to_light({0, centre_y, 0}));
+      const double slack = 1 - std::cos(pi / columns) * std::cos(pi / (2 * rows));  // what the facets cut off
+      const double crease_radius = std::sqrt(std::max(0.0, 1 - centre_y * centre_y));
+      for (size_t i = 0; i < j.truth.facing.size(); ++i) {
+        if (!on_floor(i) || !j.counted(i)) continue;
+        const auto shaded = [&](glm::dvec2 x) {  // is the sphere before the floor there?
+          const double floor_z =
+              frame.to_light(frame.to_world({x.x, x.y, 0})).z - frame.to_world({x.x, x.y, 0}).y / frame.forward.y;
+          return bins.first_hit(x).z < floor_z;
+        };
+        for (int t = 0; t < j.kernel * j.kernel; ++t) {
+          const Tap tap = j.tap(i, t);
+          const glm::dvec2 place = j.place(i, t);
+          const glm::dvec2 texel = j.texel_centre(i, t);
+          floor_differ += tap.exact_lit != tap.texel_lit;
+          // The floor is a plane, so it is known what its being carried to the texel's centre comes to. Where the light
+          // sees the crease, the sphere rises from the floor without a jump: V is lit there, and a dark verdict acne.
+          if (tap.texel_lit == shaded(texel)) {
+            ++crease;
+            wrong_dark += !tap.texel_lit;
+            // On the floor the crease is a circle, too.
+            const double from_crease =
+                std::abs(std::hypot(j.receivers.position[i].x, j.receivers.position[i].z) - crease_radius);
+            off_crease += from_crease > j.reach() / std::abs(frame.forward.y) + 2 * slack;
+          }
+          // The closed form: the sphere's shadow in the light's plane is a circle.
+          const double off = std::abs(glm::length(place - centre) - 1);
+          outside_the_circle +=
+              centre_y >= 1 && tap.exact_lit != tap.texel_lit && off > slack + j.frame.texel_m() * std::sqrt(0.5);
+          const float deep = static_cast<float>(0.3 / (frame.far_m - frame.near_m));
+          const bool lit = !(j.probe.reference[i] - deep > tap.depth);
+          panning_in_light += j.kernel == 1 && j.truth.lit[i] && tap_cause(tap, lit) == Cause::peter_panning;
+        }
+      }
+      EXPECT_EQ(wrong_dark, 0u) << "V is dark only where the sphere stands before the floor";
+      EXPECT_EQ(off_crease, 0u);
+      EXPECT_EQ(panning_in_light, 0u) << "Peter Panning lights what is dark";
+      EXPECT_EQ(outside_the_circle, 0u);
+    });
+    EXPECT_GT(floor_differ, 300u);
+    EXPECT_GT(sphere_taps, 2000u);
+    EXPECT_GT(panning, 300u);
+    if (centre_y >= 1) {
+      EXPECT_EQ(crease, 0u) << "the light sees no crease: V is the sphere's shadow to the letter";
+    } else if (centre_y < 0.5) {
+      EXPECT_GT(crease, 20u);
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Places, SphereOnFloor, testing::Values(1.0, 0.97, 1.03, 1.5, 0.3), [](const auto& place) {
+  const double y = place.param;
+  return y == 1      ? "Touching"
+         : y == 0.97 ? "SunkALittle"
+         : y == 1.03 ? "FloatingALittle"
+         : y == 1.5  ? "Floating"
+                     : "Dome";
+});
+
+// A sphere within a slightly larger one: whatever of it faces the light is dark, and so is every place that a texel
+// reaches on it. Carried along its tangent plane instead of along itself it would break through the shell, which stands
+// nearer than the sphere bends away within a coarse texel. With a bias that reaches through the shell: Peter Panning.
+TEST(Shell, KeepsWhatIsWithinDarkAtEveryTap) {
+  for (const auto& [columns, rows] : {std::pair(24, 12), std::pair(128, 64)}) {
+    Scene scene;
+    add_sphere(scene, columns, rows, 1, 0);
+    const size_t within = scene.triangles.size();
+    add_sphere(scene, columns, rows, 1.01, 0);
+    scene.light = {.position_m = {-3, 4, 1}, .target_m = {0, 0, 0}};
+    uint64_t taps = 0, panning = 0;
+    on_many_grids(scene, 950, 5000, [&](const Judged& j) {
+      const TrueEdges edges(scene, j.frame);
+      const auto inner = [&](size_t i) {
+        return j.receivers.primitive[i] < within &&
+               !edges.outline_within(glm::dvec2(j.frame.to_light(j.receivers.position[i])), j.reach());
+      };
+      const Tally sum = tally(j, inner);
+      taps += sum.taps;
+      EXPECT_EQ(sum.dark, sum.taps);
+      EXPECT_EQ(sum.differ, 0u);
+      const Judged::Causes causes = j.causes(1, inner);
+      EXPECT_EQ(causes[at(Cause::none)] + causes[at(Cause::peter_panning)], sum.taps);
+      panning += causes[at(Cause::peter_panning)];
+    });
+    EXPECT_GT(taps, 5000u);
+    EXPECT_GT(panning, taps / 2);
+  }
+}
+
+}  // namespace
+}  // namespace noonmark::curved

@@ -1,0 +1,75 @@
+// How far receivers are from what shades them, in closed form; and that contacts do not hold the search up.
+#include <gtest/gtest.h>
+
+#include "tests/raytrace/fixture.h"
+
+namespace noonmark::raytrace {
+namespace {
+
+using namespace test;
+
+Image<uint8_t> everywhere(const ReceiverImage& receivers) {
+  return Image<uint8_t>(receivers.width(), receivers.height(), 1);
+}
+
+// A wall's lit face is the plane x = 0; the floor behind it at x is x / cos from it along the light.
+TEST(OccluderDistance, BehindAWallInClosedForm) {
+  Scene scene;
+  add_quad(scene, "floor", {-5, 0, -5}, {0, 0, 10}, {10, 0, 0});
+  add_quad(scene, "wall", {0, 0, -5}, {0, 0, 10}, {0, 2, 0});
+  scene.light = {.position_m = {-3, 3, 0}, .target_m = {0, 0, 0}};
+  const LightFrame frame = frame_of(scene);
+  const ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), true, 5000, 1);
+  const Image<float> distance = Tracer(scene).occluder_distance(receivers, frame, everywhere(receivers));
+  int dark = 0;
+  for (size_t i = 0; i < distance.size(); ++i) {
+    const glm::dvec3 p = receivers.position[i];
+    const bool floor = receivers.primitive[i] < 2;
+    if (floor && p.x > 0 && p.x < 2) {
+      ++dark;
+      EXPECT_NEAR(distance[i], p.x * std::sqrt(2.0), 1e-6 + 1e-6 * p.x) << p.x;  // float's distance along the ray
+    } else if (!floor || p.x < 0 || p.x > 2.001) {
+      EXPECT_EQ(distance[i], std::numeric_limits<float>::infinity()) << p.x;
+    }
+  }
+  EXPECT_GT(dark, 500);
+}
+
+TEST(OccluderDistance, OnlyWhereAsked) {
+  const Scene scene = builtin("wall");
+  const LightFrame frame = frame_of(scene);
+  const ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), false, 1000, 2);
+  Image<uint8_t> mask(receivers.width(), receivers.height());
+  for (size_t i = 0; i < mask.size(); i += 3) mask[i] = 1;
+  const Tracer tracer(scene);
+  const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {});
+  const Image<float> distance = tracer.occluder_distance(receivers, frame, mask);
+  for (size_t i = 0; i < mask.size(); ++i) {
+    if (!mask[i]) {
+      EXPECT_EQ(distance[i], 0);
+    } else if (!truth.ambiguous[i]) {
+      EXPECT_EQ(std::isinf(distance[i]), truth.lit[i] != 0) << i;
+    }
+  }
+}
+
+// Faces that touch, hundreds on one another, and receivers exactly on shared corners: a search that steps on by less
+// than a float's last place never ends, and the test runner's time limit says so.
+TEST(OccluderDistance, ContactsDoNotHoldItUp) {
+  Scene scene;
+  for (int copy = 0; copy < 300; ++copy) add_quad(scene, "floor", {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
+  for (int i = 0; i < 10; ++i) add_box(scene, "box", glm::dvec3(-0.5 - 0.01 * i, 0, -0.5), glm::dvec3(0.5, 0.5, 0.5));
+  for (const glm::dvec3 by : {glm::dvec3(0), glm::dvec3(1000, 1000, -500)}) {
+    const Scene here = moved(scene, by);
+    const LightFrame frame = frame_of(here);
+    std::vector<Placed> points = points_on(here, frame.direction_to_light(), true, 500, 3);
+    for (uint32_t t = 600; t < here.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) points.push_back({here.positions[here.triangles[t][i]], t});
+    const ReceiverImage receivers = receivers_at(here, points, frame.direction_to_light(), true);
+    const Image<float> distance = Tracer(here).occluder_distance(receivers, frame, everywhere(receivers));
+    for (float d : distance.pixels) EXPECT_FALSE(std::isnan(d));
+  }
+}
+
+}  // namespace
+}  // namespace noonmark::raytrace

@@ -1,0 +1,385 @@
+// The built-in scenes are what their comments say, and the shapes they are made of are sound.
+#include "scenes/builtin.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "scenes/camera_fit.h"
+#include "scenes/camera_frame.h"
+#include "scenes/library.h"
+#include "scenes/shapes.h"
+#include "technique/light_frame.h"
+
+namespace noonmark {
+namespace {
+
+std::vector<Scene> all_scenes() {
+  std::vector<Scene> scenes;
+  for (const BuiltinScene& builtin : builtin_scenes())
+    scenes.push_back(make_scene({.name = std::string(builtin.name)}));
+  return scenes;
+}
+
+const Scene& named(const std::vector<Scene>& scenes, const std::string& name) {
+  return *std::find_if(scenes.begin(), scenes.end(), [&](const Scene& s) { return s.name == name; });
+}
+
+glm::dvec3 corner(const Scene& scene, uint32_t triangle, int i) {
+  return scene.positions[scene.triangles[triangle][i]];
+}
+
+double signed_volume(const Scene& scene, const Part& part) {
+  double sum = 0;
+  for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+    sum += glm::dot(corner(scene, t, 0), glm::cross(corner(scene, t, 1), corner(scene, t, 2))) / 6;
+  return sum;
+}
+
+// Every edge of a closed part is run through once each way.
+bool closed(const Scene& scene, const Part& part) {
+  using Key = std::tuple<float, float, float>;
+  const auto key = [](glm::vec3 p) { return Key(p.x, p.y, p.z); };
+  std::map<std::pair<Key, Key>, int> runs;
+  for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+    for (int e = 0; e < 3; ++e)
+      ++runs[{key(scene.positions[scene.triangles[t][e]]), key(scene.positions[scene.triangles[t][(e + 1) % 3]])}];
+  return std::all_of(runs.begin(), runs.end(), [&](const auto& run) {
+    const auto back = runs.find({run.first.second, run.first.first});
+    return run.second == 1 && back != runs.end() && back->second == 1;
+  });
+}
+
+TEST(BuiltinScenes, AreFiniteAndInRange) {
+  EXPECT_EQ(builtin_scenes().size(), 11u);
+  for (const Scene& scene : all_scenes()) {
+    EXPECT_FALSE(scene.triangles.empty()) << scene.name;
+    for (const glm::vec3& p : scene.positions) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << scene.name;
+    uint32_t next = 0;  // parts follow on one another and leave no triangle out
+    for (const Part& part : scene.parts) {
+      EXPECT_EQ(part.first_triangle, next) << scene.name << ' ' << part.name;
+      EXPECT_GT(part.triangle_count, 0u);
+      EXPECT_FALSE(part.name.empty());
+      next += part.triangle_count;
+    }
+    EXPECT_EQ(next, scene.triangles.size()) << scene.name;
+    for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+      for (int i = 0; i < 3; ++i) ASSERT_LT(scene.triangles[t][i], scene.positions.size()) << scene.name;
+      const double area2 =
+          glm::length(glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0)));
+      ASSERT_GT(area2, 1e-8) << scene.name << ": a sliver, triangle " << t;
+    }
+  }
+}
+
+TEST(BuiltinScenes, SolidsAreClosedAndTurnedOutward) {
+  const std::set<std::string> open = {"floor", "plane", "bowl", "wall piece", "pane", "reveal"};
+  int solids = 0;
+  for (const Scene& scene : all_scenes()) {
+    for (const Part& part : scene.parts) {
+      EXPECT_EQ(closed(scene, part), !open.contains(part.name)) << scene.name << ' ' << part.name;
+      if (open.contains(part.name)) continue;
+      // A room is seen from inside.
+      const double outward = part.name == "room" ? -1 : 1;
+      EXPECT_GT(outward * signed_volume(scene, part), 0) << scene.name << ' ' << part.name;
+      ++solids;
+    }
+  }
+  EXPECT_EQ(solids, 3 + 2 + 1 + 25 + 1 + 65 + (6 + 1) + 6 + 6);
+}
+
+TEST(BuiltinScenes, OpenSurfacesFaceTheLight) {
+  for (const Scene& scene : all_scenes()) {
+    const LightFrame frame = make_light_frame(scene, {});
+    for (const Part& part : scene.parts) {
+      if (part.name != "floor" && part.name != "plane" && part.name != "bowl" && part.name != "room") continue;
+      for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
+        const glm::dvec3 n =
+            glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0));
+        EXPECT_GT(glm::dot(n, frame.direction_to_light(corner(scene, t, 0))), 0) << scene.name << ' ' << part.name;
+      }
+    }
+  }
+}
+
+// Some point of every scene but the far ones is in the picture, before nothing is clipped, and the picture's middle is
+// on it.
+TEST(BuiltinScenes, TheCameraSeesThem) {
+  for (const Scene& scene : all_scenes()) {
+    const Camera camera = effective_camera(scene, {});
+    const CameraFrame frame = make_camera_frame(camera, 1280, 720);
+    size_t seen = 0, parts_seen = 0;
+    for (const Part& part : scene.parts) {
+      size_t of_part = 0;
+      for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
+        const glm::dvec3 middle = (corner(scene, t, 0) + corner(scene, t, 1) + corner(scene, t, 2)) / 3.0;
+        const glm::dvec4 clip = frame.clip_from_world() * glm::dvec4(middle, 1);
+        of_part += clip.w > 0 && std::abs(clip.x) < clip.w && std::abs(clip.y) < clip.w && std::abs(clip.z) < clip.w;
+      }
+      seen += of_part;
+      parts_seen += of_part > 0;
+    }
+    EXPECT_GT(seen, 0u) << scene.name;
+    if (scene.name != "pillars") {
+      EXPECT_GE(parts_seen + 1, scene.parts.size()) << scene.name << ": parts out of the picture";
+    }
+
+    // The middle of the picture: a ray that meets some triangle between near and far.
+    const Ray ray = frame.pixel_ray(640, 360, 1280, 720);
+    bool met = false;
+    for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+      const glm::dvec3 a = corner(scene, t, 0), b = corner(scene, t, 1), c = corner(scene, t, 2), d = ray.direction;
+      const double s0 = glm::dot(d, glm::cross(a - ray.origin, b - ray.origin)),
+                   s1 = glm::dot(d, glm::cross(b - ray.origin, c - ray.origin)),
+                   s2 = glm::dot(d, glm::cross(c - ray.origin, a - ray.origin));
+      if (!((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0))) continue;
+      const glm::dvec3 n = glm::cross(b - a, c - a);
+      const double along = glm::dot(n, a - ray.origin) / glm::dot(n, d);
+      met |= along > camera.near_m && along < camera.far_m;
+    }
+    EXPECT_TRUE(met) << scene.name;
+  }
+}
+
+bool inside(const LightFrame& f, glm::dvec3 world, bool depth_too = true) {
+  const glm::dvec3 p = f.to_light(world);
+  if (!f.parallel()) {
+    const glm::dvec3 a = glm::abs(p);
+    const double z = f.kind == LightKind::spot ? p.z : std::max({a.x, a.y, a.z});  // what the face's planes clip
+    const bool across = f.kind == LightKind::point || std::max(a.x, a.y) <= z * f.tan_half_fov;
+    return across && z > 0 && (!depth_too || (z >= f.near_m && f.depth_m(p) <= f.far_m));
+  }
+  return std::abs(p.x) <= f.extent_m / 2 && std::abs(p.y) <= f.extent_m / 2 &&
+         (!depth_too || (p.z >= f.near_m && p.z <= f.far_m));
+}
+
+bool part_inside(const Scene& scene, const LightFrame& f, const Part& part, bool depth_too = true) {
+  for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+    for (int i = 0; i < 3; ++i)
+      if (!inside(f, corner(scene, t, i), depth_too)) return false;
+  return true;
+}
+
+TEST(BuiltinScenes, TheLightsVolumeHoldsWhatThrowsAndTakesShadows) {
+  for (const Scene& scene : all_scenes()) {
+    const LightFrame f = make_light_frame(scene, {});
+    const glm::dvec3 way = f.forward;
+    for (const Part& part : scene.parts) {
+      if (part.name == "floor") continue;
+      EXPECT_TRUE(part_inside(scene, f, part)) << scene.name << ' ' << part.name;
+      const auto floor =
+          std::find_if(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.name == "floor"; });
+      if (floor == scene.parts.end() || scene.name == "cube-room" || !f.parallel()) continue;
+      const double floor_y = corner(scene, floor->first_triangle, 0).y;
+      for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+        for (int i = 0; i < 3; ++i) {  // where this corner's shadow falls on the floor
+          const glm::dvec3 p = corner(scene, t, i);
+          EXPECT_TRUE(inside(f, p + way * ((floor_y - p.y) / way.y))) << scene.name << ' ' << part.name;
+        }
+    }
+  }
+}
+
+TEST(BuiltinScenes, CubeRoomIsTheTutorialsScene) {
+  const std::vector<Scene> scenes = all_scenes();
+  const Scene& room = named(scenes, "cube-room");
+  ASSERT_EQ(room.parts.size(), 4u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(corner(room, 0, i).y, -0.5);
+  glm::dvec3 reach(0), middle[4] = {};
+  for (uint32_t t = 0; t < 2; ++t)
+    for (int i = 0; i < 3; ++i) reach = glm::max(reach, glm::abs(corner(room, t, i)));
+  EXPECT_EQ(reach.x, 25);
+  EXPECT_EQ(reach.z, 25);
+  const double volumes[] = {0, 1, 1, 0.125};
+  const glm::dvec3 places[] = {{}, {0, 1.5, 0}, {2, 0, 1}, {-1, 0, 2}};
+  for (size_t i = 1; i < 4; ++i) {
+    const Part& part = room.parts[i];
+    EXPECT_NEAR(signed_volume(room, part), volumes[i], 1e-6);
+    std::set<uint32_t> corners;
+    for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+      for (int k = 0; k < 3; ++k) corners.insert(room.triangles[t][k]);
+    EXPECT_EQ(corners.size(), 8u);
+    for (uint32_t c : corners) middle[i] += glm::dvec3(room.positions[c]) / 8.0;
+    EXPECT_LT(glm::length(middle[i] - places[i]), 1e-6);
+  }
+  // The last is turned by 60 degrees about (1, 0, 1): the edge along x becomes this (Rodrigues).
+  const glm::dvec3 axis = glm::normalize(glm::dvec3(1, 0, 1)), x(1, 0, 0);
+  const glm::dvec3 turned = 0.5 * x + std::sqrt(0.75) * glm::cross(axis, x) + 0.5 * glm::dot(axis, x) * axis;
+  const uint32_t first = room.triangles[room.parts[3].first_triangle].x;
+  EXPECT_LT(glm::length(glm::dvec3(room.positions[first + 1]) - glm::dvec3(room.positions[first]) - 0.5 * turned),
+            1e-6);
+
+  const LightFrame f = make_light_frame(room, {});
+  EXPECT_EQ(f.extent_m, 20);
+  EXPECT_EQ(f.near_m, 1);
+  EXPECT_EQ(f.far_m, 7.5);
+  EXPECT_FALSE(part_inside(room, f, room.parts[0], false));  // the map is smaller than the floor
+}
+
+// What light.kind may make of every scene, at the scene's own light position: what is in the picture's middle is in the
+// map, and something is lit.
+TEST(BuiltinScenes, EveryKindOfLightHasSomethingToDoInEveryScene) {
+  for (const Scene& scene : all_scenes()) {
+    for (const LightChoice kind : {LightChoice::directional, LightChoice::spot, LightChoice::point}) {
+      if (scene.name == "point-room" && kind != LightChoice::point) continue;  // closed: nothing lights it from outside
+      Settings settings;
+      settings.light.kind = kind;
+      const LightFrame f = make_light_frame(scene, settings);
+      const std::string what = scene.name + " under kind " + std::to_string(static_cast<int>(f.kind));
+      EXPECT_TRUE(inside(f, scene.camera.target_m, scene.name != "fence")) << what;
+      size_t facing = 0;
+      double nearest = 1e9;
+      for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        const glm::dvec3 middle = (corner(scene, t, 0) + corner(scene, t, 1) + corner(scene, t, 2)) / 3.0;
+        const glm::dvec3 n =
+            glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0));
+        facing += f.reaches(middle) && glm::dot(n, f.direction_to_light(middle)) > 0;
+        nearest = std::min(nearest, glm::length(middle - f.origin_m));
+      }
+      EXPECT_GT(facing, 0u) << what;
+      if (f.parallel()) continue;
+      EXPECT_GT(nearest, 0.5) << what << ": the light is in the way";
+      EXPECT_GT(f.near_m, f.far_m / 200) << what << ": depth is spent before the scene";
+    }
+  }
+}
+
+TEST(BuiltinScenes, TheSpotRoomsTexelsAndDepthStepsGrowWithDistance) {
+  const Scene scene = make_scene({.name = "spot-room"});
+  const LightFrame f = make_light_frame(scene, {});
+  EXPECT_EQ(f.kind, LightKind::spot);
+  double near_z = 1e9, far_z = 0;  // of the boxes' corners
+  for (const Part& part : scene.parts) {
+    if (part.name == "floor" || part.name == "wall") continue;
+    for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
+      for (int i = 0; i < 3; ++i) {
+        const double z = f.to_light(corner(scene, t, i)).z;
+        near_z = std::min(near_z, z);
+        far_z = std::max(far_z, z);
+      }
+  }
+  EXPECT_GT(f.texel_m({0, 0, far_z}) / f.texel_m({0, 0, near_z}), 3);
+  // One step of window depth in metres, as a bias in depth is: with the square of the distance.
+  EXPECT_GT(f.window_depth_slope(near_z) / f.window_depth_slope(far_z), 9);
+}
+
+TEST(BuiltinScenes, ThePointRoomIsTheTutorialsRoom) {
+  const Scene scene = make_scene({.name = "point-room"});
+  const LightFrame f = make_light_frame(scene, {});
+  ASSERT_EQ(scene.parts.size(), 6u);
+  EXPECT_EQ(f.kind, LightKind::point);
+  EXPECT_EQ(f.near_m, 1);
+  EXPECT_EQ(f.far_m, 25);
+  EXPECT_LT(glm::length(scene.light.position_m), 0.02);
+  EXPECT_NEAR(signed_volume(scene, scene.parts[0]), -1000, 1e-9);
+  const double sides[] = {1, 1.5, 1, 1, 1.5};
+  for (size_t i = 0; i < 5; ++i)
+    EXPECT_NEAR(signed_volume(scene, scene.parts[i + 1]), std::pow(sides[i], 3), 1e-5) << i;
+  EXPECT_TRUE(glm::all(glm::lessThan(glm::abs(scene.camera.eye_m), glm::dvec3(5)))) << "the camera is inside";
+}
+
+TEST(BuiltinScenes, PillarsNeedTheWideMap) {
+  const std::vector<Scene> scenes = all_scenes();
+  const Scene& pillars = named(scenes, "pillars");
+  Settings narrow;
+  narrow.map.extent_m = 20;
+  const LightFrame f = make_light_frame(pillars, narrow);
+  size_t held = 0;
+  for (const Part& part : pillars.parts) held += part.name == "pillar" && part_inside(pillars, f, part, false);
+  EXPECT_EQ(held, 1u);
+}
+
+// Law 1's plane: N.L = cos(theta), and the depth's gradient in the map is tan(theta) at azimuth phi.
+TEST(BuiltinScenes, PlaneHasTheSlopeItSays) {
+  for (double theta : {0.0, 5.0, 45.0, 80.0, 89.0}) {
+    for (double phi : {0.0, 30.0, 90.0, 200.0, -45.0}) {
+      SceneSettings settings{.name = "plane", .theta_deg = theta, .phi_deg = phi};
+      const Scene scene = make_scene(settings);
+      const LightFrame f = make_light_frame(scene, {});
+      for (uint32_t t = 0; t < 2; ++t) {
+        const glm::dvec3 n = glm::normalize(
+            glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0)));
+        const double float_rounding = 1e-6;  // corners 3 m out, in float: 2^-23 of 3 over 6
+        EXPECT_NEAR(glm::dot(n, f.direction_to_light()), std::cos(glm::radians(theta)), float_rounding)
+            << theta << ' ' << phi;
+        const glm::dvec3 light(glm::dot(n, f.right), glm::dot(n, f.up), glm::dot(n, f.forward));
+        const glm::dvec2 gradient = -glm::dvec2(light) / light.z;
+        const double tangent = std::tan(glm::radians(theta)), steep = 1 + tangent * tangent;
+        EXPECT_NEAR(gradient.x, tangent * std::cos(glm::radians(phi)), float_rounding * steep) << theta << ' ' << phi;
+        EXPECT_NEAR(gradient.y, tangent * std::sin(glm::radians(phi)), float_rounding * steep) << theta << ' ' << phi;
+      }
+    }
+  }
+}
+
+TEST(BuiltinScenes, WallAndPlateHaveTheThicknessTheySay) {
+  const Scene wall = make_scene({.name = "wall", .thickness_m = 0.25});
+  EXPECT_NEAR(signed_volume(wall, wall.parts[1]), 0.25 * 1.5 * 3, 1e-6);
+  EXPECT_NEAR(signed_volume(wall, wall.parts[2]), 3 * 1.5 * 0.25, 1e-6);
+  const Scene plate = make_scene({.name = "plate", .thickness_m = 0.02, .height_m = 0.75});
+  EXPECT_NEAR(signed_volume(plate, plate.parts[1]), 1.6 * 1.2 * 0.02, 1e-6);
+  double top = 0;
+  for (const glm::vec3& p : plate.positions) top = std::max<double>(top, p.y);
+  EXPECT_FLOAT_EQ(static_cast<float>(top), 0.75f);
+}
+
+// Seen by a light straight above (its u to the right along x, its v along -z), the edge that faces +x at first faces
+// azimuth phi.
+TEST(BuiltinScenes, PhiTurnsThePlate) {
+  const Scene still = make_scene({.name = "plate", .thickness_m = 0.02});
+  for (double phi : {0.0, 20.0, 45.0, -130.0}) {
+    const Scene turned = make_scene({.name = "plate", .phi_deg = phi, .thickness_m = 0.02});
+    ASSERT_EQ(turned.positions.size(), still.positions.size());
+    const double c = std::cos(glm::radians(phi)), s = std::sin(glm::radians(phi));
+    const Part& plate = still.parts[1];
+    for (uint32_t t = 0; t < still.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 p = corner(still, t, i);
+        const bool moves = t >= plate.first_triangle;
+        const glm::dvec3 expected = moves ? glm::dvec3(c * p.x + s * p.z, p.y, -s * p.x + c * p.z) : p;
+        EXPECT_LT(glm::length(corner(turned, t, i) - expected), 1e-6) << phi;  // some roundings of floats near 1
+      }
+  }
+}
+
+TEST(BuiltinScenes, SphereIsConvexAndBowlOpensUpward) {
+  const std::vector<Scene> scenes = all_scenes();
+  const Scene& sphere = named(scenes, "sphere");
+  for (const glm::vec3& p : sphere.positions) EXPECT_NEAR(glm::length(glm::dvec3(p)), 1, 1e-6);
+  EXPECT_NEAR(signed_volume(sphere, sphere.parts[0]), 4 * glm::pi<double>() / 3, 0.01);
+  const Scene& bowl = named(scenes, "bowl");
+  for (const glm::vec3& p : bowl.positions) {
+    EXPECT_NEAR(glm::length(glm::dvec3(p) - glm::dvec3(0, 1, 0)), 1, 1e-6);
+    EXPECT_LT(p.y, 1);
+  }
+}
+
+TEST(Shapes, QuadFrontIsTowardsTheCrossProduct) {
+  Scene scene;
+  add_quad(scene, "quad", {1, 2, 3}, {2, 0, 0}, {0, 0, -3});
+  ASSERT_EQ(scene.triangles.size(), 2u);
+  for (uint32_t t = 0; t < 2; ++t)
+    EXPECT_EQ(glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0)),
+              glm::dvec3(0, 6, 0));
+  EXPECT_EQ(scene.positions.size(), 4u);
+}
+
+TEST(Shapes, BoxFromCornersIsThatBox) {
+  Scene scene;
+  add_box(scene, "box", {-1, 2, 3}, {2, 2.5, 7});
+  EXPECT_TRUE(closed(scene, scene.parts[0]));
+  EXPECT_NEAR(signed_volume(scene, scene.parts[0]), 3 * 0.5 * 4, 1e-6);
+  for (const glm::vec3& p : scene.positions) {
+    EXPECT_TRUE(p.x == -1 || p.x == 2);
+    EXPECT_TRUE(p.y == 2 || p.y == 2.5f);
+    EXPECT_TRUE(p.z == 3 || p.z == 7);
+  }
+}
+
+}  // namespace
+}  // namespace noonmark

@@ -1,0 +1,176 @@
+// Points with every member filled, for the tests of what stores and writes them.
+#pragma once
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "compare/store/metrics.h"
+#include "compare/store/records.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf_value = std::numeric_limits<double>::infinity();
+
+// A folder of its own, gone at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "noonmark-XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw std::runtime_error("mkdtemp failed");
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Differs from id to id in every number.
+inline PointRecord sample_point(int64_t id, bool with_curve = true) {
+  PointRecord point;
+  point.id = id;
+  Settings settings;
+  settings.map.resolution = 256 << (id % 4);
+  for (const Setting& row : settings_table()) point.settings[std::string(row.name)] = row.get(settings);
+  double value = 0.1 + static_cast<double>(id);
+  for (const Metric& row : metrics_table()) point.metrics[std::string(row.name)] = value /= 3;
+  point.metrics["contract"] = 0;                                // a sound measurement (compare/judge/soundness.h)
+  point.metrics["counted"] = 700000 - static_cast<double>(id);  // enough for a picture
+  point.times = {{"map_ms", 1.25}, {"truth_ms", 1.0 / 3 + static_cast<double>(id)}, {"rays", 1e9 + 1}};
+  if (with_curve) {
+    BiasCurve curve;
+    curve.parameter = "bias.constant";
+    curve.made = "one pass";
+    for (int i = 0; i < 7; ++i) {
+      const double b = i * 0.1 / 7 + (i ? static_cast<double>(id) : 0);
+      curve.bias_depth.push_back(b);
+      for (auto series : {&BiasCurve::error, &BiasCurve::wrong, &BiasCurve::acne, &BiasCurve::peter_panning,
+                          &BiasCurve::aliasing_dark, &BiasCurve::aliasing_light, &BiasCurve::coverage})
+        (curve.*series).push_back(value = std::sqrt(value + b));
+    }
+    curve.m_per_depth = 6.5;
+    curve.texels_per_depth = 6.5 / (20.0 / 1024);
+    curve.acne_bound = 0.001;
+    curve.peter_panning_bound = 0.002;
+    curve.window_min_depth = 0.1 / 3;
+    curve.window_max_depth = 0.2 / 3;
+    curve.best_bias_depth = 0.05;
+    curve.best_error = 0.01 / 3;
+    curve.flat_min_depth = 0.04;
+    curve.flat_max_depth = 0.06;
+    curve.breakpoints = 87420;
+    curve.acne_free_bias_depth = 0.1 / 7;
+    curve.acne_free_bias_stored_depth = id % 2 ? std::optional(0.2 / 7) : std::nullopt;
+    point.curve = curve;
+  }
+  point.pictures = {{"truth", "images/p0003-truth.png", "The truth.", "0123456789abcdef"},
+                    {"map", "images/p0003-map.png", "It's \"the\" map.", "fedcba9876543210"}};
+  point.images = {{"images/p0003-ladder.exr", "00000000000000ff"}, {"images/p0003-map.exr", "00000000000000fe"}};
+  point.worst = {12, 34, 2.0 / 3, "acne"};
+  return point;
+}
+
+inline LawResult sample_law() {
+  LawResult law;
+  law.part = "law 1";
+  law.name = "1: acne-free bias";
+  law.says = "Free of acne from k w A tan(theta) on.";
+  law.found = "The least bias is 0.3 m.";
+  law.measured = "acne_free_bias_m";
+  law.predicted = "0.5 * texel_m";
+  law.relation = LawRelation::at_most;
+  law.tolerance = "within 5%";
+  law.join = "each";
+  law.samples = {{3, 0.1, 0.3, 0.005}, {4, 0.2, 0.19, 0.01}};
+  law.worst = 0;
+  law.reproduce = "noonmark render x.toml --point 3";
+  return law;
+}
+
+inline RunInfo sample_info() {
+  RunInfo info;
+  info.experiment = "experiments/cube room.toml";
+  info.title = "Größe & \"Bias\" <test>";
+  info.command = "noonmark run 'experiments/cube room.toml'";
+  info.commit = "0123abc";
+  info.version = "0.1.0";
+  info.started = "2025-01-31T12:00:00Z";
+  info.host_cpu = "a cpu";
+  info.gl_vendor = "Mesa";
+  info.gl_renderer = "llvmpipe (LLVM 15.0.6, 256 bits)";
+  info.gl_version = "4.5";
+  info.gl_timer = "glFinish + steady clock";
+  info.embree_version = "3.13.5";
+  info.embree_isa = "AVX2";
+  info.libraries = {{"glm", "0.9.9.8"}, {"sqlite", "3.40.1"}};
+  info.swept = {"map.resolution", "filter.kind"};
+  info.plot = {"error", "acne"};
+  info.scene_name = "cube-room";
+  info.triangles = 38;
+  info.scene_notes = {"street: 2 animations at rest; 1 primitive of lines left out"};
+  return info;
+}
+
+// Equal, where NaN equals NaN.
+inline bool same(double a, double b) { return (std::isnan(a) && std::isnan(b)) || a == b; }
+inline bool same(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) { return same(x, y); });
+}
+inline bool same(const std::map<std::string, double>& a, const std::map<std::string, double>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& x, const auto& y) { return x.first == y.first && same(x.second, y.second); });
+}
+inline bool same(const std::optional<double>& a, const std::optional<double>& b) {
+  return a.has_value() == b.has_value() && (!a || same(*a, *b));
+}
+inline bool same(const BiasCurve& a, const BiasCurve& b) {
+  return a.parameter == b.parameter && a.made == b.made && same(a.bias_depth, b.bias_depth) && same(a.error, b.error) &&
+         same(a.wrong, b.wrong) && same(a.acne, b.acne) && same(a.peter_panning, b.peter_panning) &&
+         same(a.aliasing_dark, b.aliasing_dark) && same(a.aliasing_light, b.aliasing_light) &&
+         same(a.coverage, b.coverage) && same(a.m_per_depth, b.m_per_depth) &&
+         same(a.texels_per_depth, b.texels_per_depth) && same(a.acne_bound, b.acne_bound) &&
+         same(a.peter_panning_bound, b.peter_panning_bound) && same(a.window_min_depth, b.window_min_depth) &&
+         same(a.window_max_depth, b.window_max_depth) && same(a.best_bias_depth, b.best_bias_depth) &&
+         same(a.best_error, b.best_error) && same(a.flat_min_depth, b.flat_min_depth) &&
+         same(a.flat_max_depth, b.flat_max_depth) && a.breakpoints == b.breakpoints &&
+         same(a.acne_free_bias_depth, b.acne_free_bias_depth) &&
+         same(a.acne_free_bias_stored_depth, b.acne_free_bias_stored_depth);
+}
+inline bool same(const PictureRecord& a, const PictureRecord& b) {
+  return a.name == b.name && a.path == b.path && a.caption == b.caption && a.digest == b.digest;
+}
+inline bool same(const PointRecord& a, const PointRecord& b) {
+  return a.id == b.id && a.part == b.part && a.settings == b.settings && same(a.metrics, b.metrics) &&
+         same(a.times, b.times) && a.curve.has_value() == b.curve.has_value() &&
+         (!a.curve || same(*a.curve, *b.curve)) &&
+         std::equal(a.pictures.begin(), a.pictures.end(), b.pictures.begin(), b.pictures.end(),
+                    [](const PictureRecord& x, const PictureRecord& y) { return same(x, y); }) &&
+         std::equal(
+             a.images.begin(), a.images.end(), b.images.begin(), b.images.end(),
+             [](const ImageRecord& x, const ImageRecord& y) { return x.path == y.path && x.digest == y.digest; }) &&
+         a.worst.x == b.worst.x && a.worst.y == b.worst.y && same(a.worst.error, b.worst.error) &&
+         a.worst.cause == b.worst.cause;
+}
+
+inline bool same(const LawResult& a, const LawResult& b) {
+  return a.part == b.part && a.name == b.name && a.says == b.says && a.found == b.found && a.measured == b.measured &&
+         a.predicted == b.predicted && a.relation == b.relation && a.tolerance == b.tolerance && a.join == b.join &&
+         a.worst == b.worst && a.held == b.held && a.reproduce == b.reproduce &&
+         std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
+                    [](const LawResult::Sample& x, const LawResult::Sample& y) {
+                      return x.point == y.point && same(x.predicted, y.predicted) && same(x.measured, y.measured) &&
+                             same(x.allowed, y.allowed);
+                    });
+}
+
+}  // namespace noonmark

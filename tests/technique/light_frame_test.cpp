@@ -1,0 +1,245 @@
+// LightFrame's places against its matrix, and the volume that is fitted around a scene.
+#include "technique/light_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "scenes/builtin.h"
+#include "scenes/error.h"
+#include "scenes/library.h"
+
+namespace noonmark {
+namespace {
+
+// Frames some metres across, in double: a thousand roundings of 2^-53.
+constexpr double rounding_m = 1e-12;
+
+double random_in(std::mt19937& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+glm::dvec3 random_point(std::mt19937& random, double reach) {
+  return {random_in(random, -reach, reach), random_in(random, -reach, reach), random_in(random, -reach, reach)};
+}
+
+Scene scene_lit_from(glm::dvec3 position, glm::dvec3 target) {
+  Scene scene;
+  scene.light = {.position_m = position, .target_m = target};
+  scene.map = MapVolume{.extent_m = 8, .near_m = 1.5, .far_m = 12};
+  return scene;
+}
+
+int kind_of_error(const Scene& scene, const Settings& settings) {
+  try {
+    make_light_frame(scene, settings);
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("set "), std::string::npos) << e.what() << ": does not say what to do";
+    return e.exit_code();
+  }
+  return 0;
+}
+
+TEST(LightFrame, AxesAreOrthonormalAndTurnedAsLookAtTurnsThem) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 200; ++i) {
+    const glm::dvec3 from = random_point(random, 5), to = random_point(random, 5);
+    const LightFrame f = make_light_frame(scene_lit_from(from, to), {});
+    EXPECT_NEAR(glm::length(f.right), 1, rounding_m);
+    EXPECT_NEAR(glm::length(f.up), 1, rounding_m);
+    EXPECT_NEAR(glm::length(f.forward), 1, rounding_m);
+    EXPECT_NEAR(glm::dot(f.right, f.up), 0, rounding_m);
+    EXPECT_NEAR(glm::length(glm::cross(f.right, f.up) + f.forward), 0, rounding_m);
+    EXPECT_NEAR(f.right.y, 0, rounding_m);
+    EXPECT_GT(f.up.y, 0);
+    // The frame follows the float vector that rays have, which is within its rounding of the light's direction.
+    EXPECT_LT(glm::length(f.forward - glm::normalize(to - from)), 2 * 0x1p-24);
+    EXPECT_LT(glm::length(f.forward - glm::normalize(glm::dvec3(f.ray_direction))), 1e-15);
+  }
+}
+
+TEST(LightFrame, StraightDownUsesMinusZAsUp) {
+  const LightFrame f = make_light_frame(scene_lit_from({0, 10, 0}, {0, 0, 0}), {});
+  EXPECT_EQ(f.forward, glm::dvec3(0, -1, 0));
+  EXPECT_EQ(f.up, glm::dvec3(0, 0, -1));
+  EXPECT_EQ(f.right, glm::dvec3(1, 0, 0));
+}
+
+TEST(LightFrame, MatrixAgreesWithPlacesAndDepth) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 200; ++i) {
+    const LightFrame f = make_light_frame(scene_lit_from(random_point(random, 5), random_point(random, 5)), {});
+    const glm::dvec3 p = random_point(random, 10);
+    const glm::dvec3 light = f.to_light(p);
+    EXPECT_LT(glm::length(f.to_world(light) - p), 20 * rounding_m);
+    const glm::dvec4 clip = f.clip_from_world() * glm::dvec4(p, 1);
+    EXPECT_EQ(clip.w, 1);
+    EXPECT_NEAR(clip.x, light.x / (f.extent_m / 2), rounding_m);
+    EXPECT_NEAR(clip.y, light.y / (f.extent_m / 2), rounding_m);
+    EXPECT_NEAR(clip.z / 2 + 0.5, f.window_depth(light.z), rounding_m);
+  }
+}
+
+TEST(LightFrame, DepthRunsFromNearToFarAlongTheLight) {
+  const LightFrame f = make_light_frame(scene_lit_from({-2, 4, -1}, {0, 0, 0}), {});
+  EXPECT_EQ(f.window_depth(f.near_m), 0);
+  EXPECT_EQ(f.window_depth(f.far_m), 1);
+  EXPECT_NEAR(f.to_light({0, 0, 0}).z, std::sqrt(21.0), rounding_m);
+  EXPECT_NEAR(f.to_light(f.origin_m).z, 0, rounding_m);
+}
+
+TEST(LightFrame, TexelCentresAreWhereTheSamplerPutsThem) {
+  Settings settings;
+  for (int resolution : {1, 2, 7, 1024}) {
+    settings.map.resolution = resolution;
+    const LightFrame f = make_light_frame(scene_lit_from({-2, 4, -1}, {0, 0, 0}), settings);
+    for (const glm::ivec2 texel :
+         {glm::ivec2(0, 0), glm::ivec2(resolution - 1, 0), glm::ivec2(-3, 5), glm::ivec2(4000, -1)}) {
+      const glm::dvec2 c = f.texel_centre(texel);
+      // uv of the centre, as the matrix has it, times the resolution: half past the texel's index.
+      const glm::dvec4 clip = f.clip_from_world() * glm::dvec4(f.to_world({c.x, c.y, 3}), 1);
+      EXPECT_NEAR((clip.x / 2 + 0.5) * resolution, texel.x + 0.5, 1e-9);
+      EXPECT_NEAR((clip.y / 2 + 0.5) * resolution, texel.y + 0.5, 1e-9);
+    }
+    EXPECT_DOUBLE_EQ(f.texel_centre({1, 0}).x - f.texel_centre({0, 0}).x, f.texel_m());
+    EXPECT_DOUBLE_EQ(f.texel_m(), 8.0 / resolution);
+  }
+}
+
+TEST(LightFrame, BiasUnitsAreOneLengthInThreeNames) {
+  const LightFrame f = make_light_frame(scene_lit_from({-2, 4, -1}, {0, 0, 0}), {});
+  const double metres = 0.25;
+  const double moved = f.window_depth(3 + metres) - f.window_depth(3);
+  EXPECT_NEAR(metres * f.depth_per_bias_unit(BiasUnit::m, glm::dvec3(0)), moved, 1e-15);
+  EXPECT_NEAR(metres / f.texel_m() * f.depth_per_bias_unit(BiasUnit::texel, glm::dvec3(0)), moved, 1e-15);
+  EXPECT_EQ(f.depth_per_bias_unit(BiasUnit::depth, glm::dvec3(0)), 1);
+}
+
+TEST(LightFrame, SettingsChangeTheVolume) {
+  Settings settings;
+  settings.map.extent_m = 3;
+  settings.map.extent_scale = 2;
+  settings.map.near_m = -1;
+  settings.map.far_m = 40;
+  settings.map.resolution = 17;
+  const LightFrame f = make_light_frame(scene_lit_from({-2, 4, -1}, {0, 0, 0}), settings);
+  EXPECT_EQ(f.extent_m, 6);
+  EXPECT_EQ(f.near_m, -1);
+  EXPECT_EQ(f.far_m, 40);
+  EXPECT_EQ(f.resolution, 17);
+}
+
+// A place keeps its light-plane distance to every place, and moves against the grid by exactly the shift: in metres, in
+// the matrix, in the texels' centres.
+TEST(LightFrame, TheShiftMovesTheGridAndNothingElse) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 200; ++i) {
+    const Scene scene = scene_lit_from(random_point(random, 5), random_point(random, 5));
+    Settings settings;
+    settings.map.resolution = 1 + static_cast<int>(random() % 2000);
+    settings.map.extent_scale = random_in(random, 0.5, 2);
+    const LightFrame still = make_light_frame(scene, settings);
+    const glm::dvec2 shift(random_in(random, -1, 1), random_in(random, -1, 1));
+    settings.map.shift_u_texels = shift.x;
+    settings.map.shift_v_texels = shift.y;
+    const LightFrame moved = make_light_frame(scene, settings);
+    EXPECT_EQ(moved.texel_m(), still.texel_m());
+    EXPECT_EQ(moved.forward, still.forward);
+    EXPECT_EQ(moved.ray_direction, still.ray_direction);
+
+    const glm::dvec3 p = random_point(random, 10);
+    const glm::dvec3 before = still.to_light(p), after = moved.to_light(p);
+    EXPECT_NEAR(after.x, before.x - shift.x * still.texel_m(), rounding_m);
+    EXPECT_NEAR(after.y, before.y - shift.y * still.texel_m(), rounding_m);
+    EXPECT_NEAR(after.z, before.z, rounding_m);
+    const glm::dvec4 clip = moved.clip_from_world() * glm::dvec4(p, 1);
+    EXPECT_NEAR(clip.x, after.x / (moved.extent_m / 2), rounding_m);
+    EXPECT_NEAR(clip.y, after.y / (moved.extent_m / 2), rounding_m);
+    EXPECT_NEAR(clip.z / 2 + 0.5, moved.window_depth(before.z), rounding_m);
+    // The world place of a texel's centre, and back through the matrix into the middle of that texel.
+    const glm::ivec2 texel(random() % 3000, random() % 3000);
+    const glm::dvec2 c = moved.texel_centre(texel);
+    const glm::dvec3 world = moved.to_world({c.x, c.y, 3});
+    const glm::dvec2 old = still.texel_centre(texel);
+    EXPECT_NEAR(still.to_light(world).x, old.x + shift.x * still.texel_m(), rounding_m);
+    EXPECT_NEAR(still.to_light(world).y, old.y + shift.y * still.texel_m(), rounding_m);
+    const glm::dvec4 back = moved.clip_from_world() * glm::dvec4(world, 1);
+    EXPECT_NEAR((back.x / 2 + 0.5) * moved.resolution, texel.x + 0.5, 1e-8);
+    EXPECT_NEAR((back.y / 2 + 0.5) * moved.resolution, texel.y + 0.5, 1e-8);
+  }
+}
+
+TEST(LightFrame, AMovedLightGetsAFittedVolume) {
+  Scene scene = make_scene({.name = "wall"});
+  Settings settings;
+  const LightFrame own = make_light_frame(scene, settings);
+  EXPECT_EQ(own.extent_m, scene.map->extent_m);
+  settings.light.position_m = glm::dvec3(3, 5, 1);
+  const LightFrame moved = make_light_frame(scene, settings);
+  const MapVolume fitted = fit_map(scene, effective_light(scene, settings));
+  EXPECT_EQ(moved.extent_m, fitted.extent_m);
+  EXPECT_EQ(moved.near_m, fitted.near_m);
+  EXPECT_EQ(moved.far_m, fitted.far_m);
+}
+
+TEST(LightFrame, FittedVolumeHoldsEveryVertexInTheFloatMatrixToo) {
+  std::mt19937 random(3);
+  for (const BuiltinScene& builtin : builtin_scenes()) {
+    for (int i = 0; i < 20; ++i) {
+      Scene scene = make_scene({.name = std::string(builtin.name)});
+      scene.map.reset();
+      scene.light.kind = LightKind::directional;
+      scene.light.position_m = random_point(random, 30);
+      scene.light.target_m = random_point(random, 3);
+      const LightFrame f = make_light_frame(scene, {});
+      const glm::mat4 matrix(f.clip_from_world());
+      glm::vec4 reach(0);
+      for (const glm::vec3& p : scene.positions) reach = glm::max(reach, glm::abs(matrix * glm::vec4(p, 1)));
+      EXPECT_LE(reach.x, 1) << builtin.name;
+      EXPECT_LE(reach.y, 1) << builtin.name;
+      EXPECT_LE(reach.z, 1) << builtin.name;
+      // Tight: within the margin of 2^-10 of the size (and its rounding) something touches the sides.
+      EXPECT_GT(std::max(reach.x, reach.y), 1 - 0x1p-9) << builtin.name;
+      EXPECT_GT(reach.z, 1 - 0x1p-8) << builtin.name;
+    }
+  }
+}
+
+TEST(LightFrame, AFlatSceneAcrossTheLightStillHasDepth) {
+  Scene scene;
+  scene.positions = {{-1, 2, -1}, {1, 2, -1}, {0, 2, 1}};
+  scene.triangles = {{0, 1, 2}};
+  scene.light = {.position_m = {0, 10, 0}, .target_m = {0, 0, 0}};
+  const LightFrame f = make_light_frame(scene, {});
+  EXPECT_LT(f.near_m, 8);
+  EXPECT_GT(f.far_m, 8);
+}
+
+TEST(LightFrame, DegenerateInputIsAUsageError) {
+  const Scene good = scene_lit_from({-2, 4, -1}, {0, 0, 0});
+  EXPECT_EQ(kind_of_error(good, {}), 0);
+  EXPECT_EQ(kind_of_error(scene_lit_from({1, 2, 3}, {1, 2, 3}), {}), 2);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(kind_of_error(scene_lit_from({nan, 2, 3}, {0, 0, 0}), {}), 2);
+  EXPECT_EQ(kind_of_error(scene_lit_from({1e300, 0, 0}, {-1e300, 0, 0}), {}), 2);
+
+  const auto with = [&](auto change) {
+    Settings settings;
+    change(settings.map);
+    return kind_of_error(good, settings);
+  };
+  EXPECT_EQ(with([](MapSettings& m) { m.extent_m = 0; }), 2);
+  EXPECT_EQ(with([](MapSettings& m) { m.extent_m = -1; }), 2);
+  EXPECT_EQ(with([&](MapSettings& m) { m.extent_m = nan; }), 2);
+  EXPECT_EQ(with([](MapSettings& m) { m.near_m = 12; }), 2);
+  EXPECT_EQ(with([](MapSettings& m) { m.far_m = 1; }), 2);
+  EXPECT_EQ(with([&](MapSettings& m) { m.far_m = nan; }), 2);
+  EXPECT_EQ(with([](MapSettings& m) { m.far_m = std::numeric_limits<double>::infinity(); }), 2);
+
+  Scene empty;  // nothing to fit a map around
+  EXPECT_EQ(kind_of_error(empty, {}), 2);
+}
+
+}  // namespace
+}  // namespace noonmark
