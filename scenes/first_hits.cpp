@@ -109,6 +109,7 @@ class Picture {
   }
 
   void draw(const Triangle& t, const Outline& outline) {
+    if (outline.from.x >= outline.to.x || outline.from.y >= outline.to.y) return;  // no ray meets it
     int known_to = 0;  // the row up to which columns_ holds this triangle's
     for (int v = outline.from.y / tile; v * tile < outline.to.y; ++v) {
       for (int u = outline.from.x / tile; u * tile < outline.to.x; ++u) {
