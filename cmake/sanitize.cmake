@@ -1,5 +1,5 @@
 # NOONMARK_SANITIZED_TESTS compiles scenes, technique and compare a second time, with AddressSanitizer and
-# UndefinedBehaviorSanitizer (casts from floats included), and links the tests that use nothing else with them. These are half
+# UndefinedBehaviorSanitizer (casts from floats included), and links the tests that use nothing else with them. These are nearly half
 # of all tests, and they are quick. CI sets it (preset ci). The preset asan compiles everything so, for all tests.
 set(NOONMARK_SANITIZE -fsanitize=address,undefined,float-cast-overflow)
 set(NOONMARK_SANITIZED_LIBRARIES noonmark_scenes noonmark_technique noonmark_compare)
