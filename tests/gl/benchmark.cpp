@@ -1,5 +1,6 @@
-// What the passes cost, with their read-back: ctest does not run it. Built with -DNOONMARK_BENCHMARKS=ON.
-// Beside each whole call's time, `pass_ms` is the pass's own, as reports show it.
+// The time that the passes take, with their read-back. ctest does not run it; it is built with
+// -DNOONMARK_BENCHMARKS=ON. Each benchmark times the whole call; `pass_ms` is the time of the pass alone, as reports
+// show it.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -109,7 +110,7 @@ void render_cube(benchmark::State& state) {
   state.counters["pass_ms"] = sum / static_cast<double>(state.iterations());
 }
 
-// Of a cube the texel of every tap comes back.
+// For a cube map the texel of every tap is read back.
 void probe_cube(benchmark::State& state) {
   Bench b(100);
   b.scene.light.kind = LightKind::point;

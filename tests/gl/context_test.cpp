@@ -1,4 +1,4 @@
-// The context, its errors and its life.
+// The OpenGL context: its errors, and how long it lives.
 #include <epoxy/gl.h>
 
 #include <cstdlib>
@@ -19,17 +19,18 @@ TEST_F(GlTest, InfoNamesAUsableDevice) {
   EXPECT_TRUE(info.egl_platform == "surfaceless" || info.egl_platform.starts_with("device"));
   EXPECT_GE(info.max_map_resolution, 8192);  // OpenGL 4.5 asks for 16384; the tool's own default is far below both
   EXPECT_EQ(info.software, info.renderer.find("llvmpipe") != std::string::npos);
-  EXPECT_FALSE(info.software && info.timer_queries) << "a software renderer's queries are wrong";
+  EXPECT_FALSE(info.software && info.timer_queries) << "the timer queries of a software renderer are wrong";
 }
 
-// Both orders of life, and two at once: EGL gives every context of a device the same display.
+// Two renderers at once, and one after the other. EGL gives every context of a device the same display.
 TEST(GlLife, RenderersComeAndGo) {
   Scene scene;
   add_floor(scene, 0, 1);
   auto first = std::make_unique<Renderer>(DebugMode::fatal);
   auto second = std::make_unique<Renderer>(DebugMode::fatal);
   first->load_scene(scene);
-  EXPECT_EQ(second->render_primitives(camera_from_above(1), 4, 4).at(2, 2), no_primitive) << "nothing was loaded there";
+  EXPECT_EQ(second->render_primitives(camera_from_above(1), 4, 4).at(2, 2), no_primitive)
+      << "no scene was loaded into this renderer";
   EXPECT_NE(first->render_primitives(camera_from_above(1), 4, 4).at(2, 2), no_primitive);
   first.reset();
   second->load_scene(scene);
@@ -48,7 +49,7 @@ TEST(GlLife, AMapMayOutliveItsRenderer) {
   owner.reset();
   Renderer other(DebugMode::fatal);
   ShadowMap kept = other.upload_map(Image<float>(4, 4, 0.25f), settings.map);
-  { ShadowMap gone = std::move(map); }  // deletes a texture of the first context, not the same number of the second
+  { ShadowMap gone = std::move(map); }  // must not delete the second context's texture of the same number
   EXPECT_EQ(other.read_map(kept).at(0, 0), 0.25f);
 }
 
@@ -59,7 +60,7 @@ TEST(GlLife, AnotherThreadIsRefused) {
   EXPECT_EQ(kind, static_cast<int>(ErrorKind::defect));
 }
 
-// The live objects of the current context. Drivers number them from 1 and densely.
+// The number of live objects in the current context. Drivers number objects from 1, without large gaps.
 int live_objects() {
   int live = 0;
   for (GLuint id = 1; id < 4096; ++id)
@@ -90,12 +91,12 @@ TEST(GlLife, CallsLeaveNothingBehind) {
   };
   everything(8);
   const int before = live_objects();
-  EXPECT_GT(before, 10) << "textures, buffers, programs";
+  EXPECT_GT(before, 10) << "there must be textures, buffers and programs";
   for (int k = 0; k < 50; ++k) everything(8 + k % 3);
   EXPECT_EQ(live_objects(), before);
 }
 
-// The debug callback only stores; the next check throws what it was told.
+// The debug callback only stores an error; the next check throws it.
 TEST(GlErrors, AreFatalInTests) {
   EglContext context(DebugMode::fatal);
   EXPECT_EQ(kind_thrown([&] { context.check("nothing"); }), 0);
@@ -103,7 +104,7 @@ TEST(GlErrors, AreFatalInTests) {
   std::string message;
   EXPECT_EQ(kind_thrown([&] { context.check("a test"); }, &message), static_cast<int>(ErrorKind::defect));
   EXPECT_NE(message.find("a test"), std::string::npos) << message;
-  EXPECT_EQ(kind_thrown([&] { context.check("later"); }), 0) << "thrown once is enough";
+  EXPECT_EQ(kind_thrown([&] { context.check("later"); }), 0) << "an error is thrown only once";
 }
 
 TEST(GlErrors, AreSeenWithoutTheDebugCallback) {
@@ -121,7 +122,7 @@ void make_renderer_and_report() {
   std::exit(kind);
 }
 
-// In a process of its own: EGL's vendors are chosen once.
+// In a separate process, because EGL chooses its vendors once per process.
 TEST(GlErrorsDeathTest, NoDriverSaysWhatToInstall) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent.json", 1);

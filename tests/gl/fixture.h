@@ -1,4 +1,4 @@
-// What the OpenGL tests share: small scenes, and a Renderer whose driver errors are fatal.
+// Shared by the OpenGL tests: small scenes, and a Renderer whose driver errors are fatal.
 #pragma once
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 namespace noonmark::gl {
 namespace {
 
-// The rasteriser's own error, as in gl_map_test.cpp, but of positions that a perspective divides before: two roundings
-// more. Seen on llvmpipe 22.3: up to 2.3 places of a depth near 1.
+// The rasteriser's own error, as in tests/gl/map_test.cpp, but of positions that are divided by a perspective before:
+// two roundings more. Seen on llvmpipe 22.3: up to 2.3 last places of a depth near 1.
 constexpr double rasteriser_error = 4 * 0x1p-24;
 constexpr double read_back_error = 0x1p-25;
 
@@ -65,7 +65,7 @@ TEST_F(GlTest, SpotDepthOfATiltedPlane) {
     }
 }
 
-// A triangle before each face of the cube, each at another distance and place.
+// A triangle in front of each face of the cube, each at another distance and place.
 Scene triangles_around(glm::dvec3 centre) {
   Scene scene;
   scene.light = light_of(LightKind::point);
@@ -86,7 +86,7 @@ Scene triangles_around(glm::dvec3 centre) {
   return scene;
 }
 
-// Each texel of the image looks where LightFrame says that it looks, and holds the distance to what is there.
+// Each texel of the image looks in the direction that LightFrame gives, and stores the distance to the surface there.
 TEST_F(GlTest, CubeFacesLieWhereTheFrameSays) {
   const Scene scene = triangles_around({1, 5, -2});
   renderer.load_scene(scene);
@@ -102,8 +102,8 @@ TEST_F(GlTest, CubeFacesLieWhereTheFrameSays) {
     EXPECT_EQ(shadow_map.resolution(), 48);
     const Image<float> map = renderer.read_map(shadow_map);
     ASSERT_EQ(glm::ivec2(map.width, map.height), frame.map_size());
-    // Three coordinates are interpolated in float across a perspective, each as good as a spot light's depth, and the
-    // light is not at 0. Seen on llvmpipe 22.3: up to 1.9 places of a depth near 1.
+    // Three coordinates are interpolated in float under a perspective, each with the error of a spot light's depth, and
+    // the light is not at the origin. Seen on llvmpipe 22.3: up to 1.9 last places of a depth near 1.
     constexpr double distance_error = 8 * 0x1p-24;
     double worst = 0;
     std::array<int, 6> hits{};
@@ -112,7 +112,7 @@ TEST_F(GlTest, CubeFacesLieWhereTheFrameSays) {
       for (int i = 0; i < map.width; ++i) {
         const glm::dvec3 place = frame.texel_place({i, j});
         const glm::dvec2 back = frame.map_texels(place);
-        ASSERT_LT(glm::length(back - (glm::dvec2(i, j) + 0.5)), 1e-9) << "the frame's own two ways agree";
+        ASSERT_LT(glm::length(back - (glm::dvec2(i, j) + 0.5)), 1e-9) << "the two conversions of the frame must agree";
         double nearest = INFINITY;
         bool edge = false;
         size_t hit = 0;
@@ -126,7 +126,7 @@ TEST_F(GlTest, CubeFacesLieWhereTheFrameSays) {
             const glm::dvec3 a = corner(scene, t, k), b = corner(scene, t, (k + 1) % 3);
             const double side = glm::dot(glm::cross(b - a, q - a), n) / (glm::length(n) * glm::length(b - a));
             inside &= side > 0;
-            edge |= std::abs(side) < 0.02 * along;  // half a texel, on which the rasteriser may snap
+            edge |= std::abs(side) < 0.02 * along;  // half a texel, where the rasteriser may snap
           }
           if (inside && along * glm::length(place) < nearest) nearest = along * glm::length(place), hit = t;
         }
@@ -146,9 +146,9 @@ TEST_F(GlTest, CubeFacesLieWhereTheFrameSays) {
   }
 }
 
-// The triangles, with some that cross edges and corners of the cube, before near and beyond far. OpenGL does not
-// promise equal bits: llvmpipe's vertices reach the viewport by another way when they come from a geometry shader, and
-// there x * side / 2 + side / 2 is rounded otherwise, unless the side is a power of two.
+// The triangles, and quads of which some cross edges and corners of the cube, lie before near or lie beyond far. OpenGL
+// does not promise equal bits. llvmpipe transforms vertices that come from a geometry shader in another way: it rounds
+// x * side / 2 + side / 2 differently, unless the side is a power of two.
 TEST_F(GlTest, OneLayeredPassIsSixPasses) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> unit(-1, 1);
@@ -178,7 +178,8 @@ TEST_F(GlTest, OneLayeredPassIsSixPasses) {
         EXPECT_TRUE(std::isfinite(six_ms) && six_ms > 0);
         ASSERT_EQ(layered.size(), six.size());
         size_t different = 0, far_off = 0, drawn = 0;
-        // A vertex that snaps to the next 1/256 of a texel moves a steep quad's depth by more than a float's places.
+        // A vertex that snaps to the next 1/256 of a texel changes a steep quad's depth by more than float rounding
+        // does.
         const double snapped = 0x1p-16 + (format == DepthFormat::d16 ? 1.0 / 65535 : 0);
         for (size_t i = 0; i < six.size(); ++i) {
           different += !same_bits(layered[i], six[i]);
@@ -188,9 +189,10 @@ TEST_F(GlTest, OneLayeredPassIsSixPasses) {
         if (side != 100) {
           EXPECT_EQ(different, 0u) << side;
         }
-        EXPECT_LE(far_off, six.size() / 1000) << "edges apart";
+        EXPECT_LE(far_off, six.size() / 1000) << "only pixels at edges may differ by more";
         EXPECT_GT(drawn, six.size() / 8);
-        EXPECT_LT(drawn, six.size() + (side == 1)) << "some background too, but for six texels";
+        EXPECT_LT(drawn, six.size() + (side == 1))
+            << "there must be some background too, except in a map of six texels";
       }
 }
 

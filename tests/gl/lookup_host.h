@@ -1,4 +1,5 @@
-// The lookup a second time, on the host, from what the probe and the map say; and random scenes to do it on.
+// A second implementation of the lookup, on the host, from the numbers of the probe and the map; and random scenes to
+// compare them in.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@
 
 namespace noonmark::gl {
 
-// Counts of what a comparison met, so that none of it passes for want of cases.
+// Counts of the cases that a comparison met, so that it cannot pass because a case never occurred.
 struct Met {
   size_t lit = 0, dark = 0, fractions = 0, outside = 0, beyond_far = 0, background = 0;
 };
@@ -23,13 +24,13 @@ inline float stored_at(const Image<float>& map, Wrap wrap, glm::ivec2 texel) {
   return at.x < 0 ? border_depth : map.at(at.x, at.y);
 }
 
-// In the shader's floats; of bilinear patterns in double.
+// Computed in floats as in the shader; for bilinear patterns in double.
 inline Image<double> lookup_on_host(const LookupProbe& probe, const ReceiverImage& receivers, const Image<float>& map,
                                     const Settings& s, Met& met) {
   const Bias bias(s.bias);
   Image<double> visibility(receivers.width(), receivers.height());
   for (size_t i = 0; i < visibility.size(); ++i) {
-    // The probe of what is no receiver, or lies behind the light, is all zeros.
+    // The probe is all zeros where there is no receiver, or where the receiver lies behind the light.
     if (receivers.primitive[i] == no_primitive || probe.bias_unit[i] == 0) {
       ++met.background;
       continue;
@@ -40,7 +41,7 @@ inline Image<double> lookup_on_host(const LookupProbe& probe, const ReceiverImag
     for (int tap = 0; tap < probe.taps(); ++tap) {
       const glm::ivec2 texel = probe.texel(i, tap);
       float biased = probe.tap_depth(i, tap) - depth_bias;
-      // OpenGL 4.5, 8.23.1: the sampler clamps what it compares with fixed-point depths.
+      // OpenGL 4.5, 8.23.1: the sampler clamps the reference when the map has fixed-point depths.
       if (probe.pattern.bilinear() && s.map.format != DepthFormat::d32f) biased = std::clamp(biased, 0.0f, 1.0f);
       const bool tap_lit = !(biased > stored_at(map, s.map.wrap, texel));
       lit += tap_lit;
@@ -81,7 +82,7 @@ T one_of(std::mt19937& random, std::initializer_list<T> choices) {
   return *(choices.begin() + random() % choices.size());
 }
 
-// Any that the kind of light takes.
+// Random settings that are allowed with the kind of light.
 inline Settings random_settings(std::mt19937& random, LightKind kind) {
   std::uniform_real_distribution<double> unit(0, 1);
   Settings s;

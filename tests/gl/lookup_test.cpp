@@ -1,4 +1,4 @@
-// The lookup against a second implementation on the host that starts from what the probe and the map say.
+// The lookup against a second implementation on the host, which uses the numbers of the probe and the map.
 #include <set>
 
 #include "technique/setting_rules.h"
@@ -10,9 +10,9 @@ namespace {
 constexpr LightKind kinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
 constexpr const char* kind_names[] = {"directional", "spot", "point"};
 
-// How far a sampler's blended verdict may be from the exact weights. llvmpipe blends in floats: a place among up to
-// 1024 texels is rounded three times, each by 2^-15 of a texel at most, along both axes (seen: 1e-5). GPUs keep 8 bits
-// of a texel's fraction: half of 2^-8 more along each axis.
+// How far a sampler's blended result may be from the exact weights. llvmpipe blends in floats: a place among up to 1024
+// texels is rounded three times on each of both axes, each time by at most 2^-15 of a texel (seen: 1e-5). GPUs keep 8
+// bits of a texel's fraction: half of 2^-8 more on each axis.
 double sampler_error(const DeviceInfo& info) { return 6 * 0x1p-15 + (info.software ? 0 : 2 * 0x1p-9); }
 
 TEST_F(GlLookupTest, EqualsTheHost) {
@@ -95,12 +95,13 @@ TEST_F(GlLookupTest, AllLitIsOneAndAllDarkIsNought) {
         }
       }
   }
-  // Each of four sizes, but two that are there in 3 and 5 only.
+  // Each filter is compared in four sizes, except two filters that have only two of these sizes, 3 and 5.
   constexpr int flat = 6 * 4 + 2 * 2, cube = 3 * 4;
   EXPECT_EQ(filters, 2 * flat + cube);
 }
 
-// Every filter's comparison is strict: what lies at the stored depth is lit, and a float nearer to the light it is not.
+// Every filter's comparison is strict: a receiver at the stored depth is lit. If the stored depth is one float nearer
+// to the light, the receiver is dark.
 TEST_F(GlLookupTest, ATieIsLit) {
   std::mt19937 random(3);
   for (const LightKind kind : kinds) {
@@ -127,13 +128,14 @@ TEST_F(GlLookupTest, ATieIsLit) {
   }
 }
 
-// A map whose left half is dark, looked up across its middle: what each filter makes of an edge, from its definition.
+// A map whose left half is dark, looked up across its middle. What each filter makes of this edge is computed from its
+// definition.
 TEST_F(GlLookupTest, AnEdgeThroughEachFilter) {
   Scene scene;
   scene.light = light_from_above();
   scene.camera = camera_from_above(4);
   add_floor(scene, 0, 4);
-  load(scene, 128, 128);  // 8 pixels to a texel, whose centres lie at odd sixteenths
+  load(scene, 128, 128);  // 8 pixels per texel; their centres lie at odd sixteenths
   Settings settings;
   settings.map.resolution = 16;
   settings.map.extent_m = 4;
@@ -151,7 +153,7 @@ TEST_F(GlLookupTest, AnEdgeThroughEachFilter) {
     settings.filter = filter;
     return renderer.lookup(map, frame, settings);
   };
-  // Of one axis: P at `at` texels is lit by the share of its taps that lie in texels 8 and up.
+  // Along one axis: P at `at` texels is lit by the share of its taps that lie in texels 8 and up.
   const auto expect_edge = [&](FilterSettings filter, auto&& lit_at) {
     const Image<float> seen = row(filter);
     int fractions = 0;
@@ -176,8 +178,8 @@ TEST_F(GlLookupTest, AnEdgeThroughEachFilter) {
               [&](double at) { return (g * ramp(at - 1) + ramp(at) + g * ramp(at + 1)) / sum; });
 }
 
-// A lone tilted plane. Its own map shadows it but where the comparison follows the plane: at the tap (which leaves what
-// the grid rounds the tap to), or at the texel's centre, where the map holds that very depth.
+// A lone tilted plane. Its own map shadows it unless the comparison follows the plane: at the tap (then only the
+// rounding of the tap to a texel is left), or at the texel's centre, where the map stores exactly that depth.
 TEST_F(GlLookupTest, PlaneFormsFreeAPlaneOfAcne) {
   for (const LightKind kind : {LightKind::directional, LightKind::spot}) {
     Scene scene;
@@ -215,11 +217,11 @@ TEST_F(GlLookupTest, PlaneFormsFreeAPlaneOfAcne) {
       ASSERT_NE(receivers.primitive[i], no_primitive);
       half_texel = std::max(half_texel, 0.5 * (std::abs(probe.gradient[i].x) + std::abs(probe.gradient[i].y)));
     }
-    // The rasteriser's 2 places and a handful of the shader's (2^-24 each), times the kernel's reach.
+    // 2 last places of the rasteriser and a few of the shader (2^-24 each), times the kernel's reach.
     constexpr double float_error = 32 * 0x1p-24;
     EXPECT_GT(half_texel, 100 * float_error);
     EXPECT_GT(dark_share("own_depth", 0), 0.3) << "two fifths of the taps lie uphill";
-    EXPECT_GT(dark_share("own_depth", 4 * half_texel), 0.01) << "its kernel wants five times as much";
+    EXPECT_GT(dark_share("own_depth", 4 * half_texel), 0.01) << "its kernel needs five times as much";
     EXPECT_EQ(dark_share("own_depth", 5 * half_texel + float_error), 0);
     EXPECT_GT(dark_share("receiver_plane", 0), 0.3);
     EXPECT_GT(dark_share("receiver_plane", 0.7 * half_texel), 0.001);
@@ -228,7 +230,8 @@ TEST_F(GlLookupTest, PlaneFormsFreeAPlaneOfAcne) {
   }
 }
 
-// At the very float where a pixel's verdict turns: the comparison is strict, and one float less bias is dark.
+// The test finds the exact float at which a pixel turns lit. The comparison is strict: with one float less bias the
+// pixel is dark.
 TEST_F(GlLookupTest, TurnsAtTheExactFloat) {
   std::mt19937 random(29);
   const Scene scene = random_scene(random);
@@ -246,7 +249,7 @@ TEST_F(GlLookupTest, TurnsAtTheExactFloat) {
     if (receivers.primitive[i] == no_primitive) continue;
     const float reference = probe.reference[i], z = stored_at(stored, settings.map.wrap, probe.texel(i, 0));
     if (!(reference > z)) continue;
-    float bias = reference - z;  // near the least one that lights the pixel; then walk to it
+    float bias = reference - z;  // near the smallest that lights the pixel; then step to it
     while (reference - bias > z) bias = std::nextafter(bias, 1.0f);
     while (!(reference - std::nextafter(bias, 0.0f) > z)) bias = std::nextafter(bias, 0.0f);
     settings.bias["constant"] = bias;
@@ -258,7 +261,8 @@ TEST_F(GlLookupTest, TurnsAtTheExactFloat) {
   EXPECT_EQ(turned, 40);
 }
 
-// One floor that reaches far beyond a map whose every texel is darkened by a lid: what does the outside say?
+// A floor that extends far beyond the map. Every texel of the map stores 0.25, so the floor inside the map is dark. The
+// corner of the picture is outside the map, and its result depends on the wrap.
 TEST_F(GlLookupTest, OutsideTheMap) {
   Scene scene;
   scene.light = light_from_above();
@@ -275,7 +279,8 @@ TEST_F(GlLookupTest, OutsideTheMap) {
     const LightFrame frame = make_light_frame(scene, settings);
     const ShadowMap map = renderer.upload_map(Image<float>(8, 8, 0.25f), settings.map);
     const Image<float> visibility = renderer.lookup(map, frame, settings);
-    EXPECT_EQ(visibility.at(8, 8), settings.map.far_m == 20 ? 0.0f : 1.0f) << "inside: dark, or beyond far";
+    EXPECT_EQ(visibility.at(8, 8), settings.map.far_m == 20 ? 0.0f : 1.0f)
+        << "inside the map: dark, or beyond far and lit";
     return visibility.at(0, 15);
   };
   EXPECT_EQ(at_rim(Wrap::clamp_to_border), 1.0f);
@@ -326,7 +331,7 @@ TEST_F(GlLookupTest, ReceiversThatAreNotFiniteAreDark) {
   for (size_t i = 1; i < 6; ++i) EXPECT_EQ(probe.reference[i], 0.0f) << i;
 }
 
-// Behind a spot light, and where a point light is, there is no direction from which to look a receiver up.
+// A receiver behind a spot light, or exactly at a point light, has no direction in which it can be looked up.
 TEST_F(GlLookupTest, ReceiversWithoutAPlaceInTheMapAreDark) {
   Scene scene;
   scene.light.position_m = {0, 2, 0};
@@ -367,7 +372,7 @@ TEST_F(GlLookupTest, TimesArePositiveAndDifferentSizesFollowEachOther) {
   }
 }
 
-// The time is of the work done, not of the calls that ask for it: 961 taps cost more than one.
+// The time is that of the work, not of the calls that start it: 961 taps cost more than one.
 TEST_F(GlLookupTest, TimesIncludeTheWork) {
   std::mt19937 random(6);
   const Scene scene = random_scene(random);
@@ -386,7 +391,7 @@ TEST_F(GlLookupTest, TimesIncludeTheWork) {
     }
     return best;
   };
-  // Seen: about 50 on llvmpipe. A GPU may be idle for most of so small a picture.
+  // Seen: about 50 on llvmpipe. A GPU may be idle most of the time, because the picture is so small.
   const double least_ratio = renderer.info().software ? 5 : 1;
   EXPECT_GT(fastest({"box", 31}), least_ratio * fastest({"none", 1}));
 }

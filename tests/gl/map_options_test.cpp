@@ -1,4 +1,4 @@
-// Depth clamp and polygon offset, against what OpenGL says of them.
+// Depth clamp and polygon offset, against OpenGL's definitions.
 #include <algorithm>
 #include <cmath>
 
@@ -27,11 +27,12 @@ TEST_F(GlTest, DepthClampKeepsWhatLiesBeforeNearAndBeyondFar) {
       settings.map.depth_clamp = true;
       Image<float> map = renderer.read_map(renderer.render_map(frame, settings));
       EXPECT_EQ(map.at(8, 8), 0.0f);
-      settings.map.depth_clamp = false;  // and nothing of it stays switched on
+      settings.map.depth_clamp = false;  // and clamping must be off again
       map = renderer.read_map(renderer.render_map(frame, settings));
       EXPECT_EQ(map.at(8, 8), 1.0f);
     }
-  // What lies beyond far is at depth 1, as is the cleared map: it shows where something behind it does not win.
+  // The lower floor lies beyond far. It is clamped to depth 1, which is also the depth of the cleared map. The upper
+  // floor must keep its depth of 0.5 although the lower floor is drawn behind it.
   settings.map.near_m = 1;
   settings.map.far_m = 3;
   settings.map.depth_clamp = true;
@@ -41,7 +42,7 @@ TEST_F(GlTest, DepthClampKeepsWhatLiesBeforeNearAndBeyondFar) {
   EXPECT_EQ(map.at(0, 0), 1.0f);
 }
 
-// A cube's shader writes the distance itself: what clamping keeps before near has its own depth.
+// The shader of a cube map writes the distance itself. So a surface before near that clamping keeps has its own depth.
 TEST_F(GlTest, DepthClampOfACubeKeepsTheDistance) {
   Scene scene;
   scene.light = light_from_above();
@@ -60,7 +61,7 @@ TEST_F(GlTest, DepthClampOfACubeKeepsTheDistance) {
   EXPECT_NEAR(below(), 0.25f, 1e-6f);  // a few float places
 }
 
-// The receiver pass after a map's: with its own clipping, and its own depths.
+// The receiver pass after a map's pass must use its own clipping and its own depths.
 TEST_F(GlTest, AMapsOptionsEndWithItsPass) {
   Scene scene;
   scene.light = light_from_above();
@@ -76,11 +77,11 @@ TEST_F(GlTest, AMapsOptionsEndWithItsPass) {
   renderer.render_map(make_light_frame(scene, settings), settings);
   EXPECT_TRUE(renderer.render_primitives(camera_from_above(2), 8, 8).pixels == before);
   EXPECT_EQ(std::count(before.begin(), before.end(), 2u) + std::count(before.begin(), before.end(), 3u), 64)
-      << "all tilted";
+      << "every pixel sees the tilted quad";
 }
 
 TEST_F(GlTest, PolygonOffsetUnitIsNearAQuantum) {
-  // OpenGL asks for the smallest resolvable difference: one quantum, or a little more where a driver is cautious.
+  // OpenGL asks for the smallest resolvable difference: one quantum, or with some drivers a little more.
   for (const auto& [format, quantum] : {std::pair(DepthFormat::d16, 1.0 / 65535), {DepthFormat::d24, 0x1p-24}}) {
     const double unit = renderer.polygon_offset_unit(format);
     EXPECT_GE(unit, 0.49 * quantum);
@@ -121,8 +122,8 @@ TEST_F(GlTest, PolygonOffsetFollowsItsFormula) {
           double worst = 0, steepest = 0;
           for (int j = 1; j < 63; ++j)
             for (int i = 1; i < 63; ++i) {
-              // Window depth is affine in a flat map's texels: its two differences are the plane's everywhere. From
-              // rim to rim, so that the quanta do not show.
+              // Window depth is affine in a flat map's texels, so its two differences are the same everywhere. They are
+              // taken from rim to rim, so that the rounding to quanta has little effect.
               const double dx = (static_cast<double>(plain.at(63, j)) - plain.at(0, j)) / 63;
               const double dy = (static_cast<double>(plain.at(i, 63)) - plain.at(i, 0)) / 63;
               const double m = std::max(std::abs(dx), std::abs(dy));
@@ -130,8 +131,9 @@ TEST_F(GlTest, PolygonOffsetFollowsItsFormula) {
               const double expected = factor * m + units * renderer.polygon_offset_unit(format);
               worst = std::max(worst, std::abs(static_cast<double>(moved.at(i, j)) - plain.at(i, j) - expected));
             }
-          // Both maps round to a quantum; the slope is known to one over 63 texels; floats end at 2^-24, and llvmpipe's
-          // slope, of positions of some 2^-24 / 2^-8 of a texel, is good to 2^-14 of itself.
+          // Both maps round to a quantum. The slope is known to a quantum over 63 texels. Floats end at 2^-24. llvmpipe
+          // computes its slope from positions that are off by some 2^-24 / 2^-8 of a texel, so its relative error is
+          // 2^-14.
           const double allowed = quantum + factor * (quantum / 63 + steepest * 0x1p-14) + 4 * 0x1p-24;
           EXPECT_LE(worst, allowed) << "factor " << factor << " units " << units << " in quanta: " << worst / quantum;
           EXPECT_GT(steepest, 0.0005);

@@ -17,10 +17,10 @@ constexpr Format formats[] = {
     {DepthFormat::d16, "d16", 1.0 / 65535}, {DepthFormat::d24, "d24", 1.0 / 16777215}, {DepthFormat::d32f, "d32f", 0}};
 
 // The rasteriser's own error: the matrix, the vertices, the plane's equation and its evaluation are floats, each off by
-// half a place of a depth near 1 (2^-24). llvmpipe 22.3 was seen at up to 1.74 places; 2 is what the tool's precision
-// rung counts with.
+// half a last place (a last place of a depth just below 1 is 2^-24). Up to 1.74 last places were seen on llvmpipe 22.3.
+// The program's precision rung allows 2.
 constexpr double rasteriser_error = 2 * 0x1p-24;
-// What comes back is a float: half a place of one in [0.5, 1).
+// The depth that is read back is a float: half a last place of one in [0.5, 1).
 constexpr double read_back_error = 0x1p-25;
 
 // A lone plane tilted by theta towards azimuth phi, filling a map of 2 m x 2 m, depths within [0.1, 0.9].
@@ -40,7 +40,7 @@ TEST_F(GlTest, DepthOfATiltedPlane) {
       settings.map.far_m = 15;
       renderer.load_scene(scene);
       const LightFrame frame = make_light_frame(scene, settings);
-      // The plane of the float positions, which are the scene.
+      // The plane through the float positions, because they are the scene.
       const glm::uvec3 t = scene.triangles[0];
       const glm::dvec3 a = scene.positions[t.x], b = scene.positions[t.y], c = scene.positions[t.z];
       const glm::dvec3 normal = glm::cross(b - a, c - a);
@@ -83,14 +83,14 @@ TEST_F(GlTest, FixedPointDepthsAreWholeQuanta) {
       ASSERT_NEAR(quanta, std::round(quanta), f.format == DepthFormat::d16 ? 0.01 : 0.5001) << f.name;
     }
   }
-  // 16 bits really are fewer: the slope's 32 depths in 0.1 of the range differ from the 24-bit ones.
+  // A 16-bit map is really coarser: the slope's 32 depths, within 0.1 of the range, differ from the 24-bit ones.
   settings.map.format = DepthFormat::d16;
   const Image<float> coarse = renderer.read_map(renderer.render_map(frame, settings));
   settings.map.format = DepthFormat::d24;
   EXPECT_NE(coarse.pixels, renderer.read_map(renderer.render_map(frame, settings)).pixels);
 }
 
-// Clipping is by the matrix: what lies before near or beyond far leaves no depth, and is not clamped either.
+// The matrix clips: a surface before near or beyond far leaves no depth, and is not clamped either.
 TEST_F(GlTest, NearAndFarClip) {
   Scene scene;
   scene.light = light_from_above();
@@ -140,7 +140,7 @@ TEST_F(GlTest, CullingChoosesTheStoredFace) {
   EXPECT_NEAR(stored(CulledFaces::none), 0.6f, rounding);
   EXPECT_NEAR(stored(CulledFaces::back), 0.6f, rounding);
   EXPECT_NEAR(stored(CulledFaces::front), 0.8f, rounding);
-  // A single sheet tells back from none.
+  // A single sheet shows the difference between culling the back and culling nothing.
   Scene sheet;
   sheet.light = scene.light;
   add_floor(sheet, 4, 1);

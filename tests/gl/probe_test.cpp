@@ -1,4 +1,4 @@
-// What the shader computes before it compares, against the frame in double.
+// The numbers that the shader computes before it compares, against the light's frame in double.
 #include "gl/bias_text.h"
 #include "technique/light_frame.h"
 #include "technique/setting_rules.h"
@@ -18,7 +18,8 @@ bool same_probe(const LookupProbe& a, const LookupProbe& b, size_t i) {
           (same_bits(a.map_texels[i].x, b.map_texels[i].x) && same_bits(a.map_texels[i].y, b.map_texels[i].y)));
 }
 
-// The probe of a moved lookup is that of receivers which lie there; and no other part moves it, not even by a bit.
+// The probe of a moved lookup equals the probe of receivers at the moved places. No other part of a bias changes these
+// numbers, not even by one bit.
 TEST_F(GlProbeTest, MovesWithTheNormalOffsetAlone) {
   std::mt19937 random(2011);
   for (const LightKind kind : kinds) {
@@ -46,22 +47,23 @@ TEST_F(GlProbeTest, MovesWithTheNormalOffsetAlone) {
     renderer.load_receivers(there, scene.camera.eye_m);
     settings.bias = {};
     const LookupProbe expected = renderer.probe(frame, settings);
-    // Both places are floats of a few metres, off by a few of their last places (2^-22 m); the map's 64 texels and its
-    // depth are steeper than 1 / m by less than 64.
+    // Both places are floats of a few metres, each off by a few of its last places (2^-22 m). The map's 64 texels and
+    // its depth change by less than 64 per metre.
     constexpr double float_error = 64 * 4 * 0x1p-22;
     size_t elsewhere = 0, other_texel = 0, seen = 0;
     for (size_t i = 0; i < receivers.primitive.size(); ++i) {
       if (expected.bias_unit[i] == 0 || unmoved.bias_unit[i] == 0 || moved.bias_unit[i] == 0) continue;
       ++seen;
       ASSERT_NEAR(moved.reference[i], expected.reference[i], float_error);
-      ASSERT_TRUE(same_bits(moved.n_dot_l[i], unmoved.n_dot_l[i])) << "the normal stays, and the light's direction";
+      ASSERT_TRUE(same_bits(moved.n_dot_l[i], unmoved.n_dot_l[i]))
+          << "the normal and the light's direction do not change";
       other_texel += moved.texel(i, 0) != expected.texel(i, 0);
       elsewhere += moved.texel(i, 0) != unmoved.texel(i, 0);
       if (kind == LightKind::point) continue;
       for (int k = 0; k < 2; ++k) ASSERT_NEAR(moved.map_texels[i][k], expected.map_texels[i][k], float_error);
     }
     EXPECT_GT(elsewhere, 1000u);
-    // A place within float_error of one of the texels' sides may fall on either.
+    // A place within float_error of a texel's side may fall on either side of it.
     EXPECT_LE(static_cast<double>(other_texel), 4 * float_error * static_cast<double>(seen) + 3);
   }
 }
@@ -74,7 +76,7 @@ TEST_F(GlProbeTest, IsNearTheExactPlaces) {
       const ReceiverImage receivers = load(scene, 96, 64);
       Settings settings;
       settings.map.resolution = 512;
-      // So that there are receivers on all sides of the map, at negative texels too.
+      // A small map, so that there are receivers outside it on all sides, also at negative texels.
       settings.map.extent_scale = kind == LightKind::point ? 1 : 0.3;
       settings.bias.unit = unit;
       if (kind == LightKind::point) {
@@ -87,8 +89,8 @@ TEST_F(GlProbeTest, IsNearTheExactPlaces) {
       EXPECT_EQ(probe.map_texels.size() > 0, kind != LightKind::point);
       EXPECT_EQ(probe.radius.size() > 0, kind == LightKind::point);
       EXPECT_EQ(probe.gradient.size(), 0u);
-      // A few products and sums of magnitudes below 16 m in float: a few times 2^-20, of which a map's depth takes
-      // 1 / (far - near) and its texels 512 to a few metres.
+      // A few products and sums of magnitudes below 16 m in float: an error of a few times 2^-20. In the map's depth it
+      // is divided by far - near; in its texels it is multiplied by 512 over a few metres.
       constexpr double float_error = 4e-6;
       size_t seen = 0, steep = 0, outside = 0;
       for (size_t i = 0; i < receivers.primitive.size(); ++i) {
@@ -112,9 +114,9 @@ TEST_F(GlProbeTest, IsNearTheExactPlaces) {
           ASSERT_EQ(probe.bias_unit[i], 1.0f);
         }
         ASSERT_NEAR(probe.bias_unit[i] / bias_unit, 1, float_error / std::min(z, 1.0));
-        if (n_dot_l > 0.01) {  // where tan is below 100, and its error n_dot_l's times 1 / cos^2
+        if (n_dot_l > 0.01) {  // tan is below 100, and its error is n_dot_l's times 1 / cos^2
           const double tan_theta = std::sqrt(1 - n_dot_l * n_dot_l) / n_dot_l;
-          const double flat = std::max(tan_theta, 1e-3);  // where N is L, the root makes an error of its own root
+          const double flat = std::max(tan_theta, 1e-3);  // near N = L the root turns an error into its root
           ASSERT_NEAR(probe.tan_theta[i], tan_theta, float_error * (1 / (n_dot_l * n_dot_l) + 1 / flat)) << n_dot_l;
           steep += tan_theta > 1;
         }
@@ -137,8 +139,8 @@ TEST_F(GlProbeTest, IsNearTheExactPlaces) {
     }
 }
 
-// The gradient is that of the plane through P in the frame's double: two steps along the plane, seen by the light.
-// Under a perspective too window depth is affine in texels.
+// The gradient is that of the plane through P. The test computes it in double, from two steps along the plane as the
+// light sees them. Window depth is affine in texels, under a perspective too.
 TEST_F(GlProbeTest, GradientIsThePlanes) {
   std::mt19937 random(2006);
   for (const LightKind kind : {LightKind::directional, LightKind::spot}) {
@@ -166,7 +168,7 @@ TEST_F(GlProbeTest, GradientIsThePlanes) {
                        b = seen_at(P + step_m * glm::cross(N, side)) - o;
       const double area = a.x * b.y - a.y * b.x;
       const glm::dvec2 expected((a.z * b.y - b.z * a.y) / area, (a.x * b.z - b.x * a.z) / area);
-      // A float's places of N and of the matrix, magnified by 1 / N.L.
+      // The float rounding of N and of the matrix, magnified by 1 / N.L.
       const double float_error = 1e-6 / 0.05 * glm::length(expected) + 1e-9;
       ASSERT_NEAR(probe.gradient[i].x, expected.x, float_error);
       ASSERT_NEAR(probe.gradient[i].y, expected.y, float_error);
@@ -178,13 +180,14 @@ TEST_F(GlProbeTest, GradientIsThePlanes) {
   }
 }
 
-// The texel of a cube's tap is the one that the frame's double finds, but for taps within float error of a side.
+// The texel of a cube map's tap is the one that the frame finds in double, except for taps within float error of a
+// texel's side.
 TEST_F(GlProbeTest, CubeTapsFallWhereTheFrameSays) {
   std::mt19937 random(64);
   for (const std::string filter : {"none", "cube_grid", "cube_disk"})
     for (const DiskRadius disk : {DiskRadius::fixed, DiskRadius::view_distance}) {
       const Scene scene = random_scene(random, LightKind::point);
-      // 64 taps of so many pixels come back in two strips.
+      // 64 taps of 320 x 240 pixels are read back in two strips.
       const bool large = filter == "cube_grid" && disk == DiskRadius::fixed;
       const ReceiverImage receivers = large ? load(scene, 320, 240) : load(scene, 64, 48);
       Settings settings;
@@ -208,14 +211,15 @@ TEST_F(GlProbeTest, CubeTapsFallWhereTheFrameSays) {
         }
       }
       EXPECT_GT(taps, 1000u);
-      // 100 texels of a float's places: one tap in some thousands lies so near a side.
+      // Places among 100 texels are floats: one tap in some thousands lies so near to a side that it may fall on
+      // either.
       EXPECT_LE(elsewhere, taps / 1000 + 2);
       EXPECT_EQ(moved > taps / 4, filter != "none");
       EXPECT_GE(std::count_if(faces.begin(), faces.end(), [](size_t n) { return n > 20; }), 4);
     }
 }
 
-// What a picture of many taps is measured by, strip by strip.
+// A picture with many taps is measured strip by strip, so strips must give the same texels.
 TEST_F(GlProbeTest, GivesTheSameTexelsInStrips) {
   std::mt19937 random(77);
   for (const LightKind kind : kinds) {
@@ -228,7 +232,7 @@ TEST_F(GlProbeTest, GivesTheSameTexelsInStrips) {
     const LightFrame frame = make_light_frame(scene, settings);
     const LookupProbe whole = renderer.probe(frame, settings);
     LookupProbe probe = renderer.probe(frame, settings, ProbeTaps::none);
-    EXPECT_EQ(probe.holds({0, 64}), kind != LightKind::point) << "a flat map's texels follow from P";
+    EXPECT_EQ(probe.holds({0, 64}), kind != LightKind::point) << "the texels of a flat map follow from P";
     for (size_t i = 0; i < receivers.primitive.size(); ++i)
       ASSERT_EQ(probe.middle_texel(i), whole.texel(i, whole.taps() / 2));
     for (const PixelRange strip : {PixelRange{64 * 20, 64 * 50}, {0, 64}, {64, 64 * 20}}) {

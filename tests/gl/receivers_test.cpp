@@ -1,4 +1,4 @@
-// The receiver pass against what can be told by hand.
+// The receiver pass against results that are worked out by hand.
 #include "scenes/receivers.h"
 
 #include <algorithm>
@@ -53,8 +53,8 @@ TEST_F(GlTest, BothSidesAreSeenAndTheNearestWins) {
     for (int x = 0; x < 30; ++x) ASSERT_EQ(image.at(x, y) / 2, x < 15 ? 1u : 0u) << x << ", " << y;
 }
 
-// Every pixel whose ray passes a triangle's edge by more than this must be right; closer ones may be snapped away.
-// The rasteriser snaps vertices to 1/256 of a pixel (OpenGL asks for 1/16), so an edge may move by that in x and y.
+// The rasteriser snaps vertices to 1/256 of a pixel (OpenGL asks for 1/16), so an edge may move by that in x and y. A
+// pixel whose centre is within twice this distance of an edge is not compared; every other pixel must be right.
 constexpr double snapping_px = 2.0 / 256;
 
 TEST_F(GlTest, PerspectivePrimitivesMeetTheirPixelsRay) {
@@ -83,7 +83,7 @@ TEST_F(GlTest, PerspectivePrimitivesMeetTheirPixelsRay) {
         double w[3];
         for (int k = 0; k < 3; ++k) {
           const glm::dvec4 c = clip * glm::dvec4(glm::dvec3(scene.positions[scene.triangles[t][k]]), 1);
-          ASSERT_GT(c.w, 0) << "the test's scene lies before the camera";
+          ASSERT_GT(c.w, 0) << "the test's scene must lie in front of the camera";
           p[k] = {(c.x / c.w * 0.5 + 0.5) * width, (0.5 - c.y / c.w * 0.5) * height};
           w[k] = c.w;
         }
@@ -111,7 +111,7 @@ TEST_F(GlTest, PerspectivePrimitivesMeetTheirPixelsRay) {
     }
   EXPECT_GT(compared, width * height * 9 / 10);
   EXPECT_GT(seen, width * height / 4);
-  EXPECT_LT(seen, compared) << "some background too";
+  EXPECT_LT(seen, compared) << "there must be some background too";
 }
 
 TEST_F(GlTest, AnEmptySceneIsBackground) {
@@ -126,8 +126,7 @@ TEST_F(GlTest, AnImpossiblePictureIsAUsageError) {
   EXPECT_NE(message.find(std::to_string(renderer.info().max_map_resolution)), std::string::npos) << message;
 }
 
-// Near and far cut, and do nothing else: a near plane a millionth of its place, or a far one out of all reach, takes no
-// surface away and lets none through.
+// Near and far only clip. A near plane at 1e-6 m, or a far plane at 1e9 m, must not change which surface a pixel sees.
 TEST_F(GlTest, NearAndFarThatCutNothingOffChangeNothing) {
   for (const BuiltinScene& builtin : builtin_scenes()) {
     Scene scene = builtin.make({});
@@ -155,9 +154,10 @@ TEST_F(GlTest, NearAndFarThatCutNothingOffChangeNothing) {
   }
 }
 
-// Sheets one behind the other, a share of their distance apart: the nearer one hides the other at any distance.
+// Sheets one behind the other, apart by a fixed share of their distance: the nearer one hides the other at any
+// distance.
 TEST_F(GlTest, TheNearerOfTwoSheetsIsSeenHoweverFarOff) {
-  // Each of the vertex's depth, its reciprocal and its place in the plane may be off by half a float step or two.
+  // The vertex's depth, its reciprocal and its place in the plane may each be off by half a float step or two.
   constexpr double apart = 16 * 0x1p-24;
   for (double distance : {0.01, 1.0, 100.0, 1e4, 1e6}) {
     Scene scene;
@@ -173,7 +173,7 @@ TEST_F(GlTest, TheNearerOfTwoSheetsIsSeenHoweverFarOff) {
   }
 }
 
-// From within a closed room every pixel sees a surface, wherever the eye is, however near to a wall it looks along.
+// Inside a closed room every pixel sees a surface, wherever the eye is, even if it is near a wall and looks along it.
 TEST_F(GlTest, FittedDepthsCutNothingOffInsideARoom) {
   Scene room;
   add_box(room, "room", {-4, -2, -3}, {4, 2, 3});
@@ -195,7 +195,7 @@ TEST_F(GlTest, FittedDepthsCutNothingOffInsideARoom) {
   }
 }
 
-// A box's front face, at half the picture's height from wherever it is seen.
+// The front face of a box has half the picture's height at every distance, because the field of view is chosen so.
 TEST_F(GlTest, FittedDepthsCutNothingOffFromOutside) {
   Scene scene;
   add_box(scene, "box", {-1, -1, -1}, {1, 1, 1});
@@ -207,7 +207,7 @@ TEST_F(GlTest, FittedDepthsCutNothingOffFromOutside) {
     const Image<uint32_t> image = renderer.render_primitives(effective_camera(scene, view), 100, 100);
     const auto background = std::count(image.pixels.begin(), image.pixels.end(), no_primitive);
     EXPECT_NEAR(static_cast<double>(image.size()) - static_cast<double>(background), 50 * 50, 50 + 50 + 1)
-        << distance << ": but for a row and a column that rounding may add or take";
+        << distance << ": rounding may add or remove one row and one column";
   }
 }
 
@@ -225,7 +225,7 @@ TEST_F(GlTest, BacksOfSingleSidedTrianglesAreSeenThrough) {
   EXPECT_EQ(quad_at({true, true, false, false}, 5), 1u);
   EXPECT_EQ(quad_at({false, false, true, true}, 5), 0u) << "the floor behind the lid";
   EXPECT_EQ(quad_at({true, true, true, true}, 25), 0u);
-  camera.eye_m.y = -10;  // from below, where right is -X, the floor turns its back and the lid its front
+  camera.eye_m.y = -10;  // from below, where right is -X, the floor shows its back and the lid its front
   EXPECT_EQ(quad_at({true, true, true, true}, 25), 1u);
   EXPECT_EQ(quad_at({true, true, true, true}, 5), no_primitive / 2);
 }

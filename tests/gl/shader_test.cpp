@@ -78,7 +78,8 @@ TEST(ShaderErrors, NameFileAndLine) {
   };
   EXPECT_NE(message("main.frag", {{"slot", "bad.glsl"}}).find("bad.glsl:3: "), std::string::npos)
       << message("main.frag", {{"slot", "bad.glsl"}});
-  EXPECT_NE(message("tail.frag", {}).find("tail.frag:5: "), std::string::npos) << "after an include the count goes on";
+  EXPECT_NE(message("tail.frag", {}).find("tail.frag:5: "), std::string::npos)
+      << "the line numbers continue after an include";
   context.forget_errors();  // drivers may report a failed compilation through the debug callback too
   EXPECT_EQ(kind_thrown([&] { Program({"ok.vert", "main.frag"}, {{"slot", "good.glsl"}}, files_of(planted)); }), 0);
   EXPECT_EQ(kind_thrown([&] { context.check("compiling"); }), 0);
@@ -88,7 +89,7 @@ TEST(LookupParts, EveryLightBiasAndFilterBuilds) {
   EglContext context(DebugMode::fatal);
   ProgramCache programs;
   int built = 0, refused = 0;
-  // One enumerator for each choice in the table of settings; light.kind's first is `auto`.
+  // LightKind has one enumerator for each choice of light.kind, except for its first choice, `auto`.
   for (size_t l = 0; l + 1 < find_setting("light.kind").choices.size(); ++l)
     for (const BiasSettings& bias : every_bias())
       for (size_t f = 0; f < find_setting("filter.kind").choices.size(); ++f) {
@@ -106,8 +107,8 @@ TEST(LookupParts, EveryLightBiasAndFilterBuilds) {
         EXPECT_EQ(&first, &programs.get(stages, slots)) << "built once";
         ++built;
       }
-  // Two lights of flat maps, which refuse the filters of cubes, and two references with a filter that is blended; and
-  // one of a cube, which refuses the filters of flat maps, and two references.
+  // Two lights have flat maps: they refuse the filters of cube maps, and two references together with a blended filter.
+  // One light has a cube map: it refuses the filters of flat maps, and the same two references.
   const auto count = [](auto&& meant) { return static_cast<int>(std::ranges::count_if(filters(), meant)); };
   const int biases = static_cast<int>(every_bias().size());
   const int flat = count([](const Filter& f) { return f.map != FilterMap::cube; });

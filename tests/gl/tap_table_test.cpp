@@ -23,7 +23,7 @@ TEST(TapTable, FetchesWeighOneExactly) {
       const auto table = tap_table(pattern);
       const size_t n = static_cast<size_t>(size);
       ASSERT_EQ(table.size(), n * n);
-      float forwards = 0, backwards = 0;  // any order of the shader's float sum is exact
+      float forwards = 0, backwards = 0;  // the shader's float sum is exact in any order
       for (size_t k = 0; k < table.size(); ++k) {
         forwards += table[k].w;
         backwards += table[table.size() - 1 - k].w;

@@ -1,6 +1,6 @@
-// Law 1: from which bias on a map is free of acne. g: a face's depth gradient in the light's plane, |g|_1 = |g.u| +
-// |g.v| = A tan(theta) with A = |cos phi| + |sin phi| for its azimuth phi against the texels; w: one texel; k = r + 1/2
-// for nearest taps of a box of radius r.
+// Law 1: the smallest bias at which a map shows no acne. In these comments g is the gradient of a face's depth in the
+// light's plane: |g|_1 = |g.u| + |g.v| = A tan(theta) with A = |cos phi| + |sin phi|, where phi is its azimuth against
+// the texels. w is the width of a texel. k = r + 1/2 for a box of radius r with nearest taps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,8 +11,8 @@
 namespace noonmark::acceptance {
 namespace {
 
-// The reference and the exact map's depth are floats in [0,1] from products of rounded numbers: three roundings of
-// 2^-24 of the range at most.
+// The reference and the exact map's depth are floats in [0, 1], computed from rounded numbers: at most three roundings,
+// each 2^-24 of the range.
 double float_rounding_m(const Measurement& m) { return 3 * 0x1p-24 * metric(m, "map_range_m"); }
 
 double quantity_of(const Measurement& m, const char* name) {
@@ -21,16 +21,17 @@ double quantity_of(const Measurement& m, const char* name) {
   return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-// At theta = 0 only the quantum is left, and it is exact: every receiver has the one depth d, the map has it rounded to
-// the nearest step, and the plane needs max(0, d - rounded) <= q/2. So q/2 is the supremum over depths, not over
-// alignments. A 32-bit map rounds as the reference does and needs nothing; so does a 24-bit map where d >= 1/2, where
-// the float that the sampler returns is no finer than the step.
+// At theta = 0 only the quantum is left in the law, and the law is exact. Every receiver has the same depth d, and the
+// map stores d rounded to the nearest step. So the plane needs a bias of max(0, d - rounded), which is at most q/2. The
+// value q/2 is the supremum over depths, not over alignments. A 32-bit map rounds as the reference does, so it needs no
+// bias. A 24-bit map needs none where d >= 1/2, because there the float that the sampler returns is no finer than the
+// step.
 TEST(Law1, NeedsUpToHalfAQuantumOfAPlaneAcrossTheLight) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* format : {"16", "24", "32f"}) {
     double largest = 0;
     for (int i = 0; i < 40; ++i) {
-      // Light at a height of 10 m over the plane: d from 0.75 down to 0.05.
+      // The light is 10 m above the plane: d falls from 0.75 to 0.03.
       const double near = 1 + 0.2171 * i, far = 13 + 0.3713 * i;
       const Measurement m = bench.measure(with({{"scene.theta_deg", "0"},
                                                 {"map.near_m", text(near)},
@@ -50,18 +51,19 @@ TEST(Law1, NeedsUpToHalfAQuantumOfAPlaneAcrossTheLight) {
       largest = std::max(largest, needed / q);
     }
     if (std::string(format) == "16") {
-      EXPECT_GT(largest, 0.45);  // of 40 depths some fall just short of the middle between two steps
+      EXPECT_GT(largest, 0.45);  // some of the 40 depths lie nearly halfway between two steps
     }
     if (std::string(format) == "24") {
-      EXPECT_GT(largest, 0.2);  // where d < 1/2
+      EXPECT_GT(largest, 0.2);  // from the depths d < 1/2
     }
   }
 }
 
-// Taps outside the map. The border is lit: no bias is needed. Clamped to the edge, a receiver outside compares with the
-// depth at the edge: with D the distance outside along the slope, D tan(theta) more than the law, without a bound as D
-// grows; a receiver inside needs no more than the law, since clamping brings a tap nearer. Repeated, even a receiver
-// inside reads the far side: the whole extent's depth.
+// Taps outside the map. With a lit border no bias is needed. With clamping to the edge, a receiver outside the map is
+// compared with the depth at the edge. If D is its distance outside, along the slope, it needs D tan(theta) more than
+// the law gives, and this grows with D without a bound. A receiver inside needs no more than the law, because clamping
+// brings a tap nearer to it. With repetition even a receiver inside may read the far side of the map, where the depth
+// differs by that of the whole extent.
 TEST(Law1, HoldsOutsideTheMapOnlyWithALitBorder) {
   Workbench bench(gl::DebugMode::fatal);
   const double extent = 3, tangent = 1;
@@ -83,7 +85,7 @@ TEST(Law1, HoldsOutsideTheMapOnlyWithALitBorder) {
     Dark count;
     for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
       if (!(m.ladder.flags[i] & flag_facing) || m.ladder[Rung::on_exact_map][i] == 1) continue;
-      EXPECT_NE(m.ladder[Cause::coverage_dark][i], 0) << "only coverage darkens a plane";
+      EXPECT_NE(m.ladder[Cause::coverage_dark][i], 0) << "only coverage can make a plane dark";
       ++(m.ladder.flags[i] & flag_outside ? count.outside : count.inside);
     }
     return count;

@@ -1,11 +1,11 @@
-// Law 3 where two lit faces meet. A receiver P on face A is looked up at P' = P + d N_A, which stands
-// h_B = dist(P, B) + d N_A.N_B before the plane of B. A tap that finds B is free of acne from h_B = k w |N_B|_1 on
-// (tests/laws/offset_test.cpp), and at the crease dist(P, B) = 0: so a concave crease asks for
+// Law 3 where two lit faces A and B meet. A receiver P on face A is looked up at P' = P + d N_A. P' lies h_B = dist(P,
+// B) + d N_A.N_B before the plane of B. A tap that reads B shows no acne if h_B is at least k w |N_B|_1
+// (tests/laws/offset_test.cpp). At the crease dist(P, B) is 0, so a concave crease needs
 //
-//   d = k w |N_B|_1 / (N_A.N_B),
+//   d = k w |N_B|_1 / (N_A.N_B).
 //
-// more than either face alone, and no offset is enough where the faces meet at a right angle or less: there acne stays
-// within k w |N_B|_1 of B. A box that stands on a floor is such a case. Judged tap by tap, without OpenGL.
+// This is more than each face needs alone. If the faces meet at a right angle or less, no offset is enough: acne stays
+// within k w |N_B|_1 of B. A box on a floor is such a case. The taps are judged one by one, without OpenGL.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,22 +23,22 @@ namespace {
 
 constexpr double radians(double degrees) { return degrees * 3.14159265358979323846 / 180; }
 
-// Two faces 4 m wide that meet in the z axis under a light straight above: A (triangles 0 and 1) falls at `a` degrees
-// towards +x, B rises again at `b` degrees.
+// Two faces, each 4 m wide, that meet along the z axis under a light straight above. A (triangles 0 and 1) descends
+// towards +x at `a` degrees. B ascends from there at `b` degrees.
 struct Valley {
   Scene scene;
   LightFrame frame;
   glm::dvec3 normal_a, normal_b, along_a, along_b;
 
   Valley(double a, double b, double grid_turn) {
-    along_a = {-std::cos(radians(a)), std::sin(radians(a)), 0};  // from the crease up
+    along_a = {-std::cos(radians(a)), std::sin(radians(a)), 0};  // from the crease upwards
     along_b = {std::cos(radians(b)), std::sin(radians(b)), 0};
     normal_a = {std::sin(radians(a)), std::cos(radians(a)), 0};
     normal_b = {-std::sin(radians(b)), std::cos(radians(b)), 0};
     const glm::dvec3 start(0, 0, -2), z(0, 0, 4);
     add_quad(scene, "A", start, z, 4.0 * along_a);
     add_quad(scene, "B", start, 4.0 * along_b, z);
-    for (glm::uvec3& t : scene.triangles) {  // both towards the light
+    for (glm::uvec3& t : scene.triangles) {  // turn both faces towards the light
       const glm::dvec3 p = scene.positions[t.x], q = scene.positions[t.y], r = scene.positions[t.z];
       if (glm::cross(q - p, r - p).y < 0) std::swap(t.y, t.z);
     }
@@ -50,7 +50,7 @@ struct Valley {
     frame.extent_m *= 1.6;
   }
 
-  // Does the triangle's outline, seen from above, hold p?
+  // Whether p lies in the triangle, seen from above.
   bool holds(uint32_t triangle, glm::dvec3 p) const {
     const glm::uvec3 t = scene.triangles[triangle];
     const auto at = [](glm::dvec3 q) { return glm::dvec2(q.z, q.x); };
@@ -68,11 +68,11 @@ struct Valley {
 
 struct Acne {
   uint64_t taps = 0;
-  double furthest_m = 0;  // from the other face's plane, of a receiver that has any
+  double furthest_m = 0;  // the largest distance of a receiver with acne from the other face's plane
 };
 
-// Of receivers on both faces, at the crease and as far from it as two texels, looked up `offset_m` along their normals,
-// in one alignment of the grid.
+// Adds the acne of random receivers on both faces, in one alignment of the grid. The receivers lie at the crease or up
+// to two texels from it, and are looked up `offset_m` along their normals.
 void add_acne(const Valley& v, double offset_m, std::mt19937& random, Acne& found) {
   const int count = 400;
   std::uniform_real_distribution<double> unit(0, 1);
@@ -109,7 +109,8 @@ void add_acne(const Valley& v, double offset_m, std::mt19937& random, Acne& foun
   EXPECT_LT(ambiguous, receivers.position.size() / 20);
 }
 
-// In 48 alignments: the taps that count lie at one end of a texel, and are met within a 48th of it.
+// The acne in 48 alignments of the grid. The taps that decide lie at one end of a texel, and 48 alignments come within
+// 1/48 texel of it.
 Acne acne(Valley v, double offset_m) {
   std::mt19937 random(7);
   Acne found;
@@ -136,12 +137,12 @@ TEST(Law3Crease, AsksForTheOtherFacesOffsetOverTheCosineBetweenThem) {
     }
     const double alone = 0.5 * v.w() * std::max(v.norm_1(v.normal_a), v.norm_1(v.normal_b)) / law;
     std::cout << a << " and " << b << " degrees, grid turned by " << turn << ": threshold / law between " << dark
-              << " and " << free << "; the steeper face alone asks for " << alone << "\n";
-    // A supremum over alignments (within a 48th of a texel, of half a texel) and over places (within a fiftieth of a
-    // texel of the crease); 1/32 is the bisection's last step.
+              << " and " << free << "; the steeper face alone needs " << alone << "\n";
+    // The law is a supremum over alignments and over places. The test comes within 1/48 texel of the worst alignment,
+    // out of half a texel, and within 1/50 texel of the crease. 1/32 is the last step of the bisection.
     EXPECT_GE(free, 0.95);
     EXPECT_LE(dark, 1 + 1.0 / 32);
-    EXPECT_GT(0.95, alone) << "or it is not told apart from the law of a plane";
+    EXPECT_GT(0.95, alone) << "otherwise this case does not differ from the law of a plane";
   }
 }
 
@@ -152,9 +153,9 @@ TEST(Law3Crease, AtARightAngleNoOffsetIsEnough) {
     for (double times : {1.05, 3.0, 10.0}) {
       const Acne found = acne(v, times * reach);
       EXPECT_GT(found.taps, 50u) << a << " degrees, " << times << " times";
-      // Float positions: 2^-23 of 3 m, over the least cosine.
+      // 1e-5: float positions are rounded by 2^-23 of 3 m, divided by the smallest cosine.
       EXPECT_LE(found.furthest_m, reach + 1e-5) << "acne stays within k w |N_B|_1 of the other face";
-      EXPECT_GE(found.furthest_m, 0.9 * reach) << "and reaches that far";
+      EXPECT_GE(found.furthest_m, 0.9 * reach) << "acne reaches as far as that";
     }
   }
 }
@@ -164,8 +165,8 @@ TEST(Law3Crease, AtARightAngleNoOffsetIsEnough) {
 namespace acceptance {
 namespace {
 
-// The built-in wall on its floor, seen from its light: what acne is left lies in the foot's strip, however large the
-// offset.
+// The built-in wall on its floor, seen from the light. However large the offset is, all acne that is left lies in a
+// strip at the foot of the wall.
 TEST(Law3Crease, LeavesAStripAtTheLitFootOfAWall) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* offset : {"1", "2", "4"}) {
@@ -183,7 +184,8 @@ TEST(Law3Crease, LeavesAStripAtTheLitFootOfAWall) {
       ++acne;
       const glm::dvec3 p = m.receivers.position[i];
       const bool on_floor = m.receivers.normal[i].y > 0.5f;
-      // The lit faces in sight: of the wall that is seen from its light at z = -2, and the end of the other at z = 0.
+      // The plane of the lit face before a receiver on the floor: z = -2 for one wall (x > 0.5), and z = 0 for the end
+      // of the other wall.
       const double from_other = on_floor ? (p.x > 0.5 ? -2 : 0) - p.z : p.y;
       outside += !(from_other >= -1e-5 && from_other <= reach(on_floor ? wall_normal : floor_normal) + 1e-5);
     }

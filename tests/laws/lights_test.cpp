@@ -1,8 +1,9 @@
-// Laws under spot and point lights that no row of experiments/laws.toml can say: what a filter over a cube map moves.
+// Laws under spot and point lights that no row of experiments/laws.toml can express: how far a filter over a cube map
+// moves shadows.
 //
-// The taps of a cube's filter are offsets in the world: a tap asks of P whether P + o is lit. So the soft shadow's
-// darkness at P is the mean over the taps of the shadow at P + o, and its centre lies the mean offset beside the true
-// one, to the other side.
+// The taps of a cube map's filter are offsets in the world: a tap with the offset o tests whether P + o is lit. So the
+// darkness of the soft shadow at P is the mean over the taps of the shadow at P + o, and the centre of the soft shadow
+// is the true centre minus the mean offset.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +17,8 @@ namespace {
 
 constexpr double light_height_m = 10;
 
-// A plate well above the floor, seen from below it: its shadow alone is in the picture, all of it.
+// A plate well above the floor. The camera looks from below the plate, so the picture has the whole shadow and not the
+// plate.
 Settings plate_under_point_light(const std::string& filter) {
   return with({{"light.kind", "point"},
                {"light.position_m", "0,10,0"},
@@ -38,7 +40,8 @@ struct Shadow {
   double area_m2 = 0;
 };
 
-// Of darkness on the floor, in the truth (rung 1) or after the filter at exact places (rung 2).
+// The shadow on the floor at rung 1 (the truth) or rung 2 (the filter at exact places). Pixels are weighted by their
+// darkness.
 Shadow shadow_on_floor(const Measurement& m, size_t rung) {
   Shadow shadow;
   const Image<double> areas = light_plane_areas(m.camera, m.frame, m.receivers);
@@ -53,20 +56,22 @@ Shadow shadow_on_floor(const Measurement& m, size_t rung) {
   return shadow;
 }
 
-// The tutorials' loops end one step early: the grid's centre lies a quarter of the offset beside P on every axis. Seen
-// from the light, P + o on the floor is (P + o) H / (H - o_y) across: to the first order of o_y / H, o itself.
+// The loops of the tutorials end one step early, so the centre of the grid lies a quarter of the offset from P on each
+// axis. Seen from the light, P + o falls on the floor at (P + o) H / (H - o_y). To first order in o_y / H the movement
+// is o itself.
 TEST(Law7Cube, TheGridMovesShadowsByAQuarterOfItsOffset) {
   Workbench bench(gl::DebugMode::fatal);
   const Measurement m = bench.measure(plate_under_point_light("cube_grid"), std::nullopt);
   glm::dvec3 mean(0);
   for (int t = 0; t < m.probe.taps(); ++t)
     mean += glm::dvec3(m.probe.offset(0, t)) / static_cast<double>(m.probe.taps());
-  EXPECT_NEAR(mean.x, -0.3 / 4, 1e-7) << "a float's rounding";
+  EXPECT_NEAR(mean.x, -0.3 / 4, 1e-7) << "up to a float's rounding";
   const Shadow hard = shadow_on_floor(m, 1), soft = shadow_on_floor(m, 2);
-  ASSERT_NEAR(hard.area_m2, plate_a_m * plate_b_m * 100 / 36, 0.05) << "all of the shadow is in the picture";
+  ASSERT_NEAR(hard.area_m2, plate_a_m * plate_b_m * 100 / 36, 0.05) << "the whole shadow must be in the picture";
   const glm::dvec3 moved = soft.centre - hard.centre;
   std::cout << "the grid moves the shadow by (" << moved.x << ", " << moved.z << ") m\n";
-  // Thousands of pixels on each side of the shadow, whose outline's pixels are 1 cm: a fiftieth of the way.
+  // Thousands of pixels lie on each side of the shadow, and a pixel at its outline is 1 cm wide. So the tolerance is a
+  // fiftieth of the movement.
   EXPECT_NEAR(moved.x, -mean.x, 0.02 * 0.075);
   EXPECT_NEAR(moved.z, -mean.z, 0.02 * 0.075);
 }
@@ -80,14 +85,15 @@ TEST(Law7Cube, TheDiskLeavesShadowsWhereTheyAre) {
   EXPECT_NEAR(soft.centre.z - hard.centre.z, 0, 0.02 * 0.075);
 }
 
-// Law 7 with a tap's way on the floor for o: its own and what its height adds, o + o_y P / H to the first order. The
-// area is that of the floor's shadow without itself so moved, which for one tap is exact.
+// Law 7 with the movement of a tap on the floor in place of o. To first order the movement is o + o_y P / H: the offset
+// itself, and what its height adds. The area is that of S xor the moved S, for the shadow S on the floor. For one tap
+// this is exact.
 TEST(Law7Cube, BlursByTheSumOfItsTapsWays) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* filter : {"cube_grid", "cube_disk"}) {
     const Measurement m = bench.measure(plate_under_point_light(filter), std::nullopt);
-    // The shadow is the rectangle of half sides a and b, turned by phi; a tap moves it by -o and scales it by s = (H -
-    // o_y) / H about the light's foot.
+    // The shadow is a rectangle with half sides a and b, turned by phi. A tap moves it by -o and scales it by s = (H -
+    // o_y) / H about the point below the light.
     const double a = plate_a_m / 2 / 0.6, b = plate_b_m / 2 / 0.6, phi = radians(20);
     const glm::dvec2 along(std::cos(phi), -std::sin(phi)), across(std::sin(phi), std::cos(phi));  // in (x, z)
     double exact = 0;
@@ -110,7 +116,7 @@ TEST(Law7Cube, BlursByTheSumOfItsTapsWays) {
       found += areas[i] / to_light.y * std::abs(m.ladder[Rung::filtered][i] - m.ladder.truth()[i]);
     }
     std::cout << filter << ": blurred area " << found << " m2, by the law " << exact << "\n";
-    EXPECT_NEAR(found / exact, 1, 0.03) << "pixels sample the band, some thousands of them";
+    EXPECT_NEAR(found / exact, 1, 0.03) << "some thousands of pixels sample the band";
   }
 }
 

@@ -1,4 +1,4 @@
-// Law 8: nothing is lost where nothing shades.
+// Law 8: without an occluder there is no error but acne.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 float step(const Measurement& m, Cause cause, size_t i) { return m.ladder[cause][i]; }
 
-// Law 8 holds at every setting: any of the following that a sweep could name.
+// Law 8 holds at every setting. These are random settings that a sweep could use.
 Settings any_settings(const std::string& scene) {
   const auto one_of = [](std::vector<std::string> values) { return *rc::gen::elementOf(values); };
   const auto between = [](int from, int to) { return *rc::gen::inRange(from, to + 1); };
@@ -39,9 +39,9 @@ Settings any_settings(const std::string& scene) {
   return s;
 }
 
-// At the outline of a closed solid a pixel's centre may miss the faces that are turned to the camera, by the
-// rasteriser's snapping of vertices to a fraction of a pixel, and meet the inside of one that is turned away. Such a
-// receiver is inside the solid, and dark.
+// The rasteriser snaps vertices to a fraction of a pixel. So at the outline of a closed solid, a pixel's centre may
+// miss the faces that are turned to the camera and meet the inside of a face that is turned away. Such a receiver is
+// inside the solid, and dark.
 bool seen_from_inside(const Measurement& m, size_t i) {
   const glm::uvec3 t = m.scene.triangles[m.receivers.primitive[i]];
   const glm::dvec3 a = m.scene.positions[t.x], b = m.scene.positions[t.y], c = m.scene.positions[t.z];
@@ -75,7 +75,8 @@ RC_GTEST_PROP(Law8, APlaneASphereABowlFromAboveHaveAcneOnly, ()) {
   expect_nothing_but_acne(shared_bench(), any_settings(scene), false);
 }
 
-// A lone box of any size and turn under any light, as a file, with camera and map fitted to it.
+// A lone box of any size and rotation under any light. It is loaded from a file, and the camera and the map are fitted
+// to it.
 RC_GTEST_PROP(Law8, ALoneBoxHasAcneOnly, ()) {
   const auto real = [](double from, double to) { return from + (to - from) * *rc::gen::inRange(0, 1001) / 1000.0; };
   std::vector<float> positions;

@@ -1,11 +1,12 @@
-// Law 3, of the normal offset (Holbert 2011): what offset d frees of acne, how far it moves shadows, and what it leaves
-// alone. theta: between a receiver's normal N and the light; w: one texel; |N|_1 = |N.u| + |N.v| over the texel axes,
-// which is A sin(theta) with A = |cos phi| + |sin phi|; k = r + 1/2 for nearest taps of a box of radius r.
+// Law 3, of the normal offset (Holbert 2011): the offset d at which acne ends, how far d moves shadows, and what d does
+// not change. theta is the angle between a receiver's normal N and the light. w is the width of a texel. |N|_1 = |N.u|
+// + |N.v| over the texel axes, which is A sin(theta) with A = |cos phi| + |sin phi|. k = r + 1/2 for a box of radius r
+// with nearest taps.
 //
-// P' = P + d N stands d above its face, so d / cos(theta) before it along the light. A tap k texels off along both axes
-// finds the face k w |g|_1 = k w |N|_1 / cos(theta) nearer to the light than beneath P'. So the face does not shade
-// itself from d = k w |N|_1 = k w A sin(theta) on, and the plane of another face B which P' stands h_B before does not
-// from h_B = k w |N_B|_1 on.
+// P' = P + d N lies d above its face, so it lies d / cos(theta) before the face along the light. A tap k texels off
+// along both axes finds the face k w |g|_1 = k w |N|_1 / cos(theta) nearer to the light than below P'. So the face does
+// not shadow itself if d is at least k w |N|_1 = k w A sin(theta). The plane of another face B does not shadow it if P'
+// lies at least h_B = k w |N_B|_1 before that plane.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +37,7 @@ Settings plane_settings(double theta, double phi, int size) {
               small("plane", 240, 136));
 }
 
-// In texels.
+// The offset of the law, in texels.
 double plane_law(double theta, double phi, int size) {
   return size / 2.0 * (std::abs(std::cos(radians(phi))) + std::abs(std::sin(radians(phi)))) * std::sin(radians(theta));
 }
@@ -59,13 +60,15 @@ TEST(Law3, NamesTheThresholdOfAPlane) {
     }
     std::cout << "theta " << theta << ", phi " << phi << ", box " << size << ": threshold / law between " << dark
               << " and " << free << "\n";
-    // It is a supremum over alignments, of which the picture has 30,000; 1/64 is the bisection's last step.
+    // The law is a supremum over alignments, and the picture has about 30,000 of them. 1/64 is the last step of the
+    // bisection.
     EXPECT_GE(free, 0.95);
     EXPECT_LE(dark, 1 + 1.0 / 64);
   }
 }
 
-// Is the floor's point in the shadow of the built-in plate (phi 0), grown by `margin_m` on all sides? Slabs, in double.
+// Whether the point p of the floor is in the shadow of the built-in plate (phi 0), grown by `margin_m` on all sides.
+// The ray is cut with the slabs of the plate, in double.
 bool in_plates_shadow(glm::dvec3 p, glm::dvec3 to_light, const SceneSettings& scene, double margin_m) {
   const glm::dvec3 low(-0.8, scene.height_m - scene.thickness_m, -0.6), high(0.8, scene.height_m, 0.6);
   double from = 0, to = std::numeric_limits<double>::infinity();
@@ -79,7 +82,8 @@ bool in_plates_shadow(glm::dvec3 p, glm::dvec3 to_light, const SceneSettings& sc
   return from < to;
 }
 
-// Every receiver has the truth of the place d tan(theta) further from the light: shadow edges move by that towards it.
+// Every receiver gets the truth of the place that is d tan(theta) further from the light. So shadow edges move by that
+// distance towards the light.
 TEST(Law3, MovesShadowsTowardsTheLight) {
   Workbench bench(gl::DebugMode::fatal);
   const double height_m = 1;
@@ -111,7 +115,7 @@ TEST(Law3, MovesShadowsTowardsTheLight) {
         const auto lit = [&](glm::dvec3 at) {
           const bool in = in_plates_shadow(at, to_light, m.settings.scene, -1e-5),
                      out = in_plates_shadow(at, to_light, m.settings.scene, 1e-5);
-          undecided += in != out;  // beyond what float positions say
+          undecided += in != out;  // float positions cannot decide here
           return in != out ? std::optional<float>() : std::optional<float>(in ? 0.0f : 1.0f);
         };
         ++floor;
@@ -129,26 +133,27 @@ TEST(Law3, MovesShadowsTowardsTheLight) {
     EXPECT_GT(floor, 50000u);
     EXPECT_GT(displaced, 200u);
     EXPECT_LT(undecided, 20u);
-    // What the map shows has moved as a whole. Its edges are a texel's staircase each, but there are 40 texels to a
-    // side and the centre is the mean of two opposite sides.
+    // The shadow that the map shows has moved as a whole. Each of its edges is a staircase of texels, but a side has 40
+    // texels, and the centre is the mean of two opposite sides.
     const glm::dvec3 moved = map_sum / map_dark - truth_sum / truth_dark;
     std::cout << "d tan(theta) = " << d * sine / cosine << " m; the shadow moved by " << -glm::dot(moved, away)
               << " m towards the light and " << glm::length(moved - glm::dot(moved, away) * away) << " m aside\n";
     EXPECT_NEAR(-glm::dot(moved, away), d * sine / cosine, 0.1 * m.frame.texel_m() / cosine);
     EXPECT_LT(glm::length(moved - glm::dot(moved, away) * away), 0.1 * m.frame.texel_m());
-    // Law 4, from the place where the lookup asks: half a texel's diagonal, and the float address's rounding.
+    // Law 4 for the place looked up: half a texel's diagonal, and the rounding of the float address.
     EXPECT_LE(metric(m, "edge_displacement_texels"), std::sqrt(0.5) + 128 * 0x1p-22);
     EXPECT_GT(metric(m, "edge_displacement_texels"), 0.5);
-    // Each edge, d tan(theta) along the light's trace: over the light's plane 2 d sin(theta) times the shadow's width.
-    // Exact up to where the sides meet, as long as d is less than the plate's thickness.
+    // Each edge moves by d tan(theta) along the light's direction on the floor. In the light's plane the two edges
+    // cover 2 d sin(theta) times the width of the shadow. This is exact except where the sides meet, if d is less than
+    // the plate's thickness.
     const double width = 1.6 * std::abs(away.z) + 1.2 * std::abs(away.x);
     EXPECT_NEAR(metric(m, "displacement_area_m2") / (2 * d * sine * width), 1, 0.02);
   }
 }
 
-// Seen from its shadow's side, a cube shows what the form is known for: a shadow that is displaced and nothing else
-// that a bias does. But for the corners of its foot, where P' may stand less than k w |N_B|_1 behind a lit face B, so
-// that a tap finds B behind P': there light shows as far as that.
+// Seen from the side of its shadow, a cube shows what a normal offset is known for: its shadow is displaced, and no
+// other error of a bias occurs. The corners of its foot are an exception. There P' may lie less than k w |N_B|_1 behind
+// a lit face B, so that a tap finds B behind P', and a strip of that depth is lit.
 TEST(Law3, DisplacesACubesShadowAndNothingElse) {
   Workbench bench(gl::DebugMode::fatal);
   const Settings settings = with({{"map.resolution", "256"},
@@ -175,7 +180,8 @@ TEST(Law3, DisplacesACubesShadowAndNothingElse) {
   }
   EXPECT_EQ(away_from_corners, 0u);
   EXPECT_LE(panning, 10u);
-  // A bias lights the corners too, as deep as it reaches (law 2); 4 texels free the lit sides as well.
+  // A constant bias lights the corners too, as deep as it reaches (law 2). 4 texels also remove the acne of the lit
+  // sides.
   const Measurement b = bench.measure(
       with({{"bias.normal_offset", "0"}, {"bias.constant", "4"}, {"bias.unit", "texel"}}, settings), std::nullopt);
   EXPECT_GT(metric(b, "peter_panning"), 10 * metric(m, "peter_panning"));
@@ -185,9 +191,9 @@ TEST(Law3, DisplacesACubesShadowAndNothingElse) {
             << " of all\n";
 }
 
-// An occluder that stands lower than d above the receiver is passed by P', and its shadow is lost; the grid makes that
-// d plus or minus k w |N|_1, here a twentieth. Higher ones lose what P' stands within k w |N_B|_1 behind a lit side B
-// of.
+// If an occluder is lower than d above the receiver, P' lies past it, and its shadow is lost. The grid changes this
+// limit to d plus or minus k w |N|_1, here a twentieth of d. A higher occluder loses its shadow only where P' lies
+// within k w |N_B|_1 behind a lit side B; these receivers are left out.
 TEST(Law3, LosesAPlateBelowItsOffset) {
   Workbench bench(gl::DebugMode::fatal);
   const Settings base = with(

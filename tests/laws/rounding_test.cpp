@@ -1,5 +1,6 @@
-// Law 11 on meshes as they come: tiles that meet to rounding only, and corners on a neighbour's edge, on planes that no
-// axis carries, at the origin and far from it. All must give what one quad gives. Of an empty floor: experiments/laws.toml.
+// Law 11 on meshes as they occur in practice: tiles whose common edges are equal up to rounding only, and corners that
+// lie on a neighbour's edge. No plane is parallel to an axis, and the scene is at the origin or far from it. All must
+// give the results of one quad. For an empty floor see experiments/laws.toml.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +14,9 @@ namespace {
 const Assignment places[] = {{"scene.move_m", "0,0,0"}, {"scene.move_m", "-220,180,90"}};  // 300 m
 const char* const forms[] = {"tiles", "t_junctions"};
 
-// With occluders: the same causes at the same pixels as the mesh as built, but for single pixels at the borders of
-// shadows and texels, where a receiver's last place decides (tests/laws/surface_test.cpp).
+// With occluders, every pixel has the same causes as with the mesh as built. Single pixels at the borders of shadows
+// and texels are an exception, because there the last place of a receiver's position decides
+// (tests/laws/surface_test.cpp).
 TEST(Law11Rounding, OccludersCastTheSameErrorsOnPieces) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* scene : {"wall", "facade"}) {
@@ -49,8 +51,9 @@ TEST(Law11Rounding, OccludersCastTheSameErrorsOnPieces) {
               same &= built.ladder[cause][i] == m.ladder[cause][i];
             differ += !same;
           }
-          // A tap decides at a border: 25 taps meet 25 times as many. And where a float step is wider, so are borders:
-          // a line of `size` taps meets them within four steps (of corners and of P, in both meshes) more often.
+          // Each tap may lie at a border, so 25 taps meet borders 25 times as often. Where a float step is wider,
+          // borders are wider too: a line of `size` taps meets them within four steps (of corners and of P, in both
+          // meshes).
           double largest = 0;
           for (const glm::vec3& p : m.scene.positions)
             largest = std::max({largest, std::abs(double{p.x}), std::abs(double{p.y}), std::abs(double{p.z})});

@@ -12,14 +12,14 @@ namespace noonmark::acceptance {
 constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 inline std::string text(double value) { return std::to_string(value); }
 
-// The curve's bounds at 0: the window begins where the last tap of acne ends.
+// Both bounds of the curve at 0: the window begins at the smallest bias at which no tap has acne.
 inline CurveOptions exact_window() {
   CurveOptions options;
   options.acne_bound = options.peter_panning_bound = 0;
   return options;
 }
 
-// The mean of a metric over n x n alignments of the grid, a whole texel's worth of them, evenly spaced.
+// The mean of a metric over n x n alignments of the map's grid, spaced evenly over one texel.
 inline double mean_over_alignments(Workbench& bench, const Settings& settings, const std::string& name, int n = 4) {
   double sum = 0;
   for (int i = 0; i < n; ++i)
@@ -54,7 +54,7 @@ inline Settings plate_from_above(double phi_deg, int resolution, int width = 480
               small("plate", width, height));
 }
 
-// The area of the plate's shadow that it does not share with itself moved by `way` (metres in the light's plane).
+// The area of S xor (S + way), where S is the plate's shadow and `way` is in metres in the light's plane.
 inline double plate_moved_area(double phi_deg, glm::dvec2 way) {
   const double c = std::cos(radians(phi_deg)), s = std::sin(radians(phi_deg));
   const double p = std::abs(c * way.x + s * way.y), q = std::abs(-s * way.x + c * way.y);

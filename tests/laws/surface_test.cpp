@@ -1,5 +1,5 @@
-// The laws of surfaces: an error of the grid needs a true shadow edge near it, and how a surface is cut into triangles
-// and meshes changes nothing.
+// The laws of surfaces. Aliasing needs a true shadow edge near it. How a surface is cut into triangles and meshes
+// changes nothing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,18 +20,18 @@ std::vector<std::string> models() {
 
 std::vector<std::string> every_scene() {
   std::vector<std::string> names;
-  // These laws speak of the light's plane: scenes of parallel light.
+  // These laws are about the light's plane, so they need a directional light.
   for (const BuiltinScene& scene : builtin_scenes())
     if (scene.make({}).light.kind == LightKind::directional) names.emplace_back(scene.name);
   for (const std::string& name : models()) names.push_back(name);
   return names;
 }
 
-// Law 4. A tap and the texel's centre that it snaps to differ by at most half a texel in each axis, so a tap that the
-// grid answers wrongly lies within w / sqrt(2) of an edge of V, in the light's plane. Shown twice: by the tracer's own
-// search along the way to the centre; and, unfiltered, from nothing but the picture's positions, the light's axes and
-// the float matrix's texel, by a double-precision search of all triangles at both ends: the receiver's verdict there
-// must be R1, and the verdict of its plane at the centre must be the other one.
+// Law 4. A tap and the centre of the texel that it snaps to differ by at most half a texel on each axis. So a tap with
+// aliasing lies within w / sqrt(2) of an edge of V, in the light's plane. The test shows this in two ways. First, the
+// tracer itself searches along the way to the centre. Second, for the unfiltered lookup, a search of all triangles in
+// double uses only the picture's positions, the light's axes and the float matrix's texel. At the receiver it must find
+// the verdict of R1, and for the receiver's plane at the centre it must find the opposite verdict.
 TEST(Law4, EveryAliasedTapHasATrueEdgeNear) {
   Workbench bench(gl::DebugMode::fatal);
   uint64_t all = 0;
@@ -40,8 +40,8 @@ TEST(Law4, EveryAliasedTapHasATrueEdgeNear) {
         with({{"map.resolution", "200"}, {"map.shift_u_texels", "0.3"}, {"map.format", "32f"}}, small(name)),
         std::nullopt);
     SCOPED_TRACE(name);
-    // The shader's float matrix may put a receiver into the texel beside its own where it lies within 2^-22 of the
-    // map's size of the border: 200 * 2^-22 texels.
+    // The shader's float matrix may put a receiver into the neighbouring texel if it lies within 2^-22 of the map's
+    // size of the border, which is 200 * 2^-22 texels.
     EXPECT_LE(metric(m, "edge_displacement_texels"), std::numbers::sqrt2 / 2 + 200 * 0x1p-22);
     const test::LightBins bins(m.scene, m.frame);
     const double w = m.frame.texel_m();
@@ -59,7 +59,7 @@ TEST(Law4, EveryAliasedTapHasATrueEdgeNear) {
       EXPECT_LE(std::abs(c.y - p.y), w * (0.5 + 200 * 0x1p-22));
       const uint32_t own = m.receivers.primitive[i];
       ++checked;
-      EXPECT_EQ(bins.occluded(world, own), light) << "aliasing that lights is of a dark receiver";
+      EXPECT_EQ(bins.occluded(world, own), light) << "aliasing that lights a receiver needs a dark receiver";
       bool dark = false;
       const double plane = bins.plane(own, c);
       bins.each_at(
@@ -67,7 +67,8 @@ TEST(Law4, EveryAliasedTapHasATrueEdgeNear) {
       other += dark == light;
     }
     all += checked;
-    // Built-in shadows fall on planes. On a model's curved surface its triangle's plane is not the surface at c.
+    // In the built-in scenes shadows fall on planes. On a model's curved surface, the plane of the receiver's triangle
+    // is not the surface at c.
     if (name.ends_with(".gltf")) {
       EXPECT_LE(static_cast<double>(other), 0.2 * static_cast<double>(checked));
     } else {
@@ -77,13 +78,14 @@ TEST(Law4, EveryAliasedTapHasATrueEdgeNear) {
   EXPECT_GT(all, 1000u);
 }
 
-// Law 11. Welded into one mesh, or there twice, the surface has the same triangles in the same order, and every pixel
-// the same verdicts and causes. In reverse order a pixel on an edge sees the other triangle, whose plane gives a
-// position that differs in its last place; cut in four, the new vertices are rounded to float by 2^-25 of their
-// coordinates. Then what lies so near to the border of a shadow or a texel may change: one or two pixels of fifty
-// thousand. A texel of the GPU's map whose centre lies on an edge may also change sides, and with it all the pixels
-// that look there: that is precision, and up to 9 x as many where a kernel looks. Pixel by pixel; the totals of the other
-// scenes: experiments/laws.toml.
+// Law 11. If the meshes are welded into one, or if the surface is present twice, the surface has the same triangles in
+// the same order, and every pixel has the same verdicts and causes. In reverse order a pixel on an edge sees the other
+// triangle, whose plane gives a position that differs in its last place. If each triangle is cut in four, the new
+// vertices are rounded to float, by 2^-25 of their coordinates. Then a pixel that lies very near the border of a shadow
+// or of a texel may change: one or two pixels of fifty thousand. A texel of the GPU's map whose centre lies on an edge
+// may also change sides, and all pixels that look there change with it. This is precision, and with a kernel it is up
+// to 9 times as many pixels. This test compares pixel by pixel. experiments/laws.toml compares the totals of the other
+// scenes.
 TEST(Law11, CausesDoNotDependOnHowASurfaceIsCut) {
   Workbench bench(gl::DebugMode::fatal);
   std::vector<std::string> scenes = models();
@@ -110,7 +112,7 @@ TEST(Law11, CausesDoNotDependOnHowASurfaceIsCut) {
         for (size_t i = 0; i < built.flags.size(); ++i) {
           facing += (built.flags[i] & flag_facing) != 0;
           bool same = true;
-          // What the truth is not sure of may be said either way.
+          // At an ambiguous receiver either verdict may be found.
           if ((built.flags[i] | m.ladder.flags[i]) & flag_ambiguous) continue;
           for (int c = 0; c < cause_count - 1; ++c) same &= built.causes[c].step[i] == m.ladder.causes[c].step[i];
           differ += !same;

@@ -1,4 +1,5 @@
-// Laws of filters whose taps no formula of experiments/laws.toml can list: sums over the taps as the pattern has them.
+// Laws of filters whose taps a formula in experiments/laws.toml cannot list. Here the sums run over the taps of the
+// pattern.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,12 +33,13 @@ Settings with_filter(const Filter& filter, Settings settings) {
   return settings;
 }
 
-// A tap's weight, averaged over where P lies between texels' centres: the product of two functions linear in each.
+// The weight of a tap, averaged over all places of P between texel centres. The weight is a product of two functions,
+// each linear in one axis, so the average is its value in the middle.
 double mean_weight(const TapPattern& pattern, int tap) { return pattern.weight(tap, {0.5, 0.5}); }
 
-// Law 7 for any pattern: sum over the taps of their mean weights times the area of S xor (S - o). A bilinear tap's
-// weight depends on where P lies in its texel, an edge's band crosses texels at every place, so the mean is what
-// counts.
+// Law 7 for any pattern: the area is the sum, over the taps, of the mean weight times the area of S xor (S - o). S is
+// the shadow and o is the tap's offset. The weight of a bilinear tap depends on the place of P in its texel. The band
+// along an edge crosses texels at every place, so the mean weight counts.
 TEST(Law7Filters, BlurByTheSumOverTheirTaps) {
   Workbench bench(gl::DebugMode::fatal);
   for (const Filter& filter : filters()) {
@@ -51,19 +53,19 @@ TEST(Law7Filters, BlurByTheSumOverTheirTaps) {
         for (int t = 0; t < pattern.taps; ++t)
           exact += mean_weight(pattern, t) / pattern.variants *
                    plate_moved_area(phi, 4.0 / resolution * glm::dvec2(pattern.offset(variant, t)));
-      // Bilinear weights depend on the alignment, of which an edge along the texels has one; their taps are halves of
-      // texels off, so that two alignments, half a texel apart, cover each weight once.
+      // Bilinear weights depend on the alignment, and an edge along the texels has only one alignment. The taps lie at
+      // half texels, so two alignments, half a texel apart, cover each weight once.
       const int alignments = pattern.bilinear() ? 2 : 1;
       const double found = mean_over_alignments(bench, settings, "filter_area_m2", alignments);
       std::cout << filter.name << ", phi " << phi << ": measured / law " << found / exact << "\n";
-      // Pixels sample the band, some hundreds of them across all edges: 1%.
+      // Pixels sample the band. Some hundreds of pixels lie across all edges, so the tolerance is 1%.
       EXPECT_NEAR(found / exact, 1, 0.01);
     }
   }
 }
 
-// Law 1 for any pattern: the tap that lies furthest down the slope, and half a texel. Taps in a disk reach less far
-// along the texels' diagonals than a square of the same radius.
+// Law 1 for any pattern: the bias must cover the tap that lies furthest down the slope, and half a texel more. A disk
+// of taps reaches less far along the texels' diagonals than a square of the same radius.
 TEST(Law1Filters, AskForTheirFurthestTap) {
   Workbench bench(gl::DebugMode::fatal);
   for (const Filter& filter : filters()) {
@@ -76,7 +78,8 @@ TEST(Law1Filters, AskForTheirFurthestTap) {
                                                                    small("plane", 240, 136))),
                                           exact_window());
       const TapPattern& pattern = m.probe.pattern;
-      // Its normal leans to (cos phi, sin phi) in texels: that way it falls, away from the light.
+      // The plane's normal leans towards (cos phi, sin phi) in texels. In that direction the plane descends, away from
+      // the light.
       const glm::dvec2 g(std::cos(radians(phi)), std::sin(radians(phi)));
       double reach = 0;
       for (const glm::vec3& o : pattern.offsets) reach = std::max(reach, -glm::dot(glm::dvec2(o), g));
@@ -87,7 +90,8 @@ TEST(Law1Filters, AskForTheirFurthestTap) {
       const double metric_law = metric(m, "acne_free_bias_law_m") / per_texel;
       std::cout << filter.name << ", phi " << phi << ": " << found << " texels tan(theta), law " << reach + grid
                 << ", metric " << metric_law << "\n";
-      // It is a supremum over alignments, and of a rotated disk over its turns; the picture has 30,000 of them.
+      // The law is a supremum over alignments and, for a rotated disk, over its rotations. The picture has about 30,000
+      // of them.
       EXPECT_LE(found, (reach + grid) * (1 + 1e-4));
       EXPECT_GE(found, (reach + grid) * 0.93);
       EXPECT_NEAR(metric_law, reach + grid, 1e-4);

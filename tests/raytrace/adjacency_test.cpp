@@ -78,7 +78,8 @@ TEST(Adjacency, NonManifoldEdgesJoinAllUpToTheFanLimit) {
   for (uint32_t t = 0; t < 65; ++t) EXPECT_EQ(over.across(t, 0).size(), 0u);
 }
 
-// All at one edge: the cost must not be its square (10^11 pairs would not end in a test's time).
+// All triangles share one edge. The cost must not grow with the square of their number: 10^11 pairs would not end in a
+// test's time.
 TEST(Adjacency, AFileThatPutsEveryTriangleAtOneEdgeIsNoTrap) {
   EXPECT_EQ(Adjacency(fan(400000)).across(7, 0).size(), 0u);
 }
@@ -94,8 +95,8 @@ TEST(Adjacency, DegenerateTrianglesAreNotTheirOwnNeighbours) {
 
 TEST(Adjacency, AnEmptySceneHasNone) { EXPECT_NO_THROW(Adjacency{Scene()}); }
 
-// Brute force: for random soups on a few places, in any order and turned any way, the neighbours are those triangles
-// with the same two end positions, each place of a triangle counted once.
+// Brute force on random triangles with few different positions: the neighbours across an edge are the triangles with
+// the same two end positions. Copies of a triangle count once.
 RC_GTEST_PROP(Adjacency, AgreesWithBruteForceInAnyOrder, ()) {
   Scene scene;
   const int count = *rc::gen::inRange(0, 30);

@@ -1,5 +1,5 @@
-// What the truth costs: ctest does not run it. Built with -DNOONMARK_BENCHMARKS=ON.
-// `rays` is rays per second of the stage's own time; triangles are in the benchmark's name (0: cube-room).
+// The time that the truth takes. ctest does not run it; it is built with -DNOONMARK_BENCHMARKS=ON. `rays` is rays per
+// second of the stage's own time. The n in a benchmark's name gives the triangles (0: cube-room).
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -31,7 +31,7 @@ struct Bench {
         frame(test::frame_of(scene, 1024)),
         tracer(scene),
         receivers(test::random_receivers(scene, frame.direction_to_light(), false, 1280 * 720, 1)) {
-    // In the order of pixels that look at neighbouring places, as a picture's do.
+    // Sorted so that neighbours look at neighbouring places, as the pixels of a picture do.
     std::vector<size_t> order(receivers.primitive.size());
     for (size_t i = 0; i < order.size(); ++i) order[i] = i;
     const LookupProbe probe = test::probe_of(receivers, frame);

@@ -8,14 +8,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Double's rounding of depths that are one: some hundred times 2^-53, as a fraction of the scene's size.
+// How far two equal depths may differ in double: some hundred times 2^-53, as a fraction of the scene's size.
 constexpr double rounding = 1e-13;
 
-// A light so near to a face's plane sees no side of it: corners in double are not more exact than some times 2^-53, and
-// 0 may be meant.
+// A light this near to a face's plane counts as in it, so that the face is edge-on: corners in double are exact only to
+// some times 2^-53, so the true value may be 0.
 constexpr double edge_on_sine = 0x1p-30;
 
-// The part of [begin, end] where a + b s >= 0.
+// Cuts [begin, end] to the part where a + b s >= 0.
 void keep_positive(double a, double b, double& begin, double& end) {
   if (b > 0)
     begin = std::max(begin, -a / b);
@@ -25,8 +25,8 @@ void keep_positive(double a, double b, double& begin, double& end) {
     end = -infinity;
 }
 
-// Where the ray through a way (of unit length) enters and leaves the sphere; false where it passes it by. May be behind
-// the light.
+// Where the ray along a way (of unit length) enters and leaves the sphere; false if it misses the sphere. Both places
+// may be behind the light.
 bool through_sphere(glm::dvec3 unit, glm::dvec3 centre, double radius, double& enters, double& leaves) {
   const double middle = glm::dot(unit, centre);
   const glm::dvec3 beside = centre - middle * unit;
@@ -37,7 +37,7 @@ bool through_sphere(glm::dvec3 unit, glm::dvec3 centre, double radius, double& e
   return true;
 }
 
-// Table 8.19's row of a direction: the face, s_c, t_c and m_a.
+// The row of OpenGL's table 8.19 for a direction: the face, s_c, t_c and m_a.
 struct CubeAddress {
   int face;
   double s, t, m;
@@ -211,8 +211,8 @@ bool CentralForm::may_be_first(glm::dvec3 way, double depth_from, double depth_m
   });
 }
 
-// S. The faces of a box that the light sees from one side are one sheet, whose fold is the box's outline; to a light
-// inside a box that is all six of them, without a fold.
+// The depth S of P's sheet. The faces of a box that the light sees from the same side are one sheet; its fold is the
+// box's outline. For a light inside a box, all six faces are one sheet without a fold.
 CentralForm::Sheet CentralForm::sheet(const Piece& own, glm::dvec3 from, glm::dvec3 way) const {
   double furthest = 0;
   Sheet end{plane_depth(own, from), slope(own, from), true};
@@ -238,15 +238,14 @@ bool CentralForm::has_jump(const Piece& own, glm::dvec3 from, glm::dvec3 to) con
   std::vector<double> ends;
   for (const Piece& p : pieces_) {
     Interval i = along(p, from, to);
-    if (&p == &own)
-      i = i.empty() ? Interval{0, 0} : Interval{0, i.end};  // P's rounding may have put it beside its face
+    if (&p == &own) i = i.empty() ? Interval{0, 0} : Interval{0, i.end};  // rounding may have moved P off its face
     if (i.empty()) continue;
     list.push_back({&p, i});
     ends.push_back(i.begin);
     ends.push_back(i.end);
   }
   std::sort(ends.begin(), ends.end());
-  // The light's way to what it sees is no shorter than to P: a metre there is at least so much of a way.
+  // What the light sees is taken to be no nearer than P. So a metre there is at most 1 / (depth of P) of a way.
   const double apart = rounding + 4 * moved_m_ / plane_depth(own, from);
   const double same = apart / std::max(glm::length(to - from), apart);
   for (size_t i = 0; i < ends.size();) {

@@ -6,7 +6,7 @@
 
 namespace noonmark::test {
 
-// Where the light stands. Everything lies on the site's grid, so that planes through the light are exactly that.
+// Where the light stands. All places lie on the site's grid, so that a plane through the light goes through it exactly.
 enum class LightPlace { outside, inside, near_the_floor, near_a_shape };
 
 struct CentralSpec {
@@ -44,7 +44,7 @@ inline rc::Gen<CentralSpec> any_central(bool point, int kinds) {
           set(&CentralSpec::filter, inRange(0, 6))));
 }
 
-// The light into the model's scene; its camera stays.
+// Puts the light into the model's scene; the scene's camera stays.
 inline void place_light(const CentralSpec& spec, const Site& site, Modelled& model) {
   const auto snapped = [&](glm::dvec3 p) { return glm::round(p / site.grid_m) * site.grid_m; };
   const glm::dvec3 anywhere = site.origin_m + 0.004 * glm::dvec3(spec.x, spec.y, spec.z);

@@ -18,11 +18,11 @@ using namespace test;
 // What was compared and found, over many scenes.
 struct Tally {
   int64_t scenes = 0, facing = 0, ambiguous = 0, taps_ambiguous = 0;
-  int64_t edge_on = 0;  // in a plane through the light: its side is P's rounding
+  int64_t edge_on = 0;  // in a plane through the light: P's rounding decides its side
   int64_t banded = 0;   // between a sphere's inner and outer form
-  int64_t faces = 0, r1 = 0, r2 = 0, r3 = 0, clipped = 0, depth = 0, texel = 0;  // disagreements of the sure
-  int64_t depth_either = 0;    // depths of texels beside an outline or a crease: either surface's
-  int64_t by_rounding = 0;     // what rounding of the vertices decides, and no form says
+  int64_t faces = 0, r1 = 0, r2 = 0, r3 = 0, clipped = 0, depth = 0, texel = 0;  // disagreements of sure receivers
+  int64_t depth_either = 0;    // texels at an outline or a crease: either surface's depth is right
+  int64_t by_rounding = 0;     // decided by rounding of the vertices, so that no form can tell
   int64_t hidden = 0;          // disagreements of ambiguous receivers
   int64_t far_from_edges = 0;  // ambiguous, yet no outline or crease is near
   int64_t taps = 0, dark_taps = 0, differ = 0, by_jumps = 0, jumped = 0, walked_off = 0, other_face = 0, near = 0;
@@ -65,7 +65,7 @@ struct Tally {
   }
 };
 
-// How far a ray may pass beside its place: the rounding of its float start (half a last place in each of three
+// How far a ray may miss its exact place: the rounding of its float start (half a last place in each of three
 // coordinates) and of the edge tests over the scene's size, the light included.
 double ray_error_m(const Scene& scene) {
   double largest = 0;
@@ -78,7 +78,7 @@ double ray_error_m(const Scene& scene) {
   return 0x1p-24 * (std::sqrt(3.0) * largest + 4 * glm::length(high - low));
 }
 
-// The nearest triangle on each pixel's ray, one by one.
+// The nearest triangle on each pixel's ray. All triangles are tested one by one.
 ReceiverImage picture(const Scene& scene, int width, int height) {
   const CameraFrame frame = make_camera_frame(scene.camera, width, height);
   Image<uint32_t> seen(width, height, no_primitive);
@@ -103,8 +103,8 @@ ReceiverImage picture(const Scene& scene, int width, int height) {
   return resolve_receivers(scene, scene.camera, seen);
 }
 
-// Points on every face alike, so that small things get their share, as float rounds them. Their normals: on the light's
-// side, or the outside's.
+// Random points, as many on a small triangle as on a large one, rounded to float. Their normals are on the light's
+// side, or on the outside.
 ReceiverImage points_on_faces(const Scene& scene, bool facing_light, int count, uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> in(0, 1);
@@ -124,11 +124,11 @@ ReceiverImage points_on_faces(const Scene& scene, bool facing_light, int count, 
   return out;
 }
 
-// An ambiguous receiver has an outline or a crease within this many ray errors: its four places stand one error off,
-// each with a ray that may err by as much, and P's own rounding.
+// An ambiguous receiver has an outline or a crease within this many ray errors: its four test places are one error from
+// P, each of their rays may err by one more, and P itself is rounded.
 constexpr double ambiguous_reach = 4;
 
-// The lookup's own places are floats' on a flat map; a tap this near (in texels) to another texel may be in either.
+// On a flat map the places of the lookup are floats. A tap this near (in texels) to another texel may be in either.
 constexpr double texel_rounding = 1e-3;
 
 struct Verdict {
@@ -188,7 +188,7 @@ class Comparison {
       }
   }
 
-  // The frame's own word on where a tap lies, against OpenGL's table.
+  // Whether the frame and OpenGL's table agree where a tap lies.
   bool frame_agrees(glm::dvec3 p, glm::dvec3 offset) const {
     const glm::dvec2 mine = inner_.texels_of(inner_.way_of_tap(p, offset)),
                      its = frame_.map_texels(frame_.tap_place(frame_.to_light(p), offset));
@@ -253,7 +253,7 @@ class Comparison {
     if (!inside_map(texel, frame_.map_size())) return;
     const double expected = std::isfinite(cut) ? inner_.window_depth(cut) : 1, found = map.at(texel.x, texel.y);
     if (std::abs(found - expected) <= depth_step_) return;
-    // Both bounds by the closed form's own window depth, which grows with the depth.
+    // The surfaces behind the first one are tried in turn, as long as a ray may meet them.
     const double reach = error_;
     bool either = inner_.near_edge(c, reach);
     for (double from = near; !either && std::isfinite(from);) {
@@ -265,7 +265,7 @@ class Comparison {
     ++(either ? t.depth_either : t.depth);
   }
 
-  // Between the inner and the outer form of another sphere than this shape?
+  // Whether p is between the inner and the outer form of a sphere other than `own`.
   bool in_band(glm::dvec3 p, int own) const {
     for (size_t s = 0; s < model_.inner.size(); ++s) {
       if (model_.inner[s].kind != ShapeKind::sphere || static_cast<int>(s) == own) continue;
@@ -347,13 +347,13 @@ void compare_scene(const CentralSpec& spec, int segments, int points, Tally& tal
   comparison.compare(tracer, picture(p.model.scene, 24, 14), tally);
 }
 
-// The same scenes in every run, so that a failure is a change of the program; NOONMARK_SEED tries others, and
-// NOONMARK_SCENES more of them.
+// Every run has the same scenes, so that a failure means a change of the program. NOONMARK_SEED selects other scenes,
+// and NOONMARK_SCENES sets their number.
 rc::detail::TestParams parameters(int scenes) {
   rc::detail::TestParams given;
   const char *seed = std::getenv("NOONMARK_SEED"), *more = std::getenv("NOONMARK_SCENES");
   given.seed = seed ? std::strtoull(seed, nullptr, 10) : 20240229;
-  given.disableShrinking = true;  // a smaller scene has its light elsewhere, and is another case
+  given.disableShrinking = true;  // a smaller scene has its light elsewhere, so it is another case
   given.maxSuccess = more ? std::atoi(more) : scenes;
   return given;
 }
@@ -362,7 +362,7 @@ struct Sweep {
   const char* name;
   bool point;
   int kinds, segments, scenes;
-  double ambiguous, edge_on;  // shares of the facing
+  double ambiguous, edge_on;  // largest shares of the facing receivers
 };
 
 class CentralFormSweep : public testing::TestWithParam<Sweep> {};
@@ -386,8 +386,8 @@ TEST_P(CentralFormSweep, TracerAgrees) {
     ADD_FAILURE() << text.str();
   }
   all.record();
-  // Points on faces of all sizes and pictures from anywhere are harsher than a person's, and so are lights some
-  // micrometres from a face: the bounds are some times what was seen.
+  // Points on faces of all sizes, pictures from anywhere, and lights 0.1 mm from a face are harder cases than a
+  // person's scenes. So the bounds are a few times what was seen.
   EXPECT_EQ(all.wrong(), 0);
   EXPECT_EQ(all.far_from_edges, 0);
   EXPECT_GT(all.facing, 100 * sweep.scenes);

@@ -18,8 +18,9 @@ double disc_beyond(double at) {
   return (std::acos(at) - at * std::sqrt(1 - at * at)) / std::numbers::pi;
 }
 
-// The sphere of the light as P sees it, which of its directions are free: an even lattice over the solid angle, in
-// double. Only the cells on an edge are in doubt, some 1 / 128 of all, and half of them fall either way.
+// The share of the light's sphere that P sees, in double: an even lattice over its solid angle, where `free` tells
+// whether a direction is free. Only the cells on an edge are uncertain, some 1 / 128 of all, and their errors fall
+// about equally on both sides.
 double sphere_seen(glm::dvec3 centre, double radius, const std::function<bool(glm::dvec3)>& free) {
   constexpr int rings = 128, around = 128;
   const double distance = glm::length(centre);
@@ -40,7 +41,7 @@ double sphere_seen(glm::dvec3 centre, double radius, const std::function<bool(gl
 }
 constexpr double lattice_error = 2e-3;
 
-// Light at the origin's zenith, 2 m up; a floor at y = 0; above it, at y = 1, a half-plane over x < 0.
+// The light is 2 m above the origin. A floor is at y = 0, and above it, at y = 1, a half-plane over x < 0.
 constexpr double light_m = 2, edge_m = 1;
 Scene half_plane(LightKind kind, LightShape shape, double radius_m) {
   Scene scene;
@@ -67,8 +68,9 @@ struct Errors {
   double mean = 0;
 };
 
-// Each receiver within five of its standard errors: the samples are even in every prefix, so their errors are below
-// those of independent ones, whose largest of some thousands stays under five.
+// Each receiver must be within five of its standard errors. The samples are spread evenly in every prefix, so their
+// errors are below those of independent samples. The largest error of some thousands of those stays under five standard
+// errors.
 constexpr double most_errors = 5, standard_error = 0.02;
 
 Errors errors_of(const Scene& scene, const ReceiverImage& receivers, double formula_error,
@@ -99,7 +101,7 @@ void expect_sound(const Errors& e, double formula_error) {
   testing::Test::RecordProperty("mean_error_1e6", static_cast<int>(1e6 * e.mean));
 }
 
-// The plane through P and the half-plane's edge meets the light's disc, which lies flat at light_m, in a line.
+// The plane through P and the half-plane's edge cuts the light's disc, which lies flat at light_m, in a line.
 TEST(LightSize, ASpotsDiscBehindAnEdgeIsASegment) {
   const double radius = 0.2;
   const Scene scene = half_plane(LightKind::spot, LightShape::disc, radius);
@@ -118,8 +120,8 @@ TEST(LightSize, APointsDiscBehindAnEdgeIsASegment) {
   const Scene scene = half_plane(LightKind::point, LightShape::disc, radius);
   const ReceiverImage receivers = on_floor(scene, 0.6, 3000, 2);
   const Errors e = errors_of(scene, receivers, 0, [&](glm::dvec3 p) {
-    // The plane through P and the edge (x = 0, y = edge_m, along z), as far from the light's centre as it is, tilted
-    // against the disc.
+    // The plane through P and the edge (x = 0, y = edge_m, along z). Its distance from the light's centre is divided by
+    // the sine of its angle to the disc, which gives the line on the disc.
     const glm::dvec3 centre = glm::dvec3(0, light_m, 0) - p, axis = glm::normalize(centre);
     const glm::dvec3 n = glm::normalize(glm::cross(glm::dvec3(0, 0, 1), glm::dvec3(-p.x, edge_m, 0)));  // towards -x
     const glm::dvec3 across = n - glm::dot(n, axis) * axis;
@@ -150,7 +152,8 @@ TEST(LightSize, ASphereBehindAnEdgeIsItsSolidAngle) {
   }
 }
 
-// Nothing shades it, yet a part of the sphere is below the receiver's own horizon: that of a wall beside it.
+// Nothing shades the receiver, but a part of the sphere is below the receiver's own horizon. The receivers are on a
+// wall near the light.
 TEST(LightSize, OwnHorizonCutsTheSphere) {
   Scene scene;
   const double radius = 0.3;
@@ -169,7 +172,7 @@ TEST(LightSize, OwnHorizonCutsTheSphere) {
 TEST(LightSize, InsideTheSphereAllOfItIsSeen) {
   Scene scene;
   add_quad(scene, "floor", {-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
-  add_quad(scene, "shelf", {-1, 0.05, -1}, {0, 0, 2}, {2, 0, 0});  // between them
+  add_quad(scene, "shelf", {-1, 0.05, -1}, {0, 0, 2}, {2, 0, 0});  // between the floor and the light
   scene.light = {.kind = LightKind::point, .position_m = {0, 0.1, 0}};
   scene.light.radius_m = 0.5;
   const ReceiverImage receivers = on_floor(scene, 1, 2000, 5);
@@ -181,7 +184,7 @@ TEST(LightSize, InsideTheSphereAllOfItIsSeen) {
     if (distance < 0.5) {
       ++inside;
       EXPECT_EQ(truth.soft[i], 1) << i;
-      EXPECT_EQ(truth.lit[i], 0) << i;  // R1 asks for the centre alone
+      EXPECT_EQ(truth.lit[i], 0) << i;  // R1 tests the centre alone
     } else {
       dark += truth.soft[i] < 0.5;
     }
@@ -190,7 +193,7 @@ TEST(LightSize, InsideTheSphereAllOfItIsSeen) {
   EXPECT_GT(dark, 300);
 }
 
-// Depth of a plane in the exact map, in double, from the place of a texel alone.
+// The depth of a plane in the exact map, in double, from the place of a texel alone.
 struct TiltedPlane {
   Scene scene;
   LightFrame frame;
@@ -219,7 +222,7 @@ TiltedPlane tilted(LightKind kind, double tilt_deg, double turn_deg, int resolut
   plane.scene.light = {.kind = kind, .position_m = {0.5, 5, 0.25}, .target_m = {0, 0, 0}};
   plane.scene.light.cone_deg = 40;
   plane.frame = frame_of(plane.scene, resolution);
-  // The plane that its float corners span.
+  // The plane through its float corners.
   const auto& p = plane.scene.positions;
   plane.at = p[0];
   plane.normal = glm::normalize(glm::cross(glm::dvec3(p[1]) - glm::dvec3(p[0]), glm::dvec3(p[2]) - glm::dvec3(p[0])));
@@ -227,7 +230,8 @@ TiltedPlane tilted(LightKind kind, double tilt_deg, double turn_deg, int resolut
 }
 
 TEST(PolygonOffsetMap, IsThePlanePlusFactorTimesItsSteepestTexelStep) {
-  // A depth below 1 rounds to float within 2^-25; as much again for the four float corners, which are off one plane.
+  // A depth below 1 rounds to float within 2^-25. The tolerance has as much again for the four float corners, which are
+  // not exactly in one plane.
   constexpr double tolerance = 0x1p-24;
   const double unit = 0x1p-23;  // of a 24-bit map
   int compared = 0;

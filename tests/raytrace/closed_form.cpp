@@ -9,11 +9,11 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Double's rounding of depths that are one: some hundred times 2^-53, as a fraction of the scene's size.
+// How far two equal depths may differ in double: some hundred times 2^-53, as a fraction of the scene's size.
 constexpr double rounding = 1e-13;
 
-// A face that is so near to edge-on shows no side to the light: a direction in double is not more exact than some times
-// 2^-53, and 0 may be meant.
+// A face nearer to edge-on than this counts as edge-on: a direction in double is exact only to some times 2^-53, so the
+// true value may be 0.
 constexpr double edge_on_sine = 0x1p-30;
 
 double cross2(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
@@ -25,7 +25,7 @@ double segment_distance(glm::dvec2 x, glm::dvec2 a, glm::dvec2 b) {
   return glm::length(x - a - t * way);
 }
 
-// The part of [begin, end] where a + b s >= 0.
+// Cuts [begin, end] to the part where a + b s >= 0.
 void keep_positive(double a, double b, double& begin, double& end) {
   if (b > 0)
     begin = std::max(begin, -a / b);
@@ -35,12 +35,12 @@ void keep_positive(double a, double b, double& begin, double& end) {
     end = -infinity;
 }
 
-// The s where a s^2 + 2 b s + c <= 0, a > 0.
-std::pair<double, double> below(double a, double b, double c) {
+// The interval of s in which a s^2 + 2 b s + c <= 0, for a > 0.
+std::pair<double, double> not_positive(double a, double b, double c) {
   const double discriminant = b * b - a * c;
   if (!(discriminant >= 0) || !(a > 0)) return {1, 0};
   const double root = std::sqrt(discriminant);
-  const double q = b > 0 ? -b - root : -b + root;  // the larger in size, without cancellation
+  const double q = b > 0 ? -b - root : -b + root;  // the larger in magnitude, without cancellation
   if (q == 0) return {0, 0};
   const double first = q / a, second = c / q;
   return {std::min(first, second), std::max(first, second)};
@@ -82,7 +82,7 @@ bool ClosedForm::one_plane(const Piece& a, const Piece& b) const {
          may_be_one_plane(flat(a), flat(b), moved_m_);
 }
 
-// Is the step larger than rounding can make it? Rounding moves the two planes and the edge between them.
+// Whether the step is larger than rounding alone can make it. Rounding moves the two planes and the edge between them.
 bool ClosedForm::is_step(const Piece& before, const Piece& after, double jump_m) const {
   const auto cosine = [](const Piece& p) { return 1 / std::sqrt(1 + glm::dot(p.gradient, p.gradient)); };
   return jump_m * std::min(cosine(before), cosine(after)) > 8 * moved_m_;
@@ -119,7 +119,7 @@ ClosedForm::ClosedForm(const std::vector<Shape>& shapes, const LightFrame& frame
   }
 }
 
-// x as s u + t v from the piece's place.
+// (s, t), where x = at + s u + t v in the light's plane.
 glm::dvec2 ClosedForm::local(const Piece& p, glm::dvec2 x) const {
   const glm::dvec2 d = x - glm::dvec2(p.at), u(p.u), v(p.v);
   return glm::dvec2(cross2(d, v), cross2(u, d)) / cross2(u, v);
@@ -157,7 +157,7 @@ ClosedForm::Interval ClosedForm::along(const Piece& p, glm::dvec2 from, glm::dve
     a = start.x * p.u + start.y * p.v;
     b = step.x * p.u + step.y * p.v;
   }
-  const auto [first, last] = below(glm::dot(b, b), glm::dot(a, b), glm::dot(a, a) - p.radius * p.radius);
+  const auto [first, last] = not_positive(glm::dot(b, b), glm::dot(a, b), glm::dot(a, a) - p.radius * p.radius);
   return {std::max(first, 0.0), std::min(last, 1.0)};
 }
 
@@ -202,7 +202,7 @@ bool ClosedForm::may_be_first(glm::dvec2 x, double z_from, double z_m, double er
   });
 }
 
-// The steepest surface over x.
+// The slope of the steepest surface at x.
 double ClosedForm::steepest(glm::dvec2 x) const {
   double slope = 0;
   for (const Piece& p : pieces_)
@@ -210,7 +210,8 @@ double ClosedForm::steepest(glm::dvec2 x) const {
   return slope;
 }
 
-// S. A box's faces that the light sees from the same side are one sheet; its fold is the box's outline.
+// The depth S of P's sheet at x. A box's faces that the light sees from the same side are one sheet; its fold is the
+// box's outline.
 double ClosedForm::sheet_depth(const Place& place, glm::dvec2 x) const {
   const Piece& own = own_piece(place);
   const glm::dvec2 from = in_plane(place.p);
@@ -235,8 +236,7 @@ double ClosedForm::largest_jump(const Piece& own, glm::dvec2 from, glm::dvec2 to
   std::vector<double> ends;
   for (const Piece& p : pieces_) {
     Interval i = along(p, from, to);
-    if (&p == &own)
-      i = i.empty() ? Interval{0, 0} : Interval{0, i.end};  // P's rounding may have put it beside its face
+    if (&p == &own) i = i.empty() ? Interval{0, 0} : Interval{0, i.end};  // rounding may have moved P off its face
     if (i.empty()) continue;
     list.push_back({&p, i});
     ends.push_back(i.begin);
@@ -281,11 +281,11 @@ ClosedForm::Answer ClosedForm::answer_at(const Place& place, glm::dvec2 x) const
   return {jump == 0, true, jump};
 }
 
-// The directions start + s way (s in [0, 1]) in which the piece stands before p.
+// The directions start + s way (s in [0, 1]) in which the piece shades p.
 ClosedForm::Interval ClosedForm::shaded(const Piece& piece, glm::dvec3 p, glm::dvec3 start, glm::dvec3 way) const {
   Interval i{0, 1};
   const glm::dvec3 m = piece.world_at - p;
-  const glm::dvec3 across = glm::cross(piece.world_u, piece.world_v);  // p in a flat shape's own plane: edge-on
+  const glm::dvec3 across = glm::cross(piece.world_u, piece.world_v);  // p in the plane of a flat shape: edge-on
   if (piece.kind != ShapeKind::sphere && std::abs(glm::dot(across, m)) <= rounding * size_m_ * glm::length(across))
     return {};
   if (piece.kind == ShapeKind::rectangle) {  // the cone over its four corners
@@ -315,7 +315,7 @@ ClosedForm::Interval ClosedForm::shaded(const Piece& piece, glm::dvec3 p, glm::d
     c = glm::dot(u, u) - r2 * ns * ns;
     keep_positive(height * ns, height * nw, i.begin, i.end);
   }
-  const auto [first, last] = below(a, b, c);
+  const auto [first, last] = not_positive(a, b, c);
   return {std::max(i.begin, first), std::min(i.end, last)};
 }
 

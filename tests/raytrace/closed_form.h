@@ -1,13 +1,14 @@
-// The truth by formula: scenes of rectangles, boxes, discs and spheres as analytic shapes, in double. No triangles, no
-// rays through a tree, and no code of raytrace/: what the tracer says of such scenes is held against this.
+// The truth by formula: scenes of rectangles, boxes, discs and spheres as analytic shapes, in double. It uses no
+// triangles, no rays through a tree and no code of raytrace/. The results of the tracer in such scenes are compared
+// with it.
 //
 //   ClosedForm truth(shapes, frame);
 //   truth.lit({P, shape, face});                        // R1
 //   truth.lit_at({P, shape, face}, frame.texel_centre({i, j}));   // V(P, x)
 //
-// Everything is asked in the light's plane: a directional light meets each shape in a range of places x (the shape's
-// outline) and, inside it, at a depth that is a smooth function of x. So the first hit is a lower envelope, shadow
-// edges are outlines, and every jump of the first-hit depth along a straight way lies where the way crosses an outline.
+// Everything is computed in the light's plane: a directional light meets each shape in a range of places x (inside the
+// shape's outline), at a depth that is a smooth function of x. So the first hit is a lower envelope, shadow edges are
+// outlines, and along a straight way the first-hit depth jumps only where the way crosses an outline.
 #pragma once
 #include <array>
 #include <glm/glm.hpp>
@@ -38,11 +39,11 @@ struct FlatFace {
 };
 FlatFace face_of(const Shape& shape, int face);
 
-// May two faces whose corners rounding has moved by up to moved_m have been parts of one plane? A plane that is carried
-// on from a narrow face is off by that much more.
+// Whether two faces may have been parts of one plane before rounding moved their corners by up to moved_m. The plane of
+// a narrow face has a larger error when it is continued beyond the face.
 bool may_be_one_plane(const FlatFace& a, const FlatFace& b, double moved_m);
 
-// What rounding of the vertices may have moved a corner of the scene by, in metres: a float step in each of three axes.
+// How far rounding may have moved a vertex of the scene, in metres: a float step on each of three axes.
 double vertex_rounding_m(const Scene& scene);
 
 struct Place {
@@ -53,34 +54,36 @@ struct Place {
 
 class ClosedForm {
  public:
-  // moved_m: 0, or what rounding may have moved the corners by: then no step that it can have made is an edge. Where
-  // a form with 0 and one with moved_m differ, the answer depends on rounding.
+  // moved_m: 0, or how far rounding may have moved the corners. In the second case a step that rounding can have made
+  // is not an edge. If a form with 0 and a form with moved_m differ, the answer depends on rounding.
   ClosedForm(const std::vector<Shape>& shapes, const LightFrame& frame, double moved_m = 0);
 
-  // R1: nothing lies between the light and P, P taken on its own face (a sphere's far side is never asked for).
+  // R1: whether nothing lies between the light and P. P is taken to lie on its own face. It must not lie on a sphere's
+  // far side.
   bool lit(const Place& place) const;
 
-  // Metres along the light of what it meets first at x from z_from on; infinity where there is nothing.
+  // The depth, in metres along the light, of the first hit at x from z_from on; infinity if there is none.
   double first_depth(glm::dvec2 x, double z_from = -std::numeric_limits<double>::infinity()) const;
 
   // V(P, x); not for P on a sphere, whose sheet depends on its triangles.
   bool lit_at(const Place& place, glm::dvec2 x) const { return answer_at(place, x).lit; }
   struct Answer {
     bool lit = true;
-    bool by_jumps = false;  // the first-hit depth's jumps between P and x decided
+    bool by_jumps = false;  // decided by the first-hit depth's jumps between P and x
     double jump_m = 0;      // the largest of them
   };
   Answer answer_at(const Place& place, glm::dvec2 x) const;
 
-  // May a map hold depth z_m at x, to within error_m? The first depth from z_from on, or that of a surface so little
-  // behind it that a ray that passes up to reach_m beside x may meet it; anything where an outline is as near as that.
+  // Whether a map may hold depth z_m at x, to within error_m. It may hold the first depth from z_from on, or that of a
+  // surface so little behind it that a ray up to reach_m from x may meet it. If an outline is within reach_m, it may
+  // hold any depth.
   bool may_be_first(glm::dvec2 x, double z_from, double z_m, double error_m, double reach_m) const;
 
   // R0: the share of the sun's disc that P sees above its own horizon (normal: on the viewer's side). The disc is cut
-  // into chords, on which every shape covers an interval that is known exactly.
+  // into chords. On a chord every shape covers an interval that is known exactly.
   double seen(const Place& place, glm::dvec3 normal, double angular_diameter_deg, int chords = 512) const;
 
-  // Is x within `reach` metres of an outline, or of a place where two shapes' depths cross?
+  // Whether x is within `reach` metres of an outline, or of a place where two shapes' depths cross.
   bool near_edge(glm::dvec2 x, double reach) const;
 
   glm::dvec2 in_plane(glm::dvec3 p) const { return glm::dvec2(frame_.to_light(p)); }
@@ -95,7 +98,7 @@ class ClosedForm {
     glm::dvec3 world_at, world_u, world_v;
     double radius;
     glm::dvec2 gradient{0};  // of the depth; flat pieces only
-    bool edge_on = false;    // has no outline to speak of
+    bool edge_on = false;    // its outline encloses no area
     bool front = true;       // a box's face: its outside is towards the light
   };
   struct Interval {

@@ -1,8 +1,8 @@
-// Random scenes of analytic shapes for the property tests, and the triangles that stand for them.
+// Random scenes of analytic shapes for the property tests, and the triangles that represent them.
 //
-// Every corner lies on a grid so coarse that floats hold it exactly, so a turned box's rounded faces are planes still,
-// and its triangles ARE the analytic box. Spheres and discs cannot be: each has an inner and an outer shape, between
-// which its triangles lie, made from the vertices as they were rounded.
+// Every corner lies on a grid so coarse that floats hold it exactly. So the rounded faces of a turned box are still
+// planes, and its triangles are exactly the analytic box. For spheres and discs this is not possible. Each of them has
+// an inner and an outer shape, computed from the rounded vertices, and its triangles lie between the two.
 #pragma once
 #include <rapidcheck.h>
 
@@ -48,8 +48,8 @@ inline std::ostream& operator<<(std::ostream& out, const SceneSpec& s) {
              << s.camera_elevation_deg << ", near cut " << s.near_cut << "%, seed " << s.seed;
 }
 
-// Where the scene stands: everything is rounded to multiples of grid_m, which floats hold exactly there; sizes are
-// multiplied by scale, so that the small things survive that.
+// Where the scene stands. All coordinates are rounded to multiples of grid_m, which floats hold exactly there. Sizes
+// are multiplied by scale, so that small shapes survive the rounding.
 struct Site {
   const char* name;
   glm::dvec3 origin_m;
@@ -63,7 +63,7 @@ inline const Site at_1000_km{"1000 km", {1e6, -3e5, 7e5}, 0x1p-4, 64};  // below
 
 struct Modelled {
   Scene scene;
-  std::vector<Shape> inner, outer;         // equal but for spheres and discs
+  std::vector<Shape> inner, outer;         // equal except for spheres and discs
   std::vector<std::pair<int, int>> owner;  // of each triangle: shape and face
   bool round = false;                      // has spheres or discs
 };
@@ -78,9 +78,9 @@ class Builder {
     glm::dmat4 turn = glm::rotate(glm::dmat4(1), glm::radians(static_cast<double>(s.yaw_deg)), {0, 1, 0});
     turn = glm::rotate(turn, glm::radians(static_cast<double>(s.pitch_deg)), {1, 0, 0});
     turn = glm::rotate(turn, glm::radians(static_cast<double>(s.roll_deg)), {0, 0, 1});
-    // What is not many times larger than a ray's error (a grid step or two) does not survive the rounding; and what is
-    // not many times larger than what rounding makes of its plane where it is carried across the scene has no edge that
-    // a formula and the program can be asked to agree on.
+    // A shape that is not many times larger than a ray's error (a grid step or two) does not survive the rounding. It
+    // must also be many times larger than the error that rounding gives its plane when the plane is continued across
+    // the scene; otherwise a formula and the program need not agree on its edges.
     const bool flat = s.kind == static_cast<int>(ShapeKind::rectangle) || s.kind == static_cast<int>(ShapeKind::box);
     if (unit * (flat ? std::min({s.a, s.b, s.c}) : s.a) < 64 * site_.grid_m) return;
     const glm::dvec3 e[3] = {snapped(glm::dvec3(turn[0]) * (unit * s.a)), snapped(glm::dvec3(turn[1]) * (unit * s.b)),
@@ -111,7 +111,7 @@ class Builder {
     finish({.kind = ShapeKind::box, .at = at, .edge = {a, b, c}}, 1);
   }
 
-  // In a plane whose grid floats hold: (2, 1, -2) and (1, 2, 2) are orthogonal and both 3 long.
+  // The disc lies in a plane whose grid floats hold exactly: (2, 1, -2) and (1, 2, 2) are orthogonal and both 3 long.
   void disc(glm::dvec3 at, double radius, int plane) {
     static const glm::dvec3 axes[3][2] = {{{0, 0, 3}, {3, 0, 0}}, {{2, 1, -2}, {1, 2, 2}}, {{1, 2, 2}, {2, -2, 1}}};
     const glm::dvec3 u = axes[plane][0] * site_.grid_m, v = axes[plane][1] * site_.grid_m;
@@ -137,7 +137,7 @@ class Builder {
   }
 
   void sphere(glm::dvec3 at, double radius) {
-    if (radius < 64 * site_.grid_m) return;  // not round any more
+    if (radius < 64 * site_.grid_m) return;  // too small to be round on the grid
     const size_t first = m_.scene.triangles.size();
     add_surface(m_.scene, "sphere", segments_, segments_ / 2, true, [&](double s, double t) {
       const double phi = 2 * std::numbers::pi * s, polar = std::numbers::pi * t;
@@ -202,12 +202,13 @@ inline Modelled model_of(const SceneSpec& spec, const Site& site, int segments) 
 
 inline constexpr int most_shapes = 14;
 
-// rapidcheck begins with small numbers; here every scene takes its numbers from their whole ranges.
+// rapidcheck begins with small numbers. Here the numbers of every scene come from their whole ranges.
 inline rc::Gen<ShapeSpec> any_shape(int kinds) {
   using rc::gen::inRange, rc::gen::set;
   const auto place = inRange(-1000, 1001);
   const auto size = inRange(20, 1001);
-  // Half of all shapes are not turned, and y = 0 is where the floor is: contacts and coplanar faces on purpose.
+  // Half of all angles are 0, and half of all heights are y = 0, the floor's height, so that contacts and coplanar
+  // faces occur.
   const auto turn = rc::gen::oneOf(rc::gen::just(0), inRange(0, 360));
   return rc::gen::resize(rc::kNominalSize, rc::gen::build<ShapeSpec>(
                                                set(&ShapeSpec::kind, inRange(0, kinds)), set(&ShapeSpec::x, place),

@@ -21,11 +21,11 @@ struct Tally {
   int64_t facing = 0, ambiguous = 0, taps_ambiguous = 0;
   int64_t banded = 0;                                      // between a round shape's inner and outer form
   int64_t r1 = 0, r2 = 0, r3 = 0, clipped = 0, depth = 0;  // disagreements of receivers that are sure
-  int64_t depth_either = 0;                     // depths of texels beside an outline or a crease: either surface's
-  int64_t by_rounding = 0;                      // what rounding of the vertices decides, and no form says
+  int64_t depth_either = 0;                     // texels at an outline or a crease: either surface's depth is right
+  int64_t by_rounding = 0;                      // decided by rounding of the vertices, so that no form can tell
   int64_t hidden = 0;                           // disagreements of ambiguous receivers
   int64_t far_from_edges = 0;                   // ambiguous, yet no outline or crease is near
-  int64_t taps = 0, dark_taps = 0, differ = 0;  // so that the comparison is not of nothing
+  int64_t taps = 0, dark_taps = 0, differ = 0;  // that they occur shows that something was compared
 
   int64_t wrong() const { return r1 + r2 + r3 + clipped + depth; }
   void record() const {
@@ -39,7 +39,7 @@ struct Tally {
   }
 };
 
-// How far a ray may pass beside its place: the rounding of its float start (half a last place in each of three
+// How far a ray may miss its exact place: the rounding of its float start (half a last place in each of three
 // coordinates) and of the edge tests over the scene's size.
 double ray_error_m(const Scene& scene) {
   double largest = 0;
@@ -52,7 +52,7 @@ double ray_error_m(const Scene& scene) {
   return 0x1p-24 * (std::sqrt(3.0) * largest + 4 * glm::length(high - low));
 }
 
-// The nearest triangle on each pixel's ray, one by one.
+// The nearest triangle on each pixel's ray. All triangles are tested one by one.
 Image<uint32_t> seen_primitives(const Scene& scene, const Camera& camera, int width, int height) {
   const CameraFrame frame = make_camera_frame(camera, width, height);
   Image<uint32_t> image(width, height, no_primitive);
@@ -77,7 +77,7 @@ Image<uint32_t> seen_primitives(const Scene& scene, const Camera& camera, int wi
   return image;
 }
 
-// Points on every face alike, so that small things get their share, as float rounds them.
+// Random points, as many on a small triangle as on a large one, rounded to float.
 ReceiverImage points_on_faces(const Scene& scene, glm::dvec3 to_light, bool facing_light, int count, uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> in(0, 1);
@@ -93,8 +93,8 @@ ReceiverImage points_on_faces(const Scene& scene, glm::dvec3 to_light, bool faci
   return receivers_at(scene, points, to_light, facing_light);
 }
 
-// An ambiguous receiver has an outline or a crease within this many ray errors: its four places stand one error off,
-// each with a ray that may err by as much, and P's own rounding.
+// An ambiguous receiver has an outline or a crease within this many ray errors: its four test places are one error from
+// P, each of their rays may err by one more, and P itself is rounded.
 constexpr double ambiguous_reach = 4;
 
 struct Verdict {
@@ -112,7 +112,7 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
   const ClosedForm inner(model.inner, frame), outer(model.outer, frame),
       rounded(model.inner, frame, vertex_rounding_m(model.scene));
   const double error = ray_error_m(model.scene), reach = ambiguous_reach * error;
-  double round_step = 0;  // how much deeper a sphere is at its inner form's outline than the outer form there, and back
+  double round_step = 0;  // metres from front to back of a sphere's outer form, at the outline of its inner form
   for (size_t i = 0; i < model.inner.size(); ++i)
     if (model.inner[i].kind == ShapeKind::sphere)
       round_step = std::max(round_step, 2 * std::sqrt(model.outer[i].radius * model.outer[i].radius -
@@ -143,8 +143,8 @@ void compare(const Modelled& model, const LightFrame& frame, const ReceiverImage
       const uint8_t bits = lookup.taps.taps[i * static_cast<size_t>(kernel * kernel) + static_cast<size_t>(tap)];
       const bool exact_lit = bits & tap_exact_lit, texel_lit = bits & tap_texel_lit;
       const glm::dvec2 x = p + glm::dvec2(offset) * frame.texel_m(), c = frame.texel_centre(texel);
-      // Known: the inner and the outer form agree. Where jumps decide they must be larger than what the outlines'
-      // places between the two forms can make of them.
+      // An answer is known if the inner and the outer form agree. If jumps decide, they must also be larger than a jump
+      // that the distance between the outlines of the two forms can cause.
       const auto ask = [&](glm::dvec2 y, bool& known) {
         const ClosedForm::Answer in = inner.answer_at(place, y);
         v.rounding |= in.lit != rounded.answer_at(place, y).lit;
@@ -226,8 +226,8 @@ void compare_scene(const SceneSpec& spec, const Site& site, int segments, int po
           kernel, tally);
 }
 
-// The same scenes in every run, so that a failure is a change of the program; NOONMARK_SEED tries others, and
-// NOONMARK_SCENES more of them.
+// Every run has the same scenes, so that a failure means a change of the program. NOONMARK_SEED selects other scenes,
+// and NOONMARK_SCENES sets their number.
 rc::detail::TestParams parameters(int scenes) {
   rc::detail::TestParams given;
   const char *seed = std::getenv("NOONMARK_SEED"), *more = std::getenv("NOONMARK_SCENES");
@@ -261,9 +261,9 @@ void expect_agreement(const Site& site, int kinds, int segments, int scenes, Tal
   all.record();
 }
 
-// Scenes that hold only points on faces of all sizes and pictures from anywhere are harsher than a person's: tiny
-// shapes get as many receivers as large ones. So their ambiguous share has a bound of its own for each site, some times
-// what was seen; real pictures are held to a thousandth in raytrace_witness_test.cpp.
+// Scenes of points on faces of all sizes and of pictures from anywhere are harder than a person's scenes, because tiny
+// shapes get as many receivers as large ones. So each site has a bound for the share of ambiguous receivers, a few
+// times what was seen. For real pictures the bound is a thousandth (tests/raytrace/witness_test.cpp).
 void expect_sound(const Tally& all, double ambiguous_share) {
   EXPECT_EQ(all.wrong(), 0);
   EXPECT_EQ(all.far_from_edges, 0);
@@ -299,7 +299,7 @@ INSTANTIATE_TEST_SUITE_P(Random, ClosedFormSweep,
                                          Sweep{"RoundAtTheOrigin", &at_origin, 4, 48, 100, 0.02}),
                          [](const auto& given) { return given.param.name; });
 
-// A finer sphere and disc leave less between their two forms: as the square of a segment.
+// The band between the two forms of a sphere or a disc shrinks with the square of a segment's length.
 TEST(ClosedForm, TheBandOfRoundShapesShrinksWithTheirTriangles) {
   double share[2];
   for (int fine : {0, 1}) {
@@ -323,14 +323,15 @@ TEST(ClosedForm, TheBandOfRoundShapesShrinksWithTheirTriangles) {
     RecordProperty(fine ? "banded_per_million_96" : "banded_per_million_24", static_cast<int>(1e6 * share[fine]));
   }
   EXPECT_LT(share[1], 0.02);
-  EXPECT_LT(share[1], share[0] / 4);  // 16 by the square; the rest is left to chance
+  EXPECT_LT(share[1], share[0] / 4);  // the square gives 16; the rest allows for chance
 }
 
-// R0. Each receiver within a bound of its own standard error, and all of them together without bias.
+// R0. Each receiver must be within a few of its standard errors, and the mean over all receivers must be without bias.
 TEST(ClosedForm, SunsOfAnySize) {
   constexpr double standard_error = 0.02;
-  // The samples are even in every prefix, so their errors are below those of independent ones, whose largest of some
-  // thousands stays under five standard errors. Chords: 256 of them leave under one in a thousand.
+  // The samples are spread evenly in every prefix, so their errors are below those of independent samples. The largest
+  // error of some thousands of those stays under five standard errors. 256 chords leave an error under one in a
+  // thousand.
   constexpr double most_errors = 5, chord_error = 1e-3;
   int compared = 0, partial = 0, wrong = 0, beyond_three = 0, banded = 0, contacts = 0;
   double mean = 0;
@@ -350,7 +351,7 @@ TEST(ClosedForm, SunsOfAnySize) {
       const Place place{receivers.position[i], shape, face};
       const double most = inner.seen(place, receivers.normal[i], diameter_deg, 256),
                    least = outer.seen(place, receivers.normal[i], diameter_deg, 256);
-      if (most > 0.99 && !inner.lit(place)) {  // in the plane of another shape that lies on its own: a contact
+      if (most > 0.99 && !inner.lit(place)) {  // P is in the plane of a shape that touches its own: a contact
         ++contacts;
         continue;
       }

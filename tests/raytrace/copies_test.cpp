@@ -1,5 +1,5 @@
-// Triangles that lie in the same place, many times over (a file with a mesh exported again and again): they cost what
-// one of them costs, and change nothing.
+// Triangles that are present many times in the same place (a file with a mesh exported again and again). They cost as
+// much as one of them, and they change nothing.
 #include <gtest/gtest.h>
 
 #include "raytrace/adjacency.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-// Each triangle `copies` times, with vertices of their own, each time begun at another corner.
+// Each triangle `copies` times. Each copy has separate vertices and begins at another corner.
 Scene copied(const Scene& scene, uint32_t copies) {
   Scene out = scene;
   for (uint32_t k = 1; k < copies; ++k) {
@@ -32,7 +32,7 @@ TEST(Copies, AreKnownByTheFirst) {
   EXPECT_TRUE(Adjacency(square).without_copies().empty());
 
   Scene many = copied(square, 3);
-  many.triangles.push_back({2, 1, 0});  // the other side of the sheet is no copy: culling tells them apart
+  many.triangles.push_back({2, 1, 0});  // the other side of the sheet is no copy, because culling differs
   const Adjacency adjacency(many);
   for (uint32_t t = 0; t < 6; ++t) EXPECT_EQ(adjacency.first(t), t % 2) << t;
   EXPECT_EQ(adjacency.without_copies(), (std::vector<uint32_t>{0, 1, 6}));
@@ -58,8 +58,8 @@ Measured measure(const Scene& scene, const ReceiverImage& receivers, const Light
   return m;
 }
 
-// 200,000 triangles in a few places. When each ray met all of them, and each tap beside an edge asked all their edges,
-// this did not end in a test's time.
+// 200,000 triangles in a few places. When each ray met all copies, and each tap near an edge visited the edges of all
+// copies, this test did not end in time.
 TEST(Copies, CostNoMoreRaysAndChangeNothing) {
   for (const char* name : {"cube-room", "plate"}) {
     const Scene scene = builtin(name);

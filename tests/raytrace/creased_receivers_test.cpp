@@ -1,4 +1,4 @@
-// The own-surface rule of R3 where surfaces meet: the same points held in other meshes, and a box on a floor.
+// The own-surface rule of R3 where surfaces meet: the same points in other meshes, and a box on a floor.
 #include <gtest/gtest.h>
 
 #include "tests/raytrace/curved_support.h"
@@ -6,7 +6,8 @@
 namespace noonmark::curved {
 namespace {
 
-// Tap by tap, the truths of two scenes that are the same set of points. Ambiguous receivers are left out, and few.
+// Compares, tap by tap, the truths of two scenes that are the same set of points. Ambiguous receivers are left out;
+// there must be few.
 void expect_same_taps(const Judged& a, const Judged& b) {
   uint64_t different = 0, ambiguous = 0, differ = 0;
   for (size_t i = 0; i < a.truth.facing.size(); ++i) {
@@ -27,7 +28,7 @@ void expect_same_taps(const Judged& a, const Judged& b) {
   EXPECT_GT(differ, 5u) << "there must be something to compare";
 }
 
-// Every face twice, the second time turned over: nothing lies before anything that did not before.
+// Every face is present twice, the second time turned over. This adds no occluder.
 TEST(DoubledFaces, ChangeNoTap) {
   Scene single;
   add_floor(single, 4);
@@ -41,8 +42,8 @@ TEST(DoubledFaces, ChangeNoTap) {
                 [&](const Judged& j) { expect_same_taps(j, judge(tracer_twice, j.receivers, j.frame, j.kernel)); });
 }
 
-// A box on a floor: two meshes; one mesh of which the floor is cut along the box's foot, so that they share corners and
-// edges; and the cut floor without shared corners. The causes are the same (law 11), tap by tap.
+// A box on a floor, in two forms: on a whole floor, and on a floor that is cut along the box's foot, so that the two
+// share corners and edges. Every tap has the same truth in both (law 11).
 TEST(BoxOnFloor, HasTheSameTapsAsOneMeshOrTwo) {
   const double cuts[4] = {-3, -0.5, 0.5, 3};
   Scene whole, cut;
@@ -79,8 +80,9 @@ TEST(BoxOnFloor, HasTheSameTapsAsOneMeshOrTwo) {
   });
 }
 
-// At the lit foot of a box the map's texels straddle floor and wall, and the light sees the one rise from the other
-// without a jump: acne, however deep. Behind the box, where its shadow falls, aliasing.
+// At the lit foot of a box, some texels of the map lie partly on the floor and partly on the wall. The light sees the
+// wall rise from the floor without a jump in depth, so errors there are acne, however deep. Behind the box, where its
+// shadow falls, there is aliasing.
 TEST(BoxOnFloor, ShowsAcneAtItsLitFootAndAliasingAtItsShadow) {
   Scene scene;
   add_floor(scene, 3);

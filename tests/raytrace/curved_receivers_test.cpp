@@ -1,8 +1,9 @@
-// The own-surface rule of R3 on curved and creased receivers: causes as a person would name them. Receivers are random
-// points of the surfaces, the grid is shifted and turned at random, and no OpenGL takes part: what is judged are the
-// taps' truths F (at the tap's exact place) and V (at the texel's centre), and the causes that follow from them.
+// The own-surface rule of R3 on curved and creased receivers: each error must get the cause that a person would name.
+// Receivers are random points of the surfaces, the grid is shifted and turned at random, and OpenGL is not used. The
+// tests check the taps' truths F (at the tap's exact place) and V (at the texel's centre), and the causes that follow
+// from them.
 //
-// Aliasing needs F != V, at whatever bias; so "no aliasing" is tested on the taps themselves.
+// Aliasing needs F != V at every bias, so "no aliasing" is tested on the taps themselves.
 #include <gtest/gtest.h>
 
 #include "tests/raytrace/curved_support.h"
@@ -10,16 +11,16 @@
 namespace noonmark::curved {
 namespace {
 
-// How a shape is that shades nothing of itself.
+// The properties of a shape that does not shade itself.
 struct Lone {
-  // A texel beyond a receiver's own fold may show another limb, higher than the fold, and the light's view jumps on the
-  // way there: for receivers so near to a fold aliasing is allowed, and rare.
+  // A texel beyond a receiver's own fold may show another part of the shape, higher than the fold, and the depth that
+  // the light sees jumps on the way there. So aliasing is allowed for receivers that near to a fold; it is rare.
   bool has_folds = false;
-  bool flat = false;  // square to the light: no acne either
+  bool flat = false;  // perpendicular to the light: no acne either
   double most_ambiguous = 0.001;
 };
 
-// Nothing here shades anything: all is lit, and at every bias there is acne or nothing.
+// Nothing in the scene shades anything: all receivers are lit, and at every bias the only error is acne.
 void expect_acne_only(const Scene& scene, uint32_t seed, const Lone& lone = {}) {
   uint64_t acne = 0, all_taps = 0;
   on_many_grids(scene, seed, 3000, [&](const Judged& j) {
@@ -49,8 +50,9 @@ void expect_acne_only(const Scene& scene, uint32_t seed, const Lone& lone = {}) 
 
 // --- Where no point shades another
 
-// A height field hides nothing of itself from a light straight above, steep or not, concave or not: of every vertical
-// line it holds one point. Coarse cells are creased where their two triangles meet, in ridges and in valleys.
+// A height field hides nothing of itself from a light straight above, however steep or concave it is, because every
+// vertical line meets it in one point. Coarse cells have creases where their two triangles meet, as ridges and as
+// valleys.
 TEST(HeightField, UnderALightFromAboveShowsAcneOnly) {
   const std::function<double(double, double)> heights[] = {
       [](double x, double z) { return 0.8 * (x * x - z * z); },                          // saddle
@@ -71,8 +73,8 @@ TEST(HeightField, UnderALightFromAboveShowsAcneOnly) {
   }
 }
 
-// Seen along its axis a torus shows its upper half, and nothing of that lies before anything else of it: its cross
-// section is convex. Its rims, within and without, are folds with nothing beyond. However the whole is turned.
+// Seen along its axis a torus shows its upper half. No part of that half hides another, because the cross section is
+// convex. The inner and the outer rim are folds with nothing beyond them. This must hold however the scene is turned.
 TEST(Torus, SeenOnItsAxisShowsAcneOnly) {
   uint32_t seed = 100;
   for (const auto& [columns, rows] : {std::pair(8, 6), std::pair(17, 8), std::pair(96, 48)}) {
@@ -87,7 +89,7 @@ TEST(Torus, SeenOnItsAxisShowsAcneOnly) {
   }
 }
 
-// A convex solid hides nothing that faces the light, from wherever the light comes.
+// A convex solid hides nothing that faces the light, wherever the light comes from.
 TEST(Sphere, AloneShowsAcneOnly) {
   uint32_t seed = 200;
   for (const auto& [columns, rows] : {std::pair(5, 3), std::pair(12, 6), std::pair(128, 64)}) {
@@ -100,8 +102,8 @@ TEST(Sphere, AloneShowsAcneOnly) {
   }
 }
 
-// A decal of the very plane that it lies on, above or below by what float makes of its corners at most, and a floor
-// that is there twice: neither is an occluder, though their depths may differ in the last bit either way.
+// A decal in the plane of the wall that it lies on, above or below it at most by the float rounding of its corners; and
+// a wall that is present twice. Neither is an occluder, though their depths may differ in the last bit either way.
 TEST(CoplanarFaces, ShowAcneOnly) {
   for (double tilt : {0.0, 0.6, 1.2}) {
     Scene scene;
@@ -113,15 +115,16 @@ TEST(CoplanarFaces, ShowAcneOnly) {
                     glm::dvec3(p));
     test::light_from_above(scene);
     SCOPED_TRACE(testing::Message() << "tilted by " << tilt);
-    // Under the decal, of which 0.32 of 4 (and of as much again) square metres lie over the wall, the truth hangs on
-    // the corners' rounding: ambiguous, and not a verdict.
+    // The decal covers 0.32 of the 4 square metres of the wall, and as much of the second wall. There the truth depends
+    // on the corners' rounding, so these receivers are ambiguous.
     expect_acne_only(scene, 300, {.flat = tilt == 0, .most_ambiguous = 2 * 0.32 / 8 + 0.01});
   }
 }
 
-// --- Where something does
+// --- Where some points shade others
 
-// From the side a torus shades its own far half: the near tube's shadow falls on the inner slope beyond the hole.
+// Lit from the side, a torus shades its own far half: the shadow of the near side of the tube falls on the inner slope
+// beyond the hole.
 TEST(Torus, ObliquelyLitAliasesAtItsShadowsEdgesOnly) {
   uint32_t seed = 400;
   std::vector<std::vector<double>> shares;
@@ -138,19 +141,20 @@ TEST(Torus, ObliquelyLitAliasesAtItsShadowsEdgesOnly) {
       differ += sum.differ, dark += sum.dark, taps += sum.taps;
       const Judged::Causes without = j.causes(0), with = j.causes(2);
       for (int c = 0; c < cause_count; ++c) small[c] += without[c], large[c] += with[c];
-      EXPECT_EQ(without[at(Cause::peter_panning)], 0u) << "without a bias nothing dark is lit but by the grid";
+      EXPECT_EQ(without[at(Cause::peter_panning)], 0u) << "without a bias only the grid can light a dark tap";
     });
-    EXPECT_GT(dark, taps / 100) << "it does shade itself";
+    EXPECT_GT(dark, taps / 100) << "the torus must shade itself";
     EXPECT_GT(differ, 200u);
     EXPECT_GT(small[at(Cause::acne)], taps / 5);
-    EXPECT_GT(large[at(Cause::peter_panning)], 100u) << "the near tube stands 1.2 m off and more";
+    EXPECT_GT(large[at(Cause::peter_panning)], 100u) << "the near tube is 1.2 m away or more, and the bias is 2 m";
     shares.push_back({});
     for (Cause cause : {Cause::aliasing_dark, Cause::aliasing_light, Cause::acne})
       shares.back().push_back(static_cast<double>(small[at(cause)]) / static_cast<double>(taps));
     shares.back().push_back(static_cast<double>(large[at(Cause::peter_panning)]) / static_cast<double>(taps));
   }
-  // The same causes, coarse or fine: a coarse torus is thinner and its edges are elsewhere, but no cause takes the
-  // place of another. 12 x 8 has a tenth less of a tube; half and double hold all that and the sampling.
+  // Coarse and fine meshes have the same causes. A coarse torus is thinner and its edges are elsewhere, but no cause
+  // takes the place of another. The tube of 12 x 8 is a tenth thinner; the factor of 2 allows for this and for the
+  // sampling.
   for (const auto& coarse : shares)
     for (size_t c = 0; c < coarse.size(); ++c) {
       EXPECT_GT(coarse[c], 0.5 * shares.back()[c]) << c;
@@ -158,7 +162,7 @@ TEST(Torus, ObliquelyLitAliasesAtItsShadowsEdgesOnly) {
     }
 }
 
-// Height fields under an oblique light do shade themselves.
+// Height fields under an oblique light shade themselves.
 TEST(HeightField, ObliquelyLitAliasesAtItsShadowsEdgesOnly) {
   uint32_t seed = 500;
   for (int cells : {8, 40}) {
@@ -176,8 +180,8 @@ TEST(HeightField, ObliquelyLitAliasesAtItsShadowsEdgesOnly) {
   }
 }
 
-// A sphere of 1 m on a floor, touching it in one point, sunk, floating, and sunk so deep that the light sees the crease
-// where it leaves the floor.
+// A sphere with a radius of 1 m on a floor: touching it in one point, sunk a little, floating, and sunk so deep that
+// the light sees the crease where the sphere leaves the floor.
 class SphereOnFloor : public testing::TestWithParam<double> {};
 
 TEST_P(SphereOnFloor, AcneOnTheSphereAndAliasingAtItsShadowsEdge) {
@@ -194,7 +198,7 @@ TEST_P(SphereOnFloor, AcneOnTheSphereAndAliasingAtItsShadowsEdge) {
     on_many_grids(scene, 600, 5000, [&](const Judged& j) {
       const LightFrame& frame = j.frame;
       const TrueEdges edges(scene, frame);
-      // What lies below the floor, or of the floor within the sphere, no camera sees.
+      // No camera can see what lies below the floor, nor the part of the floor inside the sphere.
       const auto on_floor = [&](size_t i) {
         const glm::dvec3 p = j.receivers.position[i];
         return j.receivers.primitive[i] < 2 && (centre_y >= 1 || glm::length(p - glm::dvec3(0, centre_y, 0)) > 1);
@@ -233,8 +237,8 @@ TEST_P(SphereOnFloor, AcneOnTheSphereAndAliasingAtItsShadowsEdge) {
           const glm::dvec2 place = j.place(i, t);
           const glm::dvec2 texel = j.texel_centre(i, t);
           floor_differ += tap.exact_lit != tap.texel_lit;
-          // The floor is a plane, so it is known what its being carried to the texel's centre comes to. Where the light
-          // sees the crease, the sphere rises from the floor without a jump: V is lit there, and a dark verdict acne.
+          // The floor is a plane, so its depth at the texel's centre is known. Where the light sees the crease, the
+          // sphere rises from the floor without a jump: V is lit there, and a dark verdict is acne.
           if (tap.texel_lit == shaded(texel)) {
             ++crease;
             wrong_dark += !tap.texel_lit;
@@ -254,14 +258,14 @@ TEST_P(SphereOnFloor, AcneOnTheSphereAndAliasingAtItsShadowsEdge) {
       }
       EXPECT_EQ(wrong_dark, 0u) << "V is dark only where the sphere stands before the floor";
       EXPECT_EQ(off_crease, 0u);
-      EXPECT_EQ(panning_in_light, 0u) << "Peter Panning lights what is dark";
+      EXPECT_EQ(panning_in_light, 0u) << "Peter Panning can light only a dark receiver";
       EXPECT_EQ(outside_the_circle, 0u);
     });
     EXPECT_GT(floor_differ, 300u);
     EXPECT_GT(sphere_taps, 2000u);
     EXPECT_GT(panning, 300u);
     if (centre_y >= 1) {
-      EXPECT_EQ(crease, 0u) << "the light sees no crease: V is the sphere's shadow to the letter";
+      EXPECT_EQ(crease, 0u) << "the light sees no crease, so V is exactly the sphere's shadow";
     } else if (centre_y < 0.5) {
       EXPECT_GT(crease, 20u);
     }
@@ -276,9 +280,10 @@ INSTANTIATE_TEST_SUITE_P(Places, SphereOnFloor, testing::Values(1.0, 0.97, 1.03,
                      : "Dome";
 });
 
-// A sphere within a slightly larger one: whatever of it faces the light is dark, and so is every place that a texel
-// reaches on it. Carried along its tangent plane instead of along itself it would break through the shell, which stands
-// nearer than the sphere bends away within a coarse texel. With a bias that reaches through the shell: Peter Panning.
+// A sphere inside a slightly larger one. All of it that faces the light is dark, and so is every place on it that a
+// texel reaches. If it were continued along its tangent plane instead of along itself, it would break through the
+// shell, because the shell is nearer than the sphere bends away within a coarse texel. A bias that reaches through the
+// shell causes Peter Panning.
 TEST(Shell, KeepsWhatIsWithinDarkAtEveryTap) {
   for (const auto& [columns, rows] : {std::pair(24, 12), std::pair(128, 64)}) {
     Scene scene;

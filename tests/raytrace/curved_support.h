@@ -1,4 +1,4 @@
-// What the tests of curved and creased receivers share: shapes, a whole lookup judged tap by tap without OpenGL, and
+// Shared by the tests of curved and creased receivers: shapes, a whole lookup judged tap by tap without OpenGL, and
 // true shadow edges found from the triangles' outlines alone.
 #pragma once
 #include <gtest/gtest.h>
@@ -26,8 +26,8 @@ inline glm::dvec3 ring(double radius, double turn, double y) {
   return {radius * std::sin(2 * pi * turn), y, radius * std::cos(2 * pi * turn)};
 }
 
-// A ring of tubes lying flat: axis Y, radius_m to the tube's middle. t wraps too: the last row is the first one's
-// positions again, exactly, so that the seam welds.
+// A torus that lies flat: its axis is Y, and radius_m is the distance to the tube's middle. t wraps too: the last row
+// repeats the positions of the first one exactly, so that the seam is welded.
 inline void add_torus(Scene& scene, int columns, int rows, double radius_m, double tube_m) {
   add_surface(scene, "torus", columns, rows, true, [=](double s, double t) {
     const double turn = t == 1 ? 0 : t;
@@ -53,7 +53,7 @@ inline void add_floor(Scene& scene, double half_m) {
   add_quad(scene, "floor", {-half_m, 0, -half_m}, {0, 0, 2 * half_m}, {2 * half_m, 0, 0});
 }
 
-// The scene turned about the origin, light and all; positions are rounded to float where they come to lie.
+// Turns the scene and its light about the origin; the new positions are rounded to float.
 inline void turn(Scene& scene, const glm::dmat3& by) {
   for (glm::vec3& p : scene.positions) p = glm::vec3(by * glm::dvec3(p));
   scene.light.position_m = by * scene.light.position_m;
@@ -74,7 +74,7 @@ inline LightFrame aligned(const Scene& scene, int resolution, std::mt19937& rand
   return frame;
 }
 
-// A lookup's taps of some receivers, and what they are wrong about.
+// The taps of a lookup at some receivers, and the causes of their errors.
 struct Judged {
   LightFrame frame;
   ReceiverImage receivers;
@@ -84,12 +84,12 @@ struct Judged {
   int kernel = 1;
 
   bool counted(size_t i) const { return truth.facing[i] && test::is_sure(truth, lookup.taps, i); }
-  glm::dvec2 place(size_t i, int tap) const {  // of the tap, exact
+  glm::dvec2 place(size_t i, int tap) const {  // the exact place of the tap
     const int r = kernel / 2;
     return glm::dvec2(frame.to_light(receivers.position[i])) +
            glm::dvec2(tap % kernel - r, tap / kernel - r) * frame.texel_m();
   }
-  glm::dvec2 texel_centre(size_t i, int tap) const {  // that it snaps to
+  glm::dvec2 texel_centre(size_t i, int tap) const {  // of the texel that the tap snaps to
     return frame.texel_centre(probe.texel(i, tap));
   }
   // How far from a receiver its taps' texel centres may lie.
@@ -97,7 +97,7 @@ struct Judged {
   Tap tap(size_t i, int number) const { return tap_of(probe, lookup.taps, MapSettings{}, lookup.exact_map, i, number); }
 
   using Causes = std::array<uint64_t, cause_count>;
-  // Taps of the chosen counted receivers by the cause that they have at this bias.
+  // Counts the taps of the chosen counted receivers by their cause at this bias.
   Causes causes(double bias_m, const std::function<bool(size_t)>& chosen = nullptr) const {
     Causes sum{};
     const float bias = static_cast<float>(bias_m / (frame.far_m - frame.near_m));
@@ -126,8 +126,8 @@ inline Judged judge(const raytrace::Tracer& tracer, const ReceiverImage& receive
   return j;
 }
 
-// Where the light's view of the scene may jump: edges that have all their triangles on one side of them as the light
-// sees it. Each is then looked at from both sides, by the nearest triangle there.
+// The edges at which the depth that the light sees may jump: those whose triangles all lie on one side of them, as the
+// light sees it. Whether it jumps is found from the nearest triangle on each side of the edge.
 class TrueEdges {
  public:
   TrueEdges(const Scene& scene, const LightFrame& frame) : bins_(scene, frame) {
@@ -155,7 +155,7 @@ class TrueEdges {
       if (!(edge.left && edge.right) && glm::length(edge.b - edge.a) > 0) outline_.push_back({edge.a, edge.b});
   }
 
-  // Is there a place within `radius` of x where the depth that the light sees first jumps?
+  // Whether there is a place within `radius` of x where the depth that the light sees first jumps.
   bool jump_within(glm::dvec2 x, double radius) const {
     return any_within(x, radius, [&](glm::dvec2 a, glm::dvec2 way, double from, double to) {
       for (int k = 0; k <= samples; ++k)
@@ -165,13 +165,14 @@ class TrueEdges {
     });
   }
 
-  // Is there a fold or a rim of some surface, hidden from the light or not?
+  // Whether there is a fold or a boundary of some surface, hidden from the light or not.
   bool outline_within(glm::dvec2 x, double radius) const {
     return any_within(x, radius, [](glm::dvec2, glm::dvec2, double, double) { return true; });
   }
 
  private:
-  // Whether `holds` of the part of some outline edge, from a + from * way to a + to * way, that the circle holds.
+  // Whether `holds` is true for some outline edge that the circle cuts. It gets the part of the edge inside the circle,
+  // from a + from * way to a + to * way.
   template <class Holds>
   bool any_within(glm::dvec2 x, double radius, const Holds& holds) const {
     for (const auto& [a, b] : outline_) {
@@ -187,7 +188,7 @@ class TrueEdges {
     return false;
   }
 
-  static constexpr int samples = 32;  // along what the circle holds of an edge, of which a part may be hidden
+  static constexpr int samples = 32;  // along the part of an edge inside the circle, some of which may be hidden
 
   bool jumps(glm::dvec2 at, glm::dvec2 across) const {
     const glm::dvec2 aside = 1e-9 * bins_.size_m() * across;  // far above double's rounding, far below any feature
@@ -224,7 +225,7 @@ inline Tally tally(const Judged& j, const std::function<bool(size_t)>& chosen = 
   return sum;
 }
 
-// Calls visit(judged) for grids of several sizes, each shifted and turned by chance, without a filter and with 3x3.
+// Calls visit(judged) for grids of several sizes, each shifted and turned at random, without a filter and with 3x3.
 inline void on_many_grids(const Scene& scene, uint32_t seed, int count, const std::function<void(const Judged&)>& visit,
                           bool facing_light = false) {
   std::mt19937 random(seed);
@@ -240,15 +241,15 @@ inline void on_many_grids(const Scene& scene, uint32_t seed, int count, const st
   }
 }
 
-// Every tap whose truth changes between its place and the texel's centre lies within half a texel's diagonal of an edge
-// at which the light's view of the scene jumps (law 4), whatever the receiver's shape. The edges are those of the
+// Law 4: a tap whose truth changes between its place and the texel's centre lies within half a texel's diagonal of an
+// edge at which the depth that the light sees jumps, whatever the receiver's shape. The edges are those of the
 // triangles' outlines, found without rays.
-// Of lit unfiltered receivers without exception. A tap further off, or of a dark receiver, asks for P's surface at a
-// place that it may not reach: where P stands at its own fold (a terminator), the surface goes on at the fold's depth,
-// and V changes where that passes through what the light sees there. README.md lists this among the known limits ("dark
-// receivers at a concave terminator"). It is rare.
+// For lit receivers without a filter there is no exception. A tap further off, or of a dark receiver, may ask for P's
+// surface at a place that the surface does not reach. If P lies at its own fold (a terminator), the surface is
+// continued at the fold's depth, and V changes where this depth crosses what the light sees there. README.md lists this
+// among the known limits ("dark receivers at a concave terminator"). It is rare.
 struct Explained {
-  uint64_t taps = 0, at_jumps = 0, at_own_folds = 0, never = 0;
+  uint64_t taps = 0, at_jumps = 0, at_own_folds = 0, unexplained = 0;
 };
 
 inline Explained explain_aliasing(const Judged& j, const TrueEdges& edges,
@@ -267,7 +268,7 @@ inline Explained explain_aliasing(const Judged& j, const TrueEdges& edges,
       else if ((j.kernel > 1 || !j.truth.lit[i]) && edges.outline_within(p, j.reach()))
         ++sum.at_own_folds;
       else
-        ++sum.never;
+        ++sum.unexplained;
     }
   }
   return sum;
@@ -276,7 +277,7 @@ inline Explained explain_aliasing(const Judged& j, const TrueEdges& edges,
 inline void expect_aliasing_at_true_edges(const Judged& j, const TrueEdges& edges,
                                           const std::function<bool(size_t)>& chosen = nullptr) {
   const Explained sum = explain_aliasing(j, edges, chosen);
-  EXPECT_EQ(sum.never, 0u);
+  EXPECT_EQ(sum.unexplained, 0u);
   // 3x3 taps of the coarsest grid reach over a fifth of these shapes.
   EXPECT_LE(sum.at_own_folds, sum.taps / (j.kernel == 1 ? 200 : 20)) << "of " << sum.at_jumps << " at true edges";
 }

@@ -1,5 +1,6 @@
-// What the ray-tracing tests share: random receivers on a scene's surfaces, and a second opinion on every hit that has
-// nothing in common with Embree: triangles projected into the light's plane, in double, kept in square bins.
+// Shared by the ray-tracing tests: random receivers on a scene's surfaces, and a second computation of every hit that
+// has nothing in common with Embree: triangles are projected into the light's plane, in double, and kept in square
+// bins.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -20,15 +21,15 @@
 
 namespace noonmark::test {
 
-// Can float error change neither the receiver's truth nor that of any of its taps?
+// Whether float error can change neither the receiver's truth nor that of any of its taps.
 inline bool is_sure(const ReceiverTruth& truth, const TapTruth& taps, size_t i) {
   const auto first = taps.taps.begin() + static_cast<std::ptrdiff_t>(i) * taps.taps_per_receiver;
   return !truth.ambiguous[i] &&
          std::none_of(first, first + taps.taps_per_receiver, [](uint8_t bits) { return (bits & tap_unsure) != 0; });
 }
 
-// Two depths nearer than this (as a fraction of the scene's size) are one: some hundred roundings of 2^-53, for the
-// planes of triangles that are steep but not edge-on.
+// Two depths that differ by less than this (as a fraction of the scene's size) count as equal: some hundred roundings
+// of 2^-53, for the planes of triangles that are steep but not edge-on.
 inline constexpr double double_rounding = 1e-13;
 
 class LightBins {
@@ -77,7 +78,7 @@ class LightBins {
     }
   }
 
-  // The nearest to the light of those at x from z_from on, of the triangles that `kept` keeps.
+  // The hit at x that is nearest to the light, from depth z_from on, among the triangles for which `kept` is true.
   Hit first_hit(glm::dvec2 x, double z_from = -std::numeric_limits<double>::infinity(),
                 const std::function<bool(uint32_t)>& kept = nullptr) const {
     Hit hit;
@@ -94,9 +95,9 @@ class LightBins {
     return c[0].z - (n.x * (x.x - c[0].x) + n.y * (x.y - c[0].y)) / n.z;
   }
 
-  // Is there another triangle between the light and the plane of `own` at p?
-  // within_m: faces whose plane passes p as near as that do not count (rounding of their vertices may have parted them
-  // from p's own).
+  // Whether there is another triangle between the light and the plane of `own` at p. within_m: a face whose plane
+  // passes p within this distance does not count, because the rounding of its vertices may have separated it from p's
+  // own plane.
   bool occluded(glm::dvec3 p, uint32_t own, double within_m = 0) const {
     const glm::dvec2 x = glm::dvec2(frame_.to_light(p));
     const double z_own = plane(own, x);
@@ -161,7 +162,8 @@ inline ReceiverImage receivers_at(const Scene& scene, const std::vector<Placed>&
   return out;
 }
 
-// Evenly spread over the surfaces' area (every triangle that is not a sliver), only where the normal faces the light.
+// Random points, spread evenly over the area of the surfaces. facing_light: on all triangles that are not edge-on to
+// the light; otherwise only on those whose counter-clockwise side faces it.
 inline std::vector<Placed> points_on(const Scene& scene, glm::dvec3 to_light, bool facing_light, int count,
                                      uint32_t seed) {
   std::mt19937 random(seed);
@@ -193,7 +195,7 @@ inline ReceiverImage random_receivers(const Scene& scene, glm::dvec3 to_light, b
   return receivers_at(scene, points_on(scene, to_light, facing_light, count, seed), to_light, facing_light);
 }
 
-// What the lookup shader would ask for, in double.
+// The probe that the lookup shader would give, computed in double.
 inline LookupProbe probe_of(const ReceiverImage& receivers, const LightFrame& frame,
                             const FilterSettings& filter = {}) {
   const int width = receivers.width(), height = receivers.height();
@@ -214,7 +216,7 @@ inline LookupProbe probe_of(const ReceiverImage& receivers, const LightFrame& fr
     probe.n_dot_l[i] =
         static_cast<float>(glm::dot(glm::dvec3(receivers.normal[i]), frame.direction_to_light(receivers.position[i])));
     if (frame.kind != LightKind::point) {
-      // The float beside it that lies in the same texel, so that no test is about that rounding.
+      // The float is kept in the same texel as the exact place, so that this rounding affects no test.
       const glm::dvec2 at = frame.map_texels(frame.place(p));
       for (int axis = 0; axis < 2; ++axis) {
         float& rounded = probe.map_texels[i][axis] = static_cast<float>(at[axis]);
@@ -259,7 +261,7 @@ inline LightFrame frame_of(const Scene& scene, int resolution = 64) {
   return make_light_frame(scene, settings);
 }
 
-// The scene moved, its positions rounded to float where they come to lie.
+// The scene moved; its new positions are rounded to float.
 inline Scene moved(Scene scene, glm::dvec3 by) {
   for (glm::vec3& p : scene.positions) p = glm::vec3(glm::dvec3(p) + by);
   scene.light.position_m += by;

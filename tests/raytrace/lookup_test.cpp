@@ -1,5 +1,5 @@
-// V(P, x) at the taps of lookups: the same causes for the same surface however it is meshed, and aliasing only where
-// there is a shadow edge.
+// V(P, x) at the taps of lookups. The same surface has the same causes, however it is meshed, and there is aliasing
+// only where there is a shadow edge.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -40,7 +40,8 @@ Looked look_up(const Scene& scene, int resolution, int kernel, int count, bool f
   return look_up(scene, frame, random_receivers(scene, frame.direction_to_light(), facing_light, count, 7), kernel);
 }
 
-// Law 8: without an occluder every tap is lit at both its places, or the tool invents aliasing.
+// Law 8: without an occluder every tap is lit at both its places; otherwise the program reports aliasing where there is
+// none.
 void expect_all_lit(const Scene& scene) {
   for (int resolution : {5, 64, 1000}) {
     for (int kernel : {1, 3}) {
@@ -73,7 +74,7 @@ TEST(OwnSurface, ConvexSolidsShadeNothingThatFaces) {
 
 TEST(OwnSurface, BowlFromAboveShadesNothing) { expect_all_lit(builtin("bowl")); }
 
-// Two slopes meet in a valley at x = 0 where no vertex of one is a vertex of the other.
+// Two slopes meet in a valley at x = 0. Along it, no vertex of one slope but the ends is a vertex of the other.
 TEST(OwnSurface, ValleyOfUnweldedTJunctionsShadesNothing) {
   Scene valley;
   for (int i = 0; i < 3; ++i) add_quad(valley, "left", {-2, 1, -3.0 + 2 * i}, {0, 0, 2}, {2, -1, 0});
@@ -123,7 +124,7 @@ struct CubeOnFloor {
   }
 };
 
-// The triangle with p in it (its plane axis-parallel, p exactly in it) and the same normal.
+// The triangle that contains p and has this normal. Its plane is parallel to two axes, so that p lies exactly in it.
 uint32_t primitive_at(const Scene& scene, glm::dvec3 p, glm::dvec3 normal) {
   for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const glm::dvec3 a = scene.positions[scene.triangles[t].x], b = scene.positions[scene.triangles[t].y],
@@ -207,8 +208,8 @@ TEST(OwnSurface, TheLitFootOfAWallIsLit) {
   EXPECT_GT(on_wall, 500);
 }
 
-// Is there a shadow edge on the straight way? Either what the light first meets has a jump in its depth between two of
-// the places, or it comes up to P's own plane from before it.
+// Whether there is a shadow edge on the straight way. Either the depth that the light first meets jumps between two of
+// the places, or the first hit comes before P's own plane, or goes behind it again.
 bool edge_between(const LightBins& brute, uint32_t own, glm::dvec2 from, glm::dvec2 to) {
   constexpr int steps = 512;
   const double tolerance = 1e-9 * brute.size_m();
@@ -234,9 +235,9 @@ bool edge_between(const LightBins& brute, uint32_t own, glm::dvec2 from, glm::dv
   return false;
 }
 
-// Law 4. Lit receivers have no exception. dark_exceptions: the share of differing taps that may have none at dark
-// receivers, where solids run into one another or concave meshes do not weld: there P's sheet ends inside a solid, and
-// what lies beyond is a guess (README.md, known limits).
+// Law 4. Lit receivers have no exception. dark_exceptions: the share of differing taps that may have no edge, at dark
+// receivers. This happens where solids intersect or concave meshes are not welded: there P's sheet ends inside a solid,
+// and its continuation is a guess (README.md, known limits).
 void expect_edges_where_taps_differ(const Scene& scene, int resolution, int count, double dark_exceptions = 0) {
   const Looked looked = look_up(scene, resolution, 1, count);
   const LightBins brute(scene, looked.frame);
@@ -258,7 +259,7 @@ void expect_edges_where_taps_differ(const Scene& scene, int resolution, int coun
       ++dark_without_edge;
     } else if (++without_edge <= 3) {
       const glm::vec3 p = looked.receivers.position[i];
-      ADD_FAILURE() << scene.name << ": no shadow edge beside receiver " << i << ", triangle "
+      ADD_FAILURE() << scene.name << ": no shadow edge near receiver " << i << ", triangle "
                     << looked.receivers.primitive[i] << ", " << p.x << ' ' << p.y << ' ' << p.z
                     << (looked.exact_lit(i) ? " (lit)" : " (dark)");
     }
@@ -310,8 +311,9 @@ TEST(Lookup, EdgeDistanceInClosedForm) {
   EXPECT_GT(differ, 100);
 }
 
-// Whether a ray through an edge meets what ends there is rounding's to say. The map holds what the cast ray said, and V
-// is sure only where it says the same: a sure tap that is dark has the roof in its texel, a lit one the floor.
+// If a ray goes exactly through an edge, rounding decides whether it hits the surface that ends there. The map stores
+// the result of that ray, and V may be sure only if it agrees: a sure tap that is dark has the roof in its texel, a
+// sure tap that is lit has the floor.
 TEST(Lookup, ATexelsCentreOnAnOutlineIsSureOnlyAsTheMapHasIt) {
   Scene scene;
   add_quad(scene, "floor", {-3, 0, -3}, {0, 0, 6}, {6, 0, 0});

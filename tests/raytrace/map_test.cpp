@@ -32,7 +32,7 @@ Image<float> whole_map(const Scene& scene, const LightFrame& frame, const MapSet
   return look_up(scene, frame, texels, map, 1, bias, offset_unit).exact_map;
 }
 
-// Half a float's last place below 1, and the double rounding of a depth of some metres.
+// Half a last place of a float below 1, and the double rounding of a depth of some metres.
 constexpr double depth_rounding = 0x1p-25 + 1e-12;
 
 using Expected = std::function<double(glm::dvec2)>;  // metres along the light; infinity: nothing
@@ -124,7 +124,7 @@ TEST(ExactMap, BoxOnAFloorInClosedForm) {
   cut.map.near_m = 9.75;  // the whole box is before it
   expect_map(whole_map(scene, make_light_frame(scene, cut)), make_light_frame(scene, cut), expected(10));
   map = {};
-  map.depth_clamp = true;  // and what is before it stays, at its depth
+  map.depth_clamp = true;  // what is before near stays, at near's depth
   expect_map(whole_map(scene, make_light_frame(scene, cut), map), make_light_frame(scene, cut), expected(9.75));
   cut.map.near_m = 2;
   cut.map.far_m = 9;  // the floor is beyond it
@@ -143,7 +143,8 @@ TEST(ExactMap, NearClippedTapsSayTheyAre) {
   EXPECT_FALSE(truth.taps.taps[1] & tap_near_clipped);
 }
 
-// A cube's faces have flat near planes: what is cut off towards a corner lies further away than near.
+// The near plane of a cube's face is flat. Towards a corner it also cuts off surfaces that are further from the light
+// than near.
 TEST(ExactMap, ACubesNearPlaneIsAlongItsAxis) {
   Scene scene;
   add_quad(scene, "floor", {-2, -2, -2}, {0, 0, 4}, {4, 0, 0});
@@ -165,7 +166,7 @@ TEST(ExactMap, ACubesNearPlaneIsAlongItsAxis) {
   }
 }
 
-// Every built-in scene as its map has it, and with faces culled, and cut in two by the near plane.
+// Every built-in scene with its own map, with faces culled, and cut in two by the near plane.
 TEST(ExactMap, BuiltinScenesAgreeWithBruteForce) {
   for (const BuiltinScene& given : builtin_scenes()) {
     const Scene scene = builtin(std::string(given.name));
@@ -174,7 +175,7 @@ TEST(ExactMap, BuiltinScenesAgreeWithBruteForce) {
         Settings settings;
         settings.map.resolution = 97;
         settings.map.cull = cull;
-        settings.light.kind = LightChoice::directional;  // LightBins knows parallel light
+        settings.light.kind = LightChoice::directional;  // LightBins supports parallel light only
         if (cut) settings.map.near_m = make_light_frame(scene, settings).to_light({0, 0.2, 0}).z;
         const LightFrame frame = make_light_frame(scene, settings);
         const LightBins brute(scene, frame);
@@ -183,7 +184,7 @@ TEST(ExactMap, BuiltinScenesAgreeWithBruteForce) {
         const auto kept = [&](uint32_t t) {
           return cull == CulledFaces::none || brute.front(t) == (cull == CulledFaces::back);
         };
-        // Light-side rays pass beside their centres by a float's rounding: 1e-6 of the scene's size, times its slopes.
+        // Rays from the light miss the texel's centre by float rounding: 1e-6 of the scene's size, times its slopes.
         int wrong = 0;
         const Image<float> map = whole_map(scene, frame, settings.map);
         for (int y = 0; y < map.height; ++y) {
@@ -192,7 +193,7 @@ TEST(ExactMap, BuiltinScenesAgreeWithBruteForce) {
             const LightBins::Hit hit = brute.first_hit(centre, frame.near_m, kept);
             const double depth = hit.z <= frame.far_m ? frame.window_depth(hit.z) : 1;
             if (std::abs(map.at(x, y) - depth) <= depth_rounding) continue;
-            bool at_an_edge = false;  // a silhouette or fold within the ray's error: the other side's depth is as good
+            bool at_an_edge = false;  // within the ray's error of an edge the depth of either side is right
             const double reach = 1e-6 * brute.size_m();
             for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)})
               at_an_edge |= brute.first_hit(centre + reach * way, frame.near_m, kept).triangle != hit.triangle;

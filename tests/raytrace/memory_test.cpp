@@ -1,5 +1,5 @@
-// A scene whose tree does not fit is refused before Embree begins to build it: an allocation that fails within the
-// build ends the program or waits for ever.
+// A scene whose tree does not fit into memory is refused before Embree begins to build it, because an allocation that
+// fails during the build ends the program or waits for ever.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>

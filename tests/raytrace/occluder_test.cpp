@@ -1,4 +1,4 @@
-// How far receivers are from what shades them, in closed form; and that contacts do not hold the search up.
+// The distance of receivers from their occluders, in closed form; and that contacts do not stop the search.
 #include <gtest/gtest.h>
 
 #include "tests/raytrace/fixture.h"
@@ -12,7 +12,7 @@ Image<uint8_t> everywhere(const ReceiverImage& receivers) {
   return Image<uint8_t>(receivers.width(), receivers.height(), 1);
 }
 
-// A wall's lit face is the plane x = 0; the floor behind it at x is x / cos from it along the light.
+// The wall's lit face is the plane x = 0. The floor behind it at x is x / cos from the wall along the light.
 TEST(OccluderDistance, BehindAWallInClosedForm) {
   Scene scene;
   add_quad(scene, "floor", {-5, 0, -5}, {0, 0, 10}, {10, 0, 0});
@@ -53,8 +53,8 @@ TEST(OccluderDistance, OnlyWhereAsked) {
   }
 }
 
-// Faces that touch, hundreds on one another, and receivers exactly on shared corners: a search that steps on by less
-// than a float's last place never ends, and the test runner's time limit says so.
+// Hundreds of faces that touch one another, and receivers exactly on shared corners. A search that advances by less
+// than a float's last place never ends; then the test fails by its time limit.
 TEST(OccluderDistance, ContactsDoNotHoldItUp) {
   Scene scene;
   for (int copy = 0; copy < 300; ++copy) add_quad(scene, "floor", {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});

@@ -1,4 +1,4 @@
-// The taps of a lookup that is moved along the receiver's normal: D = V(P, P' + o) beside F = V(P, P + o).
+// The taps of a lookup that is moved along the receiver's normal: D = V(P, P' + o), compared with F = V(P, P + o).
 #include <gtest/gtest.h>
 
 #include "technique/bias.h"
@@ -39,7 +39,8 @@ Looked look_up(const Scene& scene, const LightFrame& frame, const ReceiverImage&
   return looked;
 }
 
-// Law 8: what has no shadow has none to displace, however far the lookup is moved: past folds, rims and the map.
+// Law 8: where there is no shadow, none can be displaced, however far the lookup is moved: past folds, boundaries and
+// the map.
 TEST(MovedTaps, AreLitWhereNothingShades) {
   for (const char* name : {"plane", "sphere", "bowl"}) {
     const Scene scene = builtin(name);
@@ -81,14 +82,14 @@ TEST(MovedTaps, CostARayEachAndOnlyWhereTheyAreMoved) {
         different_f += moved.exact_lit(i, tap) != none.exact_lit(i, tap);
       }
     EXPECT_GT(displaced, 10);
-    EXPECT_EQ(different_f, 0) << "F is of the receiver where it is";
+    EXPECT_EQ(different_f, 0) << "F belongs to the place of the receiver itself";
   }
 }
 
 // The floor under the built-in plate; its shadow in closed form, by slabs.
 class PlateOnFloor : public testing::Test {
  protected:
-  // Between the point and the light? `margin_m` grows the plate on all sides.
+  // Whether the plate is between the point and the light. `margin_m` grows the plate on all sides.
   bool dark(glm::dvec3 p, double margin_m) const {
     const glm::dvec3 low(-0.8, 0.4, -0.6), high(0.8, 0.5, 0.6), way = frame.direction_to_light();
     double from = 0, to = std::numeric_limits<double>::infinity();
@@ -100,7 +101,7 @@ class PlateOnFloor : public testing::Test {
     }
     return from < to;
   }
-  // Where the light ray through a place of its plane meets the floor.
+  // Where the light ray through a place in the light's plane meets the floor.
   glm::dvec3 on_floor(glm::dvec2 x) const {
     const glm::dvec3 start = frame.to_world({x.x, x.y, 0});
     return start - start.y / frame.forward.y * frame.forward;
@@ -139,7 +140,7 @@ TEST_F(PlateOnFloor, MovedTapsAreThoseOfTheClosedForm) {
         const glm::dvec3 exact = on_floor(glm::dvec2(frame.to_light(p)) + o),
                          elsewhere = on_floor(glm::dvec2(frame.to_light(moved)) + o);
         if (looked.truth.ambiguous[i] || looked.ambiguous(i, tap)) continue;
-        // Within 10 micrometres of an edge the closed form is no surer than the rays.
+        // Within 10 micrometres of an edge the closed form is no more certain than the rays.
         if (dark(exact, 1e-5) != dark(exact, -1e-5) || dark(elsewhere, 1e-5) != dark(elsewhere, -1e-5)) continue;
         ++checked;
         displaced += looked.displaced(i, tap);
@@ -152,11 +153,11 @@ TEST_F(PlateOnFloor, MovedTapsAreThoseOfTheClosedForm) {
   }
 }
 
-// Beside a shadow's edge the moved place's verdict is that of double precision: P' = P + d N from the float P.
+// Near a shadow's edge the verdict of the moved place must be that of double precision: P' = P + d N from the float P.
 TEST_F(PlateOnFloor, MovedTapsOnAnEdgeAreDecidedInDouble) {
   const double offset_m = 0.1;
-  // The shadow's edge at x = 0.8 + 0.5 * 3 / 4: of the upper edge of the plate's side x = 0.8, towards light (-3, 4,
-  // -1.5). P' falls on it from d * 3 / 4 before it, in shadow.
+  // The shadow's edge is at x = 0.8 + 0.5 * 3 / 4. It is cast by the upper edge of the plate's side x = 0.8, under a
+  // light in the direction (-3, 4, -1.5). P' is on this edge if P is d * 3 / 4 before it, in shadow.
   const double edge = 0.8 + 0.5 * 0.75, before = edge - offset_m * 0.75;
   std::vector<glm::dvec3> points;
   for (int i = 0; i < 600; ++i) points.push_back({before + (i % 3 - 1) * 1e-3, 0, -0.3 + 0.001 * i});

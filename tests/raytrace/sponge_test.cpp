@@ -1,5 +1,5 @@
-// Solids that touch along edges: random cubes of a grid, whose edges two, four, six or eight faces share. The walk over
-// P's own sheet must go on over the surface on P's side of the edge.
+// Solids that touch along edges: random cubes of a grid, in which two, four, six or eight faces share an edge. The walk
+// over P's own sheet must continue on the surface on P's side of the edge.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,7 +21,7 @@ struct Sponge {
     if (glm::any(glm::lessThan(c, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(c, glm::ivec3(side)))) return false;
     return filled[static_cast<size_t>((c.x * side + c.y) * side + c.z)];
   }
-  // A face whose cell is filled and whose neighbour above is not.
+  // Whether the cell is filled and the cell above it is not.
   bool open_top(glm::ivec3 c) const { return at(c) && !at(c + glm::ivec3(0, 1, 0)); }
 };
 
@@ -32,7 +32,7 @@ Sponge random_sponge(uint32_t seed) {
   return sponge;
 }
 
-// inner: also the faces between two filled cells, once for each.
+// inner: with the faces between two filled cells too, once for each of the two.
 Scene scene_of(const Sponge& sponge, bool inner) {
   Scene scene;
   scene.name = "sponge";
@@ -68,7 +68,8 @@ struct Setting {
         surface(embree, adjacency, view, silhouettes),
         brute(scene, frame) {}
 
-  // The triangle that faces the light at p, or none where p is not on the surface or lit (of a lit P the jumps decide).
+  // The triangle at p that faces the light. None if p is not on the surface, or if it is lit (for a lit P the jumps
+  // decide).
   uint32_t dark_at(glm::dvec3 p) const {
     uint32_t own = no_primitive;
     const glm::dvec3 light = frame.to_light(p);
@@ -83,7 +84,7 @@ struct Setting {
     view.first_hits(embree, 1, &x, &hit);
     return surface.lit_at(surface.point(frame.to_light(p), own, false), x, hit);
   }
-  // Nothing stands before q.
+  // Whether nothing lies between the light and q.
   bool seen(glm::dvec3 q) const {
     const glm::dvec3 light = frame.to_light(q);
     return brute.first_hit(glm::dvec2(light)).z >= light.z - 1e-9;
@@ -102,7 +103,7 @@ struct Setting {
 
 struct Found {
   int lit = 0, hidden = 0;
-  // Of a dark P, V on its own sheet is what the first hit says: the sheet, or something before it.
+  // For a dark P, the first hit decides V on P's own sheet: it is the sheet, or something before it.
   void compare(const Setting& s, glm::dvec3 p, glm::dvec3 q) {
     const uint32_t own = s.dark_at(p);
     if (own == no_primitive) return;
@@ -137,7 +138,7 @@ TEST(Sponge, CoplanarTopsAreOneSheetWhateverTouchesAtTheirEdges) {
           open = sponge.open_top(under);
           if (under == last) continue;
           ++cells;
-          // Past a corner a sample may miss a cell: then another way is asked.
+          // Near a corner the samples may miss a cell. Such a way is not used.
           open &= std::abs(under.x - last.x) + std::abs(under.z - last.z) == 1;
           last = under;
         }
@@ -149,8 +150,9 @@ TEST(Sponge, CoplanarTopsAreOneSheetWhateverTouchesAtTheirEdges) {
   EXPECT_GT(found.hidden, 150);
 }
 
-// From a wall down to the top at its foot. Where the wall's cube stands on its edge alone, the side of the cube below
-// goes on in the wall's own plane, behind that top: the flattest way on, and the wrong one.
+// From a wall down to the top at its foot. Where the wall's cube touches the lower cube only along an edge, a side of
+// the lower cube continues in the wall's own plane, behind that top. It is the flattest continuation, and the wrong
+// one.
 TEST(Sponge, AWallGoesOnInTheTopAtItsFoot) {
   Found found;
   int on_an_edge = 0;
@@ -170,7 +172,8 @@ TEST(Sponge, AWallGoesOnInTheTopAtItsFoot) {
         glm::dvec3 p = glm::dvec3(cell) + glm::dvec3(in(random), in(random), in(random));
         p[axis] = cell[axis] + 1;
         const glm::dvec3 q = glm::dvec3(cell + out) + glm::dvec3(in(random), 0, in(random));
-        // Where the light sees the way cross the foot: both ends carried along the ray by `along` come to it.
+        // Where the light sees the way from p to q cross the foot: moved along the ray by `along`, both ends meet
+        // there.
         const glm::dvec3 ray = s.frame.forward;
         const double height = p.y - cell.y, away = q[axis] - p[axis];
         const double t = height / ray.y / (height / ray.y + away / ray[axis]), along = -away * t / ray[axis];

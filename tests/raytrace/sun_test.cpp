@@ -1,4 +1,4 @@
-// R0: the sun's disc over straight edges, against the area of a disc's segment.
+// R0: the sun's disc behind straight edges, against the area of a disc's segment.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -18,7 +18,8 @@ double disc_beyond(double at) {
   return (std::acos(at) - at * std::sqrt(1 - at * at)) / std::numbers::pi;
 }
 
-// Sampling stops where the samples agree best, so means lean towards agreement; seen up to 0.08 standard errors.
+// Sampling stops where the samples agree best, so means are biased towards agreement. Up to 0.08 standard errors were
+// seen.
 constexpr double stopping_bias = 0.1;
 
 struct Errors {
@@ -44,7 +45,8 @@ Errors errors(const Image<float>& soft, const ReceiverImage& receivers, double s
 void expect_within(const Errors& e, double standard_error) {
   EXPECT_GT(e.partial, 1500);
   EXPECT_LE(e.beyond_three, e.receivers / 100);
-  // The mean of independent errors of at most one standard error each stays within three of its own.
+  // The mean of independent errors, each of at most one standard error, stays within three of the mean's standard
+  // errors.
   EXPECT_LT(std::abs(e.mean), 3 * standard_error / std::sqrt(e.partial));
   testing::Test::RecordProperty("mean_error_1e6", static_cast<int>(1e6 * e.mean));
   testing::Test::RecordProperty("beyond_three_standard_errors", e.beyond_three);
@@ -78,7 +80,8 @@ TEST(Sun, HalfPlaneEdgeIsTheDiscsSegment) {
   }
 }
 
-// A strip: the disc between two lines, in a frame whose axes are neither the world's nor each other's mirror.
+// A strip hides the part of the disc between two lines. The light's axes are not the axes of the world, nor mirror
+// images of each other.
 TEST(Sun, StripUnderAnObliqueLightTakesWhatIsBetweenItsEdges) {
   Scene scene = half_plane();
   scene.light = {.position_m = {-2, 4, -1}, .target_m = {0, 0, 0}};
@@ -100,7 +103,7 @@ TEST(Sun, StripUnderAnObliqueLightTakesWhatIsBetweenItsEdges) {
   expect_within(e, standard_error);
 }
 
-// Nothing shades it, yet the lower part of the disc is below the receiver's own horizon.
+// Nothing shades the receiver, but the lower part of the disc is below the receiver's own horizon.
 TEST(Sun, OwnHorizonCutsTheDisc) {
   for (double elevation_deg : {0.1, 0.5, 1.5, 3.0}) {
     SceneSettings settings{.name = "plane", .theta_deg = 90 - elevation_deg};
@@ -155,7 +158,8 @@ TEST(Sun, SamplesAreTheSameInEveryRunAndWithEveryNumberOfThreads) {
   EXPECT_EQ(first, soft(again, 2));
 }
 
-// The error that was asked for buys its rays: a hundred times as many for a tenth of it, at half light.
+// The requested error sets the number of rays: for a tenth of the error a hundred times as many, where half the disc is
+// seen.
 TEST(Sun, CastsWhatTheErrorNeeds) {
   Scene scene = half_plane();
   const LightFrame frame = frame_of(scene);

@@ -16,7 +16,8 @@ struct Count {
   int facing = 0, lit = 0, ambiguous = 0, wrong = 0;
 };
 
-// within_m: receivers whose brute-force verdict changes within this distance in the light's plane are undecided too.
+// within_m: a disagreement does not count if the receiver's brute-force verdict changes within this distance in the
+// light's plane.
 Count compare_with_brute_force(const Scene& scene, bool facing_light, int receivers_wanted, double within_m = 0) {
   const LightFrame frame = frame_of(scene);
   const LightBins brute(scene, frame);
@@ -33,8 +34,8 @@ Count compare_with_brute_force(const Scene& scene, bool facing_light, int receiv
     if (truth.ambiguous[i]) continue;
     const bool lit = !brute.occluded(receivers.position[i], receivers.primitive[i]);
     if (lit == (truth.lit[i] != 0)) continue;
-    // Dark only by a face of the same plane, but for what rounding has moved its vertices by: lit, as the tracer has
-    // it.
+    // By brute force the receiver may be dark only because of a face of the same plane, whose vertices rounding has
+    // moved. The tracer has it lit, which is right.
     bool undecided =
         !lit && !brute.occluded(receivers.position[i], receivers.primitive[i], 0x1p-22 * largest_coordinate(scene));
     for (int k = 0; k < 16 && within_m > 0; ++k) {
@@ -55,7 +56,7 @@ Count compare_with_brute_force(const Scene& scene, bool facing_light, int receiv
   return count;
 }
 
-// Under one receiver in a thousand may be undecided.
+// Fewer than one receiver in a thousand may be ambiguous.
 void expect_sure(const Count& count, int facing_wanted) {
   EXPECT_GE(count.facing, facing_wanted);
   EXPECT_EQ(count.wrong, 0);
@@ -71,9 +72,8 @@ TEST_P(HardTruth, AgreesWithBruteForce) {
   expect_sure(compare_with_brute_force(scene, true, 20000), 19990);
 }
 
-// At 1 km floats are 2^-14 m apart: the scene is another one, and the truth is that of the positions as they are.
-// Smooth surfaces are full of dents of that size there, smaller than the five places of a receiver's verdict can all
-// find.
+// At 1 km floats are 2^-14 m apart. The rounded scene is another one, and the truth is that of the rounded positions.
+// Smooth surfaces have many dents of that size there; the five places of a receiver's verdict cannot find all of them.
 TEST_P(HardTruth, AgreesWithBruteForceFarFromTheOrigin) {
   Scene scene = moved(builtin(GetParam()), {1000, -300, 700});
   scene.name += ".at_1_km";
@@ -106,7 +106,8 @@ TEST_P(ModelTruth, AgreesWithBruteForce) {
 INSTANTIATE_TEST_SUITE_P(Shared, ModelTruth, testing::Values("FlightHelmet", "Lantern"),
                          [](const auto& given) { return given.param; });
 
-// Law 8: nothing shades a lone convex solid's facing side, however grazing and wherever it stands.
+// Law 8: nothing shades the side of a lone convex solid that faces the light, however grazing the light is and wherever
+// the solid stands.
 TEST(HardTruthLaws, ConvexSolidsAreLitWhereTheyFace) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> in(-1, 1);
@@ -130,7 +131,7 @@ TEST(HardTruthLaws, ConvexSolidsAreLitWhereTheyFace) {
   }
 }
 
-// The bowl under its light straight above: concave, and all of it lit.
+// The bowl under its light straight above is concave, and all of it is lit.
 TEST(HardTruthLaws, BowlIsLitEverywhere) {
   const Scene bowl = builtin("bowl");
   const LightFrame frame = frame_of(bowl);
@@ -139,8 +140,8 @@ TEST(HardTruthLaws, BowlIsLitEverywhere) {
   for (size_t i = 0; i < receivers.primitive.size(); ++i) ASSERT_TRUE(!truth.facing[i] || truth.lit[i]) << i;
 }
 
-// Receivers exactly on vertices and edges of solids, where rays are most easily lost or caught. (Float's rounding
-// leaves the sphere dents of a float's size; what they shade is ambiguous.)
+// Receivers exactly on vertices and edges of solids, where a ray most easily misses its surface or hits a wrong one.
+// (Rounding to float leaves dents of a float's size in the sphere; receivers that these shade are ambiguous.)
 TEST(HardTruthLaws, VerticesAndEdgesOfConvexSolidsAreLit) {
   const Scene sphere = builtin("sphere");
   const LightFrame frame = frame_of(sphere);
@@ -164,12 +165,13 @@ TEST(HardTruthLaws, VerticesAndEdgesOfConvexSolidsAreLit) {
   EXPECT_EQ(dark, 0);
 }
 
-// The same faces twice, in other triangles, must not shade themselves: an exporter's two-sided surface.
+// If the same faces are present twice, as other triangles, they must not shade themselves. Exporters write two-sided
+// surfaces in this way.
 TEST(HardTruthLaws, DuplicatedFacesDoNotShadeThemselves) {
   Scene scene = builtin("sphere");
   const size_t count = scene.triangles.size();
   for (uint32_t t = 0; t < count; ++t) {
-    const glm::uvec3 v = scene.triangles[t];  // turned, or the other side
+    const glm::uvec3 v = scene.triangles[t];  // its corners rotated, or its other side
     scene.triangles.push_back(t % 2 ? glm::uvec3(v.y, v.z, v.x) : glm::uvec3(v.x, v.z, v.y));
   }
   const LightFrame frame = frame_of(scene);
@@ -198,7 +200,7 @@ TEST(HardTruthLaws, BackgroundAndAttachedReceiversAreNotFacing) {
   }
 }
 
-// A receiver at the shadow's very edge is undecided; one further away than the float error is not.
+// A receiver exactly at the shadow's edge is ambiguous. One that is further away than the float error is not.
 TEST(HardTruthLaws, OnlyWhatGrazesASilhouetteIsAmbiguous) {
   Scene scene;
   add_quad(scene, "floor", {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
@@ -223,8 +225,8 @@ TEST(HardTruthLaws, OnlyWhatGrazesASilhouetteIsAmbiguous) {
   }
 }
 
-// A sheet without holes, and rays at its vertices and the middles of its edges: not ROBUST, Embree lets percents
-// through.
+// A sheet without holes, and rays at its vertices and at the middles of its edges. Without the flag ROBUST, some
+// percent of the rays pass through Embree's scene.
 TEST(HardTruthLaws, RaysDoNotLeakThroughVerticesAndEdges) {
   const int n = 150;
   Scene scene;
@@ -253,7 +255,7 @@ TEST(HardTruthLaws, RaysDoNotLeakThroughVerticesAndEdges) {
   RecordProperty("leaks_at_vertices", at_vertices);
   RecordProperty("leaks_at_edges", at_edges);
   EXPECT_EQ(at_edges, 0);
-  EXPECT_LE(at_vertices, rays / 4 / 100);  // seen: 127 of 21,904, and 4,191 and 4,962 at edges without ROBUST
+  EXPECT_LE(at_vertices, rays / 4 / 100);  // seen: 127 of 21,904; without ROBUST 4,191, and 4,962 at edges
 }
 
 TEST(HardTruthLaws, DoesNotDependOnTheNumberOfThreads) {

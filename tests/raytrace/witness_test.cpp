@@ -1,4 +1,4 @@
-// The second witness: every triangle of a scene, one by one, in double, against R1; and how much of the truth of real
+// A second check of R1: every triangle of a scene is tested, one by one, in double. Also: how much of the truth of real
 // pictures is ambiguous.
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
@@ -16,7 +16,8 @@ namespace {
 
 using namespace test;
 
-// No bins, no tree, no boxes: every triangle's three edge functions, and the depth of its plane, along the light.
+// Uses no bins, no tree and no boxes: only every triangle's three edge functions, and the depth of its plane along the
+// light.
 class EveryTriangle {
  public:
   EveryTriangle(const Scene& scene, glm::dvec3 to_light) {
@@ -30,7 +31,7 @@ class EveryTriangle {
     }
   }
 
-  // Is P, taken along the ray to its own triangle's plane, behind another one?
+  // Whether P, moved along the ray to its own triangle's plane, is behind another triangle.
   bool occluded(glm::dvec3 world, uint32_t own) const {
     const glm::dvec3 p = turned(world);
     const Plane at_own = plane(own, p);
@@ -86,7 +87,7 @@ ReceiverImage picture_of(const Scene& scene, int width, int height) {
   return resolve_receivers(scene, scene.camera, primitives);
 }
 
-// Every step-th of the receivers that face the light, as an image one pixel high.
+// A random sample of at most `count` receivers that face the light, as an image one pixel high.
 ReceiverImage sample_of(const ReceiverImage& all, glm::dvec3 to_light, int count, uint32_t seed) {
   std::vector<size_t> facing;
   for (size_t i = 0; i < all.primitive.size(); ++i)
@@ -155,7 +156,7 @@ TEST_P(Witness, EveryTriangleAgreesWithR1) {
 INSTANTIATE_TEST_SUITE_P(Shared, Witness, testing::Values("FlightHelmet", "Lantern"),
                          [](const auto& given) { return given.param; });
 
-// The witness is held to the closed form: boxes whose corners floats hold exactly.
+// The check itself is compared with the closed form, on boxes whose corners floats hold exactly.
 TEST(WitnessItself, AgreesWithTheClosedForm) {
   Scene scene;
   std::vector<Shape> shapes;
@@ -187,7 +188,8 @@ TEST(WitnessItself, AgreesWithTheClosedForm) {
   EXPECT_LT(dark, 18000);
 }
 
-// What a picture leaves out: under one receiver in a thousand, of R1 and of the taps of a 3x3 lookup alike.
+// A picture may leave out fewer than one receiver in a thousand: those with an unsure R1 or an unsure tap of a 1x1 or
+// 3x3 lookup.
 void expect_few_ambiguous(const Scene& scene) {
   const LightFrame frame = frame_of(scene, 1024);
   const ReceiverImage receivers = picture_of(scene, 800, 450);

@@ -41,7 +41,7 @@ double signed_volume(const Scene& scene, const Part& part) {
   return sum;
 }
 
-// Every edge of a closed part is run through once each way.
+// In a closed part every edge is used once in each direction.
 bool closed(const Scene& scene, const Part& part) {
   using Key = std::tuple<float, float, float>;
   const auto key = [](glm::vec3 p) { return Key(p.x, p.y, p.z); };
@@ -60,7 +60,7 @@ TEST(BuiltinScenes, AreFiniteAndInRange) {
   for (const Scene& scene : all_scenes()) {
     EXPECT_FALSE(scene.triangles.empty()) << scene.name;
     for (const glm::vec3& p : scene.positions) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << scene.name;
-    uint32_t next = 0;  // parts follow on one another and leave no triangle out
+    uint32_t next = 0;  // parts follow one another and leave no triangle out
     for (const Part& part : scene.parts) {
       EXPECT_EQ(part.first_triangle, next) << scene.name << ' ' << part.name;
       EXPECT_GT(part.triangle_count, 0u);
@@ -107,8 +107,8 @@ TEST(BuiltinScenes, OpenSurfacesFaceTheLight) {
   }
 }
 
-// Some point of every scene but the far ones is in the picture, before nothing is clipped, and the picture's middle is
-// on it.
+// Some triangles of every scene are in the picture. All parts but one are in it, except in `pillars`. The middle of the
+// picture shows a surface between near and far.
 TEST(BuiltinScenes, TheCameraSeesThem) {
   for (const Scene& scene : all_scenes()) {
     const Camera camera = effective_camera(scene, {});
@@ -221,12 +221,12 @@ TEST(BuiltinScenes, CubeRoomIsTheTutorialsScene) {
   EXPECT_FALSE(part_inside(room, f, room.parts[0], false));  // the map is smaller than the floor
 }
 
-// What light.kind may make of every scene, at the scene's own light position: what is in the picture's middle is in the
-// map, and something is lit.
+// Every scene under every kind of light that light.kind can set, at the scene's own light position. The middle of the
+// picture is in the map, and something is lit.
 TEST(BuiltinScenes, EveryKindOfLightHasSomethingToDoInEveryScene) {
   for (const Scene& scene : all_scenes()) {
     for (const LightChoice kind : {LightChoice::directional, LightChoice::spot, LightChoice::point}) {
-      if (scene.name == "point-room" && kind != LightChoice::point) continue;  // closed: nothing lights it from outside
+      if (scene.name == "point-room" && kind != LightChoice::point) continue;  // closed: no outside light enters
       Settings settings;
       settings.light.kind = kind;
       const LightFrame f = make_light_frame(scene, settings);
@@ -243,8 +243,8 @@ TEST(BuiltinScenes, EveryKindOfLightHasSomethingToDoInEveryScene) {
       }
       EXPECT_GT(facing, 0u) << what;
       if (f.parallel()) continue;
-      EXPECT_GT(nearest, 0.5) << what << ": the light is in the way";
-      EXPECT_GT(f.near_m, f.far_m / 200) << what << ": depth is spent before the scene";
+      EXPECT_GT(nearest, 0.5) << what << ": the light is too near to a surface";
+      EXPECT_GT(f.near_m, f.far_m / 200) << what << ": near is too small, so most depths lie before the scene";
     }
   }
 }
@@ -264,7 +264,7 @@ TEST(BuiltinScenes, TheSpotRoomsTexelsAndDepthStepsGrowWithDistance) {
       }
   }
   EXPECT_GT(f.texel_m({0, 0, far_z}) / f.texel_m({0, 0, near_z}), 3);
-  // One step of window depth in metres, as a bias in depth is: with the square of the distance.
+  // One step of window depth, in metres, grows with the square of the distance. So does a bias in the unit depth.
   EXPECT_GT(f.window_depth_slope(near_z) / f.window_depth_slope(far_z), 9);
 }
 
@@ -328,7 +328,7 @@ TEST(BuiltinScenes, WallAndPlateHaveTheThicknessTheySay) {
   EXPECT_FLOAT_EQ(static_cast<float>(top), 0.75f);
 }
 
-// Seen by a light straight above (its u to the right along x, its v along -z), the edge that faces +x at first faces
+// Seen from a light straight above (u to the right along x, v along -z), the edge that faces +x at phi = 0 faces the
 // azimuth phi.
 TEST(BuiltinScenes, PhiTurnsThePlate) {
   const Scene still = make_scene({.name = "plate", .thickness_m = 0.02});

@@ -17,7 +17,7 @@
 namespace noonmark {
 namespace {
 
-// Depths along the view of all that the ray meets, in order.
+// The depths, along the view, of all triangles that the ray meets, sorted.
 std::vector<double> depths_met(const Scene& scene, const Ray& ray) {
   std::vector<double> depths;
   for (const glm::uvec3& t : scene.triangles) {
@@ -39,7 +39,7 @@ int kind_of_error(const Scene& scene, const ViewSettings& view) {
   return kind_thrown([&] { effective_camera(scene, view); });
 }
 
-// Small, long and thin, near and far: some cross the eye's plane, some stand behind it, some are all around.
+// Random triangles, small and large, near and far. Some cross the eye's plane, some lie behind it.
 Scene soup(std::mt19937& random, int triangles) {
   std::uniform_real_distribution<float> place(-5, 5), size(-2, 2);
   Scene scene;
@@ -63,7 +63,7 @@ TEST(CameraFit, CutsOffNothingWhereverTheEyeStands) {
     ViewSettings view;
     view.width_px = 8 + round % 9;
     view.height_px = 6;
-    const double reach = round % 3 == 0 ? 4 : round % 3 == 1 ? 15 : 500;  // inside, beside, far away
+    const double reach = round % 3 == 0 ? 4 : round % 3 == 1 ? 15 : 500;  // inside the scene, next to it, far away
     view.eye_m = reach * glm::dvec3(in(random), in(random), in(random));
     view.target_m = 5.0 * glm::dvec3(in(random), in(random), in(random));
     view.fov_deg = 60 + 50 * in(random);
@@ -86,7 +86,7 @@ TEST(CameraFit, CutsOffNothingWhereverTheEyeStands) {
   EXPECT_LT(nearer_than_the_least, met / 1000);
 }
 
-// What lies beside the picture or behind the eye takes nothing from the depth buffer.
+// Surfaces outside the picture or behind the eye must not widen the range of depths.
 TEST(CameraFit, HoldsNoMoreThanWhatIsInView) {
   Scene scene;
   add_quad(scene, "wall", {-50, -50, -10}, {100, 0, 0}, {0, 100, 0});
@@ -123,17 +123,17 @@ TEST(CameraFit, GivenPlanesStayAndTheOtherYields) {
   EXPECT_EQ(planes(1, 2), (std::pair(1.0, 2.0)));
   EXPECT_EQ(planes(3, {}).first, 3);
   EXPECT_NEAR(planes(3, {}).second, 10, 0.02);
-  EXPECT_EQ(planes(30, {}), (std::pair(30.0, 60.0))) << "before all of the scene";
-  EXPECT_EQ(planes({}, 4), (std::pair(2.0, 4.0))) << "behind all of it";
+  EXPECT_EQ(planes(30, {}), (std::pair(30.0, 60.0))) << "the whole scene lies before near";
+  EXPECT_EQ(planes({}, 4), (std::pair(2.0, 4.0))) << "the whole scene lies beyond far";
   EXPECT_NEAR(planes({}, 40).first, 10, 0.02);
   scene.camera.near_m = 1;
   scene.camera.far_m = 20;
   EXPECT_EQ(planes({}, 5), (std::pair(1.0, 5.0)));
   ViewSettings crossed;
   crossed.near_m = 20;
-  EXPECT_EQ(kind_of_error(scene, crossed), 2) << "the scene's far is not behind it";
+  EXPECT_EQ(kind_of_error(scene, crossed), 2) << "the scene's far is not beyond the given near";
   crossed.fit_depths = true;
-  EXPECT_EQ(*effective_camera(scene, crossed).far_m, 40) << "it yields, as where there is none";
+  EXPECT_EQ(*effective_camera(scene, crossed).far_m, 40) << "the scene's far is replaced, as if the scene had none";
   ViewSettings fitted;
   fitted.fit_depths = true;
   EXPECT_NEAR(*effective_camera(scene, fitted).near_m, 10, 0.02);
@@ -175,17 +175,17 @@ TEST(CameraFit, UpTurnsThePicture) {
   view.up = {0, -3, 0};
   EXPECT_EQ(kind_of_error(scene, view), 2) << "parallel to the view";
   view.up = {1e-9, -3, 0};
-  EXPECT_EQ(kind_of_error(scene, view), 2) << "all but parallel";
+  EXPECT_EQ(kind_of_error(scene, view), 2) << "almost parallel to the view";
   view.up.reset();
-  EXPECT_EQ(kind_of_error(scene, view), 0) << "the scene's own gives way";
+  EXPECT_EQ(kind_of_error(scene, view), 0) << "the scene's own up may be replaced";
 }
 
-// Facing by the triangle's plane and the eye, and the bit of each triangle.
+// The bit of each triangle, against facing computed from the triangle's plane and the eye.
 TEST(UnseenBacks, AreTheBacksOfSingleSidedTrianglesAlone) {
   std::mt19937 random(5);
   Scene scene = soup(random, 100);
   scene.camera = {.eye_m = {1, 2, 9}, .target_m = {0, 0, 0}};
-  EXPECT_TRUE(unseen_backs(scene, scene.camera).empty()) << "both sides of all";
+  EXPECT_TRUE(unseen_backs(scene, scene.camera).empty()) << "both sides of all triangles are seen";
   scene.single_sided.assign(100, false);
   EXPECT_TRUE(unseen_backs(scene, scene.camera).empty());
   for (size_t i = 0; i < 100; i += 3) scene.single_sided[i] = true;

@@ -74,7 +74,7 @@ TEST(CameraFrame, DegenerateCamerasAreUsageErrors) {
   EXPECT_EQ(kind_of_error(camera), 2);
 }
 
-// An up vector along the view must give some picture or an error, never axes that are not numbers.
+// If the up vector lies along the view, the result is a picture or an error, never axes that are NaN.
 TEST(CameraFrame, UpAlongTheViewHasFiniteAxesOrAnError) {
   for (const glm::dvec3 way : {glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0)}) {
     for (const glm::dvec3 up : {way, -way, glm::dvec3(0), 3.0 * way}) {
@@ -93,7 +93,7 @@ TEST(CameraFrame, UpAlongTheViewHasFiniteAxesOrAnError) {
   }
 }
 
-// Distance from p to the triangle, by brute force over its barycentric coordinates' bounds.
+// How far p lies outside the triangle: the largest of its distances from the plane and beyond the three edges.
 double outside_by(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
   const glm::dvec3 n = glm::cross(b - a, c - a);
   const double area2 = glm::dot(n, n);
@@ -115,8 +115,8 @@ TEST(Receivers, LieOnTheirTriangleInTheRayWithTheNormalTowardsTheViewer) {
       scene.triangles = {{0, 1, 2}};
       const Camera camera = some_camera(projection);
       const int size = 24;
-      // As if the rasteriser had drawn it everywhere: most pixels' centres are beyond the triangle, as snapping puts
-      // some.
+      // The image says that the rasteriser drew the triangle at every pixel. So most pixel centres lie outside the
+      // triangle; in a real picture the snapping of vertices does this to some.
       const ReceiverImage image = resolve_receivers(scene, camera, Image<uint32_t>(size, size, 0));
       const CameraFrame frame = make_camera_frame(camera, size, size);
       const glm::dvec3 a = scene.positions[0], b = scene.positions[1], c = scene.positions[2];
@@ -163,7 +163,7 @@ TEST(Receivers, BackgroundStaysBackgroundAndSliversBecomeIt) {
   EXPECT_EQ(image.normal[1], glm::vec3(0, 0, 1));
 }
 
-// A triangle seen along its plane, and one that the rays miss by nearly a right angle.
+// Triangles that are seen along their plane, or whose tilt against the rays is tiny.
 TEST(Receivers, EdgeOnTrianglesGiveFinitePointsOnThem) {
   for (float tilt : {0.0f, 1e-30f, 1e-38f, -1e-20f}) {
     Scene scene;

@@ -1,4 +1,4 @@
-// Files in and out: what is left behind, what is let in.
+// Reading and writing files: which files may be read, and which temporary files are removed.
 #include "scenes/file.h"
 
 #include <fcntl.h>
@@ -28,7 +28,7 @@ class File : public testing::Test {
     }
     return "";
   }
-  // The number of a process that was and is no more.
+  // The number of a process that has ended.
   static pid_t dead_process() {
     const pid_t child = fork();
     if (child == 0) _exit(0);
@@ -60,7 +60,7 @@ TEST_F(File, ReadsBelowAFolderAndNowhereElse) {
 
 TEST_F(File, ReadsRegularFilesOnly) {
   make_folder(folder.file("home"));
-  ASSERT_EQ(mkfifo(folder.file("home/fifo.png").c_str(), 0600), 0);  // would wait for a writer for ever
+  ASSERT_EQ(mkfifo(folder.file("home/fifo.png").c_str(), 0600), 0);  // reading it would wait for a writer for ever
   EXPECT_NE(refusal("fifo.png").find("is not a regular file"), std::string::npos);
   EXPECT_NE(refusal(".").find("is not a regular file"), std::string::npos);
   write_file_atomically(folder.file("home/large.png"), std::string(101, 'x'));
@@ -70,7 +70,8 @@ TEST_F(File, ReadsRegularFilesOnly) {
 }
 
 TEST_F(File, ClearsWhatKilledProgramsLeftAndNothingElse) {
-  // Numbers say nothing: that of an ended process is given again, and a container has its own.
+  // The process number does not tell whether the program still runs: numbers of ended processes are used again, and a
+  // container counts separately.
   const std::string dead = std::to_string(dead_process()), alive = std::to_string(getpid());
   make_folder(folder.file("sub"));
   const std::string abandoned[] = {"results.csv.noonmark-" + dead + "-0.tmp",
@@ -86,7 +87,7 @@ TEST_F(File, ClearsWhatKilledProgramsLeftAndNothingElse) {
                               "sub/results.csv.noonmark-" + dead + "-0.tmp"};
   for (const std::string& name : abandoned) write_file_atomically(folder.file(name), "part");
   for (const std::string& name : kept) write_file_atomically(folder.file(name), "kept");
-  // Held by a program that this one cannot see by its number, as in another container.
+  // Locked by a program whose process number this program cannot see, as in another container.
   const std::string held = "held.png.noonmark-" + dead + "-0.tmp";
   write_file_atomically(folder.file(held), "held");
   const int descriptor = open(folder.file(held).c_str(), O_RDONLY | O_CLOEXEC);
@@ -107,7 +108,7 @@ TEST_F(File, ClearsWhatKilledProgramsLeftAndNothingElse) {
   clear_abandoned_files(folder.file("absent"));
 }
 
-// The real thing: killed while it writes, and then a zombie.
+// A real case: a process that is killed while it writes, and is then a zombie.
 TEST_F(File, ClearsWhatAKilledWriteLeft) {
   const auto temporaries = [&] {
     int count = 0;
@@ -121,7 +122,7 @@ TEST_F(File, ClearsWhatAKilledWriteLeft) {
     const std::string large(1 << 24, 'x');
     for (;;) write_file_atomically(folder.file("large"), large);
   }
-  // Each event is a file that was begun; stopped at once, the child is somewhere in it.
+  // Each event is a file that the child created. The child is stopped at once, so it is in the middle of a write.
   char event[4096];
   for (int left = 0; left == 0;) {
     ASSERT_GT(read(begun, event, sizeof event), 0);
@@ -134,13 +135,13 @@ TEST_F(File, ClearsWhatAKilledWriteLeft) {
   kill(child, SIGKILL);
   siginfo_t ended{};
   ASSERT_EQ(waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT), 0);
-  ASSERT_EQ(kill(child, 0), 0) << "its number is still there";
+  ASSERT_EQ(kill(child, 0), 0) << "the process number of the zombie still exists";
   clear_abandoned_files(folder.path().string());
   EXPECT_EQ(temporaries(), 0);
   waitpid(child, nullptr, 0);
 }
 
-// At no moment of a write may another program's clearing take the file away.
+// While one program writes a file, another program that clears files must never remove it.
 TEST_F(File, ClearsNothingOfTheLiving) {
   const pid_t child = fork();
   if (child == 0) {

@@ -1,4 +1,4 @@
-// What rays meet first, against every triangle asked at every ray; and how often that asks.
+// The first hits of rays, against a test of every triangle at every ray; and how many of these tests first_hits needs.
 #include "scenes/first_hits.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace noonmark {
 namespace {
 
-FirstHits by_asking_all(const Scene& scene, const CameraFrame& frame, int rays, Backs backs) {
+FirstHits hits_by_brute_force(const Scene& scene, const CameraFrame& frame, int rays, Backs backs) {
   FirstHits hits{Image<float>(rays, rays, FirstHits::nothing), Image<uint8_t>(rays, rays), Image<uint8_t>(rays, rays)};
   const bool perspective = frame.camera.projection == Projection::perspective;
   for (size_t i = 0; i < scene.triangles.size(); ++i) {
@@ -39,7 +39,7 @@ FirstHits by_asking_all(const Scene& scene, const CameraFrame& frame, int rays, 
   return hits;
 }
 
-// Small and large, slivers among them; around the eye, so that some cross its plane.
+// Random triangles, small and large, with slivers among them. They lie around the eye, so that some cross its plane.
 Scene soup(std::mt19937& random, int triangles) {
   std::uniform_real_distribution<float> place(-5, 5), size(-2, 2);
   Scene scene;
@@ -74,7 +74,7 @@ TEST(FirstHits, AreThoseOfEveryTriangleAskedAtEveryRay) {
     const CameraFrame frame =
         square_frame(round % 3 == 0 ? Projection::orthographic : Projection::perspective, eye, {0, 0, 0});
     const int rays = 5 + round % 30;
-    const FirstHits hits = first_hits(scene, frame, rays, backs), all = by_asking_all(scene, frame, rays, backs);
+    const FirstHits hits = first_hits(scene, frame, rays, backs), all = hits_by_brute_force(scene, frame, rays, backs);
     for (size_t i = 0; i < hits.depth.size(); ++i) {
       if (all.depth[i] == FirstHits::nothing) {
         ASSERT_EQ(hits.depth[i], FirstHits::nothing) << "round " << round;
@@ -119,7 +119,8 @@ TEST(FirstHits, AskFewOfManyHiddenTriangles) {
                          rays, Backs::seen)
                   .asked);
         };
-        // Twice the rays for the first copy; of the others a few rays each, where their edges lie.
+        // The 12 triangles of the first copy may be tested at all rays. Each triangle of the other copies may be tested
+        // at 16 rays, where its edges lie.
         EXPECT_LT(asked(2000), 12.0 * rays * rays + 2000 * 12 * 16)
             << from.x << ", apart " << apart.x << ", " << apart.z;
       }
@@ -127,7 +128,8 @@ TEST(FirstHits, AskFewOfManyHiddenTriangles) {
   }
 }
 
-// A fan of slivers covers the picture once, however many there are; each also crosses rows of it.
+// A fan of slivers covers the picture once, however many slivers there are. So a sliver may be tested only at the rays
+// along its length.
 TEST(FirstHits, AskSliversAlongTheirLengthOnly) {
   Scene fan;
   constexpr int slivers = 5000, rays = 64;

@@ -52,7 +52,7 @@ Scene furnished_room() {
   return scene;
 }
 
-// Without the wall at z = 3.
+// The room without the wall at z = 3.
 Scene open_room() {
   Scene scene = room();
   std::erase_if(scene.triangles, [&](const glm::uvec3& t) {
@@ -69,7 +69,7 @@ TEST(Interior, TheCameraOfAClosedRoomStandsInsideAndSeesItsContents) {
   for (Sides sides : {Sides::both, Sides::front}) {
     const Camera camera = fit_camera(with_sides(furnished_room(), sides));
     EXPECT_TRUE(within(camera.eye_m, {-4, -2, -3}, {4, 2, 3}));
-    EXPECT_FALSE(within(camera.eye_m, {-3.5, -2, 0}, {-3, 1, 2})) << "in the shelf";
+    EXPECT_FALSE(within(camera.eye_m, {-3.5, -2, 0}, {-3, 1, 2})) << "the camera is in the shelf";
     const glm::dvec3 view = glm::normalize(camera.target_m - camera.eye_m);
     const glm::dvec3 to_table = glm::normalize(glm::dvec3(0, -1, 0) - camera.eye_m);
     EXPECT_GT(glm::dot(view, to_table), std::cos(glm::radians(camera.fov_y_deg / 2)));
@@ -83,7 +83,7 @@ TEST(Interior, ThickWallsADomeAndACrateAreRoomsToo) {
 
   Scene crate;
   add_box(crate, "crate", {-4, -2, -3}, {4, 2, 3});
-  EXPECT_FALSE(camera_inside(crate)) << "empty: a solid";
+  EXPECT_FALSE(camera_inside(crate)) << "an empty box is a solid";
   add_furniture(crate);
   EXPECT_TRUE(camera_inside(crate));
 
@@ -95,13 +95,13 @@ TEST(Interior, ThickWallsADomeAndACrateAreRoomsToo) {
   ASSERT_TRUE(in_dome);
   EXPECT_LT(glm::length(in_dome->eye_m), 5);
 
-  Scene turned;  // along no axis, so that the box around it is larger than the room
+  Scene turned;  // along no axis, so its bounding box is larger than the room
   add_box(turned, "hull", glm::dvec3(4, 2, 3), glm::rotate(glm::dmat4(1), 0.5, glm::normalize(glm::dvec3(1, 3, 0.5))));
   turn_inside_out(turned);
   EXPECT_TRUE(camera_inside(with_sides(turned, Sides::front))) << "single-sided walls need no furniture";
 }
 
-// One wall of 8 x 4 m, with a window of so much of its width and height.
+// A room whose wall of 8 x 4 m has a window. `share` is the window's share of the wall's width and of its height.
 Scene room_with_window(double share) {
   Scene scene = open_room();
   const double x = 4 * share, y = 2 * share;
@@ -150,7 +150,7 @@ TEST(Interior, OrdinaryScenesAreSeenFromOutside) {
   }
   for (const auto& [name, scene] : scenes) {
     for (Sides sides : {Sides::both, Sides::front}) {
-      if (sides == Sides::front && std::string_view(name).starts_with("solid turned")) continue;  // a room, as it says
+      if (sides == Sides::front && std::string_view(name).starts_with("solid turned")) continue;  // this is a room
       EXPECT_FALSE(camera_inside(with_sides(scene, sides))) << name;
     }
   }
@@ -158,7 +158,7 @@ TEST(Interior, OrdinaryScenesAreSeenFromOutside) {
     EXPECT_EQ(camera_inside(builtin.make({})).has_value(), builtin.name == "point-room") << builtin.name;
 }
 
-// The rule asks for shares, so it must not depend on where the scene is, or how large.
+// The rule uses shares, so the result must not depend on the place or the size of the scene.
 TEST(Interior, ScaleAndPlaceDoNotMatter) {
   for (const auto& [scale, place] :
        {std::pair(1e-3, glm::dvec3(0)), {1e3, glm::dvec3(0)}, {1.0, glm::dvec3(900, -50, 300)}}) {

@@ -1,4 +1,4 @@
-// The same surface in other triangles: same area, same volume, same points, and what was joined stays joined.
+// The same surface in other triangles has the same area, volume and points, and joined triangles stay joined.
 #include "scenes/remesh.h"
 
 #include <gtest/gtest.h>
@@ -26,8 +26,7 @@ std::set<Key> points(const Scene& scene) {
   return all;
 }
 
-// Twice the vector area of each part: of open surfaces the direction and size, of closed ones 0; and six times the
-// volume under it.
+// Twice the vector area of the part (0 for a closed surface), and six times the volume under it.
 std::pair<glm::dvec3, double> measure(const Scene& scene, const Part& part) {
   glm::dvec3 area(0);
   double volume = 0;
@@ -39,7 +38,7 @@ std::pair<glm::dvec3, double> measure(const Scene& scene, const Part& part) {
   return {area, volume};
 }
 
-// How often each directed edge is run through, by the positions of its ends.
+// How often each directed edge is used. An edge is identified by the positions of its ends.
 std::map<std::pair<Key, Key>, int> edges(const Scene& scene) {
   std::map<std::pair<Key, Key>, int> runs;
   for (size_t t = 0; t < scene.triangles.size(); ++t)
@@ -60,7 +59,7 @@ class Remesh : public testing::TestWithParam<std::string> {
   const Scene built = made(MeshForm::as_built);
 };
 
-// A metre-sized scene's coordinates are rounded by 2^-24 of up to 80 m; areas of up to 160 x 160 m2 move with them.
+// Coordinates of up to 80 m are rounded by 2^-24 of that. Areas of up to 160 x 160 m2 change with them.
 constexpr double rounding = 1e-6;
 void expect_same_measure(const Scene& a, const Part& in_a, const Scene& b, const Part& in_b) {
   const auto [area_a, volume_a] = measure(a, in_a);
@@ -151,18 +150,18 @@ TEST(RemeshSides, EachTriangleKeepsItsOwn) {
     EXPECT_TRUE(remeshed(two, form).single_sided.empty());
 }
 
-// What memory is asked about before anything is made.
+// The size that is checked against the memory before anything is made.
 TEST_P(Remesh, IsAsLargeAsToldBefore) {
   for (MeshForm form : {MeshForm::as_built, MeshForm::one_mesh, MeshForm::split, MeshForm::reversed, MeshForm::doubled,
                         MeshForm::tiles, MeshForm::t_junctions}) {
     SCOPED_TRACE(static_cast<int>(form));
-    const SceneSize told = remeshed_size(built, form), found = scene_size(made(form));
-    EXPECT_EQ(told.triangles, found.triangles);
-    EXPECT_EQ(told.part_bytes, found.part_bytes);
-    if (form == MeshForm::one_mesh || form == MeshForm::split)  // which vertices are one, nobody counts before
-      EXPECT_GE(told.vertices, found.vertices);
+    const SceneSize predicted = remeshed_size(built, form), found = scene_size(made(form));
+    EXPECT_EQ(predicted.triangles, found.triangles);
+    EXPECT_EQ(predicted.part_bytes, found.part_bytes);
+    if (form == MeshForm::one_mesh || form == MeshForm::split)  // equal vertices are not counted before: an upper bound
+      EXPECT_GE(predicted.vertices, found.vertices);
     else
-      EXPECT_EQ(told.vertices, found.vertices);
+      EXPECT_EQ(predicted.vertices, found.vertices);
   }
   EXPECT_EQ(remeshed_size(built, MeshForm::tiles).triangles, 64 * built.triangles.size());
 }

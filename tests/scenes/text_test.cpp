@@ -1,4 +1,4 @@
-// Text of unknown origin, medium by medium.
+// Text of unknown origin, as it is written to each medium.
 #include "scenes/text.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace noonmark {
 namespace {
 
-// Everything that is one byte, and the edges of what UTF-8 can say and of what acts on a terminal.
+// All single bytes, the limits of UTF-8, and text that acts on a terminal or that is markup.
 std::vector<std::string> samples() {
   std::vector<std::string> all;
   for (int byte = 0; byte < 256; ++byte) all.push_back(std::string(1, static_cast<char>(byte)));
@@ -55,7 +55,7 @@ std::vector<std::string> samples() {
   return all;
 }
 
-// By the definition of UTF-8, from the code point: independent of the tables in utf8_length.
+// UTF-8 by its definition, from the code point, without the tables in utf8_length.
 std::string encoded(uint32_t c) {
   if (c < 0x80) return {static_cast<char>(c)};
   if (c < 0x800) return {static_cast<char>(0xc0 | c >> 6), static_cast<char>(0x80 | (c & 63))};
@@ -78,7 +78,7 @@ TEST(Text, KnowsEveryCharacterOfUnicodeAndNothingElse) {
     ASSERT_EQ(is_control(text), control) << c;
   }
   EXPECT_EQ(utf8_length(""), 0u);
-  EXPECT_EQ(utf8_length("\xc0\xaf"), 0u) << "a longer form of '/'";
+  EXPECT_EQ(utf8_length("\xc0\xaf"), 0u) << "an overlong encoding of '/'";
 }
 
 TEST(Text, PrintsNoControlCharacter) {
@@ -99,7 +99,7 @@ TEST(Text, PrintsNoControlCharacter) {
   EXPECT_EQ(printable("a\tb\n\r", Lines::many), "a\tb\n\\x0d");
 }
 
-// A cell must come back as it was but for the apostrophe, and must not begin as a formula does.
+// A cell must read back as the text, or as the text after an apostrophe. It must not begin as a formula does.
 TEST(Text, CsvHasNoFormulas) {
   for (const std::string& text : samples()) {
     std::string cell = csv_text(text);
@@ -121,7 +121,7 @@ TEST(Text, CsvHasNoFormulas) {
   for (const char* number : {"-5", "-0.25", "-inf", "-1e-07"})
     EXPECT_EQ(csv_text(number).find('\''), std::string::npos) << number;
   EXPECT_EQ(csv_text("-4,a"), "\"'-4,a\"");
-  EXPECT_EQ(csv_text("-4,3,1"), "\"'-4,3,1\"") << "a place is text";
+  EXPECT_EQ(csv_text("-4,3,1"), "\"'-4,3,1\"") << "a position in space is text, not a number";
 }
 
 TEST(Text, MarkdownTakesNothingForMarkup) {

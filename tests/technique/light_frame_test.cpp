@@ -14,7 +14,7 @@
 namespace noonmark {
 namespace {
 
-// Frames some metres across, in double: a thousand roundings of 2^-53.
+// The tolerance for frames some metres wide, in double: about a thousand roundings of 2^-53.
 constexpr double rounding_m = 1e-12;
 
 double random_in(std::mt19937& random, double low, double high) {
@@ -53,7 +53,7 @@ TEST(LightFrame, AxesAreOrthonormalAndTurnedAsLookAtTurnsThem) {
     EXPECT_NEAR(glm::length(glm::cross(f.right, f.up) + f.forward), 0, rounding_m);
     EXPECT_NEAR(f.right.y, 0, rounding_m);
     EXPECT_GT(f.up.y, 0);
-    // The frame follows the float vector that rays have, which is within its rounding of the light's direction.
+    // The frame uses the float vector of the rays, which equals the light's direction up to rounding.
     EXPECT_LT(glm::length(f.forward - glm::normalize(to - from)), 2 * 0x1p-24);
     EXPECT_LT(glm::length(f.forward - glm::normalize(glm::dvec3(f.ray_direction))), 1e-15);
   }
@@ -97,7 +97,7 @@ TEST(LightFrame, TexelCentresAreWhereTheSamplerPutsThem) {
     for (const glm::ivec2 texel :
          {glm::ivec2(0, 0), glm::ivec2(resolution - 1, 0), glm::ivec2(-3, 5), glm::ivec2(4000, -1)}) {
       const glm::dvec2 c = f.texel_centre(texel);
-      // uv of the centre, as the matrix has it, times the resolution: half past the texel's index.
+      // The uv of the centre by the matrix, times the resolution, is the texel's index plus 1/2.
       const glm::dvec4 clip = f.clip_from_world() * glm::dvec4(f.to_world({c.x, c.y, 3}), 1);
       EXPECT_NEAR((clip.x / 2 + 0.5) * resolution, texel.x + 0.5, 1e-9);
       EXPECT_NEAR((clip.y / 2 + 0.5) * resolution, texel.y + 0.5, 1e-9);
@@ -130,8 +130,8 @@ TEST(LightFrame, SettingsChangeTheVolume) {
   EXPECT_EQ(f.resolution, 17);
 }
 
-// A place keeps its light-plane distance to every place, and moves against the grid by exactly the shift: in metres, in
-// the matrix, in the texels' centres.
+// The grid moves by exactly the shift against every place: in metres, in the matrix and in the centres of the texels.
+// Depths and the width of a texel do not change.
 TEST(LightFrame, TheShiftMovesTheGridAndNothingElse) {
   std::mt19937 random(3);
   for (int i = 0; i < 200; ++i) {
@@ -157,7 +157,7 @@ TEST(LightFrame, TheShiftMovesTheGridAndNothingElse) {
     EXPECT_NEAR(clip.x, after.x / (moved.extent_m / 2), rounding_m);
     EXPECT_NEAR(clip.y, after.y / (moved.extent_m / 2), rounding_m);
     EXPECT_NEAR(clip.z / 2 + 0.5, moved.window_depth(before.z), rounding_m);
-    // The world place of a texel's centre, and back through the matrix into the middle of that texel.
+    // From a texel's centre to its place in the world, and back through the matrix to the middle of that texel.
     const glm::ivec2 texel(random() % 3000, random() % 3000);
     const glm::dvec2 c = moved.texel_centre(texel);
     const glm::dvec3 world = moved.to_world({c.x, c.y, 3});
@@ -199,7 +199,7 @@ TEST(LightFrame, FittedVolumeHoldsEveryVertexInTheFloatMatrixToo) {
       EXPECT_LE(reach.x, 1) << builtin.name;
       EXPECT_LE(reach.y, 1) << builtin.name;
       EXPECT_LE(reach.z, 1) << builtin.name;
-      // Tight: within the margin of 2^-10 of the size (and its rounding) something touches the sides.
+      // The fit is tight: the scene touches the sides within the margin of 2^-10 of the size (and its rounding).
       EXPECT_GT(std::max(reach.x, reach.y), 1 - 0x1p-9) << builtin.name;
       EXPECT_GT(reach.z, 1 - 0x1p-8) << builtin.name;
     }

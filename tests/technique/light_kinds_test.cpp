@@ -1,5 +1,5 @@
 // LightFrame of spot and point lights: places against matrices, texels and depths, and the volumes fitted around
-// scenes; and the grid that map.snap keeps still.
+// scenes. Also the grid, which map.snap holds still in the world.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace noonmark {
 namespace {
 
-// Frames some metres across, in double: a thousand roundings of 2^-53.
+// The tolerance for frames some metres wide, in double: about a thousand roundings of 2^-53.
 constexpr double rounding = 1e-12;
 
 double random_in(std::mt19937& random, double low, double high) {
@@ -43,7 +43,7 @@ LightFrame random_frame(std::mt19937& random, LightKind kind) {
   return make_light_frame(scene, settings);
 }
 
-// A point some way before a spot light, anywhere around a point light.
+// A random point in front of a spot light, or anywhere around a point light.
 glm::dvec3 lit_point(std::mt19937& random, const LightFrame& f) {
   if (f.kind == LightKind::point) return f.to_world(random_point(random, 5));
   const double z = random_in(random, 0.2, 10), side = 2 * z * f.tan_half_fov;
@@ -53,7 +53,7 @@ glm::dvec3 lit_point(std::mt19937& random, const LightFrame& f) {
 class Kinds : public testing::TestWithParam<LightKind> {};
 INSTANTIATE_TEST_SUITE_P(Central, Kinds, testing::Values(LightKind::spot, LightKind::point));
 
-// A tile's texels are its own: the place of each centre lies in the tile that the texel belongs to, and at that texel.
+// The place of each texel's centre lies in the tile to which the texel belongs, and at that texel.
 TEST(Tiles, CoverTheMapAndKnowTheirTexels) {
   std::mt19937 random(7);
   for (const KindOfLight* kind : kinds_of_light()) {
@@ -83,11 +83,12 @@ TEST_P(Kinds, MatrixAgreesWithPlacesAndDepths) {
     const glm::dvec2 texels = f.map_texels(f.place(light));
     const int face = f.kind == LightKind::point ? cube_face_of(light) : 0;
     const glm::dvec4 clip = f.clip_from_world(face) * glm::dvec4(world, 1);
-    // Where a point light's face looks, its depth runs along the face's axis; a spot light's is what the map holds.
+    // The matrix of a point light's face has the depth along the axis of the face. The matrix of a spot light has the
+    // depth that the map stores.
     const double along = f.kind == LightKind::point ? glm::dot(light, cube_face(face).forward) : light.z;
     EXPECT_NEAR(clip.w, along, rounding);
     EXPECT_NEAR((clip.z / clip.w + 1) / 2, f.far_m * (along - f.near_m) / (along * (f.far_m - f.near_m)),
-                1e-10);  // differences of numbers up to far / near larger
+                1e-10);  // differences of numbers that are larger by up to far / near
     if (f.kind == LightKind::spot) {
       EXPECT_NEAR((clip.z / clip.w + 1) / 2, f.window_depth(f.depth_m(light)), 1e-10);
     } else {
@@ -105,10 +106,10 @@ TEST_P(Kinds, PlacesOfTexelsAreInTheirMiddles) {
     const glm::ivec2 size = f.map_size();
     const glm::ivec2 texel(static_cast<int>(random() % size.x), static_cast<int>(random() % size.y));
     const glm::dvec3 place = f.texel_place(texel);
-    const glm::dvec2 at = f.map_texels(place * random_in(random, 0.1, 10));  // of any length
+    const glm::dvec2 at = f.map_texels(place * random_in(random, 0.1, 10));  // a place may have any length
     EXPECT_NEAR(at.x, texel.x + 0.5, 1e-9);
     EXPECT_NEAR(at.y, texel.y + 0.5, 1e-9);
-    // And a place is its texel's, wherever in it.
+    // A place is within half a texel of the centre of its texel, wherever in the texel it lies.
     const glm::dvec3 p = f.to_light(lit_point(random, f));
     const glm::dvec2 where = f.map_texels(f.place(p));
     const glm::dvec3 centre = f.texel_place(glm::ivec2(glm::floor(where)));
@@ -118,7 +119,8 @@ TEST_P(Kinds, PlacesOfTexelsAreInTheirMiddles) {
   }
 }
 
-// Its width is what two neighbouring texels' rays are apart where they meet the plane through P across the axis.
+// The width of a texel is the distance between the rays of two neighbouring texels where they meet the plane through P
+// that is perpendicular to the axis.
 TEST_P(Kinds, TexelsAreAsWideAsTheirRaysAreApart) {
   std::mt19937 random(3);
   for (int i = 0; i < 500; ++i) {
@@ -171,7 +173,7 @@ TEST_P(Kinds, DepthRunsFromNearToFarWithItsSlope) {
   }
 }
 
-// OpenGL 4.5 core, table 8.19 and equations 8.10 and 8.11, by the letter: major axis, s_c, t_c and m_a.
+// OpenGL 4.5 core, table 8.19 and equations 8.10 and 8.11, exactly as written: major axis, s_c, t_c and m_a.
 TEST(CubeFaces, AreOpenGLs) {
   std::mt19937 random(6);
   for (int i = 0; i < 10000; ++i) {
@@ -206,8 +208,8 @@ TEST(CubeFaces, AreOpenGLs) {
   for (int face = 0; face < 6; ++face) {
     const CubeFace& f = cube_face(face);
     EXPECT_EQ(cube_face_of(f.forward), face);
-    // Seen from inside, s runs right and t up: with the way ahead a left-handed triple, which is why cube maps look
-    // mirrored.
+    // Seen from inside, s runs to the right and t upwards. With the forward direction they form a left-handed triple,
+    // so cube maps look mirrored.
     EXPECT_EQ(glm::cross(f.right, f.up), -f.forward);
     EXPECT_EQ(glm::dot(f.right, f.up), 0);
     EXPECT_EQ(glm::dot(f.right, f.forward), 0);
@@ -228,12 +230,12 @@ TEST(SpotLight, ConeIsItsAngle) {
                 degrees < 20)
           << degrees;
   }
-  // The map's sides touch the cone where no angle is given.
+  // If no angle is given, the map's sides touch the cone.
   EXPECT_NEAR(f.map_texels({f.tan_half_fov, 0, 1}).x, f.resolution, 1e-9);
   EXPECT_NEAR(f.tan_half_fov, std::tan(20 * std::numbers::pi / 180), rounding);
 }
 
-// Moving the light, or what it points at by the same way, leaves every texel's centre on one grid of the world.
+// When the light and its target move together, every texel's centre stays on one fixed grid of the world.
 TEST(Snap, KeepsTheGridInTheWorld) {
   std::mt19937 random(7);
   int tested = 0;
@@ -250,20 +252,20 @@ TEST(Snap, KeepsTheGridInTheWorld) {
     scene.light.position_m += way;
     scene.light.target_m += way;
     const LightFrame moved = make_light_frame(scene, settings);
-    // A way of metres leaves the direction but for the float vector's last place; take it as it was.
+    // A move of some metres may change the last place of the float direction. Such cases are skipped.
     if (moved.ray_direction != still.ray_direction) continue;
     ++tested;
     const glm::dvec3 place = moved.texel_place({5, 9});
     const glm::dvec2 texels = still.map_texels(still.place(still.to_light(moved.to_world({place.x, place.y, 2}))));
     EXPECT_NEAR(texels.x - 0.5, std::round(texels.x - 0.5), 1e-8);
     EXPECT_NEAR(texels.y - 0.5, std::round(texels.y - 0.5), 1e-8);
-    // Less than a texel from where it would be.
+    // The grid is at most half a texel from its place without snapping.
     Settings unsnapped = settings;
     unsnapped.map.snap = false;
     const glm::dvec3 shift = moved.to_light(make_light_frame(scene, unsnapped).origin_m);
     EXPECT_LE(std::max(std::abs(shift.x), std::abs(shift.y)), moved.texel_m() / 2 + rounding);
     EXPECT_NEAR(shift.z, 0, rounding);
-    // Without it, it moves by any share of a texel.
+    // Without snapping the grid moves by any part of a texel.
     if (i > 0) continue;
     settings.map.snap = false;
     const glm::dvec3 loose = make_light_frame(scene, settings).texel_place({5, 9});
@@ -275,8 +277,8 @@ TEST(Snap, KeepsTheGridInTheWorld) {
   EXPECT_GT(tested, 250);
 }
 
-// Every point of every triangle that the light can reach lies between near and far, and in the map: sampled, with
-// corners and edges.
+// Every point of every triangle that the light can reach lies between near and far, and in the map. The points are
+// random samples, with corners and edges among them.
 TEST_P(Kinds, FittedVolumeHoldsAllThatIsInTheLight) {
   std::mt19937 random(8);
   for (const BuiltinScene& builtin : builtin_scenes()) {

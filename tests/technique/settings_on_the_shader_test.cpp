@@ -1,4 +1,4 @@
-// The two small headers that turn settings into what the shader computes with: biases and texel addresses.
+// The two small headers that turn settings into the numbers that the shader uses: biases and texel addresses.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ TEST(MapAddress, WrapsAsOpenGLSays) {
         ASSERT_EQ(wrapped({j, i}, {n, n}, Wrap::clamp_to_border), inside ? glm::ivec2(j, i) : glm::ivec2(-1));
       }
     }
-    // The farthest texels that a lookup names, and a kernel beyond.
+    // The farthest texels that a lookup can name, and a kernel's reach more.
     for (int far : {-(1 << 20) - 15, (1 << 20) + 15}) {
       const glm::ivec2 read = wrapped({far, far}, {n, n}, Wrap::repeat);
       ASSERT_TRUE(inside_map(read, {n, n}));
@@ -37,7 +37,7 @@ TEST(MapAddress, WrapsAsOpenGLSays) {
                 glm::ivec2(far < 0 ? 0 : n - 1, far < 0 ? n - 1 : 0));
     }
   }
-  // A map that is not square: each side by its own size.
+  // A map that is not square: each axis uses its own size.
   EXPECT_EQ(wrapped({7, 7}, {3, 18}, Wrap::repeat), glm::ivec2(1, 7));
   EXPECT_EQ(wrapped({7, 19}, {3, 18}, Wrap::clamp_to_edge), glm::ivec2(2, 17));
   EXPECT_TRUE(inside_map({2, 17}, {3, 18}));
@@ -91,11 +91,11 @@ TEST(Bias, OfANormalOffsetIsALengthAndNoDepth) {
   for (const BiasUnit unit : {BiasUnit::depth, BiasUnit::m, BiasUnit::texel}) {
     settings.unit = unit;
     const Bias bias(settings);
-    // 1.5 texels of 20 mm, whatever the unit of the others.
+    // 1.5 texels of 20 mm. The unit of the other parts does not matter.
     EXPECT_EQ(bias.moved_m(frame, {1, 2, 3}, {0, -1, 0}), glm::dvec3(0, -0.03, 0));
     EXPECT_LT(glm::length(bias.looked_up(frame, {1, 2, 3}, {0, -1, 0}) - glm::dvec3(1, 1.97, 3)), 1e-15);
   }
-  // Of a point light, of a texel at the receiver: 2 z / resolution with z along the face's axis.
+  // Under a point light the texel at the receiver counts. Its width is 2 z / resolution, with z along the face's axis.
   frame.kind = LightKind::point;
   EXPECT_DOUBLE_EQ(Bias(settings).moved_m(frame, {1, 2, -3}, {0, 0, 1}).z, 1.5 * 2 * 3 / 1000);
 }

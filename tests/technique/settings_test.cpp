@@ -1,4 +1,4 @@
-// The table of settings: one canonical text for each value, and nothing else accepted.
+// The table of settings: each value has one canonical text, and text that is no value is refused.
 #include "technique/settings.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ std::string text_after(const Setting& row, std::string_view given) {
 }
 std::string text_after(std::string_view name, std::string_view given) { return text_after(find_setting(name), given); }
 
-// The message of the Error that the text is refused with; fails when it is taken.
+// The message of the Error with which the text is refused. The test fails if the text is accepted.
 std::string refusal(const Setting& row, std::string_view given) {
   Settings settings;
   const std::string before = row.get(settings);
@@ -39,7 +39,7 @@ std::string refusal(const Setting& row, std::string_view given) {
     EXPECT_EQ(row.get(settings), before) << row.name << ": a refused text changed the value";
     return error.what();
   }
-  ADD_FAILURE() << row.name << " took '" << given << "' as " << row.get(settings);
+  ADD_FAILURE() << row.name << " accepted '" << given << "' as " << row.get(settings);
   return "";
 }
 std::string refusal(std::string_view name, std::string_view given) { return refusal(find_setting(name), given); }
@@ -47,7 +47,7 @@ std::string refusal(std::string_view name, std::string_view given) { return refu
 bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 TEST(SettingsTable, HasAWholeRowForEverySetting) {
-  // Numbers that count nothing and measure nothing.
+  // Numbers without a unit.
   const std::set<std::string_view> pure = {"scene.animation",     "map.extent_scale",   "truth.standard_error",
                                            "bias.polygon_factor", "bias.polygon_units", "view.up"};
   const std::set<std::string_view> units = {"s", "px", "m", "deg", "texels", "taps", "bias.unit"};
@@ -77,11 +77,11 @@ TEST(SettingsTable, HasAWholeRowForEverySetting) {
   }
 }
 
-// A member without a row could not be set, and would be in no key. The members of each struct, counted.
+// A member without a row could not be set, and no key would contain it. So the members of each struct are counted.
 TEST(SettingsTable, HasARowForEveryMember) {
   std::map<std::string, int> rows;
   for (const Setting& row : settings_table()) ++rows[std::string(row.name.substr(0, row.name.find('.')))];
-  // An aggregate binds to exactly as many names as it has members.
+  // A structured binding compiles only if it has as many names as the struct has members.
   const Settings s;
   [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10] = s.scene;
   [[maybe_unused]] const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9] = s.view;
@@ -112,7 +112,7 @@ TEST(SettingsTable, TakesItsOwnTextsBack) {
 
 TEST(SettingsTable, ChangesOneMemberEach) {
   for (const Setting& row : settings_table()) {
-    // A value of the row's that is not the default.
+    // A value in the row's range that is not the default.
     const std::string before = row.get(Settings{});
     std::string other = "1,2,3";
     if (row.type == ValueType::integer || row.type == ValueType::real)
@@ -139,7 +139,8 @@ TEST(SettingsTable, HoldsItsRangesToTheLastFloat) {
         return std::string(buffer);
       };
       for (double end : {row.min, row.max}) EXPECT_EQ(std::stod(text_after(row, text(end))), end) << row.name;
-      // Below 0 the next double is the smallest denormal, which no decimal parser is asked to take; a normal one then.
+      // The next double below 0 is the smallest denormal, which a decimal parser need not accept. So the test uses a
+      // normal number there.
       const double below = row.min == 0 ? -1e-300 : std::nextafter(row.min, -infinity);
       EXPECT_TRUE(contains(refusal(row, text(below)), row.range_with_unit())) << row.name;
       EXPECT_TRUE(contains(refusal(row, text(std::nextafter(row.max, infinity))), row.range_with_unit())) << row.name;
@@ -228,7 +229,7 @@ RC_GTEST_PROP(Settings, ReadTheirOwnNumbersBackBitForBit, ()) {
   RC_ASSERT(*back.map.near_m == value);
   RC_ASSERT(*back.light.position_m == *settings.light.position_m);
   RC_ASSERT(number.get(back) == number.get(settings));
-  // However it was written: 17 digits name a double.
+  // 17 digits identify a double, so such a long text gives the same canonical text.
   char long_text[64];
   std::snprintf(long_text, sizeof long_text, "%.17e", value);
   RC_ASSERT(text_after(number, long_text) == number.get(settings));
@@ -249,7 +250,7 @@ TEST(NearestName, FindsTypingErrorsAndNothingElse) {
   EXPECT_EQ(suggestion("map.resolutoin"), "map.resolution");
   EXPECT_EQ(suggestion("resolution"), "map.resolution");
   EXPECT_EQ(suggestion("constant"), "bias.constant");
-  EXPECT_EQ(suggestion("bias.const"), "bias.constant");  // though "bias.unit" is no more letters away
+  EXPECT_EQ(suggestion("bias.const"), "bias.constant");  // though "bias.unit" differs by no more letters
   EXPECT_EQ(suggestion("Map.Wrap"), "map.wrap");
   EXPECT_EQ(suggestion("map.near"), "map.near_m");
   EXPECT_EQ(suggestion("zzz"), "");
@@ -312,7 +313,7 @@ Settings with(std::initializer_list<std::pair<const char*, const char*>> values)
   return s;
 }
 
-// What a kind of light refuses, and that the message names the setting and what to do.
+// What each kind of light refuses. The message must name the setting.
 TEST(ValidateFor, RefusesWhatTheLightsMapCannotDo) {
   const auto refused = [](LightKind kind, const Settings& s, const std::string& name) {
     try {
@@ -339,7 +340,7 @@ TEST(ValidateFor, RefusesWhatTheLightsMapCannotDo) {
     }
     for (const char* plane : {"receiver_plane", "texel_plane"}) {
       EXPECT_EQ(refused(kind, with({{"bias.reference", plane}}), "bias.reference"), cube) << plane;
-      // One reference for four texels: no plane can be compared.
+      // These filters have one reference for four texels, so they cannot compare with a plane.
       for (const char* filter : {"hardware", "gaussian"})
         EXPECT_TRUE(refused(kind, with({{"bias.reference", plane}, {"filter.kind", filter}}), cube ? "" : "bias.ref"));
       EXPECT_EQ(refused(kind, with({{"bias.reference", plane}, {"filter.kind", "poisson"}}), ""), cube);
@@ -364,7 +365,7 @@ TEST(Settings, ThoseThatChangeNothingAreNamed) {
     return text;
   };
   for (LightKind light : {LightKind::directional, LightKind::spot, LightKind::point})
-    EXPECT_EQ(idle(light, {}), "") << "defaults are nobody's choice";
+    EXPECT_EQ(idle(light, {}), "") << "a default was not set by the user";
   EXPECT_EQ(idle(LightKind::directional, {{"light.radius_m", "0.5"}}), "light.radius_m on a directional light;");
   EXPECT_EQ(idle(LightKind::spot, {{"light.radius_m", "0.5"}, {"light.cone_deg", "30"}}), "");
   EXPECT_EQ(idle(LightKind::point, {{"map.wrap", "repeat"}}), "map.wrap on a point light;");
@@ -392,7 +393,7 @@ TEST(Settings, ThoseThatChangeNothingAreNamed) {
   EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"scene.animation", "1"}, {"scene.time_s", "2"}}), "");
 }
 
-// What a stage made is kept while its key stays the same (app/workbench.cpp).
+// The result of a stage is used again while its key stays the same (app/workbench.cpp).
 TEST(Settings, TheKeyOfAStageChangesWithWhatItReadsAndNothingElse) {
   const auto key = [](const Settings& s, Stage stage) { return settings_key(s, {stage}); };
   const std::pair<const char*, Stages> expected[] = {{"scene.theta_deg", {Stage::scene}},
@@ -426,8 +427,8 @@ TEST(Settings, TheKeyOfAStageChangesWithWhatItReadsAndNothingElse) {
   EXPECT_EQ(settings_key(biased, {Stage::ladder}, "bias.constant"), settings_key({}, {Stage::ladder}, "bias.constant"));
 }
 
-// A technique that the README does not name does not exist for its readers. The parts of a bias it leaves to
-// `noonmark settings`, so that a new part touches its own file and row alone.
+// The README must name every technique, because readers learn of it there. It leaves the parts of a bias to `noonmark
+// settings`, so that a new part needs only its own file and its row.
 TEST(Settings, EveryTechniqueIsInTheReadme) {
   std::ifstream file(std::string(NOONMARK_SOURCE_DIR) + "/README.md");
   const std::string readme(std::istreambuf_iterator<char>(file), {});

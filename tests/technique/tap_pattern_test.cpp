@@ -62,7 +62,7 @@ TEST(TapPattern, OfABoxHasItsStepAndItsMiddle) {
   EXPECT_EQ(tap_pattern(filter("gaussian", 5)).reach_texels(), 3);
 }
 
-// The bilinear blend of the kernel that the texels' weights make where P is on a texel's centre.
+// The weights are the bilinear blend of a kernel: the texels' weights when P lies on a texel's centre.
 TEST(TapPattern, CastanosWeightsAreItsKernelBlended) {
   const std::map<int, std::vector<double>> kernels = {
       {3, {1, 2, 1}}, {5, {1, 3, 4, 3, 1}}, {7, {1, 5, 12, 16, 12, 5, 1}}};
@@ -79,14 +79,14 @@ TEST(TapPattern, CastanosWeightsAreItsKernelBlended) {
   }
 }
 
-// Its integral over each texel, summed up in a thousand steps.
+// The weight of a texel is the integral of the tent over it, here summed in a thousand steps.
 TEST(TapPattern, ATentIsIntegratedOverEachTexel) {
   for (int size : {3, 5, 7}) {
     const TapPattern p = tap_pattern(filter("tent", size));
     const double half_base = size / 2.0;
     for (double s : {0.0, 0.3, 0.9})
       for (int texel = 0; texel <= size; ++texel) {
-        const double left = texel - size / 2 - 0.5 - s;  // of the texel, from P
+        const double left = texel - size / 2 - 0.5 - s;  // the texel's left side, from P
         double area = 0;
         for (int step = 0; step < 1000; ++step)
           area += std::max(0.0, 1 - std::abs(left + (step + 0.5) / 1000) / half_base) / half_base / 1000;
@@ -104,10 +104,11 @@ TEST(TapPattern, VogelsTapsFillADiskEvenly) {
     settings.rotate = rotate;
     const TapPattern p = tap_pattern(settings);
     EXPECT_EQ(p.taps, 40);
-    EXPECT_EQ(p.variants, rotate ? 25 : 1) << "as many as the shader has room for";
+    EXPECT_EQ(p.variants, rotate ? 25 : 1) << "as many rotations as the shader has room for";
     ASSERT_EQ(p.offsets.size(), static_cast<size_t>(p.taps * p.variants));
     for (int v = 0; v < p.variants; ++v) {
-      // A disk of a share of the area has that share of the taps, and the taps' middle is the disk's.
+      // An inner disk with a quarter of the area has a quarter of the taps, and the mean of all taps is near the centre
+      // of the disk.
       int inner = 0;
       glm::dvec2 middle(0);
       for (int t = 0; t < p.taps; ++t) {
@@ -130,7 +131,7 @@ TEST(TapPattern, WeightsSumToOneWhereverPLies) {
     for (int size : row.sizes.empty() ? std::vector<int>{1, 3, 7} : row.sizes) {
       const TapPattern p = tap_pattern(filter(kind, size));
       for (int i = 0; i < 50; ++i) {
-        // The corners too; there a row of taps weighs nothing.
+        // The first four places are the corners, where a row of taps has the weight 0.
         const glm::dvec2 fraction = i < 4 ? glm::dvec2(i % 2, i / 2) : glm::dvec2(share(random), share(random));
         double sum = 0;
         for (int t = 0; t < p.taps; ++t) {
@@ -143,8 +144,8 @@ TEST(TapPattern, WeightsSumToOneWhereverPLies) {
   }
 }
 
-// What a comparison sampler makes of N x N fetches, each of which blends four texels by where it lies between their
-// centres (OpenGL 4.5 core, 8.14.2), is what the table's taps weigh.
+// A comparison sampler blends four texels for each of N x N fetches, by the place of the fetch between their centres
+// (OpenGL 4.5 core, 8.14.2). The weights of the taps in the table must equal the sums of these blends.
 TEST(TapPattern, OfFetchesWeighsTexelsAsTheSamplerDoes) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> somewhere(20, 30);
@@ -176,20 +177,20 @@ TEST(TapPattern, OfFetchesWeighsTexelsAsTheSamplerDoes) {
         found[{texel.x, texel.y}] += probe.weight(0, t);
       }
       ASSERT_EQ(found.size(), expected.size());
-      // P less a half is rounded to float: half a last place of 32.
+      // P - 1/2 is rounded to float: by half a last place of a number below 32.
       for (const auto& [texel, weight] : expected) ASSERT_NEAR(found.at(texel), weight / whole, 4 * 0x1p-20);
     }
   }
 }
 
-// The truth asks at a tap's exact place; the nearest texel there is the one that the sampler reads.
+// The truth uses a tap's exact place. The texel nearest to it must be the one that the sampler reads.
 TEST(TapPattern, OfFetchesReadsTheTexelNearestToEachTapsPlace) {
   std::mt19937 random(3);
   for (int size : {1, 3, 5}) {
     LookupProbe probe;
     probe.pattern = tap_pattern(filter(size == 1 ? "hardware" : "gaussian", size));
     for (int i = 0; i < 500; ++i) {
-      // In 1/64 of a texel but for ties, so that float sums are exact.
+      // Odd multiples of 1/128 texel: no place is a tie, and float sums are exact.
       const auto place = [&] { return static_cast<float>(2 * (random() % 3200) + 1) / 128; };
       const glm::vec2 at(place(), place());
       probe.map_texels = Image<glm::vec2>(1, 1, at);
@@ -206,8 +207,9 @@ TEST(TapPattern, OfAPoissonDiskIsSpreadOverIt) {
   for (int a = 0; a < p.taps; ++a) {
     EXPECT_LE(glm::length(p.offset(0, a)), 2.5f * (1 + 0x1p-22f));
     for (int b = 0; b < a; ++b)
-      // 16 disks that do not overlap cover at most the disk grown by their radius: no pair of them further apart than
-      // about 0.6 of it. The best of many candidates comes near; by chance alone pairs are a tenth of that.
+      // The smallest distance of 16 points in a disk is at most about 0.6 of the radius: disks of half that distance
+      // about the points do not overlap, and they lie in the disk grown by half that distance. The best of many
+      // candidates comes near to this. By chance alone the nearest pair is a tenth of it apart.
       EXPECT_GT(glm::length(p.offset(0, a) - p.offset(0, b)), 0.3f * 2.5f) << a << ' ' << b;
   }
   EXPECT_LE(p.reach_texels(), 3);
@@ -230,11 +232,11 @@ TEST(TapPattern, VariantsAreAllUsedAndNeighboursDiffer) {
     same += tap_variant(pixel, 64) == tap_variant(pixel + 1, 64);
     EXPECT_EQ(tap_variant(pixel, 1), 0);
   }
-  for (int count : used) EXPECT_NEAR(count, 1000, 200);  // six standard deviations of a fair draw
+  for (int count : used) EXPECT_NEAR(count, 1000, 200);  // six standard deviations of a fair random draw
   EXPECT_LT(same, 1200);
 }
 
-// The tutorials' loops run from -offset up to but without +offset, in steps of offset / 2.
+// The loops of the tutorials run from -offset to +offset in steps of offset / 2, without the last value.
 TEST(TapPattern, OfACubeGridIsTheTutorials) {
   FilterSettings f = filter("cube_grid");
   f.offset_m = 0.1;
@@ -262,7 +264,7 @@ TEST(TapPattern, OfACubeDiskIsTheTutorials20Directions) {
   EXPECT_EQ(corners, 8);
   EXPECT_EQ(edges, 12);
   EXPECT_FALSE(tap_pattern(f).scaled_by_view);
-  f.disk = DiskRadius::view_distance;  // whatever radius_m is, the receiver's own radius multiplies
+  f.disk = DiskRadius::view_distance;  // the receiver's own radius is the factor, not radius_m
   EXPECT_TRUE(tap_pattern(f).scaled_by_view);
   LookupProbe probe;
   probe.pattern = tap_pattern(f);

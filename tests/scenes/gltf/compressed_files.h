@@ -1,4 +1,4 @@
-// Scene files of compressed meshes, as the libraries' own encoders write them.
+// Scene files of compressed meshes, written by the encoders of the libraries.
 #pragma once
 #include <draco/compression/encode.h>
 #include <draco/mesh/mesh.h>
@@ -58,7 +58,8 @@ struct Encoding {
   bool skinned = false;
 };
 
-// The grid with its positions, and half its vertices on joint 1, as Draco has them.
+// The grid encoded by Draco: its positions and, if `skinned`, joints and weights that bind half of its vertices to
+// joint 1.
 inline std::string draco_bytes(const Grid& g, const Encoding& how) {
   draco::Mesh mesh;
   mesh.SetNumFaces(g.indices.size() / 3);
@@ -128,7 +129,7 @@ inline std::string meshopt_indices(const Grid& g, bool sequence) {
   return std::string(out.begin(), out.end());
 }
 
-// The document's view `view` out of `bytes`; its own buffer becomes one that is not there.
+// Makes the document's view `view` decode from `bytes`. The view's old buffer becomes a fallback buffer without data.
 inline void compress_view(json& d, size_t view, const std::string& bytes, size_t count, size_t stride,
                           const std::string& mode, const std::string& filter = "NONE",
                           const std::string& name = "EXT_meshopt_compression") {
@@ -146,7 +147,7 @@ inline void compress_view(json& d, size_t view, const std::string& bytes, size_t
                            {"filter", filter}};
 }
 
-// Views 2 and 3 of document_of(): positions and indices.
+// document_of() with its views 2 and 3 compressed: positions and indices.
 inline json meshopt_document(const Grid& g, bool sequence, const std::string& name = "EXT_meshopt_compression") {
   json d = document_of(g);
   compress_view(d, 2, meshopt_vertices(g.positions, 12), g.vertices(), 12, "ATTRIBUTES", "NONE", name);

@@ -1,5 +1,5 @@
-// load_gltf on compressed meshes: what the libraries' own encoders write comes back, and what they did not write is
-// refused.
+// load_gltf on compressed meshes: what the encoders of the libraries write is read back, and damaged or inconsistent
+// data are refused.
 #include <array>
 #include <functional>
 #include <random>
@@ -10,8 +10,8 @@
 namespace noonmark::test {
 namespace {
 
-// Triangles by the positions of their corners, begun at the least one, in order: what compression may not change,
-// though it may change the order of vertices and triangles.
+// The triangles as the positions of their corners. Each begins at its smallest corner, and the list is sorted.
+// Compression may change the order of vertices and triangles, but not this list.
 std::vector<std::array<float, 9>> surface(const Scene& s) {
   std::vector<std::array<float, 9>> all;
   for (const glm::uvec3& t : s.triangles) {
@@ -54,7 +54,7 @@ TEST_F(GltfCompression, DracoWithQuantizedPositionsIsWithinHalfAStep) {
   const Encoding how{draco::MESH_EDGEBREAKER_ENCODING, 12};
   const Scene plain = load(document_of(g)), s = load(draco_document(g, draco_bytes(g, how), how));
   ASSERT_EQ(s.triangles.size(), plain.triangles.size());
-  const double half = 0.5 / 4095 * std::sqrt(3.0) + 1e-6;  // of the cube's edge, 1, along each axis; and float rounding
+  const double half = 0.5 / 4095 * std::sqrt(3.0) + 1e-6;  // per axis of a unit cube; float rounding
   for (const glm::vec3& p : s.positions) {
     double nearest = 1;
     for (const glm::vec3& q : plain.positions) nearest = std::min(nearest, static_cast<double>(glm::distance(p, q)));
@@ -62,7 +62,7 @@ TEST_F(GltfCompression, DracoWithQuantizedPositionsIsWithinHalfAStep) {
   }
 }
 
-// What decodes may be damaged all the same: min and max tell, if only of the hull.
+// Data that can be decoded may still be damaged. min and max show it, but only for the bounding box.
 TEST_F(GltfCompression, DracoThatContradictsMinAndMaxIsSaid) {
   const Grid g = wavy(12);
   glm::vec3 low(g.positions[0], g.positions[1], g.positions[2]), high = low;
@@ -118,18 +118,18 @@ TEST_F(GltfCompression, DracoThatDoesNotMatchItsAccessorsIsRefused) {
   expect([](json&, json& x) { x["attributes"]["POSITION"] = 7; }, "POSITION is attribute 7, which is not in the data");
   expect([](json&, json& x) { x["attributes"] = json::object(); }, "POSITION is not among the compressed attributes");
   expect([](json& d, json&) { d["meshes"][0]["primitives"][0]["mode"] = 6; }, "only triangles and strips");
-  // Without an accessor for the indices the data's own count.
+  // Without an accessor for the indices, the count in the data is used.
   json d = draco_document(g, bytes, {});
   d["meshes"][0]["primitives"][0].erase("indices");
   EXPECT_EQ(load(d).triangles.size(), 32u);
-  // An early head that promises two thousand million triangles.
+  // A header, early in the data, that claims 2^31 - 1 triangles.
   std::string bomb = draco_bytes(g, {draco::MESH_SEQUENTIAL_ENCODING});
   bomb.replace(11, 1, "\xff\xff\xff\xff\x07");
   EXPECT_NE(refusal(draco_document(g, bomb, {})).find("2147483647 triangles are more than"), std::string::npos)
       << refusal(draco_document(g, bomb, {}));
 }
 
-// Whatever the bytes are: a whole scene or one Error(scene).
+// Any bytes must give a whole scene or one Error(scene).
 void try_damaged(TemporaryFolder& folder, const json& document, size_t buffer, const std::string& bytes,
                  const std::string& what) {
   json d = document;
@@ -181,7 +181,7 @@ TEST_F(GltfCompression, MeshoptGivesBackTheSurface) {
 TEST_F(GltfCompression, MeshoptFilters) {
   const Grid g = wavy(8);
   json d = document_of(g);
-  // Exponential: of 20 bits, so that positions up to 1 come back within 2^-20 of it.
+  // The exponential filter with 20 bits: positions up to 1 are read back within 2^-20 of that.
   std::vector<float> encoded(g.positions.size());
   meshopt_encodeFilterExp(encoded.data(), g.vertices(), 12, 20, g.positions.data());
   compress_view(d, 2, meshopt_vertices(encoded, 12), g.vertices(), 12, "ATTRIBUTES", "EXPONENTIAL");
@@ -191,7 +191,7 @@ TEST_F(GltfCompression, MeshoptFilters) {
   for (size_t i = 0; i < s.positions.size(); ++i)
     EXPECT_LT(glm::distance(s.positions[i], plain.positions[i]), 4e-6f) << i;
 
-  // Quaternions, of instances: a quarter turn about Z.
+  // The quaternion filter, on the rotations of instances: a quarter turn about Z.
   json many = square();
   const std::vector<float> turns = {0, 0, 0, 1, 0, 0, std::sqrt(0.5f), std::sqrt(0.5f)};
   std::vector<int16_t> quaternions(8);

@@ -1,5 +1,5 @@
 // load_gltf against files that others made: the corpus of the Khronos glTF-Validator with its verdicts, and two real
-// models. Both stand beside the project; without them the tests are skipped.
+// models. Both are next to the project; without them the tests are skipped.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -25,43 +25,47 @@ std::set<std::string> error_codes(const json& report) {
   return codes;
 }
 
-// What the validator calls an error and the loader need not, with the reason. Everything else that the validator calls
-// an error, the loader must refuse, and for a reason of its own.
+// The errors of the validator that the loader may accept, with the reason. The loader must refuse every other error of
+// the validator, for a reason other than that the file draws nothing.
 const std::map<std::string, std::string> tolerated = {
-    {"ACCESSOR_ELEMENT_OUT_OF_MAX_BOUND", "min and max are not read: the data are"},
-    {"ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND", "min and max are not read: the data are"},
-    {"ACCESSOR_MAX_MISMATCH", "min and max are not read: the data are"},
-    {"ACCESSOR_MIN_MISMATCH", "min and max are not read: the data are"},
-    {"MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS", "min and max are not read: the data are"},
-    {"ACCESSOR_INVALID_FLOAT", "data are read, and refused when not finite, where they are drawn; here they are not"},
-    {"ACCESSOR_INDEX_PRIMITIVE_RESTART", "data are read, and refused, where they are drawn; here they are not"},
-    {"BUFFER_BYTE_LENGTH_MISMATCH", "buffers are read where they are drawn; here they are not"},
-    {"BUFFER_DATA_URI_MIME_TYPE_INVALID", "buffers are read where they are drawn; here they are not"},
-    {"BUFFER_MISSING_GLB_DATA", "buffers are read where they are drawn; here they are not"},
-    {"EMPTY_ENTITY", "an empty list says the same as none"},
-    {"DUPLICATE_ELEMENTS", "an extension named twice is named"},
+    {"ACCESSOR_ELEMENT_OUT_OF_MAX_BOUND", "the loader reads the data, not min and max"},
+    {"ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND", "the loader reads the data, not min and max"},
+    {"ACCESSOR_MAX_MISMATCH", "the loader reads the data, not min and max"},
+    {"ACCESSOR_MIN_MISMATCH", "the loader reads the data, not min and max"},
+    {"MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS", "the loader reads the data, not min and max"},
+    {"ACCESSOR_INVALID_FLOAT",
+     "data are read, and refused if not finite, only where they are drawn; here they are not drawn"},
+    {"ACCESSOR_INDEX_PRIMITIVE_RESTART",
+     "data are read, and refused, only where they are drawn; here they are not drawn"},
+    {"BUFFER_BYTE_LENGTH_MISMATCH", "buffers are read only where they are drawn; here they are not drawn"},
+    {"BUFFER_DATA_URI_MIME_TYPE_INVALID", "buffers are read only where they are drawn; here they are not drawn"},
+    {"BUFFER_MISSING_GLB_DATA", "buffers are read only where they are drawn; here they are not drawn"},
+    {"EMPTY_ENTITY", "an empty list means the same as no list"},
+    {"DUPLICATE_ELEMENTS", "an extension that is named twice is used, as if it were named once"},
     {"NON_REQUIRED_EXTENSION", "an extension that is used is read, required or not"},
-    {"UNUSED_EXTENSION_REQUIRED", "lists of extensions may say too much"},
+    {"UNUSED_EXTENSION_REQUIRED", "a list of extensions may name more than is used"},
     {"BUFFER_VIEW_TARGET_OVERRIDE", "targets are a hint to a GPU"},
     {"MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE",
      "without a stride the elements are packed; there is no other reading"},
     {"MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT", "of the attributes only positions are read"},
     {"MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH", "joints and weights are read under a skin"},
     {"MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", "of the attributes only positions are read"},
-    {"MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT", "morph targets are read where they are drawn; here they are not"},
-    {"MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR", "morph targets are read where they are drawn; here they are not"},
-    {"MESH_INVALID_WEIGHTS_COUNT", "morph targets are read where they are drawn; here they are not"},
-    {"NODE_WEIGHTS_INVALID", "morph targets are read where they are drawn; here they are not"},
-    {"NODE_SKIN_WITH_NON_SKINNED_MESH", "skins are read where they are drawn; here they are not"},
+    {"MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT",
+     "morph targets are read only where they are drawn; here they are not drawn"},
+    {"MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR",
+     "morph targets are read only where they are drawn; here they are not drawn"},
+    {"MESH_INVALID_WEIGHTS_COUNT", "morph targets are read only where they are drawn; here they are not drawn"},
+    {"NODE_WEIGHTS_INVALID", "morph targets are read only where they are drawn; here they are not drawn"},
+    {"NODE_SKIN_WITH_NON_SKINNED_MESH", "skins are read only where they are drawn; here they are not drawn"},
     {"SCENE_NON_ROOT_NODE", "drawn once, where its parents put it, with a note"},
     {"UNEXPECTED_EXTENSION_OBJECT", "extensions that are not supported are not read"},
-    {"NODE_MATRIX_NON_TRS", "a matrix that shears is as good as another"},
+    {"NODE_MATRIX_NON_TRS", "a matrix that shears can be drawn"},
 };
 
-// Files with codes that elsewhere must be refused.
+// Files that may be accepted although files with the same error codes must be refused elsewhere.
 const std::map<std::string, std::string> tolerated_files = {
-    {"base/data/node/skin_with_no_mesh.gltf", "a skin of no mesh draws nothing"},
-    {"base/data/node/unresolved_skin.gltf", "a skin of no mesh draws nothing"},
+    {"base/data/node/skin_with_no_mesh.gltf", "a skin without a mesh draws nothing"},
+    {"base/data/node/unresolved_skin.gltf", "a skin without a mesh draws nothing"},
     {"ext/KHR_materials_variants/data/primitive/dependency.gltf", "variants of materials are not read"},
     {"ext/KHR_materials_variants/data/primitive/unresolved_references.gltf", "variants of materials are not read"},
 };
@@ -70,7 +74,7 @@ struct Row {
   int validator_errors = 0;
   std::set<std::string> codes;
   std::string message;  // empty: loaded
-  // Refused for being a fragment: most of the corpus shows one property and has no scene, or none with triangles.
+  // Refused because it is a fragment: most files of the corpus show one property and have no scene, or no triangles.
   bool nothing_drawn() const {
     return message.find("holds no triangles") != std::string::npos ||
            message.find("scenes: there is none") != std::string::npos;
@@ -116,7 +120,7 @@ TEST_F(GltfCorpus, EveryErrorThatTouchesWhatIsReadIsRefusedForAReasonOfItsOwn) {
         std::all_of(row.codes.begin(), row.codes.end(), [](const std::string& c) { return tolerated.contains(c); });
     std::string codes;
     for (const std::string& code : row.codes) codes += " " + code;
-    EXPECT_TRUE(known) << name << " is an error to the validator:" << codes
+    EXPECT_TRUE(known) << name << " has errors for the validator:" << codes
                        << "\nbut not to the loader: " << row.message;
     for (const std::string& code : row.codes) ++lenient[code];
   }
@@ -133,10 +137,10 @@ TEST_F(GltfCorpus, FilesInOrderAreRefusedOnlyWhereNothingIsDrawn) {
     ++(row.message.empty() ? loaded : nothing_drawn);
     EXPECT_TRUE(row.message.empty() || row.nothing_drawn()) << name << ": " << row.message;
   }
-  std::printf("in order to the validator: %d loaded, %d draw nothing\n", loaded, nothing_drawn);
+  std::printf("without errors for the validator: %d loaded, %d draw nothing\n", loaded, nothing_drawn);
 }
 
-// A square in the corpus file's scene. nothing: the file is so broken that nothing can be put into it.
+// The corpus file with a square added to its scene; nothing if the file is too broken to add one.
 std::optional<json> grafted(json d) {
   const char* const lists[] = {"buffers", "bufferViews", "accessors", "meshes", "nodes", "scenes"};
   if (!d.is_object()) return std::nullopt;
@@ -160,14 +164,14 @@ std::optional<json> grafted(json d) {
   return d;
 }
 
-// What is in order to the validator and shows nothing by itself must be drawn once something stands beside it; what is
-// not in order must be refused as before.
+// A file that is valid but draws nothing by itself must be drawn when a square is added. A file with errors must be
+// refused as before.
 TEST_F(GltfCorpus, GraftedOntoASceneThatDraws) {
   TemporaryFolder folder;
   int drawn = 0, refused = 0, lenient = 0;
   for (const auto& [name, row] : rows_) {
     const fs::path from = root_ / name;
-    // What a file lacks may be what the square brings.
+    // The square may supply the reference that such a file lacks, so it is left out.
     if (from.extension() != ".gltf" || row.codes.contains("UNRESOLVED_REFERENCE")) continue;
     const json document = json::parse(std::ifstream(from), nullptr, false);
     const std::optional<json> with_square = document.is_discarded() ? std::nullopt : grafted(document);
@@ -189,7 +193,7 @@ TEST_F(GltfCorpus, GraftedOntoASceneThatDraws) {
     }
     if (row.validator_errors == 0) {
       ++drawn;
-      EXPECT_EQ(message, "") << name << " is in order";
+      EXPECT_EQ(message, "") << name << " is valid";
     } else if (!message.empty()) {
       ++refused;
     } else {
@@ -197,11 +201,11 @@ TEST_F(GltfCorpus, GraftedOntoASceneThatDraws) {
       EXPECT_TRUE(tolerated_files.contains(name) ||
                   std::all_of(row.codes.begin(), row.codes.end(),
                               [](const std::string& code) { return tolerated.contains(code); }))
-          << name << " is an error to the validator";
+          << name << " has errors for the validator";
     }
   }
-  std::printf("with a square: %d in order and drawn, %d refused by both, %d the validator's error alone\n", drawn,
-              refused, lenient);
+  std::printf("with a square: %d valid and drawn, %d refused by both, %d the validator's error alone\n", drawn, refused,
+              lenient);
   EXPECT_GT(drawn, 15);
 }
 

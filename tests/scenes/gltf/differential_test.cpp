@@ -1,11 +1,11 @@
-// load_gltf against a second reader (tests/scenes/gltf/second_reader.h): the same number of triangles, the same box, the same
-// area. On files that this test makes, on the two real models beside the project where they are, and on every .gltf and
-// .glb below the folder that NOONMARK_MODELS names:
+// load_gltf against a second reader (tests/scenes/gltf/second_reader.h): the same number of triangles, the same
+// bounding box, the same area. The files are those that this test makes, the two real models next to the project if
+// they are there, and every .gltf and .glb below the folder that NOONMARK_MODELS names:
 //
 //   NOONMARK_MODELS=~/models build/release/tests/test_gltf_differential --gtest_filter='*Folder*'
 //
-// lists each file with what became of it. A file that both read must agree; one that is refused is listed with its
-// reason.
+// This command lists each file with its outcome. A file that both readers read must agree. A file that is refused is
+// listed with its reason.
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using Triangle = std::array<glm::dvec3, 3>;
 
 struct Measure {
-  size_t triangles = 0, thin = 0;  // all; those that rounding to float can make degenerate, or keep from it
+  size_t triangles = 0, thin = 0;  // all; those that may or may not be degenerate after rounding to float
   glm::dvec3 low{1e300}, high{-1e300};
   double area = 0;
   double size() const { return glm::distance(low, high); }
@@ -33,7 +33,7 @@ Measure measure(const std::vector<Triangle>& triangles) {
   for (const auto& [a, b, c] : triangles) {
     const double twice = glm::length(glm::cross(b - a, c - a));
     const double edge = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-    // A coordinate is rounded by 6e-8 of itself, in each step of the way.
+    // A coordinate is rounded by 6e-8 of itself in each step of its computation.
     const double rounding = 1e-6 * std::max({glm::length(a), glm::length(b), glm::length(c), edge});
     m.thin += twice <= edge * rounding;
     ++m.triangles;
@@ -50,7 +50,7 @@ std::vector<Triangle> triangles_of(const Scene& scene) {
   return out;
 }
 
-// Empty, or in what the two differ. Assimp transforms in float, and every product of matrices rounds once more.
+// Empty, or how the two readings differ. Assimp transforms in float, and every product of matrices rounds once more.
 std::string difference(const Scene& scene, const SecondReading& other) {
   const Measure ours = measure(triangles_of(scene)), theirs = measure(other.triangles);
   // We leave out triangles without an area.
@@ -61,14 +61,14 @@ std::string difference(const Scene& scene, const SecondReading& other) {
   const double allowed = 1e-5 * largest;
   const double off = std::max(glm::length(ours.low - theirs.low), glm::length(ours.high - theirs.high));
   if (!(off <= allowed)) return "box: off by " + std::to_string(off) + ", size " + std::to_string(ours.size());
-  // An edge of length l moved by its rounding changes an area by l times that.
+  // If rounding moves an edge of length l, the area changes by l times the movement.
   const double area_allowed = 1e-4 * theirs.area + 1e-12;
   if (!(std::abs(ours.area - theirs.area) <= area_allowed))
     return "area: " + std::to_string(ours.area) + " and " + std::to_string(theirs.area);
   return "";
 }
 
-// Of the file, as its own text has them; empty where it cannot be read.
+// The JSON document in the file, parsed without load_gltf; a discarded value if it cannot be parsed.
 json document_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
@@ -80,8 +80,8 @@ json document_of(const fs::path& path) {
   return json::parse(bytes, nullptr, false);
 }
 
-// Why Assimp 5.2 shows something else than glTF says; empty where it has no excuse.
-std::string excuse(const json& document) {
+// Why Assimp 5.2 may differ from the glTF specification on this file; empty if no reason is known.
+std::string unread_extension(const json& document) {
   static const std::set<std::string> unread = {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
                                                "KHR_mesh_quantization", "KHR_meshopt_compression",
                                                "KHR_node_visibility"};
@@ -101,7 +101,7 @@ class GltfDifferential : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-// Rooms of the features that both read, each in a file of its own.
+// Files of the features that both readers read, one file for each.
 std::map<std::string, json> made_files() {
   std::map<std::string, json> files;
   files["square"] = square();
@@ -137,7 +137,7 @@ std::map<std::string, json> made_files() {
   morphed["meshes"][0]["weights"] = {0.75};
   files["morphed"] = morphed;
 
-  // Two joints, one turned and moved away from where it was bound; a node that a reader must not heed.
+  // Two joints; one of them is turned and moved away from its bind pose.
   json skinned = square();
   auto& attributes = skinned["meshes"][0]["primitives"][0]["attributes"];
   attributes["JOINTS_0"] =
@@ -160,7 +160,7 @@ TEST_F(GltfDifferential, FilesThatAreMadeHere) {
     expect_agreement(name, folder_.write(name + ".gltf", document.dump()));
 }
 
-// The comparison itself: one triangle, one corner or one node more or less must show.
+// Tests the comparison itself: it must find a missing triangle, a moved node and a moved corner.
 TEST_F(GltfDifferential, ADifferenceIsFound) {
   const json whole = made_files().at("nested");
   const std::string path = folder_.write("whole.gltf", whole.dump());
@@ -175,7 +175,7 @@ TEST_F(GltfDifferential, ADifferenceIsFound) {
   json moved = whole;
   moved["nodes"][0]["translation"][0] = 3.001;
   EXPECT_EQ(differs(moved), "box:");
-  // The corner at (0, 1) moved inwards: the same number and the same box.
+  // The corner at (0, 1) is moved inwards: the number of triangles and the box stay the same, only the area changes.
   json smaller = square();
   const SecondReading plain = read_by_assimp(folder_.write("square.gltf", smaller.dump()));
   const std::vector<float> inwards = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0.25, 0.75, 0};
@@ -214,7 +214,7 @@ TEST_F(GltfDifferential, FolderOfModels) {
         outcome = "drawn, not read by Assimp", detail = other.error;
       } else if (const std::string differs = difference(scene, other); differs.empty()) {
         outcome = "drawn, agreed";
-      } else if (detail = excuse(document_of(path)); !detail.empty()) {
+      } else if (detail = unread_extension(document_of(path)); !detail.empty()) {
         outcome = "drawn, not comparable";
       } else {
         outcome = "DIFFERENT", detail = differs;

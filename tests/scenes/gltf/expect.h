@@ -44,7 +44,8 @@ inline std::string defect_of(const Scene& scene) {
   return "";
 }
 
-// The message of the Error(scene) that loading throws; fails when it loads, throws another thing, or takes two lines.
+// The message of the Error(scene) that loading throws. The test fails if the file loads, if another exception is
+// thrown, or if the message has two lines, does not begin with the path or has no remedy.
 inline std::string refusal(const std::string& path, const Pose& pose = {}) {
   try {
     load_gltf(path, pose);

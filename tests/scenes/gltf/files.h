@@ -1,4 +1,4 @@
-// Small glTF files made by the tests: a document that is valid, to be broken in one place each.
+// Small glTF files made by the tests: a valid document, which each test breaks in one place.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace noonmark::test {
 
 using nlohmann::json;
 
-// A folder that is gone with the test.
+// A folder that is removed when the test ends.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -96,7 +96,7 @@ inline json square() {
       {"buffers", {{{"byteLength", 60}, {"uri", data_uri(square_bytes())}}}}};
 }
 
-// Appends a view and an accessor over `bytes`, in a buffer of their own; returns the accessor's index.
+// Appends a view and an accessor over `bytes`, in a new buffer; returns the accessor's index.
 inline int add_accessor(json& document, const std::string& bytes, int component_type, const std::string& type,
                         size_t count, size_t stride = 0) {
   const size_t buffer = document["buffers"].size();
@@ -111,7 +111,7 @@ inline int add_accessor(json& document, const std::string& bytes, int component_
   return static_cast<int>(document["accessors"].size()) - 1;
 }
 
-// A bit of everything that the loader reads and that does not move.
+// A document with something of everything that the loader reads, except what moves.
 inline json rich() {
   json d = square();
   d["extensionsUsed"] = {"KHR_lights_punctual", "KHR_mesh_quantization"};
@@ -147,7 +147,7 @@ inline json rich() {
   return d;
 }
 
-// And with what moves: a skin, a morph target, instances, a hidden node and an animation of all of them.
+// rich() and what moves: a skin, a morph target, instances, a hidden node and an animation.
 inline json moving() {
   json d = rich();
   auto& primitive = d["meshes"][0]["primitives"][0];

@@ -60,7 +60,7 @@ TEST_F(Gltf, BuffersBesideTheFileAndBelowItWithEscapes) {
   d["buffers"][0]["uri"] = "a%20b/mesh%2Ebin";
   folder_.write("a b/mesh.bin", square_bytes() + "longer than needed");
   EXPECT_EQ(load(d).triangles.size(), 2u);
-  d["buffers"][0]["uri"] = "a%20b/../a b/./mesh.bin";  // leaves no folder but its own
+  d["buffers"][0]["uri"] = "a%20b/../a b/./mesh.bin";  // stays in the folder of the file
   EXPECT_EQ(load(d).triangles.size(), 2u);
 }
 
@@ -210,8 +210,8 @@ TEST_F(Gltf, MaskedOutMaterialsAreNotDrawn) {
   EXPECT_EQ(load(d).triangles.size(), 4u);
 }
 
-// The back of a single-sided triangle is its back in the world: where a transform mirrors, the winding is turned and
-// the mark stays.
+// The back of a single-sided triangle is its back in the world. If a transform mirrors, the winding is reversed and the
+// triangle stays single-sided.
 TEST_F(Gltf, SidesAreThoseOfTheMaterial) {
   json d = square();
   EXPECT_EQ(load(d).single_sided, std::vector<bool>(2, true));  // the default material
@@ -240,7 +240,7 @@ TEST_F(Gltf, FarApartIndicesTakeOnlyTheirVertices) {
 
 TEST_F(Gltf, DegenerateTrianglesAreDropped) {
   json d = square();
-  // Equal corners; three in a line; a good one.
+  // Three triangles: one with equal corners, one with its corners in a line, a good one.
   const std::vector<float> corners = {0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 0, 3, 3, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0};
   const int accessor = add_accessor(d, raw(corners), 5126, "VEC3", 9);
   d["meshes"][0]["primitives"][0] = {{"attributes", {{"POSITION", accessor}}}};

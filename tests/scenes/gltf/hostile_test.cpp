@@ -46,7 +46,7 @@ void add_spot(json& d, const json& spot) {
   d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
 }
 
-// One case a line, as far as it goes.
+// One case per line where possible.
 // clang-format off
 const Case cases[] = {
     // Accessors, views, buffers.
@@ -131,7 +131,7 @@ const Case cases[] = {
     {"FlatScale", "holds no triangles: 2 triangles without an area", [](json& d) { d["nodes"][0]["scale"] = {1, 0, 1}; }},
     {"FlatScaleOfTwoAxes", "holds no triangles: 2 triangles without an area",
      [](json& d) {
-       replace_positions(d, {0, 0, 0, 0.3f, 1, 0, 0.7f, 0.4f, 0, 1, 0.2f, 0});  // on a line, as far as float tells
+       replace_positions(d, {0, 0, 0, 0.3f, 1, 0, 0.7f, 0.4f, 0, 1, 0.2f, 0});  // on a line, up to float rounding
        d["nodes"][0]["scale"] = {1, 0, 0}, d["nodes"][0]["rotation"] = {0.48, 0.36, 0, 0.8};
      }},
     {"FlatCamera", "nodes[1]: its transform cannot be inverted",
@@ -268,7 +268,7 @@ TEST(GltfFiles, ScenesThatAreNoFiles) {
 TEST(GltfFiles, AFileThatIsLargerThanAnySceneIsNotRead) {
   TemporaryFolder folder;
   const std::string path = folder.write("scene.gltf", "{");
-  std::filesystem::resize_file(path, uint64_t{1} << 40);  // a hole: takes no room on the disk
+  std::filesystem::resize_file(path, uint64_t{1} << 40);  // a sparse file: it takes no room on the disk
   expect_refusal(path, "bytes are more than");
   std::filesystem::resize_file(path, uint64_t{300} << 20);
   expect_refusal(path, "bytes of JSON are more than");
@@ -284,10 +284,10 @@ TEST(GltfFiles, DeepNesting) {
     text.insert(text.size() - 1, ",\"extras\":" + opened + nested + closed);
     expect_refusal(folder.write("scene.gltf", text), "nested more than 256 deep");
     expect_refusal(folder.write("scene.glb", glb(text, "")), "nested more than 256 deep");
-    text.resize(text.size() - closed.size());  // and without an end
+    text.resize(text.size() - closed.size());  // and without its closing brackets
     expect_refusal(folder.write("scene.gltf", text), "nested more than 256 deep");
   }
-  // Brackets within strings nest nothing, escaped quotes end no string.
+  // Brackets inside strings do not count as nesting, and escaped quotes do not end a string.
   json d = square();
   d["extras"] = std::string(1000, '[') + "\"\\" + std::string(1000, '{');
   EXPECT_EQ(defect_of(load_gltf(folder.write("scene.gltf", d.dump()))), "");
@@ -312,12 +312,13 @@ TEST(GltfFiles, TruncatedAndTornBinaries) {
   for (size_t length = 0; length < whole.size(); ++length) {
     const std::string path = folder.write("scene.glb", whole.substr(0, length));
     EXPECT_FALSE(refusal(path).empty()) << "cut after " << length << " bytes";
-    // The same with a header that says what is there, so that the cut shows further in.
-    std::string honest = whole.substr(0, length);
+    // The same with a header that states the true length, so that the cut is found later in the file.
+    std::string with_true_length = whole.substr(0, length);
     if (length < 12) continue;
     const auto stated = static_cast<uint32_t>(length);
-    std::memcpy(honest.data() + 8, &stated, 4);
-    EXPECT_FALSE(refusal(folder.write("scene.glb", honest)).empty()) << "honestly cut after " << length << " bytes";
+    std::memcpy(with_true_length.data() + 8, &stated, 4);
+    EXPECT_FALSE(refusal(folder.write("scene.glb", with_true_length)).empty())
+        << "cut after " << length << " bytes, which the header states";
   }
   expect_refusal(folder.write("scene.glb", square().dump()), "GLB header");
   expect_refusal(folder.write("scene.glb", glb(d.dump(), square_bytes() + "junk").replace(4, 1, "\3")), "version 3");

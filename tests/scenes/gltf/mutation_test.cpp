@@ -1,5 +1,5 @@
-// Thousands of files with random damage: each gives a whole, finite scene or one Error(scene), and nothing else.
-// Seeded, so that a failure comes again.
+// Thousands of files with random damage: each gives a whole, finite scene or one Error(scene), and nothing else. The
+// seed is fixed, so that a failure can be repeated.
 #include <random>
 
 #include "tests/scenes/gltf/expect.h"
@@ -12,7 +12,7 @@ struct Tally {
   int loaded = 0, refused = 0;
 };
 
-// What one file gives, counted; anything but a sound scene or one Error(scene) fails.
+// Loads one file and counts the outcome. Anything but a sound scene or one Error(scene) fails the test.
 void try_file(const std::string& path, Tally& tally, const std::string& what, const Pose& pose = {}) {
   try {
     const Scene scene = load_gltf(path, pose);
@@ -55,7 +55,7 @@ std::string mutated(std::string bytes, std::mt19937& random) {
   return bytes;
 }
 
-// Every value of a document, in order; for picking one.
+// Every value of a document, in order, so that one can be picked.
 void collect(json& value, std::vector<json*>& all) {
   all.push_back(&value);
   if (!value.is_structured()) return;

@@ -1,5 +1,5 @@
-// load_gltf on files that leave something open, break a rule that does not matter, or hold what is not modelled: what
-// is shown of them, and what is said.
+// load_gltf on files that leave something open, break a rule that does not matter, or contain what is not modelled:
+// which triangles are drawn, and which notes are written.
 #include <algorithm>
 
 #include "tests/scenes/gltf/expect.h"
@@ -122,7 +122,7 @@ TEST_F(GltfNotes, ExtensionsOfMaterialsAndTexturesLeaveShadowsAlone) {
   }
 }
 
-// glTF 2.0 leaves open what a flat transform does to the winding: the order of the corners stays.
+// glTF 2.0 does not define what a flat transform does to the winding. The loader keeps the order of the corners.
 TEST_F(GltfNotes, AFlatNodeIsDrawn) {
   json d = square();
   d["nodes"][0]["scale"] = {2, 3, 0};
@@ -134,7 +134,7 @@ TEST_F(GltfNotes, AFlatNodeIsDrawn) {
     EXPECT_GT(glm::cross(s.positions[t.y] - s.positions[t.x], s.positions[t.z] - s.positions[t.x]).z, 0);
 }
 
-// A box that is flattened along no axis of the world: its sides come down to what rounding makes of a line.
+// A box that is flattened along a direction that is no axis of the world. Its sides become lines, up to rounding.
 TEST_F(GltfNotes, AFlattenedBoxIsItsTwoFaces) {
   std::vector<float> corners;
   for (int i = 0; i < 8; ++i)

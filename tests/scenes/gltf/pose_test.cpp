@@ -67,12 +67,13 @@ class GltfPose : public ::testing::Test {
 TEST_F(GltfPose, SkinsFollowTheirJointsAndNotTheirNode) {
   json d = skinned();
   expect_positions(load(d), {{10, 0, 0}, {11, 0, 0}, {11, 6, 0}, {10, 6, 0}});
-  // The bind pose taken away: joints that stand as they did when they were bound leave the mesh as modelled.
+  // With inverse bind matrices, joints that stand in their bind pose leave the mesh as modelled.
   const std::vector<float> unbind = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -10, 0,  0, 1,
                                      1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -10, -5, 0, 1};
   d["skins"][0]["inverseBindMatrices"] = add_floats(d, unbind, "MAT4", 2);
   expect_positions(load(d), {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
-  // A turned joint turns what is bound to it about itself: the upper edge by 180 degrees about Y at (10, 5).
+  // A joint that is turned turns the vertices bound to it about the joint: here the upper edge, by 180 degrees about Y
+  // at (10, 5).
   d["nodes"][2]["rotation"] = {0, 1, 0, 0};
   expect_positions(load(d), {{0, 0, 0}, {1, 0, 0}, {19, 1, 0}, {20, 1, 0}});
 }
@@ -102,7 +103,7 @@ TEST_F(GltfPose, MirroringJointsFlipTheWinding) {
   const Scene s = load(d);
   for (const glm::uvec3& t : s.triangles)
     EXPECT_GT(glm::cross(s.positions[t.y] - s.positions[t.x], s.positions[t.z] - s.positions[t.x]).z, 0);
-  // The mesh's own node has no say in that either.
+  // The scale of the mesh's own node has no effect on the winding either.
   d["nodes"][1].erase("scale");
   d["nodes"][0]["scale"] = {-1, 1, 1};
   expect_positions(load(d), {{10, 0, 0}, {11, 0, 0}, {11, 6, 0}, {10, 6, 0}});
@@ -157,7 +158,7 @@ TEST_F(GltfPose, MorphTargetsByTheNodesWeightsElseTheMeshs) {
   expect_positions(load(d), {{0, 0, 0.5}, {1, 0, 0.5}, {1, 1, 0.5}, {0, 1, 0.5}});
   d["nodes"][0]["weights"] = {-2, 0.25};
   expect_positions(load(d), {{0, 0, -2}, {1, 0, -2}, {2, 1, -2}, {0, 1, -2}});
-  // Before the node's transform, and before the skin's.
+  // Morph targets are applied before the node's transform and before the skin.
   d["nodes"][0]["scale"] = {1, 1, 3};
   EXPECT_EQ(load(d).positions[0].z, -6);
   d["nodes"][0]["weights"] = {1};
@@ -196,7 +197,7 @@ TEST_F(GltfPose, InvisibleNodesHideWhatIsBelowThemButNoCamera) {
 json instanced() {
   json d = square();
   const int translation = add_accessor(d, raw(std::vector<float>{0, 0, 1, 5, 0, 2, 0, 0, 3}), 5126, "VEC3", 3);
-  // None, a quarter turn about Z in 16 bits, none.
+  // Rotations in 16 bits: none, a quarter turn about Z, none.
   const int rotation =
       add_accessor(d, raw(std::vector<int16_t>{0, 0, 0, 32767, 0, 0, 23170, 23170, 0, 0, 0, 32767}), 5122, "VEC4", 3);
   d["accessors"].back()["normalized"] = true;
@@ -224,7 +225,7 @@ TEST_F(GltfPose, InstancesAreInTheNodesOwnSpace) {
                        {99, 1, 3},
                        {99, 0, 3},
                        {100, 1, 3}});
-  // The mirrored one faces as the others do.
+  // The mirrored instance faces the same side as the others.
   for (const glm::uvec3& t : s.triangles)
     EXPECT_GT(glm::cross(s.positions[t.y] - s.positions[t.x], s.positions[t.z] - s.positions[t.x]).z, 0);
 }
@@ -243,7 +244,7 @@ TEST_F(GltfPose, BrokenInstancesAreRefused) {
   expect([&](json& d) { given(d)["SCALE"] = 1; }, place + ".attributes.SCALE: accessors[1] is of another type");
   expect([&](json& d) { given(d)["ROTATION"] = 99; }, place + ".attributes.ROTATION: 99 refers beyond");
   expect([&](json& d) { d["accessors"][3]["bufferView"] = d["accessors"][2]["bufferView"]; }, "quaternion of length");
-  // 67 million squares in a file of 1 kB: zeros take no room in it.
+  // 67 million triangles in a file of 1 kB: an accessor without a view is all zeros and takes no room in the file.
   expect(
       [&](json& d) {
         given(d).erase("ROTATION"), given(d).erase("SCALE");
@@ -290,7 +291,8 @@ TEST_F(GltfPose, LinearKeysAndTheEndsStandStill) {
 TEST_F(GltfPose, RotationsGoTheShortWayAtEvenSpeed) {
   json d = square();
   const float half = std::sqrt(0.5f);
-  // None, then a quarter turn about Z written as its negative, then the same; the shorter arc is 90 degrees.
+  // No rotation, then a quarter turn about Z written as the negated quaternion, then the same turn. The shorter arc is
+  // 90 degrees.
   animate(d, 0, "rotation", add_floats(d, {0, 0, 0, 1, 0, 0, -half, -half, 0, 0, half, half}, "VEC4", 3), "LINEAR");
   for (double t : {0.0, 0.25, 0.5, 1.0}) {
     const double angle = t * glm::half_pi<double>();
@@ -299,7 +301,7 @@ TEST_F(GltfPose, RotationsGoTheShortWayAtEvenSpeed) {
   }
 }
 
-// A cubic spline through x(t) = (t - 1)^3, whose values and slopes it is given, is that cubic.
+// A cubic spline that is given the values and slopes of x(t) = (t - 1)^3 is that cubic.
 TEST_F(GltfPose, CubicSplinesAreHermites) {
   json d = square();
   std::vector<float> keys;
@@ -378,7 +380,7 @@ TEST_F(GltfPose, BrokenAnimationsAreRefusedWhenTheyPose) {
       "a quaternion of length 0");
 }
 
-// A few kilobytes must not ask for hours of work.
+// A file of a few kilobytes must not cause hours of work.
 TEST_F(GltfPose, WorkIsBounded) {
   json d = square();
   auto& primitive = d["meshes"][0]["primitives"][0];

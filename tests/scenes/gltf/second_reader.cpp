@@ -24,7 +24,7 @@ using Worlds = std::map<std::string, glm::dmat4>;
 
 void place(const aiNode& node, const glm::dmat4& parent, Worlds& worlds) {
   const glm::dmat4 world = parent * matrix(node.mTransformation);
-  // Bones go by name. Where a joint and a node with a mesh share one, it is the joint's.
+  // Assimp identifies bones by name. If a joint and a node with a mesh have the same name, the name is the joint's.
   if (node.mNumMeshes == 0)
     worlds[node.mName.C_Str()] = world;
   else

@@ -1,5 +1,5 @@
-// What Assimp, a reader of glTF that has nothing in common with ours, makes of the same file: its triangles in the
-// world, morph targets and skins applied at rest.
+// Reads the same file with Assimp, a reader of glTF that shares no code with ours: its triangles in the world, with
+// morph targets and skins applied at rest.
 #pragma once
 #include <array>
 #include <glm/glm.hpp>

@@ -96,13 +96,13 @@ TEST_F(GltfView, TheFirstLightInTheScenesOrderIsTaken) {
   EXPECT_EQ(load(d).light.kind, LightKind::point);
   d["scenes"][0]["nodes"] = {0, 2, 1};
   EXPECT_EQ(load(d).light.kind, LightKind::directional);
-  // One that is not used may be more than a map can serve.
+  // A light that is not used may have a cone that is too wide for a map.
   d["extensions"]["KHR_lights_punctual"]["lights"][0] = {{"type", "spot"}, {"spot", {{"outerConeAngle", 1.57}}}};
   EXPECT_EQ(load(d).light.kind, LightKind::directional);
 }
 
 TEST_F(GltfView, SpotStandsAndLooksAsItsNode) {
-  // The parent's move and turn, and its scale, which is no part of a light.
+  // The translation, rotation and scale of the parent place the light. The light itself has no scale.
   json d = with_lights({{{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}, {"range", 2}}},
                        {{"translation", {1, 2, 3}}, {"scale", {2, 2, 2}}, {"rotation", looks_down}});
   d["nodes"][1]["children"] = {2};
@@ -116,7 +116,7 @@ TEST_F(GltfView, SpotStandsAndLooksAsItsNode) {
   expect_near(s.light.target_m, {1, 0.5, 3});  // level with the square's middle
   EXPECT_NEAR(s.light.cone_deg, glm::degrees(1.0), rounding);
   EXPECT_FALSE(s.map);
-  // A map that is fitted holds the scene, whatever `range` says: lights do not fall off.
+  // A fitted map contains the scene, whatever `range` is, because our lights do not fall off with distance.
   const LightFrame frame = make_light_frame(s, {});
   EXPECT_GT(frame.near_m, 0);
   for (const glm::vec3& p : s.positions) EXPECT_LT(frame.depth_m(frame.to_light(p)), frame.far_m);
@@ -126,7 +126,7 @@ TEST_F(GltfView, SpotsAreNinetyDegreesWideWhenTheyDoNotSay) {
   const Scene s = load(with_lights({{{"type", "spot"}, {"spot", json::object()}}}, {{"translation", {0.5, 0.5, 3}}}));
   EXPECT_EQ(s.light.cone_deg, 90);
   expect_near(travels(s.light), {0, 0, -1});
-  // Turned away from the scene: still a direction.
+  // A light that is turned away from the scene still has a direction.
   const json away = {{"translation", {0.5, 0.5, -3}}};
   expect_near(load(with_lights({{{"type", "spot"}, {"spot", json::object()}}}, away)).light.target_m, {0.5, 0.5, -4});
 }
@@ -137,7 +137,7 @@ TEST_F(GltfView, PointLightStandsAtItsNode) {
   EXPECT_EQ(s.light.position_m, glm::dvec3(0.5, 4.5, 0));
   EXPECT_EQ(s.light.radius_m, 0);
   EXPECT_GT(make_light_frame(s, {}).far_m, glm::length(glm::dvec2(0.5, 4.5)));
-  // In the very middle of the scene there is no way to the middle; the light has a target all the same.
+  // From the exact middle of the scene there is no direction to the middle, but the light still has a target.
   const Scene inside = load(with_lights({{{"type", "point"}}}, {{"translation", {0.5, 0.5, 0}}}));
   EXPECT_EQ(inside.light.position_m, glm::dvec3(0.5, 0.5, 0));
 }
@@ -174,11 +174,11 @@ TEST(Fit, TheCameraSeesTheWholeSphere) {
     const Sphere sphere = bounding_sphere(s);
     const Camera c = fit_camera(s);
     const glm::dvec3 forward = glm::normalize(c.target_m - c.eye_m);
-    EXPECT_LT(forward.y, -0.1) << "from above";
-    EXPECT_GT(forward.y, -0.7) << "but not far above";
+    EXPECT_LT(forward.y, -0.1) << "the camera looks from above";
+    EXPECT_GT(forward.y, -0.7) << "but not steeply";
     const double distance = glm::distance(c.eye_m, sphere.centre_m);
     EXPECT_GT(glm::radians(c.fov_y_deg / 2), std::asin(sphere.radius_m / distance));
-    EXPECT_FALSE(c.near_m || c.far_m) << "they are fitted to where it stands in the end";
+    EXPECT_FALSE(c.near_m || c.far_m) << "near and far are fitted later, to the final place of the camera";
     // Every position inside the clip volume of a square picture.
     const glm::dmat4 clip =
         glm::perspective(glm::radians(c.fov_y_deg), 1.0, distance - sphere.radius_m, distance + sphere.radius_m) *
