@@ -1,4 +1,4 @@
-// Causes as a person would name them, on the scenes made to provoke each.
+// The causes on scenes that are made so that one cause appears. The expected cause is the one that a person would name.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,8 +13,8 @@ namespace {
 
 class Alone : public testing::TestWithParam<std::string> {};
 
-// No occluder: acne and nothing else, at every setting. (With the map smaller than the object coverage comes in; the
-// scenes' own maps hold them whole.)
+// Without an occluder, acne is the only cause, at every setting. (The scenes' own maps cover the whole object. With a
+// smaller map there would be coverage as well.)
 TEST_P(Alone, ShowsAcneOnly) {
   Workbench bench(gl::DebugMode::fatal);
   double most_acne = 0;
@@ -36,13 +36,13 @@ TEST_P(Alone, ShowsAcneOnly) {
       }
     }
   }
-  EXPECT_GT(most_acne, 0.3) << "at bias 0 about half of a slope is dark";
+  EXPECT_GT(most_acne, 0.3) << "without a bias about half of a slope must be dark";
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, Alone, testing::Values("plane", "sphere", "bowl"),
                          [](const auto& scene) { return scene.param; });
 
-// Law 2: from the shadow-side foot a bias of b metres along the light lights a gap max(0, b sin(theta) - t / cos(psi))
-// along the light's trace on the floor.
+// Law 2: a bias of b metres along the light lights a gap of max(0, b sin(theta) - t / cos(psi)) at the foot of the
+// wall, on its shadow side. The gap is measured along the light's trace on the floor.
 TEST(Wall, ShowsPeterPanningOfTheSizeOfLaw2) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* thickness : {"0.05", "0.1", "0.3"}) {
@@ -54,13 +54,13 @@ TEST(Wall, ShowsPeterPanningOfTheSizeOfLaw2) {
                                                small("wall", 960, 540)),
                                           std::nullopt);
       const glm::dvec3 to_light = m.frame.direction_to_light();
-      const glm::dvec2 trace = -glm::normalize(glm::dvec2(to_light.x, to_light.z));  // the way that shadows fall
+      const glm::dvec2 trace = -glm::normalize(glm::dvec2(to_light.x, to_light.z));  // the direction of the shadows
       const double b = std::stod(bias_m), t = std::stod(thickness);
       const double sin_theta = std::sqrt(1 - to_light.y * to_light.y), cos_psi = trace.x;
       const double predicted = std::max(0.0, b * sin_theta - t / cos_psi);
 
-      // Floor receivers behind the first wall, away from its ends: how far along the trace from the foot, and what is
-      // wrong?
+      // For the floor receivers behind the first wall, away from its ends: how far they are from the foot along the
+      // trace, and which of them are wrong.
       double measured = 0;
       uint64_t between = 0, behind = 0;
       const double texel_on_floor = m.frame.texel_m() / to_light.y;
@@ -77,8 +77,8 @@ TEST(Wall, ShowsPeterPanningOfTheSizeOfLaw2) {
       }
       SCOPED_TRACE(std::string("t ") + thickness + " b " + bias_m);
       EXPECT_GT(behind, 500u);
-      EXPECT_EQ(between, 0u) << "inside the gap everything is lit";
-      // The grid moves the gap's end by half a texel to either side, and a pixel's width of floor rounds it once more.
+      EXPECT_EQ(between, 0u) << "dark receivers inside the gap";
+      // The end of the gap is uncertain by half a texel to either side, and by the width of a pixel on the floor.
       EXPECT_NEAR(measured, predicted, texel_on_floor + 0.01);
     }
   }
@@ -107,10 +107,10 @@ TEST(CubeRoom, ShowsEachStoryOfTheTutorials) {
   const auto value = [&](std::initializer_list<Assignment> assignments, const char* name) {
     return metric(bench.measure(with(assignments, base), std::nullopt), name);
   };
-  EXPECT_GT(value({{"bias.constant", "0"}}, "acne"), 0.25) << "stripes";
-  EXPECT_LT(value({{"bias.constant", "0.005"}}, "acne"), 0.002) << "mostly gone";
-  EXPECT_GT(value({{"bias.constant", "0.005"}}, "acne"), 0) << "but not on steep faces";
-  // The far plane cuts the floor inside the map as well, so both repeat and beyond far are coverage.
+  EXPECT_GT(value({{"bias.constant", "0"}}, "acne"), 0.25) << "there must be stripes";
+  EXPECT_LT(value({{"bias.constant", "0.005"}}, "acne"), 0.002) << "most acne must be gone";
+  EXPECT_GT(value({{"bias.constant", "0.005"}}, "acne"), 0) << "steep faces must keep some acne";
+  // The far plane also cuts the floor inside the map, so both `repeat` and receivers beyond far cause coverage errors.
   EXPECT_GT(value({{"map.wrap", "repeat"}, {"map.lit_beyond_far", "false"}}, "coverage_dark"), 0.1);
   EXPECT_GT(value({{"map.wrap", "clamp_to_border"}, {"map.lit_beyond_far", "false"}}, "coverage_dark"), 0.05);
   EXPECT_EQ(value({{"map.wrap", "clamp_to_border"}, {"map.lit_beyond_far", "true"}}, "coverage"), 0);
@@ -208,8 +208,9 @@ TEST(StandingCube, HasTheSameCausesAsOneMeshAndAsTwo) {
       }
       all_wrong += wrong;
       EXPECT_EQ(differ_one, 0u);
-      // Another split of the floor rounds P and the rasterised depths differently in their last bit, so single pixels
-      // whose threshold lies within that bit of the bias may change. At bias 0 every threshold of a flat face does.
+      // If the floor is split differently, P and the rasterised depths can differ in their last bit. So single pixels
+      // may change if their threshold differs from the bias by at most this bit. At bias 0 this is so on every flat
+      // face.
       EXPECT_LE(differ_joined, wrong / 20 + 2);
     }
   }

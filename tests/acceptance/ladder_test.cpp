@@ -1,5 +1,5 @@
-// The ladder on real scenes: steps add up at every receiver, classes are what a person would say, and the one-pass bias
-// curve is what rendering with each bias gives.
+// The ladder on real scenes: the steps add up at every receiver, the classes are plausible, and the bias curve from one
+// pass equals the result of rendering with each bias.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ class EveryScene : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     if (GetParam().ends_with(".gltf") && !std::filesystem::exists(GetParam()))
-      GTEST_SKIP() << GetParam() << " is not here";
+      GTEST_SKIP() << GetParam() << " does not exist";
   }
 };
 
@@ -85,7 +85,7 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
         if (cause != Cause::light_size && cause != Cause::precision) taps += step;
         classes += of_taps && cause != Cause::displacement && step != 0;
       }
-      // Written so that a NaN is broken.
+      // The negation counts a NaN as broken.
       broken_steps += !(std::abs((ladder.shown()[i] - ladder.soft_truth()[i]) - all) <= rounding_of_steps);
       broken_taps += !(std::abs((ladder[Rung::on_exact_map][i] - ladder.truth()[i]) - taps) <= rounding_of_steps);
       if (filtered) continue;
@@ -100,12 +100,12 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
     EXPECT_GT(facing, 1000u);
     EXPECT_EQ(broken_steps, 0u);
     EXPECT_EQ(broken_taps, 0u);
-    EXPECT_EQ(several, 0u) << "an unfiltered receiver has one tap, so at most one class";
+    EXPECT_EQ(several, 0u) << "an unfiltered receiver has one tap, so it can have at most one class";
     EXPECT_EQ(unclassed, 0u);
     EXPECT_EQ(classed_though_right, 0u);
     EXPECT_LE(metric(m, "residual"), rounding_of_steps);
     EXPECT_LE(metric(m, "tap_residual"), rounding_of_steps);
-    EXPECT_EQ(metric(m, "contract"), 0) << "the GPU's verdicts are the technique's, to the last bit";
+    EXPECT_EQ(metric(m, "contract"), 0) << "the GPU's verdicts must equal the technique's definition bit for bit";
     EXPECT_LE(metric(m, "rounding_excess"), 1);
     EXPECT_LE(metric(m, "map_bits"), m.settings.map.format == DepthFormat::d16   ? 16
                                      : m.settings.map.format == DepthFormat::d24 ? 24
@@ -115,8 +115,8 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
   }
 }
 
-// A wide map's texels are so large that an offset of one carries the lookup over to behind a spot light, where it asks
-// nothing: all of it is coverage, and the steps add up.
+// The texels of a wide map are so large that an offset of one texel moves the lookup behind a spot light. The map has
+// no answer there: the whole error is coverage, and the steps add up.
 TEST(Acceptance, ALookupMovedBehindTheLightIsCoverage) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* filter : {"none", "box", "hardware"}) {
@@ -130,8 +130,8 @@ TEST(Acceptance, ALookupMovedBehindTheLightIsCoverage) {
     const Measurement m = bench.measure(settings, std::nullopt);
     SCOPED_TRACE(filter);
     EXPECT_GT(metric(m, "counted"), 100);
-    EXPECT_EQ(metric(m, "error"), metric(m, "lit")) << "what is lit in truth is dark";
-    // Under a filter a dark receiver has taps that are lit at their exact places.
+    EXPECT_EQ(metric(m, "error"), metric(m, "lit")) << "every receiver that is lit in truth must be dark";
+    // With a filter, a receiver that is dark in truth can have taps that are lit at their exact places.
     EXPECT_GE(metric(m, "coverage_dark"), metric(m, "lit"));
     EXPECT_EQ(metric(m, "acne") + metric(m, "aliasing") + metric(m, "peter_panning") + metric(m, "undecided"), 0);
     EXPECT_EQ(metric(m, "displacement"), 0);
@@ -142,7 +142,8 @@ TEST(Acceptance, ALookupMovedBehindTheLightIsCoverage) {
   }
 }
 
-// A map of a million kilometres, moved by a texel of it, over a few centimetres: there the frame's own double shows.
+// A map of a million kilometres that is moved by one texel, and a picture of a few centimetres: here the rounding of
+// the frame's own double is visible.
 TEST(Acceptance, TheFramesOwnRoundingIsNoExcess) {
   Workbench bench(gl::DebugMode::fatal);
   const glm::dvec3 light(7.264404296875, 3.06494140625, -1.736572265625);
@@ -162,8 +163,8 @@ TEST(Acceptance, TheFramesOwnRoundingIsNoExcess) {
   }
 }
 
-// Law 8: without an occluder there is no Peter Panning and no aliasing, whatever the setting. Peter Panning is 0 on lit
-// unfiltered receivers always.
+// Law 8: without an occluder there is no Peter Panning and no aliasing, at every setting. Without a filter, Peter
+// Panning is always 0 at lit receivers.
 TEST_P(EveryScene, LitReceiversHaveNoPeterPanning) {
   Workbench bench(gl::DebugMode::fatal);
   for (const char* bias : {"0", "0.01", "0.3"}) {
@@ -185,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(all_scenes()), sc
 
 class OneCurve : public testing::TestWithParam<std::string> {};
 
-// 100 random biases, each rendered by OpenGL with that bias, against the counts read off one pass.
+// 100 random biases: OpenGL renders with each of them, and the result is compared with the counts from one pass.
 TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
   const Settings base = with({{"map.resolution", "400"}}, small(GetParam(), 320, 180));
   const Scene scene = make_scene(base.scene);
@@ -234,7 +235,7 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
             booked[c] += std::abs(static_cast<double>(ladder.causes[c].step[i])) * taps.taps.taps_per_receiver;
         }
         EXPECT_EQ(counts.wrong_receivers(x), wrong_receivers) << x;
-        // Ninths are not exact in float; their sum over the picture is within half a tap of a whole number.
+        // A ninth is not exact in float. But the sum over the picture is less than half a tap away from a whole number.
         EXPECT_EQ(counts.wrong_taps(x), static_cast<double>(std::llround(wrong_taps))) << x;
         for (Cause cause : {Cause::acne, Cause::peter_panning, Cause::aliasing_dark, Cause::aliasing_light,
                             Cause::coverage_dark, Cause::coverage_light})
@@ -242,8 +243,8 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
               << cause_name(cause) << " at " << x;
         different_counts += wrong_receivers != counts.wrong_receivers(0);
       }
-      // Slopes below the floor change nothing, and they are up to two thirds of those tried.
-      EXPECT_GT(different_counts, 25u) << "the biases tried must matter";
+      // Slopes below the floor change nothing. They are up to two thirds of the biases that are tried.
+      EXPECT_GT(different_counts, 25u) << "too few of the biases change the result";
     }
   }
 }

@@ -1,5 +1,5 @@
-// One planted defect, as the tests list them, and the test that each must pass: a sound run is sound, and the metrics
-// named move as far as they must.
+// The description of one planted defect, and the test that each defect must pass: without the defect the run is sound,
+// and with it the named metrics change by at least the given amount.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ using acceptance::with;
 inline const char* const receiver = "shaders/receiver.glsl";
 inline const char* const projected = "shaders/light/projected.glsl";
 
-// A metric of the undamaged run at most (for `falls`: at least) `before`, of the damaged one at least (at most)
-// `after`.
+// The metric is at most `before` without the defect and at least `after` with it. For `falls` it is the other way
+// round: at least `before`, and at most `after`.
 struct Moves {
   const char* metric;
   double before, after;
@@ -32,10 +32,11 @@ struct Planted {
   Settings settings;
   Defect defect;
   std::vector<Moves> moves;
-  std::vector<const char*> still{};  // metrics that must not see it, to show why another has to
+  std::vector<const char*> still{};  // metrics that must not change, which shows why another metric is needed
 };
 
-// One floor, three cubes. At 512 texels a texel is 39 mm, and law 1 asks 2.3e-3 of depth at most for the floor.
+// One floor and three cubes. At a resolution of 512 a texel is 39 mm, and law 1 requires at most 2.3e-3 of depth for
+// the floor.
 inline Settings cubes(std::initializer_list<acceptance::Assignment> more = {}) {
   return with(more, with({{"map.resolution", "512"}, {"bias.constant", "0.0025"}}, small("cube-room", 320, 180)));
 }
@@ -64,8 +65,8 @@ inline void expect_moves(const Planted& p) {
     }
   }
   for (const char* metric : p.still) {
-    // Rounding of shares that stay 0, and of residuals, at most.
-    EXPECT_NEAR(broken.at(metric), sound.at(metric), 1e-6) << metric << " should not see this";
+    // The tolerance is for the rounding of shares that stay 0 and of residuals.
+    EXPECT_NEAR(broken.at(metric), sound.at(metric), 1e-6) << metric << " must not change with this defect";
   }
 }
 

@@ -1,7 +1,8 @@
-// Wrong shaders and wrong maps, planted on purpose: each must move the metric that is there to see it. A lookup that
-// does not do what its settings say is a breach of contract; an address, a reference depth or an N.L that is not the
-// light frame's exceeds what rounding explains; a map that does not hold what the scene casts shows as precision, which
-// is what remains when R4's exact map is right and R5's is not.
+// Wrong shaders and wrong maps, planted on purpose: each must change the metric that is made for it.
+// - A lookup that does not do what its settings say breaks the contract.
+// - An address, a reference depth or an N.L that differs from the light frame's gives a rounding_excess above 1.
+// - A map that does not hold the casters of the scene causes a precision error, because R4's exact map is right and
+//   R5's map is wrong.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace noonmark::planted {
 namespace {
 
 Settings offset_cubes() { return cubes({{"bias.constant", "0"}, {"bias.normal_offset", "0.7"}}); }
-// The map covers two fifths of what it should, so that many receivers fall outside.
+// The map covers only two fifths of the usual extent, so that many receivers are outside.
 Settings narrow() { return cubes({{"map.extent_scale", "0.4"}}); }
 
 Image<float> flipped(const Image<float>& map) {
@@ -52,48 +53,48 @@ const char* const box = "shaders/filter/box.glsl";
 std::vector<Planted> defects() {
   std::vector<Planted> all;
 
-  // --- The lookup. R4 runs the same shader, so precision cannot see these: the contract does. -----------------------
+  // --- The lookup. R4 runs the same shader, so precision does not change; the contract does. -----------------------
 
-  // A bias that darkens puts every lit receiver behind its own texel by more than the slope can make good.
+  // A bias of the wrong sign puts every lit receiver behind the depth of its texel, by more than the slope can balance.
   all.push_back({"BiasWithTheWrongSign",
                  cubes(),
                  {.shaders = patched("shaders/compare.glsl", "reference - bias", "reference + bias")},
                  {{"contract", 0, 0.5}, {"tap_residual", 1e-6, 1}, {"error", 0.01, 0.5}}});
-  // The same, of a technique that owns up to it: the lookup is what it says, and what is wrong is acne.
+  // The same bias, but the technique is defined with it. So the contract is kept, and the error is acne.
   all.push_back({"BiasWithTheWrongSignAsClaimed",
                  cubes(),
                  {.shaders = patched("shaders/compare.glsl", "reference - bias", "reference + bias"),
                   .believed_bias = [](BiasSettings& bias) { bias["constant"] = -bias["constant"]; }},
                  {{"acne", 0.01, 0.5}, {"error", 0.01, 0.5}},
                  {"contract", "tap_residual", "rounding_excess"}});
-  // Ties are too rare to show in a picture of this scene; on the map of ties every second texel has one.
+  // Ties are too rare to be visible in a picture of this scene. On the tie map every second texel has one.
   const auto or_equal = patched("shaders/compare.glsl", "biased > stored_depth", "biased >= stored_depth");
   all.push_back(
       {"GreaterOrEqualForGreater", cubes(), {.shaders = or_equal}, {{"contract", 0, 0.05}}, {"tap_residual"}});
-  // Square to the light at bias 0 every comparison is a tie: all of a lit plane goes dark, but
-  // for what falls into texels whose centre lies beyond its rim.
+  // On a plane that is perpendicular to the light, every comparison at bias 0 is a tie. The whole plane becomes dark,
+  // except for receivers in texels whose centre lies beyond the rim of the plane.
   all.push_back(
       {"GreaterOrEqualOnAPlaneSquareToTheLight",
        with({{"scene.theta_deg", "0"}, {"bias.constant", "0"}, {"map.format", "32f"}}, small("plane", 160, 90)),
        {.shaders = or_equal},
        {{"contract", 0, 0.99}, {"error", 0, 0.99}, {"tap_residual", 0, 1}}});
-  // One tap of nine dropped: what is lit, four fifths of the picture, is 8/9 lit.
+  // One of nine taps is dropped. So the lit receivers, four fifths of the picture, become 8/9 lit.
   all.push_back({"WeightsThatSumToEightNinths",
                  cubes_3x3(),
                  {.shaders = patched(box, "if (tap_lit(", "if (!(x == 1 && y == 1) && tap_lit(")},
                  {{"contract", 0, 0.7}, {"tap_residual", 1e-6, 0.111}, {"error", 0.011, 0.8 / 9}}});
-  // The loop ends a tap early in x: six taps of nine, moved by half a texel; what is lit is 2/3 lit.
+  // The loop ends one tap early in x: six of nine taps, moved by half a texel. Lit receivers become 2/3 lit.
   all.push_back({"EvenKernel",
                  cubes_3x3(),
                  {.shaders = patched(box, "x <= box_radius", "x < box_radius")},
                  {{"contract", 0, 0.7}, {"tap_residual", 1e-6, 0.333}, {"error", 0.011, 0.8 / 3}}});
-  // The middle tap alone is compared without its bias: half of them fall to acne.
+  // Only the middle tap is compared without its bias: half of the middle taps have acne.
   all.push_back({"ReferenceNotBiasedInOneBranch",
                  cubes_3x3(),
                  {.shaders = patched(box, "tap_depth(receiver, offset, at), bias,",
                                      "tap_depth(receiver, offset, at), x == 0 && y == 0 ? 0.0 : bias,")},
                  {{"contract", 0, 0.3}, {"tap_residual", 1e-6, 0.111}}});
-  // 0.005 m on the axis is 0.0008 of depth; taken for depth it is six times too much.
+  // 0.005 m along the axis is 0.0008 of depth. If 0.005 is used as a depth, the bias is six times too large.
   all.push_back({"BiasInMetresTakenForDepth",
                  cubes({{"bias.constant", "0.005"}, {"bias.unit", "m"}}),
                  {.asked = [](Settings& s) { s.bias.unit = BiasUnit::depth; }},
@@ -106,7 +107,7 @@ std::vector<Planted> defects() {
                  cubes({{"bias.constant", "0"}, {"bias.slope", "0.001"}, {"bias.slope_floor", "0.0025"}}),
                  {.asked = [](Settings& s) { s.bias["slope_floor"] = 0; }},
                  {{"contract", 0, 0.1}, {"tap_residual", 1e-6, 1}}});
-  // The wrap mode of every map made; the truth counts on the lit border.
+  // The wrap mode of all maps is wrong; the truth assumes the lit border.
   all.push_back({"WrapRepeatInPlaceOfBorder",
                  narrow(),
                  {.drawn_map = [](LightFrame&, MapSettings& map) { map.wrap = Wrap::repeat; }, .every_map = true},
@@ -118,8 +119,8 @@ std::vector<Planted> defects() {
                                      "  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, "
                                      "textureSize(shadow_map, 0)))) return 0.0;\n  return textureLod")},
                  {{"contract", 0, 0.15}, {"tap_residual", 1e-6, 1}, {"error", 0.005, 0.15}}});
-  // The address within the map: the texel's far corner, so that the neighbour may be read. The read-back of R5's map
-  // has the same fault; R4's map is known from where it came.
+  // The address is the far corner of the texel, so that the lookup may read the neighbour. The read-back of R5's map
+  // has the same fault. R4's map is not read back, because its values are known.
   all.push_back({"HalfTexelOffsetInTheSampler",
                  cubes(),
                  {.shaders = patched("shaders/map/flat.glsl", "vec2(texel) + 0.5", "vec2(texel) + 1.25")},
@@ -129,17 +130,17 @@ std::vector<Planted> defects() {
                  {.shaders = patched("shaders/lookup.frag", "lit_beyond_far != 0 &&", "lit_beyond_far == 2 &&")},
                  {{"contract", 0, 0.03}, {"tap_residual", 1e-6, 1}}});
 
-  // The lookup alone reads the pixel beside.
+  // The lookup reads the position of the neighbouring pixel; the probe reads the right one.
   all.push_back(
       {"LookupAtTheNextPixel",
        cubes(),
        {.shaders = patched("shaders/lookup.frag", "ivec2(gl_FragCoord.xy)", "ivec2(gl_FragCoord.xy) + ivec2(1, 0)")},
        {{"contract", 0, 0.05}, {"tap_residual", 1e-6, 1}}});
 
-  // --- What the probe shares with the lookup. The truth follows its texels, and the contract is kept. ---------------
+  // --- Code that probe and lookup share. The truth uses the wrong texels too, and the contract is kept. -------------
 
   const auto half_texel = patched(projected, "window.xy * float(resolution)", "window.xy * float(resolution) - 0.5");
-  // The texel named is off by half its width in both axes, so true edges lie up to sqrt(2) texels off, not sqrt(1/2).
+  // The texel is off by half its width in both axes, so true edges are up to sqrt(2) texels away, not sqrt(1/2).
   all.push_back({"HalfTexelOffset",
                  cubes(),
                  {.shaders = half_texel},
@@ -148,7 +149,7 @@ std::vector<Planted> defects() {
                   {"edge_displacement_texels", std::sqrt(0.5) + 0.01, 1},
                   {"acne", 0.01, 0.05}},
                  {"contract", "tap_residual"}});
-  // It also leaves receivers behind the light, which the lookup has for background.
+  // It also leaves receivers behind the light, which the lookup treats as background.
   all.push_back({"TransposedMatrix",
                  cubes(),
                  {.shaders = patched(projected, "clip_from_world * vec4", "transpose(clip_from_world) * vec4")},
@@ -159,34 +160,34 @@ std::vector<Planted> defects() {
                                      "precise vec2 map_texels = vec2(window.x, 1.0 - window.y)")},
                  {{"address_error_texels", 1e-4, 100}, {"rounding_excess", 1, 1000}},
                  {"contract", "reference_error_m"}});
-  // The receiver beside, in the lookup and in the probe.
+  // Both the lookup and the probe read the neighbouring receiver.
   all.push_back({"ReceiverOfTheNextPixel",
                  cubes(),
                  {.shaders = patched(receiver, "texelFetch(position_image, pixel,",
                                      "texelFetch(position_image, pixel + ivec2(1, 0),")},
                  {{"address_error_texels", 1e-4, 5}, {"rounding_excess", 1, 1000}}});
-  // 1 - N.L becomes 1 + N.L: on the floor 15 times the bias, 0.6 m along the light, and at the foot of the
-  // standing cubes a gap of 0.3 m.
+  // 1 - N.L becomes 1 + N.L. On the floor this is 15 times the bias, 0.6 m along the light, which lights a gap of 0.3 m
+  // at the foot of the standing cubes.
   all.push_back({"LightNegatedInNDotL",
                  cubes({{"bias.constant", "0"}, {"bias.slope", "0.05"}, {"bias.slope_floor", "0"}}),
                  {.shaders = patched(receiver, "dot(normal, at.to_light)", "-dot(normal, to_light(position.xyz))")},
                  {{"rounding_excess", 1, 1000}, {"peter_panning", 1e-4, 1e-3}},
                  {"contract", "address_error_texels", "reference_error_m"}});
-  // What lies beyond far is taken for what lies at far.
+  // Receivers beyond the far plane are treated as if they were on it.
   all.push_back({"ReferenceClamped",
                  cubes(),
                  {.shaders = patched(receiver, "return Receiver(true, view.depth,",
                                      "return Receiver(true, min(view.depth, 1.0),")},
                  {{"reference_error_m", 1e-5, 0.05}, {"rounding_excess", 1, 1000}},
                  {"contract", "address_error_texels"}});
-  // Depth in clip space, [-1, 1], against a map that holds [0, 1].
+  // The reference is a depth in clip space, [-1, 1]; the map holds [0, 1].
   all.push_back({"ReferenceInClipSpace",
                  cubes(),
                  {.shaders = patched(projected, "is_finite(window), window.z,", "is_finite(window), ndc.z,")},
                  {{"reference_error_m", 1e-5, 1}, {"rounding_excess", 1, 1000}, {"peter_panning", 1e-4, 0.01}},
                  {"contract", "address_error_texels"}});
 
-  // --- The normal offset. It moves the address and the depth: the contract cannot see what the probe shares. ---------
+  // --- The normal offset. It moves address and depth. The contract is blind to code that the probe shares. ---------
 
   const char* const offset = "technique/bias/normal_offset.glsl";
   all.push_back({"NormalOffsetInwards",
@@ -194,26 +195,26 @@ std::vector<Planted> defects() {
                  {.shaders = patched(offset, "return at.normal", "return -at.normal")},
                  {{"rounding_excess", 1, 1000}, {"address_error_texels", 1e-4, 0.3}, {"acne", 1e-3, 0.5}},
                  {"contract"}});
-  // Half of what was asked.
+  // The offset is half as large as the setting says.
   all.push_back({"NormalOffsetHalved",
                  offset_cubes(),
                  {.shaders = patched(offset, "return at.normal", "return 0.5 * at.normal")},
                  {{"rounding_excess", 1, 1000}},
                  {"contract"}});
-  // The depth of the moved place at the texel of the unmoved one: what "offset the depth only" does.
+  // The depth is that of the moved place, but the texel is that of the unmoved place ("offset the depth only").
   all.push_back({"NormalOffsetOfTheDepthAlone",
                  offset_cubes(),
                  {.shaders = patched(receiver, "view.depth, view.map_texels,",
                                      "view.depth, seen_by_light(position.xyz).map_texels,")},
                  {{"rounding_excess", 1, 1000}, {"address_error_texels", 1e-4, 0.3}},
                  {"contract", "reference_error_m"}});
-  // The truth believes in an offset that the lookup was never given.
+  // The truth includes an offset that the lookup does not have.
   all.push_back({"NormalOffsetForgotten",
                  offset_cubes(),
                  {.asked = [](Settings& s) { s.bias["normal_offset"] = 0; }},
                  {{"contract", 0, 0.1}, {"tap_residual", 1e-6, 1}}});
 
-  // --- The map. R4 is right and R5 is not: precision, of the size of what is wrong. ---------------------------------
+  // --- The map. R4 is right and R5 is wrong. So the whole error is precision. ---------------------------------
 
   // At half the resolution the floor needs twice the bias that it has.
   all.push_back({"MapOneSizeSmallerThanClaimed",
@@ -222,21 +223,21 @@ std::vector<Planted> defects() {
                   .edited_map = doubled},
                  {{"precision", 1e-3, 0.05}, {"map_error_quanta", 2, 1000}},
                  {"contract", "rounding_excess"}});
-  // Its shadow and nothing else: the receivers below it are lit.
+  // The receivers in the shadow of the missing caster are lit, and no others change.
   all.push_back({"MissingCaster",
                  cubes(),
                  {.drawn_scene = [](Scene& scene) { drop_part(scene, "floating cube"); }},
                  {{"precision", 1e-3, 0.01}, {"error", 0.01, 0.02}},
                  {"contract", "rounding_excess", "acne", "peter_panning", "aliasing"}});
-  // 256 quanta of 24 bits make one of 16, and rounding is off by a quarter of it in the middle: 64, as far as the
-  // few hundred depths of this picture are spread evenly.
+  // One quantum of 16 bits is 256 quanta of 24 bits. Rounding to it is off by a quarter of it in the mean: 64 quanta,
+  // if the few hundred depths of this picture are spread evenly.
   all.push_back({"Depth16For24",
                  cubes({{"bias.constant", "0"}}),
                  {.drawn_map = [](LightFrame&, MapSettings& map) { map.format = DepthFormat::d16; }},
                  {{"map_error_quanta", 2, 40}, {"map_bits", 24, 16, true}, {"precision", 1e-4, 5e-4}},
                  {"contract"}});
-  // Floats are finer than 24 bits near the light only: the scene in the first 1/50 of the map's depth. The verdicts do
-  // not show it, because the rasteriser's own arithmetic is no finer than 24 bits: the values do.
+  // Floats are finer than 24 bits only near the light, so the scene lies in the first 1/50 of the map's depth. The
+  // verdicts do not change, because the rasteriser computes with no more than 24 bits. But the stored values change.
   const Settings deep =
       cubes({{"map.format", "32f"}, {"map.near_m", "1"}, {"map.far_m", "300"}, {"bias.constant", "0"}});
   all.push_back({"Depth24For32F",
@@ -249,13 +250,13 @@ std::vector<Planted> defects() {
                  {.drawn_map = [](LightFrame&, MapSettings& map) { map.format = DepthFormat::d32f; }},
                  {{"map_bits", 24, 32}},
                  {"contract"}});
-  // At bias 0 half of every lit slope is dark, and a map of the far sides frees them all.
+  // At bias 0 half of every lit slope is dark. With a map of the back faces, all of it is lit.
   all.push_back({"FrontFacesCulled",
                  cubes({{"bias.constant", "0"}}),
                  {.drawn_map = [](LightFrame&, MapSettings& map) { map.cull = CulledFaces::front; }},
                  {{"precision", 1e-3, 0.25}, {"map_error_quanta", 2, 10000}},
                  {"contract"}});
-  // The rendered map's wrap mode alone.
+  // Only the wrap mode of the rendered map is wrong.
   all.push_back({"WrapRepeatOfTheRenderedMap",
                  narrow(),
                  {.drawn_map = [](LightFrame&, MapSettings& map) { map.wrap = Wrap::repeat; }},
@@ -278,12 +279,12 @@ std::vector<Planted> defects() {
                  cubes(),
                  {.drawn_map = [](LightFrame& frame, MapSettings&) { std::swap(frame.near_m, frame.far_m); }},
                  {{"precision", 1e-3, 0.1}, {"map_error_quanta", 2, 10000}}});
-  // Half a metre of depth nearer than claimed: every lit receiver lies behind its own texel.
+  // The stored depths are half a metre too near: every lit receiver lies behind its own texel.
   all.push_back({"NearPlaneHalfAMetreOff",
                  cubes(),
                  {.drawn_map = [](LightFrame& frame, MapSettings&) { frame.near_m += 0.5; }},
                  {{"precision", 1e-3, 0.5}, {"map_error_quanta", 2, 10000}}});
-  // The light moved by 8 degrees since the map was drawn.
+  // The light has moved by 8 degrees since the map was drawn.
   all.push_back({"MapOfThePreviousLight",
                  cubes(),
                  {.drawn_map =
@@ -295,7 +296,7 @@ std::vector<Planted> defects() {
                         frame.forward = old.forward, frame.ray_direction = old.ray_direction;
                       }},
                  {{"precision", 1e-3, 0.05}, {"map_error_quanta", 2, 10000}}});
-  // A polygon offset left on: a constant in the map that no setting names.
+  // A polygon offset was left on: the map contains a constant offset that is in no setting.
   all.push_back({"OffsetLeftInTheMap",
                  cubes(),
                  {.edited_map =
@@ -312,8 +313,8 @@ class PlantedDefect : public testing::TestWithParam<Planted> {};
 TEST_P(PlantedDefect, MovesItsMetric) { expect_moves(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Each, PlantedDefect, testing::ValuesIn(defects()), name_of);
 
-// What the check of the lookup's numbers allows grows with how well the place looked up is known: a receiver plane's
-// gradient at a place half a million texels from the receiver, and of a scene that lies 100 km from the origin.
+// The tolerance for the lookup's numbers must grow with the uncertainty of the place looked up. Two large cases: the
+// gradient of a receiver plane half a million texels from the receiver, and a scene that lies 100 km from the origin.
 TEST(Sound, AreReceiverPlanesFarFromTheirReceiversAndFromTheOrigin) {
   Settings settings;
   settings.scene.name = "spot-room";
@@ -329,7 +330,7 @@ TEST(Sound, AreReceiverPlanesFarFromTheirReceiversAndFromTheOrigin) {
   EXPECT_LE(measure(settings).at("rounding_excess"), 1);
 }
 
-// The program's own wiring sees what a variant of a shader does, and a run ends as a defect.
+// The program itself notices a wrong variant of a shader, and the run ends with an error of the kind `defect`.
 TEST(Workbench, HoldsAVariantToItsContract) {
   const Settings settings = cubes();
   const auto sound = [&](gl::ShaderReplacements shaders) {
@@ -370,7 +371,7 @@ TEST(RequireSound, NamesEachLimit) {
         EXPECT_NE(std::string(e.what()).find(limit.metric), std::string::npos) << e.what();
       }
     }
-    results.points[0].metrics["facing"] = 0;  // nothing was measured, so nothing contradicts
+    results.points[0].metrics["facing"] = 0;  // nothing was measured, so no limit is broken
     EXPECT_NO_THROW(require_sound(results));
   }
 }

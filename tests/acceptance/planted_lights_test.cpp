@@ -7,13 +7,13 @@
 namespace noonmark::planted {
 namespace {
 
-// 512 texels over 64 degrees, 5 to 20 m from the light: up to 5 cm each, on a floor that the light sees at a slant.
+// 512 texels over 64 degrees, 5 to 20 m from the light: texels of up to 5 cm, and on a slanted floor more.
 Settings spot_room(std::initializer_list<acceptance::Assignment> more = {}) {
   return with(more, with({{"map.resolution", "512"}, {"bias.unit", "m"}, {"bias.constant", "0.1"}},
                          small("spot-room", 320, 180)));
 }
 
-// 512 texels on each face, 5 to 9 m from the light: 2 cm on a wall's middle.
+// 512 texels on each face, 5 to 9 m from the light: texels of 2 cm in the middle of a wall.
 Settings point_room(std::initializer_list<acceptance::Assignment> more = {}) {
   return with(more, with({{"map.resolution", "512"}, {"bias.unit", "m"}, {"bias.constant", "0.1"}},
                          small("point-room", 320, 180)));
@@ -36,7 +36,8 @@ std::vector<Planted> defects() {
 
   // --- A spot light. ------------------------------------------------------------------------------------------------
 
-  // The tutorials' glm::radians forgotten, or half for whole, in the small: the map is of 10 % more than is looked up.
+  // A small version of two mistakes with angles (no glm::radians, or half the angle for the whole one): the map covers
+  // 10 % more than the lookup assumes.
   all.push_back({"SpotMapWithTheWrongAngle",
                  spot_room(),
                  {.drawn_map = [](LightFrame& frame, MapSettings&) { frame.tan_half_fov *= 1.1; }},
@@ -47,20 +48,20 @@ std::vector<Planted> defects() {
                  {.shaders = patched(projected, "ndc * 0.5 + 0.5", "ndc * vec3(0.45, 0.45, 0.5) + 0.5")},
                  {{"address_error_texels", 1e-3, 20}, {"rounding_excess", 1, 1000}},
                  {"contract", "reference_error_m"}});
-  // The distance along the axis as a share of far, where the map holds what the perspective matrix makes of it.
+  // The reference is the distance along the axis divided by far, but the map holds the depth of the perspective matrix.
   all.push_back(
       {"SpotDepthReadAsLinear",
        spot_room(),
        {.shaders = patched(projected, "is_finite(window), window.z,", "is_finite(window), clip.w / light_far_m,")},
        {{"reference_error_m", 1e-3, 1}, {"rounding_excess", 1, 1000}},
        {"contract", "address_error_texels"}});
-  // The perspective division left out: right in a directional light's map, where w is 1.
+  // The perspective division is left out. This is right only in a directional light's map, where w is 1.
   all.push_back(
       {"SpotWithoutTheDivision",
        spot_room(),
        {.shaders = patched(projected, "clip.xyz / clip.w", "clip.xyz")},
        {{"address_error_texels", 1e-3, 100}, {"reference_error_m", 1e-3, 0.5}, {"rounding_excess", 1, 1000}}});
-  // A directional light's N.L in place of a spot light's.
+  // N.L is computed for a directional light instead of a spot light.
   all.push_back({"SpotDirectionOfTheAxis",
                  spot_room({{"bias.constant", "0"}, {"bias.slope", "0.3"}, {"bias.slope_floor", "0.02"}}),
                  {.shaders = patched("shaders/light/spot.glsl", "normalize(light_position - place_m)", "-light_axis")},
@@ -69,7 +70,8 @@ std::vector<Planted> defects() {
 
   // --- A point light. -----------------------------------------------------------------------------------------------
 
-  // A face upside down: in the lookup alone, and in what the probe shares with it. +X has t along -Y, and -X too.
+  // A face is upside down: first only in the lookup, then in the code that it shares with the probe. In OpenGL, t of +X
+  // and of -X runs along -Y.
   all.push_back({"CubeFaceFlippedInTheLookup",
                  point_room(),
                  {.shaders = patched(cube, "textureLod(shadow_map, direction, 0.0)",
@@ -84,19 +86,19 @@ std::vector<Planted> defects() {
                                      "vec3(1, -1, 1) : direction;")},
                  {{"address_error_texels", 0.1, 100}, {"rounding_excess", 1, 1000}},
                  {"contract", "reference_error_m"}});
-  // Near is 1 m, so that all of the room lies at depth 1, and is lit.
+  // The distance is divided by near, which is 1 m. So every stored depth is 1, and the whole room is lit.
   all.push_back({"DistanceDividedByNearInTheMap",
                  point_room({{"map.near_m", "1"}}),
                  {.shaders = patched("shaders/distance.frag", "/ light_far_m", "/ min(light_far_m, 1.0)")},
                  {{"precision", 1e-3, 0.05}, {"map_error_quanta", 2, 1000}},
                  {"contract", "rounding_excess"}});
-  // In the lookup the same leaves all beyond far.
+  // The same mistake in the lookup puts all receivers beyond far.
   all.push_back({"DistanceDividedByNearInTheLookup",
                  point_room({{"map.near_m", "1"}}),
                  {.shaders = patched(point, "length(from_light) / light_far_m", "length(from_light) / 1.0")},
                  {{"reference_error_m", 1e-3, 10}, {"rounding_excess", 1, 1000}},
                  {"contract", "address_error_texels"}});
-  // Depth along the face's axis, as the perspective matrix has it, in place of the distance.
+  // The map stores the depth along the axis of the face, as a perspective matrix gives it, instead of the distance.
   all.push_back({"DepthAlongTheAxisInTheMap",
                  point_room(),
                  {.shaders = patched("shaders/distance.frag", "gl_FragDepth = length(place_m - light_position)",
@@ -109,25 +111,25 @@ std::vector<Planted> defects() {
                  {.shaders = patched("shaders/cube_layers.geom", "gl_Layer = face;", "gl_Layer = face ^ 1;")},
                  {{"precision", 1e-3, 0.05}, {"map_error_quanta", 2, 1000}},
                  {"contract", "rounding_excess"}});
-  // Of six passes two draw into each other's face.
+  // Two of the six passes are swapped: each draws into the face of the other.
   all.push_back({"SixPassesWithTwoFacesSwapped",
                  point_room({{"map.cube_pass", "six_passes"}}),
                  {.edited_map = [](const Image<float>& map) { return faces_swapped(map, 0, 5); }},
                  {{"precision", 1e-3, 0.01}, {"map_error_quanta", 2, 1000}},
                  {"contract", "rounding_excess"}});
-  // Right only for a light in the origin, which this one is but for two centimetres.
+  // This is right only for a light in the origin. Here the light is two centimetres beside it.
   all.push_back({"DirectionFromTheOrigin",
                  point_room(),
                  {.shaders = patched(point, "from_light = place_m - light_position", "from_light = place_m")},
                  {{"address_error_texels", 0.1, 0.4}, {"reference_error_m", 1e-3, 0.01}, {"rounding_excess", 1, 1000}},
                  {"contract"}});
-  // The map's own light is where it was a moment ago.
+  // The map is drawn with an earlier position of the light.
   all.push_back({"MapOfTheLightElsewhere",
                  point_room(),
                  {.drawn_map = [](LightFrame& frame, MapSettings&) { frame.origin_m += glm::dvec3(0.25, 0, 0); }},
                  {{"precision", 1e-3, 0.1}, {"map_error_quanta", 2, 1000}},
                  {"contract", "rounding_excess"}});
-  // 27 taps of 64.
+  // The lookup reads only 27 of 64 taps.
   all.push_back({"GridOf27TapsReadAs64",
                  point_room({{"filter.kind", "cube_grid"}, {"bias.constant", "0.3"}}),
                  {.shaders = patched("shaders/filter/mean.glsl", "tap < first + taps", "tap < first + 27")},
@@ -138,7 +140,7 @@ std::vector<Planted> defects() {
                  {.shaders = patched(receiver, "(1.0 + distance(eye_m, position.xyz) / light_far_m)", "1.0")},
                  {{"rounding_excess", 1, 1000}},
                  {"contract", "reference_error_m"}});
-  // One disk for all, of the fixed radius that the settings have too.
+  // The disk has the fixed radius of the settings at every pixel.
   all.push_back({"DiskOfFixedRadiusInTheLookup",
                  point_room({{"filter.kind", "cube_disk"}, {"filter.disk", "view_distance"}, {"bias.constant", "0.3"}}),
                  {.asked = [](Settings& s) { s.filter.disk = DiskRadius::fixed; }},

@@ -1,5 +1,5 @@
-// The instrument with a defect planted in its OpenGL side: the truth believes the settings, the renderer is given
-// something else. The stages are the program's (app/stages.h).
+// A measurement with a defect planted in its OpenGL part: the truth is computed from the settings, but the renderer
+// gets something else. The stages are the program's (app/stages.h).
 //
 //   Figures sound = measure(settings), broken = measure(settings, {.drawn_map = [](auto& frame, auto& map) { ... }});
 #pragma once
@@ -17,19 +17,19 @@ namespace noonmark::planted {
 
 struct Defect {
   gl::ShaderReplacements shaders{};                               // of the map's pass, the lookup and the probe
-  std::function<void(Scene&)> drawn_scene{};                      // into the map
-  std::function<void(LightFrame&, MapSettings&)> drawn_map{};     // the frame and settings it is drawn with
-  std::function<void(BiasSettings&)> drawn_bias{};                // the bias it is drawn with (polygon offset)
-  std::function<Image<float>(const Image<float>&)> edited_map{};  // its pixels, before the lookup
-  bool every_map = false;                                         // drawn_map's wrap is R4's map's too
-  std::function<void(Settings&)> asked{};                         // the settings that the lookup runs with
-  std::function<void(BiasSettings&)> believed_bias{};             // what the ladder takes the bias for
+  std::function<void(Scene&)> drawn_scene{};                      // changes the scene that is drawn into the map
+  std::function<void(LightFrame&, MapSettings&)> drawn_map{};     // changes the frame and settings of the map
+  std::function<void(BiasSettings&)> drawn_bias{};                // changes the bias of the map (polygon offset)
+  std::function<Image<float>(const Image<float>&)> edited_map{};  // changes the pixels of the map before the lookup
+  bool every_map = false;                                         // the wrap mode of drawn_map applies to R4's map too
+  std::function<void(Settings&)> asked{};                         // changes the settings of the lookup
+  std::function<void(BiasSettings&)> believed_bias{};             // changes the bias that the ladder assumes
 };
 
 using Figures = std::map<std::string, double>;
 
-// The program's own text of a shader with every `from` turned to `to`. Throws when the shader has no `from` (any more):
-// a defect that is not planted proves nothing.
+// The program's own text of a shader in which every `from` is replaced by `to`. Throws if the shader does not contain
+// `from`, because then no defect would be planted and the test would prove nothing.
 inline gl::ShaderReplacements patched(const std::string& file, const std::string& from, const std::string& to) {
   std::string text = gl::shader_file(file);
   size_t at = text.find(from), found = 0;
@@ -39,7 +39,7 @@ inline gl::ShaderReplacements patched(const std::string& file, const std::string
 }
 
 inline Figures measure(const Settings& settings, const Defect& defect = {}) {
-  // Which surface a pixel sees is not in question: a sound renderer says it.
+  // The receivers are not under test, so a renderer without a defect makes them.
   gl::Renderer sound(gl::DebugMode::fatal);
   const SceneStage loaded = load_scene(settings, sound);
   const Scene& scene = *loaded.scene;

@@ -17,26 +17,26 @@ std::vector<Planted> defects() {
 
   // --- Filters. -----------------------------------------------------------------------------------------------------
 
-  // The other comparison: what is lit is dark, but for the sixth of the receivers that lies beyond far.
+  // The comparison is reversed: all that is lit becomes dark, except for the sixth of the receivers beyond far.
   all.push_back({"HardwareComparesTheOtherWay",
                  hardware(),
                  {.shaders = patched(bilinear, "textureLod(comparing_map, vec3(at, biased), 0.0)",
                                      "(1.0 - textureLod(comparing_map, vec3(at, biased), 0.0))")},
                  {{"contract", 0, 0.8}, {"precision", 1e-3, 0.8}, {"error", 0.03, 0.8}},
                  {"rounding_excess"}});
-  // Texel centres taken for corners: the four texels are others, and their shares too.
+  // Texel centres are mistaken for corners: the sampler reads four other texels, with other weights.
   all.push_back({"HardwareHalfATexelOff",
                  hardware(),
                  {.shaders = patched(bilinear, "receiver.map_texels + row.xy", "receiver.map_texels + row.xy + 0.5")},
                  {{"contract", 0, 0.01}, {"precision", 1e-3, 5e-3}},
                  {"rounding_excess"}});
-  // The bell itself, 1 in its middle: what is lit is lit five times.
+  // The weights are those of the Gaussian curve with 1 in the middle. Lit receivers get about 5 instead of 1.
   all.push_back({"GaussianWeightsNotNormalised",
                  gaussian(),
                  {.shaders = patched(bilinear, "row.w *", "row.w / tap_offsets[taps / 2].w *")},
                  {{"contract", 0, 0.7}, {"precision", 1e-3, 0.7}},
                  {"rounding_excess"}});
-  // Nine fetches that count alike.
+  // All nine fetches have the same weight.
   all.push_back({"GaussianWithEqualWeights",
                  gaussian(),
                  {.shaders = patched(bilinear, "row.w *", "1.0 / float(taps) *")},
@@ -47,7 +47,7 @@ std::vector<Planted> defects() {
                  {.shaders = patched("shaders/pattern.glsl", "variants == 1 ? 0", "variants >= 1 ? 0")},
                  {{"contract", 0, 0.01}, {"tap_residual", 1e-6, 0.2}},
                  {"rounding_excess"}});
-  // A step of 2 texels was asked for, and drawn is one.
+  // The setting is a step of 2 texels, but the shader uses 1.
   all.push_back({"BoxWithoutItsStep",
                  cubes_3x3({{"filter.step_texels", "2"}, {"bias.constant", "0.015"}}),
                  {.asked = [](Settings& s) { s.filter.step_texels = 1; }},
@@ -63,13 +63,14 @@ std::vector<Planted> defects() {
                  {.asked = [](Settings& s) { s.bias["tan_cap"] = 1; }},
                  {{"contract", 0, 0.01}, {"tap_residual", 1e-6, 1}},
                  {"rounding_excess"}});
-  // tan(theta) from the cosine alone: 1 / cos.
+  // 1 / cos(theta) in place of tan(theta).
   all.push_back({"TanOfAnotherAngle",
                  tan,
                  {.shaders = patched(receiver, "sqrt(1.0 - cosine * cosine) / cosine", "1.0 / cosine")},
                  {{"rounding_excess", 1, 1000}},
                  {"contract", "address_error_texels", "reference_error_m"}});
-  // With a box a receiver plane needs what one tap needs without; its sign turned, more than without it.
+  // With a receiver plane, a box needs only the bias of a single tap. With the wrong sign, it needs more bias than
+  // without the plane.
   const Settings plane = cubes_3x3({{"bias.reference", "receiver_plane"}, {"bias.constant", "0.003"}});
   all.push_back(
       {"ReceiverPlaneTurnedInTheLookup",
@@ -82,19 +83,20 @@ std::vector<Planted> defects() {
                  {.shaders = patched(projected, "-plane.xy / plane.z", "plane.xy / plane.z")},
                  {{"rounding_excess", 1, 1000}, {"acne", 0.005, 0.2}},
                  {"contract", "address_error_texels", "reference_error_m"}});
-  // Per map instead of per texel, the other common slip.
+  // The gradient is per map instead of per texel, which is the other common mistake.
   all.push_back({"ReceiverPlanePerMap",
                  plane,
                  {.shaders = patched(projected, "(-plane.xy / plane.z) / float(resolution)", "-plane.xy / plane.z")},
                  {{"rounding_excess", 1, 1000}, {"acne", 0.005, 0.2}},
                  {"contract"}});
-  // The receiver plane in the place of the texel's: what the grid needs is missing.
+  // The reference is the receiver plane instead of the texel plane. The bias for the distance to the texel centre is
+  // missing.
   all.push_back({"TexelPlaneAtTheTap",
                  cubes_3x3({{"bias.reference", "texel_plane"}, {"bias.constant", "0.0001"}}),
                  {.asked = [](Settings& s) { s.bias.reference = "receiver_plane"; }},
                  {{"contract", 0, 0.3}, {"tap_residual", 1e-6, 0.3}, {"error", 0.03, 0.1}},
                  {"rounding_excess"}});
-  // glEnable(GL_POLYGON_OFFSET_FILL) forgotten: the map is the scene's own, and all slopes have acne.
+  // glEnable(GL_POLYGON_OFFSET_FILL) is forgotten: the map has no offset, and all slopes have acne.
   const Settings offset = cubes({{"bias.constant", "0"}, {"bias.polygon_factor", "1.1"}, {"bias.polygon_units", "4"}});
   all.push_back({"PolygonOffsetNotEnabled",
                  offset,
@@ -107,7 +109,7 @@ std::vector<Planted> defects() {
                  {{"precision", 1e-6, 1e-4}, {"map_error_quanta", 50, 1000}},
                  {"contract", "rounding_excess"}});
 
-  // The map is drawn of the scene's own vertices, not of the moved ones.
+  // The map is drawn with the scene's own vertices instead of the moved ones.
   all.push_back({"CastersNotMoved",
                  cubes({{"bias.constant", "0"}, {"bias.caster_normal_offset_sin", "1.1"}}),
                  {.drawn_bias = [](BiasSettings& bias) { bias = {}; }},
@@ -116,7 +118,7 @@ std::vector<Planted> defects() {
 
   // --- Map options. -------------------------------------------------------------------------------------------------
 
-  // Near lies behind the floating cube, which depth clamp keeps in the map at depth 0.
+  // The near plane lies behind the floating cube. Depth clamp keeps the cube in the map, at depth 0.
   all.push_back({"DepthClampOff",
                  cubes({{"map.near_m", "3.5"}, {"map.depth_clamp", "true"}, {"bias.constant", "0.005"}}),
                  {.drawn_map = [](LightFrame&, MapSettings& map) { map.depth_clamp = false; }},
@@ -127,8 +129,8 @@ std::vector<Planted> defects() {
                  {.drawn_map = [](LightFrame&, MapSettings& map) { map.depth_clamp = true; }},
                  {{"precision", 1e-3, 0.004}},
                  {"contract", "rounding_excess"}});
-  // Snapping is a matter of the frame. Forgotten while the map is drawn, the map is of a grid that lies elsewhere; at
-  // the tightest bias a quarter of a texel is seen.
+  // Snapping moves the frame of the map. If it is forgotten while the map is drawn, the map has another grid. With the
+  // smallest possible bias, a difference of a quarter of a texel is visible.
   all.push_back(
       {"MapNotSnapped",
        cubes({{"map.snap", "true"}}),
@@ -136,7 +138,7 @@ std::vector<Planted> defects() {
                         MapSettings&) { frame.origin_m += 0.25 * frame.texel_m() * (frame.right + frame.up); }},
        {{"precision", 1e-3, 0.004}, {"map_error_quanta", 2, 1000}},
        {"contract", "rounding_excess"}});
-  // And while it is looked up: the settings' own shift stands in for a frame that was not moved.
+  // The same mistake in the lookup. Here the shift of the settings stands for a frame that was not moved.
   all.push_back(
       {"LookupNotSnapped",
        cubes({{"map.snap", "true"}}),

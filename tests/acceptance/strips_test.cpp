@@ -1,4 +1,4 @@
-// A picture whose taps are too many to be held at once is measured strip by strip, and nothing of its results differs.
+// If a picture has too many taps for the memory, it is measured strip by strip. All results must be the same.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ TEST_P(Strips, ChangeNoResult) {
   Settings settings = small(GetParam().scene, 160, 100);
   for (const auto& [name, value] : GetParam().settings) find_setting(name).set(settings, value);
   Workbench whole(gl::DebugMode::fatal);
-  // Of seven rows, of one row each; and once more, for a point that shares what strips do not keep.
+  // Strips of seven rows, strips of one row, and once more a point that reuses what strips do not keep.
   for (const size_t strip_bytes : {size_t{7} * 160 * 9 * 5, size_t{1}}) {
     Workbench in_strips(gl::DebugMode::fatal, {}, strip_bytes);
     for (const char* bias : {"0.002", "0.01"}) {
@@ -42,7 +42,7 @@ TEST_P(Strips, ChangeNoResult) {
       ASSERT_EQ(a.record.curve.has_value(), b.record.curve.has_value());
       if (!a.record.curve) continue;
       const BiasCurve &c = *a.record.curve, &d = *b.record.curve;
-      // Whole numbers of taps are summed exactly; a sampler's weights in double, strip by strip.
+      // Whole numbers of taps are summed exactly. The weights of a sampler are summed in double, strip by strip.
       const double rounding = c.made == "one pass" ? 0 : 1e-12;
       const auto same = [&](const std::vector<double>& one, const std::vector<double>& other) {
         ASSERT_EQ(one.size(), other.size());

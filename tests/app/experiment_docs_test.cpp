@@ -1,5 +1,5 @@
-// docs/experiment.md is the reference of an experiment file's keys: its examples are read as a user's file is, and it
-// names every key, choice and function that the reader knows.
+// docs/experiment.md is the reference of the keys of an experiment file. The program must read its examples like a
+// user's file, and it must name every key, choice and function that the program knows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,9 +21,9 @@ std::string document(const std::string& name) {
 }
 
 struct Block {
-  std::string language;  // what stands behind the fence: "toml", "toml refused", "text" ...
+  std::string language;  // the word after the opening fence: "toml", "toml refused", "text" ...
   std::string text;
-  int line = 0;  // of the fence, from 1
+  int line = 0;  // number of the fence's line, from 1
 };
 
 std::vector<Block> blocks_of(const std::string& markdown) {
@@ -40,11 +40,11 @@ std::vector<Block> blocks_of(const std::string& markdown) {
       blocks.back().text += line + "\n";
     }
   }
-  EXPECT_FALSE(inside) << "a fence is open at the end";
+  EXPECT_FALSE(inside) << "the last code block has no end";
   return blocks;
 }
 
-// What the reader says of the text; empty where it reads it.
+// The error message for the text; empty if the text can be read.
 std::string refusal(const std::string& toml) {
   try {
     points(parse_experiment(toml, "shadows.toml"));
@@ -79,7 +79,7 @@ TEST(ExperimentDocuments, EveryMistakeIsRefusedWithTheMessageGiven) {
   EXPECT_GT(mistakes, 0);
 }
 
-// The words between two marks of the reader's own message.
+// The words of an error message between `from` and `to`.
 std::vector<std::string> words(std::string message, const std::string& from, const std::string& to) {
   const size_t begin = message.find(from);
   EXPECT_NE(begin, std::string::npos) << message;
@@ -92,7 +92,7 @@ std::vector<std::string> words(std::string message, const std::string& from, con
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// Of one chapter of the document, the first cells of its tables' rows.
+// The first cell of every table row in one chapter of the document.
 std::string first_cells(const std::string& markdown, const std::string& chapter) {
   const size_t begin = markdown.find("\n## " + chapter + "\n");
   EXPECT_NE(begin, std::string::npos) << chapter;
@@ -104,7 +104,7 @@ std::string first_cells(const std::string& markdown, const std::string& chapter)
   return cells;
 }
 
-// The reader lists what it knows where a word is near to none of it.
+// If a word is similar to no known word, the error message lists all known words.
 TEST(ExperimentDocuments, EveryKeyChoiceAndFunctionIsNamed) {
   const std::string text = document("docs/experiment.md");
   const auto named = [&](const std::string& where, const std::vector<std::string>& words, size_t least) {
@@ -136,7 +136,7 @@ TEST(ExperimentDocuments, EveryKeyChoiceAndFunctionIsNamed) {
   named(first_cells(text, "Laws"), words(refusal("[let]\nx = \"1 +\""), "(functions: ", ")"), 20);
 }
 
-// Groups stand in the document, one setting of each as an example, and the settings themselves in `noonmark settings`.
+// The document lists the groups, with one setting of each as an example. `noonmark settings` lists all settings.
 TEST(ExperimentDocuments, EveryGroupOfSettingsHasItsTable) {
   const std::string text = document("docs/experiment.md");
   for (const Setting& row : settings_table()) {

@@ -20,7 +20,7 @@ std::string message(const std::string& toml) {
   return "no error";
 }
 
-// The message must name the place and hold every text.
+// The message must begin with the place and contain every text.
 void expect_error(const std::string& toml, const std::string& place, std::initializer_list<const char*> texts) {
   const std::string found = message(toml);
   EXPECT_TRUE(found.starts_with("folder/x.toml:" + place)) << found;
@@ -114,7 +114,7 @@ TEST(ExperimentParts, OnlyTheChosenOnesAreMeasured) {
 
   Experiment both = parse(two_parts);
   choose_parts(both, {"second", "first"});
-  EXPECT_EQ(point_count(both), 7) << "in the file's order";
+  EXPECT_EQ(point_count(both), 7) << "the parts must be in the file's order";
   EXPECT_EQ(part_of_point(both, 0).part, "first");
 
   const auto message = [](Experiment from, const std::string& name) -> std::string {
@@ -143,7 +143,7 @@ TEST(ExperimentParts, TheFingerprintSeesEveryPart) {
   }
   std::string law = whole;
   law.replace(law.find("k * texel\""), 9, "2 * texel");
-  EXPECT_FALSE(prints.insert(print(law)).second) << "a law changes no result";
+  EXPECT_FALSE(prints.insert(print(law)).second) << "a law changes no result, so it must not change the fingerprint";
 }
 
 TEST(ExperimentParts, MistakesAreNamedWithTheirPlace) {

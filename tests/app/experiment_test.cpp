@@ -1,4 +1,4 @@
-// Experiment files: what they expand to, and that every mistake names its place and what was meant.
+// Experiment files: the points that they give, and the errors, which must name the place and suggest what was meant.
 #include "app/experiment.h"
 
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ where.view.eye_m = [1, 2.5, -3]
 }
 
 TEST(Experiment, SweepsEveryCombinationFirstNamedOutermost) {
-  // Neither in the order of names nor of groups: the file's order alone decides.
+  // Only the order in the file decides, not the order of names or of groups.
   const Experiment e = parse(
       "[sweep]\nmap.resolution = [512, 1024]\nfilter.kind = [\"none\", \"box\"]\nmap.cull = [\"front\", \"back\"]\n");
   EXPECT_EQ(values_of(e, "map.resolution"), (Texts{"512", "512", "512", "512", "1024", "1024", "1024", "1024"}));
@@ -122,12 +122,12 @@ TEST(Experiment, RangesHoldBothEnds) {
   const std::vector<Settings> logarithmic =
       points(parse("[sweep]\nbias.constant = {min = 1e-4, max = 1e-1, steps = 7, scale = \"log\"}\n"));
   ASSERT_EQ(logarithmic.size(), 7u);
-  for (int i = 0; i < 7; ++i)  // 4 units in the last place: pow() and one product
+  for (int i = 0; i < 7; ++i)  // tolerance: 4 units in the last place, for pow() and one product
     EXPECT_NEAR(logarithmic[i].bias["constant"] / std::pow(10.0, -4 + i / 2.0), 1, 1e-15);
   EXPECT_EQ(logarithmic.back().bias["constant"], 1e-1);
 }
 
-// `where` and --set name a value by its text, so no value may be 39.99999999999999 where 40 is meant.
+// `where` and --set name a value by its text. So the value must be 40, not 39.99999999999999.
 TEST(Experiment, RangesGiveShortDecimals) {
   const auto swept = [](const std::string& name, const std::string& range) {
     return values_of(parse("[sweep]\n" + name + " = {" + range + "}\n"), name);
@@ -138,7 +138,8 @@ TEST(Experiment, RangesGiveShortDecimals) {
   EXPECT_EQ(swept("bias.constant", "min = 1e-6, max = 1e6, steps = 13, scale = \"log\""),
             (Texts{"1e-06", "1e-05", "0.0001", "0.001", "0.01", "0.1", "1", "10", "100", "1000", "10000", "100000",
                    "1000000"}));
-  EXPECT_EQ(swept("map.extent_m", "min = 1, max = 2, steps = 4").at(1), "1.3333333333333333") << "no short decimal";
+  EXPECT_EQ(swept("map.extent_m", "min = 1, max = 2, steps = 4").at(1), "1.3333333333333333")
+      << "this value has no short decimal";
 }
 
 TEST(Experiment, ScenePathsStartAtTheFilesFolder) {
@@ -173,7 +174,8 @@ TEST(Experiment, TheReproducingCommandSurvivesTheShell) {
             R"(noonmark render 'my exp.toml' --set 'scene.name=it'\''s a $cene.gltf')");
 }
 
-// What a terminal would obey, and what is no UTF-8, as text: a line that is printed is the line that is pasted.
+// Control bytes, which a terminal would obey, and bytes that are not UTF-8 are written as text. So the printed line can
+// be pasted without a change.
 TEST(Experiment, AWordWithControlBytesIsQuotedAsText) {
   EXPECT_EQ(shell_quoted("a\x1b[0m"), R"($'a\033[0m')");
   EXPECT_EQ(shell_quoted("it's\n\\"), R"($'it\'s\012\\')");
@@ -203,7 +205,7 @@ TEST(Experiment, TheFingerprintTellsWhatChangesResultsOnly) {
   EXPECT_NE(fingerprint(parse(file), gl), print(file));
 }
 
-// Any values that the rows take, swept: one point per combination, and each point's text sets the same text again.
+// A sweep over any legal values has one point per combination. Reading a point's text back gives the same text.
 RC_GTEST_PROP(ExperimentProperty, PointsAreTheProductOfTheLists, ()) {
   Experiment experiment;
   int64_t product = 1;
@@ -223,16 +225,16 @@ RC_GTEST_PROP(ExperimentProperty, PointsAreTheProductOfTheLists, ()) {
         const double share = *rc::gen::inRange(0, 1 << 30) / static_cast<double>(1 << 30);
         text = std::to_string(row.min + (row.max - row.min) * share);
       }
-      // Some filters have these sizes alone.
+      // Some filters allow only these sizes.
       if (row.name == "filter.size") text = std::to_string(*rc::gen::elementOf(std::vector<int>{3, 5, 7}));
-      // near < far needs the two apart.
+      // near must be less than far.
       if (row.name == "map.near_m" && text != "auto") text = "-" + std::to_string(i + 1);
       if (row.name == "map.far_m" && text != "auto") text = std::to_string(i + 1);
       if (row.name == "view.near_m" && text != "auto") text = std::to_string(0.1 * (i + 1));
       if (row.name == "view.far_m" && text != "auto") text = std::to_string(i + 1);
-      // A plane needs a filter that the sampler does not blend.
+      // A reference by a plane is only legal with a filter that the sampler does not blend.
       if (row.name == "bias.reference") text = "own_depth";
-      // And floor <= cap.
+      // The floor must not exceed the cap.
       if (row.name == "bias.tan_floor") text = std::to_string(0.001 * (i + 1));
       if (row.name == "bias.tan_cap" && text != "auto") text = std::to_string(0.1 * (i + 1));
       Settings settings;
@@ -284,7 +286,7 @@ TEST(Experiment, EveryMistakeNamesItsPlaceAndWhatWasMeant) {
       {"[map]\nresolution = [512]", "2:14", "cannot be this kind"},
       {"[map]\nextent_m = nan", "2:12", "map.extent_m = 'nan' is not allowed"},
       {"[map]\nextent_m = inf", "2:12", "is not allowed"},
-      {"[map]\nwrap = 1\nformat = 1", "2:8", "map.wrap = '1'"},  // of two mistakes, the first in the file
+      {"[map]\nwrap = 1\nformat = 1", "2:8", "map.wrap = '1'"},  // the first mistake in the file is reported
       {"[map]\nlit_beyond_far = 1", "2:18", "true | false"},
       {"[map]\nwrap = \"repaet\"", "2:8", "repeat | clamp_to_edge"},
       {"[view]\neye_m = [1, 2]", "2:9", "x,y,z"},
@@ -342,13 +344,13 @@ TEST(Experiment, EveryMistakeNamesItsPlaceAndWhatWasMeant) {
   for (const Mistake& mistake : mistakes) {
     try {
       parse(mistake.toml);
-      ADD_FAILURE() << "was read:\n" << mistake.toml;
+      ADD_FAILURE() << "this was read without an error:\n" << mistake.toml;
     } catch (const Error& error) {
       const std::string what = error.what();
       EXPECT_EQ(error.kind(), ErrorKind::usage);
       EXPECT_TRUE(what.starts_with("folder/x.toml:" + mistake.place + ": ")) << what << "\n" << mistake.toml;
       EXPECT_NE(what.find(mistake.says), std::string::npos) << what << "\n" << mistake.toml;
-      EXPECT_EQ(what.find("folder/x.toml", 1), std::string::npos) << "the place stands twice: " << what;
+      EXPECT_EQ(what.find("folder/x.toml", 1), std::string::npos) << "the message names the place twice: " << what;
     }
   }
 }
@@ -387,14 +389,14 @@ TEST(AtomicWrite, ReplacesAFileWhole) {
 
 TEST(AtomicWrite, LeavesNothingWhereItCannotReplace) {
   const TemporaryFolder folder;
-  std::filesystem::create_directories(folder.path() / "taken" / "inside");  // refuses the rename, after all was written
+  std::filesystem::create_directories(folder.path() / "taken" / "inside");  // the rename fails, after the write
   EXPECT_THROW(write_file_atomically(folder.file("taken"), "bytes"), Error);
   EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "taken" / "inside"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
   EXPECT_THROW(write_file_atomically(folder.file("absent/file"), "bytes"), Error);
 }
 
-// A limit on the size of files stands for a full disk: the write fails after its first part.
+// A limit on the file size simulates a full disk: the write fails after its first part.
 TEST(AtomicWrite, KeepsTheOldFileWhenTheDiskIsFull) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a");

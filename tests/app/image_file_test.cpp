@@ -1,4 +1,4 @@
-// Images on disk, read back by OpenImageIO as any other program would.
+// Image files, read back with OpenImageIO as another program would read them.
 #include "app/image_file.h"
 
 #include <OpenImageIO/imageio.h>
@@ -70,16 +70,16 @@ std::set<std::string> files_in(const fs::path& folder) {
 
 class ImageFile : public testing::Test {
  protected:
-  // The message of the Error that writing throws; the folder must be as it was.
+  // Returns the message of the Error that writing throws. The files in the folder must be the same as before.
   template <class Write>
   std::string failure(const Write& write) {
     const std::set<std::string> before = files_in(folder.path());
     try {
       write();
-      ADD_FAILURE() << "was written";
+      ADD_FAILURE() << "the file was written without an error";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::scene);
-      EXPECT_EQ(files_in(folder.path()), before) << "something was left behind";
+      EXPECT_EQ(files_in(folder.path()), before) << "the failed write left a file or removed one";
       return error.what();
     }
     return "";
@@ -94,7 +94,7 @@ RC_GTEST_FIXTURE_PROP(ImageFile, ExrKeepsEveryBit, ()) {
   std::vector<Channel> channels;
   for (const char* name : {"R1", "P.X", "zebra", "P.Y", "A", "depth.stored", "P.Z", "R0"}) {
     Image<float> values(width, height);
-    // Any bits: NaNs with a payload, infinities, denormals, -0.
+    // Any bit patterns: NaNs with a payload, infinities, denormals, -0.
     for (float& v : values.pixels) v = std::bit_cast<float>(*rc::gen::arbitrary<uint32_t>());
     channels.push_back({name, values});
   }
@@ -176,15 +176,15 @@ TEST_F(ImageFile, FailsOnAnUnknownFormat) {
 }
 
 TEST_F(ImageFile, FailsWhereItMayNotWrite) {
-  failure([&] { write_exr("/proc/self/a.exr", one_channel); });  // not even root
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write into any folder of a disk";
+  failure([&] { write_exr("/proc/self/a.exr", one_channel); });  // not even root may write there
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write into every folder on a disk";
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
   failure([&] { write_exr(folder.file("a.exr"), one_channel); });
   failure([&] { write_png(folder.file("a.png"), Image<Color>(2, 2)); });
   fs::permissions(folder.path(), fs::perms::owner_all);
 }
 
-// A disk that is full, as far as this process can tell: no file may grow beyond some bytes.
+// Simulates a full disk for this process: no file may grow beyond a number of bytes.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {
@@ -204,7 +204,7 @@ class FullDisk {
 };
 
 TEST_F(ImageFile, FailsOnAFullDiskAndKeepsTheOldFile) {
-  std::mt19937 random(1);  // noise: both files are larger than any buffer
+  std::mt19937 random(1);  // noise does not compress, so both files are larger than any buffer
   Image<float> noise(300, 200);
   Image<Color> colors(300, 200);
   for (float& v : noise.pixels) v = std::bit_cast<float>(static_cast<uint32_t>(random()));
@@ -214,7 +214,7 @@ TEST_F(ImageFile, FailsOnAFullDiskAndKeepsTheOldFile) {
   const rlim_t exr = fs::file_size(folder.file("a.exr")), png = fs::file_size(folder.file("a.png"));
   write_exr(folder.file("a.exr"), one_channel);
   write_png(folder.file("a.png"), Image<Color>(2, 2, {7, 7, 7}));
-  // From nothing to all but the last byte, which a writer may hold back until it closes the file.
+  // The missing space goes from the whole file to its last byte, which a writer may keep until it closes the file.
   for (rlim_t missing : {exr, exr - 1000, exr / 2, rlim_t{5000}, rlim_t{1}}) {
     failure([&] {
       const FullDisk full(exr - missing);
@@ -231,7 +231,7 @@ TEST_F(ImageFile, FailsOnAFullDiskAndKeepsTheOldFile) {
   EXPECT_EQ(read_png(folder.file("a.png")).pixels, std::vector<Color>(4, {7, 7, 7}));
 }
 
-// A point of 3 x 2 pixels over a map of 2 x 2 texels, every number of its own.
+// A point of 3 x 2 pixels over a map of 2 x 2 texels, in which all numbers are different.
 class Pictures : public ImageFile {
  protected:
   Pictures() {
@@ -251,7 +251,7 @@ class Pictures : public ImageFile {
     fill(receivers.primitive, 3, 2, [](size_t i) { return i == 5 ? no_primitive : static_cast<uint32_t>(1000 + i); });
     fill(probe.reference, 3, 2, numbered(0.125f));
     fill(probe.n_dot_l, 3, 2, [](size_t) { return 0.5f; });
-    // Inside, on the repeat of (1, 1), at two corners, outside, and none.
+    // In order: inside the map, on the repetition of (1, 1), at two corners, outside, and no receiver.
     probe.map_texels = Image<glm::vec2>(3, 2);
     probe.map_texels.pixels = {{0.5f, 0}, {-1, 3.5f}, {1, 0.9f}, {0, 1}, {2, 0}, {0, 0}};
     probe.pattern = tap_pattern({});
@@ -308,7 +308,7 @@ TEST_F(Pictures, LadderHoldsEveryRungAndWhatItWasMadeOf) {
   EXPECT_EQ(image.channels.size(), 6 + 1 + 6 + 3 + 2 + cause_count - 1);
   EXPECT_EQ(image.spec.format, OIIO::TypeDesc::FLOAT);
 
-  // What the wrap mode makes of the texels above; the last pixel has no receiver.
+  // The depths that the wrap mode gives for the texels above. The last pixel has no receiver.
   const auto expect_depths = [&](std::vector<int> texels) {
     write_images(measurement(), folder.path().string(), "images", "q-");
     const ReadImage read = read_exr(folder.file("q-ladder.exr"));
@@ -363,8 +363,8 @@ Color named(std::string_view name) {
 
 TEST_F(Pictures, ClassesShowTheColoursOfTheLegend) {
   for (float& cosine : probe.n_dot_l.pixels)
-    cosine = 1;  // the full light: shading leaves the legend's colours as they are
-  // One wrong by all (full colour), one right and lit, one right and dark, ambiguous, facing away, no surface.
+    cosine = 1;  // full light, so that shading does not change the colours of the legend
+  // In order: completely wrong (full colour), right and lit, right and dark, ambiguous, facing away, no surface.
   ladder.flags.pixels = {1, 1, 1, 5, 0, 0};
   ladder.cause.pixels = {static_cast<uint8_t>(Cause::acne), 0, 0, 0, 0, 0};
   ladder[Rung::truth].pixels = {1, 1, 0, 1, 0, 0};

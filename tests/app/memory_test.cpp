@@ -1,4 +1,5 @@
-// How much memory there is, and the arithmetic of what a point takes. What it really takes: memory_program_test.cpp.
+// How much memory is available, and the estimate of what a point needs. tests/program/memory_test.cpp measures what a
+// point really needs.
 #include "scenes/memory.h"
 
 #include <gtest/gtest.h>
@@ -16,13 +17,13 @@ constexpr uint64_t MiB = 1 << 20;
 TEST(AvailableMemory, IsTheLeastOfTheMachinesAndTheGroups) {
   const test::TemporaryFolder root;
   const auto available = [&] { return available_memory(root.path().string()); };
-  EXPECT_EQ(available().bytes, UINT64_MAX) << "nothing is known";
+  EXPECT_EQ(available().bytes, UINT64_MAX) << "no limit is known here";
 
   root.write("proc/meminfo", "MemTotal:       9000 kB\nMemFree:  100 kB\nMemAvailable:    8192 kB\n");
   EXPECT_EQ(available().bytes, 8 * MiB);
   EXPECT_EQ(available().limit, "the machine's free memory");
 
-  // Version 2: 7 MiB allowed, 4 in use, 1 of them file cache that can be given back.
+  // Version 2: 7 MiB are allowed and 4 are in use; 1 of these is file cache, which can be given back.
   root.write("proc/self/cgroup", "0::/a.slice/b.service\n");
   root.write("sys/fs/cgroup/a.slice/b.service/memory.max", "7340032\n");
   root.write("sys/fs/cgroup/a.slice/b.service/memory.current", "4194304\n");
@@ -31,14 +32,14 @@ TEST(AvailableMemory, IsTheLeastOfTheMachinesAndTheGroups) {
   EXPECT_EQ(available().limit, "the control group's limit");
   EXPECT_EQ(available().text(), "4.2 MB are available (the control group's limit)");
 
-  // A group above it may allow less.
+  // The parent group may allow less.
   root.write("sys/fs/cgroup/a.slice/memory.max", "6291456\n");
   root.write("sys/fs/cgroup/a.slice/memory.current", "4194304\n");
   EXPECT_EQ(available().bytes, 2 * MiB);
   root.write("sys/fs/cgroup/a.slice/memory.max", "max\n");
   EXPECT_EQ(available().bytes, 4 * MiB);
   root.write("sys/fs/cgroup/a.slice/b.service/memory.max", "1024\n");
-  EXPECT_EQ(available().bytes, 0u) << "more is in use than is allowed now";
+  EXPECT_EQ(available().bytes, 0u) << "more is in use than is now allowed";
 }
 
 TEST(AvailableMemory, KnowsGroupsOfVersionOneAndInsideContainers) {
@@ -50,12 +51,12 @@ TEST(AvailableMemory, KnowsGroupsOfVersionOneAndInsideContainers) {
   root.write("sys/fs/cgroup/memory/docker/1234/memory.usage_in_bytes", "2097152\n");
   EXPECT_EQ(available().bytes, 3 * MiB);
 
-  // The path is the host's and is not there: the container's own group is mounted at the top.
+  // The path is that of the host and does not exist here. The container's own group is mounted at the top.
   root.write("proc/self/cgroup", "4:memory:/docker/5678\n");
   root.write("sys/fs/cgroup/memory/memory.limit_in_bytes", "4194304\n");
   root.write("sys/fs/cgroup/memory/memory.usage_in_bytes", "3145728\n");
   EXPECT_EQ(available().bytes, 1 * MiB);
-  // No limit is a number near 2^63 there.
+  // Version 1 writes a number near 2^63 if there is no limit.
   root.write("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
   EXPECT_EQ(available().bytes, 8 * MiB);
 }
@@ -99,7 +100,7 @@ TEST_F(Estimate, SeesWhatTakesTooMuch) {
   EXPECT_EQ(estimate(LightKind::directional, instances).largest().what, std::string("the scene"));
 }
 
-// 31 x 31 taps took 6.7 kB a pixel before they were traced in strips.
+// Before they were traced in strips, 31 x 31 taps took 6.7 kB per pixel.
 TEST_F(Estimate, DoesNotGrowWithTheKernelBeyondAStrip) {
   settings_.filter.kind = "box";
   settings_.filter.size = 31;
@@ -122,11 +123,11 @@ TEST_F(Estimate, GrowsWithWhatIsAskedFor) {
   EXPECT_GT(bytes(LightKind::point), plain);
   EXPECT_GT(bytes(LightKind::directional, {100, 100}, true, true), plain);
   EXPECT_LT(bytes(LightKind::directional, {100, 100}, false), plain);
-  EXPECT_GE(bytes(LightKind::directional, {100, 100, 1'000'000}), plain + 1e6) << "tiles are parts";
+  EXPECT_GE(bytes(LightKind::directional, {100, 100, 1'000'000}), plain + 1e6) << "every tile is a part of the scene";
   EXPECT_GT(bytes(LightKind::directional, {100, 100, 1'000'000}, true, true),
             bytes(LightKind::directional, {100, 100, 0}, true, true) + 4e6)
-      << "and point.json lists them";
-  settings_.bias["normal_offset"] = 1;  // has no curve
+      << "point.json lists the tiles as well";
+  settings_.bias["normal_offset"] = 1;  // a normal offset has no curve
   EXPECT_EQ(bytes(), bytes(LightKind::directional, {100, 100}, false));
   settings_.map.cull = CulledFaces::front;
   EXPECT_GT(bytes(), bytes(LightKind::directional, {100, 100}, false) - 1);
@@ -142,33 +143,33 @@ TEST_F(Estimate, IsRefusedWithTheSettingToChange) {
   EXPECT_TRUE(fits(cube, {needed + 1, ""}));
   try {
     require_memory(cube, {uint64_t{1} << 30, "a limit"}, "point 3");
-    ADD_FAILURE() << "it does not fit";
+    ADD_FAILURE() << "a point that does not fit was accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
     EXPECT_TRUE(std::string(error.what()).ends_with("and 1.1 GB are available (a limit); lower map.resolution"));
   }
 }
 
-// What the process holds is part of what it may hold, and is said where that decides.
+// The memory that the process holds already counts as available. The message says so if this decides.
 TEST(MemoryOfProgram, HoldsWhatItHasAlready) {
   const AvailableMemory machine = memory_of_program({}, 0);
   EXPECT_TRUE(machine.limit.ends_with(" that the program holds already")) << machine.limit;
   EXPECT_GT(machine.bytes, resident_bytes());
 }
 
-// However much address space the process has taken since it was asked.
+// The result must not depend on the address space that the process has taken since the start.
 TEST(MemoryOfProgram, OfAddressSpaceIsToldFromTheStart) {
   const AvailableMemory start{1000 * MiB, "ulimit -v"};
   const AvailableMemory space = memory_of_program(start, 800 * MiB);
   EXPECT_EQ(space.limit, "ulimit -v, minus the space that libraries and threads reserve");
   EXPECT_EQ(memory_of_program(start, 700 * MiB).bytes - space.bytes, 100 * MiB);
   EXPECT_EQ(memory_of_program(start, 2000 * MiB).bytes, memory_of_program(start, 1000 * MiB).bytes);
-  EXPECT_GT(space.bytes, 400 * MiB) << "200 MiB and the program itself, which an estimate holds too";
+  EXPECT_GT(space.bytes, 400 * MiB) << "200 MiB and the program itself, which an estimate contains too";
   const std::vector<char> more(64 * MiB, 1);
   EXPECT_EQ(memory_of_program(start, 800 * MiB).bytes, space.bytes);
 }
 
-// A texel beside the map costs more than one in it.
+// A texel outside the map needs more memory than one inside it.
 TEST(OutsideTexels, AreThoseThatTheSceneReaches) {
   Settings settings;
   settings.scene.name = "cube-room";
@@ -176,9 +177,10 @@ TEST(OutsideTexels, AreThoseThatTheSceneReaches) {
   const Scene scene = make_scene(settings.scene);
   const auto outside = [&] { return outside_texels(scene, make_light_frame(scene, settings), settings.filter); };
   const double resolution = settings.map.resolution;
-  EXPECT_LT(outside(), 8.1 * resolution) << "a rim of two texels around a map that holds all";
+  EXPECT_LT(outside(), 8.1 * resolution) << "a rim of two texels around a map that covers the whole scene";
   settings.map.extent_scale = 0.5;
-  EXPECT_GT(outside(), 1.5 * resolution * resolution) << "the scene, longer than wide, is 3.5 maps large now";
+  EXPECT_GT(outside(), 1.5 * resolution * resolution)
+      << "the scene is longer than wide, and 3.5 times as large as the map now";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a scene's identity must see: whatever, changed alone in its file, changes a measurement. And what it need not.
+// The identity of a scene must change if a change in its file changes a measurement. It need not change otherwise.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -16,7 +16,7 @@ namespace {
 
 using test::json;
 
-// A floor, and a board above it under nodes that translate, turn and scale; a camera and a light that look down.
+// A floor, a board above it under nodes that translate, rotate and scale it, and a camera and a light that look down.
 json rich_scene(const json& camera, const json& light) {
   json d = test::square();
   d["asset"]["generator"] = "none";
@@ -28,7 +28,7 @@ json rich_scene(const json& camera, const json& light) {
   d["meshes"][0]["name"] = "board";
   d["meshes"][0]["primitives"][0]["material"] = 0;
   const double half =
-      std::sqrt(0.5);  // about +X by -90 degrees: what faces +Z faces up, what looks along -Z looks down
+      std::sqrt(0.5);  // rotation about +X by -90 degrees: +Z becomes up, and a view along -Z becomes a view down
   d["nodes"] = {{{"mesh", 0},
                  {"name", "floor"},
                  {"rotation", {-half, 0, 0, half}},
@@ -60,7 +60,7 @@ struct Edit {
   json document;
 };
 
-// One for every number in the document, and one for every coordinate in its vertex buffer.
+// One edit for every number in the document and one for every coordinate in its vertex buffer.
 std::vector<Edit> every_edit(const json& document) {
   std::vector<Edit> edits;
   const json flat = document.flatten();
@@ -70,7 +70,7 @@ std::vector<Edit> every_edit(const json& document) {
     edited[json::json_pointer(place)] =
         value.is_number_integer() ? json(value.get<int>() + 1) : json(value.get<double>() * 1.01 + 0.01);
     edits.push_back({place, edited});
-    if (value.is_number_integer()) {  // where an integer stands for a real, one less may be legal where one more is not
+    if (value.is_number_integer()) {  // it may stand for a real number, for which 0.01 more is legal and 1 more is not
       edited[json::json_pointer(place)] = value.get<int>() + 0.01;
       edits.push_back({place + " (a little)", edited});
     }
@@ -87,7 +87,7 @@ std::vector<Edit> every_edit(const json& document) {
   return edits;
 }
 
-// Everything of a measurement that is a number and no time, as bytes.
+// All numbers of a measurement except the times, as bytes.
 std::string seen(Workbench& bench, const std::string& path) {
   const Measurement m =
       bench.measure(with({{"map.resolution", "64"}}, small(path, 48, 32)), CurveOptions{.bias_depth = {0, 0.01}});
@@ -117,7 +117,7 @@ TEST(SceneIdentity, SeesWhateverInTheFileChangesAMeasurement) {
       try {
         other = scene_digest(load_gltf(path));
       } catch (const Error&) {
-        continue;  // refused: no old verdict is taken over
+        continue;  // the file is refused, so no old verdict can be reused
       }
       ++loaded;
       anew += other != digest;
@@ -126,15 +126,15 @@ TEST(SceneIdentity, SeesWhateverInTheFileChangesAMeasurement) {
         EXPECT_EQ(other, digest);
       }
       if (other == digest) {
-        EXPECT_TRUE(seen(bench, path) == picture) << "resumes, though it is another picture";
+        EXPECT_TRUE(seen(bench, path) == picture) << "the identity is the same although the picture has changed";
       }
     }
-    EXPECT_GT(loaded, 60u) << "too few edits were legal to say anything";
-    EXPECT_GT(anew, 40u) << "too few edits were noticed to say anything";
+    EXPECT_GT(loaded, 60u) << "too few edits were legal, so the test proves nothing";
+    EXPECT_GT(anew, 40u) << "too few edits were noticed, so the test proves nothing";
   }
 }
 
-// Scenes are loaded one after the other while a sweep runs; a file may be edited meanwhile.
+// Scenes are loaded one after the other while a sweep runs. Meanwhile somebody may edit a file.
 TEST(SceneIdentity, NoticesAFileThatIsEditedDuringTheSweep) {
   const test::TemporaryFolder folder;
   json document = rich_scene(lens, spot);
@@ -151,11 +151,11 @@ TEST(SceneIdentity, NoticesAFileThatIsEditedDuringTheSweep) {
   EXPECT_NO_THROW(scenes.require_unchanged(bench, second));
   EXPECT_THROW(scenes.require_unchanged(bench, first), Error);
 
-  // Beside the scenes, what else results depend on.
+  // Besides the scenes, the identity names everything else that results depend on.
   std::set<std::string> names;
   for (const auto& [name, value] : facts) {
     if (name == "program") {
-      EXPECT_EQ(value.size(), 40u) << "not the linker's hash: " << value;
+      EXPECT_EQ(value.size(), 40u) << "this is not the hash of the linker: " << value;
     }
     names.insert(name.substr(0, name.find(' ')));
   }

@@ -1,4 +1,4 @@
-// What the guard before toml++ lets through and what it refuses, for every kind of place in a TOML text.
+// The check before toml++: what it accepts and what it refuses, at every kind of place in a TOML text.
 #include "app/toml_text.h"
 
 #include <gtest/gtest.h>
@@ -17,11 +17,11 @@ std::string utf8(char32_t c) {
   return {byte(0xf0 | c >> 18), byte(0x80 | (c >> 12 & 0x3f)), byte(0x80 | (c >> 6 & 0x3f)), byte(0x80 | (c & 0x3f))};
 }
 
-// Of each branch of toml++'s question: white space in it or not, and past its last.
+// Characters for each branch of toml++'s test: inside a range, white space or not, and beyond the last range.
 constexpr char32_t characters[] = {0x80,   0x85,   0xa0,   0xe9,   0x3a9,  0x1680, 0x2003, 0x2028,
                                    0x3000, 0x3042, 0x4e2d, 0xfb26, 0xfcbf, 0xfefe, 0xfeff, 0x1f600};
 
-// The text with the character at the '@'.
+// The text with '@' replaced by the character.
 std::string placed(std::string text, char32_t c) { return text.replace(text.find('@'), 1, utf8(c)); }
 
 template <class Read>
@@ -45,7 +45,7 @@ TEST(TomlText, OutsideOfStringsAndCommentsEveryCharacterIsAscii) {
         "a = \"\"@", "a = ''@", "a = \"x\"@", "a = 'x'@", "a = \"\"\"x\"\"\"@", "a = \"\"\"x\"\"\"\"@",
         "a = \"\"\"x\"\"\"\"\"@", "a = '''x'''@", "a = '''x''''@", "a = '''x'''''@", "a = \"\\\"\"@", "a = '\\'@",
         "a = \"\"\"\\\"\"\"\"@", "\"a\"@ = 1", "a = '\"'@", "a = \"'\"@", "a = \"#\"@",
-        // Here the quote begins no string: it stands in a word.
+        // Here the quote begins no string, because it is inside a word.
         "a = +\"@\"", "a = 1\"@\"", "a = 1.\"@\"", "a = [1.\"@\"]", "a = t'@'", "a = =\"@\"", "a = [=\"@\"]",
         "a\"@\" = 1", "a = {b = +\"@\"}", "a = ;'@'"}) {
     for (const char32_t c : characters) {
@@ -53,7 +53,8 @@ TEST(TomlText, OutsideOfStringsAndCommentsEveryCharacterIsAscii) {
       const std::string place =
           "x.toml:2:" + std::to_string(std::string_view(text).find('@') + 1) + ": the character U+";
       EXPECT_TRUE(refusal(whole).starts_with(place)) << whole << refusal(whole);
-      EXPECT_EQ(message([&] { parse_experiment(whole, "x.toml"); }), refusal(whole)) << "toml++ was asked first";
+      EXPECT_EQ(message([&] { parse_experiment(whole, "x.toml"); }), refusal(whole))
+          << "toml++ read the text before the check";
     }
   }
 }
@@ -111,7 +112,7 @@ TEST(TomlText, BytesThatAreNoCharactersAreNamed) {
   EXPECT_TRUE(refusal("\xef\xbb\xbf\xe9 = 1").starts_with("x.toml:1:1: the byte 0xe9, which is not UTF-8,"));
 }
 
-// A quote that is missing is toml++'s to find: what stands behind it is not looked at as if it were a name.
+// toml++ reports a missing quote. The text after it must not be checked as if it were a name.
 TEST(TomlText, AfterAStringWithoutEndNothingIsRefused) {
   EXPECT_EQ(refusal("a = \"x\né = 1\n"), "");
   EXPECT_EQ(refusal("a = 'x\né = 1\n"), "");

@@ -1,4 +1,4 @@
-// The views for people: maps, frusta and shaded frames as pictures.
+// The pictures for human readers: maps, frusta and shaded frames.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ TEST(DepthOfWindow, UndoesWindowDepth) {
     const LightFrame f = frame_of(scene);
     for (double t : {0.0, 0.1, 0.5, 0.999, 1.0}) {
       const double depth = f.near_m + t * (f.far_m - f.near_m);
-      // A spot's window depth crowds against 1: what is left of a double's digits there is still 1e-12 of a metre.
+      // The window depths of a spot light are close to 1. The digits that a double has left there are still 1e-12 m.
       EXPECT_NEAR(f.depth_of_window(f.window_depth(depth)), depth, 1e-11) << scene;
     }
   }
@@ -57,7 +57,8 @@ TEST(CubeCross, NeighboursJoinWithoutASeam) {
   const Image<float> cross = cube_cross(cube_of(f, smooth), n, 512, outside);
   ASSERT_EQ(cross.width, 4 * n);
   ASSERT_EQ(cross.height, 3 * n);
-  // Texels' centres are at most 2 / n apart as seen from the light, across seams too, and the value's gradient is 1.
+  // Seen from the light, neighbouring texel centres are at most 2 / n apart, also across seams. The gradient is at most
+  // 1.
   const float texel_step = 2.0f / n;
   int joined = 0, cells = 0;
   for (int y = 0; y < cross.height; ++y)
@@ -83,7 +84,7 @@ TEST(CubeCross, FacesAreWhereTheHeadOfTheFileSays) {
   const Image<float> cross = cube_cross(cube_of(f, smooth), n, n, 9);
   for (int face = 0; face < 6; ++face)
     EXPECT_NEAR(cross.at(cells[face].x * n + n / 2, cells[face].y * n + n / 2), smooth(axes[face]), 1e-6) << face;
-  // Seen from outside before +Z: +X to the right, +Y up.
+  // The cross shows +Z with +X on the right and +Y at the top.
   EXPECT_NEAR(cross.at(2 * n - 1, n + n / 2), smooth({1 - 1.0 / n, 0, 1}), 1e-6);
   EXPECT_NEAR(cross.at(n + n / 2, n), smooth({0, 1 - 1.0 / n, 1}), 1e-6);
 }
@@ -91,7 +92,7 @@ TEST(CubeCross, FacesAreWhereTheHeadOfTheFileSays) {
 TEST(CubeCross, ShrinkingKeepsTheNearest) {
   const int n = 64;
   Image<float> map(n, 6 * n, 1);
-  map.at(63, 4 * n + 63) = 0.25f;  // +Z: its s is +X, its t is -Y; so the lower right corner of the middle cell
+  map.at(63, 4 * n + 63) = 0.25f;  // face +Z: s is +X and t is -Y, so this is the lower right corner of the middle cell
   const Image<float> cross = cube_cross(map, n, 10, 9);
   ASSERT_EQ(cross.width, 40);
   for (int y = 0; y < cross.height; ++y)
@@ -108,7 +109,7 @@ TEST(MapPicture, IsLinearInMetresAndStandsUpright) {
     const auto stored = [&](double t) {
       return static_cast<float>(f.window_depth(f.near_m + t * (f.far_m - f.near_m)));
     };
-    map.at(0, 0) = stored(0.1);  // row 0 of a map has the lowest v: the picture's lower left
+    map.at(0, 0) = stored(0.1);  // row 0 of a map has the lowest v, so this is the lower left corner of the picture
     map.at(1, 0) = stored(0.5);
     map.at(2, 0) = stored(0.9);
     map.at(3, 3) = nan;
@@ -163,7 +164,7 @@ TEST(Clay, IsBlinnPhong) {
   const glm::dvec3 up(0, 1, 0), light(std::sin(a), std::cos(a), 0);
   const glm::dvec3 mirrored(-light.x, light.y, 0);
   EXPECT_NEAR(clay_response(up, light, mirrored), 0.7 * std::cos(a) + 0.195, 1e-12);
-  // The half vector of light and eye = light stands at the angle a to N.
+  // If the eye is at the light, the half vector is at the angle a to N.
   EXPECT_NEAR(clay_response(up, light, light), 0.7 * std::cos(a) + 0.195 * std::pow(std::cos(a), 64), 1e-12);
   EXPECT_EQ(clay_response(up, {0, -1, 0}, up), 0);
   EXPECT_EQ(clay_response(up, {1, 0, 0}, up), 0);
@@ -221,21 +222,21 @@ TEST(ShadedRmse, IsThatOfTheTwoFramesWhereThereIsASurface) {
     b[i] = static_cast<float>(random() % 5) / 4;
   }
   const double whole = shaded_rmse(floor, light, camera, a, b);
-  // The frames are floats near 1.
+  // Tolerance: the frames are floats near 1.
   const Image<float> shaded_a = shaded_frame(floor, light, camera, a), shaded_b = shaded_frame(floor, light, camera, b);
   double squares = 0;
   for (size_t i = 0; i < a.size(); ++i) squares += std::pow(static_cast<double>(shaded_a[i]) - shaded_b[i], 2);
   EXPECT_NEAR(whole, std::sqrt(squares / static_cast<double>(a.size())), 1e-6);
   EXPECT_GT(whole, 0.05);
   EXPECT_EQ(shaded_rmse(floor, light, camera, a, a), 0);
-  // Background does not thin it out.
+  // Background pixels must not lower the mean.
   for (size_t i = 0; i < a.size(); i += 3) floor.primitive[i] = no_primitive;
   EXPECT_NEAR(shaded_rmse(floor, light, camera, a, b), whole * std::sqrt(1.5), 1e-6);
   a[1] = nan;
   EXPECT_TRUE(std::isnan(shaded_rmse(floor, light, camera, a, b)));
   EXPECT_TRUE(std::isnan(shaded_rmse(floor, light, camera, a, a)));
   for (uint32_t& p : floor.primitive.pixels) p = no_primitive;
-  EXPECT_TRUE(std::isnan(shaded_rmse(floor, light, camera, a, a))) << "nothing was there to differ";
+  EXPECT_TRUE(std::isnan(shaded_rmse(floor, light, camera, a, a))) << "no surface, so nothing can differ";
 }
 
 // --- the frustum ---
@@ -267,21 +268,22 @@ TEST(ProjectSegment, IsCutAtThePictureAndBeforeTheEye) {
   const CameraFrame camera = make_camera_frame(
       {.eye_m = {0, 0, 5}, .target_m = {0, 0, 0}, .fov_y_deg = 90, .near_m = 0.1, .far_m = 100}, 100, 100);
   ScreenSegment s;
-  // Level through the middle, far beyond both sides: exactly the picture's width, and its margin.
+  // A horizontal line through the middle, far beyond both sides: it is cut to the picture's width plus the margin.
   ASSERT_TRUE(project_segment(camera, 100, 100, {-100, 0, 0}, {100, 0, 0}, 0, s));
   EXPECT_NEAR(s.from.x, 0, 1e-9);
   EXPECT_NEAR(s.to.x, 100, 1e-9);
   EXPECT_NEAR(s.from.y, 50, 1e-9);
   ASSERT_TRUE(project_segment(camera, 100, 100, {-100, 0, 0}, {100, 0, 0}, 10, s));
   EXPECT_NEAR(s.from.x, -10, 1e-9);
-  // From before the eye to behind it: the part before, which runs off the picture.
+  // A line from before the eye to behind it: only the part before the eye is kept, and it leaves the picture.
   ASSERT_TRUE(project_segment(camera, 100, 100, {0, -1, 0}, {0, -1, 60}, 0, s));
   EXPECT_NEAR(s.from.y, 60, 1e-9);  // 1 m down at 5 m
   EXPECT_NEAR(s.to.y, 100, 1e-9);
   EXPECT_NEAR(s.to_depth, 1, 1e-9);
-  EXPECT_FALSE(project_segment(camera, 100, 100, {0, 0, 6}, {1, 0, 60}, 0, s)) << "behind the eye";
-  EXPECT_FALSE(project_segment(camera, 100, 100, {-100, 80, 0}, {100, 80, 0}, 0, s)) << "above the picture";
-  EXPECT_FALSE(project_segment(camera, 100, 100, {-11, 0, 0}, {0, 11, 0}, 0, s)) << "past a corner";
+  EXPECT_FALSE(project_segment(camera, 100, 100, {0, 0, 6}, {1, 0, 60}, 0, s)) << "the segment is behind the eye";
+  EXPECT_FALSE(project_segment(camera, 100, 100, {-100, 80, 0}, {100, 80, 0}, 0, s))
+      << "the segment is above the picture";
+  EXPECT_FALSE(project_segment(camera, 100, 100, {-11, 0, 0}, {0, 11, 0}, 0, s)) << "the segment passes a corner";
 }
 
 TEST(FrustumLines, AreTheEdgesOfWhatTheMapHolds) {
@@ -293,7 +295,7 @@ TEST(FrustumLines, AreTheEdgesOfWhatTheMapHolds) {
       if (line.color == cone_line) continue;
       for (size_t k = 1; k < line.points.size(); ++k) {
         ++edges;
-        // Both ends are corners of the clip cube of the map, or of a face for a point light.
+        // Both ends are corners of the map's clip cube; for a point light, of the clip cube of a face.
         for (const glm::dvec3& p : {line.points[k - 1], line.points[k]}) {
           const int face = light.kind == LightKind::point ? cube_face_of(light.to_light(p)) : 0;
           const glm::dvec4 clip = light.clip_from_world(face) * glm::dvec4(p, 1);
@@ -359,10 +361,10 @@ TEST(DrawFrustum, DashesWhatTheSceneHidesAndMarksTheLight) {
   const Color faint(glm::mix(glm::vec3(255), glm::vec3(near_line), 0.5f) + 0.5f);
   EXPECT_GT(count(hidden, faint), seen / 4);
   EXPECT_LT(count(hidden, faint), 3 * seen / 4);
-  EXPECT_GT(count(hidden, light_mark), 100) << "the mark shows through";
+  EXPECT_GT(count(hidden, light_mark), 100) << "the mark of the light must be visible through surfaces";
 }
 
-// A line that lies in a surface is not hidden by it.
+// A surface does not hide a line that lies in it.
 TEST(DrawFrustum, LinesInASurfaceAreSeen) {
   const int width = 400, height = 300;
   const CameraFrame camera = make_camera_frame(
@@ -382,7 +384,7 @@ TEST(DrawFrustum, LinesInASurfaceAreSeen) {
   draw_frustum(bare, light, camera, floor_receivers(width, height, camera, 1e9));
   EXPECT_EQ(count(picture, far_line), count(bare, far_line));
   EXPECT_GT(count(picture, far_line), 300);
-  EXPECT_EQ(count(picture, light_mark), 0) << "a directional light is nowhere";
+  EXPECT_EQ(count(picture, light_mark), 0) << "a directional light has no position";
 }
 
 TEST(DifferenceColor, BrightensWithTheDifference) {

@@ -1,5 +1,6 @@
-// Text of an experiment file: refused with Error(usage) that says where, or an experiment whose points, commands and
-// fingerprint are as its head says, and whose bounds and laws give a verdict each.
+// The input is the text of an experiment file. It must be refused with an Error(usage) that names the place, or give an
+// experiment. Then its points, commands and fingerprint must be as app/experiment.h says, and each bound and each law
+// must give one verdict.
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -18,7 +19,7 @@
 namespace noonmark::fuzz {
 namespace {
 
-// As many points as are looked at one by one; a sweep may have 100,000, and those are counted.
+// At most this many points are checked one by one. A sweep may have 100,000; the rest are only counted.
 constexpr size_t most_points = 64;
 
 void check_part(const Experiment& experiment, const std::vector<PointRecord>& points) {
@@ -30,7 +31,7 @@ void check_part(const Experiment& experiment, const std::vector<PointRecord>& po
 }
 
 void run(const std::string& text) {
-  // As long as the seeds: what is longer says the same again.
+  // About the length of the seeds: a longer text finds nothing new.
   if (text.size() > 16384) return;
   const std::string path = "fuzz.toml";
   try {
@@ -45,7 +46,8 @@ void run(const std::string& text) {
       record.settings = settings_map(all[id]);
       const Experiment& part = part_of_point(experiment, static_cast<int64_t>(id));
       record.part = part.part;
-      // A setting's text is read back as the same setting, or the store and the command line would name another point.
+      // A setting's text must be read back as the same setting. Otherwise the store and the command line would name
+      // another point.
       Settings again;
       std::string key = record.part;
       for (const auto& [name, value] : record.settings) {
@@ -134,7 +136,7 @@ name = "b\u00e9\t"
 [part.settings]
 )toml",
       "a.b = 1\n[a]\nc = 1979-05-27T07:32:00Z\nd = \"\"\"\nx\\\n  y\"\"\"\ne = '''z'''\nf = [nan, +inf, 0b1, 0o7,]\n"};
-  // The program's own, of which none is large but the laws.
+  // The program's own experiments. Only the laws are large.
   const std::filesystem::path own = std::filesystem::path(NOONMARK_SOURCE_DIR) / "experiments";
   std::set<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(own))

@@ -1,5 +1,6 @@
-// Text of formulas, one a line: each alone, then as the sides of a law. A formula is refused with Error(usage), or has
-// the same value each time; a value that is unknown (NaN) leaves no known result; a law gives one verdict.
+// The input is the text of formulas, one per line. Each is tried alone, then as a side of a law. A formula must be
+// refused with Error(usage) or have the same value each time. If a value is unknown (NaN), the result must be unknown
+// too. A law must give one verdict.
 #include <bit>
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,7 @@
-// Bytes of a .gltf or .glb through load_gltf: a sound scene, or one Error(scene) in one line. Mutated as JSON (bytes of
-// a .glb: its JSON chunk, its binary chunk and its header each). The file is alone in its folder but for a buffer and a
-// link out of it; beside the folder lies a buffer that no file may reach, whose positions would show in the scene.
+// The input is the bytes of a .gltf or .glb for load_gltf, which must give a sound scene or one Error(scene) in one
+// line. The bytes are mutated as JSON; in a .glb the JSON chunk, the binary chunk and the header are mutated
+// separately. The folder of the file also holds a buffer and a link to a buffer outside the folder. No file may read
+// that outside buffer; otherwise its positions would appear in the scene.
 #include <cmath>
 #include <filesystem>
 
@@ -18,9 +19,9 @@ using nlohmann::json;
 using test::add_accessor;
 using test::raw;
 
-// A float whose bytes stand in no seed: only outside.bin holds it.
+// No seed contains the bytes of this float; only outside.bin does.
 constexpr float outside_value = -8191.7734375f;
-constexpr size_t buffer_bytes = 60;  // of the square: four positions, six indices
+constexpr size_t buffer_bytes = 60;  // the buffer of the square: four positions, six indices
 
 struct Files {
   Folder folder;
@@ -37,7 +38,7 @@ void run(const std::string& bytes) {
   files.folder.write("scene/scene.glb", bytes);
   const std::string path = files.folder.file("scene/scene.glb");
   try {
-    Pose pose;  // at rest; where the file says how it moves, at some time of that
+    Pose pose;  // at rest, or at some time of the animation if the file has one
     if (bytes.find("\"animations\"") != std::string::npos && bytes.size() % 4 != 0)
       pose.time_s = 0.37 * static_cast<double>(bytes.size() % 5);
     const Scene scene = load_gltf(path, pose);
@@ -202,7 +203,7 @@ uint32_t word_at(const std::string& bytes, size_t at) {
   return value;
 }
 
-// What stands in a buffer's data: URI; the square's where there is none.
+// The bytes in a buffer's data: URI; those of the square if there is none.
 std::string embedded_bytes(const json& buffer) {
   const std::string uri = buffer.contains("uri") && buffer["uri"].is_string() ? buffer["uri"].get<std::string>() : "";
   const size_t comma = uri.find(',');
@@ -222,7 +223,8 @@ std::string embedded_bytes(const json& buffer) {
   return out;
 }
 
-// The text, with one of its embedded buffers damaged where there are any: base64 edited as text is refused at once.
+// Damages one of the embedded buffers, if there are any. They are decoded first, because base64 that is edited as text
+// is refused at once.
 void edit_a_buffer(json& document, Random& random, const EditBytes& edit) {
   if (!document.is_object() || !document.contains("buffers") || !document["buffers"].is_array()) return;
   json& buffers = document["buffers"];
@@ -247,7 +249,7 @@ std::string mutate_text(const std::string& text, Random& random, const EditBytes
 
 std::string mutate(const std::string& bytes, Random& random, const EditBytes& edit) {
   if (!bytes.starts_with("glTF")) {
-    // Now and then the same document as a .glb.
+    // Sometimes the same document as a .glb.
     return below(random, 16) == 0 ? test::glb(bytes, test::square_bytes()) : mutate_text(bytes, random, edit);
   }
   const size_t length = word_at(bytes, 12);
@@ -258,7 +260,7 @@ std::string mutate(const std::string& bytes, Random& random, const EditBytes& ed
     case 0:
       return edit(bytes, random);
     case 1: {
-      std::string whole = bytes;  // a chunk's length or type, or the whole file's
+      std::string whole = bytes;  // damage the length or type of a chunk or of the whole file
       const size_t word = 4 * below(random, 5);
       const std::string edited = edit(whole.substr(word, 4), random);
       whole.replace(word, 4, (edited + std::string(4, '\0')).substr(0, 4));

@@ -7,7 +7,7 @@ namespace {
 
 using nlohmann::json;
 
-// Documents that grow without end are slow, and find nothing that shorter ones do not.
+// Long documents are slow and find nothing that short ones do not find.
 constexpr size_t most_values = 3000;
 
 void collect(json& value, std::vector<json*>& all) {
@@ -75,7 +75,7 @@ json odd_value(Random& random, std::span<const std::string> words) {
   return odd[below(random, odd.size())];
 }
 
-// A number a little or a lot off: counts, lengths, offsets and indices that just fit, or just do not.
+// A number that differs a little or a lot: counts, lengths, offsets and indices that just fit or just do not fit.
 json near_number(const json& number, Random& random) {
   if (number.is_number_integer()) {
     const auto value = number.get<int64_t>();

@@ -1,6 +1,6 @@
-// libFuzzer's side: the functions that it calls, of the target that the build names (FUZZ_TARGET, as targets.h has it).
+// The functions that libFuzzer calls, for the target that the build names (FUZZ_TARGET, a name in targets.h).
 //
-//   fuzz_gltf --write FOLDER     seeds into FOLDER/seeds, the dictionary into FOLDER/words.dict; and no fuzzing
+//   fuzz_gltf --write FOLDER     writes seeds to FOLDER/seeds and the dictionary to FOLDER/words.dict; does not fuzz
 //   fuzz_gltf FOLDER/corpus FOLDER/seeds -dict=FOLDER/words.dict -max_total_time=60
 #include <cstdint>
 #include <cstdio>
@@ -22,7 +22,7 @@ void write(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-// libFuzzer's dictionaries have one quoted word a line, with \xNN for what is not plain.
+// A dictionary of libFuzzer has one quoted word per line, with \xNN for characters that are not plain.
 std::string dictionary(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) {
@@ -46,7 +46,7 @@ void write_start(const std::filesystem::path& folder) {
   write(folder / "words.dict", dictionary(target().words()));
 }
 
-// What libFuzzer's own mutations make of `bytes`.
+// `bytes` after libFuzzer's own mutations.
 std::string edit_with_libfuzzer(const std::string& bytes, Random&) {
   std::string room(std::max<size_t>(2 * bytes.size(), 64), '\0');
   std::copy(bytes.begin(), bytes.end(), room.begin());
@@ -78,7 +78,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max_size, unsigned int seed) {
   const noonmark::fuzz::Target& target = noonmark::fuzz::target();
   noonmark::fuzz::Random random(seed);
-  // Every fourth time bytes alone, also where the format is known: damage that no exporter can write.
+  // Every fourth time only bytes are mutated, even if the target knows the format. This gives damage that no exporter
+  // can write.
   if (!target.mutate || random() % 4 == 0) return LLVMFuzzerMutate(data, size, max_size);
   const std::string next = target.mutate(std::string(reinterpret_cast<const char*>(data), size), random,
                                          noonmark::fuzz::edit_with_libfuzzer);

@@ -1,6 +1,7 @@
-// Bytes as choices: a small scene and legal settings, measured as a sweep measures them. What must hold for every one:
-// the limits of compare/judge/soundness.h, sums that add up, numbers where there may be no NaN, the bias curve at the
-// point's own bias, and the same answer whatever was measured before.
+// The bytes of the input choose a small scene and legal settings, which are measured as in a sweep. For every input the
+// following must hold: the limits of compare/judge/soundness.h are kept, sums add up, numbers that may not be NaN are
+// not, the bias curve agrees with the measurement at the point's own bias, and earlier measurements do not change the
+// result.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/global_control.h>
@@ -25,7 +26,7 @@
 namespace noonmark::fuzz {
 namespace {
 
-// Steps are sums of at most a dozen floats in [0,1], each rounded to 2^-24; means of them no worse.
+// Steps are sums of at most a dozen floats in [0,1], each rounded to 2^-24. Their means have no larger error.
 constexpr double rounding = 1e-6;
 
 // Takes numbers from the input, byte by byte. After the last byte all numbers are 0, so that every input is valid.
@@ -34,7 +35,7 @@ class Choices {
   explicit Choices(const std::string& bytes) : bytes_(bytes) {}
   unsigned byte() { return at_ < bytes_.size() ? static_cast<unsigned char>(bytes_[at_++]) : 0; }
   int below(int n) { return static_cast<int>((n > 256 ? byte() << 8 | byte() : byte()) % static_cast<unsigned>(n)); }
-  // [0, 1], both ends often.
+  // A number in [0, 1], often one of the two ends.
   double fraction() {
     const unsigned value = byte() << 8 | byte();
     return value == 0xffff ? 1 : value / 65536.0;
@@ -67,7 +68,7 @@ glm::dvec3 any_point(Choices& choices, double reach) {
   return {x, y, choices.between(-reach, reach)};
 }
 
-// A parallelepiped, so flat or so slanted as the choices have it.
+// A parallelepiped. The choices can make it flat or slanted.
 void add_block(Triangles& to, Choices& choices) {
   const glm::dvec3 o = any_point(choices, 4), x = any_point(choices, 2), y = any_point(choices, 2);
   const glm::dvec3 z = any_point(choices, 2);
@@ -81,7 +82,7 @@ void add_block(Triangles& to, Choices& choices) {
 
 void add_floor(Triangles& to, Choices& choices) {
   const double y = choices.between(-2, 2), half = choices.between(0.5, 10);
-  // In strips that do not share vertices: every seam is a T-junction or an unwelded edge.
+  // The strips share no vertices, so every seam is a T-junction or an unwelded edge.
   const int strips = 1 + choices.below(4);
   const double tilt = choices.between(-1, 1);
   for (int i = 0; i < strips; ++i) {
@@ -99,13 +100,13 @@ std::string scene_file(Choices& choices) {
       case 1:
         add_floor(scene, choices);
         break;
-      case 2: {  // a triangle alone; of no area where its corners meet
+      case 2: {  // a single triangle; it has no area if corners coincide
         const uint32_t a = scene.vertex(any_point(choices, 4)), b = scene.vertex(any_point(choices, 4));
         const uint32_t c = choices.below(8) == 0 ? a : scene.vertex(any_point(choices, 4));
         scene.indices.insert(scene.indices.end(), {a, b, c});
         break;
       }
-      case 3:  // one that is there already, over other corners
+      case 3:  // a triangle over vertices that exist already
         for (int k = 0; k < 3 && !scene.positions.empty(); ++k)
           scene.indices.push_back(static_cast<uint32_t>(choices.below(static_cast<int>(scene.positions.size() / 3))));
         break;
@@ -131,7 +132,7 @@ std::string scene_file(Choices& choices) {
 
 // ---- the settings
 
-// Small enough that one execution takes milliseconds; what they bound, they bound in every scene alike.
+// Limits of the values, so that one execution takes milliseconds. They are the same in every scene.
 double most_of(const Setting& row) {
   if (row.name == "view.width_px") return 24;
   if (row.name == "view.height_px") return 18;
@@ -163,7 +164,7 @@ std::string any_value(const Setting& row, Choices& choices) {
           return fmt::format("{}", choices.between(least, most));
         case 2:
           return fmt::format("{}", std::clamp(std::round(choices.between(-3, 8)), least, most));
-        default:  // any magnitude up to a hundred: where settings mean something
+        default:  // any magnitude up to a hundred, the range of useful settings
           return fmt::format("{}", std::clamp(std::pow(10.0, choices.between(-6, 2)), least, most));
       }
     case ValueType::text:
@@ -230,7 +231,7 @@ void require_curve(const Measurement& m) {
   if (curve.window_min_depth)
     require(*curve.window_min_depth <= *curve.window_max_depth, "a window that ends before it begins");
   if (curve.parameter != "bias.constant" || m.settings.bias.unit != BiasUnit::depth) return;
-  // The point's own bias is the last one asked for (below): there the curve is the measurement.
+  // The point's own bias is the last one requested (below). There the curve must equal the measurement.
   const auto at_bias = std::find(curve.bias_depth.begin(), curve.bias_depth.end(), m.settings.bias["constant"]);
   if (at_bias == curve.bias_depth.end()) return;
   const auto i = static_cast<size_t>(at_bias - curve.bias_depth.begin());
@@ -266,7 +267,7 @@ void require_same(const Measurement& a, const Measurement& b) {
 }
 
 struct Benches {
-  // Pictures this small are faster without threads, and a failure comes again.
+  // Small pictures are faster without threads, and with one thread a failure can be repeated.
   tbb::global_control one_thread{tbb::global_control::max_allowed_parallelism, 1};
   int no_threads = ::setenv("LP_NUM_THREADS", "0", 1);
   Folder folder;
@@ -281,7 +282,7 @@ std::optional<CurveOptions> curve_for(const Settings& settings, bool wanted) {
   return options;
 }
 
-// Every setting that is not its default, and the scene's file whole: what breaks can be tried by hand.
+// Every setting that is not the default, and the whole scene file, so that a failure can be repeated by hand.
 std::string described(const Settings& settings) {
   const Settings defaults;
   std::string text;
@@ -300,7 +301,7 @@ void measure(Benches& b, const Settings& settings, bool curve, bool compare) {
     require_curve(m);
   }
   if (!compare) return;
-  Settings unlike;  // another scene: nothing of it can be remembered
+  Settings unlike;  // another scene, so that no stored result can be reused
   unlike.scene.name = settings.scene.name == "plane" ? "wall" : "plane";
   unlike.view.width_px = unlike.view.height_px = 2;
   unlike.map.resolution = 2;
@@ -321,7 +322,7 @@ void run(const std::string& bytes) {
     const std::span<const BuiltinScene> scenes = builtin_scenes();
     settings.scene.name = scenes[static_cast<size_t>(choices.below(static_cast<int>(scenes.size())))].name;
   } else {
-    // A name of its own each time: what was measured of the last one is not this one's.
+    // A new name each time, so that results of the last scene are not used for this one.
     const std::string old = benches.folder.file(fmt::format("{}.gltf", benches.files));
     std::filesystem::remove(old);
     const std::string name = fmt::format("{}.gltf", ++benches.files);
@@ -336,7 +337,7 @@ void run(const std::string& bytes) {
       measure(benches, settings, curve, compare);
     } catch (const Broken& broken) {
       throw Broken(broken.what() + described(settings));
-    } catch (const Error& error) {  // settings that do not go together, a scene without a triangle
+    } catch (const Error& error) {  // settings that cannot be combined, or a scene without a triangle
       require(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::scene,
               std::string("an error of another kind: ") + error.what());
       require(*error.what() != '\0', "an error without a message");
@@ -357,7 +358,7 @@ std::vector<std::string> seeds() {
   return all;
 }
 
-// Every input means something, so that a new one finds as much as an edited one.
+// Every input is valid, so a new input finds as much as an edited one.
 std::string mutate(const std::string& bytes, Random& random, const EditBytes& edit) {
   return below(random, 4) == 0 ? any_choices(20 + below(random, 300), random) : edit(bytes, random);
 }

@@ -9,7 +9,7 @@
 
 namespace noonmark::fuzz {
 
-// Of all settings, metrics and quantities of a curve.
+// The names of all settings, metrics and quantities of a curve.
 inline std::vector<std::string> program_names() {
   std::vector<std::string> names;
   for (const Setting& row : settings_table()) names.emplace_back(row.name);

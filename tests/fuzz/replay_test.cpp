@@ -1,5 +1,5 @@
-// Every target over its seeds, over what once broke it (regressions/<target>/), and over a few hundred mutants that are
-// the same each time. scripts/fuzz goes on from here with clang's libFuzzer.
+// Runs every target on its seeds, on the inputs that once broke it (regressions/<target>/), and on a few hundred
+// mutants that are the same each time. scripts/fuzz continues with clang's libFuzzer.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -13,7 +13,7 @@
 namespace noonmark::fuzz {
 namespace {
 
-// mutants: how many one run tries; each target takes about a second.
+// mutants: the number of mutants in one run, so that each target takes about a second.
 struct Replay {
   const Target* target;
   int mutants;
@@ -26,11 +26,11 @@ class Fuzz : public ::testing::TestWithParam<Replay> {
     try {
       GetParam().target->run(bytes);
     } catch (const std::exception& error) {
-      // Of its own name: several of these programs may run beside one another.
+      // The name is unique, because several of these programs may run at the same time.
       const std::string file =
           testing::TempDir() + "fuzz-" + std::string(GetParam().target->name) + "-" + std::to_string(::getpid());
       std::ofstream(file, std::ios::binary) << bytes;
-      ADD_FAILURE() << what << " (now " << file << "): " << error.what();
+      ADD_FAILURE() << what << " (written to " << file << "): " << error.what();
     }
   }
 };
@@ -47,7 +47,7 @@ TEST_P(Fuzz, SeedsAndWhatOnceBroke) {
   for (const std::filesystem::path& file : files) run(read_file(file.string()), file.filename().string());
 }
 
-// NOONMARK_FUZZ_MUTANTS tries another number, from another seed.
+// NOONMARK_FUZZ_MUTANTS sets another number of mutants, with another seed.
 TEST_P(Fuzz, Mutants) {
   const Target& target = *GetParam().target;
   const std::vector<std::string> seeds = target.seeds();

@@ -1,7 +1,7 @@
-// Bytes of results.sqlite, opened and written out again as `noonmark report` does, and as `check` writes its verdict:
-// one Error that says what is wrong with the file, or files that are whole. Mutated as a database (rows and columns
-// changed, dropped, doubled; most are sealed again, so that the rows are read) and as bytes. Text that the mutator
-// plants would be markup if anything let it through.
+// The input is the bytes of results.sqlite. They are opened and written as `noonmark report` does, and as `check`
+// writes its verdict. The result must be one Error that says what is wrong with the file, or complete files. The bytes
+// are mutated as a database (rows and columns changed, dropped, doubled; most are sealed again, so that the rows are
+// read) and as bytes. The mutator plants text that is markup unless a writer escapes it.
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -27,7 +27,7 @@
 namespace noonmark::fuzz {
 namespace {
 
-// Stands in no file of the program's own; every writer must have escaped its first character.
+// The program itself never writes this text. Every writer must escape its first character.
 constexpr std::string_view markup = "<fuzzed>";
 
 Folder& folder() {
@@ -35,14 +35,14 @@ Folder& folder() {
   return one;
 }
 
-// The path of a new database, without what an earlier one of this name left beside it.
+// The path of a new database. Files that an earlier database of this name left beside it are removed.
 std::string written(const std::string& name, const std::string& bytes) {
   folder().write(name, bytes);
   for (const char* rest : {"-journal", "-wal", "-shm"}) ::unlink(folder().file(name + rest).c_str());
   return folder().file(name);
 }
 
-// RFC 4180: as many fields in each row as in the first.
+// RFC 4180: every row has as many fields as the first.
 void require_csv(const std::string& csv) {
   size_t fields = 1, first = 0;
   bool quoted = false;
@@ -89,7 +89,8 @@ void run(const std::string& bytes) {
   }
 }
 
-// The store of a small sweep; `compact`: in small pages and without the legend, so that edits hit what is read.
+// The store of a small sweep. `compact`: with small pages and without the legend, so that most edits hit data that is
+// read.
 std::string store_bytes(int points, bool compact) {
   const std::string path = folder().file("seed.sqlite");
   {
@@ -195,7 +196,7 @@ std::string odd_sql_value(Random& random) {
   return odd[below(random, odd.size())];
 }
 
-// A view of a damaged schema may have no end.
+// A view of a damaged schema may never end.
 void forbid_endless(sqlite3* db) {
   sqlite3_progress_handler(
       db, 100000, [](void*) { return 1; }, nullptr);
@@ -203,7 +204,7 @@ void forbid_endless(sqlite3* db) {
 
 class Scratch {
  public:
-  // A database in memory that begins as `bytes`.
+  // A database in memory, initialised with `bytes`.
   explicit Scratch(const std::string& bytes) {
     require(sqlite3_open(":memory:", &db_) == SQLITE_OK, "no database in memory");
     auto* copy = static_cast<unsigned char*>(sqlite3_malloc64(bytes.size() + 1));
@@ -217,7 +218,7 @@ class Scratch {
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
-  // What does not work on a damaged database is left out.
+  // Errors are ignored, because a statement may fail on a damaged database.
   void execute(const std::string& sql) { sqlite3_exec(db_, sql.c_str(), nullptr, nullptr, nullptr); }
 
   // The first column of every row.
@@ -260,7 +261,7 @@ void edit_database(Scratch& db, Random& random) {
   switch (below(random, 8)) {
     case 0:
       return db.execute(fmt::format("DELETE FROM {}{}", table, one_row));
-    case 1: {  // a row once more, with another value in one place
+    case 1: {  // a copy of a row, with another value in one place
       std::string values;
       for (const std::string& column : columns)
         values += fmt::format("{}{}", values.empty() ? "" : ", ",
@@ -285,8 +286,8 @@ void edit_database(Scratch& db, Random& random) {
   }
 }
 
-// The same rows, sealed as if the program had written them: an edited store is refused before its values are read.
-// Where the damage does not let it, the bytes as they are.
+// The same rows, sealed again as if the program had written them. Otherwise an edited store is refused before its
+// values are read. If the store is too damaged to be sealed, the bytes stay as they are.
 std::string sealed(const std::string& bytes) {
   const std::string path = written("sealed.sqlite", bytes);
   try {

@@ -62,7 +62,7 @@ std::string edit_text(const std::string& text, Random& random, std::span<const s
       case 2:
         std::swap(line, lines[other]);
         break;
-      case 3:  // another value, of the format's words or of another line
+      case 3:  // another value: one of the format's words, or the value of another line
         line = line.substr(0, line.find('=')) + "= " +
                (below(random, 2) == 0 ? word() : lines[other].substr(lines[other].find('=') + 1));
         break;
@@ -93,7 +93,7 @@ Folder::~Folder() {
 }
 
 void Folder::write(const std::string& name, std::string_view bytes) const {
-  std::filesystem::remove(file(name));  // some file systems wait for the disk when a file is overwritten
+  std::filesystem::remove(file(name));  // overwriting a file makes some file systems wait for the disk
   std::ofstream out(file(name), std::ios::binary);
   out << bytes;
   if (!out.flush()) throw std::runtime_error("cannot write " + file(name));

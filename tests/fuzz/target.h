@@ -1,7 +1,7 @@
-// What is fuzzed, said once for both drivers: libfuzzer_main.cpp (clang, preset `fuzz`) and replay_test.cpp (every test
-// run). One target is one file, <name>_target.cpp, one line in targets.h and one in CMakeLists.txt.
+// What is fuzzed, for both drivers: libfuzzer_main.cpp (clang, preset `fuzz`) and replay_test.cpp (every test run). A
+// target is one file, <name>_target.cpp, one line in targets.h and one in CMakeLists.txt.
 //
-//   target.run(bytes);                              // throws what no input may cause; what input may cause it takes
+//   target.run(bytes);                              // throws if a result is not allowed; catches the allowed errors
 //   std::string next = target.mutate(bytes, random, edit_bytes);
 #pragma once
 #include <functional>
@@ -16,18 +16,18 @@ namespace noonmark::fuzz {
 
 using Random = std::mt19937;
 
-// Damage to bytes that knows nothing of what they mean: libFuzzer's own, or edit_bytes().
+// Mutations of bytes without knowledge of the format: libFuzzer's own, or edit_bytes().
 using EditBytes = std::function<std::string(const std::string&, Random&)>;
 
 struct Target {
   std::string_view name;
-  // One execution. Whatever it throws is a finding.
+  // One execution. Every exception is a finding.
   void (*run)(const std::string& bytes);
-  // Where mutation starts: made by code, so that they follow the formats.
+  // The inputs at which mutation starts. Code makes them, so that they follow changes of the formats.
   std::vector<std::string> (*seeds)();
   // Words of the format, for libFuzzer's dictionary.
   std::vector<std::string> (*words)();
-  // Damage that knows the format; null: bytes are all there is.
+  // Mutations with knowledge of the format; null: only bytes are mutated.
   std::string (*mutate)(const std::string& bytes, Random& random, const EditBytes& edit);
 };
 
@@ -42,7 +42,7 @@ inline void require(bool holds, const std::string& what) {
 // One to four random edits.
 std::string edit_bytes(const std::string& bytes, Random& random);
 
-// Lines doubled, left out, moved, their values replaced, and words put in; or `edit`.
+// Doubles, removes or moves lines, replaces their values, or inserts words; or calls `edit`.
 std::string edit_text(const std::string& text, Random& random, std::span<const std::string> words,
                       const EditBytes& edit);
 
@@ -55,7 +55,7 @@ std::string mutate_text(const std::string& text, Random& random, const EditBytes
 
 inline size_t below(Random& random, size_t n) { return static_cast<size_t>(random() % n); }
 
-// A folder of this process below TMPDIR; gone at the end, but for an end by a signal.
+// A folder of this process below TMPDIR. It is removed at the end, unless a signal ends the process.
 class Folder {
  public:
   Folder();
@@ -63,7 +63,7 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
   std::string file(const std::string& name) const { return path_ + "/" + name; }
-  // Replaces what was there; without the flush to the disk that the program's own files get.
+  // Replaces the file. Unlike the program's own files, it is not flushed to the disk.
   void write(const std::string& name, std::string_view bytes) const;
 
  private:

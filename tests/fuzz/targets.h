@@ -8,6 +8,6 @@ extern const Target gltf_target;         // bytes of a .gltf or .glb -> load_glt
 extern const Target experiment_target;   // text of an experiment file -> its points
 extern const Target formula_target;      // text of formulas -> their values, and a law's verdict
 extern const Target store_target;        // bytes of results.sqlite -> the report, CSV, JUnit and summary
-extern const Target measurement_target;  // choices of a scene and settings -> a measurement, held to its own contract
+extern const Target measurement_target;  // choices of a scene and settings -> a sound measurement
 
 }  // namespace noonmark::fuzz

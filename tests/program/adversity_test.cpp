@@ -1,4 +1,4 @@
-// What a machine and a file system can do to the program: each has its exit code and one short line.
+// Faults of the machine and of the file system. For each, the program ends with its exit code and one short line.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -13,7 +13,7 @@ namespace noonmark::acceptance {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr bool sanitized = true;  // takes terabytes of address space for itself, and must be loaded first
+constexpr bool sanitized = true;  // AddressSanitizer takes terabytes of address space and must be loaded first
 #else
 constexpr bool sanitized = false;
 #endif
@@ -23,7 +23,7 @@ const std::string two_points = with_pictures + "[sweep]\nmap.resolution = [16, 3
 
 class Adversity : public Program {
  protected:
-  // One line from us, however much the libraries say, and nothing that a terminal would obey.
+  // The program must print one line, even if libraries print more, and no bytes that a terminal would obey.
   void expect_one_line(const std::string& about) {
     EXPECT_TRUE(says(about)) << output_;
     size_t lines = 0;
@@ -61,7 +61,7 @@ TEST_F(Adversity, APathMayHoldAnyBytes) {
   expect_printable();
   EXPECT_EQ(run({"run", odd + "/absent.toml"}), 2) << output_;
   expect_one_line("absent.toml");
-  EXPECT_EQ(run({"run", "x.toml", "--" + odd}), 2) << output_;  // said by a library
+  EXPECT_EQ(run({"run", "x.toml", "--" + odd}), 2) << output_;  // the message of a library
   EXPECT_TRUE(says("not expected")) << output_;
   expect_printable();
   EXPECT_EQ(run({"render", "--set", "scene.name=" + odd + ".glb"}), 3) << output_;
@@ -121,10 +121,11 @@ TEST_F(Adversity, StandardOutputThatCannotBeWrittenIsSaid) {
   }
   EXPECT_EQ(run(verbs[0], [] { close(STDOUT_FILENO); }), 3);
   expect_one_line("standard output cannot be written: Bad file descriptor");
-  EXPECT_NE(read_file((folder_ / "out/summary.md").string()).find("Held"), std::string::npos) << "files are there";
+  EXPECT_NE(read_file((folder_ / "out/summary.md").string()).find("Held"), std::string::npos)
+      << "the file must be there";
   EXPECT_EQ(ResultStore::open((folder_ / "out/results.sqlite").string()).load().points.size(), 2u)
-      << "what is printed never goes into a file that took a closed stream's number";
-  // A broken bound stays what it is.
+      << "output must not go into a file that has the number of a closed stream";
+  // A broken bound still gives its own exit code.
   write("x.toml", two_points + "[[bound]]\nmetric = \"residual\"\nmax = -1\n");
   EXPECT_EQ(run({"check", experiment, "--out", "out"}, [] { close(STDERR_FILENO); }), 1);
 }
@@ -140,7 +141,7 @@ TEST_F(Adversity, AReaderThatHasReadEnoughIsNoError) {
     close(ends[1]);
   };
   EXPECT_EQ(run({"settings"}, nobody_reads), 0);
-  EXPECT_EQ(run({"run", experiment, "--out", "out"}, nobody_reads), 0) << "a sweep goes on without its reader";
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}, nobody_reads), 0) << "a sweep must continue without a reader";
   EXPECT_EQ(ResultStore::open((folder_ / "out/results.sqlite").string()).load().points.size(), 2u);
 }
 
@@ -148,7 +149,7 @@ TEST_F(Adversity, AFullDiskOrAFileLimitIsAnError) {
   const std::string experiment = write("x.toml", two_points);
   const auto limited = [] {
     const rlimit most{20000, 20000};
-    setrlimit(RLIMIT_FSIZE, &most);  // would end the program by SIGXFSZ
+    setrlimit(RLIMIT_FSIZE, &most);  // without handling, SIGXFSZ would end the program
   };
   EXPECT_EQ(run({"run", experiment, "--out", "out"}, limited), 3) << output_;
   expect_one_line("results.sqlite");
@@ -206,8 +207,8 @@ TEST_F(Adversity, NothingIsWrittenThroughALinkInTheImagesPlace) {
         if (overwrite) words.emplace_back("--overwrite");
         EXPECT_EQ(run(words), 3);
         expect_one_line("out/images: is a symbolic link");
-        EXPECT_FALSE(fs::exists(folder_ / "out/results.sqlite")) << "said before anything is measured";
-        EXPECT_FALSE(fs::exists(folder_ / "out/junit.xml")) << "the verdict of an earlier run";
+        EXPECT_FALSE(fs::exists(folder_ / "out/results.sqlite")) << "the error must come before the first measurement";
+        EXPECT_FALSE(fs::exists(folder_ / "out/junit.xml")) << "the verdict of an earlier run must be removed";
       }
     }
   }
@@ -241,7 +242,8 @@ TEST_F(Adversity, ThreadsThatCannotStartAreSaid) {
   const std::string experiment = write("x.toml", two_points);
   ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
   const std::string whole = results();
-  // Libraries start some before main: 4 on Debian 12, by OpenImageIO's log4cplus. With 6 there is no room for ours.
+  // Libraries start threads before main: OpenImageIO's log4cplus starts 4 on Debian 12. With 6, none are left for
+  // Noonmark.
   for (const int threads : {6, 20, 24}) {
     SCOPED_TRACE(threads);
     const auto prepare = [&] {
@@ -261,8 +263,8 @@ TEST_F(Adversity, ThreadsThatCannotStartAreSaid) {
   }
 }
 
-// At every limit of address space the program ends by itself and in order: with the measurement, or with one line.
-// (Below the first one it cannot even be loaded, which the system says.)
+// At every limit of address space the program ends by itself, with the measurement or with one error line. (Below the
+// smallest limit the system cannot load the program and reports this itself.)
 TEST_F(Adversity, MemoryThatRunsOutIsSaid) {
   if (sanitized) GTEST_SKIP() << "AddressSanitizer takes terabytes of address space";
   const std::string experiment = write("x.toml", two_points);
@@ -272,7 +274,7 @@ TEST_F(Adversity, MemoryThatRunsOutIsSaid) {
     const auto limited = [&] {
       const rlimit most{megabytes << 20, megabytes << 20};
       setrlimit(RLIMIT_AS, &most);
-      alarm(120);  // Embree once waited for ever for a lock that it had left behind
+      alarm(120);  // Embree once waited forever for a lock that it had not released
     };
     const int code = run({"run", experiment, "--out", "out", "--overwrite", "--threads", "2"}, limited);
     if (code == 127 && says("error while loading shared libraries")) continue;

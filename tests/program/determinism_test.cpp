@@ -9,7 +9,7 @@
 namespace noonmark::acceptance {
 namespace {
 
-// Something of everything: a light with a size (sampled), filters, slopes, formats, culled faces, curves.
+// One setting of each kind: a light with a size (sampled), filters, slopes, formats, culled faces, curves.
 const std::string sweep = R"(
 scene = "cube-room"
 pictures = "none"
@@ -35,7 +35,7 @@ max = 1e-6
 
 class Determinism : public Program {
  protected:
-  // results.csv of a folder without its columns of times.
+  // results.csv of a folder, without the columns of times.
   std::string results(const std::string& out) const {
     std::istringstream lines(read_file((folder_ / out / "results.csv").string()));
     std::set<size_t> times;
@@ -72,13 +72,13 @@ TEST_F(Determinism, AKilledRunOnTwoThreadsGoesOnOnOne) {
   const pid_t child = start_until("[5/32]", {"run", "x.toml", "--out", "killed", "--threads", "2"});
   kill(child, SIGKILL);
   wait_for(child);
-  EXPECT_FALSE(fs::exists(folder_ / "killed/results.csv")) << "it was over before it could be killed";
+  EXPECT_FALSE(fs::exists(folder_ / "killed/results.csv")) << "the run ended before it could be killed";
   ASSERT_EQ(run({"run", "x.toml", "--out", "killed", "--threads", "1"}), 0) << output_;
   EXPECT_TRUE(says("points are in killed already")) << output_;
   EXPECT_EQ(results("killed"), results("whole"));
 }
 
-// Points are measured with what an earlier one left in memory; none of it may show.
+// A point reuses data that an earlier point left in memory. This must not change its results.
 TEST_F(Determinism, APointDoesNotDependOnThoseBefore) {
   write("x.toml", sweep);
   std::string reversed = sweep;

@@ -1,5 +1,5 @@
-// What a program does to the files of a folder, in order: written by tests/program/preload_disk.cpp, which is loaded into it,
-// and read back by the test that plays it to a disk which loses power.
+// A record of what a program does to the files of a folder, in order. tests/program/preload_disk.cpp, which is loaded
+// into the program, writes it. The power cut test reads it back and replays it on a simulated disk that loses power.
 #pragma once
 #include <cstdint>
 
@@ -16,7 +16,7 @@ enum class DiskOp : uint32_t {
   said,      // data: written to standard error
 };
 
-// Followed by the path's bytes and the data's.
+// The bytes of the path and of the data follow.
 struct DiskRecord {
   DiskOp op;
   uint32_t path_size;

@@ -1,4 +1,4 @@
-// Pictures in which next to nothing can be judged: the program says so, and why, and no number is made up.
+// Pictures in which almost no pixel can be judged. The program must say so, give the reason, and invent no number.
 #include <gtest/gtest.h>
 
 #include "tests/program/fixture.h"
@@ -114,7 +114,8 @@ found = "an error of {100 * error}%"
     EXPECT_EQ(read_file((folder_ / "out" / page).string()).find("nan"), std::string::npos) << page;
 }
 
-// The picture is whole wherever the eye is put, and no bound holds on what a near plane left.
+// The picture must be complete at every position of the eye. Otherwise a bound could hold on the part that a near plane
+// leaves.
 TEST_F(EmptyView, MovingTheEyeCutsNothingOff) {
   write("moved.toml", R"(
 scene = "square.gltf"

@@ -1,4 +1,4 @@
-// Runs the program itself, in a folder of its own.
+// Runs the program itself, in a new folder.
 #pragma once
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace noonmark::acceptance {
 
 namespace fs = std::filesystem;
 
-// Every column before the times, which are the last ones (compare/report/csv.h).
+// All columns before the times, which are the last columns (compare/report/csv.h).
 inline std::string without_times(const fs::path& csv) {
   std::istringstream lines(read_file(csv.string()));
   std::string line, kept;
@@ -36,12 +36,12 @@ inline std::string without_times(const fs::path& csv) {
   return columns > 30 ? kept : "no times found";
 }
 
-// Of experiments whose content does not matter: a small picture, one point with it, and a bound that holds.
+// Experiments for tests in which the content does not matter: a small picture, one point, and a bound that holds.
 inline const std::string small_view = "pictures = \"none\"\n[view]\nwidth_px = 48\nheight_px = 27\n";
 inline const std::string one_point = "scene = \"plate\"\n" + small_view;
 inline const std::string held_bound = "[[bound]]\nmetric = \"residual\"\nmax = 1e-6\n";
 
-// For Program::run: root reads everything, unless it gives that up.
+// For Program::run: root can read everything, unless it drops its privileges.
 inline void without_privileges() {
   prctl(PR_CAPBSET_DROP, 1 /* CAP_DAC_OVERRIDE */);
   prctl(PR_CAPBSET_DROP, 2 /* CAP_DAC_READ_SEARCH */);
@@ -60,7 +60,7 @@ class Program : public testing::Test {
     fs::remove_all(folder_);
   }
 
-  // prepare: done in the new process before the program starts (limits, environment, other descriptors).
+  // prepare: runs in the new process before the program starts (limits, environment, other descriptors).
   pid_t start(const std::vector<std::string>& arguments, const std::function<void()>& prepare = {}) {
     std::vector<char*> argv = {const_cast<char*>(NOONMARK_PROGRAM)};
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -76,8 +76,8 @@ class Program : public testing::Test {
     execv(NOONMARK_PROGRAM, argv.data());
     _exit(127);
   }
-  // Starts the program and waits until it has said these words, or has ended without them. What it says later stays in the
-  // pipe, which is open until the test ends: a few hundred lines of progress fit.
+  // Starts the program and waits until it has printed these words or has ended without them. Later output stays in the
+  // pipe, which is open until the test ends; a few hundred lines of progress fit into it.
   pid_t start_until(const std::string& words, const std::vector<std::string>& arguments) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) return -1;

@@ -1,4 +1,4 @@
-// `noonmark check` on laws: those that ship hold, and one that does not is told with what there is to know of it.
+// `noonmark check` on laws: the shipped laws hold, and a broken law is reported with all that is known about it.
 #include <algorithm>
 #include <cctype>
 #include <regex>
@@ -17,7 +17,8 @@ const std::string& laws_file() {
   static const std::string path = std::string(NOONMARK_SOURCE_DIR) + "/experiments/laws.toml";
   return path;
 }
-// Each part of the laws is a test of its own: together they take minutes, and CTest runs several tests at a time.
+// Each part of the laws is a test of its own, because together they take minutes and CTest runs several tests at a
+// time.
 std::vector<std::string> law_parts() {
   std::vector<std::string> names;
   for (const Experiment& part : load_experiment(laws_file()).parts) names.push_back(part.part);
@@ -30,7 +31,8 @@ TEST_P(LawPart, Holds) {
   EXPECT_EQ(run({"check", laws_file(), "--part", GetParam(), "--out", "laws"}), 0) << output_;
   EXPECT_FALSE(says("BROKEN")) << output_;
   for (const char* column : {"law ", "predicted", "measured", "verdict"}) EXPECT_TRUE(says(column)) << column;
-  // Each of its laws has a row that begins with the law's name, which begins with the law's number.
+  // Each law of the part has a row that begins with the name of the law, and the name begins with the number of the
+  // law.
   Experiment experiment = load_experiment(laws_file());
   choose_parts(experiment, {GetParam()});
   ASSERT_FALSE(experiment.parts.at(0).laws.empty());
@@ -85,10 +87,10 @@ at_most = "texel_m / 4 * tan_deg(scene.theta_deg)"
   const std::string junit = read_file((folder_ / "out/junit.xml").string());
   EXPECT_NE(junit.find("tests=\"2\" failures=\"1\""), std::string::npos) << junit;
   EXPECT_NE(read_file((folder_ / "out/summary.md").string()).find("**Broken: 1 of 2 laws.**"), std::string::npos);
-  // The command that it names is one that works.
+  // The command that the message names must work.
   EXPECT_EQ(run({"render", "x.toml", "--point", "1"}), 0) << output_;
   EXPECT_TRUE(says("plane:")) << output_;
-  EXPECT_EQ(run({"render", "x.toml"}), 2) << "it has two points";
+  EXPECT_EQ(run({"render", "x.toml"}), 2) << "the file has two points, so --point is required";
 }
 
 }  // namespace

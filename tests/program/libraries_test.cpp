@@ -1,4 +1,4 @@
-// Which shared libraries the program loads, and what it says where one is missing.
+// Which shared libraries the program loads, and its messages if one is missing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr bool sanitized = false;
 
 class Libraries : public Program {
  protected:
-  // A file that is no library, found first, stands for a missing one: the loader looks no further.
+  // A file that is not a library simulates a missing one: the loader finds it first and does not search further.
   int run_without(const std::vector<std::string>& libraries, const std::vector<std::string>& arguments) {
     const fs::path hiding = folder_ / "hiding";
     fs::remove_all(hiding);
@@ -37,9 +37,9 @@ class Libraries : public Program {
 
 const std::vector<std::string> small_picture = {"render", "--set", "view.width_px=16", "--set", "view.height_px=9"};
 
-// 250 of OpenImageIO's would take a quarter of a second, before `--version` as well.
+// The 250 libraries of OpenImageIO would cost a quarter of a second, even for `--version`.
 TEST_F(Libraries, StartsWithThoseAloneThatEveryMeasurementNeeds) {
-  setenv("LD_TRACE_LOADED_OBJECTS", "1", 1);  // the loader lists them in place of running the program
+  setenv("LD_TRACE_LOADED_OBJECTS", "1", 1);  // the loader lists the libraries and does not run the program
   const int code = run({});
   unsetenv("LD_TRACE_LOADED_OBJECTS");
   ASSERT_EQ(code, 0) << output_;
@@ -49,7 +49,7 @@ TEST_F(Libraries, StartsWithThoseAloneThatEveryMeasurementNeeds) {
   EXPECT_LT(std::count(output_.begin(), output_.end(), '\n'), 30) << output_;
 }
 
-// Of one that is missing here the system's loader speaks, in words of its own, so README says which they are.
+// If one of these libraries is missing, the system's loader prints its own message. So README lists them.
 TEST_F(Libraries, ReadmeNamesEveryOneThatTheProgramIsLinkedWith) {
   if (sanitized) GTEST_SKIP() << "the sanitizers' libraries are linked as well";
   FILE* const listing = popen("readelf -d '" NOONMARK_PROGRAM "' 2>/dev/null", "r");
@@ -65,7 +65,7 @@ TEST_F(Libraries, ReadmeNamesEveryOneThatTheProgramIsLinkedWith) {
     return text;
   };
   const std::string sentence = in_small_letters(readme.substr(begin, end - begin));
-  // Where README's word is not the file's name.
+  // Libraries whose name in README differs from the file name.
   const std::map<std::string, std::string> words = {{"tbb", "onetbb"},  {"tomlplusplus", "toml++"}, {"stdc++", "c++"},
                                                     {"m", "c and c++"}, {"c", "c and c++"},         {"gcc_s", "c++"}};
   const std::regex needed("\\[lib([^\\]]+?)[0-9]*\\.so");
@@ -85,14 +85,14 @@ TEST_F(Libraries, WithoutOpenGlSaysWhatToInstall) {
     SCOPED_TRACE(missing.back());
     EXPECT_EQ(run_without(missing, {"doctor"}), 4) << output_;
     EXPECT_TRUE(says("OpenGL    NOT USABLE") && says("apt install libegl1")) << output_;
-    EXPECT_TRUE(says("Embree    ")) << "the rest is told as well: " << output_;
+    EXPECT_TRUE(says("Embree    ")) << "the other parts must be reported as well: " << output_;
     EXPECT_EQ(run_without(missing, small_picture), 4) << output_;
     EXPECT_TRUE(says("apt install libegl1")) << output_;
     EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
     EXPECT_EQ(run_without(missing, {"settings"}), 0) << output_;
   }
   for (const char* one : {"libOpenGL.so.0", "libGL.so.1"})
-    EXPECT_EQ(run_without({one}, {"doctor"}), 0) << "the other one will do: " << output_;
+    EXPECT_EQ(run_without({one}, {"doctor"}), 0) << "one of the two libraries must be enough: " << output_;
 }
 
 TEST_F(Libraries, WithoutOpenImageIoMeasuresAndRefusesPictures) {
@@ -107,7 +107,7 @@ TEST_F(Libraries, WithoutOpenImageIoMeasuresAndRefusesPictures) {
   EXPECT_TRUE(says("it belongs beside the program")) << output_;
   EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), 1) << output_;
   EXPECT_EQ(run_without(missing, {"run", "pictures.toml", "--out", "out"}), 4) << output_;
-  EXPECT_FALSE(fs::exists(folder_ / "out/results.sqlite")) << "said before anything is measured";
+  EXPECT_FALSE(fs::exists(folder_ / "out/results.sqlite")) << "the error must come before the first measurement";
   EXPECT_EQ(run_without(missing, {"run", "none.toml", "--out", "out"}), 0) << output_;
 }
 
@@ -115,13 +115,13 @@ TEST_F(Libraries, AdvisesOnTheOneThatIsMissing) {
   EXPECT_EQ(run_without({"libOpenImageIO.so.2.4"}, {"doctor"}), 4) << output_;
   EXPECT_TRUE(says("Pictures  NOT USABLE") && says("apt install libopenimageio2.4")) << output_;
   EXPECT_TRUE(says("OpenGL    ") && !says("OpenGL    NOT USABLE")) << output_;
-  // Of what OpenImageIO needs, one that the program itself does not.
+  // A library that OpenImageIO needs and the program itself does not.
   EXPECT_EQ(run_without({"libGLX.so.0"}, {"doctor"}), 4) << output_;
   EXPECT_TRUE(says("libGLX.so.0 is a library that OpenImageIO needs")) << output_;
   EXPECT_FALSE(says("apt install libopenimageio")) << output_;
 }
 
-// Nothing is missing there: the driver that was chosen has too little, or was told to say so.
+// No library is missing here: the chosen driver offers too old a version, or a variable makes it report one.
 TEST_F(Libraries, ADriverOfAnOlderOpenGlSaysWhatItOffersAndWhoChoseIt) {
   const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
       {"GALLIUM_DRIVER", "softpipe", "(softpipe)"},
@@ -130,7 +130,7 @@ TEST_F(Libraries, ADriverOfAnOlderOpenGlSaysWhatItOffersAndWhoChoseIt) {
   for (const auto& [name, value, offers] : cases) {
     SCOPED_TRACE(name + "=" + value);
     const auto chosen = [&] {
-      setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);  // the variables are Mesa's, and a GPU may have another driver
+      setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);  // the variables work only with Mesa, and a GPU may have another driver
       setenv(name.c_str(), value.c_str(), 1);
     };
     EXPECT_EQ(run({"doctor"}, chosen), 4) << output_;

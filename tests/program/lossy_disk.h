@@ -1,8 +1,8 @@
-// A disk that loses power: plays what a program did to its files (tests/program/disk_trace.h) and says what may be there
-// afterwards. It promises what POSIX does and no more:
-// - bytes are there for certain only when their file was synced after they were written; until then each sector of
-//   each write may be there or not, and where a file grew, what was not written may be anything;
-// - a name is there, moved or gone for certain only when its folder was synced; until then any number of the first
+// A simulated disk that loses power. It replays what a program did to its files (tests/program/disk_trace.h) and makes
+// the states that are possible afterwards. It guarantees what POSIX guarantees and no more:
+// - Bytes are certain only if their file was synced after they were written. Until then each sector of each write may
+//   be there or not. If a file grew, the part that was not written may contain anything.
+// - A name is certain (made, moved or removed) only if its folder was synced. Until then any number of the first
 //   changes to the folder may have happened, in their order, as on every file system with a journal.
 #pragma once
 #include <sys/stat.h>
@@ -45,7 +45,7 @@ inline std::vector<DiskStep> read_trace(const std::string& log) {
 
 class LossyDisk {
  public:
-  // root: the folder that the trace is of, there and whole before it began; holding nothing.
+  // root: the folder of the trace. Before the trace it exists on the disk and is empty.
   explicit LossyDisk(const std::string& root) : root_(fs::path(root).lexically_normal().string()) {
     struct stat status {};
     ::stat(root.c_str(), &status);
@@ -92,7 +92,7 @@ class LossyDisk {
     }
   }
 
-  // What the program sees: nothing lost.
+  // The files as the program sees them, with nothing lost.
   std::map<std::string, std::string> whole() const {
     std::map<std::string, std::string> files;
     for (const auto& [path, file] : names_now_) {
@@ -103,14 +103,14 @@ class LossyDisk {
     return files;
   }
 
-  // After the power has come back: one of the states that may be, written below another folder.
+  // Writes one of the states that are possible after a power cut below another folder.
   void cut_power(const std::string& into, std::mt19937& random) const {
     Names names = names_;
     const size_t happened = std::uniform_int_distribution<size_t>(0, changes_.size())(random);
     for (size_t i = 0; i < happened; ++i) apply(names, changes_[i]);
     const auto moved = [&](const std::string& path) { return into + path.substr(root_.size()); };
     for (const auto& [path, file] : names) {  // a folder comes before what is in it
-      // What lies in a folder whose own name was lost is lost with it.
+      // If the name of a folder was lost, its contents are lost too.
       if (!fs::is_directory(fs::path(moved(path)).parent_path())) continue;
       if (!file) {
         fs::create_directory(moved(path));
@@ -191,10 +191,10 @@ class LossyDisk {
   }
 
   std::string root_;
-  std::map<uint64_t, std::shared_ptr<File>> files_;  // by inode; a number may come back with another file
+  std::map<uint64_t, std::shared_ptr<File>> files_;  // by inode; a number may be used again for another file
   std::map<uint64_t, std::string> folders_;
-  Names names_, names_now_;      // durable; as the program sees them (files only)
-  std::vector<Change> changes_;  // that no sync has made durable
+  Names names_, names_now_;      // durable names; names as the program sees them (files only)
+  std::vector<Change> changes_;  // changes that no sync has made durable
 };
 
 }  // namespace noonmark::test

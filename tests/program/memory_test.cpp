@@ -1,4 +1,4 @@
-// What measurements really take of memory, against the prediction; and that nothing begins that would not fit.
+// The memory that measurements really need, compared with the prediction. A run that would not fit must not begin.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 class Memory : public Program {
  protected:
-  // Peak of a whole run of the program, in bytes.
+  // The peak memory of a whole run of the program, in bytes.
   double peak(const std::vector<std::string>& arguments) {
     const pid_t child = start(arguments);
     int status = 0;
@@ -26,13 +26,13 @@ class Memory : public Program {
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << output_;
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
   }
-  // With an address space of so many bytes: what the machine has must not decide a test.
+  // Runs with a limited address space, so that the memory of the machine does not decide the test.
   int run_within(rlim_t bytes, const std::vector<std::string>& arguments) {
     struct rlimit before {};
     getrlimit(RLIMIT_AS, &before);
     struct rlimit less = before;
     less.rlim_cur = bytes;
-    setrlimit(RLIMIT_AS, &less);  // of this process too, for as long as it takes to start the other
+    setrlimit(RLIMIT_AS, &less);  // limits this process too, but only while the other one starts
     const pid_t child = start(arguments);
     setrlimit(RLIMIT_AS, &before);
     const int code = wait_for(child);
@@ -72,7 +72,7 @@ class Memory : public Program {
   }
 };
 
-// So many squares, each a little above the one before: all their edges lie on one another as the light sees them.
+// Squares in a stack, each a little above the one before. As the light sees them, all their edges coincide.
 test::json stack(int squares) {
   test::json document = test::square();
   document["nodes"] = test::json::array();
@@ -91,8 +91,8 @@ struct Case {
 std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 class MemoryOf : public Memory, public testing::WithParamInterface<Case> {};
 
-// The peak is at most what was predicted, and the prediction at most estimate_factor times the peak; of what a point
-// adds to a program that measures next to nothing, too.
+// The peak must not exceed the prediction, and the prediction must not exceed estimate_factor times the peak. The same
+// must hold for the difference to a run that measures almost nothing.
 TEST_P(MemoryOf, APointIsPredicted) {
   if (std::string(GetParam().name) == "triangles") grid(100, 40);
   if (std::string(GetParam().name) == "overlapping") write("stack.gltf", stack(40000).dump());
@@ -104,7 +104,7 @@ TEST_P(MemoryOf, APointIsPredicted) {
   const double predicted =
       Workbench(gl::DebugMode::log).memory(experiment.base, true, experiment.pictures != "none").bytes();
   EXPECT_LE(measured, predicted);
-  EXPECT_GT(measured, 1.4 * nothing) << "the point is too small to say anything";
+  EXPECT_GT(measured, 1.4 * nothing) << "the point is too small for a comparison";
   EXPECT_LE(predicted - nothing, estimate_factor * (measured - nothing));
 }
 INSTANTIATE_TEST_SUITE_P(
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
              "64\n"}),
     [](const auto& one) { return std::string(one.param.name); });
 
-// render lists every part in point.json too.
+// `render` also lists every part in point.json.
 TEST_F(Memory, TilesAreListedAsPredicted) {
   const std::string scene = grid(40, 3, std::string(200, 'n'));
   const std::string file = write("x.toml",
@@ -138,7 +138,7 @@ TEST_F(Memory, TilesAreListedAsPredicted) {
   EXPECT_LE(predicted, estimate_factor * measured);
 }
 
-// In strips of half a MB, of which the widest kernel's taps fill 30.
+// Strips have half a MB. The taps of the widest kernel fill 30 of them.
 TEST_F(Memory, DoesNotGrowWithTheKernel) {
   const auto peak_of = [](const char* size) {
     const pid_t child = fork();
@@ -162,7 +162,7 @@ TEST_F(Memory, DoesNotGrowWithTheKernel) {
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
   };
   const double narrow = peak_of("3"), wide = peak_of("31");
-  EXPECT_LT(wide - narrow, 7e6) << "of 15 MB that all taps take";
+  EXPECT_LT(wide - narrow, 7e6) << "all taps together would take 15 MB";
 }
 
 TEST_F(Memory, ADryRunNamesIt) {
@@ -199,8 +199,8 @@ TEST_F(Memory, APointThatDoesNotFitIsRefusedBeforeAnyIsMeasured) {
   EXPECT_EQ(run_within(space, {"run", file, "--out", "small", "--set", "map.resolution=64"}), 0) << output_;
 }
 
-// At every limit of address space: a sweep is refused before its first point or measured whole, and a dry run says
-// which. Points of different kernels free and take memory between them, which the C library keeps.
+// At every limit of address space, a sweep is either refused before its first point or measured completely, and a dry
+// run predicts which. Points with different kernels free and allocate memory, and the C library keeps freed memory.
 TEST_F(Memory, ADryRunSaysWhatARunWillSay) {
   int refused = 0, measured = 0;
   for (const char* pictures : {"none", "first"}) {

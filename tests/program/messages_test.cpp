@@ -1,4 +1,4 @@
-// What the program says, and with which exit code, of what a user got wrong.
+// The messages and exit codes for mistakes of a user.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -73,8 +73,8 @@ TEST_F(Messages, AnUnjudgedRunHasItsTime) {
   EXPECT_GE(junit.substr(at + 11, before.size()), before);
 }
 
-// Each point is judged before the first is measured: by run, by a dry run and by render alike, with the place in the
-// file.
+// Every point is checked before the first is measured, by run, by a dry run and by render. The message names the place
+// in the file.
 TEST_F(Messages, APointThatCannotBeIsNamedBeforeTheFirstIsMeasured) {
   write("x.toml", one_point +
                       "[sweep]\nlight.kind = [\"directional\", \"point\"]\nfilter.kind = [\"none\", \"box\"]\n" +
@@ -89,7 +89,7 @@ TEST_F(Messages, APointThatCannotBeIsNamedBeforeTheFirstIsMeasured) {
         << output_;
     EXPECT_FALSE(fs::exists(folder_ / "out/results.sqlite") || fs::exists(folder_ / "out/report.html"));
   }
-  // What only the scene's own volume can tell.
+  // A mistake that can be found only with the volume of the scene.
   write("x.toml",
         one_point + "[[part]]\nname = \"a\"\n[[part]]\nname = \"b\"\n[part.sweep]\nmap.far_m = [1000, -1000]\n");
   EXPECT_EQ(run({"run", "x.toml", "--out", "out"}), 2);
@@ -131,12 +131,12 @@ TEST_F(Messages, AReportSaysWhatIsWrongWithTheResults) {
   sqlite::Database((folder_ / "out/results.sqlite").string(), sqlite::Database::Mode::existing)
       .execute("PRAGMA application_id = 1");
   refused("not one of Noonmark's results");
-  // A run has both.
+  // `run` has both options.
   EXPECT_EQ(run({"run", experiment, "--out", "out"}), 3);
   EXPECT_TRUE(says("choose another --out, or pass --overwrite")) << output_;
 }
 
-// As a shell leaves behind of a variable that is not set.
+// A shell makes an empty path of a variable that is not set.
 TEST_F(Messages, AnEmptyPathIsNamedAsSuch) {
   for (const char* verb : {"report", "run", "check", "render"}) {
     EXPECT_EQ(run({verb, ""}), 2) << output_;
@@ -162,7 +162,7 @@ TEST_F(Messages, TheDoctorNamesWhatDecidesGeometry) {
   EXPECT_FALSE(says(";\n")) << output_;
 }
 
-// What a user pastes is what was meant, whatever bytes a name holds.
+// A pasted command must work, whatever bytes a name holds.
 TEST_F(Messages, ACommandToReproduceCanBePasted) {
   const std::string odd = "a\x1b[31m'\\\n\xff.toml";
   write(odd, one_point + "[sweep]\nmap.resolution = [16, 32]\n[[bound]]\nmetric = \"residual\"\nmax = -1\n");

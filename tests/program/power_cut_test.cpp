@@ -1,5 +1,6 @@
-// The power fails at any moment of a check: what was said to be measured is there, and the check goes on to the same
-// results. The kill tests cannot see this: what a killed program wrote, the system still writes to the disk.
+// The power fails at any moment of a check. Every point that was reported as measured must still be there, and the
+// check must continue to the same results. The kill tests cannot show this, because the system still writes the data of
+// a killed program to the disk.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -33,7 +34,7 @@ constexpr int64_t points = 6;
 
 class PowerCut : public Program {
  protected:
-  // Checks into disk/out and returns what it did to the folder disk.
+  // Runs a check with its results in disk/new/out and returns what it did to the folder disk.
   std::vector<test::DiskStep> traced_check() {
     make_folder((folder_ / "disk").string());
     const auto prepare = [&] {
@@ -67,7 +68,7 @@ TEST_F(PowerCut, LosesNothingThatWasSaidToBeMeasured) {
     SCOPED_TRACE("after step " + std::to_string(i));
     disk.play(steps[i]);
     if (steps[i].op == test::DiskOp::said && steps[i].data.starts_with("[")) ++said;
-    // Where something becomes durable, is moved or said; and a third of the rest.
+    // Tries every step that syncs, moves or reports something, and a third of the writes.
     if (steps[i].op == test::DiskOp::write && random() % 3 != 0) continue;
     fs::remove_all(after);
     fs::create_directories(after);
@@ -80,15 +81,15 @@ TEST_F(PowerCut, LosesNothingThatWasSaidToBeMeasured) {
     }
     {
       ResultStore opened(after + store, fingerprint, Existing::resume);
-      const Results left = opened.load();  // its seals hold
+      const Results left = opened.load();  // loading checks the seals
       const auto found = static_cast<int64_t>(left.points.size());
-      ASSERT_GE(found, said) << "what was said to be measured is gone";
-      ASSERT_LE(found, said + 1) << "the one that was being stored";
+      ASSERT_GE(found, said) << "a point that was reported as measured is lost";
+      ASSERT_LE(found, said + 1) << "only the point that was being stored may be new";
       for (int64_t id = 0; id < found; ++id)
         ASSERT_TRUE(same(left.points[static_cast<size_t>(id)].metrics, whole.points[static_cast<size_t>(id)].metrics));
       most_found = std::max(most_found, found);
     }
-    // What is written beside and renamed is whole or not there.
+    // A file that is written under another name and then renamed must be complete or absent.
     for (const char* name : {"results.csv", "report.html", "junit.xml", "summary.md", "images/p0000-truth.png"}) {
       const std::string file = after + "/new/out/" + name;
       if (fs::exists(file)) {
@@ -100,15 +101,15 @@ TEST_F(PowerCut, LosesNothingThatWasSaidToBeMeasured) {
     ASSERT_EQ(run({"check", (folder_ / "sweep.toml").string(), "--out", "after/new/out"}), 0) << output_;
     EXPECT_EQ(without_times(after + "/new/out/results.csv"), csv);
     for (const auto& entry : fs::recursive_directory_iterator(after))
-      EXPECT_NE(entry.path().extension(), ".tmp") << "left of the run that was cut off";
+      EXPECT_NE(entry.path().extension(), ".tmp") << "a temporary file of the interrupted run is left";
   }
   EXPECT_EQ(said, points);
   EXPECT_EQ(most_found, points);
-  EXPECT_GT(lost, 0) << "the store's own making was never cut off";
+  EXPECT_GT(lost, 0) << "no power cut came while the store was made";
   EXPECT_GT(cuts, 150);
   RecordProperty("cuts", cuts);
   EXPECT_GE(resumed, 2);
-  // The trace has seen everything that the program did, or the disk above is not the program's.
+  // The trace must contain everything that the program did. Otherwise the simulated disk is wrong.
   int files = 0;
   for (const auto& [path, bytes] : disk.whole()) {
     EXPECT_EQ(bytes, read_file(path)) << path;

@@ -1,5 +1,5 @@
-// Loaded before the C library (LD_PRELOAD): passes every call on and writes down, in the file NOONMARK_TEST_DISK_LOG,
-// what it did to files below the folder NOONMARK_TEST_DISK_ROOT (both absolute). Format: tests/program/disk_trace.h.
+// Loaded before the C library (LD_PRELOAD). Passes every call on and records in the file NOONMARK_TEST_DISK_LOG what
+// the call did to files below the folder NOONMARK_TEST_DISK_ROOT (both absolute). Format: tests/program/disk_trace.h.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -163,7 +163,7 @@ PWRITE(pwrite64, off64_t)
 TRUNCATE(ftruncate, off_t)
 TRUNCATE(ftruncate64, off64_t)
 
-// The real disk is not asked: what is lost is decided by the test, and waiting for it would take most of the time.
+// The real disk is not synced: the test decides what is lost, and waiting for the disk would take most of the time.
 #define SYNC(name)                                                                                    \
   int name(int descriptor) {                                                                          \
     if (Trace::instance().knows(descriptor)) Trace::instance().done(DiskOp::sync, descriptor, 0, {}); \

@@ -1,5 +1,5 @@
-// Loaded before the C library (LD_PRELOAD): threads are refused once NOONMARK_TEST_THREADS of them live, as a full
-// process table or a container's limit refuses them. `ulimit -u` does not bind root, which CI often is.
+// Loaded before the C library (LD_PRELOAD). Refuses new threads when NOONMARK_TEST_THREADS of them exist, as a full
+// process table or a container's limit does. `ulimit -u` does not limit root, and CI often runs as root.
 #include <dlfcn.h>
 #include <pthread.h>
 

@@ -1,4 +1,4 @@
-// The program as a user meets it: verbs, exit codes, messages, files; a killed sweep that resumes.
+// The program as a user runs it: verbs, exit codes, messages, files, and a killed sweep that resumes.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -52,7 +52,7 @@ TEST_F(Program, ResumesAfterSigkillWithTheSameResults) {
 
   const pid_t child = start_until("[10/48]", {"run", experiment, "--out", "killed"});
   kill(child, SIGKILL);
-  ASSERT_EQ(wait_for(child), -SIGKILL) << "it must not have finished before it was killed";
+  ASSERT_EQ(wait_for(child), -SIGKILL) << "the run ended before it was killed";
   const int left = points_in(folder_ / "killed/results.sqlite");
   EXPECT_GE(left, 10);
   EXPECT_LT(left, 48);
@@ -66,7 +66,7 @@ TEST_F(Program, ResumesAfterSigkillWithTheSameResults) {
                 entry.path().filename() == "report.html")
         << entry;
 
-  // A changed experiment does not mix with what is there.
+  // The results of a changed experiment must not mix with the old ones.
   const std::string other = write("sweep.toml", sweep + "\n[map]\nformat = \"16\"\n");
   EXPECT_EQ(run({"run", other, "--out", "killed"}), 2) << output_;
   EXPECT_TRUE(says("map.format")) << output_;
@@ -83,12 +83,12 @@ TEST_F(Program, StopsAtSigtermAndSaysThatItIsIncomplete) {
 TEST_F(Program, KeepsASecondRunOutOfTheFolder) {
   const std::string experiment = write("sweep.toml", sweep);
   const pid_t first = start_until("[1/48]", {"run", experiment, "--out", "out"});
-  kill(first, SIGSTOP);  // or it might end before the second has begun
+  kill(first, SIGSTOP);  // otherwise it might end before the second begins
   EXPECT_EQ(run({"run", experiment, "--out", "out"}), 2);
   EXPECT_TRUE(says("another run is writing into out")) << output_;
   kill(first, SIGKILL);
   wait_for(first);
-  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << "a killed run leaves no lock: " << output_;
+  EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0) << "a killed run must leave no lock: " << output_;
 }
 
 TEST_F(Program, ChecksAFolderWithAResultsFolderForEachExperiment) {
@@ -106,7 +106,7 @@ TEST_F(Program, ChecksAFolderWithAResultsFolderForEachExperiment) {
 
 TEST_F(Program, ChecksTheExperimentOfTheDemo) {
   const std::string shipped = std::string(NOONMARK_SOURCE_DIR) + "/experiments/cube-room.toml";
-  // Every point, in a quarter of the pixels: the bounds are shares of the receivers.
+  // Every point, with a quarter of the pixels. This is enough, because the bounds are shares of the receivers.
   const auto check = [&](const std::string& file) {
     return run({"check", file, "--out", "out", "--set", "view.width_px=480", "--set", "view.height_px=270"});
   };
@@ -114,7 +114,8 @@ TEST_F(Program, ChecksTheExperimentOfTheDemo) {
   for (const char* file : {"report.html", "results.csv", "results.sqlite", "junit.xml", "summary.md"})
     EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
 
-  // The same results judged by a tighter bound: broken, with the point, the pixel and the command.
+  // The same results with a tighter bound: the bound is broken, and the message names the point, the pixel and the
+  // command.
   const std::string tightened =
       write("tight.toml", read_file(shipped) + "\n[[bound]]\nmetric = \"aliasing\"\nmax = 1e-9\n");
   ASSERT_EQ(check(tightened), 1) << output_;
@@ -123,7 +124,7 @@ TEST_F(Program, ChecksTheExperimentOfTheDemo) {
   EXPECT_NE(read_file((folder_ / "out/junit.xml").string()).find("<failure"), std::string::npos);
 }
 
-// What a constant has to add to an offset is not what the law says of a constant alone.
+// Law 1 gives the bias for a constant alone. The constant that is needed on top of an offset is another number.
 TEST_F(Program, RenderNamesTheLawsBiasOnlyWhereAConstantIsAlone) {
   write("x.toml", one_point);
   const std::vector<std::string> render = {"render", "x.toml", "--out", "o", "--set", "bias.constant=0.001"};
@@ -163,8 +164,8 @@ TEST_F(Program, RebuildsTheReportFromTheStore) {
   EXPECT_EQ(run({"report", "nowhere"}), 3) << output_;
 }
 
-// A triangle over a floor, of a file that holds more than is measured: said on the terminal, in point.json, in the
-// report and in the report that is rebuilt from the store.
+// A triangle over a floor, from a file that holds more than is measured. The program must say so on the terminal, in
+// point.json, in the report, and in the report that is rebuilt from the store.
 TEST_F(Program, SaysWhatAFileHoldsAndIsNotModelled) {
   const std::string note = "busy: 1 primitive of lines left out; 1 animation at rest";
   write("busy.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],

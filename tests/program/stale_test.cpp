@@ -1,4 +1,4 @@
-// Nothing of an earlier run is taken for this one's: scenes that were edited, verdicts, stored numbers, pictures.
+// Nothing of an earlier run may be taken for a result of this run: edited scenes, verdicts, stored numbers, pictures.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -17,7 +17,7 @@ class Stale : public Program {
   std::string good() { return write("x.toml", one_point + held_bound); }
 };
 
-// A floor and a spot light above it, with the cone that is given, in radians.
+// A floor and a spot light above it with the given cone, in radians.
 std::string lit_floor(const std::string& cone) {
   const std::string down = R"("rotation": [-0.70710678118654757, 0, 0, 0.70710678118654757])";
   return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
@@ -86,13 +86,13 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveARunThatFails) {
   good();
   held();
   EXPECT_EQ(run({"check", experiment, "--out", "out", "--set", "map.resolution=64"}), 2)
-      << "another experiment's store";
+      << "the store belongs to another experiment";
   verdict_says("map.resolution");
 
   good();
   held();
   EXPECT_EQ(run({"run", experiment, "--out", "out", "--set", "map.resolution=64"}), 2);
-  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md")) << "a run does not judge";
+  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md")) << "`run` must remove the old verdict";
 
   held();
   write("x.toml", "scene = \n");
@@ -100,7 +100,7 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveARunThatFails) {
   EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md"));
 }
 
-// Which folder was meant can be told although the command line is wrong.
+// The folder is known although the command line is wrong.
 TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAWrongCommandLine) {
   const std::string experiment = good();
   const auto held = [&](const std::string& folder) {
@@ -128,10 +128,10 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAWrongCommandLine) {
     EXPECT_EQ(run(words), 2) << output_;
     EXPECT_TRUE(says(why)) << output_;
     not_judged("out", why);
-    EXPECT_FALSE(there("other")) << "a folder is not made for a mistake";
+    EXPECT_FALSE(there("other")) << "a wrong command line must not make a folder";
   }
 
-  held("out/x");  // where it goes without --out
+  held("out/x");  // the default folder without --out
   EXPECT_EQ(run({"check", experiment, "--threads", "0"}), 2);
   not_judged("out/x", "--threads");
   held("all/x");
@@ -139,7 +139,7 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAWrongCommandLine) {
   EXPECT_EQ(run({"check", experiment, "y.toml", "--foo", "--out", "all"}), 2);
   not_judged("all/x", "--foo");
   held("all/x");
-  EXPECT_EQ(run({"check", experiment, experiment, "--out", "all"}), 2) << "two that would share one folder";
+  EXPECT_EQ(run({"check", experiment, experiment, "--out", "all"}), 2) << "the two would share one folder";
   not_judged("all/x", "share");
   fs::create_directories(folder_ / "exps/sub");
   fs::copy_file(experiment, folder_ / "exps/sub/x.toml");
@@ -150,11 +150,11 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAWrongCommandLine) {
 
   held("out");
   EXPECT_EQ(run({"run", experiment, "--out", "out", "--foo"}), 2);
-  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md")) << "a run does not judge";
+  EXPECT_FALSE(there("out/junit.xml") || there("out/summary.md")) << "`run` must remove the old verdict";
   held("out");
   EXPECT_EQ(run({"render", experiment, "--out", "out", "--foo"}), 2);
   EXPECT_EQ(run({"check", "--help", "--out", "out"}), 0);
-  EXPECT_TRUE(there("out/junit.xml")) << "neither measures into this folder";
+  EXPECT_TRUE(there("out/junit.xml")) << "neither of the two measures into this folder";
 }
 
 TEST_F(Stale, AReportOfOtherResultsGoesWithThem) {
@@ -163,16 +163,16 @@ TEST_F(Stale, AReportOfOtherResultsGoesWithThem) {
   const std::string csv = text("out/results.csv"), report = text("out/report.html");
   EXPECT_EQ(run({"run", experiment, "--out", "out", "--set", "map.resolution=64"}), 2);
   EXPECT_FALSE(there("out/report.html") || there("out/results.csv"));
-  EXPECT_TRUE(says("noonmark report out")) << "how to have them again: " << output_;
+  EXPECT_TRUE(says("noonmark report out")) << "the message must name the command that restores them: " << output_;
   ASSERT_EQ(run({"report", "out"}), 0) << output_;
   EXPECT_EQ(text("out/results.csv"), csv);
   EXPECT_EQ(text("out/report.html"), report);
-  // Where the store was not looked at, they are what they were: the report of what is in it.
+  // If the run ends before it reads the store, the files stay: they are still the report of the store.
   EXPECT_EQ(run({"run", "absent.toml", "--out", "out"}), 2);
   EXPECT_TRUE(there("out/report.html") && there("out/results.csv"));
 }
 
-// The bounds are no part of what the store is resumed by, and the report shows their verdict.
+// Other bounds do not prevent a resume, so the old report would show the verdict of the old bounds.
 TEST_F(Stale, AReportWithAnEarlierVerdictDoesNotOutliveARunThatFails) {
   const std::string experiment = good();
   ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
@@ -201,7 +201,7 @@ TEST_F(Stale, AFolderIsCheckedToItsEnd) {
   write("exps/b.toml", "scne = \"plate\"\n");
   write("exps/c.toml", "scene = \"absent.glb\"\n" + small_view + held_bound);
   write("exps/sub/d.toml", one_point + "[[bound]]\nmetric = \"residual\"\nmax = -1\n");
-  write("exps/sub/e.toml", one_point);  // promises nothing
+  write("exps/sub/e.toml", one_point);  // has no bounds
   EXPECT_EQ(run({"check", "exps", "--out", "out"}), 3) << "the worst of 0, 2, 3, 1 and 2: " << output_;
   EXPECT_TRUE(says("did you mean 'scene'") && says("absent.glb") && says("has no [[bound]]")) << output_;
   EXPECT_TRUE(says("3 of 5 experiments could not be checked")) << output_;
@@ -209,7 +209,7 @@ TEST_F(Stale, AFolderIsCheckedToItsEnd) {
   EXPECT_NE(text("out/b/junit.xml").find("did you mean"), std::string::npos);
   EXPECT_NE(text("out/c/junit.xml").find("exit code 3"), std::string::npos);
   EXPECT_NE(text("out/sub/d/junit.xml").find("<failure"), std::string::npos)
-      << "what comes after a bad file is checked";
+      << "experiments after a bad file must be checked";
   EXPECT_NE(text("out/sub/e/summary.md").find("Not judged"), std::string::npos);
 }
 
@@ -250,7 +250,7 @@ TEST_F(Stale, StoredNumbersThatWereEditedAreMeasuredAnew) {
   }
 }
 
-// Somebody who can edit rows can seal them too; what the sweep itself reads must still be there.
+// A user who can edit rows can also seal them again. So the sweep must check that the numbers it reads exist.
 TEST_F(Stale, AStoredPointThatLacksNumbersIsMeasuredAnew) {
   const std::string experiment = write("x.toml", one_point + "[sweep]\nmap.resolution = [16, 32]\n" + held_bound);
   ASSERT_EQ(run({"check", experiment, "--out", "out"}), 0) << output_;
@@ -288,7 +288,7 @@ TEST_F(Stale, TheReportReadsItsOwnPicturesOnly) {
       write("x.toml", "scene = \"plate\"\npictures = \"first\"\n[view]\nwidth_px = 48\nheight_px = 27\n");
   ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;
   write("secret.png", "SECRET-BYTES");
-  const std::string encoded = "U0VDUkVULUJZVEVT";  // base64 of those
+  const std::string encoded = "U0VDUkVULUJZVEVT";  // base64 of these bytes
   ResultStore store = ResultStore::open((folder_ / "out/results.sqlite").string());
   fs::create_symlink("../../secret.png", folder_ / "out/images/link.png");
   fs::create_symlink("/dev/zero", folder_ / "out/images/zero.png");
@@ -301,13 +301,13 @@ TEST_F(Stale, TheReportReadsItsOwnPicturesOnly) {
                           {"e", "images/fifo.png", "", ""},
                           {"f", "images/p0000-truth.png", "", own}},
                          {}});
-  ASSERT_EQ(run({"report", "out"}, [] { alarm(60); }), 0) << "must not wait for a pipe: " << output_;
+  ASSERT_EQ(run({"report", "out"}, [] { alarm(60); }), 0) << "the report must not wait for a pipe: " << output_;
   const std::string report = text("out/report.html");
   EXPECT_EQ(report.find(encoded), std::string::npos);
   size_t missing = 0;
   for (size_t at = 0; (at = report.find("class=\"missing\"", at)) != std::string::npos; ++at) ++missing;
   EXPECT_EQ(missing, 5u);
-  EXPECT_NE(report.find("data:image/png;base64,"), std::string::npos) << "its own is shown";
+  EXPECT_NE(report.find("data:image/png;base64,"), std::string::npos) << "its own pictures must be shown";
 }
 
 TEST_F(Stale, PicturesThatAreLostOrAnothersAreMadeAgain) {
@@ -334,7 +334,7 @@ TEST_F(Stale, PicturesThatAreLostOrAnothersAreMadeAgain) {
       EXPECT_TRUE(says("pictures of point ") && says("made again") && says("2 of 2 points are in out already"))
           << output_;
       ASSERT_TRUE(there(first + file));
-      EXPECT_TRUE(text(first + file) == bytes || file.ends_with(".exr")) << "the same, but for an EXR's date";
+      EXPECT_TRUE(text(first + file) == bytes || file.ends_with(".exr")) << "only the date in an EXR may differ";
     }
     EXPECT_EQ(run({"run", experiment, "--out", "out"}), 0);
     EXPECT_FALSE(says("made again")) << output_;
@@ -352,13 +352,13 @@ TEST_F(Stale, OnlyAPictureThatWasWrittenIsShown) {
     fs::create_hard_link(folder_ / by, folder_ / "out/images" / file);
   };
   replace("p0000-truth.png", "secret");
-  replace("p0000-map.png", "out/images/p0000-classes.png");  // a picture, but not this one
+  replace("p0000-map.png", "out/images/p0000-classes.png");  // a valid picture, but another one
   ASSERT_EQ(run({"report", "out"}), 0) << output_;
   const std::string report = text("out/report.html");
   EXPECT_EQ(report.find("U0VDUkVULUJZVEVT"), std::string::npos);
   EXPECT_NE(report.find("images/p0000-truth.png is not shown"), std::string::npos);
   EXPECT_NE(report.find("images/p0000-map.png is not shown"), std::string::npos);
-  // Also where the store was made to say that it belongs there.
+  // The same if the store was edited so that it names this file.
   ResultStore::open((folder_ / "out/results.sqlite").string())
       .set_pictures(0, {{{"truth", "images/p0000-truth.png", "", digest_of(secret)}}, {}});
   ASSERT_EQ(run({"report", "out"}), 0) << output_;

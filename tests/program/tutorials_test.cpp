@@ -1,4 +1,4 @@
-// The gallery of the tutorials' chapters: each shows its artefact and its cure, and says in one sentence what it found.
+// The tutorial chapters: each shows an artefact and its cure, and reports in a short text what it found.
 #include <algorithm>
 #include <regex>
 
@@ -24,12 +24,12 @@ class Tutorial : public Program, public testing::WithParamInterface<std::string>
 
 TEST_P(Tutorial, ShowsItsArtefactAndItsCure) {
   std::vector<std::string> check = {"check", path_of(GetParam()), "--out", "out"};
-  // A cube map's six sides of rays are most of the gallery's time; what is claimed of them holds in fewer pixels too.
+  // The rays for the six faces of a cube map take most of the time. The laws hold with fewer pixels too.
   if (GetParam().ends_with("-point") || GetParam().ends_with("-point-pcf"))
     check.insert(check.end(), {"--set", "view.width_px=240", "--set", "view.height_px=135"});
   EXPECT_EQ(run(check), 0) << output_;
   EXPECT_TRUE(std::regex_search(output_, std::regex("found: [^\n]*[0-9][^\n]*\\."))) << output_;
-  EXPECT_FALSE(says("nan")) << "a figure that could not be measured: " << output_;
+  EXPECT_FALSE(says("nan")) << "a number could not be measured: " << output_;
 }
 INSTANTIATE_TEST_SUITE_P(Chapters, Tutorial, testing::ValuesIn(chapters()), [](const auto& chapter) {
   std::string name = chapter.param;
@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Chapters, Tutorial, testing::ValuesIn(chapters()), [](c
   return name;
 });
 
-// A chapter that asserts no artefact, or no cure, or compares nothing with anything, teaches nothing.
+// A chapter must assert an artefact and a cure and must compare the two. Otherwise it shows nothing.
 TEST(Tutorials, EachAssertsBeforeAndAfter) {
   EXPECT_EQ(chapters().size(), 16u);
   for (const std::string& chapter : chapters()) {
@@ -54,7 +54,7 @@ TEST(Tutorials, EachAssertsBeforeAndAfter) {
     }
     EXPECT_TRUE(artefact) << chapter << " asserts no artefact";
     EXPECT_TRUE(compared) << chapter << " compares nothing";
-    EXPECT_TRUE(told) << chapter << " says nothing of what it found";
+    EXPECT_TRUE(told) << chapter << " does not report what it found";
   }
 }
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What bash completes after a command line of noonmark, asked as bash asks it, without bash-completion and without a terminal.
+# Tests what bash completes after a command line of noonmark. The completion function is called as bash calls it, without
+# bash-completion and without a terminal.
 #   completion_test.sh PROGRAM COMPLETION WORK
 set -euo pipefail
 program=$1 completion=$2 work=$3
@@ -13,7 +14,7 @@ source "$completion"
 [[ $(complete -p noonmark) == 'complete -F _noonmark noonmark' ]] || { echo "nothing is registered for noonmark"; exit 1; }
 
 bad=0 asked=0
-# completed WORD...: the words as bash parts them ("--set map.wrap=re" is 4 of them), the last one being completed.
+# completed WORD...: the completions of the last word. Words are split as in bash ("--set map.wrap=re" is 4 words).
 completed() {
   COMP_WORDS=(./noonmark "$@")
   COMP_CWORD=$#
@@ -21,7 +22,7 @@ completed() {
   _noonmark ./noonmark "${@: -1}" "${COMP_WORDS[-2]}"
   printf '%s\n' "${COMPREPLY[@]}" | sort | tr '\n' ' '
 }
-# expect TEXT WORD...: these completions, and no other.
+# expect TEXT WORD...: the completions must be exactly those in TEXT.
 expect() {
   asked=$((asked + 1))
   local wanted=$1 found
@@ -32,7 +33,7 @@ expect() {
   printf "'%s' is completed by\n  '%s' instead of\n  '%s'\n" "$*" "${found% }" "$wanted"
   bad=1
 }
-# has WORD WORD...: this one among others.
+# has WORD WORD...: the first word must be among the completions of the others.
 has() {
   asked=$((asked + 1))
   local wanted=$1
@@ -51,14 +52,14 @@ expect '--help' doctor -
 expect '' scenes ''
 expect '' run --threads ''
 
-# Experiments, and folders to look into.
+# Experiments, and folders that may contain some.
 expect 'TWO.TOML models one.toml sweeps' run ''
 expect 'one.toml' check sweeps o
 expect 'sweeps/three.toml' render --point 3 sweeps/
 expect 'models sweeps' report ''
 expect 'models sweeps' run one.toml --out ''
 
-# Settings: their names, then what they can be. Bash parts words at =.
+# Settings: their names, then their values. Bash splits words at =.
 expect 'map.far_m= map.fit= map.format= map.fov_deg=' run --set map.f
 has scene.name= render one.toml --set ''
 has filter.kind= check --set=f --set f
@@ -81,7 +82,7 @@ expect 'models/street.gltf' run --set scene.name = models/
 built_in=$(./noonmark scenes | awk 'NF == 0 { exit } { print $1 }' | wc -l)
 (($(completed run --set scene.name = '' | wc -w) == built_in + 3)) || { echo "not all $built_in scenes are completed"; bad=1; }
 
-# Where = parts no words, the whole word is replaced.
+# If bash does not split words at =, the completion replaces the whole word.
 COMP_WORDBREAKS=${COMP_WORDBREAKS//=/}
 expect 'map.wrap=clamp_to_border map.wrap=clamp_to_edge' run --set map.wrap=cl
 expect '--set=map.wrap=repeat' run --set=map.wrap=r

@@ -1,4 +1,4 @@
-// What documents and comments point to is there: files of this repository, chapters of its documents, settings.
+// Everything that documents and comments refer to must exist: files of this repository, chapters, settings.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ const std::vector<std::string> folders = {"app",      "cmake",  "compare", "docs
 
 std::string text_of(const fs::path& file) { return read_file(file.string(), uint64_t{1} << 24); }
 
-// Documents for people. CHANGELOG.md tells of files that are gone.
+// Documents for human readers. CHANGELOG.md is not among them, because it names files that no longer exist.
 std::vector<fs::path> documents() {
   std::vector<fs::path> files = {root / "README.md", root / "CONTRIBUTING.md"};
   for (const auto& entry : fs::directory_iterator(root / "docs"))
@@ -32,7 +32,7 @@ std::vector<fs::path> documents() {
   return files;
 }
 
-// Every file with text that people write, but for patches and for the test that plants files.
+// Every file with text that people write, except patches and the test that plants files.
 std::vector<fs::path> all_texts() {
   const std::set<std::string> endings = {".h",   ".cpp",  ".glsl", ".vert", ".frag", ".geom", ".cmake",
                                          ".txt", ".toml", ".js",   ".css",  ".md",   ""};
@@ -99,7 +99,7 @@ TEST(Documents, EveryFileThatIsNamedIsThere) {
   EXPECT_GT(named, 1000);
 }
 
-// "`app/`" and "`tests/fuzz/*_target.cpp`": what stands between backticks in one line.
+// The texts between backticks in one line, such as "`app/`" and "`tests/fuzz/*_target.cpp`".
 std::vector<std::string> in_backticks(const std::string& markdown) {
   std::vector<std::string> words;
   bool fenced = false;
@@ -125,7 +125,7 @@ TEST(Documents, EveryFolderThatIsNamedIsThere) {
       }
 }
 
-// A setting that was renamed stays nowhere under its old name.
+// If a setting is renamed, its old name must not remain anywhere.
 TEST(Documents, EverySettingThatIsNamedIsThere) {
   std::set<std::string> groups, names;
   for (const Setting& row : settings_table()) {
@@ -143,7 +143,7 @@ TEST(Documents, EverySettingThatIsNamedIsThere) {
     }
 }
 
-// No comment cites a document that readers of this repository do not have. summary.md is what `check` writes.
+// Comments may cite only documents of this repository. summary.md is an exception, because `check` writes it.
 TEST(Documents, EveryDocumentThatIsCitedIsThere) {
   for (const fs::path& file : all_texts())
     for (const std::string& word : path_like_words(text_of(file)))
@@ -154,7 +154,7 @@ TEST(Documents, EveryDocumentThatIsCitedIsThere) {
       }
 }
 
-// Nor one that it names by a word alone.
+// Comments may not refer to such a document by a word either.
 TEST(Documents, NoCommentSpeaksOfADesign) {
   for (const fs::path& file : all_texts()) {
     const std::string text = text_of(file);
@@ -166,7 +166,7 @@ TEST(Documents, NoCommentSpeaksOfADesign) {
   }
 }
 
-// A number that the next commit makes wrong: a command that counts stands in its place.
+// The next commit can make such a number wrong, so the text must name a command that counts.
 TEST(Documents, NoCountThatChangesIsWrittenByHand) {
   const std::regex count("\\b[0-9]+( [a-z]+)? (mutants|breakages|patches|tests|defects)\\b");
   for (const fs::path& file : documents()) {
@@ -177,7 +177,7 @@ TEST(Documents, NoCountThatChangesIsWrittenByHand) {
   }
 }
 
-// GitHub's name of a heading.
+// The anchor that GitHub makes of a heading.
 std::string anchor_of(std::string_view heading) {
   std::string anchor;
   for (char c : heading) {

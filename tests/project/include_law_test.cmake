@@ -1,16 +1,16 @@
-# Plants one breach of the include law at a time in a copy of the sources, and asks that the law finds each, by name.
+# Plants one breach of the include law at a time in a copy of the sources. The law must find each breach and name it.
 #   cmake -DROOT=<source folder> -DWORK=<scratch folder> -P tests/project/include_law_test.cmake
 cmake_minimum_required(VERSION 3.25)
 set(failures)
 
 file(REMOVE_RECURSE "${WORK}")
-foreach(module scenes technique gl raytrace compare app tests)  # what the law reads, and no more
+foreach(module scenes technique gl raytrace compare app tests)  # only what the law reads
   file(COPY "${ROOT}/${module}" DESTINATION "${WORK}" FILES_MATCHING
        PATTERN "*.h" PATTERN "*.hpp" PATTERN "*.cpp" PATTERN "*.cc" PATTERN "CMakeLists.txt")
 endforeach()
 
-# check(LABEL EXPECTED [FILE LINE]...): a copy of the sources in which LINE stands at the end of FILE must break the law and
-# the message say EXPECTED. With EXPECTED "" the law must hold.
+# check(LABEL EXPECTED [FILE LINE]...): adds LINE to the end of FILE in a copy of the sources. This must break the law, and
+# the message must contain EXPECTED. If EXPECTED is "", the law must hold.
 function(check label expected)
   set(plants ${ARGN})
   while(plants)
@@ -20,7 +20,7 @@ function(check label expected)
   endwhile()
   execute_process(COMMAND "${CMAKE_COMMAND}" "-DROOT=${WORK}" -P "${ROOT}/cmake/include_law.cmake"
                   RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  foreach(file ${planted})  # as it was
+  foreach(file ${planted})  # restore the file
     if(EXISTS "${ROOT}/${file}")
       file(COPY_FILE "${ROOT}/${file}" "${WORK}/${file}")
     else()

@@ -1,5 +1,5 @@
-# An installed Noonmark, as an outside project and a user meet it. STEP is one of:
-#   prefix    installs the build into WORK/prefix and looks at what is there; the other steps need it
+# Tests an installed Noonmark as another project and a user use it. STEP is one of:
+#   prefix    installs the build into WORK/prefix and checks the files; the other steps need it
 #   program   the installed program does what the built one does, and writes pictures
 #   consumer  tests/project/consumer configures, builds and runs against it
 #   headers   every installed header compiles, every component links, and what app/ includes is among them
@@ -7,7 +7,7 @@
 cmake_minimum_required(VERSION 3.25)
 set(prefix ${WORK}/prefix)
 
-# run(WHAT command...): fails the test where the command fails; `output` is what it said.
+# run(WHAT command...): runs the command and fails the test if it fails. `output` is what it printed.
 macro(run what)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
   if(NOT result EQUAL 0)
@@ -15,7 +15,7 @@ macro(run what)
   endif()
 endmacro()
 
-# build(NAME SOURCE): configures and builds it against the prefix into WORK/NAME.
+# build(NAME SOURCE): configures and builds SOURCE against the prefix, in WORK/NAME.
 macro(build name source)
   file(REMOVE_RECURSE ${WORK}/${name})
   run("configuring ${name}" ${CMAKE_COMMAND} -S ${source} -B ${WORK}/${name} -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
@@ -27,7 +27,7 @@ if(STEP STREQUAL "prefix")
   file(REMOVE_RECURSE ${WORK})
   file(MAKE_DIRECTORY ${WORK})
   run("cmake --install" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
-  # Moved, so that what remembers where it was installed breaks.
+  # The prefix is moved, so that everything that contains the old path breaks.
   file(RENAME ${WORK}/first ${prefix})
   foreach(file bin/noonmark share/man/man1/noonmark.1 share/bash-completion/completions/noonmark
                include/noonmark/compare/ladder/ladder.h include/noonmark/technique/surface.glsl)
@@ -35,7 +35,7 @@ if(STEP STREQUAL "prefix")
       message(SEND_ERROR "${file} is not installed")
     endif()
   endforeach()
-  # Debug information names sources, and may.
+  # Debug information may contain the paths of the sources.
   set(places ${prefix})
   if(NOT BUILD_TYPE STREQUAL Release)
     set(places ${prefix}/include ${prefix}/share)
@@ -73,7 +73,7 @@ elseif(STEP STREQUAL "program")
   if(NOT pngs OR NOT exrs)
     message(FATAL_ERROR "the installed program wrote no PNG or no EXR:\n${output}")
   endif()
-  # It opens its own picture library, not the build's.
+  # The installed program must open its own picture library, not that of the build.
   file(GLOB_RECURSE library ${prefix}/noonmark_images.so)
   file(RENAME ${library} ${WORK}/taken_away.so)
   execute_process(COMMAND ${installed} doctor RESULT_VARIABLE result OUTPUT_VARIABLE output)
@@ -83,7 +83,7 @@ elseif(STEP STREQUAL "program")
   endif()
 
 elseif(STEP STREQUAL "consumer")
-  # Away from the sources, where no header can be found by chance.
+  # The project is built outside the sources, so that no header of them is found by chance.
   file(REMOVE_RECURSE ${WORK}/consumer_source)
   file(COPY ${SOURCE}/tests/project/consumer/ DESTINATION ${WORK}/consumer_source)
   build(consumer ${WORK}/consumer_source)
@@ -101,7 +101,7 @@ acne <= 0.01: broken
 
 elseif(STEP STREQUAL "headers")
   file(GLOB_RECURSE headers RELATIVE ${prefix}/include/noonmark ${prefix}/include/noonmark/*.h)
-  # scenes/digest.h writes with fmt, which is linked privately.
+  # scenes/digest.h needs fmt, which is linked privately.
   set(not_installed scenes/digest.h)
   file(GLOB sources ${SOURCE}/app/*.h ${SOURCE}/app/*.cpp)
   foreach(source ${sources})

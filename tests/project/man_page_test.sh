@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The man page says what the program says: every verb, every option of each verb in that verb's section, every exit code that
-# the help and the README name. It reads the help in its own way, not as app/shell/man_page.sh does.
+# Compares the man page with the program: it must contain every verb, every option of each verb in that verb's section, and
+# every exit code that the help and the README name. The help is parsed in another way than in app/shell/man_page.sh.
 #   man_page_test.sh PROGRAM PAGE README
 set -euo pipefail
 program=$1 page=$2 readme=$3
@@ -23,7 +23,7 @@ for verb in $verbs; do
   [[ -n $text ]] || complain "the page has no section of the verb $verb"
   help=$("$program" "$verb" --help)
   says=${help%%$'\n'*}
-  grep -qF -- "$says" <<<"$text" || complain "the page says of $verb something else than '$says'"
+  grep -qF -- "$says" <<<"$text" || complain "the page does not describe $verb as '$says'"
   for option in $(sed -n '/^Options:/,/^$/p' <<<"$help" | words); do
     [[ $option == --help ]] && continue
     options=$((options + 1))

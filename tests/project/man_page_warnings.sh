@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# groff has nothing to say about the man page; 77 where there is no groff (Debian's groff-base).
+# groff must print no warning about the man page. Ends with 77 if there is no groff (Debian's groff-base).
 #   man_page_warnings.sh PAGE
 set -euo pipefail
 if ! command -v groff >/dev/null; then

@@ -17,7 +17,7 @@ inline BiasSettings bias_settings_of(BiasValues values) {
   return settings;
 }
 
-// No bias, each part alone, each reference with a constant on top, and all parts together.
+// No bias, each part alone, each reference together with a constant, and all parts together.
 inline std::vector<BiasSettings> every_bias() {
   std::vector<BiasSettings> all(1);
   BiasSettings together;

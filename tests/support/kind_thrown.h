@@ -1,4 +1,4 @@
-// What a call throws, for tests.
+// The kind of the error that a call throws, for tests.
 #pragma once
 #include <string>
 

@@ -1,4 +1,4 @@
-// What the acceptance tests share: settings in a line, the models to try, and the tolerance of sums.
+// Helpers of the acceptance tests: settings in one line, the paths of models, and the tolerance of sums.
 #pragma once
 #include <filesystem>
 #include <initializer_list>
@@ -18,7 +18,7 @@ inline Settings with(std::initializer_list<Assignment> assignments, Settings set
   return settings;
 }
 
-// The default picture is large; a test needs enough receivers to meet every case, not more.
+// The default picture is large. A test needs only enough receivers for every case.
 inline Settings small(const std::string& scene, int width = 400, int height = 240) {
   return with(
       {{"scene.name", scene}, {"view.width_px", std::to_string(width)}, {"view.height_px", std::to_string(height)}});

@@ -1,4 +1,4 @@
-// Points with every member filled, for the tests of what stores and writes them.
+// Points in which every member has a value, for the tests of the code that stores and writes them.
 #pragma once
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ namespace noonmark {
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf_value = std::numeric_limits<double>::infinity();
 
-// A folder of its own, gone at the end.
+// A new folder that is removed at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -35,7 +35,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// Differs from id to id in every number.
+// Points with different ids differ in every number.
 inline PointRecord sample_point(int64_t id, bool with_curve = true) {
   PointRecord point;
   point.id = id;
@@ -121,7 +121,7 @@ inline RunInfo sample_info() {
   return info;
 }
 
-// Equal, where NaN equals NaN.
+// Equality in which NaN equals NaN.
 inline bool same(double a, double b) { return (std::isnan(a) && std::isnan(b)) || a == b; }
 inline bool same(const std::vector<double>& a, const std::vector<double>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) { return same(x, y); });

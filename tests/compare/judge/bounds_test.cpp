@@ -1,4 +1,4 @@
-// What holds a bound and what breaks it, and how JUnit and the summary say so.
+// When a bound holds and when it is broken, and how JUnit and the summary report this.
 #include "compare/judge/bounds.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace noonmark {
 namespace {
 
-// Points 0, 1, 2 ... with these values of acne; resolutions as sample_point has them: 256, 512, 1024, 2048, 256 ...
+// Points 0, 1, 2 ... with these values of acne. sample_point gives them the resolutions 256, 512, 1024, 2048, 256 ...
 std::vector<PointRecord> points_with(const std::vector<double>& acne) {
   std::vector<PointRecord> points;
   for (size_t i = 0; i < acne.size(); ++i) {
@@ -128,7 +128,8 @@ TEST(Bounds, QuantitiesOfTheCurveCanBeBounded) {
   points[0].curve.reset();
   const BoundResult without = evaluate_bounds(points, std::span(&usable, 1), command_of).at(0);
   expect(without, false, nan_value, 0);
-  EXPECT_EQ(describe(without, &points[0]).find("bias curve"), std::string::npos) << "why, nothing says";
+  EXPECT_EQ(describe(without, &points[0]).find("bias curve"), std::string::npos)
+      << "the point gives no reason, so the message must not either";
   points[0].settings["bias.normal_offset"] = "1";
   EXPECT_NE(describe(without, &points[0]).find("this point has no curve: bias.normal_offset moves the lookup"),
             std::string::npos)
@@ -184,7 +185,7 @@ TEST(Bounds, ABrokenBoundSaysWhereAndHowToSeeIt) {
   EXPECT_EQ(describe(ask({0.1}, bound), &points[0], swept), "held: acne <= 0.4; found 0.1 (worst of 1 point)\n");
 }
 
-// The definition, straight: held exactly when every value is finite and none is beyond the limit.
+// The definition: a bound holds exactly if every value is finite and none is beyond the limit.
 RC_GTEST_PROP(BoundsProperty, WorstHoldsExactlyWhenEveryPointDoes, (const std::vector<double>& values, double max)) {
   RC_PRE(!values.empty());
   const bool expected =
@@ -215,8 +216,8 @@ TEST(Junit, HasOneCasePerBoundAndCountsTheBroken) {
   EXPECT_EQ(count(xml, "<testcase "), 3u);
   EXPECT_EQ(count(xml, "<failure "), 2u);
   EXPECT_NE(xml.find("tests=\"3\" failures=\"2\" errors=\"0\""), std::string::npos) << xml;
-  EXPECT_NE(xml.find("timestamp=\"2025-01-31T12:00:00\""), std::string::npos) << "no zone: the schema forbids it";
-  EXPECT_NE(xml.find("name=\"acne &lt;= 0.4 #2\""), std::string::npos) << "names are unique";
+  EXPECT_NE(xml.find("timestamp=\"2025-01-31T12:00:00\""), std::string::npos) << "the schema forbids a time zone";
+  EXPECT_NE(xml.find("name=\"acne &lt;= 0.4 #2\""), std::string::npos) << "names must be unique";
   EXPECT_NE(xml.find("reproduce: render 1"), std::string::npos);
 }
 

@@ -1,4 +1,4 @@
-// Formulas, and what becomes of a law over the points of a sweep.
+// Formulas, and the evaluation of a law over the points of a sweep.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -101,7 +101,7 @@ TEST(Laws, HoldWithinTheirTolerance) {
   EXPECT_TRUE(held(LawRelation::at_most, "1.05", 0, ""));
   EXPECT_FALSE(held(LawRelation::at_least, "1", 0, ""));
   EXPECT_TRUE(held(LawRelation::at_least, "0.95", 0, ""));
-  EXPECT_FALSE(held(LawRelation::at_least, "-1 * 2", 0, "-4"));  // a slack below 0 asks for more
+  EXPECT_FALSE(held(LawRelation::at_least, "-1 * 2", 0, "-4"));  // a negative slack makes the limit stricter
 }
 
 TEST(Laws, NameTheSampleFurthestOff) {
@@ -126,7 +126,7 @@ TEST(Laws, WhatIsNotFiniteBreaksThem) {
       std::swap(l.measured, l.predicted);
       EXPECT_FALSE(judge(l, {point(0, 1, "none", bad)}).held);
     }
-  EXPECT_FALSE(judge(law("error", "1"), {}).held) << "no point to ask";
+  EXPECT_FALSE(judge(law("error", "1"), {}).held) << "a law without points must be broken";
 }
 
 TEST(Laws, AToleranceWithoutEndOrBelowZeroBreaksThem) {
@@ -149,7 +149,7 @@ TEST(Laws, WhereAndAgainstPairPoints) {
   const LawResult result = judge(l, points);
   EXPECT_TRUE(result.held);
   EXPECT_EQ(result.samples.size(), 2u);
-  points.erase(points.begin());  // its partner is gone
+  points.erase(points.begin());  // the partner point no longer exists
   EXPECT_FALSE(judge(l, points).held);
 }
 
@@ -167,7 +167,7 @@ TEST(Laws, MeansAndSlopes) {
   Law slope = law("error", "-1");
   slope.join = "slope";
   slope.over = "map.resolution";
-  slope.within = 1e-12;  // logarithms of three exact powers
+  slope.within = 1e-12;  // tolerance for the logarithms of three exact powers
   EXPECT_TRUE(judge(slope, points).held);
   slope.predicted = "-1.1";
   EXPECT_FALSE(judge(slope, points).held);
@@ -195,7 +195,7 @@ TEST(Laws, SayWhatWasFoundWithItsFigures) {
   }
   l = law("error", "1");
   l.found = "{against: error}";
-  EXPECT_THROW(check_law(l), Error) << "there is nothing to be against";
+  EXPECT_THROW(check_law(l), Error) << "`against:` needs a law with `against`";
 }
 
 TEST(Laws, TheTableTellsLawPredictedMeasuredAndVerdict) {

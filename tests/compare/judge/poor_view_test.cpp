@@ -1,4 +1,4 @@
-// What is said of a picture in which hardly anything can be judged.
+// The message about a picture in which almost no pixel can be judged.
 #include "compare/judge/poor_view.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,8 @@ TEST(PoorView, NamesTheReasonThatHidesMost) {
   begins(with({}, {{"lit", 0}}), "all of the 7990 pixels that can be judged are in shadow");
 }
 
-// view.fit_depths fits what the scene's file gives; what the user gave stands until it is taken back.
+// view.fit_depths changes only planes from the scene's file. A near or far plane that the user set stays until the user
+// removes it.
 TEST(PoorView, AdvisesToTakeBackTheNearOrFarThatWasGiven) {
   const auto advice = [](const std::string& near_m, const std::string& far_m, const std::string& fit_depths) {
     PointRecord point = point_with({{"receivers", 0}, {"facing", 0}, {"counted", 0}, {"clipped", 700}});
@@ -67,7 +68,7 @@ TEST(PoorView, AdvisesToTakeBackTheNearOrFarThatWasGiven) {
 
 TEST(PoorView, IsSilentOfAGoodOneAndOfOldRecords) {
   EXPECT_EQ(why_poor_view(point_with({})), "");
-  EXPECT_EQ(why_poor_view(point_with({{"counted", 100}})), "") << "1% is enough";
+  EXPECT_EQ(why_poor_view(point_with({{"counted", 100}})), "") << "1% of the pixels is enough";
   EXPECT_NE(why_poor_view(point_with({{"counted", 99}})), "");
   EXPECT_EQ(why_poor_view(point_with({{"clipped", 99}, {"culled", 500}})), "");
   EXPECT_EQ(why_poor_view(PointRecord{}), "");
@@ -84,7 +85,7 @@ TEST(PoorView, TellsOfManyPointsByTheFirst) {
   EXPECT_EQ(poor_view_note(points).find("point 1: all of the 7990"), 0u);
   points[2].metrics["lit"] = 0;
   EXPECT_EQ(poor_view_note(points).find("the picture is poor at 2 of 3 points; at point 1, all"), 0u);
-  EXPECT_EQ(poor_view_note(std::span(points).subspan(1, 1)).find("all of"), 0u) << "of a lone point no number";
+  EXPECT_EQ(poor_view_note(std::span(points).subspan(1, 1)).find("all of"), 0u) << "a single point needs no number";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The contract on evidence made at random: 0 for verdicts that the plain reading gives, and exact when some are
-// changed.
+// The contract on random evidence: it is 0 for the verdicts of the plain evaluation, and it is exact if some verdicts
+// are changed.
 #include "compare/judge/soundness.h"
 
 #include <gtest/gtest.h>
@@ -46,12 +46,13 @@ TEST(Contract, CountsEveryBrokenReceiverOnce) {
     EXPECT_DOUBLE_EQ(c.metrics().at("contract"), 1 / count);
     c.s.r5[facing[1]] += 0.25f;
     c.s.r5[facing[2]] = std::nextafter(c.s.r5[facing[2]], 2.0f);
-    EXPECT_DOUBLE_EQ(c.metrics().at("contract"), 2 / count) << "one float beside is broken, and twice counts once";
+    EXPECT_DOUBLE_EQ(c.metrics().at("contract"), 2 / count)
+        << "one float off is broken, and two broken verdicts of a receiver count once";
     c.tie_lookup[facing[3]] -= 0.5f;
     c.s.r5[facing[4]] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_DOUBLE_EQ(c.metrics().at("contract"), 4 / count);
     for (size_t i = 0; i < c.s.truth.facing.size(); ++i)
-      if (!c.s.truth.facing[i]) c.s.r5[i] = 7;  // dark by shading: nobody asked
+      if (!c.s.truth.facing[i]) c.s.r5[i] = 7;  // attached: its verdict does not count
     EXPECT_DOUBLE_EQ(c.metrics().at("contract"), 4 / count);
   }
 }
@@ -61,7 +62,7 @@ TEST(Contract, AndTheRestAreTheSameInStrips) {
     Case c(seed, 3, static_cast<Lookup>(seed % 3));
     for (size_t i = 0; i < c.s.r5.size(); i += 7) c.s.r5[i] += 0.25f;
     const std::map<std::string, double> whole = c.metrics();
-    Synthetic held = c.s;  // what the evidence refers to, strip after strip
+    Synthetic held = c.s;  // the evidence refers to this; each strip replaces it
     const LookupEvidence evidence = held.evidence();
     SoundnessCheck check({evidence, c.s.stored, c.ties, c.tie_lookup, c.receivers, c.frame, {}});
     for_each_strip(c.s, seed, [&](const Synthetic& part, PixelRange strip) {
@@ -73,7 +74,7 @@ TEST(Contract, AndTheRestAreTheSameInStrips) {
   }
 }
 
-// Where a sampler blends the taps, what it may round is allowed, and no more.
+// If a sampler blends the taps, its allowed rounding is accepted, and no more.
 TEST(Contract, AllowsASamplerItsWeights) {
   for (uint64_t seed = 0; seed < 60; ++seed) {
     Case c(seed, seed % 3 == 0 ? 3 : 1, Lookup::linear);
@@ -82,13 +83,13 @@ TEST(Contract, AllowsASamplerItsWeights) {
     for (size_t i = 0; i < c.s.r4.size(); ++i) {
       if (!c.s.truth.facing[i]) continue;
       ++facing;
-      (seed % 2 ? c.s.r4 : c.tie_lookup)[i] += shifted++ < 5 ? 0x1p-6f : 0x1p-8f;  // more than allowed, and less
+      (seed % 2 ? c.s.r4 : c.tie_lookup)[i] += shifted++ < 5 ? 0x1p-6f : 0x1p-8f;  // first more than allowed, then less
     }
     EXPECT_DOUBLE_EQ(c.metrics().at("contract"), 5 / facing);
   }
 }
 
-// On fixed-point depths a sampler may round what it compares; on floats a tie is a tie.
+// With fixed-point depths, a sampler may round the compared values. With float depths, ties must be exact.
 TEST(Contract, AllowsASamplerTiesOfFixedPointDepthsOnly) {
   for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {
     Case c(1, 1, Lookup::linear);
@@ -112,18 +113,18 @@ TEST(Contract, AllowsASamplerTiesOfFixedPointDepthsOnly) {
     EXPECT_EQ(c.metrics().at("contract"), format == DepthFormat::d32f ? 1 : 0);
     for (float& v : c.s.r5.pixels) v = 1;
     for (float& v : c.tie_lookup.pixels) v = 1 - v;
-    EXPECT_EQ(c.metrics().at("contract"), 1) << "the map of ties is of floats";
+    EXPECT_EQ(c.metrics().at("contract"), 1) << "the tie map has float depths, so the rule for ties is exact";
   }
 }
 
-// A lit tie in every second texel that a receiver with a depth falls into, and the next float below in the others.
+// Every second texel with a receiver's depth holds a lit tie. The others hold the next smaller float.
 TEST(TieMap, IsDecidedByTheLastBit) {
   uint64_t ties = 0, below = 0;
   for (uint64_t seed = 0; seed < 60; ++seed) {
     const Case c(seed, 1, seed % 3 ? Lookup::box : Lookup::cube);
     for (size_t i = 0; i < c.s.truth.facing.size(); ++i) {
       if (!c.s.truth.facing[i]) continue;
-      // The texel's index stands in for its depth, so that the plain reading says which it is.
+      // The texel's index replaces its depth, so that the plain evaluation tells which texel it is.
       Image<float> index(c.ties.width, c.ties.height);
       for (size_t t = 0; t < index.size(); ++t) index[t] = static_cast<float>(t + 2);
       const naive::Tap tap = naive::taps_of(c.s, index, i).front();

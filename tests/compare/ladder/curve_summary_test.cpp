@@ -1,4 +1,4 @@
-// What is told of a curve: shares, units, the window and the best bias.
+// The summary of a curve: shares, units, the window and the best bias.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// `count` receivers in a row under one texel each, all counted.
+// `count` receivers in a row, each with its own texel. All of them are counted.
 Synthetic row_of(int count) {
   Synthetic s;
   s.exact = Image<float>(count, count, 1);
@@ -30,9 +30,9 @@ Synthetic row_of(int count) {
   return s;
 }
 
-// Receiver i as acne below bias b (b a power of two: exact in float).
+// Gives receiver i acne below the bias b. b is a power of two, so it is exact in float.
 void make_acne(Synthetic& s, size_t i, float b) { s.exact.pixels[i] = s.stored.pixels[i] = s.probe.reference[i] - b; }
-// Receiver i in the shadow of an occluder b before it.
+// Puts receiver i into the shadow of an occluder at the depth b before it.
 void make_shadow(Synthetic& s, size_t i, float b) {
   s.truth.lit[i] = 0;
   s.taps.taps[i] = 0;
@@ -69,13 +69,13 @@ TEST(Summarise, GivesSharesUnitsAndTheWindow) {
   EXPECT_NEAR(c.acne_free_bias_depth.value(), 0x1p-5, 0x1p-24);
   EXPECT_EQ(c.m_per_depth, 6.5);
   EXPECT_DOUBLE_EQ(c.texels_per_depth, 6.5 / 0.02);
-  // reference - bias > stored lights a tie, so acne ends at the bias and Peter Panning starts at it; the float
-  // subtraction rounds to even, so both a little earlier than the difference itself.
+  // `reference - bias > stored` lights a tie, so acne ends at the bias and Peter Panning starts at it. The float
+  // subtraction rounds to even, so both happen a little below the exact difference.
   const auto window = [&](double acne, double panning) {
     c = summarise(counts, test_scale(), {acne, panning, {}});
     return std::pair(c.window_min_depth.value_or(-1), c.window_max_depth.value_or(-1));
   };
-  constexpr double rounding = 0x1p-24;  // half a float's last place at the depths, 1/2
+  constexpr double rounding = 0x1p-24;  // half of the last place of a float near the depths, 1/2
   auto [from, to] = window(0, 0);
   EXPECT_NEAR(from, 0x1p-5, rounding);
   EXPECT_NEAR(to, 0x1p-3, rounding);
@@ -84,12 +84,12 @@ TEST(Summarise, GivesSharesUnitsAndTheWindow) {
   EXPECT_EQ(c.best_error, 0);
   EXPECT_EQ(c.breakpoints, 4);
   EXPECT_EQ(c.bias_depth, default_bias_grid());
-  std::tie(from, to) = window(0.1, 0.1);  // one of ten each
+  std::tie(from, to) = window(0.1, 0.1);  // one of ten receivers may have acne, and one Peter Panning
   EXPECT_NEAR(from, 0x1p-6, rounding);
   EXPECT_NEAR(to, 0x1p-2, rounding);
-  std::tie(from, to) = window(0.09, 0.2);  // none; both
+  std::tie(from, to) = window(0.09, 0.2);  // no receiver may have acne; both may have Peter Panning
   EXPECT_NEAR(from, 0x1p-5, rounding);
-  EXPECT_EQ(to, 1);  // unbounded: the whole map
+  EXPECT_EQ(to, 1);  // no bound: up to the depth of the whole map
   std::tie(from, to) = window(1, 1);
   EXPECT_EQ(from, 0);
   EXPECT_EQ(to, 1);
@@ -108,7 +108,7 @@ TEST(Summarise, HasNoWindowWhereTheCausesOverlap) {
 TEST(Summarise, HasNoWindowWhereNoSlopeReaches) {
   Synthetic s = row_of(4);
   make_acne(s, 0, 0x1p-3f);
-  s.probe.n_dot_l[0] = 1;  // 1 - N.L = 0: no slope gives it a bias
+  s.probe.n_dot_l[0] = 1;  // 1 - N.L = 0, so no slope gives this receiver a bias
   const BiasCounts counts(s.evidence(), s.stored, bias_part("slope"));
   EXPECT_EQ(counts.acne_free_from(0), infinity);
   EXPECT_FALSE(summarise(counts, test_scale(), {0, 0, {}}).window_min_depth);
@@ -118,7 +118,7 @@ TEST(Summarise, HasNoWindowWhereNoSlopeReaches) {
 }
 
 TEST(Summarise, AllowsWhatTheMetricCallsWithinTheBound) {
-  // 0.29 * 100 is below 29 in double, but 29 of 100 is 0.29: such a share is within such a bound.
+  // In double, 0.29 * 100 is less than 29. But the share 29 of 100 must be within a bound of 0.29.
   for (int of : {100, 10, 7, 49}) {
     for (int n = 0; n <= of; ++n) {
       Synthetic s = row_of(of);
@@ -155,7 +155,8 @@ TEST(Summarise, SaysNaNWhereThereAreNoReceivers) {
   }
 }
 
-// A parameter in another unit: the axis stays depth, and says of every bias what setting the parameter to it gives.
+// A parameter in another unit: the axis is still depth. The curve at a depth is the result of setting the parameter to
+// this depth in its own unit.
 TEST(Summarise, TurnsTheParametersUnitIntoDepth) {
   Synthetic s = row_of(4);
   make_acne(s, 0, 0x1p-5f);
@@ -168,7 +169,7 @@ TEST(Summarise, TurnsTheParametersUnitIntoDepth) {
   const BiasCurve depth = curve(BiasUnit::depth);
   for (const BiasUnit unit : {BiasUnit::m, BiasUnit::texel}) {
     const BiasCurve c = curve(unit);
-    constexpr double rounding = 4 * 0x1p-24;  // of the parameter, of the unit, and of their product
+    constexpr double rounding = 4 * 0x1p-24;  // rounding of the parameter, of the unit, and of their product
     EXPECT_EQ(c.bias_depth, depth.bias_depth);
     EXPECT_EQ(c.error, depth.error);
     EXPECT_EQ(c.acne, (std::vector<double>{0.25, 0, 0}));
@@ -177,7 +178,7 @@ TEST(Summarise, TurnsTheParametersUnitIntoDepth) {
     EXPECT_NEAR(*c.acne_free_bias_depth / *depth.acne_free_bias_depth, 1, rounding);
     EXPECT_EQ(c.m_per_depth, depth.m_per_depth);
   }
-  s.probe.bias_unit[0] /= 2;  // a receiver that needs the double of the parameter
+  s.probe.bias_unit[0] /= 2;  // this receiver needs twice the parameter
   const BiasCurve apart =
       summarise(BiasCounts(s.evidence(), s.stored, bias_part("constant")), test_scale(BiasUnit::texel), {0, 0, {}});
   EXPECT_NEAR(*apart.acne_free_bias_depth / (2 * *depth.acne_free_bias_depth), 1, 0x1p-22);
@@ -190,7 +191,8 @@ TEST(Summarise, SaysWhenASamplerWeighsTheTaps) {
   EXPECT_EQ(c.made, "one pass, except for the sampler's weights");
 }
 
-// Under a spot light a metre at z is (far - near) z^2 / (far near) of them deep; under a point light 1 / far.
+// A depth of 1 is (far - near) z^2 / (far near) metres under a spot light at the distance z, and far metres under a
+// point light.
 TEST(BiasScaleOf, IsThatOfTheMedianFacingReceiver) {
   LightFrame frame;
   frame.kind = LightKind::spot;

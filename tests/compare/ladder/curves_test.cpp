@@ -1,4 +1,4 @@
-// The curves read off one pass, against counting every tap at every bias.
+// The curves from one pass, compared with counting every tap at every bias.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -20,7 +20,7 @@ constexpr Cause booked[] = {Cause::aliasing_dark, Cause::aliasing_light, Cause::
 
 struct Counts {
   uint64_t receivers = 0, wrong_receivers = 0;
-  double wrong_taps = 0;  // taps, or weights that are binary fractions: sums are exact
+  double wrong_taps = 0;  // counts of taps, or weights that are binary fractions, so sums are exact
   std::array<double, cause_count> caused{};
   bool operator==(const Counts&) const = default;
 };
@@ -31,7 +31,7 @@ std::ostream& operator<<(std::ostream& out, const Counts& c) {
   return out;
 }
 
-// What a tap's bias is where the varied part has the amount x.
+// The bias of a tap if the varied part has the value x.
 float swept_bias(const Synthetic& s, const BiasPart& varied, size_t receiver, float x) {
   return naive::bias_at(s, receiver, varied.name, x);
 }
@@ -53,7 +53,7 @@ Counts counted_at(const Synthetic& s, const BiasPart& varied, float x) {
     c.wrong_taps += wrong;
     c.wrong_receivers += wrong > 0;
   }
-  c.caused[0] = 0;  // none: not asked
+  c.caused[0] = 0;  // Cause::none is not compared
   return c;
 }
 
@@ -63,7 +63,7 @@ Counts read_off(const BiasCounts& counts, float x) {
   return c;
 }
 
-// Every x at which some tap of either map changes its verdict, found by bisecting the verdict itself.
+// Every x at which a tap of either map changes its verdict. They are found by bisecting the verdict.
 std::set<float> breakpoints(const Synthetic& s, const BiasPart& varied, bool exact = true, bool stored = true) {
   std::set<float> all;
   const auto add = [&](const Image<float>& map) {
@@ -112,7 +112,7 @@ TEST_P(Curves, CountWhatRenderingWouldAtEveryBreakpointAndBetween) {
     std::set<float> tried = {0.0f, std::numeric_limits<float>::denorm_min(), 1.0f, 3.0f,
                              std::numeric_limits<float>::max()};
     for (float x : breakpoints(s, varied)) {
-      // Without a lattice there are thousands: every eleventh of them.
+      // Without a lattice there are thousands of them, so only every eleventh is tried.
       if (!lattice && std::bit_cast<uint32_t>(x) % 11 != 0) continue;
       tried.insert({std::nextafter(x, 0.0f), x, std::nextafter(x, infinity)});
     }
@@ -146,7 +146,7 @@ TEST_P(Curves, NameTheExactEndsOfTheWindow) {
         EXPECT_GT(caused(Cause::acne, std::nextafter(from, 0.0f)), allowed) << allowed << " from " << from;
       }
       const float to = counts.peter_panning_free_to(allowed / counts.taps());
-      if (to < 0) {  // not even without a bias
+      if (to < 0) {  // no bias is small enough, not even 0
         EXPECT_GT(caused(Cause::peter_panning, 0), allowed);
       } else if (to < infinity) {
         EXPECT_LE(caused(Cause::peter_panning, to), allowed);
@@ -158,13 +158,13 @@ TEST_P(Curves, NameTheExactEndsOfTheWindow) {
   }
 }
 
-// Taps of the stored map that are dark at x though they are covered and both their truths are lit.
+// The number of taps of the stored map that are dark at x, although they are covered and both their truths are lit.
 uint64_t stored_acne(const Synthetic& s, const BiasPart& varied, float x) {
   uint64_t count = 0;
   for (size_t i = 0; i < s.truth.facing.size(); ++i) {
     if (!s.truth.facing[i] || naive::ambiguous(s, i)) continue;
     for (const naive::Tap& tap : naive::taps_of(s, s.stored, i))
-      count += tap.weight > 0 &&  // a tap of none is not read
+      count += tap.weight > 0 &&  // a tap without weight is not read
                tap.covered && tap.moved_sure && tap.texel_sure && tap.moved_lit && tap.texel_lit &&
                !naive::verdict(s, tap, swept_bias(s, varied, i, x));
   }
@@ -184,7 +184,7 @@ TEST_P(Curves, NameTheExactEndOfTheStoredMapsAcne) {
     if (from > 0) {
       EXPECT_GT(stored_acne(s, varied, std::nextafter(from, 0.0f)), 0) << seed << " from " << from;
     }
-    // The record has both ends whatever its bounds are, and none where no bias is enough.
+    // The record has both ends for all bounds. It has no value if no bias is enough.
     const BiasCurve curve = summarise(counts, {}, {1, 1, {}});
     const auto expected = [](float x) { return x < infinity ? std::optional<double>(x) : std::nullopt; };
     EXPECT_EQ(curve.acne_free_bias_depth, expected(counts.acne_free_from(0)));
@@ -235,8 +235,8 @@ std::string case_name(const testing::TestParamInfo<Case>& named) {
 
 INSTANTIATE_TEST_SUITE_P(All, Curves, testing::ValuesIn(cases()), case_name);
 
-// Every part that has a curve, among others that are held, with units that differ from receiver to receiver, at 100
-// amounts of any size.
+// Every part that has a curve, together with other parts that are constant. The units differ from receiver to receiver.
+// Each is tried at 100 values of any size.
 RC_GTEST_PROP(BiasCounts, AreDirectEvaluationBitForBit, ()) {
   const BiasPart& varied = bias_part(varied_names[*rc::gen::inRange(0, 3)]);
   const auto lookup = *rc::gen::element(Lookup::box, Lookup::linear, Lookup::cube);
@@ -270,7 +270,7 @@ TEST(BiasCounts, AreTheSameOverManyBlocks) {
   for (const char* name : varied_names) {
     const BiasPart& varied = bias_part(name);
     const Synthetic s =
-        random_evidence(5, {220, 170, 64, 1, false, Lookup::linear});  // several of the loop's blocks of 8192
+        random_evidence(5, {220, 170, 64, 1, false, Lookup::linear});  // more than one of the loop's blocks of 8192
     const BiasCounts counts(s.evidence(), s.stored, varied);
     for (int i = 0; i <= 40; ++i)
       ASSERT_EQ(read_off(counts, static_cast<float>(i) / 32), counted_at(s, varied, static_cast<float>(i) / 32));
@@ -312,7 +312,7 @@ TEST(BiasCounts, AreWhatTheLadderBooksAtThatBias) {
     const auto x = static_cast<float>(s.bias[varied->name]);
     const double whole = s.lookup == Lookup::linear ? 1 : s.taps.taps_per_receiver;
     for (Cause cause : booked) {
-      if (cause == Cause::undecided) continue;  // what darkens and what lightens cancel in a pixel, not in the counts
+      if (cause == Cause::undecided) continue;  // dark and light errors cancel in a pixel, but not in the counts
       double sum = 0;
       for (size_t i = 0; i < s.r4.size(); ++i)
         if (s.truth.facing[i] && !naive::ambiguous(s, i)) sum += std::abs(static_cast<double>(ladder[cause][i]));

@@ -1,4 +1,4 @@
-// Distances to the nearest marked pixel, against trying every pixel.
+// Distances to the nearest marked pixel, compared with trying every pixel.
 #include "compare/ladder/distance.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Squared, as whole numbers; -1 for none.
+// Distances are squared whole numbers, or -1 if no pixel is marked.
 void expect_distances(const Image<uint8_t>& mask) {
   std::vector<std::pair<int64_t, int64_t>> marked;
   for (int y = 0; y < mask.height; ++y)
@@ -69,7 +69,8 @@ TEST(DistanceTo, IsExactAcrossLargePictures) {
 }
 
 TEST(DistanceTo, TellsAHairsBreadthFarFromTheEdge) {
-  // In row 0 the two meet 1/12400 of a pixel before column 4100, closer than floats stand there.
+  // In row 0, the point with equal distance to both is 1/12400 of a pixel before column 4100. This is less than the
+  // spacing of floats there.
   Image<uint8_t> mask(8192, 2, 0);
   mask.at(1000, 1) = mask.at(7200, 0) = 1;
   expect_distances(mask);

@@ -1,5 +1,5 @@
-// Evidence made at random for the tests of the ladder and of the bias curves, and the plain, slow reading of it that
-// they are held to. Nothing here calls the code under test.
+// Random evidence for the tests of the ladder and of the bias curves, and a plain, slow evaluation of it, with which
+// the results are compared. Nothing here calls the code under test.
 #pragma once
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace noonmark {
 
-enum class Lookup { box, linear, cube };  // the kinds of patterns that texels are found by
+enum class Lookup { box, linear, cube };  // the kinds of tap patterns
 
 struct Synthetic {
   ReceiverTruth truth;
@@ -21,7 +21,7 @@ struct Synthetic {
   Image<float> exact, stored;
   MapSettings map;
   BiasSettings bias;
-  Image<float> r4, r5;  // as set_verdicts() reads them off the maps
+  Image<float> r4, r5;  // set_verdicts() computes them from the maps
   Lookup lookup = Lookup::box;
   int kernel = 1;  // box, cube: taps on a side; linear: fetches of 2 x 2 texels on a side
 
@@ -29,7 +29,7 @@ struct Synthetic {
   LookupEvidence evidence() const { return {truth, probe, taps, exact, map, Bias(bias), r4, r5}; }
 };
 
-// The same evidence with the taps of one strip alone, as a measurement of many taps goes through it.
+// The same evidence with the taps of one strip only, as in a measurement with many taps.
 inline Synthetic only(const Synthetic& s, PixelRange strip) {
   Synthetic part = s;
   const auto cut = [&](auto& per_tap) {
@@ -45,7 +45,7 @@ inline Synthetic only(const Synthetic& s, PixelRange strip) {
   return part;
 }
 
-// Calls visit with the evidence of strips of any sizes that cover the picture.
+// Calls `visit` with the evidence of strips of random sizes that cover the picture.
 template <class Visit>
 void for_each_strip(const Synthetic& s, uint64_t seed, const Visit& visit) {
   std::mt19937_64 random(seed);
@@ -58,11 +58,12 @@ void for_each_strip(const Synthetic& s, uint64_t seed, const Visit& visit) {
 
 struct Shape {
   int width = 12, height = 9, resolution = 6, kernel = 1;
-  bool lattice = true;  // depths and biases of a few values, so that many are equal
+  bool lattice = true;  // depths and biases have only a few values, so that many are equal
   Lookup lookup = Lookup::box;
 };
 
-// Weights of a linear pattern's fetches, in binary fractions: with those of 1/64 between texels every sum is exact.
+// Weights of a linear pattern's fetches. They are binary fractions; together with the weights of 1/64 between texels
+// every sum is exact.
 inline std::vector<double> fetch_weights(int kernel) {
   if (kernel == 1) return {1};
   if (kernel == 3) return {0.25, 0.5, 0.25};
@@ -85,9 +86,9 @@ inline TapPattern pattern_of(const Shape& shape) {
   return pattern;
 }
 
-// Any evidence that gl and raytrace could hand over, and more: receivers in and outside the map, at and beyond far,
-// ambiguous ones, ones that face away (whose numbers are rubbish), every wrap mode, any sum of biases over any
-// reference that the lookup takes, units that differ from receiver to receiver.
+// Random evidence with all cases that gl and raytrace can produce, and more: receivers in and outside the map, at and
+// beyond far, ambiguous receivers, receivers that face away (their numbers are arbitrary), every wrap mode, any sum of
+// biases with any reference of the lookup, and units that differ from receiver to receiver.
 inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
   std::mt19937_64 random(seed);
   const auto chance = [&](int percent) { return static_cast<int>(random() % 100) < percent; };
@@ -153,7 +154,7 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
     s.probe.gradient[i] = (glm::vec2(depth(), depth()) - 0.5f) / 8.0f;
     for (int t = 0; t < taps; ++t) {
       uint8_t bits = 0;
-      // Unfiltered, the tap's exact place is the receiver itself.
+      // Without a filter, the exact place of the tap is the receiver itself.
       if (taps == 1 ? s.truth.lit[i] != 0 : chance(s.truth.lit[i] ? 80 : 20)) bits |= tap_exact_lit;
       if (chance(75) ? (bits & tap_exact_lit) != 0 : chance(50)) bits |= tap_texel_lit;
       if (chance(10)) bits |= tap_near_clipped;
@@ -170,13 +171,12 @@ inline Synthetic random_evidence(uint64_t seed, const Shape& shape) {
 
 namespace naive {
 
-// One tap in the plainest words: its truths (at its own exact place, at the one where a moved lookup asks, at the
-// texel's centre), which of them float error can change, whether the map covers it, and the depth that OpenGL finds for
-// it.
+// All facts about one tap: its truths (at its exact place, at the place of a moved lookup, at the texel's centre),
+// which of them float error can change, whether the map covers the tap, and the depth that OpenGL reads for it.
 struct Tap {
   bool exact_lit, moved_lit, texel_lit, exact_sure, moved_sure, texel_sure, covered, beyond_far;
   float reference, depth;
-  double weight;  // 1, but where a sampler blends
+  double weight;  // 1, unless a sampler blends
 };
 
 inline int folded(int i, int n, Wrap wrap, bool& border) {
@@ -197,7 +197,8 @@ inline std::vector<Tap> taps_of(const Synthetic& s, const Image<float>& map, siz
   const int n = map.width, side = s.side();
   size_t bits_at = receiver * static_cast<size_t>(side) * static_cast<size_t>(side);
   const float u = s.probe.map_texels[receiver].x, v = s.probe.map_texels[receiver].y;
-  // The texel of the lowest row's first tap: of a box around P's own, of fetches around the four that P lies between.
+  // The texel of the first tap in the lowest row. A box is centred on P's own texel, fetches on the four texels around
+  // P.
   const float back = s.lookup == Lookup::linear ? 0.5f : 0;
   const int first_x = static_cast<int>(std::floor(u - back)) - (s.kernel - 1) / 2;
   const int first_y = static_cast<int>(std::floor(v - back)) - (s.kernel - 1) / 2;
@@ -243,17 +244,17 @@ inline std::vector<Tap> taps_of(const Synthetic& s, const Image<float>& map, siz
   return result;
 }
 
-// The receiver's own verdict may be another one.
+// Float error can change the verdict of the receiver.
 inline bool ambiguous(const Synthetic& s, size_t receiver) { return s.truth.ambiguous[receiver] != 0; }
-// The verdict of one of its taps may be; taps without a weight are not read.
+// Float error can change the verdict of one of its taps. Taps without a weight are not read.
 inline bool undecided(const Synthetic& s, size_t receiver) {
   for (const Tap& tap : taps_of(s, s.exact, receiver))
     if (tap.weight > 0 && !(tap.exact_sure && tap.moved_sure && tap.texel_sure)) return true;
   return false;
 }
 
-// The shader: lit_beyond_far first, else one float comparison. A sampler that compares, on fixed-point depths, clamps
-// what it compares: nothing is beyond 1.
+// What the shader does: first lit_beyond_far, otherwise one float comparison. With fixed-point depths, a comparison
+// sampler clamps the compared value, so nothing is beyond 1.
 inline bool verdict(const Synthetic& s, const Tap& tap, float bias, DepthFormat format) {
   if (tap.beyond_far && s.map.lit_beyond_far) return true;
   float biased = tap.reference - bias;
@@ -267,7 +268,7 @@ inline float turned(float scale, float by, float floor) {
   return scaled > floor ? scaled : floor;
 }
 
-// The parts added up, one after the other; `varied` has the amount x in place of its own.
+// The sum of the parts, in their order. The part `varied` has the value x instead of its own.
 inline float bias_at(const Synthetic& s, size_t i, std::string_view varied = "", float x = 0) {
   const auto value = [&](std::string_view name) {
     return name == varied ? x : static_cast<float>(std::min(s.bias[name], 1e30));
@@ -279,7 +280,7 @@ inline float bias_at(const Synthetic& s, size_t i, std::string_view varied = "",
   return units * s.probe.bias_unit[i];
 }
 
-// The cause of every combination, written out: [covered][D][V][L]. compare/ladder/ladder.h states the rule in words.
+// The cause of every combination: [covered][D][V][L]. compare/ladder/ladder.h gives the rule in words.
 inline constexpr Cause causes[2][2][2][2] = {
     {{{Cause::none, Cause::coverage_light}, {Cause::none, Cause::coverage_light}},
      {{Cause::coverage_dark, Cause::none}, {Cause::coverage_dark, Cause::none}}},
@@ -302,7 +303,7 @@ inline float visibility(const Synthetic& s, const Image<float>& map, size_t rece
 
 }  // namespace naive
 
-// R4 and R5 as OpenGL would give them for these maps; the exact one is uploaded as floats.
+// Sets R4 and R5 to what OpenGL would give for these maps. The exact map is uploaded as floats.
 inline void set_verdicts(Synthetic& s) {
   s.r4 = s.r5 = Image<float>(s.truth.facing.width, s.truth.facing.height, 0);
   for (size_t i = 0; i < s.r4.size(); ++i) {

@@ -1,4 +1,4 @@
-// The ladder's arithmetic: the causes' table, the sums, and what is left out of which.
+// The arithmetic of the ladder: the table of causes, the sums, and which receivers each of them leaves out.
 #include "compare/ladder/ladder.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace noonmark {
 namespace {
 
-// A share of taps is a float and the sums add nine of them: 2^-24 each. The program's own limit is 1e-6.
+// A share of taps is a float with an error of 2^-24, and the sums add nine of them. The program's own limit is 1e-6.
 constexpr double sum_rounding = 9 * 0x1p-24;
 
 double step(const Ladder& ladder, Cause cause, size_t i) { return ladder[cause][i]; }
@@ -99,7 +99,7 @@ TEST_P(Climb, StepsSumToTheErrorAndTapClassesToTheirRungs) {
         r3 += tap.texel_lit * tap.weight;
         whole += tap.weight;
         const bool lit = naive::verdict(s, tap, naive::bias_at(s, i));
-        // The way R1, F, D, R4, step by step: what begins or ends at an unsure truth is undecided.
+        // The steps from R1 over F and D to R4. A step that begins or ends at an unsure truth is undecided.
         const auto book = [&](Cause cause, bool sure, bool from, bool to) {
           expected[static_cast<size_t>(sure ? cause : Cause::undecided)] += (to - from) * tap.weight;
         };
@@ -111,7 +111,7 @@ TEST_P(Climb, StepsSumToTheErrorAndTapClassesToTheirRungs) {
       ASSERT_EQ(whole, s.lookup == Lookup::linear ? 1.0 : static_cast<double>(taps.size()));
       for (double* sum : {&r2, &moved, &r3, &doubted}) *sum /= whole;
       for (double& sum : expected) sum /= whole;
-      // Where a sampler blends, R4 is the definition, whatever it made of the exact map.
+      // If a sampler blends, R4 is the value of the definition, not what the sampler gave for the exact map.
       const double r4 = s.lookup == Lookup::linear ? naive::visibility(s, s.exact, i, s.map.format) : s.r4[i];
       const double rungs[6] = {s.truth.soft[i], static_cast<double>(s.truth.lit[i]), r2, r3, r4, s.r5[i]};
       for (size_t n = 0; n < 6; ++n) ASSERT_NEAR(ladder.rungs[n].lit[i], rungs[n], 0x1p-24) << "R" << n;
@@ -171,7 +171,7 @@ TEST_P(Climb, NamesEveryWrongPixelAndOnlyThose) {
       ASSERT_EQ(cause != Cause::none, wrong);
       if (!wrong) continue;
       ASSERT_NE(cause, Cause::light_size);  // the class says why R5 is not R1
-      // Nothing else is larger; of equal ones it is the first.
+      // No other cause is larger. Of equal ones, the first is named.
       for (int c = static_cast<int>(Cause::filter); c < cause_count; ++c) {
         const double other = std::abs(step(ladder, static_cast<Cause>(c), i)), own = std::abs(step(ladder, cause, i));
         if (s.taps.taps_per_receiver > 1) {
@@ -200,7 +200,7 @@ TEST(ClimbUnfiltered, NamesTheRungFromWhichThePixelStaysWrong) {
       for (Cause cause : tap_classes) wrong_classes += step(ladder, cause, i) != 0;
       ASSERT_LE(wrong_classes, 1);
       if ((s.r5[i] != 0) == truth) continue;
-      // The last rung that was right; all above it are wrong.
+      // Finds the lowest rung such that it and all rungs above it are wrong.
       int stays_wrong_from = 5;
       while (stays_wrong_from > 1 && (ladder.rungs[static_cast<size_t>(stays_wrong_from - 1)].lit[i] != 0) != truth)
         --stays_wrong_from;
@@ -227,7 +227,7 @@ TEST(ClimbUnfiltered, NamesTheRungFromWhichThePixelStaysWrong) {
 }
 
 TEST(ClimbUnfiltered, SizesOfCausesSumToTheError) {
-  // But for receivers that R4 and R5 get wrong in turn: precision may mend what acne broke.
+  // R5 is set to R4, because precision could otherwise correct an error such as acne.
   int mended = 0;
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     Synthetic s = any_evidence(seed, 1);
@@ -237,10 +237,10 @@ TEST(ClimbUnfiltered, SizesOfCausesSumToTheError) {
       double sizes = 0;
       for (Cause cause : tap_classes) sizes += std::abs(step(ladder, cause, i));
       const double displaced = std::abs(step(ladder, Cause::displacement, i));
-      // What moves the lookup is a step whatever the map then says; where the map's answer is another, the pixel may be
-      // right again.
+      // A moved lookup is a step of its own, whatever the map gives. If the map's verdict is wrong as well, the pixel
+      // may be right again.
       mended += displaced > 0 && sizes > 0;
-      if (naive::undecided(s, i)) continue;  // there they are booked as undecided
+      if (naive::undecided(s, i)) continue;  // such steps are booked as undecided
       ASSERT_EQ(std::abs(displaced - sizes), std::abs(ladder.shown()[i] - ladder.truth()[i]));
     }
   }
@@ -343,7 +343,7 @@ TEST(Climb, OfNothingIsNothing) {
   EXPECT_EQ(ladder.residual, 0);
 }
 
-// Equal taps are counted, not added up: the rungs are the very quotients that a lookup returns.
+// Taps of equal weight are counted, not added up. So the rungs are exactly the quotients that a lookup returns.
 TEST(Climb, DividesEqualTapsOnce) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     Synthetic s = random_evidence(seed, {20, 15, 6, 7, true});
@@ -358,12 +358,12 @@ TEST(Climb, DividesEqualTapsOnce) {
   }
 }
 
-// Weights that are no binary fractions: the steps still sum to the error and the classes to R4 - R2, and R4 is the sum
-// of exact weights however far the sampler's own are from them.
+// Weights that are not binary fractions: the steps still add up to the error, and the classes to R4 - R2. R4 is the sum
+// of the exact weights, even if the sampler's own weights differ from them.
 TEST(Climb, KeepsTheSamplersRoundingInPrecision) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     Synthetic s = random_evidence(seed, {20, 15, 6, 3, false, Lookup::linear});
-    s.probe.pattern.kernel = {0.27406862, 0.45186276, 0.27406862};  // a Gaussian's
+    s.probe.pattern.kernel = {0.27406862, 0.45186276, 0.27406862};  // weights of a Gaussian
     for (glm::vec2& at : s.probe.map_texels.pixels) at += glm::vec2(0.3f, 0.7f) / 64.0f;
     set_verdicts(s);
     const Ladder before = climb(s.evidence());

@@ -1,4 +1,4 @@
-// Law 1 for every light: its closed forms against planes met ray by ray.
+// Law 1 for every light: its closed forms compared with planes that are intersected ray by ray.
 #include "compare/ladder/law_bias.h"
 
 #include <gtest/gtest.h>
@@ -44,10 +44,10 @@ LightFrame random_frame(std::mt19937& random, LightKind kind) {
 }
 
 struct Plane {
-  glm::dvec3 point, normal;  // world; turned to the light
+  glm::dvec3 point, normal;  // in the world; the normal is turned to the light
 };
 
-// Through a point in the map, steeper than 75 degrees to the ray only now and then.
+// A plane through a point in the map. It is rarely steeper than 75 degrees to the ray.
 Plane random_plane(std::mt19937& random, const LightFrame& f) {
   glm::dvec3 light(random_in(random, -2, 2), random_in(random, -2, 2), random_in(random, 2, 8));
   if (f.kind == LightKind::spot)
@@ -82,8 +82,8 @@ FilterSettings filter_of(const std::string& kind, int size = 3) {
   return filter;
 }
 
-// The window depth of a plane is affine in texels: the same step at every texel, and it is the formula's; and it is
-// what the light's matrix, inverted and transposed, makes of the plane.
+// The window depth of a plane is affine in texels: the step is the same at every texel and equals the formula. It also
+// equals the gradient from the inverse transposed matrix of the light.
 TEST(DepthGradient, IsThePlanesStepFromTexelToTexel) {
   std::mt19937 random(1);
   for (int i = 0; i < 400; ++i) {
@@ -104,8 +104,8 @@ TEST(DepthGradient, IsThePlanesStepFromTexelToTexel) {
   }
 }
 
-// What a lookup of the plane itself needs: the most by which the plane, at the centre of a tap's texel, is nearer than
-// the reference.
+// The bias that a lookup of the plane itself needs: the largest difference between the reference and the depth of the
+// plane at the centre of a tap's texel.
 double need(const LightFrame& f, const Plane& plane, const LookupProbe& probe) {
   const glm::dvec3 light = f.to_light(plane.point);
   const glm::dvec2 at = f.map_texels(f.place(light));
@@ -115,7 +115,7 @@ double need(const LightFrame& f, const Plane& plane, const LookupProbe& probe) {
     const glm::dvec3 place = f.tap_place(light, offset);
     const glm::dvec2 tap = f.kind == LightKind::point ? f.map_texels(place) : at + glm::dvec2(offset);
     const glm::dvec3 centre = f.texel_place(glm::ivec2(glm::floor(tap)));
-    // What a ray that misses the plane meets is no acne of it.
+    // A ray that misses the plane causes no acne on it.
     if (!f.parallel() &&
         glm::dot(plane.point - f.origin_m, plane.normal) / glm::dot(f.to_world(centre) - f.origin_m, plane.normal) <= 0)
       continue;
@@ -129,10 +129,10 @@ double need(const LightFrame& f, const Plane& plane, const LookupProbe& probe) {
   return most;
 }
 
-// No alignment needs more than the law, and some need all but a little of it.
+// No alignment needs more than the law, and some need almost as much.
 TEST(AcneLaw, IsTheLeastUpperBoundOverAlignmentsOfAFlatMap) {
   std::mt19937 random(2);
-  // Cut within the reach of some planes' slopes, beyond that of others.
+  // The cap limits some of the planes and not the others.
   LookupProbe capped = probe_of(filter_of("box", 5), "receiver_plane");
   capped.plane_cap = 0.5f;
   capped.bias_unit[0] = 0x1p-6f;
@@ -145,7 +145,7 @@ TEST(AcneLaw, IsTheLeastUpperBoundOverAlignmentsOfAFlatMap) {
         const Plane plane = random_plane(random, f);
         const double law = AcneLaw(f, probe).at(0, plane.point, plane.normal);
         double most = 0;
-        // Every alignment of a fine grid: the origin, or the texels, moved by shares of a texel.
+        // All alignments of a fine grid: the origin or the texels are moved by fractions of a texel.
         const glm::dvec3 origin = f.origin_m;
         const glm::dvec2 shift = f.shift_texels;
         constexpr int steps = 40;
@@ -159,7 +159,7 @@ TEST(AcneLaw, IsTheLeastUpperBoundOverAlignmentsOfAFlatMap) {
             most = std::max(most, need(f, plane, probe));
           }
         EXPECT_LE(most, law * (1 + 1e-9) + 1e-14);
-        // A step of the alignment from the worst, at most, along each axis.
+        // The worst alignment is at most one step away along each axis.
         EXPECT_GE(most, law * (1 - 2.0 / steps));
       }
     }
@@ -185,13 +185,14 @@ std::vector<LookupProbe> cube_probes() {
   return probes;
 }
 
-// Half a texel around each tap's place, sampled: nothing nearer than the law says, and the law's own distance is there.
+// Samples half a texel around the place of each tap. No sample may be nearer than the law says, and one must be as
+// near.
 TEST(AcneLaw, OfACubeIsTheNearestOfTheSquareAroundEachTap) {
   std::mt19937 random(4);
   for (const LookupProbe& probe : cube_probes()) {
     for (int i = 0; i < 20; ++i) {
       LightFrame f = random_frame(random, LightKind::point);
-      if (i % 2) f.resolution = 4 + i;  // squares so wide that the nearest place lies on a side or inside
+      if (i % 2) f.resolution = 4 + i;  // the squares are so wide that the nearest place is on a side or inside
       Plane plane = random_plane(random, f);
       if (i % 4 == 1) plane.normal = f.direction_to_light(plane.point);
       const glm::dvec3 light = f.to_light(plane.point);
@@ -214,7 +215,7 @@ TEST(AcneLaw, OfACubeIsTheNearestOfTheSquareAroundEachTap) {
       }
       const double law = AcneLaw(f, probe).at(0, plane.point, plane.normal);
       EXPECT_GE(law, own - nearest - 1e-13);
-      EXPECT_LE(law, (own - nearest) * 1.05 + 1e-6) << "a step of the samples beside";
+      EXPECT_LE(law, (own - nearest) * 1.05 + 1e-6) << "the law exceeds the samples by more than their step";
     }
   }
 }
@@ -234,8 +235,8 @@ TEST(AcneLaw, OfACubeIsNoLessThanAnyGridNeeds) {
   EXPECT_GT(tightest, 0.95);
 }
 
-// A face's law is that of a plane, wherever on it: under flat maps its very number, under a point light's an upper
-// bound that is no more than a small multiple of what its worst place asks for.
+// The law of a face is that of a plane for every place on it. With flat maps it is the same number. Under a point light
+// it is an upper bound, at most a small multiple of what the worst place needs.
 TEST(AcneLaw, OfAFaceBoundsEveryPlaceOnIt) {
   std::mt19937 random(6);
   for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point}) {
@@ -262,16 +263,17 @@ TEST(AcneLaw, OfAFaceBoundsEveryPlaceOnIt) {
         if (kind != LightKind::point)
           EXPECT_NEAR(of_face / most, 1, 1e-9);
         else
-          // The square's diagonal for its side, a texel in the middle of a face for one in a corner, the longest
-          // offset for those along the slope: each at most a factor of 3, and hardly together.
+          // The bound uses the diagonal of a square instead of its side, a texel in the middle of a face instead of one
+          // in a corner, and the longest offset instead of those along the slope. Each is a factor of at most 3, and
+          // they rarely occur together.
           EXPECT_LE(of_face, 6 * most + 1e-6);
       }
     }
   }
 }
 
-// The metrics under a spot light: the receivers' largest need, in depth and in metres; steps of the format in metres
-// where they are largest; areas across each receiver's ray.
+// The metrics under a spot light: the largest need of all receivers, in depth and in metres; the largest step of the
+// format in metres; areas perpendicular to each receiver's ray.
 TEST(LawMetrics, UnderASpotLightAreTheWorstReceivers) {
   LightFrame f;
   f.kind = LightKind::spot;
@@ -295,15 +297,15 @@ TEST(LawMetrics, UnderASpotLightAreTheWorstReceivers) {
   const Scene nothing;
   const Camera camera{.eye_m = {0, 0, 1}, .target_m = {0, 0, -1}};
   const auto metrics = measure_laws({ladder, nothing, apart, camera, f, DepthFormat::d16, probe});
-  // dd/di = far near / (far - near) * 0.6 / (0.8 z) * 2 / 2 / 100: less the farther off.
+  // dd/di = far near / (far - near) * 0.6 / (0.8 z) * 2 / 2 / 100: smaller at larger distances.
   const double q = 1 / 65535.0, nearer = 10 / 19.5 * 0.75 / 2 / 100 / 2;
   constexpr double float_normal = 1e-6;
   EXPECT_NEAR(metrics.at("acne_free_bias_law_depth") / (nearer + q / 2), 1, float_normal);
   EXPECT_NEAR(metrics.at("acne_free_bias_law_m") / ((nearer / 2 + q / 2) * 19.5 / 10 * 16), 1, float_normal)
-      << "metres are more at the farther receiver";
+      << "the same depth is more metres at the farther receiver";
   EXPECT_NEAR(metrics.at("depth_quantum_m"), q * 19.5 / 10 * 16, 1e-12);
-  EXPECT_NEAR(metrics.at("texel_m"), 0.04, 1e-12);  // of two, the upper
-  // Seen by parallel rays, equal pixels: their areas are as the cosines to each receiver's own light ray.
+  EXPECT_NEAR(metrics.at("texel_m"), 0.04, 1e-12);  // the median of two is the upper one
+  // Parallel view rays see equal pixels. So the areas are proportional to the cosines to each receiver's own light ray.
   apart.position[1] = {1, 0, -4};
   const Camera parallel{.projection = Projection::orthographic, .eye_m = {0, 0, 1}, .target_m = {0, 0, -1}};
   const Image<double> areas = light_plane_areas(parallel, f, apart);

@@ -1,4 +1,4 @@
-// The metrics in which laws are closed forms, against values worked out by hand.
+// The metrics for which laws give closed forms, compared with values that were calculated by hand.
 #include "compare/ladder/law_metrics.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 namespace noonmark {
 namespace {
 
-// A tilted plane through the origin under a light straight above (u along x, v along -z), seen by a camera that looks
-// at it from aside. Every pixel is a lit receiver.
+// A tilted plane through the origin. The light is vertically above it (u along x, v along -z), and the camera sees it
+// from the side. Every pixel is a lit receiver.
 struct Sight {
   Sight(Camera view, glm::dvec3 plane_normal, int width, int height) : camera(view), normal(plane_normal) {
     ladder = empty_ladder(width, height);
@@ -33,7 +33,7 @@ struct Sight {
     frame.far_m = 7;
   }
   glm::dvec3 seen(double x, double y, int width, int height) const {
-    // pixel_ray takes whole pixels: the ray of a place in the picture is on the line through two of them.
+    // pixel_ray takes whole pixels. The ray of any other place in the picture is computed from two of them.
     const CameraFrame view = make_camera_frame(camera, width, height);
     const auto blend = [&](auto member) {
       const glm::dvec3 o = view.pixel_ray(0, 0, width, height).*member;
@@ -68,8 +68,8 @@ const Camera orthographic = {
     .projection = Projection::orthographic, .eye_m = {3, 4, 5}, .target_m = {0, 0, 0}, .height_m = 2};
 const glm::dvec3 tilted = glm::normalize(glm::dvec3(0.4, 1, -0.3));
 
-// The pixel's four corners, carried to the plane and seen from above, are a quadrilateral; the shoelace formula has its
-// area exactly.
+// The four corners of the pixel, projected to the plane and seen from above, form a quadrilateral. The shoelace formula
+// gives its exact area.
 TEST(LightPlaneArea, IsThatOfThePixelsOutline) {
   for (const Camera& camera : {perspective, orthographic}) {
     for (int size : {20, 200}) {
@@ -83,7 +83,7 @@ TEST(LightPlaneArea, IsThatOfThePixelsOutline) {
         for (int i = 0; i < 4; ++i)
           twice += corners[i].z * corners[(i + 1) % 4].x - corners[i].x * corners[(i + 1) % 4].z;
         const double expected = std::abs(twice) / 2;
-        // First order in the pixel's size; what is left is its square: (1 / size)^2.
+        // The result is of first order in the size of a pixel, so its relative error is (1 / size)^2.
         EXPECT_NEAR(light_plane_areas(camera, s.frame, s.receivers).at(at.x, at.y) / expected, 1, 1.0 / (size * size));
       }
     }
@@ -126,7 +126,7 @@ TEST(LawMetrics, NameTheMapsLengths) {
   EXPECT_DOUBLE_EQ(s.metrics().at("map_range_m"), 10);
   EXPECT_DOUBLE_EQ(s.metrics(DepthFormat::d16).at("depth_quantum_m"), 10 / 65535.0);
   EXPECT_DOUBLE_EQ(s.metrics(DepthFormat::d24).at("depth_quantum_m"), 10 / 16777215.0);
-  // The largest step between neighbours in [0,1] is the last.
+  // The largest step between neighbouring floats in [0,1] is the last one.
   EXPECT_DOUBLE_EQ(s.metrics(DepthFormat::d32f).at("depth_quantum_m"), 10 * (1.0 - std::nextafter(1.0f, 0.0f)));
 }
 
@@ -135,23 +135,23 @@ TEST(LawMetrics, GiveTheBiasThatTheSteepestLitReceiverNeeds) {
   Sight s(perspective, tilted, 4, 4);
   const double q = 10 / 16777215.0;
   const auto law = [&](int kernel) { return s.metrics(DepthFormat::d24, kernel).at("acne_free_bias_law_m"); };
-  const double float_normal = 1e-6;  // the normal's last place against its slope
+  const double float_normal = 1e-6;  // tolerance for the last place of the normal
   EXPECT_NEAR(law(1), 0.5 * 0.125 * 0.7 + q / 2, float_normal);
   EXPECT_NEAR(law(3), 1.5 * 0.125 * 0.7 + q / 2, float_normal);
   EXPECT_NEAR(law(5), 2.5 * 0.125 * 0.7 + q / 2, float_normal);
   EXPECT_NEAR(10 * s.metrics(DepthFormat::d24, 5).at("acne_free_bias_law_depth"), law(5), float_normal);
-  s.reference = "receiver_plane";  // whatever the pattern's reach
+  s.reference = "receiver_plane";  // with this reference the reach of the pattern does not matter
   EXPECT_NEAR(law(5), 0.5 * 0.125 * 0.7 + q / 2, float_normal);
   s.reference = "texel_plane";
   EXPECT_NEAR(law(5), q / 2, 1e-15);
   s.reference = "own_depth";
   s.receivers.normal.at(1, 1) = glm::vec3(glm::normalize(glm::dvec3(-1, 1, 2)));
   EXPECT_NEAR(law(1), 0.5 * 0.125 * 3 + q / 2, float_normal);
-  s.ladder[Rung::truth].at(1, 1) = 0;  // dark: needs no bias
+  s.ladder[Rung::truth].at(1, 1) = 0;  // it is dark, so it needs no bias
   EXPECT_NEAR(law(1), 0.5 * 0.125 * 0.7 + q / 2, float_normal);
 }
 
-// Faces that the camera does not see count, those that are edge-on to the light or turned from it do not.
+// Faces that the camera does not see count. Faces that are edge-on to the light or turned away from it do not.
 TEST(LawMetrics, GiveTheBiasThatTheSteepestFaceNeeds) {
   Sight s(perspective, tilted, 4, 4);
   const auto add = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {

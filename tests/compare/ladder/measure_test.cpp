@@ -1,4 +1,4 @@
-// The metrics against values worked out by hand.
+// The metrics compared with values that were calculated by hand.
 #include "compare/ladder/measure.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ struct Picture {
     ladder.doubt = Image<float>(width, height, 0);
     receivers = {Image<glm::vec3>(width, height, glm::vec3(0, 0, -2)),
                  Image<glm::vec3>(width, height, glm::vec3(0, 0, 1)), Image<uint32_t>(width, height, 0)};
-    edge = occluder = Image<float>(width, height, nan_float);  // not to be read where nothing is wrong
+    edge = occluder = Image<float>(width, height, nan_float);  // must not be read for pixels that are right
     probe.n_dot_l = probe.bias_unit = probe.tan_theta = Image<float>(width, height, 1);
     probe.pattern.offsets = {glm::vec3(0)};
     frame.extent_m = 5;
@@ -55,7 +55,7 @@ struct Picture {
   LookupProbe probe;
   Image<float> edge, occluder;
   LightFrame frame;                        // texels of 0.5 m
-  Bias bias = bias_of({{"constant", 1}});  // of 10 m: nearly every occluder is within its reach
+  Bias bias = bias_of({{"constant", 1}});  // 1 of the map's 10 m: nearly every occluder is within reach
 };
 
 void attach(Picture& p, int x, int y) {
@@ -72,7 +72,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
   p.rungs(2, 0, {0, 1, 1, 1, 0, 0});
   p.step(2, 0, Cause::acne, -1);
   p.ladder.flags.at(3, 0) |= flag_ambiguous;
-  // Nine are left.
+  // Nine counted receivers are left.
   p.ladder.flags.at(3, 0) &= static_cast<uint8_t>(~flag_ambiguous);
   p.rungs(0, 1, {0.5f, 1, 0.75f, 1, 0.25f, 0.5f});
   p.step(0, 1, Cause::light_size, 0.5f);
@@ -83,9 +83,9 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
   p.step(0, 1, Cause::aliasing_dark, -0.125f);
   p.edge.at(0, 1) = 1.5f;
   p.step(0, 1, Cause::precision, 0.25f);
-  p.step(2, 2, Cause::peter_panning, 0.25f);  // of a lit receiver
-  p.step(1, 1, Cause::peter_panning, 0.25f);  // of a dark one
-  p.occluder.at(1, 1) = 100;                  // out of the bias's reach: no gap
+  p.step(2, 2, Cause::peter_panning, 0.25f);  // at a lit receiver
+  p.step(1, 1, Cause::peter_panning, 0.25f);  // at a dark one
+  p.occluder.at(1, 1) = 100;                  // beyond the reach of the bias, so no gap
   p.rungs(1, 1, {0, 0, 0, 0, 1, 1});
   p.step(1, 1, Cause::coverage_light, 1);
   p.ladder.flags.at(1, 1) |= flag_outside;
@@ -126,7 +126,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
       {"peter_panning_gap_m", 0},
       {"edge_displacement_texels", 1.5},
       {"edge_displacement_mean_texels", 1},
-      {"edge_displacement_pixels", std::sqrt(2.0) - std::sqrt(2.0) + 1},  // (2, 1) to the dark (1, 1)
+      {"edge_displacement_pixels", std::sqrt(2.0) - std::sqrt(2.0) + 1},  // from (2, 1) to the dark (1, 1)
       {"receivers", 11},
       {"facing", 10},
       {"counted", base},
@@ -146,7 +146,7 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
 
 TEST(Measure, GapIsTheLightsWayAlongTheReceiver) {
   Picture p(3, 1);
-  // theta = 30 and 60 degrees: 2 m and 1 m of light's way are a gap of 1 m and 0.866 m.
+  // theta is 30 and 60 degrees: distances of 2 m and 1 m along the light are gaps of 1 m and 0.866 m.
   p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
   p.step(0, 0, Cause::peter_panning, 1);
   p.probe.n_dot_l.at(0, 0) = std::sqrt(0.75f);
@@ -155,11 +155,11 @@ TEST(Measure, GapIsTheLightsWayAlongTheReceiver) {
   p.step(1, 0, Cause::peter_panning, 1);
   p.probe.n_dot_l.at(1, 0) = 0.5f;
   p.occluder.at(1, 0) = 1;
-  constexpr double cosine_rounding = 1e-6;  // of the float cosine, through the sine
+  constexpr double cosine_rounding = 1e-6;  // the sine is computed from the float cosine
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), 1, cosine_rounding);
   p.occluder.at(0, 0) = 0.5f;
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), std::sqrt(0.75), cosine_rounding);
-  p.probe.n_dot_l.at(1, 0) = 1 + 0x1p-23f;  // a cosine above 1 by rounding is no NaN
+  p.probe.n_dot_l.at(1, 0) = 1 + 0x1p-23f;  // a cosine above 1, caused by rounding, must not give NaN
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), 0.25, cosine_rounding);
 }
 
@@ -171,11 +171,11 @@ TEST(Measure, GapEndsWhereTheBiasCannotReach) {
   p.bias = bias_of({{"constant", 0.1}});       // of the map's 10 m: 1 m
   p.occluder.at(0, 0) = 1.3f;
   EXPECT_NEAR(p.metric("peter_panning_gap_m"), 1.3 * std::sqrt(0.5), 1e-6);
-  p.occluder.at(0, 0) = 1.4f;  // a steep receiver at the edge of a distant shadow
+  p.occluder.at(0, 0) = 1.4f;  // for example a steep receiver at the edge of a distant shadow
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
 }
 
-// An offset d along the normal puts a receiver d / cos(theta) before itself along the light.
+// An offset d along the normal moves the place looked up by d / cos(theta) along the light.
 TEST(Measure, GapEndsWhereTheNormalOffsetCannotReach) {
   Picture p(1, 1);
   p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
@@ -189,7 +189,7 @@ TEST(Measure, GapEndsWhereTheNormalOffsetCannotReach) {
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
 }
 
-// The reach of a bias under a spot light: where the map's depth is less by the bias, on the same ray.
+// The reach of a bias under a spot light ends where the depth on the same ray is less by the bias.
 TEST(Measure, GapUnderASpotLightEndsWhereTheDepthDoes) {
   Picture p(1, 1);
   p.frame = LightFrame{};
@@ -203,15 +203,15 @@ TEST(Measure, GapUnderASpotLightEndsWhereTheDepthDoes) {
   p.receivers.position[0] = {3, 0, -6};
   const double bias = 0.02, z = 6;
   p.bias = bias_of({{"constant", bias}});
-  // A receiver across its ray: within a texel its depth hardly changes.
-  double low = p.frame.near_m, high = z;  // the depth that is bias before, by halving
+  // The receiver is perpendicular to its ray, so within a texel its depth hardly changes.
+  double low = p.frame.near_m, high = z;  // bisection for the depth that is less by the bias
   while (high - low > 1e-12)
     (p.frame.window_depth((low + high) / 2) > p.frame.window_depth(z) - bias ? high : low) = (low + high) / 2;
   const double reach = (z - low) * std::sqrt(45.0) / z;
   EXPECT_NEAR(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0,
                               p.frame.to_light(p.receivers.position[0])),
-              reach, 1e-5);  // the bias' rounding to float; half a texel aside, the plane is 1e-7 of 6.7 m nearer
-  EXPECT_GT(z * std::sqrt(45.0) / z - reach, 1) << "far from linear";
+              reach, 1e-5);  // the bias rounded to float; half a texel to the side, the plane is 1e-7 of 6.7 m nearer
+  EXPECT_GT(z * std::sqrt(45.0) / z - reach, 1) << "the case must be far from linear";
   p.probe.n_dot_l[0] = 0.8f;
   p.occluder[0] = static_cast<float>(reach) + 0.001f;  // a texel of 6 mm, at 37 degrees, adds 3 mm
   EXPECT_GT(p.metric("peter_panning_gap_m"), 0);
@@ -219,8 +219,8 @@ TEST(Measure, GapUnderASpotLightEndsWhereTheDepthDoes) {
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
 }
 
-// Under a point light the taps' offsets are metres, and rays spread: the reach is that of the plane met by a ray turned
-// by as much, found here by meeting it.
+// Under a point light the offsets of the taps are in metres, and rays diverge. The reach includes how much farther the
+// plane is along a ray that is turned by the offset. The test computes this intersection.
 TEST(Measure, GapUnderAPointLightEndsWhereTheTapsDo) {
   Picture p(1, 1);
   p.frame = LightFrame{};
@@ -233,11 +233,11 @@ TEST(Measure, GapUnderAPointLightEndsWhereTheTapsDo) {
   p.receivers.position[0] = {0, 0, -4};
   p.probe.n_dot_l[0] = 0.6f;
   const double theta = std::acos(0.6f), turned = theta + std::asin((0.5 + 0.5 * std::sqrt(2.0) * 8 / (1 << 14)) / 4);
-  // P = (0, 0, -4), the plane's normal (0.8, 0, 0.6); the ray turned towards where the plane is further off.
+  // P = (0, 0, -4), the plane's normal is (0.8, 0, 0.6), and the ray turns to the side where the plane is farther away.
   const double met = 4 * 0.6 / std::cos(turned);
   EXPECT_NEAR(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0, {0, 0, -4}),
-              0.2 + met - 4, 1e-5);  // float cosines
-  p.probe.n_dot_l[0] = 0.05f;        // 87 degrees: a ray turned by 7 misses the plane
+              0.2 + met - 4, 1e-5);  // rounding of float cosines
+  p.probe.n_dot_l[0] = 0.05f;        // 87 degrees: a ray that is turned by 7 degrees misses the plane
   EXPECT_EQ(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0, {0, 0, -4}),
             std::numeric_limits<double>::infinity());
 }
@@ -254,7 +254,7 @@ TEST(Measure, APolygonOffsetReachesAnywhere) {
 
 TEST(Measure, GapIsOverReceiversInShadow) {
   Picture p(4, 1);
-  // Under a filter, a tap of a lit receiver beside the edge: nothing stands between it and the light.
+  // With a filter, Peter Panning can occur at a lit receiver beside the edge. Nothing is between it and the light.
   p.rungs(0, 0, {1, 1, 0.5f, 0.5f, 0.75f, 0.75f});
   p.step(0, 0, Cause::peter_panning, 0.25f);
   p.occluder.at(0, 0) = infinity;
@@ -262,7 +262,7 @@ TEST(Measure, GapIsOverReceiversInShadow) {
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
   p.probe.n_dot_l.at(0, 0) = 1;  // 0 * infinity
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
-  EXPECT_EQ(p.metric("peter_panning"), 0.0625);  // but it is Peter Panning
+  EXPECT_EQ(p.metric("peter_panning"), 0.0625);  // Peter Panning is still counted
   p.rungs(1, 0, {0, 0, 0.5f, 0.5f, 0.75f, 0.75f});
   p.step(1, 0, Cause::peter_panning, 0.25f);
   p.occluder.at(1, 0) = 2;
@@ -273,7 +273,7 @@ TEST(Measure, GapIsOverReceiversInShadow) {
   p.ladder.flags.at(2, 0) |= flag_ambiguous;
   p.occluder.at(2, 0) = 100;
   p.probe.n_dot_l.at(2, 0) = 0;
-  p.rungs(3, 0, {0, 0, 0, 0, 0, 0});  // in shadow, rightly
+  p.rungs(3, 0, {0, 0, 0, 0, 0, 0});  // in shadow, which is right
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 2);
   EXPECT_EQ(peter_panning_mask(p.ladder).pixels, (std::vector<uint8_t>{0, 1, 0, 0}));
   // A dark receiver's distance that is not finite is a defect that must show.
@@ -285,7 +285,7 @@ TEST(Measure, GapIsOverReceiversInShadow) {
 
 TEST(Measure, EdgeDisplacementIsFromAliasedPixelsOnly) {
   Picture p(5, 4);
-  // A shadow of two columns, falsely lit in one pixel, and a lit pixel far from it falsely dark.
+  // A shadow of two columns that is wrongly lit in one pixel, and a lit pixel far away that is wrongly dark.
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 2; ++x) p.rungs(x, y, {0, 0, 0, 0, 0, 0});
   p.rungs(0, 0, {0, 0, 0, 1, 1, 1});
@@ -298,7 +298,7 @@ TEST(Measure, EdgeDisplacementIsFromAliasedPixelsOnly) {
   EXPECT_EQ(p.metric("edge_displacement_pixels"), 3);  // to (1, 3)
   EXPECT_EQ(p.metric("edge_displacement_texels"), 2);
   EXPECT_EQ(p.metric("edge_displacement_mean_texels"), 1.25);
-  // Receivers that face away are no truth: without the two dark columns nothing dark is in the picture.
+  // Receivers that face away do not count as dark. So the two dark columns are not in the picture any more.
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 2; ++x)
       if (x + y > 0) attach(p, x, y);
@@ -310,7 +310,7 @@ TEST(Measure, EdgeDisplacementIsFromAliasedPixelsOnly) {
 }
 
 TEST(Measure, LeavesOutPixelsWhoseTruthThePictureDoesNotShow) {
-  Picture p(3, 2);  // all lit, one falsely dark: no dark receiver in sight
+  Picture p(3, 2);  // all are lit and one is wrongly dark, so no dark receiver is in view
   p.rungs(1, 1, {1, 1, 1, 0, 0, 0});
   p.step(1, 1, Cause::aliasing_dark, -1);
   p.edge.at(1, 1) = 1;
@@ -337,7 +337,7 @@ TEST(Measure, SaysNaNWhereNothingWasCounted) {
 
 TEST(WorstPixel, IsTheFirstOfTheLargestErrors) {
   Picture p(3, 2);
-  EXPECT_EQ(worst_pixel(p.ladder).x, 0);  // nothing wrong: the first counted one
+  EXPECT_EQ(worst_pixel(p.ladder).x, 0);  // if nothing is wrong: the first counted one
   EXPECT_EQ(worst_pixel(p.ladder).error, 0);
   EXPECT_EQ(worst_pixel(p.ladder).cause, "none");
   p.rungs(1, 0, {1, 1, 1, 1, 0.75f, 0.75f});
@@ -369,7 +369,7 @@ TEST(WorstPixel, IsTheFirstOfTheLargestErrors) {
 }
 
 TEST(MetricsTable, NamesWhatIsMeasured) {
-  const std::set<std::string> times = {"map_ms", "lookup_ms", "shadow_ms"};  // the workbench's own
+  const std::set<std::string> times = {"map_ms", "lookup_ms", "shadow_ms"};  // the workbench measures these
   const std::set<std::string_view> units = {"fraction", "m", "m2", "depth", "texels", "pixels", "count", "ms", ""};
   std::set<std::string> names;
   for (const Metric& metric : metrics_table()) {
@@ -388,7 +388,7 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
   for (const auto& [name, value] : measure_laws(
            {picture.ladder, nothing, picture.receivers, camera, picture.frame, DepthFormat::d24, picture.probe}))
     measured.insert(name);
-  // compare/judge/soundness.h's; its own test holds it to them.
+  // Metrics of compare/judge/soundness.h, which has its own test.
   for (const char* name :
        {"contract", "rounding_excess", "address_error_texels", "reference_error_m", "map_error_quanta", "map_bits"})
     measured.insert(name);
@@ -408,8 +408,8 @@ TEST(MetricsTable, SuggestsTheNearestName) {
   EXPECT_THROW(find_metric(""), Error);
 }
 
-// A picture that was made elsewhere, on top of the ladder: it is judged in R5's place, and what it differs by has its
-// own cause.
+// A picture from another renderer, as a rung on top of the ladder. It is judged instead of R5, and its difference to R5
+// has its own cause.
 TEST(Measure, OfAPictureFromElsewhereOnTopOfTheLadder) {
   Picture p(3, 1);
   p.rungs(0, 0, {1, 1, 1, 1, 1, 1});  // right at R5
@@ -418,7 +418,7 @@ TEST(Measure, OfAPictureFromElsewhereOnTopOfTheLadder) {
   p.rungs(2, 0, {1, 1, 1, 1, 0, 0});
   p.step(2, 0, Cause::acne, -1);
   Image<float> picture(3, 1, 0);
-  picture.at(0, 0) = 0.75f;  // wrong here alone
+  picture.at(0, 0) = 0.75f;  // wrong only here
   picture.at(1, 0) = 1;      // right where R5 is wrong
   picture.at(2, 0) = 0.25f;  // less wrong than R5
   add_rung(p.ladder, "engine", picture, "elsewhere");
@@ -429,7 +429,7 @@ TEST(Measure, OfAPictureFromElsewhereOnTopOfTheLadder) {
   const std::map<std::string, double> m = p.metrics();
   EXPECT_DOUBLE_EQ(m.at("error"), (0.25 + 0 + 0.75) / 3);
   EXPECT_DOUBLE_EQ(m.at("elsewhere"), (0.25 + 1 + 0.25) / 3);
-  EXPECT_DOUBLE_EQ(m.at("acne"), 2.0 / 3) << "of the lookup below it";
+  EXPECT_DOUBLE_EQ(m.at("acne"), 2.0 / 3) << "the acne of the rung below it must stay";
   EXPECT_THROW(add_rung(p.ladder, "engine", picture, "again"), std::logic_error);
   EXPECT_THROW(add_rung(p.ladder, "other", picture, "acne"), std::logic_error);
   EXPECT_THROW(add_rung(p.ladder, "other", Image<float>(2, 1, 0), "again"), std::logic_error);

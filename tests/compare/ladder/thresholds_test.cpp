@@ -1,4 +1,4 @@
-// The thresholds against the shader's own comparison, in the float that OpenGL computes with.
+// The thresholds compared with the shader's own comparison, in the float arithmetic of OpenGL.
 #include "compare/ladder/thresholds.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ constexpr float least = std::numeric_limits<float>::denorm_min();
 
 bool lit(float reference, float stored, float bias) { return !(reference - bias > stored); }
 
-// The smallest float >= 0 that is enough, by bisection over the floats in their order; infinity where none is.
+// The smallest float >= 0 that is enough, by bisection over the ordered floats. Infinity if none is enough.
 template <class Enough>
 float bisected(const Enough& enough) {
   if (enough(0.0f)) return 0;
@@ -30,7 +30,8 @@ float bisected(const Enough& enough) {
   return std::bit_cast<float>(at);
 }
 
-// Whether the threshold is what its header says, without another algorithm: enough, and the float below is not.
+// Whether the threshold is as its header says: it is enough, and the next smaller float is not. This needs no other
+// algorithm.
 template <class Enough>
 bool is_least(float threshold, const Enough& enough) {
   if (threshold == infinity) return !enough(largest);
@@ -41,7 +42,7 @@ bool is_least(float threshold, const Enough& enough) {
 float any_size(std::mt19937_64& random) {
   return std::bit_cast<float>(static_cast<uint32_t>(random() % std::bit_cast<uint32_t>(infinity)));
 }
-// Window depths as a fixed-point map holds them, and what lies between.
+// Window depths of a fixed-point map, and depths between them.
 float depth(std::mt19937_64& random) {
   switch (random() % 4) {
     case 0:
@@ -121,14 +122,15 @@ TEST(LitThreshold, OfAReceiverAtOrBeforeTheStoredDepthIsZero) {
 }
 
 TEST(LitThreshold, CountsWhatRoundingForgives) {
-  // The float above 1/2 is 2^-24 further: half of that rounds to the even one of the two, 1/2, and lights it.
+  // The next float above 1/2 is 2^-24 larger. With half of that as bias, the difference rounds to the even float, 1/2,
+  // so the tap is lit.
   EXPECT_EQ(lit_threshold(moved(0.5f, 1), 0.5f), 0x1p-25f);
-  // From an odd float the same tie rounds away, and it takes the next bias above.
+  // From an odd float the same tie rounds up, so the threshold is the next larger bias.
   EXPECT_EQ(lit_threshold(moved(0.5f, 2), moved(0.5f, 1)), moved(0x1p-25f, 1));
 }
 
-// The header's promise of a step or two. Walking would take up to 8 million steps, 20 ms, for each of these 200,000:
-// more than an hour, which the test runner's time limit does not allow.
+// The header promises one or two steps. A linear search would take up to 8 million steps, 20 ms, for each of these
+// 200,000 values. This is more than an hour, so the test would exceed the time limit of the test runner.
 template <class Run>
 void expect_never_nan(const Run& run) {
   int broken = 0;
@@ -140,7 +142,8 @@ TEST(LitThreshold, TakesAFewSteps) {
   std::mt19937_64 random(7);
   expect_never_nan([&](int i) {
     const float z = depth(random);
-    return lit_threshold(moved(z, i % 3), z);  // the bias's floats are millions of times finer than the depths'
+    // Floats near the bias are millions of times finer than floats near the depths.
+    return lit_threshold(moved(z, i % 3), z);
   });
   expect_never_nan([&](int) { return lit_threshold(any_size(random), any_size(random)); });
 }

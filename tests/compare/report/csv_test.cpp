@@ -1,4 +1,4 @@
-// results.csv, read back by a reader of our own that knows only RFC 4180.
+// results.csv, read back by the test's own parser, which knows only RFC 4180.
 #include "compare/report/csv.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-// Fails the test on what RFC 4180 does not allow.
+// Fails the test if RFC 4180 does not allow the text.
 std::vector<Row> parse(const std::string& csv) {
   std::vector<Row> rows;
   size_t at = 0;
@@ -25,7 +25,7 @@ std::vector<Row> parse(const std::string& csv) {
       if (at < csv.size() && csv[at] == '"') {
         for (++at;; ++at) {
           if (at >= csv.size()) {
-            ADD_FAILURE() << "a quote that does not end";
+            ADD_FAILURE() << "a quoted field has no end";
             return rows;
           }
           if (csv[at] == '"' && csv.compare(at, 2, "\"\"") != 0) break;
@@ -131,7 +131,7 @@ TEST(Csv, OnlyTheLastColumnsChangeWithTheClock) {
       if (i < first_time || row == 0)
         EXPECT_EQ(a[row][i], b[row][i]);
       else
-        EXPECT_NE(a[row][i], b[row][i]) << a[0][i] << " is no time";
+        EXPECT_NE(a[row][i], b[row][i]) << a[0][i] << " is not a time";
     }
 }
 

@@ -1,4 +1,4 @@
-// What the report concludes from results: closed cases, and brute force.
+// The conclusions of the report: cases with a known answer, and comparisons with brute force.
 #include "compare/report/findings.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// A curve with acne below 1% from `low` on and Peter Panning below it up to `high`.
+// A curve whose acne is below 1% from `low` on, and whose Peter Panning is below 1% up to `high`.
 PointRecord point_with(int64_t id, double cost, std::optional<double> low, std::optional<double> high) {
   PointRecord point;
   point.id = id;
@@ -54,7 +54,7 @@ TEST(Recommend, TakesTheCheapestPointThatHasAWindow) {
                     point_with(3, 2, 0.25, 0.75)};
   const Recommendation found = recommend(results);
   ASSERT_EQ(found.outcome, Outcome::found);
-  EXPECT_EQ(found.point->id, 2);  // of equal cost, the first
+  EXPECT_EQ(found.point->id, 2);  // the first of the points with equal cost
   EXPECT_EQ(found.bias->depth, 0.5);
   EXPECT_EQ(found.bias->error, 0.125);
 }
@@ -88,7 +88,7 @@ TEST(Recommend, AsksBoundsOfTheCurveAtTheBiasThatWouldBeSet) {
   results.bounds[0].max = 0.1;
   EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);
   results.bounds[0] = {.metric = "aliasing", .max = 0.49, .min = {}, .where = {}, .join = "worst", .reproduce = ""};
-  EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);  // dark and light are 0.25 each
+  EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);  // dark and light errors are 0.25 each
   results.bounds[0].max = 0.5;
   EXPECT_EQ(recommend(results).outcome, Outcome::found);
 }
@@ -169,7 +169,7 @@ TEST(Pareto, AgreesWithBruteForce) {
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<std::pair<double, double>> points(random() % 40);
     for (auto& [x, y] : points) {
-      x = static_cast<double>(random() % 12), y = static_cast<double>(random() % 12);  // few values: many ties
+      x = static_cast<double>(random() % 12), y = static_cast<double>(random() % 12);  // few values, so many ties
       if (random() % 15 == 0) x = nan;
       if (random() % 15 == 0) y = infinity;
     }
@@ -237,11 +237,11 @@ TEST(DescribePoints, MayPassOverPointsWhereItDoesNotArise) {
   const std::vector<Rule> rules = describe_points(results, chosen, either_way);
   ASSERT_EQ(rules.size(), 1u);
   EXPECT_EQ(report::rule_phrase(rules[0]), "resolution at most 512\u202ftexels");
-  EXPECT_EQ(rules[0].points, 12u);  // of the 16 points that it is true of, those that were chosen
+  EXPECT_EQ(rules[0].points, 12u);  // the rule is true of 16 points, of which 12 were chosen
 }
 
 TEST(DescribePoints, IsTrueOfChosenPointsOnlyAndOfAllOfThem) {
-  const Results results = sample_results();  // three swept settings tell every point from every other
+  const Results results = sample_results();  // the three swept settings are different for every point
   std::mt19937 random(11);
   for (int trial = 0; trial < 40; ++trial) {
     std::vector<bool> chosen(results.points.size());

@@ -1,12 +1,13 @@
-// Runs in the report's page after its own scripts (tests/compare/report/page_test.cpp): uses the page as a reader does, with clicks and keys,
-// and leaves what it saw in the element `probe`. `errors` is a list that the page's first script began.
+// Runs in the report's page after its own scripts (tests/compare/report/page_test.cpp). It uses the page as a reader
+// does, with clicks and keys, and writes its observations to the element `probe`. The first script of the page makes
+// the list `errors`.
 (async function() {
 'use strict';
 var saw = {errors: errors};
 function all(selector, root) {
   return Array.prototype.slice.call((root || document).querySelectorAll(selector));
 }
-// Vega draws when the script that asked for it has ended.
+// Vega draws only after the script that called it has ended.
 function drawn() {
   return new Promise(function(go) {
     setTimeout(go, 0);
@@ -67,7 +68,8 @@ saw.bias.tip = document.getElementById('tip').textContent;
 svg.dispatchEvent(new MouseEvent('mouseleave'));
 saw.bias.tip_hidden = document.getElementById('tip').hidden;
 
-// The table: a heading sorts, and again the other way; a row selects its point everywhere.
+// The table: a click on a heading sorts, and a second click reverses the order. A click on a row selects its point in
+// all charts and pictures.
 var table = document.querySelector('table.sortable'), heads = all('th', table.tHead);
 function column(name) {
   return heads.findIndex(function(h) {
@@ -96,7 +98,7 @@ saw.symbol = symbol.__data__.datum.id;
 await click(symbol);
 saw.selected_by_symbol = selected();
 
-// Pictures: keys flip them while they are in sight, and not while a list has the focus.
+// Pictures: keys change them only while they are in view and no list has the focus.
 var set = document.querySelector('.pictures');
 function shown() {
   var visible = all('.pictures').filter(function(s) {
@@ -114,7 +116,7 @@ function show_point(id) {
 show_point(set.dataset.point);
 window.scrollTo({top: 0, behavior: 'instant'});
 press('ArrowRight');
-saw.flips = [shown()];  // out of sight: nothing happens
+saw.flips = [shown()];  // not in view: nothing happens
 set.scrollIntoView({behavior: 'instant'});
 ['ArrowRight', 'ArrowRight', 'ArrowRight', 'ArrowLeft', '2', '9'].forEach(function(key) {
   press(key);

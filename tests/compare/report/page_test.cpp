@@ -33,10 +33,10 @@ std::string output_of(const std::string& command) {
 
 class Page : public testing::Test {
  protected:
-  // Where there is no browser the tests skip, and the reason says so.
+  // Without a browser the tests are skipped, with this reason.
   void SetUp() override {
     std::string browser = output_of("command -v chromium || command -v chromium-browser || command -v google-chrome");
-    if (browser.empty()) GTEST_SKIP() << "no chromium here: the page's scripts are not tried";
+    if (browser.empty()) GTEST_SKIP() << "there is no chromium, so the scripts of the page are not tested";
     browser.pop_back();
     Results results = sample_results();
     results.points[3].metrics["error"] = std::numeric_limits<double>::quiet_NaN();
@@ -65,10 +65,10 @@ class Page : public testing::Test {
         "'");
     const std::string head = "<pre id=\"probe\">";
     const size_t begin = dom.rfind(head);
-    ASSERT_NE(begin, std::string::npos) << "the page's scripts stopped; the browser says "
+    ASSERT_NE(begin, std::string::npos) << "the scripts of the page stopped; the output of the browser: "
                                         << read_file((folder_ / "browser.txt").string());
     saw_ = json::parse(dom.substr(begin + head.size(), dom.find("</pre>", begin) - begin - head.size()));
-    EXPECT_EQ(saw_["errors"], json::array()) << "of the page's scripts";
+    EXPECT_EQ(saw_["errors"], json::array()) << "errors of the page's scripts";
   }
   void TearDown() override {
     std::error_code ignored;
@@ -84,21 +84,21 @@ TEST_F(Page, ChartsHaveTheirMarks) {
   // 4 resolutions, 4 extents, 2 filters: 32 points, of which one has no error.
   for (const char* sweep : {"chart-sweep-1", "chart-sweep-2"}) {
     EXPECT_EQ(marks(sweep, "symbol"), 31) << sweep;
-    EXPECT_GE(marks(sweep, "line"), 8) << sweep << ": a line for each of the other settings, and a guide";
+    EXPECT_GE(marks(sweep, "line"), 8) << sweep << ": there must be a line for each of the other settings, and a guide";
   }
   EXPECT_GE(marks("chart-cost", "symbol"), 31);
   for (const char* chart : {"chart-sweep-1", "chart-sweep-2", "chart-cost"})
-    EXPECT_GE(marks(chart, "zero"), 1) << chart << ": a logarithmic axis has no place of its own for an error of 0";
+    EXPECT_GE(marks(chart, "zero"), 1) << chart << ": an error of 0 needs a mark of its own on a logarithmic axis";
   EXPECT_EQ(marks("chart-bias", "line"), 5) << "the error and the causes that are not 0";
   EXPECT_EQ(marks("chart-bias", "area"), 0);
   const json& bias = saw_["bias"];
-  EXPECT_EQ(bias["stacked"]["area"], 5) << "a layer for each cause";
+  EXPECT_EQ(bias["stacked"]["area"], 5) << "there must be a layer for each cause";
   EXPECT_EQ(bias["depth"].back(), "bias.constant (depth)");
   EXPECT_EQ(bias["texels"].back(), "bias.constant (texels)");
   EXPECT_EQ(bias["pressed"], json({"texels", "Stacked"}));
   EXPECT_EQ(bias["facts"].get<std::string>().find("Usable from "), 0u);
   EXPECT_NE(bias["tip"].get<std::string>().find(" texels"), std::string::npos) << bias["tip"];
-  EXPECT_TRUE(bias["tip_hidden"]) << "once the pointer has left";
+  EXPECT_TRUE(bias["tip_hidden"]) << "the tip must be hidden after the pointer has left";
 }
 
 TEST_F(Page, TheTableSortsAndSelects) {
@@ -108,19 +108,19 @@ TEST_F(Page, TheTableSortsAndSelects) {
   for (const json& cell : table["error"][1]) down.push_back(std::strtod(cell.get<std::string>().c_str(), nullptr));
   ASSERT_EQ(up.size(), 32u);
   ASSERT_EQ(down.size(), 32u);
-  EXPECT_TRUE(std::isnan(up.back()) && std::isnan(down.back())) << "what is not finite goes last either way";
+  EXPECT_TRUE(std::isnan(up.back()) && std::isnan(down.back())) << "not finite values must be last in both orders";
   EXPECT_TRUE(std::is_sorted(up.begin(), up.end() - 1));
   EXPECT_TRUE(std::is_sorted(down.begin(), down.end() - 1, std::greater<>()));
   EXPECT_EQ(table["sorted"], "descending");
-  EXPECT_EQ(table["filter"][0], "box") << "words sort as words do, with the keyboard too";
+  EXPECT_EQ(table["filter"][0], "box") << "words must be sorted as words, with the keyboard too";
   EXPECT_EQ(table["filter"][31], "none");
   EXPECT_EQ(saw_["selected_by_row"], json({5}));
-  EXPECT_NE(saw_["facts_of_5"], saw_["bias"]["facts"]) << "the chart is of the point that was chosen";
+  EXPECT_NE(saw_["facts_of_5"], saw_["bias"]["facts"]) << "the chart must show the selected point";
   EXPECT_EQ(saw_["selected_by_symbol"], json({saw_["symbol"]}));
 }
 
 TEST_F(Page, KeysFlipThePicturesInSight) {
-  EXPECT_EQ(saw_["flips"], json({"1 18 truth",  // out of sight
+  EXPECT_EQ(saw_["flips"], json({"1 18 truth",  // not in view
                                  "1 18 map", "1 18 classes", "1 18 truth", "1 18 classes", "1 18 map",
                                  "1 18 map",     // there is no ninth
                                  "1 18 map",     // the list has the focus

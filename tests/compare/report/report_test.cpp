@@ -1,4 +1,4 @@
-// The report: what its bytes must be, whatever the results are.
+// The report: what must hold for its bytes with any results.
 #include "compare/report/report.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ using nlohmann::json;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The report's text without its scripts: what a reader without JavaScript gets.
+// The report without its scripts, as a reader without JavaScript sees it.
 std::string without_scripts(const std::string& page) {
   std::string out;
   size_t at = 0;
@@ -164,7 +164,7 @@ TEST(Report, EscapesWhateverTextTheResultsHold) {
   EXPECT_EQ(count(page, "onerror=\""), 0u);
   EXPECT_EQ(count(page, "{{data}}"), count(page, "&amp;amp;{{data}}") + count(page, "\\u0026amp;{{data}}"));
   EXPECT_NO_THROW(embedded_data(page));
-  // The page is UTF-8 throughout: the strict writer would throw.
+  // The whole page is UTF-8. Otherwise the strict writer would throw.
   EXPECT_NO_THROW(json(page).dump());
 }
 
@@ -173,7 +173,7 @@ TEST(Report, FetchesNothing) {
   EXPECT_NE(page.find("default-src 'none'; img-src data:;"), std::string::npos);
   for (const char* scheme : {"http://", "https://", "ftp://", "ws://", "wss://"})
     for (size_t at = page.find(scheme); at != std::string::npos; at = page.find(scheme, at + 1))
-      EXPECT_EQ(page.compare(at, 18, "http://www.w3.org/"), 0) << page.substr(at, 60);  // namespaces, never fetched
+      EXPECT_EQ(page.compare(at, 18, "http://www.w3.org/"), 0) << page.substr(at, 60);  // namespaces are not fetched
   const std::string body = without_scripts(page);
   for (const std::string attribute : {"src=\"", "href=\""})
     for (size_t at = body.find(attribute); at != std::string::npos; at = body.find(attribute, at + 1)) {
@@ -213,7 +213,7 @@ TEST(Report, SameResultsSameBytes) {
   EXPECT_EQ(render_report(sample_results(), sample_picture), render_report(sample_results(), sample_picture));
 }
 
-// A bias that moves the lookup has no curve: some points with and some without, and all without.
+// A bias that moves the lookup has no curve. First some points have no curve, then all.
 TEST(Report, SaysWhyPointsHaveNoCurve) {
   Results results = sample_results();
   const char* const why = "bias.normal_offset moves the lookup";
@@ -267,14 +267,14 @@ TEST(Report, EmbeddedDataIsTheResults) {
     }
     ASSERT_EQ(curve["acne"].size(), point.curve->acne.size());
     for (size_t k = 0; k < point.curve->acne.size(); ++k) {
-      // Curves travel with six digits: half a unit of the sixth.
+      // Curves are written with six digits. The tolerance is half a unit of the sixth digit.
       EXPECT_NEAR(curve["acne"][k].get<double>(), point.curve->acne[k], 5e-6 * point.curve->acne[k]);
       EXPECT_NEAR(curve["bias_depth"][k].get<double>(), point.curve->bias_depth[k], 5e-6 * point.curve->bias_depth[k]);
     }
   }
 }
 
-// Each of the four limits, by itself; and nothing is said to hold beside it.
+// Each of the four limits alone. If one is exceeded, the report must not call anything held.
 TEST(Report, AnUnsoundPointIsSaidAndNothingHoldsBesideIt) {
   for (const SoundLimit& limit : sound_limits) {
     Results results = sample_results();
@@ -307,7 +307,7 @@ TEST(Report, NotFiniteIsSaid) {
   EXPECT_NE(body.find("noonmark render x --set map.resolution=256"), std::string::npos);
 }
 
-// Found by fuzzing: std::stod refuses numbers below the least normal one.
+// Found by fuzzing: std::stod refuses numbers below the smallest normal number.
 TEST(Report, TheLeastNumbersAreDrawn) {
   Results results = sample_results();
   for (PointRecord& point : results.points) {
@@ -353,13 +353,13 @@ TEST(Report, ALargeSweepStaysSensibleInSize) {
   EXPECT_EQ(kept.front(), 0u);
   EXPECT_EQ(kept.back(), results.points[0].curve->bias_depth.size() - 1);
   EXPECT_LE(kept.size() * results.points.size(), report::max_curve_entries);
-  EXPECT_LT(render_report(results, sample_picture).size(), 12u << 20);  // what a browser opens at once
+  EXPECT_LT(render_report(results, sample_picture).size(), 12u << 20);  // a browser opens this without delay
 }
 
 TEST(CauseColors, AreDistinctAndNamed) {
   std::set<std::tuple<int, int, int>> seen;
   for (const CauseColor& c : cause_colors) {
-    if (c.name == "coverage") continue;  // shares its light half's
+    if (c.name == "coverage") continue;  // has the same colour as its light part
     EXPECT_TRUE(seen.insert({c.r, c.g, c.b}).second) << c.name;
     EXPECT_NO_THROW(find_metric(c.name));
   }
@@ -367,7 +367,7 @@ TEST(CauseColors, AreDistinctAndNamed) {
   EXPECT_EQ(find_color("nothing"), nullptr);
 }
 
-// For looking at it in a browser: NOONMARK_REPORT_OUT=FOLDER .../test_report --gtest_filter=Report.Written
+// To look at the report in a browser: NOONMARK_REPORT_OUT=FOLDER .../test_report --gtest_filter=Report.Written
 TEST(Report, Written) {
   const char* folder = std::getenv("NOONMARK_REPORT_OUT");
   if (!folder) GTEST_SKIP() << "set NOONMARK_REPORT_OUT to a folder to have the sample reports written there";

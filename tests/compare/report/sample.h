@@ -1,5 +1,6 @@
-// A made-up sweep for the tests of the report: 4 resolutions x 4 extents x 2 filters whose curves behave as the laws
-// say (acne falls with the bias, Peter Panning grows, aliasing goes with the texel), with no window at the coarse end.
+// An invented sweep for the tests of the report: 4 resolutions x 4 extents x 2 filters. The curves follow the laws:
+// acne falls with the bias, Peter Panning grows with it, and aliasing is proportional to the texel. The coarsest points
+// have no window.
 #pragma once
 #include <string>
 
@@ -8,7 +9,7 @@
 namespace noonmark {
 
 Results sample_results();
-// A valid PNG (8-bit RGB, stored without compression), by the paths that sample_results names; throws for others.
+// A valid PNG (8-bit RGB, stored without compression) for each path in sample_results. Throws for other paths.
 std::string sample_picture(const std::string& path);
 
 }  // namespace noonmark

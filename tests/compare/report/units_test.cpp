@@ -1,4 +1,5 @@
-// Residuals are no shares: the report and the summary show them as the plain numbers that the limit of 1e-6 is about.
+// Residuals are not shares. The report and the summary show them as plain numbers, which can be compared with the limit
+// of 1e-6.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -18,7 +19,7 @@ TEST(ReportUnits, ShowResidualsPlainly) {
   const Results results = sample_results();  // residual 2.4e-7, and a bound of 1e-6 on it
   const std::string page = render_report(results, sample_picture);
   EXPECT_TRUE(contains(page, "2.4×10⁻⁷"));
-  EXPECT_FALSE(contains(page, "2.4×10⁻⁵")) << "as a percentage";
+  EXPECT_FALSE(contains(page, "2.4×10⁻⁵")) << "a residual must not be a percentage";
   const std::string summary = to_summary(results);
   EXPECT_TRUE(contains(summary, "2.4e-07") || contains(summary, "2.4e-7")) << summary;
   EXPECT_FALSE(contains(summary, "2.4e-05"));

@@ -1,4 +1,4 @@
-// What is no whole store of ours is refused before anything in it is believed, or works.
+// A file that is not a complete store of Noonmark is refused before any of its data is used or any of its code runs.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -38,7 +38,7 @@ TEST_F(StoreCheck, RefusesWhatIsNoFileBesideIt) {
   for (const char* ending : {"-journal", "-wal", "-shm"}) {
     const std::string beside = path + ending;
     ASSERT_EQ(::mkfifo(beside.c_str(), 0600), 0);
-    ::alarm(60);  // opening a pipe waits for a writer: after 60 s the test ends as failed
+    ::alarm(60);  // opening a pipe waits for a writer, so the test fails after 60 s
     const std::string message = refusal();
     ::alarm(0);
     EXPECT_NE(message.find(beside + ": is not a regular file"), std::string::npos) << message;
@@ -50,7 +50,7 @@ TEST_F(StoreCheck, RefusesWhatIsNoFileBesideIt) {
     ::unlink(beside.c_str());
   }
   EXPECT_EQ(fresh().finished().size(), 1u);
-  // SQLite looks beside the file itself, where the store is a link to it.
+  // If the store is a link, SQLite looks for the journal beside the file itself.
   const std::string file = folder.file("file.sqlite");
   std::filesystem::rename(path, file);
   std::filesystem::create_symlink("file.sqlite", path);
@@ -90,7 +90,7 @@ TEST_F(StoreCheck, RefusesASchemaThatIsNotItsOwn) {
     EXPECT_NE(message.find("--overwrite"), std::string::npos) << message;
     try {
       ResultStore::open(path);
-      ADD_FAILURE() << "was opened";
+      ADD_FAILURE() << "the store was opened";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::scene);
       EXPECT_NE(std::string(error.what()).find("--overwrite"), std::string::npos) << error.what();
@@ -100,7 +100,7 @@ TEST_F(StoreCheck, RefusesASchemaThatIsNotItsOwn) {
   EXPECT_EQ(fresh().finished().size(), 1u);
 }
 
-// A check is followed by statements, and somebody else may write in between.
+// Between the check and the later statements somebody else may write into the file.
 TEST_F(StoreCheck, LetsNoTriggerOfAFileFire) {
   sqlite::Database db(path, sqlite::Database::Mode::create);
   db.execute(
@@ -110,7 +110,7 @@ TEST_F(StoreCheck, LetsNoTriggerOfAFileFire) {
   EXPECT_EQ(db.ask("SELECT count(*) FROM b"), "0");
 }
 
-// Rows in the wrong order are missed by every search; SQLite's quick check does not look at the order.
+// A search does not find rows in the wrong order. SQLite's quick check does not check the order.
 TEST_F(StoreCheck, RefusesAStoreWhosePagesWereExchanged) {
   {
     ResultStore store = fresh();
@@ -118,7 +118,7 @@ TEST_F(StoreCheck, RefusesAStoreWhosePagesWereExchanged) {
   }
   const std::string whole = read_file(path);
   constexpr size_t page = 4096;
-  constexpr char leaf_of_rows_by_key = 10;  // a page's type, in its first byte
+  constexpr char leaf_of_rows_by_key = 10;  // the type of a page is its first byte
   const auto what_sqlite_says = [&](const char* pragma) {
     return sqlite::Database(path, sqlite::Database::Mode::existing).ask(pragma);
   };
@@ -129,7 +129,7 @@ TEST_F(StoreCheck, RefusesAStoreWhosePagesWereExchanged) {
     std::swap_ranges(bytes.begin() + static_cast<ptrdiff_t>(at), bytes.begin() + static_cast<ptrdiff_t>(at + page),
                      bytes.begin() + static_cast<ptrdiff_t>(at + page));
     write_file_atomically(path, bytes);
-    // Of two tables, or both empty: of no interest here.
+    // Skips pages of two tables, and two empty pages: their exchange causes another error or none.
     if (what_sqlite_says("PRAGMA quick_check") != "ok" || what_sqlite_says("PRAGMA integrity_check") == "ok") continue;
     ++found;
     const std::string message = refusal();
@@ -143,10 +143,11 @@ TEST_F(StoreCheck, RefusesAStoreWhosePagesWereExchanged) {
 TEST_F(StoreCheck, SaysOfDamageWhatSqliteFound) {
   fresh().add(sample_point(1));
   std::string bytes = read_file(path);
-  bytes[4096 + 7] ^= 5;  // of the second page: how many bytes lie between its rows
+  bytes[4096 + 7] ^= 5;  // in the second page: the number of free bytes between its rows
   write_file_atomically(path, bytes);
   const std::string message = refusal();
-  EXPECT_NE(message.find("is damaged: Fragmentation of "), std::string::npos) << "without its headline: " << message;
+  EXPECT_NE(message.find("is damaged: Fragmentation of "), std::string::npos)
+      << "SQLite's headline must be removed: " << message;
   EXPECT_NE(message.find("--overwrite"), std::string::npos) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }

@@ -1,4 +1,4 @@
-// The store notices what was done to its rows, whichever cell it is.
+// The store notices a change of its rows, in every cell.
 #include <gtest/gtest.h>
 
 #include "compare/store/seals.h"
@@ -30,9 +30,9 @@ class StoreSeals : public testing::Test {
   void edit(const std::string& sql) {
     sqlite::Database db(path, sqlite::Database::Mode::existing);
     db.execute("PRAGMA synchronous = OFF;" + sql);
-    ASSERT_NE(db.ask("SELECT total_changes()"), "0") << "changed nothing: " << sql;
+    ASSERT_NE(db.ask("SELECT total_changes()"), "0") << "this statement changed nothing: " << sql;
   }
-  // Loading says it, in one line that names the file; returns the message.
+  // Loading must fail with one line that names the file. Returns this message.
   std::string refusal() const {
     try {
       ResultStore::open(path).load();
@@ -42,14 +42,14 @@ class StoreSeals : public testing::Test {
       EXPECT_NE(std::string(error.what()).find(path), std::string::npos);
       return error.what();
     }
-    ADD_FAILURE() << "was loaded";
+    ADD_FAILURE() << "the store was loaded";
     return "";
   }
   std::vector<std::string> columns(const std::string& table) const {
     sqlite::Database db(path, sqlite::Database::Mode::existing);
     std::vector<std::string> names;
     for (sqlite::Statement rows(db, "SELECT name FROM pragma_table_info('" + table + "')"); rows.step();)
-      names.push_back(rows.text(0));  // but for generated columns, which nobody can set
+      names.push_back(rows.text(0));  // without generated columns, which cannot be set
     return names;
   }
   TemporaryFolder folder;
@@ -67,9 +67,9 @@ TEST_F(StoreSeals, NoticeEveryCellOfAPoint) {
   for (const char* table : {"finished", "settings", "metrics", "times", "curves", "curve_points", "pictures", "images"})
     for (const std::string& column : columns(table)) {
       SCOPED_TRACE(std::string(table) + "." + column);
-      if (column == "point") continue;  // below
+      if (column == "point") continue;  // another test renumbers a point
       afresh();
-      // The value with a digit more, whatever it is; of point 1 alone, and of one row of it.
+      // Appends a digit to the value, in one row of point 1.
       edit("UPDATE " + std::string(table) + " SET " + column + " = coalesce(" + column +
            ", '') || '1' WHERE point = 1 AND " + columns(table)[1] + " = (SELECT max(" + columns(table)[1] + ") FROM " +
            table + " WHERE point = 1)");
@@ -77,7 +77,7 @@ TEST_F(StoreSeals, NoticeEveryCellOfAPoint) {
       ResultStore store(path, "x = 1\n", Existing::resume);
       EXPECT_EQ(store.repair(3, any_point).size(), 1u);
       EXPECT_EQ(store.finished(), (std::vector<int64_t>{0, 2}));
-      store.add(sample_point(1));  // nothing of the old one is in the way
+      store.add(sample_point(1));  // no old rows may be left
       EXPECT_TRUE(same(store.load().points.at(1), sample_point(1)));
       ++cells;
     }
@@ -110,7 +110,7 @@ TEST_F(StoreSeals, NoticeLostAndForeignRows) {
   EXPECT_EQ(store.load().points.size(), 3u);
 }
 
-// A point moved to another's place carries its own seal along with its numbers, but not its name.
+// If a point is moved to another number, its seal and its numbers move too, but the name in the seal does not fit.
 TEST_F(StoreSeals, NoticeARenumberedPoint) {
   for (const char* table : {"finished", "settings", "metrics", "times", "curves", "curve_points", "pictures", "images"})
     edit("UPDATE " + std::string(table) + " SET point = 9 WHERE point = 1");
@@ -127,19 +127,19 @@ TEST_F(StoreSeals, NoticeAnEditedVerdict) {
     EXPECT_NE(refusal().find("bounds and laws"), std::string::npos);
     ResultStore store(path, "x = 1\n", Existing::resume);
     EXPECT_EQ(store.repair(3, any_point).size(), 1u);
-    EXPECT_TRUE(store.load().bounds.empty()) << "to be judged anew";
+    EXPECT_TRUE(store.load().bounds.empty()) << "the bounds must be judged again";
   }
 }
 
 TEST_F(StoreSeals, NoticeEditedFactsOfTheRun) {
   edit("UPDATE info SET value = '2' WHERE key = 'planned_points'");
   EXPECT_NE(refusal().find("facts of the run"), std::string::npos);
-  ResultStore(path, "x = 1\n", Existing::resume).set_info(sample_info(), 3);  // as every run begins
+  ResultStore(path, "x = 1\n", Existing::resume).set_info(sample_info(), 3);  // every run begins with this
   EXPECT_EQ(ResultStore::open(path).load().planned_points, 3);
 }
 
-// Somebody who can write rows can seal them too. Rows that belong to no point then are a damaged file's, not our
-// defect.
+// A user who can write rows can also seal them. If such rows belong to no point, the error must report a damaged file,
+// not a defect of Noonmark.
 TEST_F(StoreSeals, SealedRowsThatDoNotFitTogetherAreADamagedFile) {
   for (const auto& [point, sql] :
        {std::pair(8, "INSERT INTO metrics VALUES (8, 'acne', 1)"),
@@ -157,7 +157,7 @@ TEST_F(StoreSeals, SealedRowsThatDoNotFitTogetherAreADamagedFile) {
     ResultStore store(path, "x = 1\n", Existing::resume);
     try {
       store.repair(3, any_point);
-      ADD_FAILURE() << "was repaired";
+      ADD_FAILURE() << "the store was repaired";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::scene);
       EXPECT_NE(std::string(error.what()).find("--overwrite"), std::string::npos) << error.what();

@@ -1,4 +1,4 @@
-// The result store: what goes in comes out, and nothing short of a torn disk takes it away.
+// The result store: it returns what was stored, and only damage to the file can destroy it.
 #include "compare/store/store.h"
 
 #include <gtest/gtest.h>
@@ -174,7 +174,7 @@ TEST_F(Store, ResumesItsOwnExperimentOnly) {
   const std::string message = refusal("version = 0.1.0\nmap.format = 16\n", ErrorKind::usage);
   EXPECT_NE(message.find("now 'map.format = 16', there 'map.format = 24'"), std::string::npos) << message;
   EXPECT_NE(message.find("--overwrite"), std::string::npos) << message;
-  EXPECT_EQ(fresh().finished(), std::vector<int64_t>{1}) << "a refusal changed the store";
+  EXPECT_EQ(fresh().finished(), std::vector<int64_t>{1}) << "the refusal changed the store";
 
   ResultStore anew(path, "other", Existing::overwrite);
   EXPECT_TRUE(anew.finished().empty());
@@ -200,7 +200,7 @@ TEST_F(Store, RefusesAPointTwice) {
 TEST_F(Store, AddsAPointWholeOrNotAtAll) {
   ResultStore store = fresh();
   PointRecord torn = sample_point(1);
-  torn.curve->acne.pop_back();  // found only after settings and metrics were written
+  torn.curve->acne.pop_back();  // the error is found only after settings and metrics were written
   EXPECT_THROW(store.add(torn), std::logic_error);
   EXPECT_TRUE(store.finished().empty());
   store.add(sample_point(1));
@@ -222,7 +222,7 @@ TEST_F(Store, ReplacesPictures) {
 TEST_F(Store, RefusesWhatIsNoStore) {
   write_file_atomically(path, std::string(5000, 'x'));
   EXPECT_NE(refusal().find("not a database"), std::string::npos);
-  EXPECT_EQ(read_file(path), std::string(5000, 'x')) << "a refusal changed the file";
+  EXPECT_EQ(read_file(path), std::string(5000, 'x')) << "the refusal changed the file";
   ResultStore(path, fingerprint, Existing::overwrite).add(sample_point(1));
   EXPECT_EQ(fresh().finished().size(), 1u);
 }
@@ -245,7 +245,7 @@ TEST_F(Store, RefusesADamagedStore) {
     for (int id = 0; id < 20; ++id) store.add(sample_point(id));
   }
   std::string bytes = read_file(path);
-  for (size_t i = 4096; i < bytes.size(); i += 4096) bytes[i] = '\x55';  // each page's type, but for the first page's
+  for (size_t i = 4096; i < bytes.size(); i += 4096) bytes[i] = '\x55';  // the type of each page except the first
   write_file_atomically(path, bytes);
   EXPECT_NE(refusal().find("--overwrite"), std::string::npos);
 }
@@ -262,7 +262,7 @@ TEST_F(Store, SaysWhereRowsDoNotFitTogether) {
   }
 }
 
-// Found by fuzzing: the report read the sample of that index, wherever in memory that was.
+// Found by fuzzing: the report read a sample at that index, beyond the end of the list.
 TEST_F(Store, RefusesALawWhoseWorstSampleIsNoneOfItsSamples) {
   fresh().set_laws({sample_law()});
   for (const char* edit : {"worst = 2", "worst = -2", "worst = 99999999999", "relation = '<>'"}) {
@@ -280,11 +280,11 @@ TEST_F(Store, OpensNothingThatIsNotThere) {
   EXPECT_THROW(ResultStore(folder.file("absent/results.sqlite"), fingerprint, Existing::resume), Error);
 }
 
-// A child adds points as fast as it can and reports each one that add() returned from; it is killed at different
-// moments, each time resuming where the one before was cut off.
+// A child process adds points as fast as it can and reports each point after add() has returned. It is killed at
+// different moments. The next child continues where the last one was killed.
 TEST_F(Store, LosesAtMostThePointInFlightWhenKilled) {
   constexpr int kills = 25;
-  int64_t acknowledged = 0;  // points that some child said were stored
+  int64_t acknowledged = 0;  // points that a child reported as stored
   for (int kill_count = 0; kill_count < kills; ++kill_count) {
     int pipe_ends[2];
     ASSERT_EQ(::pipe(pipe_ends), 0);
@@ -304,14 +304,15 @@ TEST_F(Store, LosesAtMostThePointInFlightWhenKilled) {
     ::close(pipe_ends[1]);
     int64_t id = -1;
     for (int reports = 0; reports <= kill_count % 3; ++reports) {
-      ASSERT_EQ(::read(pipe_ends[0], &id, sizeof id), static_cast<ssize_t>(sizeof id)) << "the child failed by itself";
+      ASSERT_EQ(::read(pipe_ends[0], &id, sizeof id), static_cast<ssize_t>(sizeof id))
+          << "the child failed before it was killed";
       acknowledged = id + 1;
     }
-    ::usleep(static_cast<useconds_t>(kill_count * 137 % 3000));  // somewhere within a transaction
+    ::usleep(static_cast<useconds_t>(kill_count * 137 % 3000));  // a moment within a transaction
     ::kill(child, SIGKILL);
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
-    ASSERT_TRUE(WIFSIGNALED(status)) << "the child failed by itself";
+    ASSERT_TRUE(WIFSIGNALED(status)) << "the child failed before it was killed";
     while (::read(pipe_ends[0], &id, sizeof id) == static_cast<ssize_t>(sizeof id)) acknowledged = id + 1;
     ::close(pipe_ends[0]);
 
@@ -319,7 +320,7 @@ TEST_F(Store, LosesAtMostThePointInFlightWhenKilled) {
     const Results results = store.load();
     const auto count = static_cast<int64_t>(results.points.size());
     ASSERT_GE(count, acknowledged);
-    ASSERT_LE(count, acknowledged + 1) << "the one whose add() had not returned";
+    ASSERT_LE(count, acknowledged + 1) << "only the point whose add() had not returned may be extra";
     for (int64_t i = 0; i < count; ++i) ASSERT_TRUE(same(results.points[static_cast<size_t>(i)], sample_point(i))) << i;
     sqlite::Database db(path, sqlite::Database::Mode::existing);
     ASSERT_EQ(db.ask("PRAGMA integrity_check"), "ok");

@@ -1,5 +1,5 @@
-// Why four pixels are wrong: the evidence is somebody else's (here written by hand), the ladder and the bounds are
-// Noonmark's. Ends with 0 when the causes are those that the evidence was made for.
+// Finds out why pixels are wrong. The evidence comes from another program (here it is written by hand); the ladder and
+// the bounds are Noonmark's. Ends with 0 if the causes are those for which the evidence was made.
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -12,16 +12,16 @@
 using namespace noonmark;
 
 int main() {
-  // A pixel in a row, a texel under each; unfiltered. map: the depth stored there; reference: the pixel's own depth.
+  // A row of pixels with one texel each, without a filter. map: the stored depth; reference: the depth of the pixel.
   struct Pixel {
     float map, reference;
-    bool lit, texel_lit;  // by rays: the pixel, and the centre of its texel
+    bool lit, texel_lit;  // by rays: at the pixel, and at the centre of its texel
     Cause expected;
   };
   const std::vector<Pixel> pixels = {
-      {0.50f, 0.25f, true, true, Cause::none},   // before what the map holds: lit, as it should be
-      {0.50f, 0.625f, true, true, Cause::acne},  // the texel's one depth lies before a pixel of its own surface
-      {0.50f, 0.53125f, false, false, Cause::peter_panning},  // the bias lifts it past the thing that shadows it
+      {0.50f, 0.25f, true, true, Cause::none},   // nearer than the stored depth: lit, which is right
+      {0.50f, 0.625f, true, true, Cause::acne},  // the stored depth is nearer than a pixel of the same surface
+      {0.50f, 0.53125f, false, false, Cause::peter_panning},  // the bias is larger than its distance to the occluder
       {0.25f, 0.75f, true, false, Cause::aliasing_dark},      // a shadow's edge runs between the pixel and the centre
   };
   const int count = static_cast<int>(pixels.size());
@@ -50,7 +50,7 @@ int main() {
     probe.map_texels[i] = {static_cast<float>(x) + 0.5f, 0.5f};
     taps.taps[i] = static_cast<uint8_t>((pixel.lit ? tap_exact_lit : 0) | (pixel.texel_lit ? tap_texel_lit : 0));
     map.at(x, 0) = pixel.map;
-    shown[i] = pixel.reference - 0.0625f > pixel.map ? 0 : 1;  // what their shader drew
+    shown[i] = pixel.reference - 0.0625f > pixel.map ? 0 : 1;  // the result of the other program's shader
   }
   MapSettings settings;
   settings.resolution = count;
@@ -66,8 +66,8 @@ int main() {
     if (cause == Cause::acne) point.metrics["acne"] += 1.0 / count;
   }
 
-  // Every bias at once, from the same lookup. The pixel that is acne needs 0.625 - 0.5, or as much less as the float
-  // that is compared, near 0.5, rounds away: half of its last place.
+  // The curve gives the result of every bias, from the same lookup. The pixel with acne needs the bias 0.625 - 0.5. The
+  // compared float is near 0.5, so rounding can lower this by half of its last place.
   const float rounding = 0x1p-25f;
   const BiasCounts curve(evidence, map, *curve_part(bias));
   std::printf("free of acne from a bias of %g on\n", static_cast<double>(curve.acne_free_from(0)));
