@@ -13,6 +13,7 @@
 #include "scenes/gltf/error.h"
 #include "scenes/gltf/json.h"
 #include "scenes/gltf/precheck.h"
+#include "scenes/gltf/structure.h"
 
 namespace noonmark::gltf {
 namespace {

@@ -2,6 +2,7 @@
 // is shown of them, and what is said.
 #include <algorithm>
 
+#include "scenes/library.h"
 #include "tests/scenes/gltf/expect.h"
 #include "tests/scenes/gltf/files.h"
 
