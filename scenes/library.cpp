@@ -8,6 +8,7 @@
 
 #include "scenes/builtin.h"
 #include "scenes/error.h"
+#include "scenes/gltf/gltf.h"
 #include "scenes/memory.h"
 #include "scenes/remesh.h"
 #include "scenes/text.h"

@@ -4,7 +4,6 @@
 #pragma once
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,16 +25,6 @@ Scene make_scene(const SceneSettings& settings);
 // "street: 2 animations at rest (...); 1 primitive of lines left out": the scene's notes as one line; empty without
 // any.
 std::string notes_line(const Scene& scene);
-
-// The pose of a glTF file's scene: at rest, or at a time of one of its animations.
-struct Pose {
-  std::optional<double> time_s;  // empty: at rest
-  int animation = 0;
-};
-
-// scenes/gltf/gltf.cpp. It reads nothing outside the file's own folder and loads no images. If the file has no camera
-// or no light, one is fitted. Throws Error(scene).
-Scene load_gltf(const std::string& path, const Pose& pose = {});
 
 // scenes/fit.cpp, for scenes without a camera or a light: a perspective camera that sees the whole scene from outside,
 // or that stands inside a closed room (scenes/interior.h); a light from above and from the side.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "scenes/gltf/element.h"
 #include "scenes/gltf/error.h"
 
 namespace noonmark::gltf {

@@ -61,27 +61,6 @@ Container split_glb(const std::string& file, const std::vector<uint8_t>& bytes) 
   return out;
 }
 
-void check_nesting(const std::string& file, std::string_view json) {
-  int depth = 0;
-  bool in_string = false;
-  for (size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '{' || c == '[') {
-      if (++depth > max_json_depth) {
-        refuse(file, fmt::format("byte {} of the JSON", i), fmt::format("nested more than {} deep", max_json_depth),
-               "remove the nested data (most likely `extras`)");
-      }
-    } else if (c == '}' || c == ']') {
-      --depth;
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<uint8_t> read_bytes(const std::filesystem::path& path, uint64_t wanted, std::string_view file,
@@ -130,7 +109,6 @@ Container read_container(const std::string& file) {
            fmt::format("{} bytes of JSON are more than the {} allowed", out.json.size(), max_json_bytes),
            "move embedded data into the binary chunk");
   }
-  check_nesting(file, out.json);
   return out;
 }
 

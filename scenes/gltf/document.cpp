@@ -1,10 +1,19 @@
+// The text of a file is parsed once, by parse_json (json.h). tinygltf then parses another, shorter text: what the guard
+// has left of the document. It cannot be given the document itself: TinyGLTF takes text and bytes only
+// (LoadASCIIFromString, LoadBinaryFromMemory and the two that read a file), and the function that parses,
+// TinyGLTF::LoadFromString, is private, makes its own nlohmann::json from the text and reads the model from that. No
+// option of the header (TINYGLTF_...) changes this; they only choose another JSON library. It cannot be given the text
+// of the file either, because what the guard refuses cannot be seen in the model: keys that stand twice, values of a
+// wrong type, integers that do not fit.
 #include "scenes/gltf/document.h"
 
 #include <utility>
 
 #include "scenes/gltf/container.h"
 #include "scenes/gltf/error.h"
+#include "scenes/gltf/json.h"
 #include "scenes/gltf/precheck.h"
+#include "scenes/gltf/structure.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -28,12 +37,16 @@ std::string one_line(std::string text) {
 }  // namespace
 
 Document read_document(const std::string& file, std::optional<size_t> animation) {
-  Container container = read_container(file);
   Document out;
   out.file = file;
-  out.guarded = guard(file, container.json, animation);
-  out.bin = std::move(container.bin);
-  out.has_bin = container.has_bin;
+  nlohmann::json read;
+  {
+    Container container = read_container(file);
+    read = parse_json(file, container.json, root_properties(animation.has_value()));
+    out.bin = std::move(container.bin);
+    out.has_bin = container.has_bin;
+  }  // the text is not needed any more
+  out.guarded = guard(file, std::move(read), animation);
 
   const std::string json = std::exchange(out.guarded.json, nullptr).dump();
   tinygltf::TinyGLTF parser;

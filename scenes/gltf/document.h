@@ -24,13 +24,4 @@ Document read_document(const std::string& file, std::optional<size_t> animation)
 // The accessor of a primitive's indices, or -1.
 int indices_of(const tinygltf::Primitive& primitive);
 
-// Throws Error(scene) that names the first contradiction in the model. read_document calls it.
-void check_structure(const Document& document);
-
-// The bytes from the start of one element of the accessor to its end; the distance to the next element in its view; and
-// that distance if there is no gap between elements.
-size_t element_bytes(const tinygltf::Accessor& accessor);
-size_t element_stride(const Document& document, const tinygltf::Accessor& accessor);
-size_t packed_stride(const tinygltf::Accessor& accessor);
-
 }  // namespace noonmark::gltf

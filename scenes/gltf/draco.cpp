@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 
+#include "scenes/gltf/element.h"
 #include "scenes/gltf/error.h"
 
 namespace noonmark::gltf {

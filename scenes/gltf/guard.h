@@ -1,7 +1,7 @@
 // The guard before tinygltf. tinygltf accepts most malformed files, truncates integers silently and tries to read every
-// image. So it gets a new document, made from a table of the properties that Noonmark uses, each of the right type and
-// in range. Everything else (extras, images, textures) is left out. The buffers are left out too, because buffers.cpp
-// reads them, and so is the animation that poses the scene (animation.h). So tinygltf opens no file.
+// image. So it gets only the properties that Noonmark uses (properties.h), each of the right type and in range.
+// Everything else (extras, images, textures) is left out by parse_json. The guard also takes out the buffers, because
+// buffers.cpp reads them, and the animation that poses the scene (animation.h). So tinygltf opens no file.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -36,8 +36,10 @@ struct GuardedDocument {
   std::vector<std::string> notes;                    // on used extensions that are not read
 };
 
-// animation: the index of the animation that poses the scene. Throws Error(scene) that names the first place that is
-// malformed, has another version, or needs an unsupported extension. It also throws if there is no such animation.
-GuardedDocument guard(const std::string& file, const std::string& json, std::optional<size_t> animation);
+// document: from parse_json, with root_properties(animation.has_value()). It is checked and changed in place, so that
+// a large file does not stand in memory twice. animation: the index of the animation that poses the scene. Throws
+// Error(scene) that names the first place that is malformed, has another version, or needs an unsupported extension. It
+// also throws if there is no such animation.
+GuardedDocument guard(const std::string& file, nlohmann::json document, std::optional<size_t> animation);
 
 }  // namespace noonmark::gltf

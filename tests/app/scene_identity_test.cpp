@@ -7,6 +7,7 @@
 
 #include "app/identity.h"
 #include "scenes/error.h"
+#include "scenes/gltf/gltf.h"
 #include "scenes/scene_digest.h"
 #include "tests/scenes/gltf/files.h"
 #include "tests/support/measured.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "scenes/error.h"
-#include "scenes/library.h"
+#include "scenes/gltf/gltf.h"
 #include "tests/fuzz/json_mutator.h"
 #include "tests/fuzz/targets.h"
 #include "tests/scenes/gltf/compressed_files.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "scenes/gltf/gltf.h"
 #include "tests/raytrace/fixture.h"
 
 namespace noonmark::raytrace {

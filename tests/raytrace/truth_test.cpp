@@ -5,6 +5,7 @@
 #include "raytrace/embree_scene.h"
 #include "raytrace/light_view.h"
 #include "scenes/error.h"
+#include "scenes/gltf/gltf.h"
 #include "tests/raytrace/fixture.h"
 
 namespace noonmark::raytrace {

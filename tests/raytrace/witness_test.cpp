@@ -8,6 +8,7 @@
 #include "raytrace/embree_scene.h"
 #include "scenes/builtin.h"
 #include "scenes/camera_frame.h"
+#include "scenes/gltf/gltf.h"
 #include "tests/raytrace/closed_form.h"
 #include "tests/raytrace/fixture.h"
 

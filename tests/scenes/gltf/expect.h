@@ -7,7 +7,7 @@
 #include <string>
 
 #include "scenes/error.h"
-#include "scenes/library.h"
+#include "scenes/gltf/gltf.h"
 
 namespace noonmark::test {
 

@@ -2,6 +2,7 @@
 // which triangles are drawn, and which notes are written.
 #include <algorithm>
 
+#include "scenes/library.h"
 #include "tests/scenes/gltf/expect.h"
 #include "tests/scenes/gltf/files.h"
 
@@ -206,6 +207,52 @@ TEST_F(GltfNotes, AKeyThatStandsTwiceIsRefused) {
   std::string extras = text;
   extras.insert(at, "\"extras\":{\"a\":1,\"a\":{\"b\":2,\"b\":3}},");
   EXPECT_EQ(load_gltf(folder_.write("scene.gltf", extras)).triangles.size(), 2u);
+}
+
+// Such keys are looked for in the whole text, also in data that are not read, and in objects with many keys.
+TEST_F(GltfNotes, AKeyThatStandsTwiceIsRefusedInDataThatAreNotRead) {
+  const auto refusal_of = [&](const std::string& member) {
+    std::string text = square().dump();
+    text.insert(1, member + ",");
+    return test::refusal(folder_.write("scene.gltf", text));
+  };
+  const auto expect = [&](const std::string& member, const std::string& message) {
+    const std::string refusal = refusal_of(member);
+    EXPECT_NE(refusal.find(message), std::string::npos) << refusal;
+  };
+  expect("\"images\":[{\"uri\":\"a\"},{\"uri\":\"b\",\"name\":\"\",\"uri\":\"c\"}]",
+         "an object in images: has the key 'uri' twice");
+  expect("\"foreign\":{\"a\":[[{\"b\":{\"c\":1,\"c\":2}}]]}", "an object in foreign.a.b: has the key 'c' twice");
+  std::string many;
+  for (int i = 0; i < 200; ++i) many += "\"k" + std::to_string(i) + "\":0,";
+  for (const int twice : {0, 30, 31, 32, 33, 199})
+    expect("\"foreign\":{" + many + "\"k" + std::to_string(twice) + "\":1}",
+           "an object in foreign: has the key 'k" + std::to_string(twice) + "' twice");
+  // The objects beside extras are not free.
+  expect("\"foreign\":[{\"extras\":[{\"a\":1,\"a\":2}]},{\"a\":1,\"a\":2}]",
+         "an object in foreign: has the key 'a' twice");
+}
+
+// A value that should be a scalar and is not is named by its type, whatever it holds.
+TEST_F(GltfNotes, AValueOfAnotherTypeIsNamed) {
+  const auto expect = [&](const char* pointer, const json& value, const std::string& message) {
+    json d = square();
+    d[json::json_pointer(pointer)] = value;
+    const std::string refusal = test::refusal(folder_.write("scene.gltf", d.dump()));
+    EXPECT_NE(refusal.find(message), std::string::npos) << refusal;
+  };
+  const json object = {{"a", {{"b", 1}}}, {"c", {1, 2}}};
+  expect("/nodes/0/mesh", object, "nodes[0].mesh: should be an integer from 0 to 2147483647, not object");
+  expect("/nodes/0/mesh", json::array({object}), "nodes[0].mesh: should be an integer from 0 to 2147483647, not array");
+  expect("/nodes/0/mesh", -1, "nodes[0].mesh: should be an integer from 0 to 2147483647, not -1");
+  expect("/nodes/0/name", object, "nodes[0].name: should be a string, not object");
+  expect("/nodes/0/scale", json::array({1, object, 1}), "nodes[0].scale[1]: should be a finite number, not object");
+  expect("/nodes/0/scale", json::array({1, object, json::array({1}), 1}), "nodes[0].scale: has 4 numbers instead of 3");
+  expect("/nodes", json::array({json{{"mesh", 0}}, json::array({object})}), "nodes[1]: should be an object, not array");
+  expect("/meshes/0/primitives/0/attributes", json::array({object}),
+         "meshes[0].primitives[0].attributes: should be an object, not array");
+  expect("/meshes/0/primitives/0/attributes/POSITION", json{{"POSITION", 0}},
+         "meshes[0].primitives[0].attributes.POSITION: should be an integer from 0 to 2147483647, not object");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "scenes/camera_fit.h"
 #include "scenes/fit.h"
+#include "scenes/library.h"
 #include "technique/light_frame.h"
 #include "tests/scenes/gltf/expect.h"
 #include "tests/scenes/gltf/files.h"
