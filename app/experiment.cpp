@@ -76,7 +76,7 @@ void apply_override(Experiment& experiment, std::string_view assignment) {
   } catch (const Error& error) {
     throw Error(ErrorKind::usage, fmt::format("--set {}: {}", assignment, error.what()));
   }
-  experiment.places[name] = fmt::format("--set {}", assignment);
+  experiment.locations[name] = fmt::format("--set {}", assignment);
   std::erase_if(experiment.swept, [&](const Swept& swept) { return swept.name == name; });
   for (Experiment& part : experiment.parts) apply_override(part, assignment);
   if (std::find(experiment.overridden.begin(), experiment.overridden.end(), name) == experiment.overridden.end())
@@ -125,9 +125,10 @@ int64_t point_count(const Experiment& experiment) {
     count *= static_cast<int64_t>(swept.values.size());
     // Each list fits in memory, so the product stays far from overflow when it is checked at every step.
     if (count > max_points)
-      throw Error(ErrorKind::usage,
-                  fmt::format("{}: the sweep has more than {} points; sweep fewer values",
-                              experiment.sweep_place.empty() ? experiment.path : experiment.sweep_place, max_points));
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("{}: the sweep has more than {} points; sweep fewer values",
+                      experiment.sweep_location.empty() ? experiment.path : experiment.sweep_location, max_points));
   }
   return count;
 }
@@ -144,16 +145,16 @@ std::string swept_text(const Experiment& experiment, int64_t id) {
 Error error_of_point(const Experiment& experiment, int64_t id, const Error& error) {
   if (experiment.path.empty()) return error;  // a point given only by the command line has no name and no place
   const Experiment& part = part_of_point(experiment, id);
-  std::string place = part.sweep_place;
+  std::string place = part.sweep_location;
   if (const auto* conflict = dynamic_cast<const SettingConflict*>(&error)) {
     // The file can give any of the settings that the message names.
     const std::string what = error.what();
-    const auto named = part.places.find(conflict->setting());
+    const auto named = part.locations.find(conflict->setting());
     size_t first = std::string::npos;
-    if (named != part.places.end())
+    if (named != part.locations.end())
       place = named->second;
     else
-      for (const auto& [name, where] : part.places)
+      for (const auto& [name, where] : part.locations)
         if (const size_t found = what.find(name); found < first) {
           first = found;
           place = where;

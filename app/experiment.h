@@ -43,10 +43,10 @@ struct Experiment {
   std::vector<std::string> overridden;  // settings given by apply_override, in order
   std::vector<std::string> chosen;      // parts given by choose_parts
   std::string part;                     // its name, if it is a part of another experiment
-  // The place where each setting was given: "file:line:column", or "--set name=value". sweep_place: the place of
+  // Where each setting was given: "file:line:column", or "--set name=value". sweep_location: the same of
   // [sweep].
-  std::map<std::string, std::string> places;
-  std::string sweep_place;
+  std::map<std::string, std::string> locations;
+  std::string sweep_location;
   std::vector<Experiment> parts;  // if there are parts, all points belong to them, one part after the other
 };
 

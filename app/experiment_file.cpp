@@ -59,14 +59,14 @@ class Reader : private SettingsReader {
     if (parts_) {
       for (const toml::node* inside : {static_cast<const toml::node*>(sweep_), bounds_, laws_})
         if (inside) fail(*inside, "in a file with parts, sweep, bounds and laws must stand inside a [[part]]");
-      experiment_.sweep_place = place_text(parts_->source());
+      experiment_.sweep_location = location_text(parts_->source());
       read_parts(*parts_);
       points(experiment_);
       return std::move(experiment_);
     }
     // These are read last, because they depend on the fixed settings, which may stand anywhere in the file.
     if (sweep_) {
-      experiment_.sweep_place = place_text(sweep_->source());
+      experiment_.sweep_location = location_text(sweep_->source());
       read_sweep(*sweep_);
     }
     if (bounds_) read_bounds(*bounds_);
@@ -111,7 +111,7 @@ class Reader : private SettingsReader {
 
   void give(const std::string& name, const toml::node& value) {
     given_.insert(name);
-    experiment_.places[name] = place_text(value.source());
+    experiment_.locations[name] = location_text(value.source());
   }
 
   // ---- [sweep]

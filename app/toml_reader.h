@@ -28,7 +28,7 @@ struct Item {
 };
 
 // An error whose message already starts with its place.
-struct PlacedError : Error {
+struct LocatedError : Error {
   using Error::Error;
 };
 
@@ -39,11 +39,11 @@ class TomlReader {
 
   // ---- messages
 
-  std::string place_text(const toml::source_region& where) const {
+  std::string location_text(const toml::source_region& where) const {
     return fmt::format("{}:{}:{}", path_, where.begin.line, where.begin.column);
   }
   [[noreturn]] void fail(const toml::source_region& where, const std::string& what) const {
-    throw PlacedError(ErrorKind::usage, fmt::format("{}: {}", place_text(where), what));
+    throw LocatedError(ErrorKind::usage, fmt::format("{}: {}", location_text(where), what));
   }
   [[noreturn]] void fail(const toml::node& node, const std::string& what) const { fail(node.source(), what); }
 
@@ -52,7 +52,7 @@ class TomlReader {
   auto at(const toml::source_region& where, F f) const {
     try {
       return f();
-    } catch (const PlacedError&) {
+    } catch (const LocatedError&) {
       throw;
     } catch (const Error& error) {
       fail(where, error.what());

@@ -5,16 +5,14 @@
 namespace noonmark::gl {
 namespace {
 
-std::string formula_file(std::string_view name) { return fmt::format("technique/bias/{}.glsl", name); }
-
 // The name of the uniform: "bias_slope", "bias_slope_floor" or "bias_slope_cap".
 std::string uniform(const ActivePart& active, std::string_view parameter = "") {
   return fmt::format("bias_{}{}", active.part->name, parameter);
 }
 
 void declare(std::string& text, const ActivePart& active) {
-  text += fmt::format("#include \"{}\"\nuniform float {};  // {}\n", formula_file(active.part->name), uniform(active),
-                      active.part->unit);
+  text += fmt::format("#include \"technique/bias/{}.glsl\"\nuniform float {};  // {}\n", active.part->name,
+                      uniform(active), active.part->unit);
   if (!active.part->floor_help.empty()) text += fmt::format("uniform float {};\n", uniform(active, "_floor"));
   if (!active.part->cap_help.empty()) text += fmt::format("uniform float {};\n", uniform(active, "_cap"));
 }
@@ -53,7 +51,7 @@ std::string compared_text(const Bias& bias) {
 }
 
 std::string reference_text(const TapReference& reference) {
-  const std::string start = fmt::format("#include \"{}\"\n", formula_file(reference.name)) +
+  const std::string start = fmt::format("#include \"technique/reference/{}.glsl\"\n", reference.name) +
                             "float tap_depth(Receiver receiver, vec3 offset, MapAddress at) {\n";
   if (!reference.plane)
     return start +

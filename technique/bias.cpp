@@ -29,9 +29,9 @@ Bias::Bias(const BiasSettings& settings)
       plane_cap_(rounded(settings.plane_cap.value_or(std::numeric_limits<double>::infinity()))) {
   for (const BiasPart& part : bias_parts()) {
     if (!acts(settings, part)) continue;
-    if (part.acts_on == BiasPlace::compared_depth) compared_.push_back(active_part(settings, part));
-    if (part.acts_on == BiasPlace::place_looked_up) moving_.push_back(active_part(settings, part));
-    if (part.acts_on == BiasPlace::caster && part.formula.way) casting_.push_back(active_part(settings, part));
+    if (part.acts_on == BiasTarget::compared_depth) compared_.push_back(active_part(settings, part));
+    if (part.acts_on == BiasTarget::place_looked_up) moving_.push_back(active_part(settings, part));
+    if (part.acts_on == BiasTarget::caster && part.formula.way) casting_.push_back(active_part(settings, part));
   }
   const PolygonOffset offset{rounded(settings["polygon_factor"]), rounded(settings["polygon_units"])};
   if (offset.factor != 0 || offset.units != 0) polygon_offset_ = offset;

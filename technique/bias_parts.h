@@ -23,7 +23,7 @@
 
 namespace noonmark {
 
-enum class BiasPlace { compared_depth, place_looked_up, caster };
+enum class BiasTarget { compared_depth, place_looked_up, caster };
 
 // The functions that the host compiles from the formula of a part.
 struct BiasFormula {
@@ -34,7 +34,7 @@ struct BiasFormula {
 
 struct BiasPart {
   std::string_view name;  // name of its setting bias.<name> and of its file, if it has one
-  BiasPlace acts_on = BiasPlace::compared_depth;
+  BiasTarget acts_on = BiasTarget::compared_depth;
   std::string_view unit;  // the unit of the amount: "bias.unit"; "texels" of the map at the receiver; "" ...
   double most = 0;        // the amount is in 0 ... most
   std::string_view help;
@@ -64,7 +64,7 @@ std::span<const BiasParameter> bias_parameters();
 size_t bias_parameter_index(std::string_view name);  // throws std::logic_error if no parameter has that name
 
 // The depth that a tap of the map is compared with, before the bias is subtracted from it. The formula is the function
-// <name>(TapPlace) in the file technique/bias/<name>.glsl.
+// <name>(TapPlace) in the file technique/reference/<name>.glsl.
 struct TapReference {
   std::string_view name;  // a choice of bias.reference
   std::string_view help;

@@ -24,13 +24,13 @@ using namespace setting_rules;
 
 // A part that moves the lookup or the caster changes which texels are read or what they hold. A part that is subtracted
 // from the compared depth changes the verdict only.
-Stages stages_of(BiasPlace place) {
+Stages stages_of(BiasTarget place) {
   switch (place) {
-    case BiasPlace::compared_depth:
+    case BiasTarget::compared_depth:
       return {Stage::ladder};
-    case BiasPlace::place_looked_up:
+    case BiasTarget::place_looked_up:
       return {Stage::lookup};
-    case BiasPlace::caster:
+    case BiasTarget::caster:
       return {Stage::map, Stage::lookup};
   }
   throw std::logic_error("a part of the bias that acts nowhere");
@@ -59,7 +59,7 @@ Setting bias_row(const BiasParameter& parameter) {
   };
   row.read_by = stages_of(parameter.part->acts_on);
   const BiasPart& part = *parameter.part;
-  if (part.acts_on == BiasPlace::caster && !part.formula.way)
+  if (part.acts_on == BiasTarget::caster && !part.formula.way)
     row.why_idle = [](const Settings& s, LightKind light) {
       const std::string why = not_on_point(s, light);
       return why.empty() ? why : why + ", whose shader writes its depth itself";

@@ -1,4 +1,5 @@
-// The numbers that a part of a bias may read of the receiver. GLSL and C++ compile this file and technique/bias/*.glsl.
+// The numbers that a part of a bias or the reference of a tap may read of the receiver. GLSL and C++ compile this file,
+// technique/bias/*.glsl and technique/reference/*.glsl.
 // gl/shaders/words.glsl defines the words that GLSL lacks, and technique/formulas.h those that C++ lacks.
 struct Surface {
   vec3 normal;       // N, unit

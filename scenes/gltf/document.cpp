@@ -7,6 +7,10 @@
 // wrong type, integers that do not fit.
 #include "scenes/gltf/document.h"
 
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include "scenes/gltf/container.h"
@@ -14,6 +18,7 @@
 #include "scenes/gltf/json.h"
 #include "scenes/gltf/precheck.h"
 #include "scenes/gltf/structure.h"
+#include "scenes/memory.h"
 
 namespace noonmark::gltf {
 namespace {
@@ -34,6 +39,39 @@ std::string one_line(std::string text) {
   return printable(text);
 }
 
+// Checks the memory for tinygltf's model before it is made: an empty material is 2 bytes of a file and 2 kB of a model.
+// document: what the guard has left; text_bytes: its length as text.
+void require_room(const std::string& file, const nlohmann::json& document, size_t text_bytes) {
+  struct Size {
+    std::string_view list;
+    size_t bytes;
+  };
+  constexpr std::array<Size, 9> sizes = {{{"accessors", sizeof(tinygltf::Accessor)},
+                                          {"bufferViews", sizeof(tinygltf::BufferView)},
+                                          {"cameras", sizeof(tinygltf::Camera)},
+                                          {"materials", sizeof(tinygltf::Material)},
+                                          {"meshes", sizeof(tinygltf::Mesh)},
+                                          {"nodes", sizeof(tinygltf::Node)},
+                                          {"primitives", sizeof(tinygltf::Primitive)},
+                                          {"scenes", sizeof(tinygltf::Scene)},
+                                          {"skins", sizeof(tinygltf::Skin)}}};
+  constexpr double while_it_grows = 1.5;  // a list that doubles its capacity holds its old half too
+  constexpr double text_to_tree = 14;     // of nodes, meshes and accessors, as measured
+  double needed = text_to_tree * static_cast<double>(text_bytes);
+  const auto add = [&](const nlohmann::json& lists) {
+    for (const Size& size : sizes)
+      if (const auto list = lists.find(size.list); list != lists.end())
+        needed += while_it_grows * static_cast<double>(list->size() * size.bytes);
+  };
+  add(document);
+  if (const auto meshes = document.find("meshes"); meshes != document.end())
+    for (const nlohmann::json& mesh : *meshes) add(mesh);
+  if (const AvailableMemory available = available_memory(); needed > static_cast<double>(available.bytes)) {
+    refuse(file, "", fmt::format("its JSON takes about {} of memory and {}", bytes_text(needed), available.text()),
+           "simplify it or split it, or use a machine with more memory");
+  }
+}
+
 }  // namespace
 
 Document read_document(const std::string& file, std::optional<size_t> animation) {
@@ -48,7 +86,9 @@ Document read_document(const std::string& file, std::optional<size_t> animation)
   }  // the text is not needed any more
   out.guarded = guard(file, std::move(read), animation);
 
-  const std::string json = std::exchange(out.guarded.json, nullptr).dump();
+  const std::string json = out.guarded.json.dump();
+  require_room(file, out.guarded.json, json.size());
+  out.guarded.json = nullptr;
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks(no_files());
   parser.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,

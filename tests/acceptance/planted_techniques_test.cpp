@@ -75,7 +75,7 @@ std::vector<Planted> defects() {
   all.push_back(
       {"ReceiverPlaneTurnedInTheLookup",
        plane,
-       {.shaders = patched("technique/bias/receiver_plane.glsl", "at.reference + rise", "at.reference - rise")},
+       {.shaders = patched("technique/reference/receiver_plane.glsl", "at.reference + rise", "at.reference - rise")},
        {{"contract", 0, 0.1}, {"tap_residual", 1e-6, 0.3}},
        {"rounding_excess"}});
   all.push_back({"ReceiverPlaneTurned",

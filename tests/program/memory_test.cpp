@@ -237,6 +237,17 @@ TEST_F(Memory, InstancesAreCountedBeforeTheyAreMade) {
       << output_;
 }
 
+TEST_F(Memory, TheModelOfAFileIsCountedBeforeItIsMade) {
+  test::json scene = test::square();
+  scene["materials"] = test::json::array();
+  for (int i = 0; i < 2'000'000; ++i) scene["materials"].push_back(test::json::object());
+  EXPECT_EQ(run_within(rlim_t{4} << 30, {"render", "--set", "scene.name=" + write("scene.gltf", scene.dump())}), 3)
+      << output_;
+  EXPECT_TRUE(std::regex_search(output_, std::regex("its JSON takes about 6.[0-9] GB of memory and [0-9.]+ GB are "
+                                                    "available .*simplify it or split it")))
+      << output_;
+}
+
 TEST_F(Memory, OtherTrianglesAreCountedBeforeTheyAreMade) {
   const auto render = [&](const std::string& scene, const char* mesh) {
     return run_within(rlim_t{8} << 30, {"render", "--set", "scene.name=" + scene, "--set",
