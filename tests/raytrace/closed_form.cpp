@@ -9,67 +9,36 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// How far two equal depths may differ in double: some hundred times 2^-53, as a fraction of the scene's size.
+// Double's rounding of depths that are one: some hundred times 2^-53, as a fraction of the scene's size.
 constexpr double rounding = 1e-13;
 
-// A face nearer to edge-on than this counts as edge-on: a direction in double is exact only to some times 2^-53, so the
-// true value may be 0.
-constexpr double edge_on_sine = 0x1p-30;
-
-double cross2(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
-
-double segment_distance(glm::dvec2 x, glm::dvec2 a, glm::dvec2 b) {
-  const glm::dvec2 way = b - a;
-  const double length2 = glm::dot(way, way);
-  const double t = length2 > 0 ? std::clamp(glm::dot(x - a, way) / length2, 0.0, 1.0) : 0;
-  return glm::length(x - a - t * way);
-}
-
-// Cuts [begin, end] to the part where a + b s >= 0.
-void keep_positive(double a, double b, double& begin, double& end) {
-  if (b > 0)
-    begin = std::max(begin, -a / b);
-  else if (b < 0)
-    end = std::min(end, -a / b);
-  else if (a < 0)
-    end = -infinity;
-}
-
-// The interval of s in which a s^2 + 2 b s + c <= 0, for a > 0.
-std::pair<double, double> not_positive(double a, double b, double c) {
-  const double discriminant = b * b - a * c;
-  if (!(discriminant >= 0) || !(a > 0)) return {1, 0};
-  const double root = std::sqrt(discriminant);
-  const double q = b > 0 ? -b - root : -b + root;  // the larger in magnitude, without cancellation
-  if (q == 0) return {0, 0};
-  const double first = q / a, second = c / q;
-  return {std::min(first, second), std::max(first, second)};
-}
-
-}  // namespace
-
-FlatFace face_of(const Shape& s, int face) {
-  if (s.kind != ShapeKind::box) return {s.at, s.edge[0], s.edge[1]};
-  const auto& e = s.edge;
-  const glm::dvec3 at = s.at + (face % 2 ? e[static_cast<size_t>(face / 2)] : glm::dvec3(0));
-  const glm::dvec3 u = e[static_cast<size_t>((face / 2 + 1) % 3)], v = e[static_cast<size_t>((face / 2 + 2) % 3)];
-  return face % 2 ? FlatFace{at, u, v} : FlatFace{at, v, u};
-}
-
-bool may_be_one_plane(const FlatFace& a, const FlatFace& b, double moved_m) {
-  const auto holds = [&](const FlatFace& plane, const FlatFace& corners) {
-    const glm::dvec3 n = glm::cross(plane.u, plane.v);
-    const double narrowest = glm::length(n) / std::max(glm::length(plane.u), glm::length(plane.v));
-    for (const glm::dvec3 c :
-         {corners.at, corners.at + corners.u, corners.at + corners.v, corners.at + corners.u + corners.v}) {
-      const glm::dvec3 way = c - plane.at;
-      const double off = std::abs(glm::dot(n, way)) / glm::length(n);
-      if (!(off <= moved_m * (4 + 12 * glm::length(way) / narrowest))) return false;
-    }
-    return true;
+// May two faces whose corners rounding has moved by up to moved_m have been parts of one plane? A plane that is carried
+// on from a narrow face is off by that much more.
+bool may_be_one_plane(const Piece& a, const Piece& b, double moved_m) {
+  const auto holds = [&](const Piece& plane, const Piece& corners) {
+    const glm::dvec3 u = plane.corner[1] - plane.corner[0], v = plane.corner[3] - plane.corner[0];
+    const double narrowest = glm::length(glm::cross(u, v)) / std::max(glm::length(u), glm::length(v));
+    return std::all_of(corners.corner.begin(), corners.corner.end(), [&](const glm::dvec3& c) {
+      const glm::dvec3 way = c - plane.corner[0];
+      return std::abs(glm::dot(plane.n, way)) <= moved_m * (4 + 12 * glm::length(way) / narrowest);
+    });
   };
   return holds(a, b) && holds(b, a);
 }
+
+// Table 8.19's row of a direction: the face, s_c, t_c and m_a.
+struct CubeAddress {
+  int face;
+  double s, t, m;
+};
+CubeAddress cube_address(glm::dvec3 r) {
+  const glm::dvec3 a = glm::abs(r);
+  if (a.x >= a.y && a.x >= a.z) return r.x > 0 ? CubeAddress{0, -r.z, -r.y, a.x} : CubeAddress{1, r.z, -r.y, a.x};
+  if (a.y >= a.z) return r.y > 0 ? CubeAddress{2, r.x, r.z, a.y} : CubeAddress{3, r.x, -r.z, a.y};
+  return r.z > 0 ? CubeAddress{4, r.x, -r.y, a.z} : CubeAddress{5, -r.x, -r.y, a.z};
+}
+
+}  // namespace
 
 double vertex_rounding_m(const Scene& scene) {
   glm::vec3 largest(0);
@@ -77,157 +46,152 @@ double vertex_rounding_m(const Scene& scene) {
   return 0x1p-23 * glm::length(glm::dvec3(largest));
 }
 
-bool ClosedForm::one_plane(const Piece& a, const Piece& b) const {
-  return moved_m_ > 0 && a.kind != ShapeKind::sphere && b.kind != ShapeKind::sphere &&
-         may_be_one_plane(flat(a), flat(b), moved_m_);
-}
-
-// Whether the step is larger than rounding alone can make it. Rounding moves the two planes and the edge between them.
-bool ClosedForm::is_step(const Piece& before, const Piece& after, double jump_m) const {
-  const auto cosine = [](const Piece& p) { return 1 / std::sqrt(1 + glm::dot(p.gradient, p.gradient)); };
-  return jump_m * std::min(cosine(before), cosine(after)) > 8 * moved_m_;
-}
-
 ClosedForm::ClosedForm(const std::vector<Shape>& shapes, const LightFrame& frame, double moved_m)
     : frame_(frame), moved_m_(moved_m) {
-  const auto turned = [&](glm::dvec3 v) {
-    return glm::dvec3(glm::dot(v, frame.right), glm::dot(v, frame.up), glm::dot(v, frame.forward));
-  };
+  rays_ = {frame.kind == LightKind::directional, glm::dvec3(0), glm::dvec3(0)};
+  if (rays_.parallel) rays_.centre = frame.forward;
+  if (frame.kind == LightKind::spot) rays_.axis = frame.forward;
   for (size_t i = 0; i < shapes.size(); ++i) {
     const Shape& s = shapes[i];
     for (int face = 0; face < (s.kind == ShapeKind::box ? 6 : 1); ++face) {
-      const FlatFace f = face_of(s, face);
+      FlatFace f = face_of(s, face);
+      if (s.kind == ShapeKind::disc) f.u *= s.radius / glm::length(f.u), f.v *= s.radius / glm::length(f.v);
       Piece p{.shape = static_cast<int>(i),
               .face = face,
               .kind = s.kind == ShapeKind::box ? ShapeKind::rectangle : s.kind,
-              .at = turned(f.at - frame.origin_m),
-              .u = turned(f.u),
-              .v = turned(f.v),
-              .world_at = f.at,
-              .world_u = f.u,
-              .world_v = f.v,
+              .corner = {f.at, f.at + f.u, f.at + f.u + f.v, f.at + f.v},
               .radius = s.radius};
-      size_m_ = std::max({size_m_, glm::length(p.at) + glm::length(p.u) + glm::length(p.v) + p.radius});
-      if (p.kind != ShapeKind::sphere) {
-        const glm::dvec3 n = glm::cross(p.u, p.v);
-        p.edge_on = std::abs(n.z) <= edge_on_sine * glm::length(n);
-        p.gradient = glm::dvec2(n) / -n.z;
-        p.front = n.z < 0;
-      }
-      pieces_.push_back(p);
+      if (p.kind != ShapeKind::sphere) p.n = glm::normalize(glm::cross(f.u, f.v));
+      for (glm::dvec3& c : p.corner) size_m_ = std::max(size_m_, glm::length(c -= frame.origin_m) + p.radius);
+      pieces_.push_back(p.seen_by(rays_));
     }
   }
 }
 
-// (s, t), where x = at + s u + t v in the light's plane.
-glm::dvec2 ClosedForm::local(const Piece& p, glm::dvec2 x) const {
-  const glm::dvec2 d = x - glm::dvec2(p.at), u(p.u), v(p.v);
-  return glm::dvec2(cross2(d, v), cross2(u, d)) / cross2(u, v);
+// Of a flat map.
+double ClosedForm::half_width_m(double depth_m) const {
+  return rays_.parallel ? frame_.extent_m / 2 : frame_.tan_half_fov * depth_m;
 }
 
-bool ClosedForm::covers(const Piece& p, glm::dvec2 x) const {
-  if (p.kind == ShapeKind::sphere) return glm::length(x - glm::dvec2(p.at)) <= p.radius;
-  if (p.edge_on) return false;
-  const glm::dvec2 st = local(p, x);
-  if (p.kind == ShapeKind::rectangle) return st.x >= 0 && st.x <= 1 && st.y >= 0 && st.y <= 1;
-  return glm::length(st.x * p.u + st.y * p.v) <= p.radius;
+LightRay ClosedForm::ray_of_tap(glm::dvec3 p, glm::dvec3 offset) const {
+  if (frame_.kind == LightKind::point) return ray_to(p + offset);
+  const double texel_m = 2 * half_width_m(glm::dot(p - frame_.origin_m, frame_.forward)) / frame_.resolution;
+  return ray_to(p + texel_m * (offset.x * frame_.right + offset.y * frame_.up));
 }
 
-double ClosedForm::depth(const Piece& p, glm::dvec2 x) const {
-  const glm::dvec2 d = x - glm::dvec2(p.at);
-  if (p.kind == ShapeKind::sphere) return p.at.z - std::sqrt(std::max(0.0, p.radius * p.radius - glm::dot(d, d)));
-  return p.at.z + glm::dot(p.gradient, d);
-}
-
-// The part of the way from `from` to `to` (0 ... 1) that lies over the piece.
-ClosedForm::Interval ClosedForm::along(const Piece& p, glm::dvec2 from, glm::dvec2 to) const {
-  Interval i{0, 1};
-  if (p.edge_on) return {};
-  if (p.kind == ShapeKind::rectangle) {
-    const glm::dvec2 a = local(p, from), b = local(p, to) - a;
-    for (int axis = 0; axis < 2; ++axis) {
-      keep_positive(a[axis], b[axis], i.begin, i.end);
-      keep_positive(1 - a[axis], -b[axis], i.begin, i.end);
-    }
-    return i;
+LightRay ClosedForm::ray_of_texel(glm::ivec2 texel) const {
+  const double n = frame_.resolution;
+  if (frame_.kind != LightKind::point) {
+    const glm::dvec2 at = 2.0 * (glm::dvec2(texel) + 0.5 + frame_.shift_texels) / n - 1.0;
+    return rays_.through(frame_.forward + half_width_m(1) * (at.x * frame_.right + at.y * frame_.up));
   }
-  glm::dvec3 a(from - glm::dvec2(p.at), 0), b(to - from, 0);
-  if (p.kind == ShapeKind::disc) {
-    const glm::dvec2 start = local(p, from), step = local(p, to) - start;
-    a = start.x * p.u + start.y * p.v;
-    b = step.x * p.u + step.y * p.v;
+  const double s = 2 * (texel.x + 0.5) / n - 1, t = 2 * (texel.y % frame_.resolution + 0.5) / n - 1;
+  const glm::dvec3 ways[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
+  return rays_.through(ways[texel.y / frame_.resolution]);
+}
+
+glm::dvec2 ClosedForm::texels_of(const LightRay& ray) const {
+  const double n = frame_.resolution;
+  if (frame_.kind != LightKind::point) {
+    const glm::dvec3 at = ray.start + ray.way;  // at depth 1
+    const glm::dvec2 side = glm::dvec2(glm::dot(at, frame_.right), glm::dot(at, frame_.up)) / half_width_m(1);
+    return (side + 1.0) * (n / 2) - frame_.shift_texels;
   }
-  const auto [first, last] = not_positive(glm::dot(b, b), glm::dot(a, b), glm::dot(a, a) - p.radius * p.radius);
-  return {std::max(first, 0.0), std::min(last, 1.0)};
+  const CubeAddress at = cube_address(ray.way);
+  return {(at.s / at.m + 1) * n / 2, (at.t / at.m + 1) * n / 2 + at.face * n};
 }
 
-double ClosedForm::tie(const Piece& a, const Piece& b) const {
-  const auto slope = [](const Piece& p) { return p.kind == ShapeKind::sphere ? 0.0 : glm::length(p.gradient); };
-  return rounding * size_m_ * (1 + slope(a) + slope(b));
+double ClosedForm::window_depth(double depth) const {
+  const double near = frame_.near_m, far = frame_.far_m;
+  if (depth == infinity) return 1;
+  if (frame_.kind == LightKind::point) return std::clamp(depth / far, 0.0, 1.0);
+  if (rays_.parallel) return std::clamp((depth - near) / (far - near), 0.0, 1.0);
+  // glFrustum's third and fourth row, divided.
+  const double ndc = ((far + near) / (far - near) * depth - 2 * far * near / (far - near)) / depth;
+  return std::clamp(0.5 * ndc + 0.5, 0.0, 1.0);
 }
 
-const ClosedForm::Piece& ClosedForm::own_piece(const Place& place) const {
+double ClosedForm::near_depth(const LightRay& ray) const {
+  return frame_.kind == LightKind::point ? frame_.near_m / cube_address(ray.way).m : frame_.near_m;
+}
+
+bool ClosedForm::facing(glm::dvec3 p, glm::dvec3 n) const {
+  const glm::dvec3 way = rays_.parallel ? rays_.centre : p - frame_.origin_m;
+  return glm::dot(n, way) < 0 &&
+         (frame_.kind != LightKind::spot || glm::dot(way, frame_.forward) >= frame_.cos_half_cone * glm::length(way));
+}
+
+bool ClosedForm::one_plane(const Piece& a, const Piece& b) const {
+  return moved_m_ > 0 && a.kind != ShapeKind::sphere && b.kind != ShapeKind::sphere && may_be_one_plane(a, b, moved_m_);
+}
+
+// Is the step larger than rounding can make it? Rounding moves the two planes and the edge between them.
+bool ClosedForm::is_step(const Piece& before, const Piece& after, const LightRay& at, double jump_m) const {
+  const double slope = std::max(before.slope(at), after.slope(at));
+  return jump_m / std::sqrt(1 + slope * slope) > 8 * moved_m_;
+}
+
+double ClosedForm::tie(double slope_a, double slope_b) const { return rounding * size_m_ * (1 + slope_a + slope_b); }
+
+const Piece& ClosedForm::own_piece(const Place& place) const {
   return *std::find_if(pieces_.begin(), pieces_.end(),
                        [&](const Piece& p) { return p.shape == place.shape && p.face == place.face; });
 }
 
 bool ClosedForm::lit(const Place& place) const {
   const Piece& own = own_piece(place);
-  const glm::dvec3 p = frame_.to_light(place.p);
-  const glm::dvec2 x(p);
-  const double z = own.kind == ShapeKind::sphere ? p.z : depth(own, x);
+  const LightRay ray = ray_to(place.p);
+  const glm::dvec3 p = place.p - frame_.origin_m;
+  const double own_depth =
+      own.kind == ShapeKind::sphere ? glm::dot(p - ray.start, ray.way) / glm::dot(ray.way, ray.way) : own.depth(ray);
   return std::none_of(pieces_.begin(), pieces_.end(), [&](const Piece& other) {
-    return &other != &own && covers(other, x) && depth(other, x) < z - tie(own, other) && !one_plane(own, other);
+    return &other != &own && other.covers(ray) &&
+           other.depth(ray) < own_depth - tie(own.slope(ray), other.slope(ray)) && !one_plane(own, other);
   });
 }
 
-double ClosedForm::first_depth(glm::dvec2 x, double z_from) const {
+double ClosedForm::first_depth(const LightRay& x, double from) const {
   double first = infinity;
-  for (const Piece& p : pieces_) {
-    if (!covers(p, x)) continue;
-    double z = depth(p, x);
-    if (p.kind == ShapeKind::sphere && z < z_from) z = 2 * p.at.z - z;  // its far half
-    if (z >= z_from) first = std::min(first, z);
-  }
+  for (const Piece& p : pieces_)
+    if (p.covers(x)) first = std::min(first, p.depth(x, from));
   return first;
 }
 
-bool ClosedForm::may_be_first(glm::dvec2 x, double z_from, double z_m, double error_m, double reach_m) const {
-  const double first = first_depth(x, z_from);
+double ClosedForm::beside_m(const LightRay& x, double reach_m) const {
+  double steepest = 0;
+  for (const Piece& p : pieces_)
+    if (p.covers(x)) steepest = std::max(steepest, p.slope(x));
+  return reach_m * (1 + steepest);
+}
+
+bool ClosedForm::may_hold(const LightRay& x, double from, double window, double error, double reach_m) const {
   if (near_edge(x, reach_m)) return true;
-  if (std::abs(z_m - first) <= error_m || z_m == first) return true;
+  const double beside = beside_m(x, reach_m), last = first_depth(x, from + beside) + beside;
   return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& p) {
-    return covers(p, x) && std::abs(depth(p, x) - z_m) <= error_m && depth(p, x) >= z_from &&
-           depth(p, x) <= first + reach_m * (1 + steepest(x));
+    return p.covers(x) && p.depth(x, from) <= last && std::abs(window_depth(p.depth(x, from)) - window) <= error;
   });
 }
 
-// The slope of the steepest surface at x.
-double ClosedForm::steepest(glm::dvec2 x) const {
-  double slope = 0;
-  for (const Piece& p : pieces_)
-    if (covers(p, x)) slope = std::max(slope, glm::length(p.gradient));
-  return slope;
-}
-
-// The depth S of P's sheet at x. A box's faces that the light sees from the same side are one sheet; its fold is the
-// box's outline.
-double ClosedForm::sheet_depth(const Place& place, glm::dvec2 x) const {
-  const Piece& own = own_piece(place);
-  const glm::dvec2 from = in_plane(place.p);
-  double furthest = 0, end_depth = depth(own, from);
+// S. The faces of a box that the light sees from one side are one sheet, whose fold is the box's outline; to a light
+// inside a box that is all six of them, without a fold.
+ClosedForm::Sheet ClosedForm::sheet(const Piece& own, const LightRay& from, const LightRay& x) const {
+  double furthest = 0;
+  Sheet end{own.depth(from), own.slope(from), true};
   for (const Piece& p : pieces_) {
     if (p.shape != own.shape || p.front != own.front) continue;
-    if (covers(p, x)) return depth(p, x);
-    const Interval i = along(p, from, x);
+    if (p.covers(x)) return {p.depth(x), p.slope(x), false};
+    const Interval i = p.along(from, x);
     if (i.empty() || i.end < furthest) continue;
     furthest = i.end;
-    end_depth = depth(p, from + i.end * (x - from));
+    const LightRay at_end = rays_.between(from, x, i.end);
+    end = {p.depth(at_end), p.slope(at_end), true};
   }
-  return std::min(depth(own, x), end_depth);
+  const double own_plane = own.depth(x);
+  return own_plane < end.depth_m ? Sheet{own_plane, own.slope(x), true} : end;
 }
 
-double ClosedForm::largest_jump(const Piece& own, glm::dvec2 from, glm::dvec2 to) const {
+// apart_m: outlines as near as that are one.
+double ClosedForm::largest_jump(const Piece& own, const LightRay& from, const LightRay& to, double apart_m) const {
   struct Covered {
     const Piece* piece;
     Interval way;
@@ -235,15 +199,18 @@ double ClosedForm::largest_jump(const Piece& own, glm::dvec2 from, glm::dvec2 to
   std::vector<Covered> list;
   std::vector<double> ends;
   for (const Piece& p : pieces_) {
-    Interval i = along(p, from, to);
-    if (&p == &own) i = i.empty() ? Interval{0, 0} : Interval{0, i.end};  // rounding may have moved P off its face
+    Interval i = p.along(from, to);
+    if (&p == &own)
+      i = i.empty() ? Interval{0, 0} : Interval{0, i.end};  // P's rounding may have put it beside its face
     if (i.empty()) continue;
     list.push_back({&p, i});
     ends.push_back(i.begin);
     ends.push_back(i.end);
   }
   std::sort(ends.begin(), ends.end());
-  const double apart = rounding * size_m_ + 8 * moved_m_, same = apart / std::max(glm::length(to - from), apart);
+  // Metres at P's depth.
+  const double way = glm::length(to.start - from.start + own.depth(from) * (to.way - from.way)),
+               same = apart_m / std::max(way, apart_m);
   double largest = 0;
   for (size_t i = 0; i < ends.size();) {
     size_t last = i;  // outlines that meet in one place: a box's faces at their common edge
@@ -251,91 +218,70 @@ double ClosedForm::largest_jump(const Piece& own, glm::dvec2 from, glm::dvec2 to
     const double left = ends[i], right = ends[last];
     i = last + 1;
     if (left <= 0 || right >= 1) continue;
-    double before = infinity, after = infinity, error = 0;
-    const Piece *piece_before = nullptr, *piece_after = nullptr;
-    const auto nearer = [&](const Piece& piece, double t, double& least, const Piece*& which) {
-      const double z = depth(piece, from + t * (to - from));
-      if (z < least) least = z, which = &piece;
+    const LightRay at_left = rays_.between(from, to, left), at_right = rays_.between(from, to, right);
+    const Piece *before = nullptr, *after = nullptr;
+    double error = 0;
+    const auto nearer = [&](const Piece& piece, const LightRay& at, const Piece*& least) {
+      if (!least || piece.depth(at) < least->depth(at)) least = &piece;
+      error = std::max(error, tie(piece.slope(at), piece.slope(at)));
     };
     for (const Covered& c : list) {
-      error = std::max(error, tie(*c.piece, *c.piece));
-      if (c.way.begin < left && c.way.end >= left) nearer(*c.piece, left, before, piece_before);
-      if (c.way.begin <= right && c.way.end > right) nearer(*c.piece, right, after, piece_after);
+      if (c.way.begin < left && c.way.end >= left) nearer(*c.piece, at_left, before);
+      if (c.way.begin <= right && c.way.end > right) nearer(*c.piece, at_right, after);
     }
-    const double jump = std::abs(before - after);
-    if (before == after || jump <= error) continue;
-    if (piece_before && piece_after && !is_step(*piece_before, *piece_after, jump)) continue;
+    if (!before && !after) continue;
+    if (!before || !after) return infinity;
+    // Between the two surfaces in one place, so that the slope between `left` and `right` is no step.
+    const double jump = std::min(std::abs(before->depth(at_left) - after->depth(at_left)),
+                                 std::abs(before->depth(at_right) - after->depth(at_right)));
+    if (jump <= error || !is_step(*before, *after, at_left, jump)) continue;
     largest = std::max(largest, jump);
   }
   return largest;
 }
 
-ClosedForm::Answer ClosedForm::answer_at(const Place& place, glm::dvec2 x) const {
+ClosedForm::Answer ClosedForm::answer_at(const Place& place, const LightRay& x) const {
   const Piece& own = own_piece(place);
   const Piece* first = nullptr;
   for (const Piece& p : pieces_)
-    if (covers(p, x) && (!first || depth(p, x) < depth(*first, x))) first = &p;
-  if (!first || depth(*first, x) >= sheet_depth(place, x) - tie(own, *first) || one_plane(own, *first)) return {};
-  if (!lit(place)) return {.lit = false};
-  const double jump = largest_jump(own, in_plane(place.p), x);
-  return {jump == 0, true, jump};
-}
-
-// The directions start + s way (s in [0, 1]) in which the piece shades p.
-ClosedForm::Interval ClosedForm::shaded(const Piece& piece, glm::dvec3 p, glm::dvec3 start, glm::dvec3 way) const {
-  Interval i{0, 1};
-  const glm::dvec3 m = piece.world_at - p;
-  const glm::dvec3 across = glm::cross(piece.world_u, piece.world_v);  // p in the plane of a flat shape: edge-on
-  if (piece.kind != ShapeKind::sphere && std::abs(glm::dot(across, m)) <= rounding * size_m_ * glm::length(across))
-    return {};
-  if (piece.kind == ShapeKind::rectangle) {  // the cone over its four corners
-    const glm::dvec3 corner[4] = {m, m + piece.world_u, m + piece.world_u + piece.world_v, m + piece.world_v};
-    const double side = glm::dot(glm::cross(piece.world_u, piece.world_v), m) < 0 ? -1 : 1;
-    for (int k = 0; k < 4; ++k) {
-      const glm::dvec3 wall = side * glm::cross(corner[k], corner[(k + 1) % 4]);
-      keep_positive(glm::dot(wall, start), glm::dot(wall, way), i.begin, i.end);
-    }
-    return i;
-  }
-  double a, b, c;
-  if (piece.kind == ShapeKind::sphere) {  // |d x m| <= r |d|
-    const glm::dvec3 u = glm::cross(start, m), v = glm::cross(way, m);
-    const double r2 = piece.radius * piece.radius;
-    a = glm::dot(v, v) - r2 * glm::dot(way, way);
-    b = glm::dot(u, v) - r2 * glm::dot(start, way);
-    c = glm::dot(u, u) - r2 * glm::dot(start, start);
-    keep_positive(glm::dot(start, m), glm::dot(way, m), i.begin, i.end);
-  } else {  // where the direction meets the plane, times n.d: |(n.m) d - (n.d) m| <= r |n.d|
-    const glm::dvec3 n = glm::normalize(glm::cross(piece.world_u, piece.world_v));
-    const double height = glm::dot(n, m);
-    const glm::dvec3 u = height * start - glm::dot(n, start) * m, v = height * way - glm::dot(n, way) * m;
-    const double r2 = piece.radius * piece.radius, ns = glm::dot(n, start), nw = glm::dot(n, way);
-    a = glm::dot(v, v) - r2 * nw * nw;
-    b = glm::dot(u, v) - r2 * ns * nw;
-    c = glm::dot(u, u) - r2 * ns * ns;
-    keep_positive(height * ns, height * nw, i.begin, i.end);
-  }
-  const auto [first, last] = not_positive(a, b, c);
-  return {std::max(i.begin, first), std::min(i.end, last)};
+    if (p.covers(x) && (!first || p.depth(x) < first->depth(x))) first = &p;
+  if (!first) return {};
+  const LightRay from = ray_to(place.p);
+  const Sheet s = sheet(own, from, x);
+  Answer answer{.walked_off = s.ended_early};
+  if (first->depth(x) >= s.depth_m - tie(s.slope, first->slope(x)) || one_plane(own, *first)) return answer;
+  answer.lit = false;
+  if (!lit(place)) return answer;
+  answer.by_jumps = true;
+  // Rounding may have parted outlines that were one; it may not have made a step of a steep face that is no wider.
+  answer.jump_m = largest_jump(own, from, x, rounding * size_m_);
+  if (moved_m_ > 0)
+    answer.jump_m = std::min(answer.jump_m, largest_jump(own, from, x, rounding * size_m_ + 8 * moved_m_));
+  answer.lit = answer.jump_m == 0;
+  return answer;
 }
 
 double ClosedForm::seen(const Place& place, glm::dvec3 normal, double angular_diameter_deg, int chords) const {
   const Piece& own = own_piece(place);
   const double radius = std::tan(angular_diameter_deg * std::numbers::pi / 360);
+  // What P sees is what a light at P would meet.
+  const Rays from_p{.parallel = false, .centre = place.p - frame_.origin_m};
+  std::vector<Piece> others;
+  for (const Piece& p : pieces_)
+    if (&p != &own) others.push_back(p.seen_by(from_p));
   double sum = 0, whole = 0;
   std::vector<Interval> dark;
   for (int k = 0; k < chords; ++k) {
     const double y = radius * (2 * (k + 0.5) / chords - 1), half = std::sqrt(radius * radius - y * y);
-    const glm::dvec3 start = frame_.direction_to_light() + y * frame_.up - half * frame_.right,
-                     way = 2 * half * frame_.right;
+    const glm::dvec3 middle = y * frame_.up - frame_.forward;
+    const LightRay begin{from_p.centre, middle - half * frame_.right}, end{from_p.centre, middle + half * frame_.right};
     whole += half;
     Interval above{0, 1};
-    keep_positive(glm::dot(start, normal), glm::dot(way, normal), above.begin, above.end);
+    above.keep_positive(glm::dot(begin.way, normal), glm::dot(end.way - begin.way, normal));
     if (above.empty()) continue;
     dark.clear();
-    for (const Piece& p : pieces_) {
-      if (&p == &own) continue;
-      Interval i = shaded(p, place.p, start, way);
+    for (const Piece& p : others) {
+      Interval i = p.along(begin, end);
       i = {std::max(i.begin, above.begin), std::min(i.end, above.end)};
       if (!i.empty()) dark.push_back(i);
     }
@@ -350,26 +296,13 @@ double ClosedForm::seen(const Place& place, glm::dvec3 normal, double angular_di
   return sum / whole;
 }
 
-double ClosedForm::outline_distance(const Piece& p, glm::dvec2 x) const {
-  if (p.kind == ShapeKind::sphere) return std::abs(glm::length(x - glm::dvec2(p.at)) - p.radius);
-  if (p.kind == ShapeKind::disc) {  // in the disc's own plane: an upper bound of the distance in the light's
-    if (p.edge_on) return infinity;
-    const glm::dvec2 st = local(p, x);
-    return std::abs(glm::length(st.x * p.u + st.y * p.v) - p.radius);
-  }
-  const glm::dvec2 a(p.at), b = a + glm::dvec2(p.u), c = b + glm::dvec2(p.v), d = a + glm::dvec2(p.v);
-  return std::min(
-      {segment_distance(x, a, b), segment_distance(x, b, c), segment_distance(x, c, d), segment_distance(x, d, a)});
-}
-
-bool ClosedForm::near_edge(glm::dvec2 x, double reach) const {
+bool ClosedForm::near_edge(const LightRay& x, double reach) const {
   for (const Piece& p : pieces_) {
-    if (outline_distance(p, x) <= reach) return true;
-    if (!covers(p, x)) continue;
+    if (p.outline_distance(x) <= reach) return true;
+    if (!p.covers(x)) continue;
     for (const Piece& q : pieces_) {
-      if (&p == &q || !covers(q, x)) continue;
-      const double slopes = glm::length(p.gradient) + glm::length(q.gradient);
-      if (std::abs(depth(p, x) - depth(q, x)) <= reach * (1 + slopes)) return true;
+      if (&p == &q || !q.covers(x)) continue;
+      if (std::abs(p.depth(x) - q.depth(x)) <= reach * (1 + p.slope(x) + q.slope(x))) return true;
     }
   }
   return false;

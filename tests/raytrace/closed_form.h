@@ -1,20 +1,19 @@
-// The truth by formula: scenes of rectangles, boxes, discs and spheres as analytic shapes, in double. It uses no
-// triangles, no rays through a tree and no code of raytrace/. The results of the tracer in such scenes are compared
-// with it.
+// The truth by formula: scenes of rectangles, boxes, discs and spheres as analytic shapes, in double, under a light of
+// any kind. No triangles, no rays through a tree, no code of raytrace/, and of technique/light_frame.h only the numbers
+// that say where the light and its map are: what the tracer says of such scenes is held against this.
 //
 //   ClosedForm truth(shapes, frame);
-//   truth.lit({P, shape, face});                        // R1
-//   truth.lit_at({P, shape, face}, frame.texel_centre({i, j}));   // V(P, x)
+//   truth.lit({P, shape, face});                                     // R1
+//   truth.lit_at({P, shape, face}, truth.ray_of_texel({i, j}));      // V(P, x)
 //
-// Everything is computed in the light's plane: a directional light meets each shape in a range of places x (inside the
-// shape's outline), at a depth that is a smooth function of x. So the first hit is a lower envelope, shadow edges are
-// outlines, and along a straight way the first-hit depth jumps only where the way crosses an outline.
+// The centre of a light is one point, at infinity under a directional light, and its rays are the lines through that
+// point. So one set of formulas is enough for all lights: a shape is met by the rays inside its outline, at a depth that
+// is a smooth function of the ray. The first hit is a lower envelope, shadow edges are outlines, and every jump of the
+// first-hit depth between two rays lies where the straight way between them crosses an outline.
 #pragma once
 #include <array>
 #include <glm/glm.hpp>
 #include <limits>
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "technique/light_frame.h"
@@ -39,11 +38,7 @@ struct FlatFace {
 };
 FlatFace face_of(const Shape& shape, int face);
 
-// Whether two faces may have been parts of one plane before rounding moved their corners by up to moved_m. The plane of
-// a narrow face has a larger error when it is continued beyond the face.
-bool may_be_one_plane(const FlatFace& a, const FlatFace& b, double moved_m);
-
-// How far rounding may have moved a vertex of the scene, in metres: a float step on each of three axes.
+// What rounding of the vertices may have moved a corner of the scene by, in metres: a float step in each of three axes.
 double vertex_rounding_m(const Scene& scene);
 
 struct Place {
@@ -52,77 +47,130 @@ struct Place {
   int face = 0;
 };
 
+// The point at depth d is start + d way, in metres from the frame's origin along the world's axes.
+struct LightRay {
+  glm::dvec3 start, way;
+};
+
+// All lines through one point, which may be at infinity. Both members of their LightRay are affine along a straight way
+// from one ray to another, up to the length of `way`: one of the two is constant.
+struct Rays {
+  bool parallel = true;
+  glm::dvec3 centre{0};  // the common point; parallel: the common direction, of length 1
+  glm::dvec3 axis{0};    // depths are measured along it; 0: along each ray
+
+  double nearest() const { return parallel ? -std::numeric_limits<double>::infinity() : 0; }  // least depth of a hit
+  LightRay through(glm::dvec3 p) const;
+  LightRay between(const LightRay& from, const LightRay& to, double t) const;
+
+ private:
+  glm::dvec3 normal(glm::dvec3 way) const;
+};
+
+// A part of the way from one ray (0) to another (1).
+struct Interval {
+  double begin = 1, end = 0;
+  bool empty() const { return !(begin <= end); }
+  void keep_positive(double a, double b);  // the part where a + b s >= 0
+};
+
+// A shape, or a face of a box, and how the rays through one point see it.
+struct Piece {
+  int shape, face;
+  ShapeKind kind;                    // rectangle, disc or sphere
+  std::array<glm::dvec3, 4> corner;  // disc and sphere: the centre first
+  double radius;
+  glm::dvec3 n{0};  // of length 1
+  Rays rays{};
+  bool edge_on = false;  // has no outline to speak of
+  bool front = true;     // n points against the rays
+
+  Piece seen_by(const Rays& rays) const;
+  bool covers(const LightRay& ray) const;
+  // Of its surface on the ray from depth `from` on, also beyond a flat piece's outline; infinity if there is none.
+  double depth(const LightRay& ray, double from) const;
+  double depth(const LightRay& ray) const { return depth(ray, rays.nearest()); }
+  double slope(const LightRay& ray) const;  // depth per metre across the ray; 0 for spheres
+  Interval along(const LightRay& from, const LightRay& to) const;
+  double outline_distance(const LightRay& ray) const;  // metres; of a disc: an upper bound
+
+ private:
+  double side(size_t edge, const LightRay& ray) const;
+  struct Cone;
+  Cone cone(const LightRay& ray) const;
+};
+
 class ClosedForm {
  public:
-  // moved_m: 0, or how far rounding may have moved the corners. In the second case a step that rounding can have made
-  // is not an edge. If a form with 0 and a form with moved_m differ, the answer depends on rounding.
+  // moved_m: 0, or what rounding may have moved the corners by: then no step that it can have made is an edge. Where
+  // a form with 0 and one with moved_m differ, the answer depends on rounding.
   ClosedForm(const std::vector<Shape>& shapes, const LightFrame& frame, double moved_m = 0);
 
-  // R1: whether nothing lies between the light and P. P is taken to lie on its own face. It must not lie on a sphere's
-  // far side.
+  LightRay ray_to(glm::dvec3 world) const { return rays_.through(world - frame_.origin_m); }
+  // Of one tap at P: offset in texels of a flat map, in metres of the world for a cube.
+  LightRay ray_of_tap(glm::dvec3 p, glm::dvec3 offset) const;
+  LightRay ray_of_texel(glm::ivec2 texel) const;
+  // Where a ray lies in the map's image, in texels: OpenGL 4.5 core, 8.13 and table 8.19.
+  glm::dvec2 texels_of(const LightRay& ray) const;
+
+  // Depths are what the map measures: metres along the light or a spot's axis, or from a point light.
+  double window_depth(double depth_m) const;
+  double near_depth(const LightRay& ray) const;
+
+  bool facing(glm::dvec3 p, glm::dvec3 normal) const;
+  // P's plane holds the ray to P: which side of it the light is on, P's rounding says.
+  bool edge_on(const Place& place) const { return own_piece(place).edge_on; }
+
+  // R1: nothing lies between the light and P, P taken on its own face (a sphere's inside is never asked for).
   bool lit(const Place& place) const;
 
-  // The depth, in metres along the light, of the first hit at x from z_from on; infinity if there is none.
-  double first_depth(glm::dvec2 x, double z_from = -std::numeric_limits<double>::infinity()) const;
-
   // V(P, x); not for P on a sphere, whose sheet depends on its triangles.
-  bool lit_at(const Place& place, glm::dvec2 x) const { return answer_at(place, x).lit; }
+  bool lit_at(const Place& place, const LightRay& x) const { return answer_at(place, x).lit; }
   struct Answer {
     bool lit = true;
-    bool by_jumps = false;  // decided by the first-hit depth's jumps between P and x
-    double jump_m = 0;      // the largest of them
+    bool by_jumps = false;    // the first-hit depth's jumps between P and x decided
+    double jump_m = 0;        // the largest of them
+    bool walked_off = false;  // the walk on P's sheet ended before x
   };
-  Answer answer_at(const Place& place, glm::dvec2 x) const;
+  Answer answer_at(const Place& place, const LightRay& x) const;
 
-  // Whether a map may hold depth z_m at x, to within error_m. It may hold the first depth from z_from on, or that of a
-  // surface so little behind it that a ray up to reach_m from x may meet it. If an outline is within reach_m, it may
-  // hold any depth.
-  bool may_be_first(glm::dvec2 x, double z_from, double z_m, double error_m, double reach_m) const;
+  // Depth of what the light meets first from `from` on; infinity where there is nothing.
+  double first_depth(const LightRay& x, double from) const;
+  double first_depth(const LightRay& x) const { return first_depth(x, rays_.nearest()); }
+
+  // How far in depth a ray that passes up to reach_m beside may meet a surface that x meets.
+  double beside_m(const LightRay& x, double reach_m) const;
+
+  // May a map hold this window depth, to within `error`? That of the first surface from `from` on, or of one so little
+  // behind it that a ray that passes up to reach_m beside may meet it (`from` may cut what is first, too); anything where
+  // an outline is as near as that.
+  bool may_hold(const LightRay& x, double from, double window, double error, double reach_m) const;
 
   // R0: the share of the sun's disc that P sees above its own horizon (normal: on the viewer's side). The disc is cut
-  // into chords. On a chord every shape covers an interval that is known exactly.
+  // into chords, on which every shape covers an interval that is known exactly.
   double seen(const Place& place, glm::dvec3 normal, double angular_diameter_deg, int chords = 512) const;
 
-  // Whether x is within `reach` metres of an outline, or of a place where two shapes' depths cross.
-  bool near_edge(glm::dvec2 x, double reach) const;
+  // Is the ray within `reach` metres of an outline, or of a place where two shapes' depths cross?
+  bool near_edge(const LightRay& x, double reach) const;
 
-  glm::dvec2 in_plane(glm::dvec3 p) const { return glm::dvec2(frame_.to_light(p)); }
   double size_m() const { return size_m_; }
 
  private:
-  // One smooth range of depths in the light's plane: a parallelogram, an ellipse, or the near half of a sphere.
-  struct Piece {
-    int shape, face;
-    ShapeKind kind;       // rectangle, disc or sphere
-    glm::dvec3 at, u, v;  // light coordinates
-    glm::dvec3 world_at, world_u, world_v;
-    double radius;
-    glm::dvec2 gradient{0};  // of the depth; flat pieces only
-    bool edge_on = false;    // its outline encloses no area
-    bool front = true;       // a box's face: its outside is towards the light
-  };
-  struct Interval {
-    double begin = 1, end = 0;
-    bool empty() const { return !(begin <= end); }
-  };
-
-  glm::dvec2 local(const Piece& piece, glm::dvec2 x) const;
-  bool covers(const Piece& piece, glm::dvec2 x) const;
-  double depth(const Piece& piece, glm::dvec2 x) const;
-  Interval along(const Piece& piece, glm::dvec2 from, glm::dvec2 to) const;
   const Piece& own_piece(const Place& place) const;
-  double sheet_depth(const Place& place, glm::dvec2 x) const;
-  double largest_jump(const Piece& own, glm::dvec2 from, glm::dvec2 to) const;
-  double tie(const Piece& a, const Piece& b) const;
-  double steepest(glm::dvec2 x) const;
-  double outline_distance(const Piece& piece, glm::dvec2 x) const;
-  Interval shaded(const Piece& piece, glm::dvec3 p, glm::dvec3 start, glm::dvec3 way) const;
-
-  static FlatFace flat(const Piece& p) { return {p.at, p.u, p.v}; }
+  struct Sheet {
+    double depth_m;  // S
+    double slope;    // of the plane that it was read off, there
+    bool ended_early;
+  };
+  Sheet sheet(const Piece& own, const LightRay& from, const LightRay& x) const;
+  double largest_jump(const Piece& own, const LightRay& from, const LightRay& to, double apart_m) const;
+  double half_width_m(double depth_m) const;
+  double tie(double slope_a, double slope_b) const;
   bool one_plane(const Piece& a, const Piece& b) const;
-  bool is_step(const Piece& before, const Piece& after, double jump_m) const;
+  bool is_step(const Piece& before, const Piece& after, const LightRay& at, double jump_m) const;
 
   LightFrame frame_;
+  Rays rays_;
   std::vector<Piece> pieces_;
   double size_m_ = 0, moved_m_;
 };

@@ -1,8 +1,8 @@
-// Random scenes of analytic shapes for the property tests, and the triangles that represent them.
+// Random scenes of analytic shapes under random lights for the property tests, and the triangles that stand for them.
 //
-// Every corner lies on a grid so coarse that floats hold it exactly. So the rounded faces of a turned box are still
-// planes, and its triangles are exactly the analytic box. For spheres and discs this is not possible. Each of them has
-// an inner and an outer shape, computed from the rounded vertices, and its triangles lie between the two.
+// Every corner lies on a grid so coarse that floats hold it exactly, so a turned box's rounded faces are planes still,
+// and its triangles ARE the analytic box. Spheres and discs cannot be: each has an inner and an outer shape, between
+// which its triangles lie, made from the vertices as they were rounded.
 #pragma once
 #include <rapidcheck.h>
 
@@ -15,6 +15,7 @@
 
 #include "scenes/shapes.h"
 #include "tests/raytrace/closed_form.h"
+#include "tests/raytrace/fixture.h"
 
 namespace noonmark::test {
 
@@ -26,10 +27,18 @@ struct ShapeSpec {
   int yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
 };
 
+// Where the light stands. A directional light is always outside.
+enum class LightPlace { outside, inside, near_the_floor, near_a_shape };
+
 struct SceneSpec {
   std::vector<ShapeSpec> shapes;
-  int light_elevation_deg = 45, light_azimuth_deg = 0;
-  int resolution = 64, kernel_radius = 0;
+  LightKind light = LightKind::directional;
+  int place = 0;                                             // LightPlace
+  int azimuth_deg = 0, elevation_deg = 45, distance = 1000;  // outside: thousandths of 12 m
+  int x = 0, y = 0, z = 0;                                   // thousandths of 4 m: inside; of the spot's target
+  int shape = 0, decade = 1;  // near a shape, or the floor: 10^-decade m; nearer than 0.1 mm Embree itself is unsure
+  int cone_deg = 60, extent_percent = 100;
+  int resolution = 64, filter = 0;
   int camera_azimuth_deg = 0, camera_elevation_deg = 20;
   int near_cut = 0;  // percent of the fitted depth range that the near plane cuts off
   uint32_t seed = 1;
@@ -42,19 +51,24 @@ inline std::ostream& operator<<(std::ostream& out, const ShapeSpec& s) {
              << s.roll_deg;
 }
 inline std::ostream& operator<<(std::ostream& out, const SceneSpec& s) {
+  static constexpr const char* places[] = {"outside", "inside", "near the floor", "near a shape"};
   for (const ShapeSpec& shape : s.shapes) out << shape;
-  return out << "\n  light " << s.light_elevation_deg << ' ' << s.light_azimuth_deg << ", resolution " << s.resolution
-             << ", kernel radius " << s.kernel_radius << ", camera " << s.camera_azimuth_deg << ' '
-             << s.camera_elevation_deg << ", near cut " << s.near_cut << "%, seed " << s.seed;
+  return out << "\n  light " << kind_of_light(s.light).name() << ' ' << places[s.place] << ", azimuth " << s.azimuth_deg
+             << " elevation " << s.elevation_deg << " distance " << s.distance << ", at " << s.x << ' ' << s.y << ' '
+             << s.z << ", shape " << s.shape << " decade " << s.decade << ", cone " << s.cone_deg << " map "
+             << s.extent_percent << "%, resolution " << s.resolution << ", filter " << s.filter << ", camera "
+             << s.camera_azimuth_deg << ' ' << s.camera_elevation_deg << ", near cut " << s.near_cut << "%, seed "
+             << s.seed;
 }
 
-// Where the scene stands. All coordinates are rounded to multiples of grid_m, which floats hold exactly there. Sizes
-// are multiplied by scale, so that small shapes survive the rounding.
+// Where the scene stands: everything is rounded to multiples of grid_m, which floats hold exactly there; sizes are
+// multiplied by scale, so that the small things survive that.
 struct Site {
   const char* name;
   glm::dvec3 origin_m;
   double grid_m;
   double scale;
+  glm::dvec3 snapped(glm::dvec3 p) const { return glm::round(p / grid_m) * grid_m; }
 };
 inline constexpr double half_floor_m = 5;
 inline const Site at_origin{"origin", {0, 0, 0}, 0x1p-20, 1};           // floats below 16 m: 2^-20 at the coarsest
@@ -63,7 +77,7 @@ inline const Site at_1000_km{"1000 km", {1e6, -3e5, 7e5}, 0x1p-4, 64};  // below
 
 struct Modelled {
   Scene scene;
-  std::vector<Shape> inner, outer;         // equal except for spheres and discs
+  std::vector<Shape> inner, outer;         // equal but for spheres and discs
   std::vector<std::pair<int, int>> owner;  // of each triangle: shape and face
   bool round = false;                      // has spheres or discs
 };
@@ -73,18 +87,19 @@ class Builder {
   Builder(const Site& site, int segments) : site_(site), segments_(segments) {}
 
   void add(const ShapeSpec& s) {
-    const glm::dvec3 at = snapped(site_.origin_m + site_.scale * 0.004 * glm::dvec3(s.x, s.y, s.z));
+    const glm::dvec3 at = site_.snapped(site_.origin_m + site_.scale * 0.004 * glm::dvec3(s.x, s.y, s.z));
     const double unit = site_.scale * 0.002 * std::pow(10.0, -s.decade);
     glm::dmat4 turn = glm::rotate(glm::dmat4(1), glm::radians(static_cast<double>(s.yaw_deg)), {0, 1, 0});
     turn = glm::rotate(turn, glm::radians(static_cast<double>(s.pitch_deg)), {1, 0, 0});
     turn = glm::rotate(turn, glm::radians(static_cast<double>(s.roll_deg)), {0, 0, 1});
-    // A shape that is not many times larger than a ray's error (a grid step or two) does not survive the rounding. It
-    // must also be many times larger than the error that rounding gives its plane when the plane is continued across
-    // the scene; otherwise a formula and the program need not agree on its edges.
+    // What is not many times larger than a ray's error (a grid step or two) does not survive the rounding; and what is
+    // not many times larger than what rounding makes of its plane where it is carried across the scene has no edge that
+    // a formula and the program can be asked to agree on.
     const bool flat = s.kind == static_cast<int>(ShapeKind::rectangle) || s.kind == static_cast<int>(ShapeKind::box);
     if (unit * (flat ? std::min({s.a, s.b, s.c}) : s.a) < 64 * site_.grid_m) return;
-    const glm::dvec3 e[3] = {snapped(glm::dvec3(turn[0]) * (unit * s.a)), snapped(glm::dvec3(turn[1]) * (unit * s.b)),
-                             snapped(glm::dvec3(turn[2]) * (unit * s.c))};
+    const glm::dvec3 e[3] = {site_.snapped(glm::dvec3(turn[0]) * (unit * s.a)),
+                             site_.snapped(glm::dvec3(turn[1]) * (unit * s.b)),
+                             site_.snapped(glm::dvec3(turn[2]) * (unit * s.c))};
     switch (static_cast<ShapeKind>(s.kind)) {
       case ShapeKind::rectangle:
         return rectangle(at, e[2], e[0]);
@@ -111,7 +126,7 @@ class Builder {
     finish({.kind = ShapeKind::box, .at = at, .edge = {a, b, c}}, 1);
   }
 
-  // The disc lies in a plane whose grid floats hold exactly: (2, 1, -2) and (1, 2, 2) are orthogonal and both 3 long.
+  // In a plane whose grid floats hold: (2, 1, -2) and (1, 2, 2) are orthogonal and both 3 long.
   void disc(glm::dvec3 at, double radius, int plane) {
     static const glm::dvec3 axes[3][2] = {{{0, 0, 3}, {3, 0, 0}}, {{2, 1, -2}, {1, 2, 2}}, {{1, 2, 2}, {2, -2, 1}}};
     const glm::dvec3 u = axes[plane][0] * site_.grid_m, v = axes[plane][1] * site_.grid_m;
@@ -137,7 +152,7 @@ class Builder {
   }
 
   void sphere(glm::dvec3 at, double radius) {
-    if (radius < 64 * site_.grid_m) return;  // too small to be round on the grid
+    if (radius < 64 * site_.grid_m) return;  // not round any more
     const size_t first = m_.scene.triangles.size();
     add_surface(m_.scene, "sphere", segments_, segments_ / 2, true, [&](double s, double t) {
       const double phi = 2 * std::numbers::pi * s, polar = std::numbers::pi * t;
@@ -160,8 +175,6 @@ class Builder {
   Modelled build() const { return m_; }
 
  private:
-  glm::dvec3 snapped(glm::dvec3 p) const { return glm::round(p / site_.grid_m) * site_.grid_m; }
-
   void finish(const Shape& in, int faces_of_two, const Shape* out = nullptr) {
     const int shape = static_cast<int>(m_.inner.size());
     for (size_t t = m_.owner.size(), first = t; t < m_.scene.triangles.size(); ++t)
@@ -181,6 +194,39 @@ inline glm::dvec3 toward(int azimuth_deg, int elevation_deg) {
   return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
 }
 
+// On the site's grid like everything else, so that planes through the light are exactly that.
+inline Light light_of(const SceneSpec& spec, const Site& site, const std::vector<Shape>& shapes) {
+  const double little = std::pow(10.0, -spec.decade) * site.scale;
+  glm::dvec3 at = site.origin_m + 0.004 * site.scale * glm::dvec3(spec.x, spec.y, spec.z);
+  switch (static_cast<LightPlace>(spec.place)) {
+    case LightPlace::outside:
+      at = site.origin_m + 0.012 * site.scale * spec.distance * toward(spec.azimuth_deg, spec.elevation_deg);
+      break;
+    case LightPlace::inside:
+      break;
+    case LightPlace::near_the_floor:
+      at.y = site.origin_m.y + little;
+      break;
+    case LightPlace::near_a_shape: {
+      const Shape& s = shapes[static_cast<size_t>(spec.shape) % shapes.size()];
+      if (s.kind == ShapeKind::sphere) {
+        at = s.at + (s.radius + little) * toward(spec.azimuth_deg, spec.elevation_deg);
+        break;
+      }
+      const FlatFace f = face_of(s, s.kind == ShapeKind::box ? spec.azimuth_deg % 6 : 0);
+      const double u = 0.0005 * (spec.x + 1000), v = 0.0005 * (spec.z + 1000);
+      at = f.at + u * f.u + v * f.v + little * glm::normalize(glm::cross(f.u, f.v));
+      break;
+    }
+  }
+  const bool at_middle =
+      spec.light == LightKind::directional || static_cast<LightPlace>(spec.place) == LightPlace::inside;
+  return {.kind = spec.light,
+          .position_m = site.snapped(at),
+          .target_m = site.origin_m + (at_middle ? 0 : 0.002 * site.scale) * glm::dvec3(spec.x, spec.y, spec.z),
+          .cone_deg = static_cast<double>(spec.cone_deg)};
+}
+
 inline Modelled model_of(const SceneSpec& spec, const Site& site, int segments) {
   Builder builder(site, segments);
   const double half = std::round(half_floor_m * site.scale);
@@ -190,8 +236,7 @@ inline Modelled model_of(const SceneSpec& spec, const Site& site, int segments) 
   Modelled m = builder.build();
   const glm::dvec3 target = site.origin_m;
   m.scene.name = site.name;
-  m.scene.light = {.position_m = target + 12 * site.scale * toward(spec.light_azimuth_deg, spec.light_elevation_deg),
-                   .target_m = target};
+  m.scene.light = light_of(spec, site, m.inner);
   m.scene.camera = {.eye_m = target + 9 * site.scale * toward(spec.camera_azimuth_deg, spec.camera_elevation_deg),
                     .target_m = target + glm::dvec3(0, 0.5 * site.scale, 0),
                     .fov_y_deg = 40,
@@ -200,15 +245,68 @@ inline Modelled model_of(const SceneSpec& spec, const Site& site, int segments) 
   return m;
 }
 
+inline Settings settings_of(const SceneSpec& spec) {
+  const int size = spec.seed % 2 ? 5 : 3;
+  const FilterSettings flat[] = {{},
+                                 {.kind = "box", .size = size},
+                                 {.kind = "box", .size = size, .step_texels = 1.5},
+                                 {.kind = "hardware"},
+                                 {.kind = "gaussian", .size = size},
+                                 {.kind = "poisson", .radius_texels = 3, .rotate = true}},
+                       cube[] = {{},
+                                 {},
+                                 {.kind = "cube_grid", .offset_m = 0.1},
+                                 {.kind = "cube_disk", .radius_m = 0.02},
+                                 {.kind = "cube_disk", .radius_m = 0.5},
+                                 {.kind = "cube_disk", .disk = DiskRadius::view_distance}};
+  Settings s;
+  s.map.resolution = spec.resolution;
+  s.map.extent_scale = spec.light == LightKind::spot ? 0.01 * spec.extent_percent : 1;
+  s.filter = (spec.light == LightKind::point ? cube : flat)[spec.filter];
+  return s;
+}
+
+struct Posed {
+  Modelled model;
+  LightFrame frame;
+};
+inline Posed posed(const SceneSpec& spec, const Site& site, int segments) {
+  Posed p{model_of(spec, site, segments), {}};
+  p.frame = make_light_frame(p.model.scene, settings_of(spec));
+  p.frame.near_m += 0.01 * spec.near_cut * (p.frame.far_m - p.frame.near_m);
+  return p;
+}
+
+// Points on every face alike, so that small things get their share, as float rounds them. Their normals: on the light's
+// side, or the outside's.
+inline ReceiverImage points_on_faces(const Scene& scene, const LightFrame& frame, bool facing_light, int count,
+                                     uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> in(0, 1);
+  std::vector<Placed> points;
+  for (int i = 0; i < count; ++i) {
+    const uint32_t t = static_cast<uint32_t>(random() % scene.triangles.size());
+    const glm::dvec3 a = scene.positions[scene.triangles[t].x], b = scene.positions[scene.triangles[t].y],
+                     c = scene.positions[scene.triangles[t].z];
+    double u = in(random), v = in(random);
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    points.push_back({a + u * (b - a) + v * (c - a), t});
+  }
+  ReceiverImage out = receivers_at(scene, points, {}, false);
+  for (size_t i = 0; i < points.size() && facing_light; ++i)
+    if (glm::dot(glm::dvec3(out.normal[i]), frame.direction_to_light(out.position[i])) < 0)
+      out.normal[i] = -out.normal[i];
+  return out;
+}
+
 inline constexpr int most_shapes = 14;
 
-// rapidcheck begins with small numbers. Here the numbers of every scene come from their whole ranges.
+// rapidcheck begins with small numbers; here every scene takes its numbers from their whole ranges.
 inline rc::Gen<ShapeSpec> any_shape(int kinds) {
   using rc::gen::inRange, rc::gen::set;
   const auto place = inRange(-1000, 1001);
   const auto size = inRange(20, 1001);
-  // Half of all angles are 0, and half of all heights are y = 0, the floor's height, so that contacts and coplanar
-  // faces occur.
+  // Half of all shapes are not turned, and y = 0 is where the floor is: contacts and coplanar faces on purpose.
   const auto turn = rc::gen::oneOf(rc::gen::just(0), inRange(0, 360));
   return rc::gen::resize(rc::kNominalSize, rc::gen::build<ShapeSpec>(
                                                set(&ShapeSpec::kind, inRange(0, kinds)), set(&ShapeSpec::x, place),
@@ -219,17 +317,25 @@ inline rc::Gen<ShapeSpec> any_shape(int kinds) {
                                                set(&ShapeSpec::pitch_deg, turn), set(&ShapeSpec::roll_deg, turn)));
 }
 
-inline rc::Gen<SceneSpec> any_scene(int kinds) {
-  using rc::gen::inRange, rc::gen::set;
+inline rc::Gen<SceneSpec> any_scene(LightKind light, int kinds) {
+  using rc::gen::inRange, rc::gen::just, rc::gen::set;
+  const bool sun = light == LightKind::directional;
+  const auto place = inRange(-1000, 1001);
   return rc::gen::resize(
       rc::kNominalSize,
       rc::gen::build<SceneSpec>(
           set(&SceneSpec::shapes,
               rc::gen::resize(most_shapes, rc::gen::container<std::vector<ShapeSpec>>(any_shape(kinds)))),
-          set(&SceneSpec::light_elevation_deg, inRange(5, 91)), set(&SceneSpec::light_azimuth_deg, inRange(0, 360)),
-          set(&SceneSpec::resolution, inRange(3, 600)), set(&SceneSpec::kernel_radius, inRange(0, 3)),
+          set(&SceneSpec::light, just(light)), set(&SceneSpec::place, inRange(0, sun ? 1 : 4)),
+          set(&SceneSpec::azimuth_deg, inRange(0, 360)), set(&SceneSpec::elevation_deg, inRange(sun ? 5 : 0, 91)),
+          set(&SceneSpec::distance, inRange(sun ? 1000 : 20, 1001)), set(&SceneSpec::x, place),
+          set(&SceneSpec::y, inRange(-50, 700)), set(&SceneSpec::z, place),
+          set(&SceneSpec::shape, inRange(0, most_shapes)), set(&SceneSpec::decade, inRange(1, 5)),
+          set(&SceneSpec::cone_deg, inRange(20, 121)),
+          set(&SceneSpec::extent_percent, rc::gen::oneOf(just(100), inRange(50, 150))),
+          set(&SceneSpec::resolution, inRange(3, 600)), set(&SceneSpec::filter, inRange(0, 6)),
           set(&SceneSpec::camera_azimuth_deg, inRange(0, 360)), set(&SceneSpec::camera_elevation_deg, inRange(3, 90)),
-          set(&SceneSpec::near_cut, rc::gen::oneOf(rc::gen::just(0), inRange(0, 80))),
+          set(&SceneSpec::near_cut, rc::gen::oneOf(just(0), inRange(0, 80))),
           set(&SceneSpec::seed, inRange<uint32_t>(1, 1u << 30))));
 }
 
