@@ -95,7 +95,7 @@ class MemoryOf : public Memory, public testing::WithParamInterface<Case> {};
 // must hold for the difference to a run that measures almost nothing.
 TEST_P(MemoryOf, APointIsPredicted) {
   if (std::string(GetParam().name) == "triangles") grid(100, 40);
-  if (std::string(GetParam().name) == "overlapping") write("stack.gltf", stack(40000).dump());
+  if (std::string(GetParam().name) == "overlapping") write("stack.gltf", stack(100000).dump());
   const std::string small =
       write("small.toml", "pictures = \"none\"\n[view]\nwidth_px = 16\nheight_px = 16\n[map]\nresolution = 16\n");
   const std::string file = write("x.toml", GetParam().toml);
