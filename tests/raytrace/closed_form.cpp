@@ -9,11 +9,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Double's rounding of depths that are one: some hundred times 2^-53, as a fraction of the scene's size.
+// Two depths count as equal if they differ by less than this fraction of the scene's size. They are computed in double,
+// and this is about 900 times 2^-53.
 constexpr double rounding = 1e-13;
 
-// May two faces whose corners rounding has moved by up to moved_m have been parts of one plane? A plane that is carried
-// on from a narrow face is off by that much more.
+// Whether two faces may have been parts of one plane before rounding moved their corners by up to moved_m. The plane of
+// a narrow face is less exact the further it is continued. At a distance of `way` it is off by at most 1 + 4 |way| /
+// narrowest times moved_m, because three corners define it; the other face's corner is off by moved_m. The limit is two
+// to three times the sum of both.
 bool may_be_one_plane(const Piece& a, const Piece& b, double moved_m) {
   const auto holds = [&](const Piece& plane, const Piece& corners) {
     const glm::dvec3 u = plane.corner[1] - plane.corner[0], v = plane.corner[3] - plane.corner[0];
@@ -26,7 +29,7 @@ bool may_be_one_plane(const Piece& a, const Piece& b, double moved_m) {
   return holds(a, b) && holds(b, a);
 }
 
-// Table 8.19's row of a direction: the face, s_c, t_c and m_a.
+// The row of OpenGL's table 8.19 for a direction: the face, s_c, t_c and m_a.
 struct CubeAddress {
   int face;
   double s, t, m;
@@ -68,7 +71,7 @@ ClosedForm::ClosedForm(const std::vector<Shape>& shapes, const LightFrame& frame
   }
 }
 
-// Of a flat map.
+// Half of the width, in metres, that a flat map covers at this depth.
 double ClosedForm::half_width_m(double depth_m) const {
   return rays_.parallel ? frame_.extent_m / 2 : frame_.tan_half_fov * depth_m;
 }
@@ -106,7 +109,7 @@ double ClosedForm::window_depth(double depth) const {
   if (depth == infinity) return 1;
   if (frame_.kind == LightKind::point) return std::clamp(depth / far, 0.0, 1.0);
   if (rays_.parallel) return std::clamp((depth - near) / (far - near), 0.0, 1.0);
-  // glFrustum's third and fourth row, divided.
+  // The third row of glFrustum's matrix, divided by the fourth.
   const double ndc = ((far + near) / (far - near) * depth - 2 * far * near / (far - near)) / depth;
   return std::clamp(0.5 * ndc + 0.5, 0.0, 1.0);
 }
@@ -125,7 +128,8 @@ bool ClosedForm::one_plane(const Piece& a, const Piece& b) const {
   return moved_m_ > 0 && a.kind != ShapeKind::sphere && b.kind != ShapeKind::sphere && may_be_one_plane(a, b, moved_m_);
 }
 
-// Is the step larger than rounding can make it? Rounding moves the two planes and the edge between them.
+// Whether the step is larger than rounding can make it. Rounding moves the two planes and the edge between them. The
+// step is measured along the normal of the steeper plane.
 bool ClosedForm::is_step(const Piece& before, const Piece& after, const LightRay& at, double jump_m) const {
   const double slope = std::max(before.slope(at), after.slope(at));
   return jump_m / std::sqrt(1 + slope * slope) > 8 * moved_m_;
@@ -172,8 +176,9 @@ bool ClosedForm::may_hold(const LightRay& x, double from, double window, double 
   });
 }
 
-// S. The faces of a box that the light sees from one side are one sheet, whose fold is the box's outline; to a light
-// inside a box that is all six of them, without a fold.
+// S. The faces of a box whose fronts are turned to the light form one sheet, and so do the faces whose backs are turned
+// to it. The fold between the two sheets is the box's outline. For a light inside a box all six faces form one sheet,
+// without a fold.
 ClosedForm::Sheet ClosedForm::sheet(const Piece& own, const LightRay& from, const LightRay& x) const {
   double furthest = 0;
   Sheet end{own.depth(from), own.slope(from), true};
@@ -190,7 +195,7 @@ ClosedForm::Sheet ClosedForm::sheet(const Piece& own, const LightRay& from, cons
   return own_plane < end.depth_m ? Sheet{own_plane, own.slope(x), true} : end;
 }
 
-// apart_m: outlines as near as that are one.
+// apart_m: outlines that are at most this far apart count as one.
 double ClosedForm::largest_jump(const Piece& own, const LightRay& from, const LightRay& to, double apart_m) const {
   struct Covered {
     const Piece* piece;
@@ -201,19 +206,19 @@ double ClosedForm::largest_jump(const Piece& own, const LightRay& from, const Li
   for (const Piece& p : pieces_) {
     Interval i = p.along(from, to);
     if (&p == &own)
-      i = i.empty() ? Interval{0, 0} : Interval{0, i.end};  // P's rounding may have put it beside its face
+      i = i.empty() ? Interval{0, 0} : Interval{0, i.end};  // the rounding of P may have moved it beside its face
     if (i.empty()) continue;
     list.push_back({&p, i});
     ends.push_back(i.begin);
     ends.push_back(i.end);
   }
   std::sort(ends.begin(), ends.end());
-  // Metres at P's depth.
+  // The length of the way, in metres at P's depth.
   const double way = glm::length(to.start - from.start + own.depth(from) * (to.way - from.way)),
                same = apart_m / std::max(way, apart_m);
   double largest = 0;
   for (size_t i = 0; i < ends.size();) {
-    size_t last = i;  // outlines that meet in one place: a box's faces at their common edge
+    size_t last = i;  // several outlines may meet in one place, such as those of a box's faces at their common edge
     while (last + 1 < ends.size() && ends[last + 1] <= ends[last] + same) ++last;
     const double left = ends[i], right = ends[last];
     i = last + 1;
@@ -231,7 +236,8 @@ double ClosedForm::largest_jump(const Piece& own, const LightRay& from, const Li
     }
     if (!before && !after) continue;
     if (!before || !after) return infinity;
-    // Between the two surfaces in one place, so that the slope between `left` and `right` is no step.
+    // The depths of the two surfaces are compared at one place. So their change between `left` and `right`, which comes
+    // from the slope, does not count as a jump.
     const double jump = std::min(std::abs(before->depth(at_left) - after->depth(at_left)),
                                  std::abs(before->depth(at_right) - after->depth(at_right)));
     if (jump <= error || !is_step(*before, *after, at_left, jump)) continue;
@@ -253,7 +259,8 @@ ClosedForm::Answer ClosedForm::answer_at(const Place& place, const LightRay& x) 
   answer.lit = false;
   if (!lit(place)) return answer;
   answer.by_jumps = true;
-  // Rounding may have parted outlines that were one; it may not have made a step of a steep face that is no wider.
+  // Rounding may have separated outlines that were one, so outlines that are near to each other count as one. But a
+  // steep face that is no wider than that distance must not become a jump. So the smaller of the two results counts.
   answer.jump_m = largest_jump(own, from, x, rounding * size_m_);
   if (moved_m_ > 0)
     answer.jump_m = std::min(answer.jump_m, largest_jump(own, from, x, rounding * size_m_ + 8 * moved_m_));
@@ -264,7 +271,7 @@ ClosedForm::Answer ClosedForm::answer_at(const Place& place, const LightRay& x) 
 double ClosedForm::seen(const Place& place, glm::dvec3 normal, double angular_diameter_deg, int chords) const {
   const Piece& own = own_piece(place);
   const double radius = std::tan(angular_diameter_deg * std::numbers::pi / 360);
-  // What P sees is what a light at P would meet.
+  // P sees the surfaces that the rays of a light at P would meet.
   const Rays from_p{.parallel = false, .centre = place.p - frame_.origin_m};
   std::vector<Piece> others;
   for (const Piece& p : pieces_)

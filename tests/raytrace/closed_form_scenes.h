@@ -1,8 +1,10 @@
-// Random scenes of analytic shapes under random lights for the property tests, and the triangles that stand for them.
+// Random scenes for the property tests: analytic shapes under random lights, and the triangles that represent the
+// shapes.
 //
-// Every corner lies on a grid so coarse that floats hold it exactly, so a turned box's rounded faces are planes still,
-// and its triangles ARE the analytic box. Spheres and discs cannot be: each has an inner and an outer shape, between
-// which its triangles lie, made from the vertices as they were rounded.
+// Every corner lies on a grid whose points are exact in float. So the faces of a rotated box are exact planes after the
+// rounding too, and its triangles are exactly the analytic box. The triangles of a sphere or a disc cannot be exactly
+// the shape. So each of these has an inner and an outer shape, and its triangles lie between the two. Both are computed
+// from the rounded vertices.
 #pragma once
 #include <rapidcheck.h>
 
@@ -21,22 +23,25 @@ namespace noonmark::test {
 
 struct ShapeSpec {
   int kind = 0;             // ShapeKind
-  int x = 0, y = 0, z = 0;  // thousandths of 4 m
-  int a = 0, b = 0, c = 0;  // sizes, thousandths of 2 m ...
-  int decade = 0;           // ... over 10^decade
+  int x = 0, y = 0, z = 0;  // position, in thousandths of 4 m
+  int a = 0, b = 0, c = 0;  // sizes, in thousandths of 2 m, divided by 10^decade
+  int decade = 0;
   int yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
 };
 
-// Where the light stands. A directional light is always outside.
+// The position of the light. A directional light is always outside.
 enum class LightPlace { outside, inside, near_the_floor, near_a_shape };
 
 struct SceneSpec {
   std::vector<ShapeSpec> shapes;
   LightKind light = LightKind::directional;
   int place = 0;                                             // LightPlace
-  int azimuth_deg = 0, elevation_deg = 45, distance = 1000;  // outside: thousandths of 12 m
-  int x = 0, y = 0, z = 0;                                   // thousandths of 4 m: inside; of the spot's target
-  int shape = 0, decade = 1;  // near a shape, or the floor: 10^-decade m; nearer than 0.1 mm Embree itself is unsure
+  int azimuth_deg = 0, elevation_deg = 45, distance = 1000;  // outside; distance in thousandths of 12 m
+  // Inside and near the floor: the position, in thousandths of 4 m. Near a shape: the place on the face. For a spot
+  // light also its target, in thousandths of 2 m.
+  int x = 0, y = 0, z = 0;
+  // Near a shape or the floor: the distance is 10^-decade m. At less than 0.1 mm Embree's own hits are uncertain.
+  int shape = 0, decade = 1;
   int cone_deg = 60, extent_percent = 100;
   int resolution = 64, filter = 0;
   int camera_azimuth_deg = 0, camera_elevation_deg = 20;
@@ -61,8 +66,8 @@ inline std::ostream& operator<<(std::ostream& out, const SceneSpec& s) {
              << s.seed;
 }
 
-// Where the scene stands: everything is rounded to multiples of grid_m, which floats hold exactly there; sizes are
-// multiplied by scale, so that the small things survive that.
+// Where in the world the scene is. Corners are rounded to multiples of grid_m, which are exact in float there. Sizes
+// are multiplied by scale, so that small shapes survive the rounding.
 struct Site {
   const char* name;
   glm::dvec3 origin_m;
@@ -77,7 +82,7 @@ inline const Site at_1000_km{"1000 km", {1e6, -3e5, 7e5}, 0x1p-4, 64};  // below
 
 struct Modelled {
   Scene scene;
-  std::vector<Shape> inner, outer;         // equal but for spheres and discs
+  std::vector<Shape> inner, outer;         // equal, except for spheres and discs
   std::vector<std::pair<int, int>> owner;  // of each triangle: shape and face
   bool round = false;                      // has spheres or discs
 };
@@ -92,9 +97,10 @@ class Builder {
     glm::dmat4 turn = glm::rotate(glm::dmat4(1), glm::radians(static_cast<double>(s.yaw_deg)), {0, 1, 0});
     turn = glm::rotate(turn, glm::radians(static_cast<double>(s.pitch_deg)), {1, 0, 0});
     turn = glm::rotate(turn, glm::radians(static_cast<double>(s.roll_deg)), {0, 0, 1});
-    // What is not many times larger than a ray's error (a grid step or two) does not survive the rounding; and what is
-    // not many times larger than what rounding makes of its plane where it is carried across the scene has no edge that
-    // a formula and the program can be asked to agree on.
+    // Small shapes are left out, for two reasons. A ray's error is one or two grid steps: a shape must be many times as
+    // large as that to survive the rounding. And when the plane of a small face is continued across the scene, rounding
+    // moves it: if the face is not many times as large as that movement, the formula and the program need not agree on
+    // its edges.
     const bool flat = s.kind == static_cast<int>(ShapeKind::rectangle) || s.kind == static_cast<int>(ShapeKind::box);
     if (unit * (flat ? std::min({s.a, s.b, s.c}) : s.a) < 64 * site_.grid_m) return;
     const glm::dvec3 e[3] = {site_.snapped(glm::dvec3(turn[0]) * (unit * s.a)),
@@ -126,7 +132,8 @@ class Builder {
     finish({.kind = ShapeKind::box, .at = at, .edge = {a, b, c}}, 1);
   }
 
-  // In a plane whose grid floats hold: (2, 1, -2) and (1, 2, 2) are orthogonal and both 3 long.
+  // The disc lies in a plane that has a grid of exact floats. For example, (2, 1, -2) and (1, 2, 2) are orthogonal, and
+  // both have the length 3.
   void disc(glm::dvec3 at, double radius, int plane) {
     static const glm::dvec3 axes[3][2] = {{{0, 0, 3}, {3, 0, 0}}, {{2, 1, -2}, {1, 2, 2}}, {{1, 2, 2}, {2, -2, 1}}};
     const glm::dvec3 u = axes[plane][0] * site_.grid_m, v = axes[plane][1] * site_.grid_m;
@@ -152,7 +159,7 @@ class Builder {
   }
 
   void sphere(glm::dvec3 at, double radius) {
-    if (radius < 64 * site_.grid_m) return;  // not round any more
+    if (radius < 64 * site_.grid_m) return;  // its rounded vertices would not lie on a sphere
     const size_t first = m_.scene.triangles.size();
     add_surface(m_.scene, "sphere", segments_, segments_ / 2, true, [&](double s, double t) {
       const double phi = 2 * std::numbers::pi * s, polar = std::numbers::pi * t;
@@ -194,7 +201,8 @@ inline glm::dvec3 toward(int azimuth_deg, int elevation_deg) {
   return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
 }
 
-// On the site's grid like everything else, so that planes through the light are exactly that.
+// The light's position lies on the site's grid like every corner. So if a face's plane goes through the light, it does
+// so exactly.
 inline Light light_of(const SceneSpec& spec, const Site& site, const std::vector<Shape>& shapes) {
   const double little = std::pow(10.0, -spec.decade) * site.scale;
   glm::dvec3 at = site.origin_m + 0.004 * site.scale * glm::dvec3(spec.x, spec.y, spec.z);
@@ -277,8 +285,9 @@ inline Posed posed(const SceneSpec& spec, const Site& site, int segments) {
   return p;
 }
 
-// Points on every face alike, so that small things get their share, as float rounds them. Their normals: on the light's
-// side, or the outside's.
+// Random points, rounded to float. Each triangle is equally likely, so that small shapes get as many points as large
+// ones. facing_light: normals are turned to the light's side; otherwise they are those of the counter-clockwise side,
+// which is the outside of a box or a sphere.
 inline ReceiverImage points_on_faces(const Scene& scene, const LightFrame& frame, bool facing_light, int count,
                                      uint32_t seed) {
   std::mt19937 random(seed);
@@ -301,12 +310,13 @@ inline ReceiverImage points_on_faces(const Scene& scene, const LightFrame& frame
 
 inline constexpr int most_shapes = 14;
 
-// rapidcheck begins with small numbers; here every scene takes its numbers from their whole ranges.
+// rapidcheck begins with small numbers. The resize() here makes it draw every number from its whole range.
 inline rc::Gen<ShapeSpec> any_shape(int kinds) {
   using rc::gen::inRange, rc::gen::set;
   const auto place = inRange(-1000, 1001);
   const auto size = inRange(20, 1001);
-  // Half of all shapes are not turned, and y = 0 is where the floor is: contacts and coplanar faces on purpose.
+  // Each angle is 0 in half of the shapes, and so is y, the height of the floor. So there are many contacts and
+  // coplanar faces.
   const auto turn = rc::gen::oneOf(rc::gen::just(0), inRange(0, 360));
   return rc::gen::resize(rc::kNominalSize, rc::gen::build<ShapeSpec>(
                                                set(&ShapeSpec::kind, inRange(0, kinds)), set(&ShapeSpec::x, place),

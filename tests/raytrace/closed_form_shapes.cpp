@@ -1,4 +1,4 @@
-// How the rays through one point see a shape; see closed_form.h.
+// Where the rays through one point meet a shape; see tests/raytrace/closed_form.h.
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +9,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Rays so near to a face's plane see no side of it: a direction and corners in double are not more exact than some times
-// 2^-53, and 0 may be meant.
+// A face is edge-on if the sine of the angle between its plane and the rays is at most this. The sine is computed from
+// a direction and corners in double, each with an error of a few times 2^-53, so a sine of 0 may come out as another
+// number.
 constexpr double edge_on_sine = 0x1p-30;
 
 }  // namespace
@@ -56,15 +57,17 @@ Piece Piece::seen_by(const Rays& given) const {
   return p;
 }
 
-// Positive for rays on the inner side of an edge of a rectangle, 0 for those through it; a face that shares the edge has
-// exactly its negative.
+// Positive for a ray that passes on the inner side of this edge of a rectangle, 0 for a ray through the edge. If
+// another face shares the edge and has the same `front`, its value is exactly the negative. So no ray passes between
+// the two.
 double Piece::side(size_t edge, const LightRay& ray) const {
   const glm::dvec3 a = corner[edge] - ray.start, b = corner[(edge + 1) % 4] - ray.start;
   return (front ? -1 : 1) * glm::dot(ray.way, glm::cross(a, b));
 }
 
-// A disc or a sphere is met where |off| <= |most|, at a depth above 0 where also ahead > 0. For a sphere `off` is its
-// centre's distance from the ray, times |way|; for a disc it is the distance of the hit from the centre, times n . way.
+// A ray meets a disc or a sphere if |off| <= |most|. The depth of the hit is above 0 if also ahead > 0. For a sphere,
+// |off| is the distance between the ray and the centre, times |way|. For a disc, it is the distance between the hit and
+// the centre, times |n . way|.
 struct Piece::Cone {
   glm::dvec3 off, most;
   double ahead;
@@ -103,7 +106,7 @@ double Piece::slope(const LightRay& ray) const {
   return glm::length(glm::cross(n, ray.way)) / std::abs(glm::dot(n, ray.way));
 }
 
-// The part of the straight way from one ray to another that lies over the piece.
+// The part of the straight way from one ray to another whose rays meet the piece.
 Interval Piece::along(const LightRay& from, const LightRay& to) const {
   if (edge_on) return {};
   Interval i{0, 1};
@@ -115,7 +118,7 @@ Interval Piece::along(const LightRay& from, const LightRay& to) const {
     return i;
   }
   if (kind == ShapeKind::sphere && !rays.parallel && glm::length(corner[0] - rays.centre) <= radius) return i;
-  // |off|^2 - |most|^2 = a s^2 + 2 b s + c, to be at most 0.
+  // A ray of the way meets the piece if |off|^2 - |most|^2 = a s^2 + 2 b s + c is at most 0.
   const Cone start = cone(from), end = cone(to);
   const glm::dvec3 off = end.off - start.off, most = end.most - start.most;
   const double a = glm::dot(off, off) - glm::dot(most, most), b = glm::dot(start.off, off) - glm::dot(start.most, most),
@@ -124,13 +127,15 @@ Interval Piece::along(const LightRay& from, const LightRay& to) const {
   if (!rays.parallel) i.keep_positive(start.ahead, ahead);
   const double discriminant = b * b - a * c;
   if (!(discriminant >= 0)) return {};
-  const double root = std::sqrt(discriminant), q = b > 0 ? -b - root : -b + root;  // the larger, without cancellation
+  // q / a is the root of the larger magnitude. q is computed without cancellation.
+  const double root = std::sqrt(discriminant), q = b > 0 ? -b - root : -b + root;
   if (a == 0) {
     i.keep_positive(-c, -2 * b);
     return i;
   }
   const auto [first, last] = std::minmax({q / a, q == 0 ? 0 : c / q});
-  // a < 0: the way leaves the cone of rays over the piece for good, into that of their continuations behind the centre.
+  // a < 0: the way enters or leaves the cone of the rays that meet the piece only once. The other interval in which the
+  // expression is at most 0 lies in the cone of these rays' continuations behind the light's centre.
   if (a > 0 || ahead < 0) i.end = std::min(i.end, a > 0 ? last : first);
   if (a > 0 || ahead > 0) i.begin = std::max(i.begin, a > 0 ? first : last);
   return i;

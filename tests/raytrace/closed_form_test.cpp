@@ -1,4 +1,4 @@
-// R1, R2, R3 and the exact map against closed forms, in random scenes under lights of every kind.
+// Compares R1, R2, R3 and the exact map with closed forms, in random scenes under lights of every kind.
 #include "tests/raytrace/closed_form.h"
 
 #include <gtest/gtest.h>
@@ -15,16 +15,21 @@ namespace {
 
 using namespace test;
 
-// What was compared and found, over many scenes.
+// The numbers of comparisons and of their results, over many scenes. Unless a line says otherwise, receivers are
+// counted.
 struct Tally {
   int64_t scenes = 0, facing = 0, ambiguous = 0, taps_ambiguous = 0;
-  int64_t edge_on = 0;  // in a plane through the light: its side is P's rounding
-  int64_t banded = 0;   // between a round shape's inner and outer form
-  int64_t faces = 0, r1 = 0, r2 = 0, r3 = 0, clipped = 0, depth = 0, texel = 0;  // disagreements of the sure
-  int64_t depth_either = 0;    // depths of texels beside an outline, a crease or the near plane: either surface's
-  int64_t by_rounding = 0;     // what rounding of the vertices decides, and no form says
-  int64_t hidden = 0;          // disagreements of ambiguous receivers
-  int64_t far_from_edges = 0;  // ambiguous, yet no outline or crease is near
+  int64_t edge_on = 0;  // the face's plane contains the light: the rounding of P decides which side is lit
+  // R1 is not known by formula: the inner and the outer form of a round shape differ in it, the light is between the
+  // two forms of a sphere, or P is on the inside of a sphere.
+  int64_t banded = 0;
+  int64_t faces = 0, r1 = 0, r2 = 0, r3 = 0, clipped = 0, depth = 0, texel = 0;  // sure, but the answers differ
+  // Depths of texels that may be those of either surface, because an outline, a crease or the near plane is near.
+  int64_t depth_either = 0;
+  int64_t by_rounding = 0;     // rounding of the vertices decides an answer, so no formula knows it
+  int64_t hidden = 0;          // ambiguous or with unsure taps, and the answers differ
+  int64_t far_from_edges = 0;  // ambiguous, but no outline or crease is near
+  // taps and the numbers after it count taps.
   int64_t taps = 0, dark_taps = 0, differ = 0, by_jumps = 0, jumped = 0, walked_off = 0, other_face = 0, near = 0;
 
   int64_t wrong() const { return faces + r1 + r2 + r3 + clipped + depth + texel; }
@@ -65,8 +70,9 @@ struct Tally {
   }
 };
 
-// How far a ray may pass beside its place: the rounding of its float start (half a last place in each of three
-// coordinates) and of the edge tests over the scene's size, a light in it included.
+// How far a ray may pass beside its exact place. Its start is rounded to float, by up to half a float step in each of
+// three coordinates. Embree's edge tests round too: four roundings of 2^-24 of the scene's size. A light that is not at
+// infinity counts as a part of the scene.
 double ray_error_m(const Scene& scene) {
   double largest = 0;
   glm::dvec3 low(1e300), high(-1e300);
@@ -80,7 +86,7 @@ double ray_error_m(const Scene& scene) {
   return 0x1p-24 * (std::sqrt(3.0) * largest + 4 * glm::length(high - low));
 }
 
-// The nearest triangle on each pixel's ray, one by one.
+// The receivers of a picture. Each triangle is tested with the ray of each pixel, and the nearest hit counts.
 ReceiverImage picture(const Scene& scene, int width, int height) {
   const CameraFrame frame = make_camera_frame(scene.camera, width, height);
   Image<uint32_t> seen(width, height, no_primitive);
@@ -105,17 +111,19 @@ ReceiverImage picture(const Scene& scene, int width, int height) {
   return resolve_receivers(scene, scene.camera, seen);
 }
 
-// An ambiguous receiver has an outline or a crease within this many ray errors: its four places stand one error off,
-// each with a ray that may err by as much, and P's own rounding.
+// An ambiguous receiver must have an outline or a crease within this many ray errors. The tracer also traces rays at
+// four places, each one ray error beside P. Each of these rays may be off by another ray error, and P itself is
+// rounded.
 constexpr double ambiguous_reach = 4;
 
-// The lookup's own places are floats' on a flat map; a tap this near (in texels) to another texel may be in either.
+// The position of a tap by the frame and by the closed form may differ by this many texels. A tap that is this near to
+// the border of the map or of a cube face may lie on either side of it.
 constexpr double texel_rounding = 1e-3;
 
 struct Verdict {
   bool edge_on = false, banded = false, ambiguous = false, faces = false, r1 = false, far = false;
-  bool rounding = false;   // a verdict that rounding of the vertices decides
-  std::string taps_wrong;  // each one: number, F and V by formula, F and V by rays
+  bool rounding = false;   // rounding of the vertices decides one of the answers
+  std::string taps_wrong;  // of each tap: its number, F and V by formula, F and V by rays
   Tally taps;
   bool any() const { return faces || r1 || taps.wrong() > 0; }
 };
@@ -131,7 +139,7 @@ class Comparison {
         rounded_(model_.inner, frame_, vertex_rounding_m(model_.scene)),
         tracer_(model_.scene),
         error_(ray_error_m(model_.scene)) {
-    // A float's rounding of the depth, and double's of the plane it lies on.
+    // The rounding of the depth to float, and the rounding in double of the plane that the depth is computed from.
     depth_step_ = 0x1p-24 + 1e-12 * (inner_.size_m() * frame_.window_depth_slope(frame_.near_m));
     for (size_t s = 0; s < model_.inner.size(); ++s) {
       if (model_.inner[s].kind != ShapeKind::sphere) continue;
@@ -162,7 +170,7 @@ class Comparison {
   }
 
  private:
-  // The texel of every tap by the closed form.
+  // Computes the texel of every tap by the closed form.
   void address_cube(const ReceiverImage& receivers, LookupProbe& probe) const {
     const int n = frame_.resolution;
     probe.cube_texel.resize(receivers.primitive.size() * static_cast<size_t>(probe.taps()));
@@ -175,7 +183,7 @@ class Comparison {
       }
   }
 
-  // The frame's own word on where a tap lies, against OpenGL's table.
+  // Whether the frame gives a tap the same position in the map as OpenGL's table 8.19.
   bool frame_agrees(glm::dvec3 p, glm::dvec3 offset) const {
     const glm::dvec2 mine = inner_.texels_of(inner_.ray_of_tap(p, offset)),
                      its = frame_.map_texels(frame_.tap_place(frame_.to_light(p), offset));
@@ -210,8 +218,8 @@ class Comparison {
     return v;
   }
 
-  // V(P, x) by formula. Not known: the inner and the outer form differ, or jumps decide that are no larger than what the
-  // outlines' places between the two forms can make of them.
+  // V(P, x) by formula. It is not known if the inner and the outer form differ. It is not known either if a jump
+  // decides that may only come from the distance between the two forms (round_step_).
   struct Known {
     ClosedForm::Answer answer;
     bool known = true;
@@ -247,8 +255,9 @@ class Comparison {
     const bool r2 = f_known && f.lit != exact_lit, r3 = texel_known && at_texel.lit != texel_lit;
     t.r2 += r2, t.r3 += r3;
     if (r2 || r3)
-      v.taps_wrong += " tap " + std::to_string(tap) + ": " + std::to_string(f.lit) + std::to_string(at_texel.lit) +
-                      " for " + std::to_string(exact_lit) + std::to_string(texel_lit);
+      v.taps_wrong += "; tap " + std::to_string(tap) + ": F V by formula " + std::to_string(f.lit) +
+                      std::to_string(at_texel.lit) + ", by rays " + std::to_string(exact_lit) +
+                      std::to_string(texel_lit);
     const double near = inner_.near_depth(c), first = inner_.first_depth(c), cut = inner_.first_depth(c, near);
     t.near += first < near;
     if (model_.round && (first != outer_.first_depth(c) || cut != outer_.first_depth(c, near))) return;
@@ -294,10 +303,10 @@ class Comparison {
     const glm::vec3 p = receivers.position[i];
     const auto [shape, face] = model_.owner[receivers.primitive[i]];
     RC_LOG() << "receiver " << i << " (" << p.x << ' ' << p.y << ' ' << p.z << ") on shape " << shape << " face "
-             << face << ", R1 " << static_cast<int>(truth.lit[i]) << (v.far ? ", ambiguous far from edges" : "")
-             << ": wrong facing " << v.faces << " R1 " << v.r1 << " R2 " << v.taps.r2 << " R3 " << v.taps.r3
-             << " clipped " << v.taps.clipped << " depth " << v.taps.depth << " texel " << v.taps.texel << v.taps_wrong
-             << '\n';
+             << face << ", R1 by rays " << static_cast<int>(truth.lit[i])
+             << (v.far ? ", ambiguous but far from edges" : "") << "; wrong: facing " << v.faces << " R1 " << v.r1
+             << " R2 " << v.taps.r2 << " R3 " << v.taps.r3 << " clipped " << v.taps.clipped << " depth " << v.taps.depth
+             << " texel " << v.taps.texel << v.taps_wrong << '\n';
   }
 
   const Modelled& model_;
@@ -306,8 +315,9 @@ class Comparison {
   ClosedForm inner_, outer_, rounded_;
   Tracer tracer_;
   double error_, depth_step_ = 0;
-  double round_step_ =
-      0;  // how much deeper a sphere is at its inner form's outline than the outer form there, and back
+  // The largest difference of depths that the two forms of a sphere can make. A ray that touches the inner form has
+  // this length inside the outer form.
+  double round_step_ = 0;
   bool light_in_band_ = false;  // between the inner and the outer form of a sphere
 };
 
@@ -319,8 +329,8 @@ void compare_scene(const SceneSpec& spec, const Site& site, int segments, int po
   comparison.compare(picture(p.model.scene, 32, 18), tally);
 }
 
-// The same scenes in every run, so that a failure is a change of the program; NOONMARK_SEED tries others, and
-// NOONMARK_SCENES more of them.
+// The scenes are the same in every run, so a new failure comes from a change of the program. NOONMARK_SEED chooses
+// other scenes, and NOONMARK_SCENES sets how many.
 rc::detail::TestParams parameters(int scenes, bool shrink) {
   rc::detail::TestParams given;
   const char *seed = std::getenv("NOONMARK_SEED"), *more = std::getenv("NOONMARK_SCENES");
@@ -335,8 +345,8 @@ struct Sweep {
   LightKind light;
   const Site* site;
   int kinds, segments, scenes;
-  double ambiguous, edge_on;  // shares of the facing
-  double depth_either;        // share of the taps
+  double ambiguous, edge_on;  // largest shares of the facing receivers
+  double depth_either;        // largest share of the taps
 };
 
 class ClosedFormSweep : public testing::TestWithParam<Sweep> {};
@@ -353,7 +363,8 @@ TEST_P(ClosedFormSweep, TracerAgrees) {
         RC_ASSERT(tally.wrong() == 0);
         RC_ASSERT(tally.far_from_edges == 0);
       },
-      // A smaller scene has a light that is not at infinity elsewhere, and is another case.
+      // rapidcheck makes failing scenes smaller only under directional lights. Another light would be at another
+      // position in the smaller scene, and that would be another case.
       rc::detail::TestMetadata{}, parameters(sweep.scenes, sweep.light == LightKind::directional));
   if (!result.template is<rc::detail::SuccessResult>()) {
     std::ostringstream text;
@@ -361,9 +372,9 @@ TEST_P(ClosedFormSweep, TracerAgrees) {
     ADD_FAILURE() << text.str();
   }
   all.record();
-  // Points on faces of all sizes and pictures from anywhere are harsher than a person's: tiny shapes get as many
-  // receivers as large ones, and lights stand some micrometres from a face. So the bounds of what is ambiguous are some
-  // times what was seen; real pictures are held to a thousandth in witness_test.cpp.
+  // These scenes are harder than those that people build. Tiny shapes get as many receivers as large ones, cameras are
+  // anywhere, and lights are down to 0.1 mm from a face. So more receivers are ambiguous. The limits are a few times
+  // what was measured. In real pictures the limit is one in a thousand (tests/raytrace/witness_test.cpp).
   EXPECT_EQ(all.wrong(), 0);
   EXPECT_EQ(all.far_from_edges, 0);
   EXPECT_GT(all.facing, (sweep.light == LightKind::spot ? 100 : 300) * sweep.scenes);
@@ -394,7 +405,7 @@ INSTANTIATE_TEST_SUITE_P(Random, ClosedFormSweep,
                                          Sweep{"RoundPoint", point_light, &at_origin, 4, 48, 40, 0.02, 0.05, 1e-4}),
                          [](const auto& given) { return given.param.name; });
 
-// A finer sphere and disc leave less between their two forms: as the square of a segment.
+// The distance between the two forms of a sphere or a disc is proportional to the square of the length of its segments.
 TEST(ClosedForm, TheBandOfRoundShapesShrinksWithTheirTriangles) {
   double share[2];
   for (int fine : {0, 1}) {
@@ -410,7 +421,7 @@ TEST(ClosedForm, TheBandOfRoundShapesShrinksWithTheirTriangles) {
             {.kind = 2 + k % 2, .x = in(-900, 900), .y = in(100, 500), .z = in(-900, 900), .a = in(200, 700)});
       }
       spec.resolution = 200;
-      spec.seed = 8;  // even: points on the sides that the spheres show
+      spec.seed = 8;  // even: the normals point outwards
       compare_scene(spec, at_origin, fine ? 96 : 24, 600, all);
     }
     EXPECT_EQ(all.wrong(), 0);
@@ -418,7 +429,7 @@ TEST(ClosedForm, TheBandOfRoundShapesShrinksWithTheirTriangles) {
     RecordProperty(fine ? "banded_per_million_96" : "banded_per_million_24", static_cast<int>(1e6 * share[fine]));
   }
   EXPECT_LT(share[1], 0.02);
-  EXPECT_LT(share[1], share[0] / 4);  // 16 by the square; the rest is left to chance
+  EXPECT_LT(share[1], share[0] / 4);  // the square gives 16; the rest allows for chance
 }
 
 }  // namespace

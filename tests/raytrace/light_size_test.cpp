@@ -1,5 +1,5 @@
-// R0 of lights with a size: suns against closed forms in random scenes, spot and point lights against areas and solid
-// angles behind an edge.
+// R0 of lights with a size. Suns are compared with closed forms in random scenes. Spot and point lights behind an edge
+// are compared with the area or the solid angle of the part that is seen.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -12,15 +12,16 @@ namespace {
 
 using namespace test;
 
-// The fraction of a unit disc on the side x > at of a line.
+// The fraction of a unit disc where x > at.
 double disc_beyond(double at) {
   if (at <= -1) return 1;
   if (at >= 1) return 0;
   return (std::acos(at) - at * std::sqrt(1 - at * at)) / std::numbers::pi;
 }
 
-// The sphere of the light as P sees it, which of its directions are free: an even lattice over the solid angle, in
-// double. Only the cells on an edge are in doubt, some 1 / 128 of all, and half of them fall either way.
+// The fraction of a spherical light that is seen. It is counted on an even lattice over the light's solid angle, in
+// double; free() says whether a direction is seen. Only cells on an edge can be counted wrongly, about 1 / 128 of all.
+// About half of these errors have the opposite sign of the others, so most of the sum cancels.
 double sphere_seen(glm::dvec3 centre, double radius, const std::function<bool(glm::dvec3)>& free) {
   constexpr int rings = 128, around = 128;
   const double distance = glm::length(centre);
@@ -41,7 +42,7 @@ double sphere_seen(glm::dvec3 centre, double radius, const std::function<bool(gl
 }
 constexpr double lattice_error = 2e-3;
 
-// Light at the origin's zenith, 2 m up; a floor at y = 0; above it, at y = 1, a half-plane over x < 0.
+// The light is 2 m above the origin, and the floor is at y = 0. Above the floor, at y = 1, a half-plane covers x < 0.
 constexpr double light_m = 2, edge_m = 1;
 Scene half_plane(LightKind kind, LightShape shape, double radius_m) {
   Scene scene;
@@ -68,8 +69,9 @@ struct Errors {
   double mean = 0;
 };
 
-// Each receiver within five of its standard errors: the samples are even in every prefix, so their errors are below
-// those of independent ones, whose largest of some thousands stays under five.
+// The error of a receiver may be up to five times its standard error. Any first n of the samples are evenly spread, so
+// their errors are smaller than those of independent samples. Of some thousands of receivers with independent samples,
+// the largest error stays below five standard errors.
 constexpr double most_errors = 5, standard_error = 0.02;
 
 Errors errors_of(const Scene& scene, const ReceiverImage& receivers, double formula_error,
@@ -85,7 +87,8 @@ Errors errors_of(const Scene& scene, const ReceiverImage& receivers, double form
     e.beyond_three += std::abs(error) > 3 * standard_error + formula_error;
     e.mean += error;
     if (std::abs(error) > most_errors * standard_error + formula_error && ++e.wrong <= 5)
-      ADD_FAILURE() << "at " << p.x << ' ' << p.y << ' ' << p.z << ": " << truth.soft[i] << ", not " << exact;
+      ADD_FAILURE() << "at " << p.x << ' ' << p.y << ' ' << p.z << ": R0 by rays " << truth.soft[i] << ", by formula "
+                    << exact;
   }
   e.mean /= e.compared;
   return e;
@@ -100,14 +103,15 @@ void expect_sound(const Errors& e, double formula_error) {
   testing::Test::RecordProperty("mean_error_1e6", static_cast<int>(1e6 * e.mean));
 }
 
-// The plane through P and the half-plane's edge meets the light's disc, which lies flat at light_m, in a line.
+// The light's disc is horizontal, at the height light_m. The plane through P and the half-plane's edge cuts it along a
+// line, and the part beyond this line is seen.
 TEST(LightSize, ASpotsDiscBehindAnEdgeIsASegment) {
   const double radius = 0.2;
   const Scene scene = half_plane(LightKind::spot, LightShape::disc, radius);
   const ReceiverImage receivers = on_floor(scene, 0.6, 3000, 1);
   const Errors e = errors_of(scene, receivers, 0, [&](glm::dvec3 p) {
     const double line =
-        p.x + (0 - p.x) * light_m / edge_m;  // where a ray from P over the edge reaches the disc's height
+        p.x + (0 - p.x) * light_m / edge_m;  // where the ray from P over the edge is as high as the disc
     return disc_beyond(line / radius);
   });
   expect_sound(e, 0);
@@ -119,8 +123,8 @@ TEST(LightSize, APointsDiscBehindAnEdgeIsASegment) {
   const Scene scene = half_plane(LightKind::point, LightShape::disc, radius);
   const ReceiverImage receivers = on_floor(scene, 0.6, 3000, 2);
   const Errors e = errors_of(scene, receivers, 0, [&](glm::dvec3 p) {
-    // The plane through P and the edge (x = 0, y = edge_m, along z), as far from the light's centre as it is, tilted
-    // against the disc.
+    // The plane through P and the edge (x = 0, y = edge_m, along z) cuts the disc along a line. The distance from the
+    // disc's centre to this line is its distance to the plane, divided by the sine of the angle between plane and disc.
     const glm::dvec3 centre = glm::dvec3(0, light_m, 0) - p, axis = glm::normalize(centre);
     const glm::dvec3 n = glm::normalize(glm::cross(glm::dvec3(0, 0, 1), glm::dvec3(-p.x, edge_m, 0)));  // towards -x
     const glm::dvec3 across = n - glm::dot(n, axis) * axis;
@@ -144,18 +148,19 @@ TEST(LightSize, ASphereBehindAnEdgeIsItsSolidAngle) {
           return at_edge > reach || p.x + at_edge * d.x > 0;
         });
       });
-      EXPECT_EQ(e.wrong, 0) << radius;
-      EXPECT_GT(e.partial, 80) << radius;
-      EXPECT_LT(std::abs(e.mean), 4 * standard_error / std::sqrt(e.partial) + lattice_error) << radius;
+      EXPECT_EQ(e.wrong, 0) << "radius " << radius;
+      EXPECT_GT(e.partial, 80) << "radius " << radius;
+      EXPECT_LT(std::abs(e.mean), 4 * standard_error / std::sqrt(e.partial) + lattice_error) << "radius " << radius;
     }
   }
 }
 
-// Nothing shades it, yet a part of the sphere is below the receiver's own horizon: that of a wall beside it.
+// The receivers are on a wall beside the light. No other surface shades them, but a part of the sphere is below their
+// own horizon.
 TEST(LightSize, OwnHorizonCutsTheSphere) {
   Scene scene;
   const double radius = 0.3;
-  add_quad(scene, "wall", {0, 0, -1}, {0, 2, 0}, {0, 0, 2});  // in x = 0, its front to +x
+  add_quad(scene, "wall", {0, 0, -1}, {0, 2, 0}, {0, 0, 2});  // at x = 0, front towards +x
   scene.light = {.kind = LightKind::point, .position_m = {0.1, 1, 0}};
   scene.light.radius_m = radius;
   const ReceiverImage all = random_receivers(scene, {1, 0, 0}, true, 600, 4);
@@ -170,7 +175,7 @@ TEST(LightSize, OwnHorizonCutsTheSphere) {
 TEST(LightSize, InsideTheSphereAllOfItIsSeen) {
   Scene scene;
   add_quad(scene, "floor", {-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
-  add_quad(scene, "shelf", {-1, 0.05, -1}, {0, 0, 2}, {2, 0, 0});  // between them
+  add_quad(scene, "shelf", {-1, 0.05, -1}, {0, 0, 2}, {2, 0, 0});  // between the floor and the light
   scene.light = {.kind = LightKind::point, .position_m = {0, 0.1, 0}};
   scene.light.radius_m = 0.5;
   const ReceiverImage receivers = on_floor(scene, 1, 2000, 5);
@@ -181,8 +186,8 @@ TEST(LightSize, InsideTheSphereAllOfItIsSeen) {
     if (std::abs(distance - 0.5) < 1e-6) continue;
     if (distance < 0.5) {
       ++inside;
-      EXPECT_EQ(truth.soft[i], 1) << i;
-      EXPECT_EQ(truth.lit[i], 0) << i;  // R1 asks for the centre alone
+      EXPECT_EQ(truth.soft[i], 1) << "receiver " << i;
+      EXPECT_EQ(truth.lit[i], 0) << "receiver " << i;  // R1 is that of the light's centre only
     } else {
       dark += truth.soft[i] < 0.5;
     }
@@ -191,9 +196,9 @@ TEST(LightSize, InsideTheSphereAllOfItIsSeen) {
   EXPECT_GT(dark, 300);
 }
 
-// Each receiver within a bound of its own standard error, and all of them together without bias.
+// The error of each receiver is bounded by its standard error, and the mean error of all receivers is near 0.
 TEST(ClosedForm, SunsOfAnySize) {
-  constexpr double chord_error = 1e-3;  // 256 chords leave less
+  constexpr double chord_error = 1e-3;  // the error of 256 chords is smaller
   int compared = 0, partial = 0, wrong = 0, beyond_three = 0, banded = 0, contacts = 0;
   double mean = 0;
   for (int seed = 1; seed <= 48; ++seed) {
@@ -211,7 +216,7 @@ TEST(ClosedForm, SunsOfAnySize) {
       const Place place{receivers.position[i], shape, face};
       const double most = inner.seen(place, receivers.normal[i], diameter_deg, 256),
                    least = outer.seen(place, receivers.normal[i], diameter_deg, 256);
-      if (most > 0.99 && !inner.lit(place)) {  // in the plane of another shape that lies on its own: a contact
+      if (most > 0.99 && !inner.lit(place)) {  // a contact: P lies in the plane of a shape that touches P's shape
         ++contacts;
         continue;
       }
@@ -222,11 +227,11 @@ TEST(ClosedForm, SunsOfAnySize) {
       beyond_three += std::max(above, below) > 3 * standard_error + chord_error;
       mean += std::max(above, 0.0) - std::max(below, 0.0);
       if (std::max(above, below) > most_errors * standard_error + chord_error && ++wrong <= 5)
-        ADD_FAILURE() << spec << "\nreceiver " << i << " on shape " << shape << ": " << truth.soft[i] << ", not "
-                      << least << " to " << most << ", diameter " << diameter_deg << ", face " << face << ", R1 "
-                      << static_cast<int>(truth.lit[i]) << ", not " << inner.lit(place) << ", at " << place.p.x << ' '
-                      << place.p.y << ' ' << place.p.z << " normal " << receivers.normal[i].x << ' '
-                      << receivers.normal[i].y << ' ' << receivers.normal[i].z;
+        ADD_FAILURE() << spec << "\nreceiver " << i << " on shape " << shape << ": R0 by rays " << truth.soft[i]
+                      << ", by formula " << least << " to " << most << ", diameter " << diameter_deg << ", face "
+                      << face << ", R1 by rays " << static_cast<int>(truth.lit[i]) << ", by formula "
+                      << inner.lit(place) << ", at " << place.p.x << ' ' << place.p.y << ' ' << place.p.z << " normal "
+                      << receivers.normal[i].x << ' ' << receivers.normal[i].y << ' ' << receivers.normal[i].z;
     }
   }
   RecordProperty("compared", compared);

@@ -1,4 +1,4 @@
-// The exact map under a polygon offset against finite differences.
+// Compares the exact map under a polygon offset with a formula. The slope in the formula comes from finite differences.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -10,13 +10,13 @@ namespace {
 
 using namespace test;
 
-// Depth of a plane in the exact map, in double, from the place of a texel alone.
+// A plane, and its depth in the exact map. The depth is computed in double, from the coordinates of a texel alone.
 struct TiltedPlane {
   Scene scene;
   LightFrame frame;
   glm::dvec3 normal, at;
 
-  double window_depth(glm::dvec2 texel) const {  // at a texel's coordinates, 0.5 more at its centre
+  double window_depth(glm::dvec2 texel) const {  // in texels; the centre of texel i is at i + 0.5
     const glm::dvec2 ndc = 2.0 * texel / static_cast<double>(frame.resolution) - 1.0;
     if (frame.kind == LightKind::directional) {
       const glm::dvec3 start = frame.origin_m + frame.extent_m / 2 * (ndc.x * frame.right + ndc.y * frame.up);
@@ -39,7 +39,7 @@ TiltedPlane tilted(LightKind kind, double tilt_deg, double turn_deg, int resolut
   plane.scene.light = {.kind = kind, .position_m = {0.5, 5, 0.25}, .target_m = {0, 0, 0}};
   plane.scene.light.cone_deg = 40;
   plane.frame = frame_of(plane.scene, resolution);
-  // The plane that its float corners span.
+  // The plane through three of its float corners.
   const auto& p = plane.scene.positions;
   plane.at = p[0];
   plane.normal = glm::normalize(glm::cross(glm::dvec3(p[1]) - glm::dvec3(p[0]), glm::dvec3(p[2]) - glm::dvec3(p[0])));
@@ -47,9 +47,10 @@ TiltedPlane tilted(LightKind kind, double tilt_deg, double turn_deg, int resolut
 }
 
 TEST(PolygonOffsetMap, IsThePlanePlusFactorTimesItsSteepestTexelStep) {
-  // A depth below 1 rounds to float within 2^-25; as much again for the four float corners, which are off one plane.
+  // Rounding a depth below 1 to float changes it by at most 2^-25. As much again is allowed because the four corners
+  // are rounded to float, so that they do not lie exactly in one plane.
   constexpr double tolerance = 0x1p-24;
-  const double unit = 0x1p-23;  // of a 24-bit map
+  const double unit = 0x1p-23;  // of the polygon offset, in a map of 24 bits
   int compared = 0;
   double largest = 0, most_steps = 0;
   for (LightKind kind : {LightKind::directional, LightKind::spot})
@@ -71,8 +72,8 @@ TEST(PolygonOffsetMap, IsThePlanePlusFactorTimesItsSteepestTexelStep) {
               const glm::ivec2 texel = probe.texel(i, 0);
               if (!truth.facing[i] || texel.x < 0 || texel.y < 0 || texel.x > 63 || texel.y > 63) continue;
               const double found = lookup.exact_map.at(texel.x, texel.y);
-              if (found == 1) continue;  // a centre beyond the plane's border, or behind far
-              // Window depth is affine in the map's texels, so that differences over whole texels are its slope.
+              if (found == 1) continue;  // the texel's centre is beyond the plane's border or behind far
+              // Window depth is affine in the map's texels. So its difference over one texel is its slope.
               const glm::dvec2 c = glm::dvec2(texel) + 0.5;
               const double m = std::max(
                   std::abs(plane.window_depth(c + glm::dvec2(0.5, 0)) - plane.window_depth(c - glm::dvec2(0.5, 0))),
