@@ -62,9 +62,9 @@ int say(const CLI::App& app, const CLI::Error& result) {
   return exit_code;
 }
 
-// The terminate handler. A library may stop an exception on its way, and then main cannot catch it. If memory or threads
-// have run out, this handler prints one line and ends the program with the exit code of the machine. Any other exception
-// ends the program as usual.
+// The terminate handler. A library may stop an exception on its way, and then main cannot catch it. If memory or
+// threads have run out, this handler prints one line and ends the program with the exit code of the machine. Any other
+// exception ends the program as usual.
 [[noreturn]] void give_up() {
   try {
     if (const std::exception_ptr exception = std::current_exception()) std::rethrow_exception(exception);

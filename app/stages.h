@@ -12,8 +12,8 @@
 //   Climbed climbed = climb_strips(renderer, lookup, view, truth, map.depth, shown, point, varied);
 //
 // app/workbench.h joins these stages and keeps the results that consecutive points share. The settings' rows name the
-// stages that read them (technique/settings.h). tests/acceptance/planted_support.h joins the same functions around a renderer with
-// a defect.
+// stages that read them (technique/settings.h). tests/acceptance/planted_support.h joins the same functions around a
+// renderer with a defect.
 #pragma once
 #include <map>
 #include <memory>

@@ -16,7 +16,8 @@ function(noonmark_build_facts target)
   endforeach()
   set(source ${CMAKE_CURRENT_BINARY_DIR}/build_facts.cpp)
   list(JOIN libraries "," libraries)
-  # A target, not a command with dependencies: nothing in the tree says when HEAD moves. The file is touched only when it changes.
+  # A target, not a command with dependencies: nothing in the tree says when HEAD moves. The file is touched only when
+  # it changes.
   add_custom_target(build_facts
     COMMAND ${CMAKE_COMMAND} -DROOT=${PROJECT_SOURCE_DIR} -DSOURCE=${source} -DVERSION=${PROJECT_VERSION}
             "-DCOMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}" -DBUILD_TYPE=${CMAKE_BUILD_TYPE} -DLIBRARIES=${libraries}

@@ -1,6 +1,7 @@
 # noonmark_embed(TARGET NAMESPACE OUT.cpp FILE...): compiles text files into TARGET as
 #   namespace NAMESPACE { std::string_view embedded(std::string_view name); }   // empty when there is no such file
-# where name is the file's path below the folder that calls (for an absolute path: its last part). The header is written beside OUT.cpp as OUT.h.
+# where name is the file's path below the folder that calls (for an absolute path: its last part). The header is written
+# beside OUT.cpp as OUT.h.
 function(noonmark_embed target namespace out)
   set(header ${CMAKE_CURRENT_BINARY_DIR}/${out}.h)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${out}.cpp)

@@ -29,8 +29,9 @@ set(headers_Embree "^embree[0-9]*/|^rtcore")
 set(home_Embree raytrace)
 set(headers_tinygltf "^(tinygltf/)?tiny_gltf")
 set(home_tinygltf scenes)
-# The headers through which other folders use these libraries; none of the above may reach them, not even through another header.
-# (Any other header of ours becomes public in this sense by being included from another folder than its own; tests excepted.)
+# The headers through which other folders use these libraries; none of the above may reach them, not even through
+# another header. (Any other header of ours becomes public in this sense by being included from another folder than its
+# own; tests excepted.)
 set(public_headers gl/renderer.h raytrace/tracer.h)
 
 set(longest_file 450)  # lines; beyond it a file is probably two things. Only warned about

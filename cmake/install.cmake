@@ -10,9 +10,9 @@ set(NOONMARK_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/noonmark)
 set(NOONMARK_HEADER_DIR ${CMAKE_INSTALL_INCLUDEDIR}/noonmark)  # "compare/ladder/ladder.h" lies below it
 set(NOONMARK_MODULE_DIR ${CMAKE_INSTALL_LIBDIR}/noonmark)      # what the program opens at run time
 
-# noonmark_library(NAME HEADER...): installs the library noonmark_NAME as noonmark::NAME with its public headers, paths from
-# its own folder: those that other folders include, what they include in turn, and what an outside project has a use for. None
-# of them may need a library that the target links privately. The test install.headers compiles them all.
+# noonmark_library(NAME HEADER...): installs the library noonmark_NAME as noonmark::NAME with its public headers, paths
+# from its own folder: those that other folders include, what they include in turn, and what an outside project has a
+# use for. None of them may need a library that the target links privately. The test install.headers compiles them all.
 function(noonmark_library name)
   list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE headers)
   target_sources(noonmark_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})

@@ -1,11 +1,12 @@
 # NOONMARK_SANITIZED_TESTS compiles scenes, technique and compare a second time, with AddressSanitizer and
-# UndefinedBehaviorSanitizer (casts from floats included), and links the tests that use nothing else with them. These are nearly half
-# of all tests, and they are quick. CI sets it (preset ci). The preset asan compiles everything so, for all tests.
+# UndefinedBehaviorSanitizer (casts from floats included), and links the tests that use nothing else with them. These
+# are nearly half of all tests, and they are quick. CI sets it (preset ci). The preset asan compiles everything so, for
+# all tests.
 set(NOONMARK_SANITIZE -fsanitize=address,undefined,float-cast-overflow)
 set(NOONMARK_SANITIZED_LIBRARIES noonmark_scenes noonmark_technique noonmark_compare)
 
-# noonmark_sanitize(TARGET): TARGET is compiled and linked with the sanitizers. Warnings are no errors, because GCC warns of more
-# that is not there when the sanitizers are on; the libraries' first compilation has found the others.
+# noonmark_sanitize(TARGET): TARGET is compiled and linked with the sanitizers. Warnings are no errors, because GCC
+# warns of more that is not there when the sanitizers are on; the libraries' first compilation has found the others.
 function(noonmark_sanitize target)
   target_compile_options(${target} PRIVATE ${NOONMARK_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -O1 -g1 -Wno-error)
   target_link_options(${target} PUBLIC ${NOONMARK_SANITIZE})
@@ -19,8 +20,8 @@ function(noonmark_sanitized out)
   set(${out} ${ARGN} PARENT_SCOPE)
 endfunction()
 
-# noonmark_sanitized_twin(LIBRARY): LIBRARY_sanitized, of the same sources and with the same options. To be called in the folder of
-# LIBRARY, because generated files are known there alone.
+# noonmark_sanitized_twin(LIBRARY): LIBRARY_sanitized, of the same sources and with the same options. To be called in
+# the folder of LIBRARY, because generated files are known there alone.
 function(noonmark_sanitized_twin library)
   if(NOT NOONMARK_SANITIZED_TESTS)
     return()

@@ -85,8 +85,8 @@ class Renderer {
   // Uploads P and N. eye_m is the position of the camera, for filters that grow with the view distance.
   void load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m);
 
-  // Renders the scene's depth from the light. Reads settings.map and the polygon offset of settings.bias; parts that move
-  // the casters' vertices act through `casters` alone.
+  // Renders the scene's depth from the light. Reads settings.map and the polygon offset of settings.bias; parts that
+  // move the casters' vertices act through `casters` alone.
   // time_ms, when given, gets the pass's own time (device or glFinish clock).
   // casters: the scene's vertices as they are drawn (technique/casters.h); empty: as load_scene() has them.
   ShadowMap render_map(const LightFrame& frame, const Settings& settings, double* time_ms = nullptr,

@@ -11,8 +11,8 @@
 namespace noonmark {
 namespace {
 
-// Point n of Roberts' R2 sequence (2018), moved by `shift` within the unit square. The sequence adds the same step, made of
-// the plastic number, each time. Its first n points are spread evenly, whatever n is.
+// Point n of Roberts' R2 sequence (2018), moved by `shift` within the unit square. The sequence adds the same step,
+// made of the plastic number, each time. Its first n points are spread evenly, whatever n is.
 glm::dvec2 sequence_point(uint32_t n, glm::dvec2 shift) {
   constexpr double plastic = 1.32471795724474602596;
   const glm::dvec2 p = shift + static_cast<double>(n) * glm::dvec2(1 / plastic, 1 / (plastic * plastic));

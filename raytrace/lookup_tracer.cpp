@@ -15,8 +15,8 @@
 namespace noonmark::raytrace {
 namespace {
 
-// The exact map skips what the rasteriser culls. Front: counter-clockwise as the light sees it. Of coincident triangles the
-// first is enough; moved casters may part them, and adjacency is null.
+// The exact map skips what the rasteriser culls. Front: counter-clockwise as the light sees it. Of coincident triangles
+// the first is enough; moved casters may part them, and adjacency is null.
 std::vector<uint32_t> kept_triangles(const Scene& scene, const Adjacency* adjacency, const LightFrame& frame,
                                      CulledFaces cull) {
   std::vector<uint32_t> kept;

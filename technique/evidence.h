@@ -147,8 +147,8 @@ struct TapTruth {
   }
 };
 
-// The true visibility of each receiver, without a filter and without a map. All points of a sweep that have the same view
-// and light use the same ReceiverTruth.
+// The true visibility of each receiver, without a filter and without a map. All points of a sweep that have the same
+// view and light use the same ReceiverTruth.
 struct ReceiverTruth {
   Image<uint8_t> facing;     // 1 if N.L > 0 and, under a spot light, the receiver is inside the cone
   Image<uint8_t> lit;        // R1: one exact shadow ray to the light's centre; 0 if not facing

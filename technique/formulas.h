@@ -1,8 +1,8 @@
 // The formulas on the host. Those of technique/bias/*.glsl are compiled three times: in float, with the shader's
 // arithmetic (the host is built without contraction); in double, for the truth; and with error bounds
-// (technique/bounded.h), for the contract check. Those of technique/reference/*.glsl are compiled in float. The files use only words that GLSL and C++ share: vec2, vec3, dot,
-// abs, min, max, clamp, sqrt. `real` is the type of a number, `precise` is GLSL's keyword, and a constant is written
-// real(1).
+// (technique/bounded.h), for the contract check. Those of technique/reference/*.glsl are compiled in float. The files
+// use only words that GLSL and C++ share: vec2, vec3, dot, abs, min, max, clamp, sqrt. `real` is the type of a number,
+// `precise` is GLSL's keyword, and a constant is written real(1).
 #pragma once
 #include <glm/glm.hpp>
 

@@ -1,6 +1,6 @@
 // The numbers that a part of a bias or the reference of a tap may read of the receiver. GLSL and C++ compile this file,
-// technique/bias/*.glsl and technique/reference/*.glsl.
-// gl/shaders/words.glsl defines the words that GLSL lacks, and technique/formulas.h those that C++ lacks.
+// technique/bias/*.glsl and technique/reference/*.glsl. gl/shaders/words.glsl defines the words that GLSL lacks, and
+// technique/formulas.h those that C++ lacks.
 struct Surface {
   vec3 normal;       // N, unit
   vec3 to_light;     // L, unit

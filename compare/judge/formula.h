@@ -7,7 +7,8 @@
 // Names are those of settings and metrics, with their dots, and any others for which the caller gives values.
 // - Operators: + - * / ^, comparisons (1 or 0), && || and a ? b : c.
 // - The constant pi.
-// - Functions of radians: sin cos tan asin acos atan atan2; of degrees: sin_deg cos_deg tan_deg; into degrees: atan_deg.
+// - Functions of radians: sin cos tan asin acos atan atan2; of degrees: sin_deg cos_deg tan_deg.
+// - The arc tangent in degrees: atan_deg.
 // - Other functions: hypot sqrt exp ln log2 log10 abs min max floor.
 #pragma once
 #include <functional>

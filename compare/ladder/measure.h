@@ -25,11 +25,11 @@ struct MeasureInput {
 // that moves the caster, because that is the occluder. light: P in the light's frame.
 double panning_reach_m(const MeasureInput& input, size_t i, glm::dvec3 light);
 
-// Every metric of the table that is about the ladder; those of the light's plane (law_metrics.h), of soundness, of the view,
-// of the shaded frame and the times come from elsewhere. If a rung was put on top
-// of R5, `error` is measured against that rung, and the mean step of its cause is added under the cause's name. A value
-// in the images that is not finite makes every metric that reads it not finite; nothing is skipped. Without a counted
-// receiver every fraction, gap and displacement is NaN.
+// Every metric of the table that is about the ladder; those of the light's plane (law_metrics.h), of soundness, of the
+// view, of the shaded frame and the times come from elsewhere. If a rung was put on top of R5, `error` is measured
+// against that rung, and the mean step of its cause is added under the cause's name. A value in the images that is not
+// finite makes every metric that reads it not finite; nothing is skipped. Without a counted receiver every fraction,
+// gap and displacement is NaN.
 std::map<std::string, double> measure_ladder(const MeasureInput& input);
 
 // The counted pixels that have Peter Panning and whose own truth is dark. measure_ladder() needs the distance of their

@@ -1,4 +1,5 @@
-// The sections with charts: a place for each chart, which compare/report/page/charts.js fills, and the same numbers as a table.
+// The sections with charts: a place for each chart, which compare/report/page/charts.js fills, and the same numbers as
+// a table.
 #include "compare/report/sections.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// Joins the steps: container -> json -> guard -> tinygltf -> structure -> pose -> nodes -> geometry -> camera and light.
-// Each step has its own file in scenes/gltf/, whose head says what it refuses.
+// Joins the steps: container -> json -> guard -> tinygltf -> structure -> pose -> nodes -> geometry -> camera and
+// light. Each step has its own file in scenes/gltf/, whose head says what it refuses.
 #include "scenes/gltf/gltf.h"
 
 #include <filesystem>

@@ -306,7 +306,8 @@ TEST(GltfFiles, DeepNestingBesideOtherFaults) {
     expect_refusal(folder.write("scene.gltf", text), "nested more than 256 deep");
 }
 
-// nlohmann's own reading with a callback, which was used once, searches the list so far at the end of each object in it.
+// nlohmann's own reading with a callback, which was used once, searches the list so far at the end of each object in
+// it.
 TEST(GltfFiles, TheTimeToReadALongListGrowsWithItsLength) {
   TemporaryFolder folder;
   constexpr int objects = 100'000, per_list = 1000;
