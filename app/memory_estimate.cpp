@@ -18,7 +18,7 @@ namespace {
 constexpr double program = 260e6;          // libraries, OpenGL's compiler, one empty picture [229e6]
 constexpr double per_pixel = 260;          // receivers, truth, probe, ladder, on both sides of OpenGL [236]
 constexpr double per_picture_pixel = 270;  // pictures, channels of the EXR files and their encoded bytes [245]
-constexpr double per_texel = 36;           // the map drawn, read back, exact, uploaded, and its ties [30]
+constexpr double per_texel = 36;           // map: as drawn, as read back, exact, exact as uploaded, tie map [30]
 constexpr double per_picture_texel = 28;   // map.exr [25]
 // For each tap in the batch whose thresholds are being listed (curve_batch_taps): a threshold of the error and one of
 // its cause, 4 bytes each. Not every tap has both; the difference covers the growth of the lists [3].

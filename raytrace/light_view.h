@@ -69,7 +69,7 @@ class LightView {
   // How wide the triangle is at its narrowest, in metres.
   double width(uint32_t triangle) const;
 
-  // Depth of the triangle's plane at x, also beyond the triangle; infinity where the ray never comes to it.
+  // Depth of the triangle's plane at x, also beyond the triangle; infinity if the ray does not meet the plane.
   double plane_depth(uint32_t triangle, glm::dvec3 x) const {
     const Plane& plane = planes_[triangle];
     const glm::dvec3 a = corner(triangle, 0);

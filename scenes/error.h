@@ -1,6 +1,8 @@
 // The one exception type of the program. It is thrown for mistakes of a user and failures of a machine (files,
-// settings, drivers). Our own mistakes are asserts or std::logic_error. Only main catches it; its kind is the exit
-// code.
+// settings, drivers). Our own mistakes are asserts or std::logic_error. Only main ends the program with it, and then
+// its kind is the exit code. Other functions catch it to add what they know or to change its kind, and throw again
+// (at_point in app/experiment.h, open_store in app/sweep.cpp), or to report it and continue (verb_doctor in
+// app/verb_lists.cpp).
 #pragma once
 #include <stdexcept>
 #include <string>

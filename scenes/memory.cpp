@@ -119,8 +119,8 @@ double scene_bytes(SceneSize size) {
 }
 
 uint64_t bytes_of_part(uint64_t name_length) {
-  // A short name stands in the part itself. Beside a longer one the C library keeps a head of 8 bytes and fills up to
-  // 16; one byte ends the name.
+  // A short name stands in the part itself. A longer one is allocated: malloc adds a header of 8 bytes and rounds up to
+  // a multiple of 16. One byte ends the name.
   static const uint64_t short_name = std::string().capacity();
   return sizeof(Part) + (name_length > short_name ? name_length + 1 + 8 + 15 : 0);
 }

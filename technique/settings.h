@@ -77,7 +77,7 @@ struct BiasSettings {
 
 struct FilterSettings {
   std::string kind = "none";  // the name of one of filters()
-  int size = 3;               // box, gaussian: taps on a side, odd
+  int size = 3;               // box, gaussian, castano, tent: taps on a side, odd
   double step_texels = 1;     // box: distance of neighbouring taps
   double sigma_texels = 1;    // gaussian: standard deviation
   double radius_texels = 2;   // poisson, vogel: radius of the disk

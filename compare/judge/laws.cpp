@@ -82,7 +82,7 @@ class Reader {
   double predicted(const PointRecord& point) const { return value(predicted_, point); }
   double slack(const PointRecord& point) const { return value(slack_, point); }
 
-  // other: the point that `point` is compared with.
+  // The figures marked `against:` are computed for `other`, all others for `point`.
   std::string found(const PointRecord& point, const PointRecord& other) const {
     std::string text = end_of_sentence_;
     for (auto figure = figures_.rbegin(); figure != figures_.rend(); ++figure) {

@@ -6,8 +6,8 @@
 // Rungs: R0 is the light with its size; R1 one exact shadow ray; R2 the filter's taps at their exact places; R3 the
 // taps at the centres of the texels that they read; R4 the technique on an exact map; R5 the result of the GPU. R0, R1,
 // R2 and R3 come from rays, R4 and R5 from OpenGL. So it is a real check that the steps add up. A technique that looks
-// the receiver up elsewhere (normal offset) has one more rung between R2 and R3: the taps at the exact places looked
-// up.
+// the receiver up elsewhere (normal offset) has the same rungs: the taps at the exact places looked up make no rung.
+// The effect of moving them is a cause of its own, displacement.
 //
 // Let F = V(P, P + o), D = V(P, P' + o) where P' is the place looked up (D = F for techniques that do not move it), V =
 // V(P, c), and L = the tap's verdict at R4:

@@ -188,7 +188,8 @@ void ProbeCheck::compare_cube(size_t i, const Place& place, ProbeErrors& found) 
   for (int t = 0; t < probe.taps(); ++t) {
     const glm::dvec3 way = place.light + glm::dvec3(probe.offset(i, t));
     const glm::dvec3 way_error = error + glm::abs(way) * u;
-    // Compared in the face that the sampler chose, even if the exact direction lies just beyond that face's edge.
+    // The texel is compared with the exact direction in the face that the sampler chose, even if the exact direction
+    // lies just beyond that face's edge.
     const glm::ivec2 texel = probe.texel(i, t);
     const MapTile face = frame_.tile(probe.tile(i, t));
     const glm::dvec2 in_face(texel - face.corner);

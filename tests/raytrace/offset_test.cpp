@@ -163,7 +163,7 @@ TEST_F(PlateOnFloor, MovedTapsOnAnEdgeAreDecidedInDouble) {
   for (int i = 0; i < 600; ++i) points.push_back({before + (i % 3 - 1) * 1e-3, 0, -0.3 + 0.001 * i});
   const Looked looked = look_up(scene, frame, on_floor(points), 1, offset_by(frame, offset_m));
   const Looked unmoved = look_up(scene, frame, on_floor(points), 1, {});
-  // The edge as the light sees it, from the floats that hold the plate.
+  // The edge as the light sees it, computed from the plate's vertices as floats.
   const glm::dvec2 a(frame.to_light({0.8f, 0.5f, -0.6f})), b(frame.to_light({0.8f, 0.5f, 0.6f}));
   const auto side = [&](glm::dvec3 world) {
     const glm::dvec2 x(frame.to_light(world));
