@@ -102,11 +102,11 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
   const Light light = effective_light(scene, settings);
   validate(settings, light.kind);
   // The scene's own map volume fits only the scene's own light.
-  const bool own = light.kind == scene.light.kind && !settings.light.position_m && !settings.light.target_m;
-  const bool scenes_own = scene.map && own && settings.map.fit == MapFit::scene;
+  const KindOfLight& kind = kind_of_light(light.kind);
+  const bool moved = settings.light.position_m || (settings.light.target_m && kind.is_aimed());
+  const bool scenes_own = scene.map && light.kind == scene.light.kind && !moved && settings.map.fit == MapFit::scene;
   const MapVolume volume = scenes_own ? *scene.map : fit_map(scene, light);
 
-  const KindOfLight& kind = kind_of_light(light.kind);
   LightFrame frame = kind.axes(light);
   frame.near_m = settings.map.near_m.value_or(volume.near_m);
   frame.far_m = settings.map.far_m.value_or(volume.far_m);

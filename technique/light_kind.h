@@ -39,6 +39,7 @@ class KindOfLight {
   virtual std::string_view help() const = 0;
   virtual bool parallel_rays() const { return false; }  // false: all rays come from one point
   virtual MapShape map_shape() const { return MapShape::flat; }
+  virtual bool is_aimed() const { return true; }  // false: Light::target_m is not read
 
   // ---- the frame
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "scenes/builtin.h"
 #include "scenes/library.h"
 #include "technique/filters.h"
 #include "technique/light_kind.h"
@@ -36,6 +37,15 @@ std::string near_beyond_far(std::string_view group, std::optional<double> near_m
 std::string in_builtin_scene(const Settings& s, LightKind) {
   return names_file(s.scene.name) ? "" : "in a built-in scene";
 }
+std::function<std::string(const Settings&, LightKind)> only_in_scenes_with(std::string_view setting) {
+  return [setting](const Settings& s, LightKind) -> std::string {
+    if (names_file(s.scene.name)) return "in a scene from a file";
+    for (const BuiltinScene& scene : builtin_scenes())
+      if (scene.name == s.scene.name && std::find(scene.reads.begin(), scene.reads.end(), setting) == scene.reads.end())
+        return fmt::format("in the scene {}", scene.name);
+    return "";
+  };
+}
 std::string without_time(const Settings& s, LightKind light) {
   if (const std::string why = in_builtin_scene(s, light); !why.empty()) return why;
   return s.scene.time_s ? "" : "without scene.time_s";
@@ -62,12 +72,13 @@ std::string where_disk_follows_view(const Settings& s, LightKind) {
 }
 
 std::string even_or_unknown_size(const Settings& s, std::optional<LightKind>) {
+  const Filter& filter = find_filter(s.filter.kind);
+  if (std::find(filter.reads.begin(), filter.reads.end(), "filter.size") == filter.reads.end()) return "";
   if (s.filter.size % 2 == 0)
     return fmt::format(
-        "filter.size = {} is even; a box and a Gaussian have an odd number of taps on a side, so that one is at the "
-        "receiver",
-        s.filter.size);
-  const std::vector<int>& sizes = find_filter(s.filter.kind).sizes;
+        "filter.size = {} is even; the filter {} has an odd number of taps on a side, so that one is at the receiver",
+        s.filter.size, s.filter.kind);
+  const std::vector<int>& sizes = filter.sizes;
   if (sizes.empty() || std::find(sizes.begin(), sizes.end(), s.filter.size) != sizes.end()) return "";
   return fmt::format("filter.size = {}: the filter {} has a size of {}", s.filter.size, s.filter.kind,
                      fmt::join(sizes, ", "));
@@ -109,11 +120,17 @@ std::string plane_on_cube_or_blended(const Settings& s, std::optional<LightKind>
       s.bias.reference, filters_that([](const Filter& f) { return !f.blended && f.map != FilterMap::cube; }));
 }
 
-std::string shifted_cube(const Settings& s, std::optional<LightKind> light) {
-  if (!light || kind_of_light(*light).map_shape() == MapShape::flat ||
-      (s.map.shift_u_texels == 0 && s.map.shift_v_texels == 0))
-    return "";
-  return "map.shift_*_texels needs a flat map; move the point light instead";
+namespace {
+std::string shifted_cube(std::string_view setting, double texels, std::optional<LightKind> light) {
+  if (texels == 0 || !light || kind_of_light(*light).map_shape() == MapShape::flat) return "";
+  return fmt::format("{} needs a flat map; move the point light instead", setting);
+}
+}  // namespace
+std::string cube_shifted_along_u(const Settings& s, std::optional<LightKind> light) {
+  return shifted_cube("map.shift_u_texels", s.map.shift_u_texels, light);
+}
+std::string cube_shifted_along_v(const Settings& s, std::optional<LightKind> light) {
+  return shifted_cube("map.shift_v_texels", s.map.shift_v_texels, light);
 }
 
 std::string snapped_perspective(const Settings& s, std::optional<LightKind> light) {

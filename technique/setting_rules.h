@@ -6,9 +6,11 @@
 //   for (const IdleSetting& idle : idle_settings(frame.kind, settings)) print(idle.name, idle.why);
 //   if (settings_key(settings, {Stage::scene, Stage::map}) == key) ...  // the same map
 #pragma once
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenes/error.h"
@@ -48,6 +50,8 @@ namespace setting_rules {
 
 // The reason why the setting is not read; empty if it is read.
 std::string in_builtin_scene(const Settings&, LightKind);
+// setting: the name of the row, such as "scene.theta_deg" (BuiltinScene::reads).
+std::function<std::string(const Settings&, LightKind)> only_in_scenes_with(std::string_view setting);
 std::string without_time(const Settings&, LightKind);
 std::string where_depths_are_fitted(const Settings&, LightKind);
 std::string not_on_directional(const Settings&, LightKind);
@@ -65,7 +69,8 @@ std::string view_near_beyond_far(const Settings&, std::optional<LightKind>);
 std::string no_direction_up(const Settings&, std::optional<LightKind>);
 std::string filter_of_another_map(const Settings&, std::optional<LightKind>);
 std::string plane_on_cube_or_blended(const Settings&, std::optional<LightKind>);
-std::string shifted_cube(const Settings&, std::optional<LightKind>);
+std::string cube_shifted_along_u(const Settings&, std::optional<LightKind>);
+std::string cube_shifted_along_v(const Settings&, std::optional<LightKind>);
 std::string snapped_perspective(const Settings&, std::optional<LightKind>);
 
 }  // namespace setting_rules

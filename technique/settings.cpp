@@ -105,13 +105,17 @@ std::vector<Setting> make_table() {
   std::vector<Setting> table = {
       text("scene.name", "A built-in scene, or the path of a .gltf or .glb file.", MEMBER(scene.name)),
       real("scene.theta_deg", "deg", 0, 89.9, "plane: the angle between its normal and the light.",
-           MEMBER(scene.theta_deg)),
+           MEMBER(scene.theta_deg))
+          .idle(only_in_scenes_with("scene.theta_deg")),
       real("scene.phi_deg", "deg", -360, 360,
            "plane: azimuth of its slope in the light's plane, measured from the texel axes; plate: rotation about the "
            "vertical.",
-           MEMBER(scene.phi_deg)),
-      real("scene.thickness_m", "m", 1e-4, 10, "wall, plate: thickness.", MEMBER(scene.thickness_m)),
-      real("scene.height_m", "m", 0, 100, "plate: height of its lit face above the floor.", MEMBER(scene.height_m)),
+           MEMBER(scene.phi_deg))
+          .idle(only_in_scenes_with("scene.phi_deg")),
+      real("scene.thickness_m", "m", 1e-4, 10, "wall, plate: thickness.", MEMBER(scene.thickness_m))
+          .idle(only_in_scenes_with("scene.thickness_m")),
+      real("scene.height_m", "m", 0, 100, "plate: height of its lit face above the floor.", MEMBER(scene.height_m))
+          .idle(only_in_scenes_with("scene.height_m")),
       choice("scene.mesh", {std::begin(mesh_forms), std::end(mesh_forms)},
              "How the scene's surface is cut into triangles. as_built: as it is; one_mesh: welded into one mesh; "
              "split: each triangle in four; reversed: triangles and vertices in reverse order; doubled: each triangle "
@@ -160,7 +164,8 @@ std::vector<Setting> make_table() {
             MEMBER(light.position_m)),
       point("light.target_m", "m",
             "The point that the light points at, which is the middle of its map; auto: the scene's.",
-            MEMBER(light.target_m)),
+            MEMBER(light.target_m))
+          .idle(not_on_point),
       real("light.angular_diameter_deg", "deg", 0, 90,
            "directional: angular diameter of the sun, for R0 (the real sun: 0.53); 0: no size; auto: the scene's.",
            MEMBER(light.angular_diameter_deg))
@@ -204,9 +209,10 @@ std::vector<Setting> make_table() {
       real("map.shift_u_texels", "texels", -1, 1,
            "Moves the map with its texel grid to the light's right, to try another alignment of texels and edges.",
            MEMBER(map.shift_u_texels))
-          .refused(shifted_cube),
+          .refused(cube_shifted_along_u),
       real("map.shift_v_texels", "texels", -1, 1, "Moves the map with its texel grid up, as the light sees it.",
-           MEMBER(map.shift_v_texels)),
+           MEMBER(map.shift_v_texels))
+          .refused(cube_shifted_along_v),
       real("map.near_m", "m", -1e9, 1e9,
            "Near plane, measured from the light's position along its axis (point light: along the axis of each face); "
            "auto: by map.fit.",

@@ -9,6 +9,7 @@ class Point final : public KindOfLight {
   std::string_view name() const override { return "point"; }
   std::string_view help() const override { return "a cube map of distances"; }
   MapShape map_shape() const override { return MapShape::cube; }
+  bool is_aimed() const override { return false; }
 
   LightFrame axes(const Light& light) const override {
     LightFrame frame;

@@ -165,6 +165,8 @@ TEST(Experiment, OverridesReplaceTheValueAndItsSweep) {
   for (const char* bad : {"map.resolution", "=3", "map.resolution=0", "map.resolution=512,1024", "map.resolutio=1"})
     EXPECT_THROW(apply_override(e, bad), Error) << bad;
   apply_override(e, "filter.size=4");
+  EXPECT_NO_THROW(points(e)) << "no filter reads it";
+  apply_override(e, "filter.kind=box");
   EXPECT_THROW(points(e), Error);
 }
 
@@ -292,9 +294,9 @@ TEST(Experiment, EveryMistakeNamesItsPlaceAndWhatWasMeant) {
       {"[view]\neye_m = [1, 2]", "2:9", "x,y,z"},
       {"[view]\neye_m = [1, 2, 3, 4]", "2:9", "x,y,z"},
       {"[view]\neye_m = [1, 2, true]", "2:16", "finite number"},
-      {"[filter]\nsize = 4", "2:8", "filter.size = 4 is even"},
+      {"[filter]\nkind = \"box\"\nsize = 4", "3:8", "filter.size = 4 is even"},
       {"[map]\nnear_m = 5\nfar_m = 1", "2:10", "not less than map.far_m"},
-      {"[sweep]\nfilter.size = [3, 4]", "2:15", "point 1 (filter.size = 4)"},
+      {"[filter]\nkind = \"box\"\n[sweep]\nfilter.size = [3, 4]", "4:15", "point 1 (filter.size = 4)"},
       {"[sweep]\nmap.resolution = []", "2:18", "empty list"},
       {"[sweep]\nmap.resolution = 512", "2:18", "must be a list or a range"},
       {"[sweep]\nmap.resolution = [512, 1024, 512]", "2:30", "map.resolution = 512 is swept twice"},

@@ -55,6 +55,22 @@ bool closed(const Scene& scene, const Part& part) {
   });
 }
 
+TEST(BuiltinScenes, ReadTheSettingsThatTheirRowsName) {
+  const std::pair<std::string_view, double SceneSettings::*> settings[] = {
+      {"scene.theta_deg", &SceneSettings::theta_deg},
+      {"scene.phi_deg", &SceneSettings::phi_deg},
+      {"scene.thickness_m", &SceneSettings::thickness_m},
+      {"scene.height_m", &SceneSettings::height_m}};
+  for (const BuiltinScene& scene : builtin_scenes())
+    for (const auto& [name, member] : settings) {
+      SceneSettings other{.name = std::string(scene.name)};
+      const Scene before = scene.make(other);
+      other.*member += 0.125;
+      const bool named = std::find(scene.reads.begin(), scene.reads.end(), name) != scene.reads.end();
+      EXPECT_EQ(scene.make(other).positions != before.positions, named) << scene.name << " and " << name;
+    }
+}
+
 TEST(BuiltinScenes, AreFiniteAndInRange) {
   EXPECT_EQ(builtin_scenes().size(), 11u);
   for (const Scene& scene : all_scenes()) {

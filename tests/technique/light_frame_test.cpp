@@ -41,6 +41,17 @@ int kind_of_error(const Scene& scene, const Settings& settings) {
   return 0;
 }
 
+TEST(LightFrame, APointLightHasNoTargetThatMovesItsMap) {
+  const Scene scene = make_scene({.name = "point-room"});
+  Settings settings;
+  const LightFrame before = make_light_frame(scene, settings);
+  EXPECT_EQ(before.far_m, 25) << "the volume of the scene's own map";
+  settings.light.target_m = glm::dvec3(1, 2, 3);
+  const LightFrame after = make_light_frame(scene, settings);
+  EXPECT_EQ(after.near_m, before.near_m);
+  EXPECT_EQ(after.far_m, before.far_m);
+}
+
 TEST(LightFrame, AxesAreOrthonormalAndTurnedAsLookAtTurnsThem) {
   std::mt19937 random(1);
   for (int i = 0; i < 200; ++i) {

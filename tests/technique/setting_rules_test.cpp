@@ -1,0 +1,165 @@
+// The rules between settings: what is refused together, what is not read, and which stage reads what.
+#include "technique/setting_rules.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "technique/bias_parts.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+namespace {
+
+TEST(Validate, FindsWhatNoRowCanSee) {
+  Settings s;
+  s.filter.size = 4;
+  EXPECT_NO_THROW(validate(s)) << "no filter reads it";
+  s.filter.kind = "box";
+  EXPECT_THROW(validate(s), Error);
+  s.filter.size = 31;
+  EXPECT_NO_THROW(validate(s));
+  s.map.near_m = 5;
+  EXPECT_NO_THROW(validate(s));
+  s.map.far_m = 5;
+  EXPECT_THROW(validate(s), Error);
+  s.map.far_m = std::nextafter(5.0, 6.0);
+  EXPECT_NO_THROW(validate(s));
+  s.map.near_m = -1;
+  s.map.far_m = -2;
+  EXPECT_THROW(validate(s), Error);
+}
+
+Settings with(std::initializer_list<std::pair<const char*, const char*>> values) {
+  Settings s;
+  for (const auto& [name, value] : values) find_setting(name).set(s, value);
+  return s;
+}
+
+// What each kind of light refuses. The message must name the setting.
+TEST(ValidateFor, RefusesWhatTheLightsMapCannotDo) {
+  const auto refused = [](LightKind kind, const Settings& s, const std::string& name) {
+    try {
+      validate(s, kind);
+      return false;
+    } catch (const SettingConflict& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+      EXPECT_TRUE(error.setting().starts_with(name)) << error.setting();
+      return true;
+    }
+  };
+  constexpr LightKind kinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
+  for (const LightKind kind : kinds) {
+    const bool cube = kind == LightKind::point;
+    EXPECT_FALSE(refused(kind, {}, ""));
+    for (const char* filter : {"box", "hardware", "gaussian", "poisson"})
+      EXPECT_EQ(refused(kind, with({{"filter.kind", filter}}), "filter.kind"), cube) << filter;
+    for (const char* filter : {"cube_grid", "cube_disk"})
+      EXPECT_EQ(refused(kind, with({{"filter.kind", filter}}), "filter.kind"), !cube) << filter;
+    for (const BiasPart& part : bias_parts()) {
+      Settings settings;
+      settings.bias[part.name] = 1;
+      EXPECT_FALSE(refused(kind, settings, "")) << part.name;
+    }
+    for (const char* plane : {"receiver_plane", "texel_plane"}) {
+      EXPECT_EQ(refused(kind, with({{"bias.reference", plane}}), "bias.reference"), cube) << plane;
+      // These filters have one reference for four texels, so they cannot compare with a plane.
+      for (const char* filter : {"hardware", "gaussian"})
+        EXPECT_TRUE(refused(kind, with({{"bias.reference", plane}, {"filter.kind", filter}}), cube ? "" : "bias.ref"));
+      EXPECT_EQ(refused(kind, with({{"bias.reference", plane}, {"filter.kind", "poisson"}}), ""), cube);
+    }
+    EXPECT_EQ(refused(kind, with({{"map.shift_u_texels", "0.5"}}), "map.shift_u_texels"), cube);
+    EXPECT_EQ(refused(kind, with({{"map.shift_v_texels", "0.5"}}), "map.shift_v_texels"), cube);
+    EXPECT_EQ(refused(kind, with({{"map.snap", "true"}}), "map.snap"), kind != LightKind::directional);
+  }
+}
+
+TEST(Validate, OfABiasNeedsItsFloorBelowItsCap) {
+  EXPECT_THROW(validate(with({{"bias.tan_floor", "0.02"}, {"bias.tan_cap", "0.01"}})), Error);
+  EXPECT_NO_THROW(validate(with({{"bias.tan_floor", "0.01"}, {"bias.tan_cap", "0.01"}})));
+  EXPECT_NO_THROW(validate(with({{"bias.slope_floor", "0.02"}, {"bias.tan_cap", "0.01"}})));
+}
+
+TEST(Settings, ThoseThatChangeNothingAreNamed) {
+  const auto idle = [](LightKind light, std::initializer_list<std::pair<const char*, const char*>> given) {
+    Settings settings;
+    for (const auto& [name, value] : given) find_setting(name).set(settings, value);
+    std::string text;
+    for (const IdleSetting& setting : idle_settings(light, settings)) text += setting.name + " " + setting.why + ";";
+    return text;
+  };
+  for (LightKind light : {LightKind::directional, LightKind::spot, LightKind::point})
+    EXPECT_EQ(idle(light, {}), "") << "a default was not set by the user";
+  EXPECT_EQ(idle(LightKind::directional, {{"light.radius_m", "0.5"}}), "light.radius_m on a directional light;");
+  EXPECT_EQ(idle(LightKind::spot, {{"light.radius_m", "0.5"}, {"light.cone_deg", "30"}}), "");
+  EXPECT_EQ(idle(LightKind::point, {{"map.wrap", "repeat"}}), "map.wrap on a point light;");
+  EXPECT_EQ(idle(LightKind::point, {{"light.target_m", "1,2,3"}}), "light.target_m on a point light;");
+  EXPECT_EQ(idle(LightKind::spot, {{"light.target_m", "1,2,3"}}), "");
+  EXPECT_EQ(idle(LightKind::spot, {{"scene.theta_deg", "20"}}), "scene.theta_deg in the scene cube-room;");
+  EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"scene.height_m", "2"}}),
+            "scene.height_m in a scene from a file;");
+  EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "plate"}, {"scene.height_m", "2"}, {"scene.thickness_m", "0.5"}}),
+            "");
+  EXPECT_EQ(idle(LightKind::directional, {{"filter.rotate", "true"}}), "filter.rotate with filter.kind = none;");
+  EXPECT_EQ(idle(LightKind::directional, {{"filter.rotate", "true"}, {"filter.kind", "poisson"}}), "");
+  EXPECT_EQ(idle(LightKind::directional, {{"bias.tan_cap", "2"}}), "bias.tan_cap with bias.tan = 0;");
+  EXPECT_EQ(idle(LightKind::directional, {{"bias.tan_cap", "2"}, {"bias.tan_floor", "1"}}), "");
+  EXPECT_EQ(idle(LightKind::directional, {{"bias.plane_cap", "2"}}), "bias.plane_cap with bias.reference = own_depth;");
+  EXPECT_EQ(idle(LightKind::spot, {{"bias.plane_cap", "2"}, {"bias.reference", "receiver_plane"}}), "");
+  EXPECT_EQ(idle(LightKind::spot, {{"bias.polygon_factor", "2"}}), "");
+  EXPECT_EQ(idle(LightKind::point, {{"bias.polygon_factor", "2"}}),
+            "bias.polygon_factor on a point light, whose shader writes its depth itself;");
+  EXPECT_EQ(idle(LightKind::point,
+                 {{"filter.kind", "cube_disk"}, {"filter.disk", "view_distance"}, {"filter.radius_m", "0.1"}}),
+            "filter.radius_m with filter.disk = view_distance;");
+  EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"view.fit_depths", "true"}}), "");
+  EXPECT_EQ(idle(LightKind::spot, {{"view.fit_depths", "true"}}),
+            "view.fit_depths in a built-in scene, where near and far are always fitted;");
+  EXPECT_EQ(idle(LightKind::spot,
+                 {{"scene.name", "a.glb"}, {"view.fit_depths", "true"}, {"view.near_m", "1"}, {"view.far_m", "9"}}),
+            "view.fit_depths with both view.near_m and view.far_m;");
+  EXPECT_EQ(idle(LightKind::spot, {{"scene.time_s", "2"}}), "scene.time_s in a built-in scene;");
+  EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"scene.animation", "1"}}),
+            "scene.animation without scene.time_s;");
+  EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"scene.animation", "1"}, {"scene.time_s", "2"}}), "");
+}
+
+// The result of a stage is used again while its key stays the same (app/workbench.cpp).
+TEST(Settings, TheKeyOfAStageChangesWithWhatItReadsAndNothingElse) {
+  const auto key = [](const Settings& s, Stage stage) { return settings_key(s, {stage}); };
+  const std::pair<const char*, Stages> expected[] = {{"scene.theta_deg", {Stage::scene}},
+                                                     {"view.eye_m", {Stage::view}},
+                                                     {"light.position_m", {Stage::truth, Stage::map, Stage::lookup}},
+                                                     {"light.radius_m", {Stage::truth}},  // R0 alone
+                                                     {"map.resolution", {Stage::map, Stage::lookup}},
+                                                     {"map.format", {Stage::map}},
+                                                     {"map.lit_beyond_far", {Stage::ladder}},
+                                                     {"bias.constant", {Stage::ladder}},
+                                                     {"bias.tan_cap", {Stage::ladder}},
+                                                     {"bias.normal_offset", {Stage::lookup}},
+                                                     {"bias.polygon_units", {Stage::map, Stage::lookup}},
+                                                     {"filter.size", {Stage::lookup}},
+                                                     {"truth.standard_error", {Stage::truth}}};
+  for (const auto& [name, stages] : expected) {
+    Settings changed;
+    const Setting& row = find_setting(name);
+    const char* value = row.type == ValueType::point     ? "1,2,3"
+                        : row.type == ValueType::flag    ? "false"
+                        : row.type == ValueType::choice  ? "16"
+                        : row.type == ValueType::integer ? "7"
+                                                         : "0.5";
+    row.set(changed, value);
+    for (Stage stage : {Stage::scene, Stage::view, Stage::truth, Stage::map, Stage::lookup, Stage::ladder})
+      EXPECT_EQ(key(changed, stage) != key({}, stage), stages.has(stage)) << name << " " << static_cast<int>(stage);
+  }
+  for (const Setting& row : settings_table()) EXPECT_NE(row.read_by.bits, 0) << row.name << " is read by no stage";
+  Settings biased;
+  biased.bias["constant"] = 1;
+  EXPECT_EQ(settings_key(biased, {Stage::ladder}, "bias.constant"), settings_key({}, {Stage::ladder}, "bias.constant"));
+}
+
+}  // namespace
+}  // namespace noonmark
