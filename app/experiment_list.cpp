@@ -30,8 +30,8 @@ std::vector<std::string> toml_files_below(const std::string& path, std::vector<U
     }
     if (!error) continue;
     whole = false;
-    unreadable.push_back({folder, Error(ErrorKind::scene, fmt::format("{}: cannot be read: {}; check its permissions",
-                                                                      folder, error.message()))});
+    unreadable.push_back({folder, Error(ErrorKind::file, fmt::format("{}: cannot be read: {}; check its permissions",
+                                                                     folder, error.message()))});
   }
   if (found.empty() && whole)
     unreadable.push_back(

@@ -76,7 +76,7 @@ void SceneDigests::remember(Workbench& bench, const Settings& point) {
 
 void SceneDigests::require_unchanged(Workbench& bench, const Settings& point) const {
   if (bench.scene_identity(point.scene) != digests_.at(scene_key(point)))
-    throw Error(ErrorKind::scene,
+    throw Error(ErrorKind::file,
                 fmt::format("{}: was changed while the sweep ran, so the points would be of different scenes; "
                             "do not change it during a run, and run again",
                             point.scene.name));

@@ -20,7 +20,7 @@ namespace noonmark {
 class SceneDigests {
  public:
   void remember(Workbench& bench, const Settings& point);
-  // Throws Error(scene) if a file was edited after the start, because its points would be of different scenes.
+  // Throws Error(file) if a file was edited after the start, because its points would be of different scenes.
   void require_unchanged(Workbench& bench, const Settings& point) const;
   const std::map<std::string, std::string>& all() const { return digests_; }
   // The contents of the scenes' files that are not modelled, one line for each scene (notes_line, scenes/library.h).

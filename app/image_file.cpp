@@ -48,7 +48,7 @@ std::string write(const ImageToEncode& image) {
   encoder()(image, &result, [](void* context, bool encoded, const char* bytes, size_t count) {
     *static_cast<Result*>(context) = {encoded, std::string(bytes, count)};
   });
-  if (!result.encoded) throw Error(ErrorKind::scene, fmt::format("cannot write {}: {}", image.path, result.bytes));
+  if (!result.encoded) throw Error(ErrorKind::file, fmt::format("cannot write {}: {}", image.path, result.bytes));
   write_file_atomically(image.path, result.bytes);
   return digest_of(result.bytes);
 }

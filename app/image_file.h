@@ -1,5 +1,5 @@
 // Writes pictures and images with OpenImageIO: PNG for people, 32-bit float EXR for programs. A file is written under
-// another name beside its place and then renamed. Throws Error(scene) if a file cannot be written, Error(device) if
+// another name beside its place and then renamed. Throws Error(file) if a file cannot be written, Error(device) if
 // OpenImageIO cannot be loaded.
 #pragma once
 #include <glm/glm.hpp>

@@ -207,10 +207,10 @@ int main(int argc, char** argv) {
     exit_code = tell(current_failure());
   }
   if (const int error = terminal.lost(); error != 0) {
-    tell({static_cast<int>(ErrorKind::scene),
+    tell({static_cast<int>(ErrorKind::file),
           fmt::format("standard output cannot be written: {}; its text is lost, but the files are written",
                       std::strerror(error))});
-    exit_code = std::max(exit_code, static_cast<int>(ErrorKind::scene));
+    exit_code = std::max(exit_code, static_cast<int>(ErrorKind::file));
   }
   return exit_code;
 }

@@ -76,12 +76,12 @@ std::string why_not_as_written(const PointRecord& point, const std::string& out)
 
 std::string read_picture(const std::string& out, const std::string& path, const std::vector<PointRecord>& points) {
   const std::string bytes = read_file_below(out, path, max_picture_bytes);
-  if (!bytes.starts_with(png_signature)) throw Error(ErrorKind::scene, "it is no PNG file");
+  if (!bytes.starts_with(png_signature)) throw Error(ErrorKind::file, "it is no PNG file");
   const std::string digest = digest_of(bytes);
   for (const PointRecord& point : points)
     for (const PictureRecord& picture : point.pictures)
       if (picture.path == path && picture.digest == digest) return bytes;
-  throw Error(ErrorKind::scene, "it is not the file that was written; run the experiment into this folder again");
+  throw Error(ErrorKind::file, "it is not the file that was written; run the experiment into this folder again");
 }
 
 }  // namespace noonmark

@@ -25,7 +25,7 @@ PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string&
 std::string why_not_as_written(const PointRecord& point, const std::string& out);
 
 // For the report: returns the bytes of the picture with this path. It must be a PNG with the digest that one of the
-// points has for it. Throws Error(scene).
+// points has for it. Throws Error(file).
 std::string read_picture(const std::string& out, const std::string& path, const std::vector<PointRecord>& points);
 
 }  // namespace noonmark

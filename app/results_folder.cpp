@@ -31,10 +31,9 @@ void remove_verdict(const std::string& folder) {
     std::error_code error;
     fs::remove(fs::path(folder) / verdict, error);
     if (error)
-      throw Error(ErrorKind::scene,
-                  fmt::format("{}/{}: the verdict of an earlier run cannot be removed: {}; remove it, "
-                              "or give another --out",
-                              folder, verdict, error.message()));
+      throw Error(ErrorKind::file, fmt::format("{}/{}: the verdict of an earlier run cannot be removed: {}; remove it, "
+                                               "or give another --out",
+                                               folder, verdict, error.message()));
   }
 }
 
@@ -43,9 +42,9 @@ void require_own_images(const std::string& folder) {
   std::error_code none;
   const fs::file_status images = fs::symlink_status(fs::path(folder) / "images", none);
   if (fs::exists(images) && !fs::is_directory(images))
-    throw Error(ErrorKind::scene, fmt::format("{}/images: is {}, but pictures need a folder of that name; "
-                                              "remove it, or give another --out",
-                                              folder, fs::is_symlink(images) ? "a symbolic link" : "not a folder"));
+    throw Error(ErrorKind::file, fmt::format("{}/images: is {}, but pictures need a folder of that name; "
+                                             "remove it, or give another --out",
+                                             folder, fs::is_symlink(images) ? "a symbolic link" : "not a folder"));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ class ResultsFolder {
   // - junit.xml and summary.md, because a run that fails or is killed must not leave the verdict of an earlier run;
   // - temporary files of runs that were killed (clear_abandoned_files, scenes/file.h), also in images/.
   //
-  // Throws Error(usage) if the folder cannot be made or another run is writing into it. Throws Error(scene) if the
+  // Throws Error(usage) if the folder cannot be made or another run is writing into it. Throws Error(file) if the
   // verdict cannot be removed, or if images/ is a link or a file.
   explicit ResultsFolder(const std::string& path);
   ~ResultsFolder();

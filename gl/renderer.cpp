@@ -160,7 +160,7 @@ void Renderer::load_scene(const Scene& scene) {
   Impl& r = *impl_;
   r.context->make_current();
   if (scene.triangles.size() > static_cast<size_t>(std::numeric_limits<GLsizei>::max()) / 3)
-    throw Error(ErrorKind::scene,
+    throw Error(ErrorKind::file,
                 fmt::format("the scene '{}' has {} triangles; OpenGL draws at most {} at once", scene.name,
                             scene.triangles.size(), std::numeric_limits<GLsizei>::max() / 3));
   r.index_count = 0;

@@ -13,7 +13,7 @@ namespace noonmark {
 enum class ErrorKind {
   usage = 2,   // the command line or the experiment: it is wrong, or asks for a point that does not fit into memory,
                // or for a results' folder that cannot be used
-  scene = 3,   // a file: a bad scene, or one that does not fit into memory; damaged results; a full disk
+  file = 3,    // a file: a bad scene, or one that does not fit into memory; damaged results; a full disk
   device = 4,  // the machine: no usable OpenGL, ray tracer or picture library, or no memory or threads for them
   defect = 5,  // Noonmark itself: an invariant of the measurement did not hold
   incomplete = 6,  // nothing: the sweep was interrupted; the same command continues it

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& path, std::string_view what, int error_number, std::string_view next) {
-  throw Error(ErrorKind::scene, fmt::format("{}: {}: {}; {}", path, what, std::strerror(error_number), next));
+  throw Error(ErrorKind::file, fmt::format("{}: {}: {}; {}", path, what, std::strerror(error_number), next));
 }
 
 // "results.csv" + ".noonmark-4711-0.tmp": process and attempt.
@@ -124,7 +124,7 @@ class Opened {
     read([&](std::string_view block) {
       bytes += block;
       if (bytes.size() > most_bytes)
-        throw Error(ErrorKind::scene,
+        throw Error(ErrorKind::file,
                     fmt::format("{}: holds more than {} bytes, which no file of its kind does; check the path", path_,
                                 most_bytes));
     });
@@ -140,7 +140,7 @@ class Opened {
 std::unique_ptr<Opened> open_below(const std::string& folder, const std::string& name) {
   const std::string path = folder + "/" + name;
   const auto refuse = [&](std::string_view what) {
-    throw Error(ErrorKind::scene, fmt::format("{}: {}; only regular files in {} are read", path, what, folder));
+    throw Error(ErrorKind::file, fmt::format("{}: {}; only regular files in {} are read", path, what, folder));
   };
   std::error_code error;
   const fs::path home = fs::canonical(folder, error);
@@ -177,7 +177,7 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
 
 void make_folder(const std::string& path) {
   const auto cannot = [&](const std::error_code& error) {
-    throw Error(ErrorKind::scene, fmt::format("cannot make the folder {}: {}; check the path", path, error.message()));
+    throw Error(ErrorKind::file, fmt::format("cannot make the folder {}: {}; check the path", path, error.message()));
   };
   fs::path made;
   for (const fs::path& part : fs::path(path)) {

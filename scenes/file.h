@@ -12,13 +12,13 @@
 namespace noonmark {
 
 // Writes a temporary file beside the file, flushes it to the disk and renames it. So after a crash, a power failure or
-// a full disk a reader finds the old file or the new one, and never a part. The folder must exist. Throws Error(scene);
+// a full disk a reader finds the old file or the new one, and never a part. The folder must exist. Throws Error(file);
 // then the old file is there and nothing else. A program that is killed may leave the temporary file;
 // clear_abandoned_files removes it.
 void write_file_atomically(const std::string& path, std::string_view bytes);
 
 // Makes the folder and all folders above it, and flushes them, so that they survive a power failure. Throws
-// Error(scene) if the folder is not there afterwards.
+// Error(file) if the folder is not there afterwards.
 void make_folder(const std::string& path);
 
 // Removes the temporary files that write_file_atomically left in this folder (not below it) when its program was
@@ -26,11 +26,11 @@ void make_folder(const std::string& path);
 // locks nothing is removed.
 void clear_abandoned_files(const std::string& folder);
 
-// Throws Error(scene) when there is no such file, it cannot be read, or it holds more than most_bytes (a device may
+// Throws Error(file) when there is no such file, it cannot be read, or it holds more than most_bytes (a device may
 // hold any number).
 std::string read_file(const std::string& path, uint64_t most_bytes = std::numeric_limits<uint64_t>::max());
 
-// Reads a regular file below the folder; links are resolved. Throws Error(scene) as above, and also for a name that
+// Reads a regular file below the folder; links are resolved. Throws Error(file) as above, and also for a name that
 // leads out of the folder (absolute, "..", a link) or to a pipe or a device, because reading those might never end.
 std::string read_file_below(const std::string& folder, const std::string& name, uint64_t most_bytes);
 

@@ -78,7 +78,7 @@ std::string first_finding(const std::string& text) {
 
 void check_store(Database& db) {
   if (db.ask("PRAGMA application_id") != std::to_string(store_application_id))
-    throw Error(ErrorKind::scene,
+    throw Error(ErrorKind::file,
                 fmt::format("{}: is a database, but not one of Noonmark's results; {}", db.path(), db.way_out()));
   if (const std::string version = db.ask("PRAGMA user_version").value_or("?"); version != std::to_string(store_version))
     throw Error(ErrorKind::usage,
@@ -86,12 +86,12 @@ void check_store(Database& db) {
                             version, store_version, db.way_out()));
   // Checked before any row is read, because a view in a table's place can be endless.
   if (const std::string found = difference(schema_of(db)); !found.empty())
-    throw Error(ErrorKind::scene, fmt::format("{}: holds other tables than the ones that this Noonmark makes ({}); {}",
-                                              db.path(), found, db.way_out()));
+    throw Error(ErrorKind::file, fmt::format("{}: holds other tables than the ones that this Noonmark makes ({}); {}",
+                                             db.path(), found, db.way_out()));
   // integrity_check and not quick_check, because quick_check does not look at the order of rows, and a search does not
   // find rows that are out of order.
   if (const std::string found = db.ask("PRAGMA integrity_check(1)").value_or("?"); found != "ok")
-    throw Error(ErrorKind::scene, fmt::format("{}: is damaged: {}; {}", db.path(), first_finding(found), db.way_out()));
+    throw Error(ErrorKind::file, fmt::format("{}: is damaged: {}; {}", db.path(), first_finding(found), db.way_out()));
 }
 
 }  // namespace noonmark

@@ -7,7 +7,7 @@ namespace sqlite {
 class Database;
 }
 
-// Throws Error(usage) for the store of another version. Throws Error(scene) for a database that is not Noonmark's, for
+// Throws Error(usage) for the store of another version. Throws Error(file) for a database that is not Noonmark's, for
 // tables, indexes, views and triggers that store_schema() does not make, and for damage, including a wrong order of
 // rows.
 void check_store(sqlite::Database& db);

@@ -70,7 +70,7 @@ bool verdict_holds(Database& db) { return holds(db, "verdict", digest_of(db, ver
 
 void require_sealed(Database& db) {
   const auto refuse = [&](const std::string& what) {
-    throw Error(ErrorKind::scene,
+    throw Error(ErrorKind::file,
                 fmt::format("{}: {} are not those that were stored (edited or lost, or from another store); run the "
                             "experiment into this folder again, which measures the damaged points anew",
                             db.path(), what));

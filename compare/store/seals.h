@@ -18,7 +18,7 @@ void seal_verdict(sqlite::Database& db);  // bounds and laws
 // The ids of points with rows in any table that do not match their seal, ascending.
 std::vector<int64_t> broken_points(sqlite::Database& db);
 bool verdict_holds(sqlite::Database& db);
-// Throws Error(scene) that names the rows that do not match their seal.
+// Throws Error(file) that names the rows that do not match their seal.
 void require_sealed(sqlite::Database& db);
 
 // Removes a point's rows from every table, and its seal.

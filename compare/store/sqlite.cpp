@@ -46,7 +46,7 @@ void require_files_beside(const std::string& path, std::string_view way_out) {
       const std::string beside = file.native() + ending;
       const fs::file_status status = fs::symlink_status(beside, none);
       if (!file.empty() && fs::exists(status) && !fs::is_regular_file(status))
-        throw Error(ErrorKind::scene, fmt::format("{}: is not a regular file; {}", beside, way_out));
+        throw Error(ErrorKind::file, fmt::format("{}: is not a regular file; {}", beside, way_out));
     }
   }
 }
@@ -57,7 +57,7 @@ Database::Database(const std::string& path, Mode mode) : path_(path), mode_(mode
   std::error_code none;
   const auto status = std::filesystem::status(path, none);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    throw Error(ErrorKind::scene, fmt::format("{}: is not a regular file; {}", path, way_out()));
+    throw Error(ErrorKind::file, fmt::format("{}: is not a regular file; {}", path, way_out()));
   require_files_beside(path, way_out());
   const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
   const int code = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
@@ -65,7 +65,7 @@ Database::Database(const std::string& path, Mode mode) : path_(path), mode_(mode
     // A failed open leaves a handle that must be closed here, because the destructor does not run.
     const std::string what = handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
     sqlite3_close(handle_);
-    throw Error(ErrorKind::scene, fmt::format("{}: cannot be opened: {}; {}", path, what, advice(code, way_out())));
+    throw Error(ErrorKind::file, fmt::format("{}: cannot be opened: {}; {}", path, what, advice(code, way_out())));
   }
   sqlite3_extended_result_codes(handle_, 1);
   sqlite3_busy_timeout(handle_, busy_timeout_ms);
@@ -96,7 +96,7 @@ std::optional<std::string> Database::ask(const std::string& sql) {
 }
 
 void Database::fail(int code, std::string_view doing) const {
-  throw Error(ErrorKind::scene,
+  throw Error(ErrorKind::file,
               fmt::format("{}: {}: {}; {}", path_, doing, sqlite3_errmsg(handle_), advice(code, way_out())));
 }
 

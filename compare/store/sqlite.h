@@ -24,7 +24,7 @@ namespace noonmark::sqlite {
 class Database {
  public:
   enum class Mode { create, existing };
-  // Throws Error(scene) if the file cannot be opened or is not a regular file (reading a pipe would wait without end).
+  // Throws Error(file) if the file cannot be opened or is not a regular file (reading a pipe would wait without end).
   // The same holds for the files that SQLite keeps beside it; those must not be links either.
   Database(const std::string& path, Mode mode);
   ~Database();
@@ -36,7 +36,7 @@ class Database {
   // Returns the first column of the first row, or empty if there is no row.
   std::optional<std::string> ask(const std::string& sql);
 
-  // Throws Error(scene) with SQLite's message for `code` and what to do.
+  // Throws Error(file) with SQLite's message for `code` and what to do.
   [[noreturn]] void fail(int code, std::string_view doing) const;
 
   // The advice for a file that is not a store of Noonmark, or is a damaged one.

@@ -45,7 +45,7 @@ void remove_store(const std::string& path) {
   for (const char* ending : {"", "-journal", "-wal", "-shm"}) {
     const std::string file = path + ending;
     if (::unlink(file.c_str()) != 0 && errno != ENOENT)
-      throw Error(ErrorKind::scene,
+      throw Error(ErrorKind::file,
                   fmt::format("{}: cannot be removed: {}; choose another --out", file, std::strerror(errno)));
   }
 }
@@ -166,8 +166,8 @@ auto read_rows(const Database& db, const Read& read) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw Error(ErrorKind::scene, fmt::format("{}: holds data that Noonmark did not write ({}); {}", db.path(),
-                                              error.what(), db.way_out()));
+    throw Error(ErrorKind::file, fmt::format("{}: holds data that Noonmark did not write ({}); {}", db.path(),
+                                             error.what(), db.way_out()));
   }
 }
 

@@ -46,9 +46,9 @@ class ResultStore {
  public:
   // fingerprint: everything that determines results, as lines of "name = value". The folder must exist. Throws
   // OtherResults if the store's fingerprint differs, with the first line that differs. Throws Error(usage) for the
-  // store of another version, and Error(scene) for a file that is damaged, is no store, or cannot be written.
+  // store of another version, and Error(file) for a file that is damaged, is no store, or cannot be written.
   ResultStore(const std::string& path, const std::string& fingerprint, Existing existing);
-  // Opens an existing store with any fingerprint, to make a report again. Throws Error(scene) if there is none.
+  // Opens an existing store with any fingerprint, to make a report again. Throws Error(file) if there is none.
   static ResultStore open(const std::string& path);
 
   ~ResultStore();
@@ -71,7 +71,7 @@ class ResultStore {
   void set_bounds(const std::vector<BoundResult>& bounds);
   void set_laws(const std::vector<LawResult>& laws);
 
-  // Throws Error(scene) if rows do not match their seal (compare/store/seals.h).
+  // Throws Error(file) if rows do not match their seal (compare/store/seals.h).
   Results load() const;
   std::string fingerprint() const;
 

@@ -21,7 +21,7 @@ inline constexpr uint64_t max_vertices = 3 * max_triangles;
 
 class AccessorReader {
  public:
-  // Throws Error(scene) if a buffer cannot be read or if sparse indices are not strictly increasing and in range.
+  // Throws Error(file) if a buffer cannot be read or if sparse indices are not strictly increasing and in range.
   AccessorReader(const Document& document, Buffers& buffers, int accessor);
   // For an accessor whose elements stand elsewhere, packed: count times element_bytes. The bytes must outlive the
   // reader.
@@ -55,7 +55,7 @@ class AccessorReader {
   size_t sparse_stride_ = 0;
 };
 
-// The readers of a file, one for each accessor that is used. Throws Error(scene) if their sparse lists together are
+// The readers of a file, one for each accessor that is used. Throws Error(file) if their sparse lists together are
 // longer than any scene needs: many accessors may share one list, and each reader reads the whole list.
 class Readers {
  public:

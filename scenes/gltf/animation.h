@@ -10,7 +10,7 @@ namespace noonmark::gltf {
 
 // Sets the nodes of document.model to their values in document.guarded.animation at time_s. Before the first key they
 // have the first key's values, after the last key the last key's (glTF 2.0, section 3.11). Animated properties of
-// objects other than nodes and morph targets go into notes. Throws Error(scene) if keys are not in order or not finite,
+// objects other than nodes and morph targets go into notes. Throws Error(file) if keys are not in order or not finite,
 // or if a sampler does not fit its property.
 void pose(Document& document, Readers& readers, double time_s, std::vector<std::string>& notes);
 

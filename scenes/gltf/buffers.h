@@ -14,7 +14,7 @@ class Buffers {
  public:
   explicit Buffers(const Document& document) : document_(document), loaded_(document.guarded.buffers.size()) {}
 
-  // Returns exactly byte_length bytes. Throws Error(scene) for a file outside the folder, a file that is not regular, a
+  // Returns exactly byte_length bytes. Throws Error(file) for a file outside the folder, a file that is not regular, a
   // file that is too short, and data that are not base64.
   std::span<const uint8_t> bytes(size_t buffer);
   // The bytes of a view, decompressed if it is compressed (meshopt.h).

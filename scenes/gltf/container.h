@@ -21,7 +21,7 @@ struct Container {
   bool has_bin = false;
 };
 
-// Throws Error(scene) for a file that is not regular or too large, and for a malformed .glb. It does not look into the
+// Throws Error(file) for a file that is not regular or too large, and for a malformed .glb. It does not look into the
 // JSON.
 Container read_container(const std::string& file);
 

@@ -18,7 +18,7 @@ struct Document {
   GuardedDocument guarded;  // without its json, which has become the model
 };
 
-// animation: the index of the animation that poses the scene. Throws Error(scene).
+// animation: the index of the animation that poses the scene. Throws Error(file).
 Document read_document(const std::string& file, std::optional<size_t> animation);
 
 // The accessor of a primitive's indices, or -1.

@@ -16,7 +16,7 @@ struct DracoMesh {
 
 bool is_draco(const tinygltf::Primitive& primitive);
 
-// Throws Error(scene) if the data cannot be decoded, have more than max_triangles, or do not match the primitive's
+// Throws Error(file) if the data cannot be decoded, have more than max_triangles, or do not match the primitive's
 // accessors.
 DracoMesh decode_draco(const Document& document, Buffers& buffers, int mesh, size_t primitive);
 

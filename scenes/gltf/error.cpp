@@ -8,7 +8,7 @@
 namespace noonmark::gltf {
 
 void refuse(std::string_view file, std::string_view place, std::string_view what, std::string_view remedy) {
-  throw Error(ErrorKind::scene, fmt::format("{}: {}{}{}; {}", file, place, place.empty() ? "" : ": ", what, remedy));
+  throw Error(ErrorKind::file, fmt::format("{}: {}{}{}; {}", file, place, place.empty() ? "" : ": ", what, remedy));
 }
 
 std::string printable(std::string_view text) {

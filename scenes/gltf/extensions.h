@@ -7,7 +7,7 @@
 
 namespace noonmark::gltf {
 
-// document: the reduced one from guard.cpp. Throws Error(scene) that names the first required extension that may change
+// document: the reduced one from guard.cpp. Throws Error(file) that names the first required extension that may change
 // what is drawn and is not read. notes: gets the unknown extensions that the file uses but does not require.
 void check_extensions(const std::string& file, const nlohmann::json& document, std::vector<std::string>& notes);
 

@@ -16,7 +16,7 @@ struct Pose {
 };
 
 // It reads nothing outside the file's own folder and loads no images. If the file has no camera or no light, one is
-// fitted. Throws Error(scene).
+// fitted. Throws Error(file).
 Scene load_gltf(const std::string& path, const Pose& pose = {});
 
 }  // namespace noonmark

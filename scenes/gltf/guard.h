@@ -38,7 +38,7 @@ struct GuardedDocument {
 
 // document: from parse_json, with root_properties(animation.has_value()). It is checked and changed in place, so that
 // a large file does not stand in memory twice. animation: the index of the animation that poses the scene. Throws
-// Error(scene) that names the first place that is malformed, has another version, or needs an unsupported extension. It
+// Error(file) that names the first place that is malformed, has another version, or needs an unsupported extension. It
 // also throws if there is no such animation.
 GuardedDocument guard(const std::string& file, nlohmann::json document, std::optional<size_t> animation);
 

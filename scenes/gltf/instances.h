@@ -9,7 +9,7 @@
 namespace noonmark::gltf {
 
 // The number of instances of a node's mesh. It is 1 without the extension, and if the extension has no attributes.
-// Throws Error(scene) if its attributes have wrong types or different lengths.
+// Throws Error(file) if its attributes have wrong types or different lengths.
 uint64_t instance_count(const Document& document, size_t node);
 
 // The places of a node's instances. node_from_mesh(i) maps the mesh into the space of its node for instance i = 0 ...
@@ -17,7 +17,7 @@ uint64_t instance_count(const Document& document, size_t node);
 class Instances {
  public:
   Instances(const Document& document, Readers& readers, size_t node);
-  // Throws Error(scene) for a rotation of length 0.
+  // Throws Error(file) for a rotation of length 0.
   glm::dmat4 node_from_mesh(size_t i) const;
 
  private:

@@ -19,11 +19,11 @@ struct MeshoptView {
   std::string mode, filter;
 };
 
-// No value for a view that is not compressed. Throws Error(scene) if the extension contradicts itself, the view or its
+// No value for a view that is not compressed. Throws Error(file) if the extension contradicts itself, the view or its
 // buffer, or if it names more bytes than such data can hold.
 std::optional<MeshoptView> meshopt_view(const Document& document, int view);
 
-// Returns count * stride bytes. Throws Error(scene) if `from` cannot be decoded.
+// Returns count * stride bytes. Throws Error(file) if `from` cannot be decoded.
 std::vector<uint8_t> decompress(const Document& document, const MeshoptView& view, std::span<const uint8_t> from);
 
 }  // namespace noonmark::gltf

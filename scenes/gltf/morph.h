@@ -12,7 +12,7 @@ namespace noonmark::gltf {
 class MorphedPositions {
  public:
   // base: the primitive's POSITION. The weights are the node's, otherwise the mesh's, otherwise 0 (glTF 2.0, section
-  // 3.7.2.2). Throws Error(scene) if the number of weights is not the number of targets, or if a target has another
+  // 3.7.2.2). Throws Error(file) if the number of weights is not the number of targets, or if a target has another
   // length than base.
   MorphedPositions(const Document& document, Readers& readers, const AccessorReader& base, const tinygltf::Node& node,
                    size_t primitive);

@@ -29,14 +29,14 @@ struct Placement {
 
 // The notes tell what the loader decided if the file leaves a choice or breaks a rule: the scene that was chosen; a
 // node that a scene lists although it is a child, which is drawn once, at the place that its parents give it; a node
-// that a scene lists twice. Throws Error(scene) for cycles, for nodes with two parents, and for transforms that are not
+// that a scene lists twice. Throws Error(file) for cycles, for nodes with two parents, and for transforms that are not
 // finite or beyond max_coordinate_m.
 Placement place_nodes(const Document& document, std::vector<std::string>& notes);
 
 // Whether the transform maps all of space into a plane, a line or a point.
 bool flattens(const glm::dmat4& transform);
 
-// Throws Error(scene) if the node's transform to the world flattens it, because then a camera or a light in it has no
+// Throws Error(file) if the node's transform to the world flattens it, because then a camera or a light in it has no
 // direction. Called for nodes that hold cameras or lights only; a flattened mesh still has an area.
 void require_invertible(const Document& document, const PlacedNode& placed);
 

@@ -12,7 +12,7 @@ namespace noonmark::gltf {
 inline constexpr const char* indices_attribute = "INDICES";
 
 // guarded.json: without the properties that are not read (guard.h), so that each property has the type that glTF gives
-// it. Throws Error(scene).
+// it. Throws Error(file).
 void prepare_for_tinygltf(const std::string& file, GuardedDocument& guarded);
 
 }  // namespace noonmark::gltf

@@ -21,7 +21,7 @@ class SkinnedVertices {
       : file_(file), place_(std::move(place)), joints_(joints), attributes_(std::move(attributes)) {}
 
   // The blend of the vertex's joints. The weights are scaled to a sum of 1, because exporters round them, and a sum of
-  // 254 / 255 would shrink the mesh. Throws Error(scene) for a joint that the skin does not have, and for weights that
+  // 254 / 255 would shrink the mesh. Throws Error(file) for a joint that the skin does not have, and for weights that
   // are negative or have a sum of 0.
   glm::dmat4 world_from_mesh(uint32_t vertex) const;
   size_t sets() const { return attributes_.size(); }
@@ -40,7 +40,7 @@ class Skins {
       : document_(document), readers_(readers), world_from_node_(world_from_node) {}
 
   const std::vector<glm::dmat4>& joints(int skin);
-  // read: the reader of an accessor of this primitive. Throws Error(scene) if the primitive cannot have a skin.
+  // read: the reader of an accessor of this primitive. Throws Error(file) if the primitive cannot have a skin.
   template <class Read>
   SkinnedVertices vertices(int skin, int mesh, size_t primitive, size_t count, const Read& read) {
     std::vector<std::pair<const AccessorReader*, const AccessorReader*>> attributes;

@@ -5,7 +5,7 @@
 
 namespace noonmark::gltf {
 
-// Throws Error(scene) that names the first contradiction in the model. read_document calls it.
+// Throws Error(file) that names the first contradiction in the model. read_document calls it.
 void check_structure(const Document& document);
 
 }  // namespace noonmark::gltf

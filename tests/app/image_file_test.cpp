@@ -78,7 +78,7 @@ class ImageFile : public testing::Test {
       write();
       ADD_FAILURE() << "the file was written without an error";
     } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::scene);
+      EXPECT_EQ(error.kind(), ErrorKind::file);
       EXPECT_EQ(files_in(folder.path()), before) << "the failed write left a file or removed one";
       return error.what();
     }

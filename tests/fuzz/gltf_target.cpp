@@ -1,4 +1,4 @@
-// The input is the bytes of a .gltf or .glb for load_gltf, which must give a sound scene or one Error(scene) in one
+// The input is the bytes of a .gltf or .glb for load_gltf, which must give a sound scene or one Error(file) in one
 // line. The bytes are mutated as JSON; in a .glb the JSON chunk, the binary chunk and the header are mutated
 // separately. The folder of the file also holds a buffer and a link to a buffer outside the folder. No file may read
 // that outside buffer; otherwise its positions would appear in the scene.
@@ -48,7 +48,7 @@ void run(const std::string& bytes) {
       for (int axis = 0; axis < 3; ++axis)
         require(p[axis] != outside_value, "a buffer outside of the scene's folder was read");
   } catch (const Error& error) {
-    require(error.kind() == ErrorKind::scene, std::string("an error of another kind: ") + error.what());
+    require(error.kind() == ErrorKind::file, std::string("an error of another kind: ") + error.what());
     for (const unsigned char c : std::string_view(error.what()))
       require(c >= 0x20 && c != 0x7f, std::string("a control character in the message: ") + error.what());
     require(std::string_view(error.what()).starts_with(path + ": "), "a message that does not name the file first");

@@ -338,7 +338,7 @@ void run(const std::string& bytes) {
     } catch (const Broken& broken) {
       throw Broken(broken.what() + described(settings));
     } catch (const Error& error) {  // settings that cannot be combined, or a scene without a triangle
-      require(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::scene,
+      require(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::file,
               std::string("an error of another kind: ") + error.what());
       require(*error.what() != '\0', "an error without a message");
     }

@@ -83,7 +83,7 @@ void run(const std::string& bytes) {
     for (const BoundResult& bound : results.bounds)
       describe(bound, find_point(results.points, bound.point), results.info.swept);
   } catch (const Error& error) {
-    require(error.kind() == ErrorKind::scene || error.kind() == ErrorKind::usage,
+    require(error.kind() == ErrorKind::file || error.kind() == ErrorKind::usage,
             std::string("an error of another kind: ") + error.what());
     require(*error.what() != '\0', "an error without a message");
   }

@@ -23,7 +23,7 @@ class File : public testing::Test {
     try {
       read_file_below(folder.file("home"), name, most_bytes);
     } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::scene);
+      EXPECT_EQ(error.kind(), ErrorKind::file);
       return error.what();
     }
     return "";

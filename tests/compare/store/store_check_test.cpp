@@ -23,10 +23,10 @@ const std::string fingerprint = "version = 0.1.0\n";
 class StoreCheck : public testing::Test {
  protected:
   ResultStore fresh() { return ResultStore(path, fingerprint, Existing::resume); }
-  // The message of the Error(scene) that opening throws.
+  // The message of the Error(file) that opening throws.
   std::string refusal() {
     std::string message = "was opened";
-    EXPECT_EQ(kind_thrown([&] { fresh(); }, &message), static_cast<int>(ErrorKind::scene)) << message;
+    EXPECT_EQ(kind_thrown([&] { fresh(); }, &message), static_cast<int>(ErrorKind::file)) << message;
     return message;
   }
   TemporaryFolder folder;
@@ -92,7 +92,7 @@ TEST_F(StoreCheck, RefusesASchemaThatIsNotItsOwn) {
       ResultStore::open(path);
       ADD_FAILURE() << "the store was opened";
     } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::scene);
+      EXPECT_EQ(error.kind(), ErrorKind::file);
       EXPECT_NE(std::string(error.what()).find("--overwrite"), std::string::npos) << error.what();
     }
   }

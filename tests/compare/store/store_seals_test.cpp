@@ -37,7 +37,7 @@ class StoreSeals : public testing::Test {
     try {
       ResultStore::open(path).load();
     } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::scene);
+      EXPECT_EQ(error.kind(), ErrorKind::file);
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
       EXPECT_NE(std::string(error.what()).find(path), std::string::npos);
       return error.what();
@@ -159,7 +159,7 @@ TEST_F(StoreSeals, SealedRowsThatDoNotFitTogetherAreADamagedFile) {
       store.repair(3, any_point);
       ADD_FAILURE() << "the store was repaired";
     } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::scene);
+      EXPECT_EQ(error.kind(), ErrorKind::file);
       EXPECT_NE(std::string(error.what()).find("--overwrite"), std::string::npos) << error.what();
     }
   }

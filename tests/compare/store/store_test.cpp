@@ -26,7 +26,7 @@ class Store : public testing::Test {
  protected:
   ResultStore fresh() { return ResultStore(path, fingerprint, Existing::resume); }
   // The message of the Error that opening throws.
-  std::string refusal(const std::string& print = fingerprint, ErrorKind kind = ErrorKind::scene) {
+  std::string refusal(const std::string& print = fingerprint, ErrorKind kind = ErrorKind::file) {
     std::string message = "was opened";
     EXPECT_EQ(kind_thrown([&] { ResultStore(path, print, Existing::resume); }, &message), static_cast<int>(kind))
         << message;
@@ -257,7 +257,7 @@ TEST_F(Store, SaysWhereRowsDoNotFitTogether) {
     ResultStore::open(path).load();
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::scene);
+    EXPECT_EQ(error.kind(), ErrorKind::file);
     EXPECT_NE(std::string(error.what()).find(path), std::string::npos);
   }
 }

@@ -129,7 +129,7 @@ TEST_F(GltfCompression, DracoThatDoesNotMatchItsAccessorsIsRefused) {
       << refusal(draco_document(g, bomb, {}));
 }
 
-// Any bytes must give a whole scene or one Error(scene).
+// Any bytes must give a whole scene or one Error(file).
 void try_damaged(TemporaryFolder& folder, const json& document, size_t buffer, const std::string& bytes,
                  const std::string& what) {
   json d = document;
@@ -137,7 +137,7 @@ void try_damaged(TemporaryFolder& folder, const json& document, size_t buffer, c
   try {
     EXPECT_EQ(defect_of(load_gltf(folder.write("damaged.gltf", d.dump()))), "") << what;
   } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::scene) << what << ": " << e.what();
+    EXPECT_EQ(e.kind(), ErrorKind::file) << what << ": " << e.what();
   }
 }
 

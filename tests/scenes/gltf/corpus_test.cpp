@@ -95,7 +95,7 @@ class GltfCorpus : public ::testing::Test {
         const Scene scene = load_gltf(entry.path().string());
         EXPECT_EQ(defect_of(scene), "") << entry.path();
       } catch (const Error& e) {
-        EXPECT_EQ(e.kind(), ErrorKind::scene) << e.what();
+        EXPECT_EQ(e.kind(), ErrorKind::file) << e.what();
         row.message = std::string(e.what()).substr(entry.path().string().size() + 2);
       }
       rows_[fs::relative(entry.path(), root_).string()] = row;

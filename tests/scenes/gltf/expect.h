@@ -1,4 +1,4 @@
-// What every answer of load_gltf must be: a scene that is whole and finite, or one Error(scene).
+// What every answer of load_gltf must be: a scene that is whole and finite, or one Error(file).
 #pragma once
 #include <gtest/gtest.h>
 
@@ -44,14 +44,14 @@ inline std::string defect_of(const Scene& scene) {
   return "";
 }
 
-// The message of the Error(scene) that loading throws. The test fails if the file loads, if another exception is
+// The message of the Error(file) that loading throws. The test fails if the file loads, if another exception is
 // thrown, or if the message has two lines, does not begin with the path or has no remedy.
 inline std::string refusal(const std::string& path, const Pose& pose = {}) {
   try {
     load_gltf(path, pose);
   } catch (const Error& e) {
     const std::string message = e.what();
-    EXPECT_EQ(e.kind(), ErrorKind::scene) << message;
+    EXPECT_EQ(e.kind(), ErrorKind::file) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     EXPECT_TRUE(message.starts_with(path + ": ")) << message;
     EXPECT_NE(message.find("; "), std::string::npos) << "no remedy: " << message;

@@ -1,4 +1,4 @@
-// load_gltf on broken and hostile files: each gets one Error(scene) that names the place. The place is asserted, so
+// load_gltf on broken and hostile files: each gets one Error(file) that names the place. The place is asserted, so
 // that no test passes because the file is refused for another reason.
 #include <sys/stat.h>
 

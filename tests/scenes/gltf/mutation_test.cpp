@@ -1,4 +1,4 @@
-// Thousands of files with random damage: each gives a whole, finite scene or one Error(scene), and nothing else. The
+// Thousands of files with random damage: each gives a whole, finite scene or one Error(file), and nothing else. The
 // seed is fixed, so that a failure can be repeated.
 #include <random>
 
@@ -12,7 +12,7 @@ struct Tally {
   int loaded = 0, refused = 0;
 };
 
-// Loads one file and counts the outcome. Anything but a sound scene or one Error(scene) fails the test.
+// Loads one file and counts the outcome. Anything but a sound scene or one Error(file) fails the test.
 void try_file(const std::string& path, Tally& tally, const std::string& what, const Pose& pose = {}) {
   try {
     const Scene scene = load_gltf(path, pose);
@@ -20,7 +20,7 @@ void try_file(const std::string& path, Tally& tally, const std::string& what, co
     ASSERT_EQ(defect_of(scene), "") << what;
   } catch (const Error& e) {
     ++tally.refused;
-    ASSERT_EQ(e.kind(), ErrorKind::scene) << what << ": " << e.what();
+    ASSERT_EQ(e.kind(), ErrorKind::file) << what << ": " << e.what();
     ASSERT_EQ(std::string(e.what()).find('\n'), std::string::npos) << what << ": " << e.what();
   } catch (const std::exception& e) {
     FAIL() << what << " threw " << e.what();
