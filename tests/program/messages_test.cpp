@@ -94,7 +94,7 @@ TEST_F(Messages, APointThatCannotBeIsNamedBeforeTheFirstIsMeasured) {
         one_point + "[[part]]\nname = \"a\"\n[[part]]\nname = \"b\"\n[part.sweep]\nmap.far_m = [1000, -1000]\n");
   EXPECT_EQ(run({"run", "x.toml", "--out", "out"}), 2);
   EXPECT_TRUE(says("x.toml:11:13: part 'b', point 2 (map.far_m = -1000): the map's near plane")) << output_;
-  EXPECT_EQ(run({"run", "x.toml", "--out", "out", "--set", "filter.size=4"}), 2);
+  EXPECT_EQ(run({"run", "x.toml", "--out", "out", "--set", "filter.kind=box", "--set", "filter.size=4"}), 2);
   EXPECT_TRUE(says("--set filter.size=4: part 'a', point 0: filter.size = 4 is even")) << output_;
 }
 
