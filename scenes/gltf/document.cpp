@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
@@ -39,8 +40,8 @@ std::string one_line(std::string text) {
   return printable(text);
 }
 
-// Checks the memory for tinygltf's model before it is made: an empty material is 2 bytes of a file and 2 kB of a model.
-// document: what the guard has left; text_bytes: its length as text.
+// Checks that tinygltf's model fits into memory, before the model is made. This is necessary because an empty material
+// takes 2 bytes in a file and 2 kB in the model. document: what the guard has left; text_bytes: its length as text.
 void require_room(const std::string& file, const nlohmann::json& document, size_t text_bytes) {
   struct Size {
     std::string_view list;
@@ -56,16 +57,18 @@ void require_room(const std::string& file, const nlohmann::json& document, size_
                                           {"scenes", sizeof(tinygltf::Scene)},
                                           {"skins", sizeof(tinygltf::Skin)}}};
   constexpr double while_it_grows = 1.5;  // a list that doubles its capacity holds its old half too
-  constexpr double text_to_tree = 14;     // of nodes, meshes and accessors, as measured
-  double needed = text_to_tree * static_cast<double>(text_bytes);
+  constexpr double text_to_tree = 14;     // measured peak per byte of text, for nodes, meshes and accessors
+  double objects = 0;
   const auto add = [&](const nlohmann::json& lists) {
     for (const Size& size : sizes)
       if (const auto list = lists.find(size.list); list != lists.end())
-        needed += while_it_grows * static_cast<double>(list->size() * size.bytes);
+        objects += while_it_grows * static_cast<double>(list->size() * size.bytes);
   };
   add(document);
   if (const auto meshes = document.find("meshes"); meshes != document.end())
     for (const nlohmann::json& mesh : *meshes) add(mesh);
+  // The larger one, because the model is part of both.
+  const double needed = std::max(objects, text_to_tree * static_cast<double>(text_bytes));
   if (const AvailableMemory available = available_memory(); needed > static_cast<double>(available.bytes)) {
     refuse(file, "", fmt::format("its JSON takes about {} of memory and {}", bytes_text(needed), available.text()),
            "simplify it or split it, or use a machine with more memory");
