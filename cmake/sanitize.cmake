@@ -6,11 +6,10 @@
 set(NOONMARK_SANITIZE -fsanitize=address,undefined,float-cast-overflow)
 set(NOONMARK_SANITIZED_LIBRARIES noonmark_scenes noonmark_technique noonmark_compare)
 
-# noonmark_sanitized(OUT library...): the names of the sanitized libraries; others stay as they are.
+# noonmark_sanitized(OUT item...): the items with the names of the sanitized libraries; other names stay as they are.
 function(noonmark_sanitized out)
-  foreach(library ${NOONMARK_SANITIZED_LIBRARIES})
-    list(TRANSFORM ARGN REPLACE "^${library}$" "${library}_sanitized")
-  endforeach()
+  list(JOIN NOONMARK_SANITIZED_LIBRARIES "|" names)
+  list(TRANSFORM ARGN REPLACE "(${names})" "\\1_sanitized")
   set(${out} ${ARGN} PARENT_SCOPE)
 endfunction()
 
@@ -27,7 +26,7 @@ function(noonmark_sanitized_twin library)
                    INTERFACE_LINK_LIBRARIES)
     get_target_property(value ${library} ${property})
     if(value)
-      list(TRANSFORM value REPLACE "(noonmark_(scenes|technique|compare))" "\\1_sanitized")
+      noonmark_sanitized(value ${value})
       set_target_properties(${twin} PROPERTIES ${property} "${value}")
     endif()
   endforeach()

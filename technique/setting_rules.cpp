@@ -32,6 +32,11 @@ std::string near_beyond_far(std::string_view group, std::optional<double> near_m
   return fmt::format("{0}.near_m = {1} is not less than {0}.far_m = {2}", group, *near_m, *far_m);
 }
 
+std::string shifted_cube(std::string_view setting, double texels, std::optional<LightKind> light) {
+  if (texels == 0 || !light || kind_of_light(*light).map_shape() == MapShape::flat) return "";
+  return fmt::format("{} needs a flat map; move the point light instead", setting);
+}
+
 }  // namespace
 
 std::string in_builtin_scene(const Settings& s, LightKind) {
@@ -120,12 +125,6 @@ std::string plane_on_cube_or_blended(const Settings& s, std::optional<LightKind>
       s.bias.reference, filters_that([](const Filter& f) { return !f.blended && f.map != FilterMap::cube; }));
 }
 
-namespace {
-std::string shifted_cube(std::string_view setting, double texels, std::optional<LightKind> light) {
-  if (texels == 0 || !light || kind_of_light(*light).map_shape() == MapShape::flat) return "";
-  return fmt::format("{} needs a flat map; move the point light instead", setting);
-}
-}  // namespace
 std::string cube_shifted_along_u(const Settings& s, std::optional<LightKind> light) {
   return shifted_cube("map.shift_u_texels", s.map.shift_u_texels, light);
 }
