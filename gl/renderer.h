@@ -86,9 +86,9 @@ class Renderer {
   void load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m);
 
   // Renders the scene's depth from the light. Reads settings.map and the polygon offset of settings.bias; parts that
-  // move the casters' vertices act through `casters` alone.
-  // time_ms, when given, gets the pass's own time (device or glFinish clock).
-  // casters: the scene's vertices as they are drawn (technique/casters.h); empty: as load_scene() has them.
+  // move the casters' vertices act through `casters` alone. time_ms, if given, receives the time of the pass alone,
+  // from the device or from the clock with glFinish. casters: the scene's vertices as they are drawn
+  // (technique/casters.h); empty: the vertices of load_scene().
   ShadowMap render_map(const LightFrame& frame, const Settings& settings, double* time_ms = nullptr,
                        std::span<const glm::vec3> casters = {});
 

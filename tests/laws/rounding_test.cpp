@@ -1,4 +1,4 @@
-// Law 11 on meshes as they occur in practice: tiles whose common edges are equal up to rounding only, and corners that
+// Law 11 on meshes as they occur in practice: tiles whose common edges differ only by rounding, and corners that
 // lie on a neighbour's edge. No plane is parallel to an axis, and the scene is at the origin or far from it. All must
 // give the results of one quad. For an empty floor see experiments/laws.toml.
 #include <gtest/gtest.h>

@@ -92,7 +92,7 @@ struct Piece {
   glm::dvec3 n{0};  // of length 1
   Rays rays{};
   bool edge_on = false;  // its plane contains the rays' common point: no ray meets it
-  bool front = true;     // n points against the rays
+  bool front = true;     // n points to the side from which the rays come
 
   Piece seen_by(const Rays& rays) const;
   bool covers(const LightRay& ray) const;

@@ -102,8 +102,8 @@ TEST(Sphere, AloneShowsAcneOnly) {
   }
 }
 
-// A decal in the plane of the wall that it lies on, above or below it at most by the float rounding of its corners; and
-// a wall that is present twice. Neither is an occluder, though their depths may differ in the last bit either way.
+// A decal on a wall, which lies in the plane of the wall up to the float rounding of its corners; and a wall that is
+// present twice. Neither face occludes the other, although rounding may put either of them nearer by one bit.
 TEST(CoplanarFaces, ShowAcneOnly) {
   for (double tilt : {0.0, 0.6, 1.2}) {
     Scene scene;

@@ -150,9 +150,9 @@ TEST(Sponge, CoplanarTopsAreOneSheetWhateverTouchesAtTheirEdges) {
   EXPECT_GT(found.hidden, 150);
 }
 
-// From a wall down to the top at its foot. Where the wall's cube touches the lower cube only along an edge, a side of
-// the lower cube continues in the wall's own plane, behind that top. It is the flattest continuation, and the wrong
-// one.
+// The walk goes from a wall down to the top face at its foot. If the wall's cube touches the lower cube only along an
+// edge, one side of the lower cube lies in the plane of the wall, behind that top face. This side makes the smallest
+// angle with the wall, but the walk must not continue there, because the top face hides it from the light.
 TEST(Sponge, AWallGoesOnInTheTopAtItsFoot) {
   Found found;
   int on_an_edge = 0;
