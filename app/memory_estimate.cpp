@@ -54,7 +54,7 @@ const MemoryShare& MemoryEstimate::largest() const {
 MemoryEstimate estimate_memory(const MemoryInput& input) {
   const Settings& s = input.settings;
   const double pixels = static_cast<double>(s.view.width_px) * s.view.height_px;
-  const double faces = kind_of_light(input.light).tiles();
+  const double faces = kind_of_light(input.light).tiles(s.map);
   const double texels = static_cast<double>(s.map.resolution) * s.map.resolution * faces;
   const TapPattern pattern = tap_pattern(s.filter);
   const double taps = pixels * pattern.taps;
@@ -104,14 +104,13 @@ double outside_texels(const Scene& scene, const LightFrame& frame, const FilterS
     }
   const double inside = static_cast<double>(frame.resolution) * frame.resolution;
   glm::dvec2 low(0), high(frame.resolution);
-  if (frame.cos_half_cone > -1) {  // no lookup lies beyond the cone
-    const double tan_cone = std::sqrt(1 - frame.cos_half_cone * frame.cos_half_cone) / frame.cos_half_cone;
-    const double beside = frame.resolution * std::max(0.0, tan_cone / frame.tan_half_fov - 1) / 2;
+  if (const auto tan_cone = frame.light().tan_half_cone(frame)) {  // no lookup lies beyond the cone
+    const double beside = frame.resolution * std::max(0.0, *tan_cone / frame.tan_half_fov - 1) / 2;
     low -= beside;
     high += beside;
   } else {
     for (const glm::vec3& p : scene.positions) {
-      const glm::dvec2 at = frame.map_texels(frame.place(frame.to_light(p)));
+      const glm::dvec2 at = frame.map_texels(frame.to_light(p));
       low = glm::min(low, at);
       high = glm::max(high, at);
     }

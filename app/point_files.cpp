@@ -43,6 +43,11 @@ nlohmann::json number(double value) {  // JSON has no NaN and no infinity
 
 nlohmann::json vector_json(glm::dvec3 v) { return {v.x, v.y, v.z}; }
 
+nlohmann::json fact_json(double value) { return value; }
+nlohmann::json fact_json(std::string_view value) { return value; }
+nlohmann::json fact_json(glm::dvec2 v) { return {v.x, v.y}; }
+nlohmann::json fact_json(glm::dvec3 v) { return vector_json(v); }
+
 nlohmann::json matrix_rows(const glm::dmat4& matrix) {
   nlohmann::json rows;
   for (int row = 0; row < 4; ++row) rows.push_back({matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row]});
@@ -85,42 +90,29 @@ nlohmann::ordered_json light_json(const Measurement& m) {
                                  {"right", vector_json(f.right)},
                                  {"up", vector_json(f.up)},
                                  {"forward", vector_json(f.forward)}};
-  if (f.parallel()) {
-    json["ray_direction"] = vector_json(f.ray_direction);
-    json["angular_diameter_deg"] = light.angular_diameter_deg;
-    json["extent_m"] = f.extent_m;
-    json["texel_m"] = f.texel_m();
-  } else {
-    json["radius_m"] = light.radius_m;
-    json["shape"] = find_setting("light.shape").get(m.settings);
-  }
-  if (f.cos_half_cone > -1) {
-    json["cone_deg"] = light.cone_deg;
-    json["cos_half_cone"] = f.cos_half_cone;
-    json["tan_half_fov"] = f.tan_half_fov;
-    json["shift_texels"] = {f.shift_texels.x, f.shift_texels.y};
-  }
+  for (const LightFact& fact : f.light().facts(f, light))
+    std::visit([&](const auto& value) { json[fact.name] = fact_json(value); }, fact.value);
   json["near_m"] = f.near_m;
   json["far_m"] = f.far_m;
   constexpr const char* depths[] = {// in the order of TileDepth
                                     "(z - near_m) / (far_m - near_m), z along forward",
                                     "far_m * (z - near_m) / (z * (far_m - near_m)), z along forward",
                                     "distance / far_m"};
-  json["depth"] = depths[static_cast<size_t>(f.tile().depth)];
+  json["depth"] = depths[static_cast<size_t>(f.tile(0).depth)];
   json["resolution"] = f.resolution;
-  json["faces"] = f.tiles();
+  json["faces"] = f.tiles;
   json["map"] = {{"width", f.map_size().x},
                  {"height", f.map_size().y},
-                 {"rows", f.tiles() == 1 ? "map.exr has the map's highest v on top"
-                                         : "map.exr has the faces +X -X +Y -Y +Z -Z from the bottom up, each with its "
-                                           "highest t on top: row y of map.exr is row height - 1 - y of the map, and "
-                                           "row j of face f is the map's row f * resolution + j"}};
-  if (f.tiles() == 1) {
-    json["clip_from_world_rows"] = matrix_rows(f.clip_from_world());
+                 {"rows", f.tiles == 1 ? "map.exr has the map's highest v on top"
+                                       : "map.exr has the faces +X -X +Y -Y +Z -Z from the bottom up, each with its "
+                                         "highest t on top: row y of map.exr is row height - 1 - y of the map, and "
+                                         "row j of face f is the map's row f * resolution + j"}};
+  if (f.tiles == 1) {
+    json["clip_from_world_rows"] = matrix_rows(f.clip_from_world(0));
     return json;
   }
   nlohmann::ordered_json faces = nlohmann::ordered_json::array();
-  for (int face = 0; face < f.tiles(); ++face)
+  for (int face = 0; face < f.tiles; ++face)
     faces.push_back(nlohmann::ordered_json(matrix_rows(f.clip_from_world(face))));
   json["clip_from_world_rows_of_faces"] = faces;
   return json;

@@ -34,10 +34,9 @@ Corners corners_at(const LightFrame& light, const MapTile& tile, double z) {
   return c;
 }
 
-WorldLine rim(const LightFrame& light, double z, Color color) {
+// The rim of the light's cone at a depth along its axis. radius: in metres.
+WorldLine rim(const LightFrame& light, double z, double radius, Color color) {
   constexpr int steps = 96;
-  const double sine = std::sqrt(1 - light.cos_half_cone * light.cos_half_cone);
-  const double radius = z * sine / light.cos_half_cone;
   WorldLine line{{}, color};
   for (int i = 0; i <= steps; ++i) {
     const double a = 2 * std::numbers::pi * (i % steps) / steps;
@@ -123,7 +122,7 @@ void mark(Image<Color>& picture, glm::dvec2 at, Color color) {
 
 std::vector<WorldLine> frustum_lines(const LightFrame& light) {
   std::vector<WorldLine> sides, far, near;
-  for (int index = 0; index < light.tiles(); ++index) {
+  for (int index = 0; index < light.tiles; ++index) {
     const MapTile tile = light.tile(index);
     const Corners nearest = corners_at(light, tile, tile.near_m), farthest = corners_at(light, tile, tile.far_m);
     // The tiles of a cube share their edges: one line for each.
@@ -140,9 +139,8 @@ std::vector<WorldLine> frustum_lines(const LightFrame& light) {
     }
   }
   std::vector<WorldLine> lines = std::move(sides);
-  if (light.cos_half_cone > -1) {
-    lines.push_back(rim(light, light.far_m, cone_line));
-    lines.push_back(rim(light, light.near_m, cone_line));
+  if (const std::optional<double> tangent = light.light().tan_half_cone(light)) {
+    for (double z : {light.far_m, light.near_m}) lines.push_back(rim(light, z, z * *tangent, cone_line));
   }
   lines.insert(lines.end(), far.begin(), far.end());
   lines.insert(lines.end(), near.begin(), near.end());
@@ -209,7 +207,7 @@ void draw_frustum(Image<Color>& picture, const LightFrame& light, const CameraFr
     begin = end;
   }
   ScreenSegment light_itself;
-  if (!light.parallel() &&
+  if (light.light().rays().start_at_light() &&
       project_segment(camera, width, height, light.origin_m, light.origin_m, mark_radius_px, light_itself))
     mark(picture, light_itself.from, light_mark);
 }

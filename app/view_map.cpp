@@ -85,7 +85,7 @@ Image<Color> map_picture(const Image<float>& stored, const LightFrame& frame) {
                                  ? cube_cross(stored, frame.resolution, largest_cell, outside_cross)
                                  : shrunk(stored, std::min(stored.width, largest_side));
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
-  const auto metres = [&](float d) { return frame.depth_of_window(static_cast<double>(d)); };
+  const auto metres = [&](float d) { return frame.tile(0).depth_of_window(static_cast<double>(d)); };
   for (float d : depth.pixels) {
     if (!(d < 1)) continue;
     nearest = std::min(nearest, metres(d));

@@ -59,7 +59,7 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
   set("light_bias_unit", frame.depth_per_bias_unit(settings.bias.unit, one_metre));
   set("light_far_m", frame.far_m);
   if (frame.map_shape() == MapShape::flat) {
-    const glm::dmat4 clip_from_world = frame.clip_from_world();
+    const glm::dmat4 clip_from_world = frame.clip_from_world(0);
     // Planes are relative to the light, so that their offsets are small.
     const glm::dmat4 clip_from_light = glm::translate(clip_from_world, glm::dvec3(light_position));
     program.set("clip_from_world", glm::mat4(clip_from_world));
@@ -101,7 +101,7 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
     throw Error(ErrorKind::defect,
                 fmt::format("lookup: the light's frame is for {} face(s) of {} texels, the map has "
                             "{} of {}",
-                            frame.tiles(), frame.resolution, map.impl_->cube ? 6 : 1, map.resolution()));
+                            frame.tiles, frame.resolution, map.impl_->cube ? 6 : 1, map.resolution()));
   const TapPattern pattern = tap_pattern(settings.filter);
   const Filter& filter = find_filter(settings.filter.kind);
   const ShaderSlots slots = lookup_slots(r.programs, frame.kind, Bias(settings.bias), filter);

@@ -61,7 +61,7 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
       : layered ? ShaderStages{"shaders/cube_layers.vert", "shaders/distance.frag", "shaders/cube_layers.geom"}
                 : ShaderStages{"shaders/cube_face.vert", "shaders/distance.frag"});
   std::array<glm::mat4, 6> clip_from_world;
-  for (int face = 0; face < frame.tiles(); ++face)
+  for (int face = 0; face < frame.tiles; ++face)
     clip_from_world[static_cast<size_t>(face)] = glm::mat4(frame.clip_from_world(face));
   if (cube) {
     program.set("light_position", glm::vec3(frame.origin_m));

@@ -8,13 +8,13 @@
 namespace noonmark {
 
 LightView::LightView(const Scene& scene, const LightFrame& frame)
-    : scene_(&scene), frame_(frame), parallel_(frame.parallel()) {
+    : scene_(&scene), frame_(frame), rays_(frame.light().rays()) {
   const auto geometry = std::make_shared<Geometry>();
   geometry_ = geometry;
   std::vector<glm::dvec3>& vertices = geometry->vertices;
   vertices.reserve(scene.positions.size());
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-  if (!parallel_) low = high = glm::dvec3(0);  // the light is part of what its rays' rounding spans
+  if (rays_.start_at_light()) low = high = glm::dvec3(0);  // the light is part of what its rays' rounding spans
   for (const glm::vec3& position : scene.positions) {
     const glm::dvec3 p = frame.to_light(position);
     vertices.push_back(p);
@@ -32,14 +32,14 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
     const glm::dvec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2), e = b - a, f = c - a;
     const glm::dvec3 n = glm::cross(e, f);
     Plane& plane = geometry->planes.emplace_back();
-    plane.normal = (parallel_ ? n.z : glm::dot(n, a)) < 0 ? -n : n;
+    plane.normal = rays_.facing_away(n, a) < 0 ? -n : n;
     plane.gradient = glm::dvec2(e.z * f.y - f.z * e.y, f.z * e.x - e.z * f.x) / (e.x * f.y - e.y * f.x);
     plane.slope = glm::length(plane.gradient);
     const double depths[3] = {frame.depth_m(a), frame.depth_m(b), frame.depth_m(c)};
     plane.low = *std::min_element(depths, depths + 3);
     plane.high = *std::max_element(depths, depths + 3);
-    in_a_face_ |= !parallel_ && edge_on(t);
-    if (frame.tile().depth != TileDepth::distance) continue;
+    in_a_face_ |= rays_.start_at_light() && edge_on(t);
+    if (frame.tile_at(a).depth != TileDepth::distance) continue;
     // No nearer than its plane, nor than a corner less the longest side.
     const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
     const double length = glm::length(n);
@@ -76,13 +76,11 @@ bool LightView::touches(uint32_t triangle, glm::dvec3 point, double moved_m) con
   return distance <= moved_m + plane_rounding_m(*scene_, triangle, frame_.to_world(point));
 }
 
-glm::dvec3 LightView::at_depth(glm::dvec3 x, double depth) const {
-  return parallel_ ? glm::dvec3(x.x, x.y, depth) : x * depth;
-}
+glm::dvec3 LightView::at_depth(glm::dvec3 x, double depth) const { return rays_.at_depth(x, depth); }
 
 LightRay LightView::ray_from(glm::dvec3 x, double depth) const {
   const glm::vec3 origin(frame_.to_world(at_depth(x, depth)));
-  if (parallel_) return {origin, frame_.ray_direction};
+  if (rays_.have_one_direction()) return {origin, frame_.ray_direction};
   return {origin, glm::vec3(glm::normalize(frame_.to_world(x) - frame_.origin_m))};
 }
 
@@ -102,6 +100,6 @@ void LightView::first_hits(const EmbreeScene& embree, int count, const glm::dvec
   }
 }
 
-double LightView::near_depth(glm::dvec3 x) const { return frame_.tile(frame_.tile_of(x)).near_depth(x); }
+double LightView::near_depth(glm::dvec3 x) const { return frame_.tile_at(x).near_depth(x); }
 
 }  // namespace noonmark

@@ -37,24 +37,15 @@ class LightView {
   glm::dvec3 place_of(glm::dvec3 light) const { return normal_place(frame_.place(light)); }
   glm::dvec3 texel_place(glm::ivec2 texel) const { return normal_place(frame_.texel_place(texel)); }
 
-  // Positive if three points of the light's frame, or three places, run counter-clockwise as the light sees them, in
-  // the map's u and v. The value is twice the area of their triangle for a directional light and the determinant of
-  // their directions otherwise, so only the sign can be compared between lights.
-  double orientation(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b) const {
-    if (parallel_) return (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x);
-    return glm::dot(p, glm::cross(a - p, b - p));
-  }
+  double orientation(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b) const { return rays_.orientation(p, a, b); }
   double orientation(uint32_t triangle) const {
     return orientation(corner(triangle, 0), corner(triangle, 1), corner(triangle, 2));
   }
 
-  // Whether the light sees the triangle from the side, within double's rounding of a direction and of corners (2^-53
-  // each, with a large margin, because double cannot tell a point inside so thin a triangle). Such a triangle covers
-  // nothing, and no surface continues over it.
+  // Whether the light sees the triangle from the side. Such a triangle covers nothing, and no surface continues over it.
   bool edge_on(uint32_t triangle) const {
     const glm::dvec3 a = corner(triangle, 0), n = glm::cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
-    return parallel_ ? !(std::abs(n.z) > 0x1p-30 * glm::length(n))
-                     : !(std::abs(glm::dot(n, a)) > 0x1p-30 * glm::length(n) * glm::length(a));
+    return rays_.edge_on(n, a);
   }
 
   // The triangle's normal in the light's frame, away from the light; not of unit length.
@@ -62,8 +53,7 @@ class LightView {
 
   // How much deeper its plane becomes for a metre across the light's ray through x; not finite when it is edge-on.
   double slope(uint32_t triangle, glm::dvec3 x) const {
-    const Plane& plane = planes_[triangle];
-    return parallel_ ? plane.slope : glm::length(glm::cross(plane.normal, x)) / std::abs(glm::dot(plane.normal, x));
+    return rays_.slope(planes_[triangle].normal, planes_[triangle].slope, x);
   }
 
   // How wide the triangle is at its narrowest, in metres.
@@ -71,11 +61,7 @@ class LightView {
 
   // Depth of the triangle's plane at x, also beyond the triangle; infinity if the ray does not meet the plane.
   double plane_depth(uint32_t triangle, glm::dvec3 x) const {
-    const Plane& plane = planes_[triangle];
-    const glm::dvec3 a = corner(triangle, 0);
-    if (parallel_) return a.z + glm::dot(plane.gradient, glm::dvec2(x) - glm::dvec2(a));
-    const double along = glm::dot(plane.normal, a) / glm::dot(plane.normal, x);  // x is normal: its own depth is 1
-    return along < 0 ? std::numeric_limits<double>::infinity() : along;
+    return rays_.plane_depth(planes_[triangle].normal, planes_[triangle].gradient, corner(triangle, 0), x);
   }
 
   // Depth at which the light ray through x meets the triangle. A ray that hits the triangle in Embree's float
@@ -87,18 +73,18 @@ class LightView {
   }
 
   // Metres across the light's rays for a step of 1 between normal places, at this depth.
-  double metres_across(double depth_m) const { return parallel_ ? 1 : depth_m; }
+  double metres_across(double depth_m) const { return rays_.metres_across(depth_m); }
 
   // Of a place on one side of all three edges: whether its ray meets the triangle before the light, not behind it.
   // left: the place lies to the left of the edges as the light sees them.
-  bool ahead(uint32_t triangle, bool left) const { return parallel_ || left == (orientation(triangle) > 0); }
+  bool ahead(uint32_t triangle, bool left) const { return rays_.ahead(left, orientation(triangle) > 0); }
 
   // Whether a point of the light's frame may lie in the triangle's plane, if rounding has moved it by up to moved_m.
   bool touches(uint32_t triangle, glm::dvec3 point, double moved_m) const;
 
   // The light-side ray through x. It starts before everything in the scene, or at the light itself.
   LightRay ray(glm::dvec3 x) const {
-    if (!parallel_) return ray_from(x, 0);
+    if (rays_.start_at_light()) return ray_from(x, 0);
     return {glm::vec3(start_ + x.x * frame_.right + x.y * frame_.up), frame_.ray_direction};
   }
   LightRay ray_from(glm::dvec3 x, double depth) const;
@@ -117,7 +103,7 @@ class LightView {
 
   const Scene& scene() const { return *scene_; }
   const LightFrame& frame() const { return frame_; }
-  bool parallel() const { return parallel_; }
+  LightRays rays() const { return rays_; }
 
   glm::dvec3 at_depth(glm::dvec3 x, double depth) const;  // in the light's frame
 
@@ -125,7 +111,7 @@ class LightView {
   struct Plane {  // of each triangle
     glm::dvec3 normal{0};
     double low = 0, high = 0;  // the triangle's range of depths
-    glm::dvec2 gradient{0};    // directional: dz/d(u, v); not finite when it is edge-on
+    glm::dvec2 gradient{0};    // parallel rays: dz/d(u, v); not finite when it is edge-on
     double slope = 0;          // and its length
   };
   struct Geometry {
@@ -135,7 +121,7 @@ class LightView {
 
   const Scene* scene_;
   LightFrame frame_;
-  bool parallel_;
+  LightRays rays_;
   std::shared_ptr<const Geometry> geometry_;
   const glm::dvec3* vertices_ = nullptr;  // of geometry_
   const Plane* planes_ = nullptr;

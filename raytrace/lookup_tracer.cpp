@@ -94,7 +94,7 @@ Image<float> exact_map_of(const TracedScene& traced, const LightView& scenes_own
         if (!behind) continue;
         depth = *behind;
       }
-      texel = static_cast<float>(std::clamp(frame.window_depth(depth), 0.0, 1.0));
+      texel = static_cast<float>(std::clamp(frame.tile_at(centre).window_depth(depth), 0.0, 1.0));
     }
   });
   return map;
@@ -117,7 +117,7 @@ struct LookupTracer::Impl {
 LookupTracer::LookupTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
                            const LightFrame& frame, const MapSettings& map, const Bias& bias, double offset_unit) {
   std::optional<PolygonOffset> offset;  // a fragment shader that writes its own depth, a point light's, has none
-  if (bias.polygon_offset() && frame.tile().depth != TileDepth::distance)
+  if (bias.polygon_offset() && frame.tile(0).depth != TileDepth::distance)
     offset.emplace(PolygonOffset{bias.polygon_offset()->factor, bias.polygon_offset()->units,
                                  map.format == DepthFormat::d32f ? 0 : offset_unit});
   const std::shared_ptr<LightSide> light = traced.lit_by(frame);

@@ -9,22 +9,22 @@ double PolygonOffset::of(const LightView& view, uint32_t triangle) const {
   const LightFrame& frame = view.frame();
   const glm::dvec3 n = view.normal_away(triangle), a = view.corner(triangle, 0);
   glm::dvec2 per_texel;
-  if (frame.tile().orthographic) {
-    per_texel = glm::dvec2(n) / n.z * frame.texel_m() / (frame.far_m - frame.near_m);
+  const MapTile tile = frame.tile_at(a);
+  if (tile.orthographic) {
+    per_texel = glm::dvec2(n) / n.z * tile.texel_m(a) / (tile.far_m - tile.near_m);
   } else {
     // On the plane n.q = n.a, 1 / z is n.(x, y, 1) / n.a at the place (x, y, 1), and window depth is far / (far - near)
     // (1 - near / z).
-    const double per_place = frame.far_m * frame.near_m / (frame.far_m - frame.near_m) / glm::dot(n, a);
-    per_texel = glm::dvec2(n) * per_place * (2 * frame.tan_half_fov / frame.resolution);
+    const double per_place = tile.far_m * tile.near_m / (tile.far_m - tile.near_m) / glm::dot(n, a);
+    per_texel = glm::dvec2(n) * per_place * (2 * tile.half / tile.resolution);
   }
   const double steepest = std::max(std::abs(per_texel.x), std::abs(per_texel.y));
   double r = unit;
   if (r == 0) {
     double largest = 0;
     for (int i = 0; i < 3; ++i) {
-      const double depth = frame.depth_m(view.corner(triangle, i));
-      if (frame.tile().orthographic || depth > 0)
-        largest = std::max(largest, std::clamp(frame.window_depth(depth), 0.0, 1.0));
+      const double depth = tile.depth_m(view.corner(triangle, i));
+      if (tile.orthographic || depth > 0) largest = std::max(largest, std::clamp(tile.window_depth(depth), 0.0, 1.0));
     }
     int exponent = 0;
     std::frexp(largest, &exponent);
@@ -36,15 +36,15 @@ double PolygonOffset::of(const LightView& view, uint32_t triangle) const {
 
 double least_offset_depth(const EmbreeScene& seen, const LightView& view, const PolygonOffset& offset, glm::dvec3 x,
                           bool clamped) {
-  const LightFrame& frame = view.frame();
+  const MapTile tile = view.frame().tile_at(x);
   std::vector<uint32_t> hits;
   seen.all_hits(view.ray(x), hits);
   double least = 1;
   for (uint32_t triangle : hits) {
-    if (!frame.tile().orthographic && view.edge_on(triangle)) continue;
+    if (!tile.orthographic && view.edge_on(triangle)) continue;
     const double depth = view.hit_depth(triangle, x);
-    if (!clamped && (depth < frame.near_m || depth > frame.far_m)) continue;
-    least = std::min(least, frame.window_depth(depth) + offset.of(view, triangle));
+    if (!clamped && (depth < tile.near_m || depth > tile.far_m)) continue;
+    least = std::min(least, tile.window_depth(depth) + offset.of(view, triangle));
   }
   return std::clamp(least, 0.0, 1.0);
 }

@@ -13,7 +13,6 @@ constexpr int least_cells = 256, most_cells = 2048;  // on a side: from 0.25 to 
 // to this many cells on a side, until its lists are at most so long.
 constexpr int coarsest_cells = 16;
 constexpr size_t listed_per_piece = 16, listed_besides = size_t{1} << 20;
-constexpr double face_margin = 1e-3;  // how far the grid of a cube's face reaches into its neighbours
 
 // Whether another triangle at this edge lies on its other side, as the light sees it.
 bool goes_on(const Adjacency& adjacency, const LightView& view, uint32_t triangle, int edge) {
@@ -29,31 +28,6 @@ bool goes_on(const Adjacency& adjacency, const LightView& view, uint32_t triangl
     }
   }
   return false;
-}
-
-// A direction, or a point, in the axes of a face: s, t and the way out.
-glm::dvec3 in_face(int face, glm::dvec3 p) {
-  const CubeFace& f = cube_face(face);
-  return {glm::dot(p, f.right), glm::dot(p, f.up), glm::dot(p, f.forward)};
-}
-
-// The part of the segment that the face sees, margin included; false where there is none. It ends before the light.
-bool clip_to_face(glm::dvec3& a, glm::dvec3& b) {
-  double begin = 0, end = 1;
-  for (int side = 0; side < 4; ++side) {
-    const auto inside = [&](glm::dvec3 p) {
-      return (1 + face_margin) * p.z + (side % 2 ? -1.0 : 1.0) * (side < 2 ? p.x : p.y);
-    };
-    const double at_a = inside(a), at_b = inside(b);
-    if (at_a < 0 && at_b < 0) return false;
-    if (at_a < 0) begin = std::max(begin, at_a / (at_a - at_b));
-    if (at_b < 0) end = std::min(end, at_a / (at_a - at_b));
-  }
-  if (!(begin <= end)) return false;
-  const glm::dvec3 way = b - a;
-  b = a + end * way;
-  a = a + begin * way;
-  return a.z > 0 && b.z > 0;
 }
 
 }  // namespace
@@ -86,31 +60,24 @@ Silhouettes::Silhouettes(const Adjacency& adjacency, const LightView& view, doub
 
   std::vector<Piece> pieces;
   const uint32_t count = static_cast<uint32_t>(edges_.size());
-  if (view.parallel()) {
+  for (int chart = 0; chart < view.rays().charts(); ++chart) {
+    pieces.clear();
     glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     for (uint32_t i = 0; i < count; ++i) {
-      pieces.push_back({glm::dvec2(edges_[i].a), glm::dvec2(edges_[i].b), reach_m, i});
-      low = glm::min(low, glm::min(pieces.back().a, pieces.back().b));
-      high = glm::max(high, glm::max(pieces.back().a, pieces.back().b));
+      const auto segment = view.rays().in_chart(chart, edges_[i].a, edges_[i].b, reach_m);
+      if (!segment) continue;
+      pieces.push_back({segment->a, segment->b, segment->reach, i});
+      low = glm::min(low, glm::min(segment->a, segment->b));
+      high = glm::max(high, glm::max(segment->a, segment->b));
     }
     Grid& grid = grids_.emplace_back();
-    grid.low = low - reach_m;
-    grid.cells_per_unit = 1 / ((std::max(high.x - low.x, high.y - low.y) + 2 * reach_m) * (1 + 1e-9));
-    fill(grid, pieces);
-    return;
-  }
-  for (int face = 0; face < 6; ++face) {
-    pieces.clear();
-    for (uint32_t i = 0; i < count; ++i) {
-      glm::dvec3 a = in_face(face, edges_[i].a), b = in_face(face, edges_[i].b);
-      if (!clip_to_face(a, b)) continue;
-      // A metre across the ray moves its place in the face by at most sqrt(3) / z; past the whole face says no more.
-      const double reach = std::min(2 * reach_m / std::min(a.z, b.z), 4.0);
-      pieces.push_back({glm::dvec2(a) / a.z, glm::dvec2(b) / b.z, reach, i});
+    if (const std::optional<double> half = view.rays().chart_half()) {
+      grid.low = glm::dvec2(-*half);
+      grid.cells_per_unit = 1 / (2 * *half);
+    } else {
+      grid.low = low - reach_m;
+      grid.cells_per_unit = 1 / ((std::max(high.x - low.x, high.y - low.y) + 2 * reach_m) * (1 + 1e-9));
     }
-    Grid& grid = grids_.emplace_back();
-    grid.low = glm::dvec2(-1 - 2 * face_margin);
-    grid.cells_per_unit = 1 / (2 + 4 * face_margin);
     fill(grid, pieces);
   }
 }
@@ -139,13 +106,6 @@ void Silhouettes::fill(Grid& grid, const std::vector<Piece>& pieces) {
     grid.each_cell(p.a, p.b, p.reach, [&](size_t cell) { grid.listed[next[cell]++] = p.edge; });
 }
 
-const Silhouettes::Grid& Silhouettes::face_of(glm::dvec3 x, glm::dvec2& at) const {
-  const int face = cube_face_of(x);
-  const glm::dvec3 p = in_face(face, x);
-  at = glm::dvec2(p) / p.z;
-  return grids_[static_cast<size_t>(face)];
-}
-
 std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec3 from, glm::dvec3 to) const {
   std::vector<Crossing> at;
   glm::dvec2 begin, end;
@@ -161,10 +121,10 @@ std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec3 from, glm::
     if (grid.empty_between(begin, end)) return at;
     each_edge(grid, begin, end);
   } else {
-    for (int face = 0; face < 6; ++face) {
-      glm::dvec3 a = in_face(face, from), b = in_face(face, to);
-      if (grids_[static_cast<size_t>(face)].size > 0 && clip_to_face(a, b))
-        each_edge(grids_[static_cast<size_t>(face)], glm::dvec2(a) / a.z, glm::dvec2(b) / b.z);
+    for (size_t chart = 0; chart < grids_.size(); ++chart) {
+      if (grids_[chart].size == 0) continue;
+      if (const auto way = view_.rays().in_chart(static_cast<int>(chart), from, to, 0))
+        each_edge(grids_[chart], way->a, way->b);
     }
   }
   std::sort(at.begin(), at.end(), [](const Crossing& x, const Crossing& y) { return x.t < y.t; });
@@ -177,20 +137,9 @@ void Silhouettes::cross(uint32_t index, glm::dvec3 from, glm::dvec3 to, std::vec
   const double a = view_.orientation(from, to, edge.a), b = view_.orientation(from, to, edge.b);
   if ((a > 0 && b > 0) || (a < 0 && b < 0) || a == b) return;
   const double part = a / (a - b);
-  const glm::dvec3 where = edge.a + part * (edge.b - edge.a), way = to - from;
-  double t, sine;
-  if (view_.parallel()) {
-    const glm::dvec2 along = glm::dvec2(edge.b) - glm::dvec2(edge.a);
-    const double length2 = glm::dot(glm::dvec2(way), glm::dvec2(way));
-    t = glm::dot(glm::dvec2(where) - glm::dvec2(from), glm::dvec2(way)) / length2;
-    sine = std::abs(a - b) / std::sqrt(length2 * glm::dot(along, along));
-  } else {
-    const glm::dvec3 edge_plane = glm::cross(edge.a, edge.b - edge.a), way_plane = glm::cross(from, way);
-    t = glm::dot(edge_plane, from) / -glm::dot(edge_plane, way);
-    sine = glm::length(glm::cross(edge_plane, way_plane)) / (glm::length(edge_plane) * glm::length(way_plane));
-    if (!(glm::dot(where, from + t * way) > 0)) return;  // the edge's other side of the light
-  }
-  if (t > 0 && t < 1) at.push_back({t, sine, view_.frame().depth_m(where), edge.rounding_m});
+  const glm::dvec3 where = edge.a + part * (edge.b - edge.a);
+  const LightRays::Crossing found = view_.rays().crossing(from, to, edge.a, edge.b, where);
+  if (found.t > 0 && found.t < 1) at.push_back({found.t, found.sine, view_.frame().depth_m(where), edge.rounding_m});
 }
 
 bool Silhouettes::near_listed(glm::dvec3 x, double within_m, std::vector<uint32_t>* triangles) const {
@@ -199,33 +148,12 @@ bool Silhouettes::near_listed(glm::dvec3 x, double within_m, std::vector<uint32_
   if (!grid.holds(place)) return false;
   const size_t cell = grid.cell_of(place);
   bool any = false;
-  const auto found = [&](const Edge& edge) {
-    if (triangles) triangles->push_back(edge.triangle);
-    any = true;
-    return !triangles;  // one is enough
-  };
-  if (view_.parallel()) {
-    for (uint32_t i = grid.begin[cell]; i < grid.begin[cell + 1]; ++i) {
-      const Edge& edge = edges_[grid.listed[i]];
-      const glm::dvec2 start(edge.a), way = glm::dvec2(edge.b) - start;
-      const double length2 = glm::dot(way, way);
-      const double along = length2 > 0 ? std::clamp(glm::dot(place - start, way) / length2, 0.0, 1.0) : 0;
-      const glm::dvec2 beside = place - start - along * way;
-      if (glm::dot(beside, beside) <= within_m * within_m && found(edge)) break;
-    }
-    return any;
-  }
-  // Across the light's rays: what of a vector is left without its part along the ray.
-  const glm::dvec3 along_ray = glm::normalize(x);
-  const auto across = [&](glm::dvec3 v) { return v - glm::dot(v, along_ray) * along_ray; };
   for (uint32_t i = grid.begin[cell]; i < grid.begin[cell + 1]; ++i) {
     const Edge& edge = edges_[grid.listed[i]];
-    const glm::dvec3 start = across(edge.a), way = across(edge.b - edge.a);
-    const double length2 = glm::dot(way, way);
-    const double along = length2 > 0 ? std::clamp(-glm::dot(start, way) / length2, 0.0, 1.0) : 0;
-    const glm::dvec3 beside = start + along * way;
-    if (glm::dot(beside, beside) > within_m * within_m) continue;
-    if (glm::dot(edge.a + along * (edge.b - edge.a), along_ray) > 0 && found(edge)) break;
+    if (!(view_.rays().distance2_across(x, edge.a, edge.b) <= within_m * within_m)) continue;
+    any = true;
+    if (!triangles) break;  // one is enough
+    triangles->push_back(edge.triangle);
   }
   return any;
 }

@@ -1,6 +1,6 @@
 // Silhouettes: the edges at which a surface, as the light sees it, does not continue. These are folds (both triangles
 // lie on the same side of the edge) and boundaries (the edge has one triangle). The depth that the light sees can jump
-// only there. The edges are listed in grids over what the light sees: its plane, or the six faces of a cube around it.
+// only there. The edges are listed in a grid for each chart of the light's rays (technique/light_rays.h).
 // A ray that is further from every silhouette than its float error meets the same triangle as the exact ray; the other
 // rays, which are few, are checked in double. Built once for a light (raytrace/traced_scene.h).
 #pragma once
@@ -47,7 +47,7 @@ class Silhouettes {
     uint32_t triangle = 0;
     double rounding_m = 0;
   };
-  // A square of the light's plane, or one face of the cube (its s and t from -1 to 1, and a little more).
+  // A square of a chart.
   struct Grid {
     glm::dvec2 low{0};
     double cells_per_unit = 0;
@@ -84,18 +84,15 @@ class Silhouettes {
   void fill(Grid& grid, const std::vector<Piece>& pieces);
   // The grid that x lies in, and where.
   const Grid& grid_of(glm::dvec3 x, glm::dvec2& at) const {
-    if (!view_.parallel()) return face_of(x, at);
-    at = glm::dvec2(x);
-    return grids_[0];
+    return grids_[static_cast<size_t>(view_.rays().chart_of(x, at))];
   }
-  const Grid& face_of(glm::dvec3 x, glm::dvec2& at) const;
   bool near_listed(glm::dvec3 x, double within_m, std::vector<uint32_t>* triangles) const;
   void cross(uint32_t edge, glm::dvec3 from, glm::dvec3 to, std::vector<Crossing>& at) const;
 
   LightView view_;
   double reach_m_;
   std::vector<Edge> edges_;
-  std::vector<Grid> grids_;  // one, or six
+  std::vector<Grid> grids_;  // one for each chart
 };
 
 }  // namespace noonmark

@@ -73,9 +73,9 @@ double LightFrame::depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const {
     case BiasUnit::depth:
       return 1;
     case BiasUnit::m:
-      return window_depth_slope(depth_m(point));
+      return window_depth_slope(point);
     case BiasUnit::texel:
-      return texel_m(point) * window_depth_slope(depth_m(point));
+      return texel_m(point) * window_depth_slope(point);
   }
   throw std::logic_error("unknown bias unit");
 }
@@ -111,6 +111,7 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
   frame.near_m = settings.map.near_m.value_or(volume.near_m);
   frame.far_m = settings.map.far_m.value_or(volume.far_m);
   frame.resolution = settings.map.resolution;
+  frame.tiles = kind.tiles(settings.map);
   if (!(frame.near_m < frame.far_m) || !std::isfinite(frame.far_m - frame.near_m))
     throw SettingConflict("map.far_m",
                           fmt::format("the map's near plane ({} m) is not before its far plane ({} m); set "

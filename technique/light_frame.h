@@ -3,7 +3,7 @@
 //
 //   LightFrame frame = make_light_frame(scene, settings);
 //   glm::dvec3 p = frame.to_light(P);                     // metres along right, up and forward, from the light
-//   double d = frame.window_depth(frame.depth_m(p));      // what the map holds of P
+//   double d = frame.window_depth(p);                     // what the map holds of P
 //   glm::dvec3 x = frame.texel_place({i, j});             // the place of a texel's centre
 //
 // A *place* names a light-side ray. It is a homogeneous vector. For a directional light it is (u, v, 1), with u and v
@@ -43,19 +43,21 @@ struct LightFrame {
   glm::dvec2 shift_texels{0};  // spot: map.shift_*_texels
   double near_m = 0;
   double far_m = 1;
-  int resolution = 1;
+  int resolution = 1;  // texels on the side of a tile
+  int tiles = 1;
 
   const KindOfLight& light() const { return kind_of_light(kind); }
-  bool parallel() const { return light().parallel_rays(); }
   MapShape map_shape() const { return light().map_shape(); }
   // True if the size of a texel and the step of depth are the same everywhere in the map.
-  bool uniform() const { return parallel(); }
+  bool uniform() const { return tiles == 1 && tile(0).orthographic; }
 
-  // The map's tiles. They stand one above the other in its image.
-  int tiles() const { return light().tiles(); }
-  MapTile tile(int index = 0) const { return light().tile(*this, index); }
-  int tile_of(glm::dvec3 place) const { return light().tile_of(place); }
-  glm::ivec2 map_size() const { return {resolution, tiles() * resolution}; }
+  // The map's tiles stand one above the other in its image.
+  MapTile tile(int index) const { return light().tile(*this, index); }
+  int tile_of(glm::dvec3 point) const { return light().tile_of(*this, point); }
+  // The tile that a lookup reads at a point in the light's frame.
+  MapTile tile_at(glm::dvec3 point) const { return tile(tile_of(point)); }
+  MapTile tile_of_texel(glm::ivec2 texel) const { return tile(tiles > 1 ? texel.y / resolution : 0); }
+  glm::ivec2 map_size() const { return {resolution, tiles * resolution}; }
 
   glm::dvec3 to_light(glm::dvec3 world) const;
   glm::dvec3 to_world(glm::dvec3 light) const;
@@ -66,32 +68,32 @@ struct LightFrame {
   bool reaches(glm::dvec3 world) const { return light().reaches(*this, world); }
 
   // The quantity that the map's depth measures, for a point in the light's frame: metres along the axis, or the
-  // distance. It is the same in all tiles.
-  double depth_m(glm::dvec3 point) const { return tile().depth_m(point); }
-  double window_depth(double depth_m) const { return tile().window_depth(depth_m); }
-  double depth_of_window(double window_depth) const { return tile().depth_of_window(window_depth); }
-  double window_depth_slope(double depth_m) const { return tile().window_depth_slope(depth_m); }
-
-  // The width of one texel in the world at a point in the light's frame. texel_m() is for a directional light, where it
-  // is the same everywhere.
-  double texel_m(glm::dvec3 point) const { return tile(tile_of(point)).texel_m(point); }
-  double texel_m() const { return extent_m / resolution; }
+  // distance.
+  double depth_m(glm::dvec3 point) const { return tile_at(point).depth_m(point); }
+  double window_depth(glm::dvec3 point) const {
+    const MapTile tile = tile_at(point);
+    return tile.window_depth(tile.depth_m(point));
+  }
+  // The derivative of window depth at the point, per metre.
+  double window_depth_slope(glm::dvec3 point) const {
+    const MapTile tile = tile_at(point);
+    return tile.window_depth_slope(tile.depth_m(point));
+  }
+  // The width of one texel in the world at a point in the light's frame.
+  double texel_m(glm::dvec3 point) const { return tile_at(point).texel_m(point); }
 
   glm::dvec3 place(glm::dvec3 point) const { return light().place(point); }  // of a point in the light's frame
   // The place of one tap of a lookup at this point. The offset is in texels for a flat map, in metres of the world for
   // a point light.
   glm::dvec3 tap_place(glm::dvec3 point, glm::dvec3 offset) const { return light().tap_place(*this, point, offset); }
   // The place of a texel's centre. For flat maps the texel may be any integers, also outside the map.
-  glm::dvec3 texel_place(glm::ivec2 texel) const {
-    const int index = tiles() > 1 ? texel.y / resolution : 0;
-    return tile(index).place_of(texel);
-  }
-  // The position of a place in the map, in texels; floor() of it is the texel.
-  glm::dvec2 map_texels(glm::dvec3 place) const { return tile(tile_of(place)).texels(place); }
+  glm::dvec3 texel_place(glm::ivec2 texel) const { return tile_of_texel(texel).place_of(texel); }
+  // The position in the map of a point in the light's frame, in texels; floor() of it is the texel.
+  glm::dvec2 map_texels(glm::dvec3 point) const { return tile_at(point).texels(place(point)); }
   // Directional: u and v of a texel's centre.
   glm::dvec2 texel_centre(glm::ivec2 texel) const { return glm::dvec2(texel_place(texel)); }
 
-  glm::dmat4 clip_from_world(int tile = 0) const;
+  glm::dmat4 clip_from_world(int tile) const;
   // The window depth of one unit of bias (settings.bias.unit), at a point in the light's frame.
   double depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const;
 };

@@ -67,6 +67,10 @@ WayToLight KindOfLight::way_to_disc(const LightFrame& frame, const LightDisc& di
   return {glm::vec3(direction), static_cast<float>(to_surface), p + to_surface * direction};
 }
 
+std::vector<LightFact> KindOfLight::facts(const LightFrame&, const Light& light) const {
+  return {{"radius_m", light.radius_m}, {"shape", light.shape == LightShape::disc ? "disc" : "sphere"}};
+}
+
 bool KindOfLight::surrounds(const LightFrame& frame, const LightDisc& disc, glm::dvec3 p) const {
   return disc.shape == LightShape::sphere && glm::length(frame.origin_m - p) <= disc.radius;
 }

@@ -4,10 +4,15 @@
 #pragma once
 #include <glm/glm.hpp>
 #include <limits>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 #include "scenes/scene.h"
+#include "technique/light_rays.h"
 #include "technique/map_tile.h"
 #include "technique/settings.h"
 
@@ -31,13 +36,19 @@ struct LightDisc {
   double radius = 0;  // KindOfLight::disc_radius
 };
 
+// A value that describes a light in point.json.
+struct LightFact {
+  std::string_view name;
+  std::variant<double, std::string_view, glm::dvec2, glm::dvec3> value;
+};
+
 class KindOfLight {
  public:
   virtual ~KindOfLight() = default;
 
   virtual std::string_view name() const = 0;  // a choice of light.kind
   virtual std::string_view help() const = 0;
-  virtual bool parallel_rays() const { return false; }  // false: all rays come from one point
+  virtual LightRays rays() const { return LightRays::from_one_point; }
   virtual MapShape map_shape() const { return MapShape::flat; }
   virtual bool is_aimed() const { return true; }  // false: Light::target_m is not read
 
@@ -54,9 +65,10 @@ class KindOfLight {
 
   // ---- the map
 
-  virtual int tiles() const { return 1; }
+  virtual int tiles(const MapSettings& /*settings*/) const { return 1; }
   virtual MapTile tile(const LightFrame& frame, int index) const = 0;
-  virtual int tile_of(glm::dvec3 /*place*/) const { return 0; }
+  // The tile that a lookup reads at a point in the light's frame.
+  virtual int tile_of(const LightFrame& /*frame*/, glm::dvec3 /*light*/) const { return 0; }
   // The axes of the texels in the world, at a point in the light's frame. For the faces of a cube they have no sign.
   virtual void texel_axes(const LightFrame& frame, glm::dvec3 light, glm::dvec3& right, glm::dvec3& up) const;
 
@@ -70,6 +82,8 @@ class KindOfLight {
   virtual bool reaches(const LightFrame& /*frame*/, glm::dvec3 /*world*/) const { return true; }
   // True if the light does not reach any point of the triangle. It is false too if a quick test cannot decide that.
   virtual bool misses(const LightFrame& /*frame*/, const glm::dvec3 (&/*corners*/)[3]) const { return false; }
+  // Tangent of half the light's cone; no value if the light has no cone.
+  virtual std::optional<double> tan_half_cone(const LightFrame& /*frame*/) const { return std::nullopt; }
   // True if a point in the light's frame has a place in the map. A point behind a spot light has none.
   virtual bool has_place(glm::dvec3 /*light*/) const { return true; }
   virtual glm::dvec3 place(glm::dvec3 light) const { return light; }
@@ -90,6 +104,8 @@ class KindOfLight {
   // ---- text
 
   virtual std::string_view frustum_caption() const = 0;
+  // What point.json says of the light, besides its axes and its map's range.
+  virtual std::vector<LightFact> facts(const LightFrame& frame, const Light& light) const;
 };
 
 // All kinds, in the order of LightKind.

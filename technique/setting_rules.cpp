@@ -133,7 +133,7 @@ std::string cube_shifted_along_v(const Settings& s, std::optional<LightKind> lig
 }
 
 std::string snapped_perspective(const Settings& s, std::optional<LightKind> light) {
-  if (!s.map.snap || !light || kind_of_light(*light).parallel_rays()) return "";
+  if (!s.map.snap || !light || kind_of_light(*light).rays().have_one_direction()) return "";
   return "map.snap needs a directional light: only its texels have one size everywhere";
 }
 

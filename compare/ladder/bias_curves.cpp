@@ -281,7 +281,7 @@ BiasScale bias_scale(const LightFrame& frame, const ReceiverImage& receivers, co
                      BiasUnit unit) {
   if (frame.uniform()) {
     const double range = frame.far_m - frame.near_m;
-    return {frame.depth_per_bias_unit(unit, {}), range, range / frame.texel_m()};
+    return {frame.depth_per_bias_unit(unit, {}), range, range / frame.texel_m(glm::dvec3(0))};
   }
   std::vector<double> metres, texels;
   for (size_t i = 0; i < truth.facing.size(); ++i) {

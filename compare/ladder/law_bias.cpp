@@ -64,10 +64,12 @@ double least_distance(glm::dvec3 n, double h, const CubeFace& face, glm::dvec2 l
 
 glm::dvec2 depth_gradient(const LightFrame& frame, glm::dvec3 position, glm::dvec3 normal) {
   const glm::dvec2 across(glm::dot(normal, frame.right), glm::dot(normal, frame.up));
-  const double range = frame.far_m - frame.near_m;
-  if (frame.tile().orthographic) return -across / glm::dot(normal, frame.forward) * (frame.texel_m() / range);
+  const glm::dvec3 light = frame.to_light(position);
+  const MapTile tile = frame.tile_at(light);
+  const double range = tile.far_m - tile.near_m;
+  if (tile.orthographic) return -across / glm::dot(normal, frame.forward) * (tile.texel_m(light) / range);
   const double h = glm::dot(normal, position - frame.origin_m);
-  return -across / h * (frame.far_m * frame.near_m / range * 2 * frame.tan_half_fov / frame.resolution);
+  return -across / h * (tile.far_m * tile.near_m / range * 2 * tile.half / tile.resolution);
 }
 
 AcneLaw::AcneLaw(const LightFrame& frame, const LookupProbe& probe)
@@ -110,7 +112,7 @@ double AcneLaw::cube_need(size_t i, glm::dvec3 position, glm::dvec3 normal) cons
     const glm::dvec2 low = glm::clamp(at - half, half - 1, 1 - half), high = glm::clamp(at + half, half - 1, 1 - half);
     need = std::max(need, glm::length(p) - least_distance(-normal, h, face, low, high));
   }
-  return need * frame_.window_depth_slope(glm::length(p));
+  return need * frame_.window_depth_slope(p);
 }
 
 double AcneLaw::of_face(const glm::dvec3 (&corners)[3], glm::dvec3 normal) const {
@@ -125,7 +127,8 @@ double AcneLaw::of_face(const glm::dvec3 (&corners)[3], glm::dvec3 normal) const
   const double turned =
       std::asin(std::min(1.0, longest_offset_m_ / farthest)) + std::numbers::sqrt2 / frame_.resolution;
   const double angle = std::acos(std::min(1.0, h / farthest)) - turned;
-  return (farthest - h / std::cos(std::max(0.0, angle))) * frame_.window_depth_slope(farthest);
+  return (farthest - h / std::cos(std::max(0.0, angle))) *
+         frame_.tile_at(frame_.to_light(corners[0])).window_depth_slope(farthest);
 }
 
 }  // namespace noonmark

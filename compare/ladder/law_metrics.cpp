@@ -21,6 +21,16 @@ void raise(double& value, double candidate) {
   if (!(candidate <= value) && !std::isnan(value)) value = candidate;
 }
 
+// A step of window depth in metres, at the near or the far plane of the tile where it is the largest.
+double quantum_m(const LightFrame& frame, double quantum, double MapTile::*plane) {
+  double largest = 0;
+  for (int index = 0; index < frame.tiles; ++index) {
+    const MapTile tile = frame.tile(index);
+    raise(largest, quantum / tile.window_depth_slope(tile.*plane));
+  }
+  return largest;
+}
+
 struct Over {
   uint64_t counted = 0;
   double law_depth = 0, law_m = 0, quantum_m = 0;
@@ -38,7 +48,7 @@ Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>&
           if (!is_counted(in.ladder, i)) continue;
           ++so_far.counted;
           const glm::dvec3 p(in.receivers.position[i]);
-          const double slope = in.frame.window_depth_slope(in.frame.depth_m(in.frame.to_light(p)));
+          const double slope = in.frame.window_depth_slope(in.frame.to_light(p));
           raise(so_far.quantum_m, quantum / slope);
           if (in.ladder.truth()[i] == 0) continue;
           const double bias = law.at(i, p, in.receivers.normal[i]) + quantum / 2;
@@ -56,7 +66,7 @@ Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>&
       });
   // A law requires at least half a quantum, even if nothing is lit.
   raise(over.law_depth, quantum / 2);
-  raise(over.law_m, quantum / 2 / in.frame.window_depth_slope(in.frame.near_m));
+  raise(over.law_m, quantum_m(in.frame, quantum / 2, &MapTile::near_m));
   for (size_t i = 0; i < in.ladder.flags.size(); ++i) {  // in the picture's order: the sums are the same on any machine
     if (!is_counted(in.ladder, i)) continue;
     over.whole_area += areas[i];
@@ -70,7 +80,7 @@ Over over_receivers(const LawInput& in, const AcneLaw& law, const Image<double>&
 Over over_faces(const LawInput& in, const AcneLaw& law, double quantum) {
   Over over;
   over.law_depth = quantum / 2;
-  over.law_m = quantum / 2 / in.frame.window_depth_slope(in.frame.near_m);
+  over.law_m = quantum_m(in.frame, quantum / 2, &MapTile::near_m);
   for (const glm::uvec3& t : in.scene.triangles) {
     const glm::dvec3 corners[3] = {in.scene.positions[t.x], in.scene.positions[t.y], in.scene.positions[t.z]};
     const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -80,11 +90,12 @@ Over over_faces(const LawInput& in, const AcneLaw& law, double quantum) {
         in.frame.light().misses(in.frame, corners))
       continue;
     // The least of the slopes is at the corner farthest from the light.
-    double farthest = -std::numeric_limits<double>::infinity();
-    for (const glm::dvec3& corner : corners) farthest = std::max(farthest, in.frame.depth_m(in.frame.to_light(corner)));
+    double slope = std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& corner : corners)
+      slope = std::min(slope, in.frame.window_depth_slope(in.frame.to_light(corner)));
     const double bias = law.of_face(corners, normal) + quantum / 2;
     raise(over.law_depth, bias);
-    raise(over.law_m, bias / in.frame.window_depth_slope(farthest));
+    raise(over.law_m, bias / slope);
   }
   return over;
 }
@@ -150,11 +161,11 @@ std::map<std::string, double> measure_laws(const LawInput& in) {
   };
   const auto area = [&](Cause cause) { return measured(receivers.area[static_cast<size_t>(cause)]); };
   const double range_m = in.frame.far_m - in.frame.near_m;
-  return {{"texel_m", in.frame.uniform() ? in.frame.texel_m() : median_texel_m(in)},
+  return {{"texel_m", in.frame.uniform() ? in.frame.texel_m(glm::dvec3(0)) : median_texel_m(in)},
           {"map_range_m", range_m},
-          {"depth_quantum_m", in.frame.tile().depth == TileDepth::perspective
+          {"depth_quantum_m", in.frame.tile(0).depth == TileDepth::perspective
                                   ? measured(receivers.quantum_m)
-                                  : quantum / in.frame.window_depth_slope(in.frame.far_m)},
+                                  : quantum_m(in.frame, quantum, &MapTile::far_m)},
           {"acne_free_bias_law_depth", measured(receivers.law_depth)},
           {"acne_free_bias_law_m", measured(receivers.law_m)},
           {"acne_free_bias_scene_law_depth", faces.law_depth},

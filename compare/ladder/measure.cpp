@@ -44,8 +44,8 @@ double edge_displacement_pixels(const Ladder& ladder) {
 }
 
 // Converts a bias in window depth to metres of the map's depth measure, before `depth_m`.
-double bias_m(const LightFrame& frame, double bias, double depth_m) {
-  return depth_m - frame.depth_of_window(frame.window_depth(depth_m) - bias);
+double bias_m(const MapTile& tile, double bias, double depth_m) {
+  return depth_m - tile.depth_of_window(tile.window_depth(depth_m) - bias);
 }
 
 }  // namespace
@@ -54,8 +54,8 @@ double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
   if (in.bias.polygon_offset() || in.bias.moves_casters()) return std::numeric_limits<double>::infinity();
   const LightFrame& frame = in.frame;
   const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
-  const double sine = std::sqrt(1 - cosine * cosine);
-  const double w = frame.texel_m(light);
+  const MapTile tile = frame.tile_at(light);
+  const double w = tile.texel_m(light);
   // How far from P, across its ray, the centre of a tap's texel can lie. Flat map: texels along both axes. Cube map:
   // metres of the world, and half a texel's diagonal.
   double across = in.probe.pattern.reach_texels() * w * std::numbers::sqrt2;
@@ -69,16 +69,11 @@ double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
   // The offset along the normal. Along the light it reaches offset / cosine.
   const glm::dvec3 normal(in.receivers.normal[i]);
   const double offset = glm::dot(in.bias.moved_m(frame, in.receivers.position[i], normal), normal);
-  const double bias = bias_m(frame, in.bias.at(in.probe, i), frame.depth_m(light));
-  if (frame.parallel()) return bias + (across * sine + offset) / cosine;
-  // Rays spread. P's plane stands at the angle theta to P's ray. A ray at `angle` to P's ray meets that plane at the
-  // distance |P| cos(theta) / cos(theta + angle), or never if it is parallel to the plane.
-  const double distance = glm::length(light), theta = std::acos(cosine);
-  const double turned = theta + std::asin(std::min(1.0, across / distance));
-  const double slope = turned < std::numbers::pi / 2 ? distance * (cosine / std::cos(turned) - 1)
-                                                     : std::numeric_limits<double>::infinity();
-  const double along_ray = distance / frame.depth_m(light);  // 1 where depth is the distance
-  return bias * along_ray + slope + offset / cosine;
+  const double depth = tile.depth_m(light), distance = glm::length(light);
+  const LightRays rays = frame.light().rays();
+  const double along_ray = rays.start_at_light() ? distance / depth : 1;  // metres of the ray for a metre of depth
+  return bias_m(tile, in.bias.at(in.probe, i), depth) * along_ray + rays.rise_m(across, cosine, distance) +
+         offset / cosine;
 }
 
 Image<uint8_t> peter_panning_mask(const Ladder& ladder) {

@@ -30,14 +30,17 @@ void raise_error(double& value, double candidate) {
 struct ProbeCheck::Place {
   glm::dvec3 world, light;
   glm::dvec3 error;  // the error of each world coordinate
+  int tile = 0;      // in which the lookup reads; its texels, for a cube, may lie in others
 };
 
 ProbeCheck::ProbeCheck(const LookupEvidence& evidence, const ReceiverImage& receivers, const LightFrame& frame,
                        glm::dvec3 eye_m)
     : e_(evidence), receivers_(receivers), frame_(frame), eye_m_(eye_m), light_position_(glm::vec3(frame.origin_m)) {
   if (frame.map_shape() == MapShape::cube) return;
-  clip_ = frame.clip_from_world();
-  planes_ = glm::transpose(glm::inverse(glm::translate(clip_, light_position_)));
+  for (int tile = 0; tile < frame.tiles; ++tile) {
+    clip_.push_back(frame.clip_from_world(tile));
+    planes_.push_back(glm::transpose(glm::inverse(glm::translate(clip_.back(), light_position_))));
+  }
 }
 
 // P and the sum of the offsets on it. Each offset is a rounded amount in metres times a direction that the formula
@@ -50,12 +53,12 @@ ProbeCheck::Place ProbeCheck::looked_up(size_t i) const {
   if (e_.bias.moves_lookup()) {
     double amount = 2 * u;
     if (frame_.map_shape() == MapShape::cube) amount = 4 * u;
-    if (frame_.tile().depth == TileDepth::perspective) {
-      const glm::dvec3 light = frame_.to_light(at);
+    const glm::dvec3 light = frame_.to_light(at);
+    if (frame_.tile_at(light).depth == TileDepth::perspective) {
       amount = 3 * u + 5 * u * sum_of(glm::abs((at - frame_.origin_m) * frame_.forward)) / std::abs(light.z);
     }
     const in_bounds::Surface surface = bounded_surface(at, normal);
-    const double texel_m = frame_.texel_m(frame_.to_light(at));
+    const double texel_m = frame_.texel_m(light);
     for (const ActivePart& active : e_.bias.moving()) {
       const double amount_m = active.amount * texel_m;
       const bounded::vec3 way = active.part->formula.bounded_way(surface);
@@ -66,13 +69,14 @@ ProbeCheck::Place ProbeCheck::looked_up(size_t i) const {
     }
   }
   place.light = frame_.to_light(place.world);
+  place.tile = frame_.tile_of(place.light);
   return place;
 }
 
 // The error of one component of the direction to the light. If the shader computes it, it is a rounded difference
 // divided by a length, or multiplied by the length's inverse. For a directional light it is a uniform.
 double ProbeCheck::direction_error() const {
-  return frame_.parallel() ? 2 * u : u + length_of_difference + division + u;
+  return frame_.light().rays().have_one_direction() ? 2 * u : u + length_of_difference + division + u;
 }
 
 // The inputs of the formulas of the moving parts, with their float errors.
@@ -92,6 +96,10 @@ in_bounds::Surface ProbeCheck::bounded_surface(glm::dvec3 position, glm::dvec3 n
   return surface;
 }
 
+glm::dvec4 ProbeCheck::clip_of(const Place& place) const {
+  return clip_[static_cast<size_t>(place.tile)] * glm::dvec4(place.world, 1);
+}
+
 // Clip coordinates. Let S = sum |m_j p_j| over a row of the matrix. Rounding the row gives an error of u S, four
 // products and three sums give 4 u S, and P's own error gives |m_j| for each coordinate. If a coordinate is the
 // difference of far larger numbers, the error grows with S. The frame in double, with which it is compared, is rounded
@@ -101,12 +109,13 @@ in_bounds::Surface ProbeCheck::bounded_surface(glm::dvec3 position, glm::dvec3 n
 glm::dvec4 ProbeCheck::row_errors(const Place& place) const {
   constexpr double in_double = (6 + 7 + 6) * 0x1p-53;
   glm::dvec4 errors(0);
-  for (int row = 0; row < (frame_.tile().orthographic ? 3 : 4); ++row) {
-    double sum = std::abs(clip_[3][row]), moved = 0, exact = 0;
+  const glm::dmat4& clip = clip_[static_cast<size_t>(place.tile)];
+  for (int row = 0; row < (frame_.tile(place.tile).orthographic ? 3 : 4); ++row) {
+    double sum = std::abs(clip[3][row]), moved = 0, exact = 0;
     for (int j = 0; j < 3; ++j) {
-      sum += std::abs(clip_[j][row] * place.world[j]);
-      moved += std::abs(clip_[j][row]) * place.error[j];
-      exact += std::abs(clip_[j][row]) * (std::abs(place.world[j]) + std::abs(frame_.origin_m[j]));
+      sum += std::abs(clip[j][row] * place.world[j]);
+      moved += std::abs(clip[j][row]) * place.error[j];
+      exact += std::abs(clip[j][row]) * (std::abs(place.world[j]) + std::abs(frame_.origin_m[j]));
     }
     errors[row] = 5 * u * sum + moved + in_double * exact;
   }
@@ -118,10 +127,10 @@ glm::dvec4 ProbeCheck::row_errors(const Place& place) const {
 bool ProbeCheck::may_ask_nothing(const Place& place) const {
   constexpr double largest = std::numeric_limits<float>::max();
   if (frame_.map_shape() == MapShape::cube) {
-    const double depth = frame_.window_depth(glm::length(place.light));
+    const double depth = frame_.window_depth(place.light);
     return !(depth > std::numeric_limits<float>::min() + glm::length(place.error) / frame_.far_m) || !(depth < largest);
   }
-  const glm::dvec4 clip = clip_ * glm::dvec4(place.world, 1), error = row_errors(place);
+  const glm::dvec4 clip = clip_of(place), error = row_errors(place);
   if (!(clip.w > error.w)) return true;
   for (int row = 0; row < 3; ++row)
     if (!((std::abs(clip[row]) + error[row]) / (clip.w - error.w) < largest)) return true;
@@ -131,20 +140,21 @@ bool ProbeCheck::may_ask_nothing(const Place& place) const {
 // Window coordinates. The division adds the errors of both operands and its own rounding. Halving and adding one half
 // round once, and multiplying by the resolution rounds once more.
 void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) const {
-  const glm::dvec4 clip = clip_ * glm::dvec4(place.world, 1), row_error = row_errors(place);
+  const glm::dvec4 clip = clip_of(place), row_error = row_errors(place);
   const auto window = [&](int row) {
     const double ndc = clip[row] / clip.w;
     const double error = (row_error[row] + std::abs(ndc) * row_error[3]) / std::abs(clip.w) + division * std::abs(ndc);
     return std::pair((ndc + 1) / 2, error / 2 + u * std::abs((ndc + 1) / 2));
   };
   const LookupProbe& probe = e_.probe;
-  const double depth = frame_.window_depth(place.light.z);
+  const MapTile tile = frame_.tile(place.tile);
+  const double depth = frame_.window_depth(place.light);
   const double reference = std::abs(probe.reference[i] - depth);
-  raise_error(found.reference_m, reference / frame_.window_depth_slope(place.light.z));
+  raise_error(found.reference_m, reference / frame_.window_depth_slope(place.light));
   raise_error(found.excess, reference / window(2).second);
 
   constexpr double farthest = LookupProbe::farthest_texel;
-  const glm::dvec2 texels = frame_.map_texels(frame_.place(place.light));
+  const glm::dvec2 texels = frame_.map_texels(place.light);
   const glm::ivec2 texel = LookupProbe::floored(probe.map_texels[i]);
   for (int axis = 0; axis < 2; ++axis) {
     const auto [at, error] = window(axis);
@@ -154,7 +164,7 @@ void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) 
     raise_error(found.excess, std::abs(beside) / (frame_.resolution * (error + u * std::abs(at))));
   }
 
-  if (frame_.tile().depth == TileDepth::perspective && e_.bias.unit() != BiasUnit::depth) {
+  if (tile.depth == TileDepth::perspective && e_.bias.unit() != BiasUnit::depth) {
     const double expected = frame_.depth_per_bias_unit(e_.bias.unit(), place.light);
     const double axis = row_error[3] / std::abs(clip.w);  // w is the depth along the axis
     // The unit is a rounded constant divided by w, or by its rounded square.
@@ -171,7 +181,7 @@ void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) 
 void ProbeCheck::compare_cube(size_t i, const Place& place, ProbeErrors& found) const {
   const LookupProbe& probe = e_.probe;
   const double distance = glm::length(place.light);
-  const double expected = frame_.window_depth(distance);
+  const double expected = frame_.window_depth(place.light);
   const double reference = std::abs(probe.reference[i] - expected);
   const double moved = glm::dot(glm::abs(place.light), place.error) / (distance * frame_.far_m);
   raise_error(found.reference_m, reference * frame_.far_m);
@@ -243,15 +253,16 @@ void ProbeCheck::compare_gradient(size_t i, const Place& place, ProbeErrors& fou
   const glm::dvec4 plane(normal, -glm::dot(normal, way));
   // A rounded difference, a product and two sums, and the error of the place looked up.
   const double offset_error = 4 * u * sum_of(glm::abs(normal * way)) + glm::dot(glm::abs(normal), place.error);
+  const glm::dmat4& planes = planes_[static_cast<size_t>(place.tile)];
   double value[3], error[3];
   for (int row = 0; row < 3; ++row) {
     double sum = 0;
     value[row] = 0;
     for (int j = 0; j < 4; ++j) {
-      value[row] += planes_[j][row] * plane[j];
-      sum += std::abs(planes_[j][row] * plane[j]);
+      value[row] += planes[j][row] * plane[j];
+      sum += std::abs(planes[j][row] * plane[j]);
     }
-    error[row] = 5 * u * sum + std::abs(planes_[3][row]) * offset_error;
+    error[row] = 5 * u * sum + std::abs(planes[3][row]) * offset_error;
   }
   if (!(std::abs(value[2]) > error[2])) return;  // edge on within rounding: any slope is right
   for (int axis = 0; axis < 2; ++axis) {

@@ -31,6 +31,7 @@ class ProbeCheck {
   Place looked_up(size_t i) const;
   double direction_error() const;  // relative error of the shader's direction to the light
   in_bounds::Surface bounded_surface(glm::dvec3 position, glm::dvec3 normal) const;
+  glm::dvec4 clip_of(const Place& place) const;
   glm::dvec4 row_errors(const Place& place) const;
   bool may_ask_nothing(const Place& place) const;
   void compare_flat(size_t i, const Place& place, ProbeErrors& found) const;
@@ -42,8 +43,9 @@ class ProbeCheck {
   const ReceiverImage& receivers_;
   const LightFrame& frame_;
   glm::dvec3 eye_m_;
-  glm::dmat4 clip_;    // flat maps
-  glm::dmat4 planes_;  // flat maps: planes (normal, offset from the light's position in float) to clip space
+  // Of each tile of a flat map: clip space from the world; and from planes (normal, offset from the light's position in
+  // float).
+  std::vector<glm::dmat4> clip_, planes_;
   glm::dvec3 light_position_;
 };
 

@@ -17,7 +17,7 @@ class Directional final : public KindOfLight {
  public:
   std::string_view name() const override { return "directional"; }
   std::string_view help() const override { return "parallel rays and one orthographic map"; }
-  bool parallel_rays() const override { return true; }
+  LightRays rays() const override { return LightRays::parallel; }
 
   LightFrame axes(const Light& light) const override {
     LightFrame frame;
@@ -49,7 +49,7 @@ class Directional final : public KindOfLight {
     if (!(frame.extent_m > 0) || !std::isfinite(frame.extent_m))
       throw SettingConflict("map.extent_m",
                             fmt::format("the map's extent is {} m; set map.extent_m to more than 0", frame.extent_m));
-    const double w = frame.texel_m();
+    const double w = tile(frame, 0).texel_m({});
     // The texels, the matrix and the depths are all relative to the origin, so the whole grid moves together.
     if (map.snap) {
       const auto to_grid = [&](double along) { return std::round(along / w) * w - along; };
@@ -95,6 +95,12 @@ class Directional final : public KindOfLight {
   std::string_view frustum_caption() const override {
     return "What the map can see: green is near, orange-red is far, blue joins them, dashed where the scene is before "
            "it.";
+  }
+  std::vector<LightFact> facts(const LightFrame& frame, const Light& light) const override {
+    return {{"ray_direction", glm::dvec3(frame.ray_direction)},
+            {"angular_diameter_deg", light.angular_diameter_deg},
+            {"extent_m", frame.extent_m},
+            {"texel_m", tile(frame, 0).texel_m({})}};
   }
 };
 

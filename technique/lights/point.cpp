@@ -27,7 +27,7 @@ class Point final : public KindOfLight {
     lights::require_near_before_light(frame);
   }
 
-  int tiles() const override { return 6; }
+  int tiles(const MapSettings&) const override { return 6; }
   MapTile tile(const LightFrame& frame, int index) const override {
     const CubeFace& face = cube_face(index);
     return {.right = face.right,
@@ -41,7 +41,7 @@ class Point final : public KindOfLight {
             .resolution = frame.resolution,
             .corner = {0, index * frame.resolution}};
   }
-  int tile_of(glm::dvec3 place) const override { return cube_face_of(place); }
+  int tile_of(const LightFrame&, glm::dvec3 light) const override { return cube_face_of(light); }
   void texel_axes(const LightFrame&, glm::dvec3 light, glm::dvec3& right, glm::dvec3& up) const override {
     const CubeFace& face = cube_face(cube_face_of(light));
     right = glm::abs(face.right);

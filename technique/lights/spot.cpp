@@ -53,9 +53,13 @@ class Spot final : public KindOfLight {
     return glm::dot(glm::normalize(world - frame.origin_m), frame.forward) >= frame.cos_half_cone;
   }
 
+  std::optional<double> tan_half_cone(const LightFrame& frame) const override {
+    return std::sqrt(1 - frame.cos_half_cone * frame.cos_half_cone) / frame.cos_half_cone;
+  }
+
   // True if all corners are outside the same side of the square pyramid around the cone.
   bool misses(const LightFrame& frame, const glm::dvec3 (&corners)[3]) const override {
-    const double tangent = std::sqrt(1 - frame.cos_half_cone * frame.cos_half_cone) / frame.cos_half_cone;
+    const double tangent = *tan_half_cone(frame);
     for (int axis = 0; axis < 2; ++axis)
       for (int sign : {-1, 1}) {
         bool beyond = true;
@@ -74,6 +78,14 @@ class Spot final : public KindOfLight {
   std::string_view frustum_caption() const override {
     return "What the map can see: green is near, orange-red is far, blue joins them, yellow is the light's cone, "
            "pink is the light, dashed where the scene is before it.";
+  }
+  std::vector<LightFact> facts(const LightFrame& frame, const Light& light) const override {
+    std::vector<LightFact> facts = KindOfLight::facts(frame, light);
+    facts.push_back({"cone_deg", light.cone_deg});
+    facts.push_back({"cos_half_cone", frame.cos_half_cone});
+    facts.push_back({"tan_half_fov", frame.tan_half_fov});
+    facts.push_back({"shift_texels", frame.shift_texels});
+    return facts;
   }
 };
 

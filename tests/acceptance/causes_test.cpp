@@ -63,7 +63,7 @@ TEST(Wall, ShowsPeterPanningOfTheSizeOfLaw2) {
       // trace, and which of them are wrong.
       double measured = 0;
       uint64_t between = 0, behind = 0;
-      const double texel_on_floor = m.frame.texel_m() / to_light.y;
+      const double texel_on_floor = m.frame.texel_m(glm::dvec3(0)) / to_light.y;
       for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {
         const glm::vec3 p = m.receivers.position[i];
         if (m.receivers.primitive[i] >= 2 || !(m.ladder.flags[i] & flag_facing))

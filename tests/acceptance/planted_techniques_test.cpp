@@ -131,13 +131,14 @@ std::vector<Planted> defects() {
                  {"contract", "rounding_excess"}});
   // Snapping moves the frame of the map. If it is forgotten while the map is drawn, the map has another grid. With the
   // smallest possible bias, a difference of a quarter of a texel is visible.
-  all.push_back(
-      {"MapNotSnapped",
-       cubes({{"map.snap", "true"}}),
-       {.drawn_map = [](LightFrame& frame,
-                        MapSettings&) { frame.origin_m += 0.25 * frame.texel_m() * (frame.right + frame.up); }},
-       {{"precision", 1e-3, 0.004}, {"map_error_quanta", 2, 1000}},
-       {"contract", "rounding_excess"}});
+  all.push_back({"MapNotSnapped",
+                 cubes({{"map.snap", "true"}}),
+                 {.drawn_map =
+                      [](LightFrame& frame, MapSettings&) {
+                        frame.origin_m += 0.25 * frame.texel_m(glm::dvec3(0)) * (frame.right + frame.up);
+                      }},
+                 {{"precision", 1e-3, 0.004}, {"map_error_quanta", 2, 1000}},
+                 {"contract", "rounding_excess"}});
   // The same mistake in the lookup. Here the shift of the settings stands for a frame that was not moved.
   all.push_back(
       {"LookupNotSnapped",

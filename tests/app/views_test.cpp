@@ -32,7 +32,7 @@ TEST(DepthOfWindow, UndoesWindowDepth) {
     for (double t : {0.0, 0.1, 0.5, 0.999, 1.0}) {
       const double depth = f.near_m + t * (f.far_m - f.near_m);
       // The window depths of a spot light are close to 1. The digits that a double has left there are still 1e-12 m.
-      EXPECT_NEAR(f.depth_of_window(f.window_depth(depth)), depth, 1e-11) << scene;
+      EXPECT_NEAR(f.tile(0).depth_of_window(f.tile(0).window_depth(depth)), depth, 1e-11) << scene;
     }
   }
 }
@@ -107,7 +107,7 @@ TEST(MapPicture, IsLinearInMetresAndStandsUpright) {
     const LightFrame f = frame_of(scene, LightChoice::automatic, 4);
     Image<float> map(4, 4, 1);
     const auto stored = [&](double t) {
-      return static_cast<float>(f.window_depth(f.near_m + t * (f.far_m - f.near_m)));
+      return static_cast<float>(f.tile(0).window_depth(f.near_m + t * (f.far_m - f.near_m)));
     };
     map.at(0, 0) = stored(0.1);  // row 0 of a map has the lowest v, so this is the lower left corner of the picture
     map.at(1, 0) = stored(0.5);

@@ -53,7 +53,7 @@ TEST_F(GlTest, DepthOfATiltedPlane) {
             const glm::dvec2 centre = frame.texel_centre({i, j});
             const glm::dvec3 start = frame.to_world({centre, 0});
             const double z = glm::dot(normal, a - start) / glm::dot(normal, frame.forward);
-            worst = std::max(worst, std::abs(map.at(i, j) - frame.window_depth(z)));
+            worst = std::max(worst, std::abs(map.at(i, j) - frame.tile(0).window_depth(z)));
           }
         EXPECT_LE(worst, rasteriser_error + f.quantum / 2 + read_back_error)
             << f.name << " theta " << theta_deg << " phi " << phi_deg << ": " << worst * 0x1p24 << " x 2^-24";
@@ -169,7 +169,7 @@ TEST_F(GlTest, MapRowsRunUpwards) {
   const LightFrame frame = make_light_frame(scene, settings);
   const Image<float> map = renderer.read_map(renderer.render_map(frame, settings));
   const glm::dvec3 middle = frame.to_light({0.55, 0.2, 0.8});
-  const glm::ivec2 texel(glm::floor((glm::dvec2(middle) + 2.0) / frame.texel_m()));
+  const glm::ivec2 texel(glm::floor((glm::dvec2(middle) + 2.0) / frame.texel_m(glm::dvec3(0))));
   EXPECT_LT(map.at(texel.x, texel.y), 1.0f);
   EXPECT_EQ(map.at(texel.x, 127 - texel.y), 1.0f);
   EXPECT_EQ(map.at(127 - texel.x, texel.y), 1.0f);

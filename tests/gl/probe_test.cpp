@@ -105,8 +105,8 @@ TEST_F(GlProbeTest, IsNearTheExactPlaces) {
         }
         ++seen;
         const double z = kind == LightKind::spot ? p.z : 1;
-        const double steeper = std::max(1.0, frame.window_depth_slope(frame.depth_m(p)));
-        ASSERT_NEAR(probe.reference[i], frame.window_depth(frame.depth_m(p)), steeper * float_error);
+        const double steeper = std::max(1.0, frame.window_depth_slope(p));
+        ASSERT_NEAR(probe.reference[i], frame.window_depth(p), steeper * float_error);
         const double n_dot_l = glm::dot(N, frame.direction_to_light(P));
         ASSERT_NEAR(probe.n_dot_l[i], n_dot_l, float_error);
         const double bias_unit = frame.depth_per_bias_unit(unit, p);
@@ -161,7 +161,7 @@ TEST_F(GlProbeTest, GradientIsThePlanes) {
           glm::normalize(glm::cross(N, std::abs(N.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
       const auto seen_at = [&](glm::dvec3 world) {
         const glm::dvec3 p = frame.to_light(world);
-        return glm::dvec3(frame.map_texels(frame.place(p)), frame.window_depth(frame.depth_m(p)));
+        return glm::dvec3(frame.map_texels(frame.place(p)), frame.window_depth(p));
       };
       constexpr double step_m = 1e-3;
       const glm::dvec3 o = seen_at(P), a = seen_at(P + step_m * side) - o,

@@ -62,7 +62,7 @@ struct Valley {
     return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
   }
 
-  double w() const { return frame.texel_m(); }
+  double w() const { return frame.texel_m(glm::dvec3(0)); }
   double norm_1(glm::dvec3 n) const { return std::abs(glm::dot(n, frame.right)) + std::abs(glm::dot(n, frame.up)); }
 };
 
@@ -85,7 +85,7 @@ void add_acne(const Valley& v, double offset_m, std::mt19937& random, Acne& foun
     points.push_back({p, v.holds(first, p) ? first : first + 1});
   }
   const ReceiverImage receivers = test::receivers_at(v.scene, points, {0, 1, 0}, true);
-  const Bias bias = bias_of({{"normal_offset", offset_m / v.frame.texel_m()}});
+  const Bias bias = bias_of({{"normal_offset", offset_m / v.frame.texel_m(glm::dvec3(0))}});
   ReceiverImage moved = receivers;
   for (size_t i = 0; i < moved.position.size(); ++i)
     moved.position[i] = glm::vec3(bias.looked_up(v.frame, receivers.position[i], receivers.normal[i]));
@@ -176,7 +176,8 @@ TEST(Law3Crease, LeavesAStripAtTheLitFootOfAWall) {
                       std::nullopt);
     const glm::dvec3 wall_normal(0, 0, -1), floor_normal(0, 1, 0);
     const auto reach = [&](glm::dvec3 n) {
-      return 0.5 * m.frame.texel_m() * (std::abs(glm::dot(n, m.frame.right)) + std::abs(glm::dot(n, m.frame.up)));
+      return 0.5 * m.frame.texel_m(glm::dvec3(0)) *
+             (std::abs(glm::dot(n, m.frame.right)) + std::abs(glm::dot(n, m.frame.up)));
     };
     uint64_t acne = 0, outside = 0;
     for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {

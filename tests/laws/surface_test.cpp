@@ -44,7 +44,7 @@ TEST(Law4, EveryAliasedTapHasATrueEdgeNear) {
     // size of the border, which is 200 * 2^-22 texels.
     EXPECT_LE(metric(m, "edge_displacement_texels"), std::numbers::sqrt2 / 2 + 200 * 0x1p-22);
     const test::LightBins bins(m.scene, m.frame);
-    const double w = m.frame.texel_m();
+    const double w = m.frame.texel_m(glm::dvec3(0));
     uint64_t checked = 0, other = 0;
     for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
       const bool light = m.ladder[Cause::aliasing_light][i] != 0;

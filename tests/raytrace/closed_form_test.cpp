@@ -140,13 +140,14 @@ class Comparison {
         tracer_(model_.scene),
         error_(ray_error_m(model_.scene)) {
     // The rounding of the depth to float, and the rounding in double of the plane that the depth is computed from.
-    depth_step_ = 0x1p-24 + 1e-12 * (inner_.size_m() * frame_.window_depth_slope(frame_.near_m));
+    depth_step_ = 0x1p-24 + 1e-12 * (inner_.size_m() * frame_.tile(0).window_depth_slope(frame_.near_m));
     for (size_t s = 0; s < model_.inner.size(); ++s) {
       if (model_.inner[s].kind != ShapeKind::sphere) continue;
       const double least = model_.inner[s].radius, most = model_.outer[s].radius;
       round_step_ = std::max(round_step_, 2 * std::sqrt(most * most - least * least));
       const double distance = glm::length(frame_.origin_m - model_.inner[s].at);
-      light_in_band_ |= !frame_.parallel() && distance > least - error_ && distance < most + error_;
+      light_in_band_ |=
+          !frame_.light().rays().have_one_direction() && distance > least - error_ && distance < most + error_;
     }
   }
 

@@ -39,7 +39,7 @@ void expect_acne_only(const Scene& scene, uint32_t seed, const Lone& lone = {}) 
     EXPECT_EQ(sum.differ, 0u);
     EXPECT_LE(static_cast<double>(sum.ambiguous), lone.most_ambiguous * static_cast<double>(sum.facing));
     for (double bias : {0.0, 0.02, 0.5}) {
-      const Judged::Causes causes = j.causes(bias * j.frame.texel_m() * 10, chosen);
+      const Judged::Causes causes = j.causes(bias * j.frame.texel_m(glm::dvec3(0)) * 10, chosen);
       acne += causes[at(Cause::acne)];
       EXPECT_EQ(causes[at(Cause::none)] + causes[at(Cause::acne)], sum.taps) << "bias " << bias;
     }
@@ -249,8 +249,8 @@ TEST_P(SphereOnFloor, AcneOnTheSphereAndAliasingAtItsShadowsEdge) {
           }
           // The closed form: the sphere's shadow in the light's plane is a circle.
           const double off = std::abs(glm::length(place - centre) - 1);
-          outside_the_circle +=
-              centre_y >= 1 && tap.exact_lit != tap.texel_lit && off > slack + j.frame.texel_m() * std::sqrt(0.5);
+          outside_the_circle += centre_y >= 1 && tap.exact_lit != tap.texel_lit &&
+                                off > slack + j.frame.texel_m(glm::dvec3(0)) * std::sqrt(0.5);
           const float deep = static_cast<float>(0.3 / (frame.far_m - frame.near_m));
           const bool lit = !(j.probe.reference[i] - deep > tap.depth);
           panning_in_light += j.kernel == 1 && j.truth.lit[i] && tap_cause(tap, lit) == Cause::peter_panning;

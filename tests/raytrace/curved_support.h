@@ -70,7 +70,7 @@ inline LightFrame aligned(const Scene& scene, int resolution, std::mt19937& rand
   frame.right = std::cos(angle) * right + std::sin(angle) * up;
   frame.up = std::cos(angle) * up - std::sin(angle) * right;
   frame.extent_m *= 1.6;  // sqrt(2) for the turn, and three texels of a kernel's reach
-  frame.origin_m += frame.texel_m() * (unit(random) * frame.right + unit(random) * frame.up);
+  frame.origin_m += frame.texel_m(glm::dvec3(0)) * (unit(random) * frame.right + unit(random) * frame.up);
   return frame;
 }
 
@@ -87,13 +87,13 @@ struct Judged {
   glm::dvec2 place(size_t i, int tap) const {  // the exact place of the tap
     const int r = kernel / 2;
     return glm::dvec2(frame.to_light(receivers.position[i])) +
-           glm::dvec2(tap % kernel - r, tap / kernel - r) * frame.texel_m();
+           glm::dvec2(tap % kernel - r, tap / kernel - r) * frame.texel_m(glm::dvec3(0));
   }
   glm::dvec2 texel_centre(size_t i, int tap) const {  // of the texel that the tap snaps to
     return frame.texel_centre(probe.texel(i, tap));
   }
   // How far from a receiver its taps' texel centres may lie.
-  double reach() const { return frame.texel_m() * std::sqrt(2.0) * (kernel / 2 + 0.5); }
+  double reach() const { return frame.texel_m(glm::dvec3(0)) * std::sqrt(2.0) * (kernel / 2 + 0.5); }
   Tap tap(size_t i, int number) const { return tap_of(probe, lookup.taps, MapSettings{}, lookup.exact_map, i, number); }
 
   using Causes = std::array<uint64_t, cause_count>;
@@ -254,7 +254,7 @@ struct Explained {
 inline Explained explain_aliasing(const Judged& j, const TrueEdges& edges,
                                   const std::function<bool(size_t)>& chosen = nullptr) {
   Explained sum;
-  const double half_diagonal = j.frame.texel_m() * (std::sqrt(0.5) + 1e-6);
+  const double half_diagonal = j.frame.texel_m(glm::dvec3(0)) * (std::sqrt(0.5) + 1e-6);
   for (size_t i = 0; i < j.truth.facing.size(); ++i) {
     if (!j.counted(i) || (chosen && !chosen(i))) continue;
     for (int t = 0; t < j.kernel * j.kernel; ++t) {

@@ -212,7 +212,7 @@ inline LookupProbe probe_of(const ReceiverImage& receivers, const LightFrame& fr
   }
   for (size_t i = 0; i < receivers.primitive.size(); ++i) {
     const glm::dvec3 p = frame.to_light(receivers.position[i]);
-    probe.reference[i] = static_cast<float>(frame.window_depth(frame.depth_m(p)));
+    probe.reference[i] = static_cast<float>(frame.window_depth(p));
     probe.n_dot_l[i] =
         static_cast<float>(glm::dot(glm::dvec3(receivers.normal[i]), frame.direction_to_light(receivers.position[i])));
     if (frame.kind != LightKind::point) {

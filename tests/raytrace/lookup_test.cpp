@@ -24,7 +24,7 @@ struct Looked {
     return lookup.taps.taps[i * taps + static_cast<size_t>(tap)];
   }
   glm::ivec2 texel(size_t i) const { return probe.texel(i, probe.taps() / 2); }  // of the middle tap
-  double edge_distance_m(size_t i) const { return lookup.edge_distance_texels[i] * frame.texel_m(); }
+  double edge_distance_m(size_t i) const { return lookup.edge_distance_texels[i] * frame.texel_m(glm::dvec3(0)); }
   bool sure(size_t i) const { return truth.facing[i] && !truth.ambiguous[i]; }
 };
 
@@ -195,7 +195,7 @@ TEST(OwnSurface, TheLitFootOfAWallIsLit) {
   std::uniform_real_distribution<double> in(0, 1);
   std::vector<Placed> points;
   for (int i = 0; i < 3000; ++i) {
-    const glm::dvec3 p(static_cast<float>(-0.5 * frame.texel_m() * in(random)), 0,
+    const glm::dvec3 p(static_cast<float>(-0.5 * frame.texel_m(glm::dvec3(0)) * in(random)), 0,
                        static_cast<float>(2.4 * in(random)-1.2));
     points.push_back({p, primitive_at(scene, p, {0, 1, 0})});
   }
@@ -242,7 +242,7 @@ bool edge_between(const LightBins& brute, uint32_t own, glm::dvec2 from, glm::dv
 void expect_edges_where_taps_differ(const Scene& scene, int resolution, int count, double dark_exceptions = 0) {
   const Looked looked = look_up(scene, resolution, 1, count);
   const LightBins brute(scene, looked.frame);
-  const double reach = looked.frame.texel_m() / std::sqrt(2.0) * (1 + 0x1p-23);  // the distance is a float
+  const double reach = looked.frame.texel_m(glm::dvec3(0)) / std::sqrt(2.0) * (1 + 0x1p-23);  // the distance is a float
   int differ = 0, without_edge = 0, dark_without_edge = 0;
   for (size_t i = 0; i < looked.receivers.primitive.size(); ++i) {
     if (!looked.truth.facing[i]) continue;
@@ -322,7 +322,7 @@ TEST(Lookup, ATexelsCentreOnAnOutlineIsSureOnlyAsTheMapHasIt) {
   light_from_above(scene);
   scene.map = MapVolume{.extent_m = 8, .near_m = 2, .far_m = 12};
   const Looked looked = look_up(scene, 32, 1, 30000);
-  const double floor = looked.frame.window_depth(10);
+  const double floor = looked.frame.tile(0).window_depth(10);
   int dark = 0, lit = 0;
   for (size_t i = 0; i < looked.receivers.primitive.size(); ++i) {
     const glm::ivec2 texel = looked.texel(i);

@@ -42,7 +42,7 @@ void expect_map(const Image<float>& map, const LightFrame& frame, const Expected
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const double z = expected(frame.texel_centre({x, y})),
-                   depth = std::isfinite(z) && z <= frame.far_m ? frame.window_depth(z) : 1;
+                   depth = std::isfinite(z) && z <= frame.far_m ? frame.tile(0).window_depth(z) : 1;
       if (!(std::abs(map.at(x, y) - depth) <= tolerance) && ++wrong <= 3) {
         ADD_FAILURE() << "texel " << x << ' ' << y << ": " << map.at(x, y) << ", not " << depth;
       }
@@ -81,7 +81,7 @@ TEST(ExactMap, PolygonOffsetOfAPlaneIsItsFormula) {
       const double unit = 0x1p-16;
       const double steepest = std::tan(glm::radians(theta)) *
                               std::max(std::abs(std::cos(glm::radians(phi))), std::abs(std::sin(glm::radians(phi))));
-      const double offset = 1.5 * steepest * frame.texel_m() / (frame.far_m - frame.near_m) + 8 * unit;
+      const double offset = 1.5 * steepest * frame.texel_m(glm::dvec3(0)) / (frame.far_m - frame.near_m) + 8 * unit;
       const Image<float> plain = whole_map(scene, frame), moved = whole_map(scene, frame, {}, bias, unit);
       int covered = 0;
       for (size_t i = 0; i < plain.size(); ++i) {
@@ -191,7 +191,7 @@ TEST(ExactMap, BuiltinScenesAgreeWithBruteForce) {
           for (int x = 0; x < map.width; ++x) {
             const glm::dvec2 centre = frame.texel_centre({x, y});
             const LightBins::Hit hit = brute.first_hit(centre, frame.near_m, kept);
-            const double depth = hit.z <= frame.far_m ? frame.window_depth(hit.z) : 1;
+            const double depth = hit.z <= frame.far_m ? frame.tile(0).window_depth(hit.z) : 1;
             if (std::abs(map.at(x, y) - depth) <= depth_rounding) continue;
             bool at_an_edge = false;  // within the ray's error of an edge the depth of either side is right
             const double reach = 1e-6 * brute.size_m();

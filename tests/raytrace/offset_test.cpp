@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 Bias offset_by(const LightFrame& frame, double metres) {
-  return bias_of({{"normal_offset", metres / frame.texel_m()}});
+  return bias_of({{"normal_offset", metres / frame.texel_m(glm::dvec3(0))}});
 }
 
 Bias constant_of(float depth) { return bias_of({{"constant", depth}}); }
@@ -136,7 +136,7 @@ TEST_F(PlateOnFloor, MovedTapsAreThoseOfTheClosedForm) {
     for (size_t i = 0; i < points.size(); ++i) {
       const glm::dvec3 p = receivers.position[i], moved = bias.looked_up(frame, p, {0, 1, 0});
       for (int tap = 0; tap < 9; ++tap) {
-        const glm::dvec2 o = glm::dvec2(tap % 3 - 1, tap / 3 - 1) * frame.texel_m();
+        const glm::dvec2 o = glm::dvec2(tap % 3 - 1, tap / 3 - 1) * frame.texel_m(glm::dvec3(0));
         const glm::dvec3 exact = on_floor(glm::dvec2(frame.to_light(p)) + o),
                          elsewhere = on_floor(glm::dvec2(frame.to_light(moved)) + o);
         if (looked.truth.ambiguous[i] || looked.ambiguous(i, tap)) continue;

@@ -164,7 +164,7 @@ TEST(BuiltinScenes, TheCameraSeesThem) {
 
 bool inside(const LightFrame& f, glm::dvec3 world, bool depth_too = true) {
   const glm::dvec3 p = f.to_light(world);
-  if (!f.parallel()) {
+  if (f.light().rays().start_at_light()) {
     const glm::dvec3 a = glm::abs(p);
     const double z = f.kind == LightKind::spot ? p.z : std::max({a.x, a.y, a.z});  // what the face's planes clip
     const bool across = f.kind == LightKind::point || std::max(a.x, a.y) <= z * f.tan_half_fov;
@@ -190,7 +190,7 @@ TEST(BuiltinScenes, TheLightsVolumeHoldsWhatThrowsAndTakesShadows) {
       EXPECT_TRUE(part_inside(scene, f, part)) << scene.name << ' ' << part.name;
       const auto floor =
           std::find_if(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return p.name == "floor"; });
-      if (floor == scene.parts.end() || scene.name == "cube-room" || !f.parallel()) continue;
+      if (floor == scene.parts.end() || scene.name == "cube-room" || f.light().rays().start_at_light()) continue;
       const double floor_y = corner(scene, floor->first_triangle, 0).y;
       for (uint32_t t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t)
         for (int i = 0; i < 3; ++i) {  // where this corner's shadow falls on the floor
@@ -258,7 +258,7 @@ TEST(BuiltinScenes, EveryKindOfLightHasSomethingToDoInEveryScene) {
         nearest = std::min(nearest, glm::length(middle - f.origin_m));
       }
       EXPECT_GT(facing, 0u) << what;
-      if (f.parallel()) continue;
+      if (!f.light().rays().start_at_light()) continue;
       EXPECT_GT(nearest, 0.5) << what << ": the light is too near to a surface";
       EXPECT_GT(f.near_m, f.far_m / 200) << what << ": near is too small, so most depths lie before the scene";
     }
@@ -281,7 +281,7 @@ TEST(BuiltinScenes, TheSpotRoomsTexelsAndDepthStepsGrowWithDistance) {
   }
   EXPECT_GT(f.texel_m({0, 0, far_z}) / f.texel_m({0, 0, near_z}), 3);
   // One step of window depth, in metres, grows with the square of the distance. So does a bias in the unit depth.
-  EXPECT_GT(f.window_depth_slope(near_z) / f.window_depth_slope(far_z), 9);
+  EXPECT_GT(f.tile(0).window_depth_slope(near_z) / f.tile(0).window_depth_slope(far_z), 9);
 }
 
 TEST(BuiltinScenes, ThePointRoomIsTheTutorialsRoom) {

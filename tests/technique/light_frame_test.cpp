@@ -84,18 +84,18 @@ TEST(LightFrame, MatrixAgreesWithPlacesAndDepth) {
     const glm::dvec3 p = random_point(random, 10);
     const glm::dvec3 light = f.to_light(p);
     EXPECT_LT(glm::length(f.to_world(light) - p), 20 * rounding_m);
-    const glm::dvec4 clip = f.clip_from_world() * glm::dvec4(p, 1);
+    const glm::dvec4 clip = f.clip_from_world(0) * glm::dvec4(p, 1);
     EXPECT_EQ(clip.w, 1);
     EXPECT_NEAR(clip.x, light.x / (f.extent_m / 2), rounding_m);
     EXPECT_NEAR(clip.y, light.y / (f.extent_m / 2), rounding_m);
-    EXPECT_NEAR(clip.z / 2 + 0.5, f.window_depth(light.z), rounding_m);
+    EXPECT_NEAR(clip.z / 2 + 0.5, f.tile(0).window_depth(light.z), rounding_m);
   }
 }
 
 TEST(LightFrame, DepthRunsFromNearToFarAlongTheLight) {
   const LightFrame f = make_light_frame(scene_lit_from({-2, 4, -1}, {0, 0, 0}), {});
-  EXPECT_EQ(f.window_depth(f.near_m), 0);
-  EXPECT_EQ(f.window_depth(f.far_m), 1);
+  EXPECT_EQ(f.tile(0).window_depth(f.near_m), 0);
+  EXPECT_EQ(f.tile(0).window_depth(f.far_m), 1);
   EXPECT_NEAR(f.to_light({0, 0, 0}).z, std::sqrt(21.0), rounding_m);
   EXPECT_NEAR(f.to_light(f.origin_m).z, 0, rounding_m);
 }
@@ -109,21 +109,21 @@ TEST(LightFrame, TexelCentresAreWhereTheSamplerPutsThem) {
          {glm::ivec2(0, 0), glm::ivec2(resolution - 1, 0), glm::ivec2(-3, 5), glm::ivec2(4000, -1)}) {
       const glm::dvec2 c = f.texel_centre(texel);
       // The uv of the centre by the matrix, times the resolution, is the texel's index plus 1/2.
-      const glm::dvec4 clip = f.clip_from_world() * glm::dvec4(f.to_world({c.x, c.y, 3}), 1);
+      const glm::dvec4 clip = f.clip_from_world(0) * glm::dvec4(f.to_world({c.x, c.y, 3}), 1);
       EXPECT_NEAR((clip.x / 2 + 0.5) * resolution, texel.x + 0.5, 1e-9);
       EXPECT_NEAR((clip.y / 2 + 0.5) * resolution, texel.y + 0.5, 1e-9);
     }
-    EXPECT_DOUBLE_EQ(f.texel_centre({1, 0}).x - f.texel_centre({0, 0}).x, f.texel_m());
-    EXPECT_DOUBLE_EQ(f.texel_m(), 8.0 / resolution);
+    EXPECT_DOUBLE_EQ(f.texel_centre({1, 0}).x - f.texel_centre({0, 0}).x, f.texel_m(glm::dvec3(0)));
+    EXPECT_DOUBLE_EQ(f.texel_m(glm::dvec3(0)), 8.0 / resolution);
   }
 }
 
 TEST(LightFrame, BiasUnitsAreOneLengthInThreeNames) {
   const LightFrame f = make_light_frame(scene_lit_from({-2, 4, -1}, {0, 0, 0}), {});
   const double metres = 0.25;
-  const double moved = f.window_depth(3 + metres) - f.window_depth(3);
+  const double moved = f.tile(0).window_depth(3 + metres) - f.tile(0).window_depth(3);
   EXPECT_NEAR(metres * f.depth_per_bias_unit(BiasUnit::m, glm::dvec3(0)), moved, 1e-15);
-  EXPECT_NEAR(metres / f.texel_m() * f.depth_per_bias_unit(BiasUnit::texel, glm::dvec3(0)), moved, 1e-15);
+  EXPECT_NEAR(metres / f.texel_m(glm::dvec3(0)) * f.depth_per_bias_unit(BiasUnit::texel, glm::dvec3(0)), moved, 1e-15);
   EXPECT_EQ(f.depth_per_bias_unit(BiasUnit::depth, glm::dvec3(0)), 1);
 }
 
@@ -155,27 +155,27 @@ TEST(LightFrame, TheShiftMovesTheGridAndNothingElse) {
     settings.map.shift_u_texels = shift.x;
     settings.map.shift_v_texels = shift.y;
     const LightFrame moved = make_light_frame(scene, settings);
-    EXPECT_EQ(moved.texel_m(), still.texel_m());
+    EXPECT_EQ(moved.texel_m(glm::dvec3(0)), still.texel_m(glm::dvec3(0)));
     EXPECT_EQ(moved.forward, still.forward);
     EXPECT_EQ(moved.ray_direction, still.ray_direction);
 
     const glm::dvec3 p = random_point(random, 10);
     const glm::dvec3 before = still.to_light(p), after = moved.to_light(p);
-    EXPECT_NEAR(after.x, before.x - shift.x * still.texel_m(), rounding_m);
-    EXPECT_NEAR(after.y, before.y - shift.y * still.texel_m(), rounding_m);
+    EXPECT_NEAR(after.x, before.x - shift.x * still.texel_m(glm::dvec3(0)), rounding_m);
+    EXPECT_NEAR(after.y, before.y - shift.y * still.texel_m(glm::dvec3(0)), rounding_m);
     EXPECT_NEAR(after.z, before.z, rounding_m);
-    const glm::dvec4 clip = moved.clip_from_world() * glm::dvec4(p, 1);
+    const glm::dvec4 clip = moved.clip_from_world(0) * glm::dvec4(p, 1);
     EXPECT_NEAR(clip.x, after.x / (moved.extent_m / 2), rounding_m);
     EXPECT_NEAR(clip.y, after.y / (moved.extent_m / 2), rounding_m);
-    EXPECT_NEAR(clip.z / 2 + 0.5, moved.window_depth(before.z), rounding_m);
+    EXPECT_NEAR(clip.z / 2 + 0.5, moved.tile(0).window_depth(before.z), rounding_m);
     // From a texel's centre to its place in the world, and back through the matrix to the middle of that texel.
     const glm::ivec2 texel(random() % 3000, random() % 3000);
     const glm::dvec2 c = moved.texel_centre(texel);
     const glm::dvec3 world = moved.to_world({c.x, c.y, 3});
     const glm::dvec2 old = still.texel_centre(texel);
-    EXPECT_NEAR(still.to_light(world).x, old.x + shift.x * still.texel_m(), rounding_m);
-    EXPECT_NEAR(still.to_light(world).y, old.y + shift.y * still.texel_m(), rounding_m);
-    const glm::dvec4 back = moved.clip_from_world() * glm::dvec4(world, 1);
+    EXPECT_NEAR(still.to_light(world).x, old.x + shift.x * still.texel_m(glm::dvec3(0)), rounding_m);
+    EXPECT_NEAR(still.to_light(world).y, old.y + shift.y * still.texel_m(glm::dvec3(0)), rounding_m);
+    const glm::dvec4 back = moved.clip_from_world(0) * glm::dvec4(world, 1);
     EXPECT_NEAR((back.x / 2 + 0.5) * moved.resolution, texel.x + 0.5, 1e-8);
     EXPECT_NEAR((back.y / 2 + 0.5) * moved.resolution, texel.y + 0.5, 1e-8);
   }
@@ -204,7 +204,7 @@ TEST(LightFrame, FittedVolumeHoldsEveryVertexInTheFloatMatrixToo) {
       scene.light.position_m = random_point(random, 30);
       scene.light.target_m = random_point(random, 3);
       const LightFrame f = make_light_frame(scene, {});
-      const glm::mat4 matrix(f.clip_from_world());
+      const glm::mat4 matrix(f.clip_from_world(0));
       glm::vec4 reach(0);
       for (const glm::vec3& p : scene.positions) reach = glm::max(reach, glm::abs(matrix * glm::vec4(p, 1)));
       EXPECT_LE(reach.x, 1) << builtin.name;

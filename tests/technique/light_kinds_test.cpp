@@ -62,7 +62,7 @@ TEST(Tiles, CoverTheMapAndKnowTheirTexels) {
                                                      kinds_of_light().begin());
       ASSERT_EQ(&kind_of_light(which), kind);
       const LightFrame f = random_frame(random, which);
-      ASSERT_EQ(f.map_size().y, f.tiles() * f.resolution);
+      ASSERT_EQ(f.map_size().y, f.tiles * f.resolution);
       const glm::ivec2 texel(static_cast<int>(random() % static_cast<unsigned>(f.map_size().x)),
                              static_cast<int>(random() % static_cast<unsigned>(f.map_size().y)));
       const glm::dvec3 place = f.texel_place(texel);
@@ -90,9 +90,9 @@ TEST_P(Kinds, MatrixAgreesWithPlacesAndDepths) {
     EXPECT_NEAR((clip.z / clip.w + 1) / 2, f.far_m * (along - f.near_m) / (along * (f.far_m - f.near_m)),
                 1e-10);  // differences of numbers that are larger by up to far / near
     if (f.kind == LightKind::spot) {
-      EXPECT_NEAR((clip.z / clip.w + 1) / 2, f.window_depth(f.depth_m(light)), 1e-10);
+      EXPECT_NEAR((clip.z / clip.w + 1) / 2, f.window_depth(light), 1e-10);
     } else {
-      EXPECT_NEAR(f.window_depth(f.depth_m(light)), glm::length(world - f.origin_m) / f.far_m, rounding);
+      EXPECT_NEAR(f.window_depth(light), glm::length(world - f.origin_m) / f.far_m, rounding);
     }
     EXPECT_NEAR((clip.x / clip.w + 1) / 2 * f.resolution, texels.x, 1e-8);  // of up to thousands of texels
     EXPECT_NEAR((clip.y / clip.w + 1) / 2 * f.resolution + face * f.resolution, texels.y, 1e-8);
@@ -160,15 +160,15 @@ TEST_P(Kinds, DepthRunsFromNearToFarWithItsSlope) {
   std::mt19937 random(5);
   for (int i = 0; i < 200; ++i) {
     const LightFrame f = random_frame(random, GetParam());
-    EXPECT_NEAR(f.window_depth(f.far_m), 1, rounding);
-    EXPECT_NEAR(f.window_depth(f.kind == LightKind::point ? 0 : f.near_m), 0, rounding);
+    EXPECT_NEAR(f.tile(0).window_depth(f.far_m), 1, rounding);
+    EXPECT_NEAR(f.tile(0).window_depth(f.kind == LightKind::point ? 0 : f.near_m), 0, rounding);
     const double z = random_in(random, f.near_m, f.far_m), h = 1e-5 * z;
-    const double slope = (f.window_depth(z + h) - f.window_depth(z - h)) / (2 * h);
-    EXPECT_NEAR(f.window_depth_slope(z) / slope, 1, 1e-8);  // h^2, and 2^-53 / h of cancellation
-    EXPECT_NEAR(f.depth_of_window(f.window_depth(z)), z, 1e-9);
+    const double slope = (f.tile(0).window_depth(z + h) - f.tile(0).window_depth(z - h)) / (2 * h);
+    EXPECT_NEAR(f.tile(0).window_depth_slope(z) / slope, 1, 1e-8);  // h^2, and 2^-53 / h of cancellation
+    EXPECT_NEAR(f.tile(0).depth_of_window(f.tile(0).window_depth(z)), z, 1e-9);
     const glm::dvec3 p(0.1, -0.2, z);
     EXPECT_EQ(f.depth_per_bias_unit(BiasUnit::depth, p), 1);
-    EXPECT_DOUBLE_EQ(f.depth_per_bias_unit(BiasUnit::m, p), f.window_depth_slope(f.depth_m(p)));
+    EXPECT_DOUBLE_EQ(f.depth_per_bias_unit(BiasUnit::m, p), f.window_depth_slope(p));
     EXPECT_DOUBLE_EQ(f.depth_per_bias_unit(BiasUnit::texel, p) / f.depth_per_bias_unit(BiasUnit::m, p), f.texel_m(p));
   }
 }
@@ -263,7 +263,7 @@ TEST(Snap, KeepsTheGridInTheWorld) {
     Settings unsnapped = settings;
     unsnapped.map.snap = false;
     const glm::dvec3 shift = moved.to_light(make_light_frame(scene, unsnapped).origin_m);
-    EXPECT_LE(std::max(std::abs(shift.x), std::abs(shift.y)), moved.texel_m() / 2 + rounding);
+    EXPECT_LE(std::max(std::abs(shift.x), std::abs(shift.y)), moved.texel_m(glm::dvec3(0)) / 2 + rounding);
     EXPECT_NEAR(shift.z, 0, rounding);
     // Without snapping the grid moves by any part of a texel.
     if (i > 0) continue;

@@ -24,6 +24,7 @@ glm::dvec3 random_way(std::mt19937& random) {
 LightFrame random_frame(std::mt19937& random, LightKind kind) {
   LightFrame f;
   f.kind = kind;
+  f.tiles = f.light().tiles(MapSettings{});
   f.origin_m = 3.0 * random_way(random);
   if (kind != LightKind::point) {
     f.forward = random_way(random);
@@ -62,10 +63,10 @@ Plane random_plane(std::mt19937& random, const LightFrame& f) {
 
 // The window depth at which the plane meets the ray through a place.
 double depth_at(const LightFrame& f, const Plane& plane, glm::dvec3 place) {
-  const glm::dvec3 from = f.parallel() ? f.to_world({place.x, place.y, 0}) : f.origin_m;
-  const glm::dvec3 way = f.parallel() ? f.forward : f.to_world(place) - f.origin_m;
+  const glm::dvec3 from = f.light().rays().have_one_direction() ? f.to_world({place.x, place.y, 0}) : f.origin_m;
+  const glm::dvec3 way = f.light().rays().have_one_direction() ? f.forward : f.to_world(place) - f.origin_m;
   const double t = glm::dot(plane.point - from, plane.normal) / glm::dot(way, plane.normal);
-  return f.window_depth(f.depth_m(f.to_light(from + t * way)));
+  return f.window_depth(f.to_light(from + t * way));
 }
 
 LookupProbe probe_of(const FilterSettings& filter, std::string_view reference = "own_depth") {
@@ -97,7 +98,7 @@ TEST(DepthGradient, IsThePlanesStepFromTexelToTexel) {
       EXPECT_NEAR(depth(step, 0) - depth(0, 0), step * gradient.x, 1e-8 * scale + 1e-12);
       EXPECT_NEAR(depth(0, step) - depth(0, 0), step * gradient.y, 1e-8 * scale + 1e-12);
     }
-    const glm::dvec4 clip = glm::transpose(glm::inverse(f.clip_from_world())) *
+    const glm::dvec4 clip = glm::transpose(glm::inverse(f.clip_from_world(0))) *
                             glm::dvec4(plane.normal, -glm::dot(plane.normal, plane.point));
     EXPECT_NEAR(-clip.x / clip.z / f.resolution, gradient.x, 1e-8 * scale + 1e-12);
     EXPECT_NEAR(-clip.y / clip.z / f.resolution, gradient.y, 1e-8 * scale + 1e-12);
@@ -116,10 +117,10 @@ double need(const LightFrame& f, const Plane& plane, const LookupProbe& probe) {
     const glm::dvec2 tap = f.kind == LightKind::point ? f.map_texels(place) : at + glm::dvec2(offset);
     const glm::dvec3 centre = f.texel_place(glm::ivec2(glm::floor(tap)));
     // A ray that misses the plane causes no acne on it.
-    if (!f.parallel() &&
+    if (!f.light().rays().have_one_direction() &&
         glm::dot(plane.point - f.origin_m, plane.normal) / glm::dot(f.to_world(centre) - f.origin_m, plane.normal) <= 0)
       continue;
-    double reference = f.window_depth(f.depth_m(light));
+    double reference = f.window_depth(light);
     if (probe.tap_reference->name == "receiver_plane") {
       const double cap = static_cast<double>(probe.plane_cap) * probe.bias_unit[0];
       reference += std::clamp(glm::dot(depth_gradient(f, plane.point, plane.normal), glm::dvec2(offset)), -cap, cap);
@@ -152,8 +153,8 @@ TEST(AcneLaw, IsTheLeastUpperBoundOverAlignmentsOfAFlatMap) {
         for (int y = 0; y < steps; ++y)
           for (int x = 0; x < steps; ++x) {
             const glm::dvec2 by(static_cast<double>(x) / steps, static_cast<double>(y) / steps);
-            if (f.parallel())
-              f.origin_m = origin + f.texel_m() * (by.x * f.right + by.y * f.up);
+            if (f.light().rays().have_one_direction())
+              f.origin_m = origin + f.texel_m(glm::dvec3(0)) * (by.x * f.right + by.y * f.up);
             else
               f.shift_texels = shift + by;
             most = std::max(most, need(f, plane, probe));
@@ -196,7 +197,7 @@ TEST(AcneLaw, OfACubeIsTheNearestOfTheSquareAroundEachTap) {
       Plane plane = random_plane(random, f);
       if (i % 4 == 1) plane.normal = f.direction_to_light(plane.point);
       const glm::dvec3 light = f.to_light(plane.point);
-      double nearest = f.window_depth(glm::length(light));
+      double nearest = f.window_depth(light);
       const double own = nearest;
       constexpr int steps = 60;
       for (int t = 0; t < probe.taps(); ++t) {

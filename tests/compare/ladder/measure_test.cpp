@@ -206,7 +206,8 @@ TEST(Measure, GapUnderASpotLightEndsWhereTheDepthDoes) {
   // The receiver is perpendicular to its ray, so within a texel its depth hardly changes.
   double low = p.frame.near_m, high = z;  // bisection for the depth that is less by the bias
   while (high - low > 1e-12)
-    (p.frame.window_depth((low + high) / 2) > p.frame.window_depth(z) - bias ? high : low) = (low + high) / 2;
+    (p.frame.tile(0).window_depth((low + high) / 2) > p.frame.tile(0).window_depth(z) - bias ? high : low) =
+        (low + high) / 2;
   const double reach = (z - low) * std::sqrt(45.0) / z;
   EXPECT_NEAR(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0,
                               p.frame.to_light(p.receivers.position[0])),
