@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "app/memory_estimate.h"
 #include "scenes/camera_fit.h"
 #include "scenes/library.h"
 #include "scenes/scene_digest.h"
@@ -48,9 +47,13 @@ void bring_taps(gl::Renderer& renderer, LookupStage& lookup, const PointSetup& p
   if (lookup.strips.size() == 1) lookup.rays.reset();  // not needed again
 }
 
+LookupEvidence evidence_of(const LookupStage& l, const TruthStage& truth, const ShownStage& shown, const Settings& s) {
+  return {truth.receivers, l.probe, l.taps, l.exact_depth, s.map, Bias(s.bias), shown.r4, shown.r5};
+}
+
 }  // namespace
 
-SceneStage load_scene(const Settings& settings, gl::Renderer& renderer) {
+SceneStage Pipeline::load_scene(gl::Renderer& renderer, const Settings& settings) {
   auto scene = std::make_unique<Scene>(make_scene(settings.scene));
   auto tracer = std::make_unique<raytrace::Tracer>(*scene);
   renderer.load_scene(*scene);
@@ -60,7 +63,7 @@ SceneStage load_scene(const Settings& settings, gl::Renderer& renderer) {
 }
 
 // Draws again without the parts that can hide surfaces, and only if something could be hidden.
-ViewStage take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings) {
+ViewStage Pipeline::take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings) {
   const Camera camera = effective_camera(scene, settings);
   const int width = settings.width_px, height = settings.height_px;
   const std::vector<uint32_t> unseen = unseen_backs(scene, camera);
@@ -82,15 +85,15 @@ ViewStage take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettin
           {{"clipped", clipped}, {"culled", culled}, {"scene_behind", scene_behind(scene, camera)}}};
 }
 
-TruthStage trace_truth(const raytrace::Tracer& tracer, const ViewStage& view, const LightFrame& frame,
-                       const Light& light, const TruthSettings& settings) {
+TruthStage Pipeline::trace_truth(const SceneStage& scene, const ViewStage& view, const PointSetup& point) {
   TruthStage made;
-  made.receivers =
-      tracer.receiver_truth(view.receivers, frame, {light, settings.standard_error}, &made.hard, &made.soft);
+  made.receivers = scene.tracer->receiver_truth(
+      view.receivers, point.frame, {effective_light(*scene.scene, point.settings), point.settings.truth.standard_error},
+      &made.hard, &made.soft);
   return made;
 }
 
-MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point) {
+MapStage Pipeline::draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point) {
   std::vector<glm::vec3> casters;
   if (const Bias bias(point.settings.bias); bias.moves_casters()) casters = caster_positions(scene, point.frame, bias);
   std::optional<gl::ShadowMap> map;
@@ -100,15 +103,14 @@ MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& 
   return {std::move(*map), std::move(depth), time};
 }
 
-LookupStage prepare_lookup(gl::Renderer& renderer, gl::Renderer& sound, const raytrace::Tracer& tracer,
-                           const ViewStage& view, const TruthStage& truth, const PointSetup& point,
-                           size_t strip_bytes) {
+LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
+                                     const TruthStage& truth, const PointSetup& point) {
   const Settings& settings = point.settings;
   const LightFrame& frame = point.frame;
   const Bias bias(settings.bias);
-  std::vector<PixelRange> strips = strips_of(settings, frame.kind, strip_bytes);
+  std::vector<PixelRange> strips = strips_of(settings, frame.kind, strip_bytes_);
   LookupProbe probe = renderer.probe(frame, settings, gl::ProbeTaps::none);
-  const double offset_unit = bias.polygon_offset() ? sound.polygon_offset_unit(settings.map.format) : 0;
+  const double offset_unit = bias.polygon_offset() ? renderer.polygon_offset_unit(settings.map.format) : 0;
   raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, frame, settings.map, bias, offset_unit);
   StageTime texel_stage;
   for (const PixelRange& strip : strips) {
@@ -128,24 +130,26 @@ LookupStage prepare_lookup(gl::Renderer& renderer, gl::Renderer& sound, const ra
           .tap_stage = {}};
 }
 
-ShownStage show(gl::Renderer& renderer, const gl::ShadowMap& map, const LookupStage& lookup, const TruthStage& truth,
-                const PointSetup& point, const Settings& asked, const MapSettings& uploaded) {
+Image<float> Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point, double* ms) {
+  return renderer.lookup(map, point.frame, point.settings, ms);
+}
+
+ShownStage Pipeline::show(gl::Renderer& renderer, const MapStage& map, const LookupStage& lookup,
+                          const TruthStage& truth, const PointSetup& point) {
   ShownStage shown;
-  shown.time_ms = median_time([&](double* ms) { shown.r5 = renderer.lookup(map, point.frame, asked, ms); });
-  shown.r4 = renderer.lookup(lookup.exact_map, point.frame, asked);
-  shown.ties = tie_map({truth.receivers, lookup.probe, lookup.taps, lookup.exact_depth, point.settings.map, point.bias,
-                        shown.r4, shown.r5});
-  shown.tie_lookup = renderer.lookup(renderer.upload_map(shown.ties, uploaded), point.frame, asked);
+  shown.time_ms = median_time([&](double* ms) { shown.r5 = look_up(renderer, map.map, point, ms); });
+  shown.r4 = look_up(renderer, lookup.exact_map, point, nullptr);
+  shown.ties = tie_map(evidence_of(lookup, truth, shown, point.settings));
+  shown.tie_lookup = look_up(renderer, renderer.upload_map(shown.ties, point.settings.map), point, nullptr);
   return shown;
 }
 
-Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view, const TruthStage& truth,
-                     const Image<float>& stored_map, const ShownStage& shown, const PointSetup& point,
-                     const BiasPart* varied) {
-  const LookupEvidence evidence{truth.receivers,    lookup.probe, lookup.taps, lookup.exact_depth,
-                                point.settings.map, point.bias,   shown.r4,    shown.r5};
+Climbed Pipeline::climb_strips(gl::Renderer& renderer, const MapStage& map, LookupStage& lookup, const ViewStage& view,
+                               const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
+                               const BiasPart* varied) {
+  const LookupEvidence evidence = evidence_of(lookup, truth, shown, point.settings);
   SoundnessCheck soundness(
-      {evidence, stored_map, shown.ties, shown.tie_lookup, view.receivers, point.frame, view.camera.eye_m});
+      {evidence, map.depth, shown.ties, shown.tie_lookup, view.receivers, point.frame, view.camera.eye_m});
   Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height()), {}, {}};
   if (varied) climbed.counts.emplace(lookup.probe, *varied);
   if (lookup.rays) lookup.tap_stage = {};
@@ -153,7 +157,7 @@ Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStag
     if (lookup.rays) bring_taps(renderer, lookup, point, strip);
     climb(evidence, strip, climbed.ladder);
     soundness.add(strip);
-    if (climbed.counts) climbed.counts->add(evidence, stored_map, strip);
+    if (climbed.counts) climbed.counts->add(evidence, map.depth, strip);
   }
   climbed.soundness = soundness.metrics();
   return climbed;

@@ -1,19 +1,13 @@
-// The stages of a measurement, each a function from named inputs to a small type:
+// The stages of a measurement, each from named inputs to a small type:
 //
 //   scene → view → truth → map → lookup → shown → ladder
 //
-//   SceneStage scene = load_scene(settings, renderer);
-//   PointSetup point{settings, frame, Bias(settings.bias)};
-//   ViewStage view = take_view(renderer, *scene.scene, settings.view);
-//   TruthStage truth = trace_truth(*scene.tracer, view, frame, light, settings.truth);
-//   MapStage map = draw_map(renderer, *scene.scene, point);
-//   LookupStage lookup = prepare_lookup(renderer, renderer, *scene.tracer, view, truth, point, strip_bytes);
-//   ShownStage shown = show(renderer, map.map, lookup, truth, point, settings, settings.map);
-//   Climbed climbed = climb_strips(renderer, lookup, view, truth, map.depth, shown, point, varied);
+// Workbench::measure() alone joins them, and it keeps the results that consecutive points share. The settings' rows name
+// the stages that read them (technique/settings.h). A test replaces a stage by deriving from Pipeline, and measures
+// through the same Workbench:
 //
-// app/workbench.h joins these stages and keeps the results that consecutive points share. The settings' rows name the
-// stages that read them (technique/settings.h). tests/acceptance/planted_support.h joins the same functions around a
-// renderer with a defect.
+//   struct FlippedMap : Pipeline { MapStage draw_map(...) override; };
+//   Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<FlippedMap>());
 #pragma once
 #include <map>
 #include <memory>
@@ -21,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "app/memory_estimate.h"
 #include "compare/judge/soundness.h"
 #include "compare/ladder/bias_curves.h"
 #include "compare/ladder/ladder.h"
@@ -33,7 +28,6 @@ namespace noonmark {
 struct PointSetup {
   const Settings& settings;
   const LightFrame& frame;  // make_light_frame()
-  Bias bias;                // made from settings.bias; in tests of planted defects, the bias that the ladder assumes
 };
 
 struct SceneStage {
@@ -42,30 +36,23 @@ struct SceneStage {
   std::unique_ptr<raytrace::Tracer> tracer;
   uint64_t open_edges = 0;
 };
-// Also uploads the scene to the renderer. Throws Error.
-SceneStage load_scene(const Settings& settings, gl::Renderer& renderer);
 
 struct ViewStage {
   Camera camera;
   ReceiverImage receivers;
   std::map<std::string, double> metrics;  // numbers of pixels that see nothing, by reason
 };
-ViewStage take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings);
 
 struct TruthStage {
   ReceiverTruth receivers;  // R1 and R0
   StageTime hard, soft;
 };
-TruthStage trace_truth(const raytrace::Tracer& tracer, const ViewStage& view, const LightFrame& frame,
-                       const Light& light, const TruthSettings& settings);
 
 struct MapStage {
   gl::ShadowMap map;
   Image<float> depth;  // as the lookup's sampler returns it
   double time_ms = 0;  // the median of three
 };
-// scene: as the renderer has it.
-MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point);
 
 // The lookup's inputs and their truth. The truth of the taps covers one strip of the picture at a time. If all taps fit
 // into one strip, the truth is kept and the rays are freed.
@@ -79,29 +66,45 @@ struct LookupStage {
   Image<float> edge_distance_texels;
   StageTime texel_stage, tap_stage;
 };
-// strip_bytes: the most memory for the truth of a strip's taps. sound: the renderer whose unit of polygon offset the
-// exact map uses; it is the renderer itself except in tests of planted defects. view and truth must outlive the result.
-LookupStage prepare_lookup(gl::Renderer& renderer, gl::Renderer& sound, const raytrace::Tracer& tracer,
-                           const ViewStage& view, const TruthStage& truth, const PointSetup& point, size_t strip_bytes);
 
 // What OpenGL shows: the technique on its own map, on the exact map and on the tie map.
 struct ShownStage {
   Image<float> r5, r4, ties, tie_lookup;
   double time_ms = 0;  // the lookup in its own map, median of three
 };
-// asked: the settings of the lookup. uploaded: the settings of the maps that are uploaded. Both are the point's
-// settings except in tests of planted defects.
-ShownStage show(gl::Renderer& renderer, const gl::ShadowMap& map, const LookupStage& lookup, const TruthStage& truth,
-                const PointSetup& point, const Settings& asked, const MapSettings& uploaded);
 
 struct Climbed {
   Ladder ladder;
   std::map<std::string, double> soundness;  // compare/judge/soundness.h
   std::optional<BiasCounts> counts;         // if a part is varied
 };
-// Traces the taps strip by strip and books them. varied: the part of the bias that a curve varies, or null.
-Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view, const TruthStage& truth,
-                     const Image<float>& stored_map, const ShownStage& shown, const PointSetup& point,
-                     const BiasPart* varied);
+
+// Each virtual method is one stage as the program runs it. What a stage is given must outlive its result.
+class Pipeline {
+ public:
+  // strip_bytes: the most memory for the truth of a strip's taps. It changes no result.
+  explicit Pipeline(size_t strip_bytes = most_strip_bytes) : strip_bytes_(strip_bytes) {}
+  virtual ~Pipeline() = default;
+
+  // Also uploads the scene to the renderer. Throws Error.
+  virtual SceneStage load_scene(gl::Renderer& renderer, const Settings& settings);
+  virtual ViewStage take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings);
+  virtual TruthStage trace_truth(const SceneStage& scene, const ViewStage& view, const PointSetup& point);
+  // scene: as the renderer has it.
+  virtual MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point);
+  virtual LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
+                                     const TruthStage& truth, const PointSetup& point);
+  // One lookup of all receivers. show() calls it for each of its maps. ms receives its time, or is null.
+  virtual Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point, double* ms);
+  virtual ShownStage show(gl::Renderer& renderer, const MapStage& map, const LookupStage& lookup,
+                          const TruthStage& truth, const PointSetup& point);
+  // Traces the taps strip by strip and books them. varied: the part of the bias that a curve varies, or null.
+  virtual Climbed climb_strips(gl::Renderer& renderer, const MapStage& map, LookupStage& lookup, const ViewStage& view,
+                               const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
+                               const BiasPart* varied);
+
+ private:
+  size_t strip_bytes_;
+};
 
 }  // namespace noonmark

@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "app/experiment.h"
-#include "app/stages.h"
 #include "app/view_shading.h"
 #include "compare/judge/poor_view.h"
 #include "compare/ladder/law_metrics.h"
@@ -57,26 +56,35 @@ std::string curve_key_of(const Settings& settings, const BiasPart& varied, const
                      fmt::join(options.bias_depth, " "));
 }
 
-// The ladder's numbers for the point, without times and without its curve.
-PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, const Bias& bias, const LookupStage& lookup,
-                      std::map<std::string, double> soundness) {
-  const Image<float> occluders = tracer.occluder_distance(m.receivers, m.frame, peter_panning_mask(m.ladder));
-  PointRecord record;
-  record.settings = settings_map(m.settings);
-  record.metrics =
-      measure_ladder({m.ladder, m.receivers, m.frame, m.probe, bias, lookup.edge_distance_texels, occluders});
-  record.metrics.merge(
-      measure_laws({m.ladder, m.scene, m.receivers, m.camera, m.frame, m.settings.map.format, m.probe}));
-  record.metrics.merge(soundness);
-  const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
-  record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
-  record.worst = worst_pixel(m.ladder);
-  return record;
-}
-
 void add_time(PointRecord& record, const std::string& stage, const StageTime& time) {
   record.times[stage + "_ms"] = time.milliseconds;
   record.times[stage + "_rays"] = static_cast<double>(time.rays);
+}
+
+// The point's numbers and times, without its curve.
+PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, const ViewStage& view,
+                      const TruthStage& truth, const MapStage& map, const LookupStage& lookup, const ShownStage& shown,
+                      const std::map<std::string, double>& soundness) {
+  const Image<float> occluders = tracer.occluder_distance(m.receivers, m.frame, peter_panning_mask(m.ladder));
+  const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
+  PointRecord record;
+  record.settings = settings_map(m.settings);
+  record.metrics = measure_ladder(
+      {m.ladder, m.receivers, m.frame, m.probe, Bias(m.settings.bias), lookup.edge_distance_texels, occluders});
+  record.metrics.merge(
+      measure_laws({m.ladder, m.scene, m.receivers, m.camera, m.frame, m.settings.map.format, m.probe}));
+  record.metrics.insert(soundness.begin(), soundness.end());
+  record.metrics.insert(view.metrics.begin(), view.metrics.end());
+  record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
+  record.metrics["map_ms"] = map.time_ms;
+  record.metrics["lookup_ms"] = shown.time_ms;
+  record.metrics["shadow_ms"] = map.time_ms + shown.time_ms;
+  add_time(record, "hard_truth", truth.hard);
+  add_time(record, "soft_truth", truth.soft);
+  add_time(record, "texel", lookup.texel_stage);
+  add_time(record, "tap", lookup.tap_stage);
+  record.worst = worst_pixel(m.ladder);
+  return record;
 }
 
 Settings of_scene(const SceneSettings& scene) {
@@ -88,15 +96,15 @@ Settings of_scene(const SceneSettings& scene) {
 }  // namespace
 
 struct Workbench::Impl {
-  Impl(gl::DebugMode debug, gl::ShaderReplacements shaders, size_t bytes)
-      : renderer(debug, std::move(shaders)), strip_bytes(bytes) {}
+  Impl(gl::DebugMode debug, gl::ShaderReplacements shaders, std::unique_ptr<Pipeline> all)
+      : renderer(debug, std::move(shaders)), stages(std::move(all)) {}
 
   const SceneStage& load(const Settings& settings) {
-    return scene.get(settings_key(settings, {Stage::scene}), [&] { return load_scene(settings, renderer); });
+    return scene.get(settings_key(settings, {Stage::scene}), [&] { return stages->load_scene(renderer, settings); });
   }
 
   gl::Renderer renderer;
-  size_t strip_bytes;
+  std::unique_ptr<Pipeline> stages;
   AvailableMemory space_at_start;
   Remembered<SceneStage> scene;
   Remembered<ViewStage> view;
@@ -127,10 +135,10 @@ void require_room_to_start(bool pictures) {
   require_address_space(room_to_start(pictures), fmt::format("a measurement by {} threads", ray_threads()));
 }
 
-Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders, size_t strip_bytes) {
+Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders, std::unique_ptr<Pipeline> stages) {
   require_room_to_start(false);
   const AvailableMemory space = free_address_space();  // read before any of it is used
-  impl_ = std::make_unique<Impl>(debug, std::move(shaders), strip_bytes);
+  impl_ = std::make_unique<Impl>(debug, std::move(shaders), std::move(stages));
   impl_->space_at_start = space;
 }
 Workbench::~Workbench() = default;
@@ -162,39 +170,30 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const SceneStage& loaded = b.load(settings);
   const Scene& scene = *loaded.scene;
   const LightFrame frame = make_light_frame(scene, settings);
-  const PointSetup point{settings, frame, Bias(settings.bias)};
+  const PointSetup point{settings, frame};
 
   const std::string view_key = settings_key(settings, {Stage::scene, Stage::view});
-  const ViewStage& view = b.view.get(view_key, [&] { return take_view(b.renderer, scene, settings.view); });
-  const TruthStage& truth = b.truth.get(settings_key(settings, {Stage::scene, Stage::view, Stage::truth}), [&] {
-    return trace_truth(*loaded.tracer, view, frame, effective_light(scene, settings), settings.truth);
-  });
+  const ViewStage& view = b.view.get(view_key, [&] { return b.stages->take_view(b.renderer, scene, settings.view); });
+  const TruthStage& truth = b.truth.get(settings_key(settings, {Stage::scene, Stage::view, Stage::truth}),
+                                        [&] { return b.stages->trace_truth(loaded, view, point); });
   if (b.receivers_on_device != view_key) {
     b.renderer.load_receivers(view.receivers, view.camera.eye_m);
     b.receivers_on_device = view_key;
   }
-  const MapStage& map =
-      b.map.get(settings_key(settings, {Stage::scene, Stage::map}), [&] { return draw_map(b.renderer, scene, point); });
+  const MapStage& map = b.map.get(settings_key(settings, {Stage::scene, Stage::map}),
+                                  [&] { return b.stages->draw_map(b.renderer, scene, point); });
   LookupStage& lookup = b.lookup.get(lookup_key_of(settings), [&] {
-    return prepare_lookup(b.renderer, b.renderer, *loaded.tracer, view, truth, point, b.strip_bytes);
+    return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, point);
   });
-  const ShownStage shown = show(b.renderer, map.map, lookup, truth, point, settings, settings.map);
+  const ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, point);
 
   const BiasPart* const varied = curve_options ? curve_part(settings.bias) : nullptr;
   const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
-  Climbed climbed = climb_strips(b.renderer, lookup, view, truth, map.depth, shown, point,
-                                 varied && !b.curve.has(curve_key) ? varied : nullptr);
+  Climbed climbed = b.stages->climb_strips(b.renderer, map, lookup, view, truth, shown, point,
+                                           varied && !b.curve.has(curve_key) ? varied : nullptr);
   Measurement m{{},           settings,  std::move(climbed.ladder), frame, view.camera, scene, view.receivers,
                 lookup.probe, map.depth, lookup.exact_depth};
-  m.record = record_of(m, *loaded.tracer, point.bias, lookup, climbed.soundness);
-  m.record.metrics.insert(view.metrics.begin(), view.metrics.end());
-  m.record.metrics["map_ms"] = map.time_ms;
-  m.record.metrics["lookup_ms"] = shown.time_ms;
-  m.record.metrics["shadow_ms"] = map.time_ms + shown.time_ms;
-  add_time(m.record, "hard_truth", truth.hard);
-  add_time(m.record, "soft_truth", truth.soft);
-  add_time(m.record, "texel", lookup.texel_stage);
-  add_time(m.record, "tap", lookup.tap_stage);
+  m.record = record_of(m, *loaded.tracer, view, truth, map, lookup, shown, climbed.soundness);
   if (varied && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
       const BiasScale scale = bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit);

@@ -8,12 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "app/memory_estimate.h"
-#include "compare/ladder/bias_curves.h"
-#include "compare/ladder/ladder.h"
+#include "app/stages.h"
 #include "compare/store/records.h"
-#include "gl/renderer.h"
-#include "raytrace/tracer.h"
 
 namespace noonmark {
 
@@ -38,9 +34,9 @@ void require_room_to_start(bool pictures);
 
 class Workbench {
  public:
-  // shaders: variants to measure in place of the program's own. strip_bytes: the most memory for the truth of a strip's
-  // taps; if all taps fit into one strip, points with the same taps share their truth. It changes no result.
-  explicit Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders = {}, size_t strip_bytes = most_strip_bytes);
+  // shaders: variants to measure in place of the program's own. stages: the program's; a test replaces some of them.
+  explicit Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders = {},
+                     std::unique_ptr<Pipeline> stages = std::make_unique<Pipeline>());
   ~Workbench();
 
   // curve: no curve if it is empty, or if no part of the bias can have one (curve_part). Throws Error.

@@ -5,12 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "compare/ladder/measure.h"
-#include "gl/renderer.h"
-#include "raytrace/tracer.h"
 #include "scenes/builtin.h"
-#include "scenes/camera_fit.h"
-#include "scenes/camera_frame.h"
 #include "tests/support/measured.h"
 
 namespace noonmark::acceptance {
@@ -184,64 +179,61 @@ std::string scene_test_name(const testing::TestParamInfo<std::string>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(all_scenes()), scene_test_name);
 
+// The program's stages. The first point also counts for a curve of this part, and the counts are kept.
+struct CountsKept : Pipeline {
+  CountsKept(const BiasPart& part, std::optional<BiasCounts>& to) : varied(part), counts(to) {}
+  Climbed climb_strips(gl::Renderer& renderer, const MapStage& map, LookupStage& lookup, const ViewStage& view,
+                       const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
+                       const BiasPart*) override {
+    Climbed climbed =
+        Pipeline::climb_strips(renderer, map, lookup, view, truth, shown, point, counts ? nullptr : &varied);
+    if (climbed.counts) counts = climbed.counts;
+    return climbed;
+  }
+  const BiasPart& varied;
+  std::optional<BiasCounts>& counts;
+};
+
 class OneCurve : public testing::TestWithParam<std::string> {};
 
 // 100 random biases: OpenGL renders with each of them, and the result is compared with the counts from one pass.
 TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
-  const Settings base = with({{"map.resolution", "400"}}, small(GetParam(), 320, 180));
-  const Scene scene = make_scene(base.scene);
-  gl::Renderer renderer(gl::DebugMode::fatal);
-  renderer.load_scene(scene);
-  const Camera camera = effective_camera(scene, base.view);
-  const ReceiverImage receivers =
-      resolve_receivers(scene, camera, renderer.render_primitives(camera, base.view.width_px, base.view.height_px));
-  const raytrace::Tracer tracer(scene);
-  const LightFrame frame = make_light_frame(scene, base);
-  renderer.load_receivers(receivers, camera.eye_m);
-  const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {});
-  const gl::ShadowMap map = renderer.render_map(frame, base);
-  const Image<float> stored = renderer.read_map(map);
   std::mt19937 random(20260301);
-
   for (const char* kind : {"none", "box"}) {
     for (const char* varied : {"constant", "slope"}) {
       SCOPED_TRACE(std::string(kind) + " " + varied);
-      Settings settings = with({{"filter.kind", kind}, {"bias.slope_floor", "0.0007"}}, base);
-      const LookupProbe probe = renderer.probe(frame, settings);
-      const raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, probe, frame, settings.map);
-      const gl::ShadowMap exact = renderer.upload_map(taps.exact_map, settings.map);
-      const Image<float> nothing;
-      const LookupEvidence evidence{truth,   probe,  taps.taps, taps.exact_map, settings.map, Bias(settings.bias),
-                                    nothing, nothing};
-      const BiasCounts counts(evidence, stored, bias_part(varied));
-      ASSERT_GT(counts.receivers(), 10000u);
+      Settings settings = with({{"map.resolution", "400"}, {"filter.kind", kind}, {"bias.slope_floor", "0.0007"}},
+                               small(GetParam(), 320, 180));
+      std::optional<BiasCounts> counts;
+      Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<CountsKept>(bias_part(varied), counts));
+      bench.measure(settings, std::nullopt);
+      ASSERT_GT(counts.value().receivers(), 10000u);
+      const int taps = tap_pattern(settings.filter).taps;
 
       uint64_t different_counts = 0;
       for (int trial = 0; trial < 100; ++trial) {
         const float x = static_cast<float>(std::pow(10.0, std::uniform_real_distribution<>(-5, 0)(random)));
         settings.bias[varied] = x;
-        const Image<float> r5 = renderer.lookup(map, frame, settings);
-        const Image<float> r4 = renderer.lookup(exact, frame, settings);
-        const Ladder ladder =
-            climb({truth, probe, taps.taps, taps.exact_map, settings.map, Bias(settings.bias), r4, r5});
+        const Ladder ladder = bench.measure(settings, std::nullopt).ladder;
+        const Image<float>&shown = ladder.shown(), &truth = ladder.truth();
         uint64_t wrong_receivers = 0;
         double wrong_taps = 0;
         std::array<double, cause_count> booked{};
-        for (size_t i = 0; i < r5.size(); ++i) {
-          if (!truth.facing[i] || truth.ambiguous[i]) continue;
-          wrong_receivers += r5[i] != static_cast<float>(truth.lit[i]);
-          wrong_taps += std::abs(static_cast<double>(r5[i]) - truth.lit[i]) * taps.taps.taps_per_receiver;
+        for (size_t i = 0; i < shown.size(); ++i) {
+          if (!is_counted(ladder, i)) continue;
+          wrong_receivers += shown[i] != truth[i];
+          wrong_taps += std::abs(static_cast<double>(shown[i]) - truth[i]) * taps;
           for (int c = 0; c < cause_count; ++c)
-            booked[c] += std::abs(static_cast<double>(ladder.causes[c].step[i])) * taps.taps.taps_per_receiver;
+            booked[c] += std::abs(static_cast<double>(ladder.causes[c].step[i])) * taps;
         }
-        EXPECT_EQ(counts.wrong_receivers(x), wrong_receivers) << x;
+        EXPECT_EQ(counts->wrong_receivers(x), wrong_receivers) << x;
         // A ninth is not exact in float. But the sum over the picture is less than half a tap away from a whole number.
-        EXPECT_EQ(counts.wrong_taps(x), static_cast<double>(std::llround(wrong_taps))) << x;
+        EXPECT_EQ(counts->wrong_taps(x), static_cast<double>(std::llround(wrong_taps))) << x;
         for (Cause cause : {Cause::acne, Cause::peter_panning, Cause::aliasing_dark, Cause::aliasing_light,
                             Cause::coverage_dark, Cause::coverage_light})
-          EXPECT_EQ(counts.caused(cause, x), static_cast<double>(std::llround(booked[static_cast<size_t>(cause)])))
+          EXPECT_EQ(counts->caused(cause, x), static_cast<double>(std::llround(booked[static_cast<size_t>(cause)])))
               << cause_name(cause) << " at " << x;
-        different_counts += wrong_receivers != counts.wrong_receivers(0);
+        different_counts += wrong_receivers != counts->wrong_receivers(0);
       }
       // Slopes below the floor change nothing. They are up to two thirds of the biases that are tried.
       EXPECT_GT(different_counts, 25u) << "too few of the biases change the result";

@@ -64,7 +64,7 @@ std::vector<Planted> defects() {
   all.push_back({"BiasWithTheWrongSignAsClaimed",
                  cubes(),
                  {.shaders = patched("shaders/compare.glsl", "reference - bias", "reference + bias"),
-                  .believed_bias = [](BiasSettings& bias) { bias["constant"] = -bias["constant"]; }},
+                  .claimed_bias = [](BiasSettings& bias) { bias["constant"] = -bias["constant"]; }},
                  {{"acne", 0.01, 0.5}, {"error", 0.01, 0.5}},
                  {"contract", "tap_residual", "rounding_excess"}});
   // Ties are too rare to be visible in a picture of this scene. On the tie map every second texel has one.
@@ -110,7 +110,7 @@ std::vector<Planted> defects() {
   // The wrap mode of all maps is wrong; the truth assumes the lit border.
   all.push_back({"WrapRepeatInPlaceOfBorder",
                  narrow(),
-                 {.drawn_map = [](LightFrame&, MapSettings& map) { map.wrap = Wrap::repeat; }, .every_map = true},
+                 {.asked = [](Settings& s) { s.map.wrap = Wrap::repeat; }},
                  {{"contract", 0, 0.02}, {"tap_residual", 1e-6, 1}, {"error", 0.005, 0.02}},
                  {"rounding_excess"}});
   all.push_back({"BorderOfDepthZero",

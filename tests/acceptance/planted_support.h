@@ -1,5 +1,5 @@
 // A measurement with a defect planted in its OpenGL part: the truth is computed from the settings, but the renderer
-// gets something else. The stages are the program's (app/stages.h).
+// gets something else. The Workbench measures, with stages (app/stages.h) of which some are replaced.
 //
 //   Figures sound = measure(settings), broken = measure(settings, {.drawn_map = [](auto& frame, auto& map) { ... }});
 #pragma once
@@ -9,9 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/memory_estimate.h"
-#include "app/stages.h"
-#include "compare/ladder/measure.h"
+#include "app/workbench.h"
 
 namespace noonmark::planted {
 
@@ -21,9 +19,8 @@ struct Defect {
   std::function<void(LightFrame&, MapSettings&)> drawn_map{};     // changes the frame and settings of the map
   std::function<void(BiasSettings&)> drawn_bias{};                // changes the bias of the map (polygon offset)
   std::function<Image<float>(const Image<float>&)> edited_map{};  // changes the pixels of the map before the lookup
-  bool every_map = false;                                         // the wrap mode of drawn_map applies to R4's map too
   std::function<void(Settings&)> asked{};                         // changes the settings of the lookup
-  std::function<void(BiasSettings&)> believed_bias{};             // changes the bias that the ladder assumes
+  std::function<void(BiasSettings&)> claimed_bias{};  // the point claims this bias; the lookup keeps its own
 };
 
 using Figures = std::map<std::string, double>;
@@ -38,46 +35,57 @@ inline gl::ShaderReplacements patched(const std::string& file, const std::string
   return {{file, text}};
 }
 
-inline Figures measure(const Settings& settings, const Defect& defect = {}) {
-  // The receivers are not under test, so a renderer without a defect makes them.
-  gl::Renderer sound(gl::DebugMode::fatal);
-  const SceneStage loaded = load_scene(settings, sound);
-  const Scene& scene = *loaded.scene;
-  const LightFrame frame = make_light_frame(scene, settings);
-  const ViewStage view = take_view(sound, scene, settings.view);
-  const TruthStage truth = trace_truth(*loaded.tracer, view, frame, {}, settings.truth);
-
-  gl::Renderer renderer(gl::DebugMode::fatal, defect.shaders);
-  Scene drawn_scene = scene;
-  if (defect.drawn_scene) defect.drawn_scene(drawn_scene);
-  renderer.load_scene(drawn_scene);
-  renderer.load_receivers(view.receivers, view.camera.eye_m);
-  LightFrame drawn_frame = frame;
-  Settings drawn = settings;
-  if (defect.drawn_map) defect.drawn_map(drawn_frame, drawn.map);
-  if (defect.drawn_bias) defect.drawn_bias(drawn.bias);
-  MapStage map = draw_map(renderer, drawn_scene, {drawn, drawn_frame, Bias(drawn.bias)});
-  if (defect.edited_map) {
-    map.map = renderer.upload_map(defect.edited_map(map.depth), settings.map);
-    map.depth = renderer.read_map(map.map);
+// The program's stages, but the renderer is given the defect.
+class DefectivePipeline : public Pipeline {
+ public:
+  DefectivePipeline(const Settings& settings, const Defect& defect) : defect_(defect), asked_(settings) {
+    if (defect_.asked) defect_.asked(asked_);
   }
 
-  BiasSettings believed = settings.bias;
-  if (defect.believed_bias) defect.believed_bias(believed);
-  const PointSetup point{settings, frame, Bias(believed)};
-  Settings asked = settings;
-  if (defect.asked) defect.asked(asked);
-  const MapSettings& uploaded = defect.every_map ? drawn.map : settings.map;
-  LookupStage lookup = prepare_lookup(renderer, sound, *loaded.tracer, view, truth, point, most_strip_bytes);
-  lookup.exact_map = renderer.upload_map(lookup.exact_depth, uploaded);
-  const ShownStage shown = show(renderer, map.map, lookup, truth, point, asked, uploaded);
-  Climbed climbed = climb_strips(renderer, lookup, view, truth, map.depth, shown, point, nullptr);
-  const Image<float> occluders =
-      loaded.tracer->occluder_distance(view.receivers, frame, peter_panning_mask(climbed.ladder));
-  Figures figures = measure_ladder(
-      {climbed.ladder, view.receivers, frame, lookup.probe, point.bias, lookup.edge_distance_texels, occluders});
-  figures.merge(climbed.soundness);
-  return figures;
+  // The receivers are not under test, so a renderer without replaced shaders makes them.
+  ViewStage take_view(gl::Renderer&, const Scene& scene, const ViewSettings& settings) override {
+    gl::Renderer sound(gl::DebugMode::fatal);
+    sound.load_scene(scene);
+    return Pipeline::take_view(sound, scene, settings);
+  }
+
+  MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point) override {
+    Scene drawn_scene = scene;
+    if (defect_.drawn_scene) defect_.drawn_scene(drawn_scene);
+    renderer.load_scene(drawn_scene);
+    LightFrame frame = point.frame;
+    Settings drawn = point.settings;
+    if (defect_.drawn_map) defect_.drawn_map(frame, drawn.map);
+    if (defect_.drawn_bias) defect_.drawn_bias(drawn.bias);
+    MapStage made = Pipeline::draw_map(renderer, drawn_scene, {drawn, frame});
+    if (defect_.edited_map) {
+      made.map = renderer.upload_map(defect_.edited_map(made.depth), point.settings.map);
+      made.depth = renderer.read_map(made.map);
+    }
+    return made;
+  }
+
+  // A map keeps the wrap mode that it was made with, so another wrap mode needs another map.
+  Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point, double* ms) override {
+    const PointSetup asked{asked_, point.frame};
+    if (asked_.map.wrap == point.settings.map.wrap) return Pipeline::look_up(renderer, map, asked, ms);
+    return Pipeline::look_up(renderer, renderer.upload_map(renderer.read_map(map), asked_.map), asked, ms);
+  }
+
+ private:
+  const Defect& defect_;
+  Settings asked_;
+};
+
+inline Figures measure(const Settings& settings) {
+  return Workbench(gl::DebugMode::fatal).measure(settings, std::nullopt).record.metrics;
+}
+
+inline Figures measure(const Settings& settings, const Defect& defect) {
+  Settings claimed = settings;
+  if (defect.claimed_bias) defect.claimed_bias(claimed.bias);
+  Workbench bench(gl::DebugMode::fatal, defect.shaders, std::make_unique<DefectivePipeline>(settings, defect));
+  return bench.measure(claimed, std::nullopt).record.metrics;
 }
 
 }  // namespace noonmark::planted

@@ -23,7 +23,7 @@ TEST_P(Strips, ChangeNoResult) {
   Workbench whole(gl::DebugMode::fatal);
   // Strips of seven rows, strips of one row, and once more a point that reuses what strips do not keep.
   for (const size_t strip_bytes : {size_t{7} * 160 * 9 * 5, size_t{1}}) {
-    Workbench in_strips(gl::DebugMode::fatal, {}, strip_bytes);
+    Workbench in_strips(gl::DebugMode::fatal, {}, std::make_unique<Pipeline>(strip_bytes));
     for (const char* bias : {"0.002", "0.01"}) {
       find_setting("bias.constant").set(settings, bias);
       const Measurement a = whole.measure(settings, CurveOptions{}), b = in_strips.measure(settings, CurveOptions{});

@@ -152,7 +152,8 @@ TEST_F(Memory, DoesNotGrowWithTheKernel) {
                                                                       {"filter.size", size},
                                                                       {"map.resolution", "256"}})
         find_setting(name).set(settings, value);
-      const Measurement m = Workbench(gl::DebugMode::log, {}, 1 << 19).measure(settings, std::nullopt);
+      const Measurement m =
+          Workbench(gl::DebugMode::log, {}, std::make_unique<Pipeline>(1 << 19)).measure(settings, std::nullopt);
       _exit(m.record.metrics.at("contract") == 0 ? 0 : 1);
     }
     int status = 0;
