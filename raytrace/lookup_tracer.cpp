@@ -3,99 +3,32 @@
 #include <algorithm>
 #include <optional>
 
+#include "raytrace/drawn_map.h"
 #include "raytrace/light_view.h"
 #include "raytrace/own_surface.h"
 #include "raytrace/packets.h"
-#include "raytrace/polygon_offset.h"
 #include "raytrace/stage_watch.h"
 #include "raytrace/texel_rays.h"
 #include "raytrace/traced_scene.h"
-#include "technique/casters.h"
 
 namespace noonmark::raytrace {
 namespace {
 
-// The exact map skips what the rasteriser culls. Front: counter-clockwise as the light sees it. Of coincident triangles
-// the first is enough; moved casters may part them, and adjacency is null.
-std::vector<uint32_t> kept_triangles(const Scene& scene, const Adjacency* adjacency, const LightFrame& frame,
-                                     CulledFaces cull) {
-  std::vector<uint32_t> kept;
-  for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
-    if (adjacency && adjacency->is_copy(t)) continue;
-    const glm::uvec3 v = scene.triangles[t];
-    const glm::dvec3 a = scene.positions[v.x], b = scene.positions[v.y], c = scene.positions[v.z];
-    const bool front = glm::dot(glm::cross(b - a, c - a), frame.direction_to_light((a + b + c) / 3.0)) > 0;
-    if (front != (cull == CulledFaces::front)) kept.push_back(t);
-  }
-  return kept;
-}
-
-// Depth of the first surface at x that is not before the near plane. Rays start and end in float, so they start a
-// little before that plane, and surfaces that are before it in double are skipped.
-std::optional<double> first_from_near(const EmbreeScene& seen, const LightView& view, glm::dvec3 x) {
-  const double near = view.near_depth(x);
-  for (double from = near - 2 * view.ray_error_m();;) {
-    const uint32_t hit = seen.first_hit(view.ray_from(x, from));
-    if (hit == no_primitive) return std::nullopt;
-    const double depth = view.hit_depth(hit, x);
-    if (depth >= near) return depth;
-    from = std::max(from, std::min(depth, near)) + 2 * view.ray_error_m();
-  }
-}
-
-// The depths that the map's pass draws. If the bias moves the casters, it draws the moved vertices.
-Image<float> exact_map_of(const TracedScene& traced, const LightView& scenes_own, const TexelRays& texels,
-                          const MapSettings& settings, const Bias& bias, const std::optional<PolygonOffset>& offset) {
-  const LightFrame& frame = scenes_own.frame();
-  std::optional<Scene> moved;
-  if (bias.moves_casters()) {
-    moved = traced.scene;
-    moved->positions = caster_positions(traced.scene, frame, bias);
-  }
-  const Scene& drawn = moved ? *moved : traced.scene;
-  const LightView view = moved ? LightView(*moved, frame) : scenes_own;
-  // A tree of its own, if the map is drawn of other vertices or without the culled faces.
-  std::optional<EmbreeScene> own_tree;
-  bool nothing_kept = false;
-  if (settings.cull != CulledFaces::none) {
-    std::vector<uint32_t> kept = kept_triangles(drawn, moved ? nullptr : &traced.adjacency, frame, settings.cull);
-    nothing_kept = kept.empty();
-    if (!nothing_kept) own_tree.emplace(traced.device, drawn, std::move(kept));
-  } else if (moved) {
-    own_tree.emplace(traced.device, drawn);
-  }
-  const EmbreeScene& seen = own_tree ? *own_tree : traced.embree;
-  const glm::ivec2 size = frame.map_size();
+// The depths that the map's pass draws.
+Image<float> exact_map_of(const DrawnMap& drawn, const LightView& view, const TexelRays& texels) {
+  const glm::ivec2 size = view.frame().map_size();
   Image<float> map(size.x, size.y, 1.0f);
-  if (nothing_kept) return map;
-
   const std::vector<glm::ivec2>& list = texels.inside_texels();
   for_each_packet(list.size(), [&](size_t first, int n) {
     uint32_t hits[packet_size];
     glm::dvec3 places[packet_size];
-    if (own_tree) {
-      for (int i = 0; i < n; ++i) places[i] = view.texel_place(list[first + i]);
-      view.first_hits(seen, n, places, hits);
-    } else {
-      for (int i = 0; i < n; ++i) hits[i] = texels.hit(list[first + i]);
-    }
+    float depths[packet_size];
     for (int i = 0; i < n; ++i) {
-      if (hits[i] == no_primitive) continue;
-      const glm::dvec3 centre = view.texel_place(list[first + i]);
-      float& texel = map.at(list[first + i].x, list[first + i].y);
-      if (offset) {
-        texel = static_cast<float>(least_offset_depth(seen, view, *offset, centre, settings.depth_clamp));
-        continue;
-      }
-      double depth = view.hit_depth(hits[i], centre);
-      if (depth < view.near_depth(centre) && !settings.depth_clamp) {
-        // The rasteriser clips this surface. The map holds the first surface behind the near plane instead.
-        const std::optional<double> behind = first_from_near(seen, view, centre);
-        if (!behind) continue;
-        depth = *behind;
-      }
-      texel = static_cast<float>(std::clamp(frame.tile_at(centre).window_depth(depth), 0.0, 1.0));
+      places[i] = view.texel_place(list[first + i]);
+      hits[i] = texels.hit(list[first + i]);
     }
+    drawn.depths(n, places, hits, depths);
+    for (int i = 0; i < n; ++i) map.at(list[first + i].x, list[first + i].y) = depths[i];
   });
   return map;
 }
@@ -116,12 +49,9 @@ struct LookupTracer::Impl {
 
 LookupTracer::LookupTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
                            const LightFrame& frame, const MapSettings& map, const Bias& bias, double offset_unit) {
-  std::optional<PolygonOffset> offset;  // a fragment shader that writes its own depth, a point light's, has none
-  if (bias.polygon_offset() && frame.tile(0).depth != TileDepth::distance)
-    offset.emplace(PolygonOffset{bias.polygon_offset()->factor, bias.polygon_offset()->units,
-                                 map.format == DepthFormat::d32f ? 0 : offset_unit});
   const std::shared_ptr<LightSide> light = traced.lit_by(frame);
-  impl_.reset(new Impl{traced, receivers, truth, map, bias, offset, light, light->view().with_map_of(frame)});
+  impl_.reset(new Impl{traced, receivers, truth, map, bias, polygon_offset_of(frame, map, bias, offset_unit), light,
+                       light->view().with_map_of(frame)});
 }
 LookupTracer::LookupTracer(LookupTracer&&) noexcept = default;
 LookupTracer& LookupTracer::operator=(LookupTracer&&) noexcept = default;
@@ -135,7 +65,7 @@ void LookupTracer::ask(const LookupProbe& probe, PixelRange strip, StageTime* st
 Image<float> LookupTracer::trace_map(StageTime* stage) {
   const StageWatch watch(stage, impl_->traced.device);
   impl_->texels.trace();
-  return exact_map_of(impl_->traced, impl_->view, impl_->texels, impl_->map, impl_->bias, impl_->offset);
+  return exact_map_of({impl_->traced, impl_->view, impl_->map, impl_->bias, impl_->offset}, impl_->view, impl_->texels);
 }
 
 TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Image<float>& edge_distance_texels,

@@ -151,19 +151,21 @@ SurfacePoint OwnSurface::point(glm::dvec3 light, uint32_t primitive, bool lit) c
   return {at, primitive, lit, lit && silhouettes_.near(at, rounding_share * beside_m())};
 }
 
-OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const {
+template <class Edges>
+OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
+                                       const Edges& silhouettes) const {
   // The first hit is determined exactly, in double, where the ray may have met another surface than the first: beside a
   // silhouette, and where two surfaces intersect. An intersection can change a verdict only if P's own sheet is one of
   // the two surfaces: the sheet of a dark receiver comes out from under the other, or the sheet of a lit one goes
   // under.
-  const bool beside = silhouettes_.near(x);
+  const bool beside = silhouettes.near(x);
   std::vector<Silhouettes::Crossing> crossed;
-  if (p.lit) crossed = silhouettes_.crossings(p.at, x);
+  if (p.lit) crossed = silhouettes.crossings(p.at, x);
   // Rounding decides whether the way crosses a silhouette on which a lit P lies. If x lies on a silhouette (a tie),
   // rounding decides whether the ray through x meets the surface that ends there. The ray that was cast may then meet
   // another surface than the one that is first in double, and the map holds the depth of what the ray has met.
   bool sure = !p.on_silhouette;
-  const bool tie = beside && silhouettes_.near(x, rounding_share * beside_m());
+  const bool tie = beside && silhouettes.near(x, rounding_share * beside_m());
   const auto exact = [&] {
     const uint32_t first = exact_first(x);
     sure &= clipped(first, x) == clipped(hit, x);
@@ -179,6 +181,9 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   v.sure &= sure;
   return v;
 }
+template OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint&, glm::dvec3, uint32_t, const Silhouettes&) const;
+template OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint&, glm::dvec3, uint32_t,
+                                                const Silhouettes::Nearby&) const;
 
 bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const {
   if (hit == no_primitive || hit == p.primitive) return true;

@@ -45,7 +45,11 @@ class OwnSurface {
   };
 
   // V(P, x). hit: the triangle of the first hit on the light ray through x, or no_primitive.
-  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const;
+  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const { return lit_at(p, x, hit, silhouettes_); }
+  // The same, if these silhouettes were listed around P and x.
+  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Silhouettes::Nearby& nearby) const {
+    return lit_at<Silhouettes::Nearby>(p, x, hit, nearby);
+  }
 
   // V differs at `from` and `to`, so it changes between them. The distance from `from` to the change, in texels, found
   // to 2^-8 of the way.
@@ -65,6 +69,8 @@ class OwnSurface {
   Sheet walk(const SurfacePoint& p, glm::dvec3 x, bool over_seams = true) const;
 
  private:
+  template <class Edges>  // Silhouettes, or those nearby
+  Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Edges& silhouettes) const;
   uint32_t first_hit(glm::dvec3 x) const;
   // The same, exactly: of all triangles that the ray through x meets, and of those that end so near to x that the ray
   // may have missed them, the first one that covers x in double.

@@ -34,6 +34,13 @@ double PolygonOffset::of(const LightView& view, uint32_t triangle) const {
   return std::isfinite(offset) ? offset : 1;  // edge-on: it covers nothing
 }
 
+std::optional<PolygonOffset> polygon_offset_of(const LightFrame& frame, const MapSettings& map, const Bias& bias,
+                                               double format_unit) {
+  if (!bias.polygon_offset() || frame.tile(0).depth == TileDepth::distance) return std::nullopt;
+  return PolygonOffset{bias.polygon_offset()->factor, bias.polygon_offset()->units,
+                       map.format == DepthFormat::d32f ? 0 : format_unit};
+}
+
 double least_offset_depth(const EmbreeScene& seen, const LightView& view, const PolygonOffset& offset, glm::dvec3 x,
                           bool clamped) {
   const MapTile tile = view.frame().tile_at(x);

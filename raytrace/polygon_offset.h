@@ -3,9 +3,12 @@
 // change which triangle is first, so every triangle on the ray is tested.
 #pragma once
 #include <cstdint>
+#include <optional>
 
 #include "raytrace/embree_scene.h"
 #include "raytrace/light_view.h"
+#include "technique/bias.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 
@@ -16,6 +19,11 @@ struct PolygonOffset {
 
   double of(const LightView& view, uint32_t triangle) const;
 };
+
+// The polygon offset of this bias, if its map has one. A point light's fragment shader writes its own depth, which no
+// offset moves. format_unit: r of a fixed-point format (gl::Renderer::polygon_offset_unit).
+std::optional<PolygonOffset> polygon_offset_of(const LightFrame& frame, const MapSettings& map, const Bias& bias,
+                                               double format_unit);
 
 // The smallest offset window depth of the triangles on the ray through x that the near and far planes do not clip; 1 if
 // there is none. clamped: these planes clip nothing (GL_DEPTH_CLAMP).

@@ -127,8 +127,69 @@ std::vector<Silhouettes::Crossing> Silhouettes::crossings(glm::dvec3 from, glm::
         each_edge(grids_[chart], way->a, way->b);
     }
   }
+  put_in_order(at);
+  return at;
+}
+
+void Silhouettes::put_in_order(std::vector<Crossing>& at) {
   std::sort(at.begin(), at.end(), [](const Crossing& x, const Crossing& y) { return x.t < y.t; });
   at.erase(std::unique(at.begin(), at.end()), at.end());  // an edge is listed in many cells
+}
+
+// An edge is listed in every cell that it touches or comes within reach_m of. So the cells of the rectangle list every
+// edge that a place or a way within it can ask for.
+void Silhouettes::list_nearby(std::span<const glm::dvec3> places, Nearby& nearby) const {
+  nearby.all_ = this;
+  nearby.edges_.clear();
+  glm::dvec2 low, high;
+  const int chart = view_.rays().chart_of(places.front(), low);
+  high = low;
+  nearby.listed_ = true;
+  for (glm::dvec3 x : places.subspan(1)) {
+    glm::dvec2 at;
+    nearby.listed_ = nearby.listed_ && view_.rays().chart_of(x, at) == chart;
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  const Grid& grid = grids_[static_cast<size_t>(chart)];
+  if (!nearby.listed_ || grid.size == 0 || grid.empty_between(low, high)) return;
+  const size_t first = grid.cell_of(low), last = grid.cell_of(high), row = static_cast<size_t>(grid.size);
+  const size_t columns = (last - first) % row;
+  std::vector<uint32_t>& edges = nearby.edges_;
+  for (size_t cell = first; cell <= last; cell += row)
+    edges.insert(edges.end(), grid.listed.begin() + grid.begin[cell],
+                 grid.listed.begin() + grid.begin[cell + columns + 1]);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  // Most of these edges pass beside the rectangle.
+  const auto beside = [&](uint32_t index) {
+    const auto segment = view_.rays().in_chart(chart, edges_[index].a, edges_[index].b, reach_m_);
+    if (!segment) return true;
+    const double reach = segment->reach * (1 + 1e-9);  // and the rounding of double
+    const glm::dvec2 from = low - reach, to = high + reach, a = segment->a, b = segment->b;
+    if (std::max(a.x, b.x) < from.x || std::min(a.x, b.x) > to.x || std::max(a.y, b.y) < from.y ||
+        std::min(a.y, b.y) > to.y)
+      return true;
+    const glm::dvec2 way = b - a, middle = (from + to) / 2.0, half = (to - from) / 2.0;
+    return std::abs(way.x * (middle.y - a.y) - way.y * (middle.x - a.x)) >
+           (std::abs(way.x) * half.y + std::abs(way.y) * half.x) * (1 + 1e-9);
+  };
+  std::erase_if(edges, beside);
+}
+
+bool Silhouettes::Nearby::near(glm::dvec3 x, double within_m) const {
+  if (!listed_) return all_->near(x, within_m);
+  return std::any_of(edges_.begin(), edges_.end(), [&](uint32_t index) {
+    const Edge& edge = all_->edges_[index];
+    return all_->view_.rays().distance2_across(x, edge.a, edge.b) <= within_m * within_m;
+  });
+}
+
+std::vector<Silhouettes::Crossing> Silhouettes::Nearby::crossings(glm::dvec3 from, glm::dvec3 to) const {
+  if (!listed_) return all_->crossings(from, to);
+  std::vector<Crossing> at;
+  for (uint32_t index : edges_) all_->cross(index, from, to, at);
+  if (at.size() > 1) put_in_order(at);
   return at;
 }
 

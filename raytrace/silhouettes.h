@@ -6,6 +6,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "raytrace/adjacency.h"
@@ -40,6 +41,24 @@ class Silhouettes {
   };
   // Where the straight way crosses silhouettes, in order.
   std::vector<Crossing> crossings(glm::dvec3 from, glm::dvec3 to) const;
+
+  // The silhouettes among a set of places that lie close together, listed once for many questions. The answers are the
+  // same as those of all silhouettes, for places within the rectangle around the set and within_m up to reach_m.
+  class Nearby {
+   public:
+    bool none() const { return listed_ && edges_.empty(); }
+    bool near(glm::dvec3 x) const { return near(x, all_->reach_m_); }
+    bool near(glm::dvec3 x, double within_m) const;
+    std::vector<Crossing> crossings(glm::dvec3 from, glm::dvec3 to) const;
+
+   private:
+    friend class Silhouettes;
+    const Silhouettes* all_ = nullptr;
+    bool listed_ = false;  // false: the places lie in several charts, and all silhouettes are asked
+    std::vector<uint32_t> edges_;
+  };
+  // nearby: its memory is used again.
+  void list_nearby(std::span<const glm::dvec3> places, Nearby& nearby) const;
 
  private:
   struct Edge {
@@ -88,6 +107,7 @@ class Silhouettes {
   }
   bool near_listed(glm::dvec3 x, double within_m, std::vector<uint32_t>* triangles) const;
   void cross(uint32_t edge, glm::dvec3 from, glm::dvec3 to, std::vector<Crossing>& at) const;
+  static void put_in_order(std::vector<Crossing>& at);
 
   LightView view_;
   double reach_m_;

@@ -95,6 +95,12 @@ LookupTracer Tracer::lookup(const ReceiverImage& receivers, const ReceiverTruth&
   return LookupTracer(*traced_, receivers, truth, frame, map, bias, offset_unit);
 }
 
+PlacementTracer Tracer::placements(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
+                                   const Placements& placements, const MapSettings& map, const Bias& bias,
+                                   double offset_unit) const {
+  return PlacementTracer(*traced_, receivers, truth, frame, placements, map, bias, offset_unit);
+}
+
 LookupTruth Tracer::lookup_truth(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
                                  const LightFrame& frame, const MapSettings& map, const Bias& bias,
                                  double offset_unit) const {

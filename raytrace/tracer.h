@@ -12,6 +12,7 @@
 #include <string>
 
 #include "raytrace/lookup_tracer.h"
+#include "raytrace/placement_tracer.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
 #include "technique/bias.h"
@@ -51,6 +52,10 @@ class Tracer {
   // offset_unit: gl::Renderer::polygon_offset_unit. The tracer, receivers and truth must outlive the returned object.
   LookupTracer lookup(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
                       const MapSettings& map, const Bias& bias = {}, double offset_unit = 0) const;
+  // The same at all placements of the grid. frame: of placement 0.
+  PlacementTracer placements(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
+                             const Placements& placements, const MapSettings& map, const Bias& bias = {},
+                             double offset_unit = 0) const;
   // The whole picture's at once.
   LookupTruth lookup_truth(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
                            const LightFrame& frame, const MapSettings& map, const Bias& bias = {},

@@ -59,7 +59,11 @@ struct LookupProbe {
   glm::ivec2 texel(size_t i, int tap) const {
     if (cube_resolution > 0)
       return cube_place(cube_texel[(i - cube_first) * static_cast<size_t>(taps()) + static_cast<size_t>(tap)]);
-    const glm::vec2 at = map_texels[i];
+    return texel_at(map_texels[i], i, tap);
+  }
+
+  // The same for a flat map, if receiver i had this position in the map.
+  glm::ivec2 texel_at(glm::vec2 at, size_t i, int tap) const {
     if (pattern.bilinear()) {  // the fetch of 2 x 2 texels begins at the texel whose centre is to the lower left of P
       const int side = pattern.blended_side, before = (side - 2) / 2;
       return floored(at - 0.5f) + glm::ivec2(tap % side - before, tap / side - before);
@@ -85,15 +89,20 @@ struct LookupProbe {
   // The depth that a tap is compared with, before the bias is subtracted.
   float tap_depth(size_t i, int tap) const {
     if (!tap_reference->plane) return reference[i];
-    const glm::vec2 way =
-        tap_reference->at_texel ? (glm::vec2(texel(i, tap)) + 0.5f) - map_texels[i] : glm::vec2(offset(i, tap));
+    return tap_depth_at(map_texels[i], texel(i, tap), i, tap);
+  }
+  // The same if the tap read this texel from this position in the map.
+  float tap_depth_at(glm::vec2 at, glm::ivec2 texel, size_t i, int tap) const {
+    if (!tap_reference->plane) return reference[i];
+    const glm::vec2 way = tap_reference->at_texel ? (glm::vec2(texel) + 0.5f) - at : glm::vec2(offset(i, tap));
     return tap_reference->depth({reference[i], gradient[i], way, plane_cap * bias_unit[i]});
   }
 
   // The weight of a tap. The weights of one receiver have the sum 1.
-  double weight(size_t i, int tap) const {
-    if (!pattern.bilinear()) return 1.0 / taps();
-    const glm::vec2 at = map_texels[i] - 0.5f;
+  double weight(size_t i, int tap) const { return pattern.bilinear() ? weight_at(map_texels[i], tap) : 1.0 / taps(); }
+  // Of a bilinear tap, if the receiver had this position in the map.
+  double weight_at(glm::vec2 position, int tap) const {
+    const glm::vec2 at = position - 0.5f;
     return pattern.weight(tap, glm::dvec2(at) - glm::dvec2(glm::floor(at)));
   }
 

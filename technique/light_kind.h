@@ -69,6 +69,12 @@ class KindOfLight {
   virtual MapTile tile(const LightFrame& frame, int index) const = 0;
   // The tile that a lookup reads at a point in the light's frame.
   virtual int tile_of(const LightFrame& /*frame*/, glm::dvec3 /*light*/) const { return 0; }
+  // Whether the grid of texels can be shifted as a whole. The grid of a cube cannot.
+  virtual bool grid_can_shift() const { return true; }
+  // Shifts the grid by a part of a texel.
+  virtual void shift_grid(LightFrame& frame, glm::dvec2 texels) const = 0;
+  // Keeps the grid in its place when the caller has made the resolution `times` as large.
+  virtual void refine_grid(LightFrame& /*frame*/, int /*times*/) const {}
   // The axes of the texels in the world, at a point in the light's frame. For the faces of a cube they have no sign.
   virtual void texel_axes(const LightFrame& frame, glm::dvec3 light, glm::dvec3& right, glm::dvec3& up) const;
 

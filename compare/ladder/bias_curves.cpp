@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/ladder/thresholds.h"
+#include "compare/ladder/tap_threshold.h"
 
 namespace noonmark {
 namespace {
@@ -40,43 +40,9 @@ void append(Taps& to, Taps& from) {
   append(to.weights, from.weights);
 }
 
-// The least amount of the varied part from which a tap of receiver i is lit. Each float operation from the amount to
-// the bias is monotone, so the thresholds can be traced back one operation at a time.
-class Threshold {
- public:
-  Threshold(const LookupEvidence& e, const BiasPart& varied, size_t i) : unit_(e.probe.bias_unit[i]) {
-    const in_float::Surface surface = surface_of(e.probe, i);
-    factor_ = varied.formula.factor(surface);
-    for (const ActivePart& active : e.bias.compared()) {
-      if (active.part == &varied)
-        varied_ = active;
-      else if (active.part < &varied)  // the rows of one table; the shader adds them in its order
-        before_ += active.held(active.part->formula.factor(surface));
-      else
-        after_.push_back(active.held(active.part->formula.factor(surface)));
-    }
-  }
-  float operator()(const Tap& tap) const {
-    if (tap.always_lit) return 0;
-    if (tap.reference == infinity) return infinity;  // dark at any bias
-    const float needed = lit_threshold(tap.reference, tap.depth);
-    float sum = unit_ == 1 ? needed : factor_threshold(needed, unit_);
-    for (auto part = after_.rbegin(); part != after_.rend(); ++part) sum = addend_threshold(sum, *part);
-    const float held = addend_threshold(sum, before_);
-    if (!(varied_.cap >= held)) return infinity;
-    return varied_.floor >= held ? 0.0f : factor_threshold(held, factor_);
-  }
-
- private:
-  float unit_, factor_ = 1;
-  ActivePart varied_{};  // its floor and cap
-  float before_ = 0;     // the sum of the parts before it
-  std::vector<float> after_;
-};
-
 void receiver(const LookupEvidence& e, const Image<float>& stored_map, const BiasPart& varied, size_t i, Lists& lists) {
   const bool blended = e.probe.pattern.bilinear();
-  const Threshold threshold(e, varied, i);
+  const TapThreshold threshold(e, varied, i);
   const auto list = [&](Taps& to, float at, double weight) {
     to.thresholds.push_back(at);
     if (blended) to.weights.push_back(weight);

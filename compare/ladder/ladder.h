@@ -157,15 +157,18 @@ struct Tap {
 // The sum of a receiver's tap weights: the number of taps if each weighs 1, or 1 if a sampler weighs them.
 inline double whole_weight(const LookupProbe& probe) { return probe.pattern.bilinear() ? 1.0 : probe.taps(); }
 
-// Tap number `tap` of pixel i. map_depth: the map that it reads (the exact map, or the GPU's as its sampler returns
-// it).
-inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSettings& map, const Image<float>& map_depth,
-                  size_t i, int tap) {
-  const uint8_t bits = taps.bits(i, tap);
+// What one tap reads: the texel (for a flat map perhaps outside), the depth that the sampler returns there, and, in a
+// flat map, the position of the receiver.
+struct TapRead {
+  glm::ivec2 texel{0};
+  float depth = border_depth;
+  glm::vec2 position{0};
+};
+
+// Tap number `tap` of pixel i. bits: of TapBits. size: of the map's image.
+inline Tap tap_of(const LookupProbe& probe, uint8_t bits, const MapSettings& map, glm::ivec2 size, size_t i, int tap,
+                  const TapRead& read) {
   const bool sampler_compares = probe.pattern.bilinear();
-  const glm::ivec2 size(map_depth.width, map_depth.height);
-  const glm::ivec2 texel = probe.texel(i, tap);
-  const glm::ivec2 read = wrapped(texel, size, map.wrap);
   const bool beyond_far = probe.reference[i] > 1.0f;
   Tap result;
   result.exact_lit = bits & tap_exact_lit;
@@ -174,21 +177,33 @@ inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSetti
   result.exact_sure = !(bits & tap_exact_unsure);
   result.moved_sure = !(bits & tap_moved_unsure);
   result.texel_sure = !(bits & tap_texel_unsure);
-  result.covered = inside_map(texel, size) && !beyond_far && !(bits & tap_near_clipped);
+  result.covered = inside_map(read.texel, size) && !beyond_far && !(bits & tap_near_clipped);
+  if (sampler_compares) result.weight = probe.weight_at(read.position, tap);
   if (!probe.asks(i)) {
     result.covered = false;
     result.reference = std::numeric_limits<float>::infinity();
-    if (sampler_compares) result.weight = probe.weight(i, tap);
     return result;
   }
-  result.reference = probe.tap_depth(i, tap);
-  result.depth = read.x < 0 ? border_depth : map_depth.at(read.x, read.y);
+  result.reference = probe.tap_depth_at(read.position, read.texel, i, tap);
+  result.depth = read.depth;
   // A comparison sampler clamps the compared depth to [0,1] if the format is fixed-point (OpenGL 4.5 core, 8.23.1). So
   // a stored depth of 1 makes nothing dark.
   const bool clamped = sampler_compares && map.format != DepthFormat::d32f && result.depth >= 1;
   result.always_lit = (beyond_far && map.lit_beyond_far) || clamped;
-  if (sampler_compares) result.weight = probe.weight(i, tap);
   return result;
+}
+
+// The same with what the probe and the truth of the taps say of it. map_depth: the map that it reads (the exact map, or
+// the GPU's as its sampler returns it).
+inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSettings& map, const Image<float>& map_depth,
+                  size_t i, int tap) {
+  const glm::ivec2 size(map_depth.width, map_depth.height);
+  TapRead read;
+  read.texel = probe.texel(i, tap);
+  const glm::ivec2 at = wrapped(read.texel, size, map.wrap);
+  if (at.x >= 0) read.depth = map_depth.at(at.x, at.y);
+  if (probe.cube_resolution == 0) read.position = probe.map_texels[i];
+  return tap_of(probe, taps.bits(i, tap), map, size, i, tap, read);
 }
 
 // The cause of a tap whose verdict at R4 is `lit`.

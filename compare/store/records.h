@@ -41,6 +41,13 @@ struct BiasCurve {
   // map, where `acne` is defined, then on the GPU's own map with its format and rasteriser. Empty if no value is
   // enough.
   std::optional<double> acne_free_bias_depth, acne_free_bias_stored_depth;
+  // With map.placements above 1: over all placements of the map's grid, at R4 (compare/ladder/placement_counts.h). The
+  // series are empty without. The window holds at every placement; its ends are edges of the counts, so each is up to a
+  // sixteenth of an octave inside the exact window.
+  uint64_t placements = 0;
+  std::vector<double> error_mean, error_worst, error_best, acne_mean, acne_worst, acne_best, peter_panning_mean,
+      peter_panning_worst, peter_panning_best, aliasing_mean, aliasing_worst, aliasing_best;
+  std::optional<double> window_min_worst_depth, window_max_worst_depth;
 };
 
 // A picture of a point, for people. Path relative to the results' directory.

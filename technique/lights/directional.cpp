@@ -56,7 +56,11 @@ class Directional final : public KindOfLight {
       frame.origin_m += to_grid(glm::dot(frame.origin_m, frame.right)) * frame.right +
                         to_grid(glm::dot(frame.origin_m, frame.up)) * frame.up;
     }
-    frame.origin_m += (map.shift_u_texels * frame.right + map.shift_v_texels * frame.up) * w;
+    shift_grid(frame, {map.shift_u_texels, map.shift_v_texels});
+  }
+
+  void shift_grid(LightFrame& frame, glm::dvec2 texels) const override {
+    frame.origin_m += (texels.x * frame.right + texels.y * frame.up) * tile(frame, 0).texel_m({});
   }
 
   MapTile tile(const LightFrame& frame, int) const override {

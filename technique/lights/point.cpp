@@ -1,4 +1,6 @@
 // A point light: rays from a point in all directions, a cube map of distances.
+#include <stdexcept>
+
 #include "technique/lights/shared.h"
 
 namespace noonmark {
@@ -27,6 +29,8 @@ class Point final : public KindOfLight {
     lights::require_near_before_light(frame);
   }
 
+  bool grid_can_shift() const override { return false; }
+  void shift_grid(LightFrame&, glm::dvec2) const override { throw std::logic_error("the grid of a cube has no shift"); }
   int tiles(const MapSettings&) const override { return 6; }
   MapTile tile(const LightFrame& frame, int index) const override {
     const CubeFace& face = cube_face(index);

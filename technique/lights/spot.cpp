@@ -36,8 +36,11 @@ class Spot final : public KindOfLight {
   void lay_map(LightFrame& frame, const Light& light, const MapVolume&, const MapSettings& map) const override {
     frame.tan_half_fov = tan_half(map.fov_deg.value_or(light.cone_deg)) * map.extent_scale;
     lights::require_near_before_light(frame);
-    frame.shift_texels = {map.shift_u_texels, map.shift_v_texels};
+    shift_grid(frame, {map.shift_u_texels, map.shift_v_texels});
   }
+
+  void shift_grid(LightFrame& frame, glm::dvec2 texels) const override { frame.shift_texels += texels; }
+  void refine_grid(LightFrame& frame, int times) const override { frame.shift_texels *= times; }
 
   MapTile tile(const LightFrame& frame, int) const override {
     return {.orthographic = false,

@@ -1,0 +1,311 @@
+#include "compare/ladder/placement_counts.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "compare/ladder/tap_threshold.h"
+
+namespace noonmark {
+namespace {
+
+constexpr int least_edges_per_octave = 16;
+// The leading bits of a float that choose where ThresholdBins::of begins: sign, exponent and three bits of the fraction.
+constexpr int leading_shift = 20;
+
+// The depth that a map of this format holds, as its sampler returns it: OpenGL rounds to the nearest whole number of
+// steps (OpenGL 4.5 core, 2.3.5.1).
+float stored_depth(float depth, DepthFormat format) {
+  if (format == DepthFormat::d32f) return depth;
+  const double steps = format == DepthFormat::d16 ? 0xffff : 0xffffff;
+  return static_cast<float>(std::round(std::clamp<double>(depth, 0, 1) * steps) / steps);
+}
+
+bool within_one_float(float a, float b) { return a == b || std::nextafter(a, b) == b; }
+
+}  // namespace
+
+ThresholdBins::ThresholdBins(std::vector<float> edges) : edges_(std::move(edges)) {
+  if (edges_.empty() || !std::is_sorted(edges_.begin(), edges_.end()) || !(edges_.front() >= 0))
+    throw std::logic_error("the edges of thresholds are not in ascending order from 0");
+  first_.resize((std::bit_cast<uint32_t>(std::numeric_limits<float>::infinity()) >> leading_shift) + 1);
+  for (size_t key = 0; key < first_.size(); ++key) {
+    const float least = std::bit_cast<float>(static_cast<uint32_t>(key) << leading_shift);
+    first_[key] = static_cast<uint32_t>(std::lower_bound(edges_.begin(), edges_.end(), least) - edges_.begin());
+  }
+}
+
+size_t ThresholdBins::of(float threshold) const {
+  size_t at = first_[std::bit_cast<uint32_t>(threshold) >> leading_shift];
+  while (at < edges_.size() && edges_[at] < threshold) ++at;
+  return at;
+}
+
+std::vector<float> placement_edges(const std::vector<double>& bias_depth, double depth_per_unit) {
+  std::vector<float> edges;
+  for (size_t i = 0; i < bias_depth.size(); ++i) {
+    edges.push_back(static_cast<float>(bias_depth[i] / depth_per_unit));
+    if (i + 1 == bias_depth.size() || !(bias_depth[i] > 0)) continue;
+    const double ratio = bias_depth[i + 1] / bias_depth[i];
+    const int parts = static_cast<int>(std::ceil(std::log2(ratio) * least_edges_per_octave));
+    for (int k = 1; k < parts; ++k)
+      edges.push_back(
+          static_cast<float>(bias_depth[i] * std::pow(ratio, static_cast<double>(k) / parts) / depth_per_unit));
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+PlacementCounts::PlacementCounts(const Placements& placements, const LookupProbe& probe, const BiasPart* varied,
+                                 std::vector<float> edges)
+    : placements_(placements),
+      count_(static_cast<size_t>(placements.count())),
+      varied_(varied),
+      bins_(varied ? std::move(edges) : std::vector<float>{0}),
+      whole_(whole_weight(probe)),
+      wrong_receivers_(count_),
+      aliasing_squares_(count_) {
+  if (varied) histogram_.resize(kinds * count_ * (bins_.edges().size() + 1));
+  for (std::vector<double>& weights : own_) weights.resize(count_);
+}
+
+bool PlacementCounts::darkens(Kind kind) {
+  return kind == acne || kind == aliasing_dark || kind == coverage_dark || kind == undecided_dark || kind == error_dark;
+}
+
+PlacementCounts::Kind PlacementCounts::kind_of(Cause cause, bool dark) {
+  switch (cause) {
+    case Cause::acne:
+      return acne;
+    case Cause::peter_panning:
+      return peter_panning;
+    case Cause::aliasing_dark:
+      return aliasing_dark;
+    case Cause::aliasing_light:
+      return aliasing_light;
+    case Cause::coverage_dark:
+      return coverage_dark;
+    case Cause::coverage_light:
+      return coverage_light;
+    case Cause::undecided:
+      return dark ? undecided_dark : undecided_light;
+    default:
+      throw std::logic_error("a cause that is not booked tap by tap");
+  }
+}
+
+void PlacementCounts::add(const LookupEvidence& e, size_t pixel, const PlacedTaps& taps, const LatticeBox& box) {
+  const LookupProbe& probe = e.probe;
+  if (e.truth.ambiguous[pixel]) return;
+  ++receivers_;
+  const size_t side = static_cast<size_t>(placements_.side());
+  const int tap_count = probe.taps();
+  const bool truth = e.truth.lit[pixel] != 0, asks = probe.asks(pixel);
+  const float bias = e.bias.at(probe, pixel);
+  const glm::ivec2 size(e.exact_map.width, e.exact_map.height);
+  std::optional<TapThreshold> threshold;
+  if (varied_) threshold.emplace(e, *varied_, pixel);
+  // A tap that is lit at any bias, and should be, is in no sum. Most taps are, so they are not looked at further.
+  const bool plain = truth && asks && probe.reference[pixel] <= 1.0f && !probe.tap_reference->plane &&
+                     !probe.pattern.bilinear() && e.map.format == DepthFormat::d32f;
+
+  for (size_t j = 0; j < side; ++j)
+    for (size_t i = 0; i < side; ++i) {
+      const size_t placement = j * side + i;
+      double wrong_weight = 0, aliasing = 0;
+      for (int t = 0; t < tap_count; ++t) {
+        const uint8_t base = e.taps.bits(pixel, t);
+        const size_t at = static_cast<size_t>(t) * side;
+        uint8_t bits = base;
+        TapRead read;
+        if (asks) {
+          const glm::ivec2 point(taps.column[at + i], taps.row[at + j]);
+          const size_t n = taps.index(point.x, point.y);
+          const uint8_t found = box.bits[n];
+          read = {placements_.texel_of(point), box.depth[n], {taps.x[i], taps.y[j]}};
+          constexpr uint8_t of_texel = tap_texel_lit | tap_near_clipped | tap_texel_unsure;
+          if (placement == 0) {
+            const glm::ivec2 in_map = wrapped(read.texel, size, e.map.wrap);
+            const float ladders = in_map.x < 0 ? border_depth : e.exact_map.at(in_map.x, in_map.y);
+            const bool unsure = (base | found) & tap_texel_unsure;
+            disagreements_ += (!unsure && ((base ^ found) & of_texel)) || !within_one_float(read.depth, ladders);
+          }
+          if (plain && found == tap_texel_lit && (base & ~of_texel) == tap_exact_lit &&
+              !(probe.reference[pixel] > read.depth) && inside_map(read.texel, size))
+            continue;
+          bits = static_cast<uint8_t>((base & ~of_texel) | found);
+        }
+        const Tap exact = tap_of(probe, bits, e.map, size, pixel, t, read);
+        if (exact.weight == 0) continue;
+        read.depth = stored_depth(read.depth, e.map.format);
+        const Tap shown = e.map.format == DepthFormat::d32f ? exact : tap_of(probe, bits, e.map, size, pixel, t, read);
+
+        // At the point's own bias.
+        const bool lit = exact.lit(bias);
+        if (const Cause cause = tap_cause(exact, lit); cause != Cause::none) {
+          own_[kind_of(cause, !lit)][placement] += exact.weight;
+          if (cause == Cause::aliasing_dark) aliasing -= exact.weight;
+          if (cause == Cause::aliasing_light) aliasing += exact.weight;
+        }
+        if (shown.lit(bias) != truth) {
+          own_[truth ? error_dark : error_light][placement] += exact.weight;
+          wrong_weight += exact.weight;
+        }
+
+        // At every edge, as BiasCounts books it.
+        if (!threshold) continue;
+        const float needed = (*threshold)(exact);
+        const bool right = exact.moved_sure ? exact.moved_lit : truth;
+        if (!right || needed > 0) {
+          const Cause cause = exact.moved_sure ? tap_cause(exact, !right) : Cause::undecided;
+          cell(kind_of(cause, right), static_cast<int>(placement), bins_.of(needed)) += exact.weight;
+        }
+        const float shown_at = e.map.format == DepthFormat::d32f ? needed : (*threshold)(shown);
+        if (!truth || shown_at > 0)
+          cell(truth ? error_dark : error_light, static_cast<int>(placement), bins_.of(shown_at)) += exact.weight;
+      }
+      if (wrong_weight > 0) ++wrong_receivers_[placement];
+      aliasing_squares_[placement] += aliasing / whole_ * (aliasing / whole_);
+    }
+}
+
+void PlacementCounts::add(const PlacementCounts& other) {
+  receivers_ += other.receivers_;
+  disagreements_ += other.disagreements_;
+  const auto sum = [](std::vector<double>& to, const std::vector<double>& from) {
+    std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
+  };
+  sum(histogram_, other.histogram_);
+  for (size_t kind = 0; kind < own_.size(); ++kind) sum(own_[kind], other.own_[kind]);
+  sum(wrong_receivers_, other.wrong_receivers_);
+  sum(aliasing_squares_, other.aliasing_squares_);
+}
+
+// A tap that should be lit is wrong while the amount is below its threshold, and a tap that should be dark from its
+// threshold on.
+double PlacementCounts::wrong(Kind kind, int placement, size_t edge) const {
+  const size_t row = edges().size() + 1;
+  const auto bins =
+      histogram_.begin() +
+      static_cast<std::ptrdiff_t>((static_cast<size_t>(kind) * count_ + static_cast<size_t>(placement)) * row);
+  const auto middle = bins + static_cast<std::ptrdiff_t>(edge) + 1;
+  return darkens(kind) ? std::accumulate(middle, bins + static_cast<std::ptrdiff_t>(row), 0.0)
+                       : std::accumulate(bins, middle, 0.0);
+}
+
+double PlacementCounts::caused(Cause cause, int placement, size_t edge) const {
+  if (cause == Cause::undecided)
+    return wrong(undecided_dark, placement, edge) + wrong(undecided_light, placement, edge);
+  return wrong(kind_of(cause, true), placement, edge);
+}
+
+double PlacementCounts::wrong_taps(int placement, size_t edge) const {
+  return wrong(error_dark, placement, edge) + wrong(error_light, placement, edge);
+}
+
+std::map<std::string, std::vector<double>> PlacementCounts::shares() const {
+  std::map<std::string, std::vector<double>> shares;
+  const auto add = [&](const char* name, double whole, const auto& of) {
+    std::vector<double>& list = shares[name];
+    for (size_t p = 0; p < count_; ++p)
+      list.push_back(receivers_ == 0 ? std::numeric_limits<double>::quiet_NaN() : of(p) / whole);
+  };
+  const auto sum = [&](Kind a, Kind b) { return [this, a, b](size_t p) { return own_[a][p] + own_[b][p]; }; };
+  const auto one = [&](Kind a) { return [this, a](size_t p) { return own_[a][p]; }; };
+  add("error", taps(), sum(error_dark, error_light));
+  add("wrong", static_cast<double>(receivers_), [&](size_t p) { return wrong_receivers_[p]; });
+  add("acne", taps(), one(acne));
+  add("peter_panning", taps(), one(peter_panning));
+  add("aliasing", taps(), sum(aliasing_dark, aliasing_light));
+  add("aliasing_dark", taps(), one(aliasing_dark));
+  add("aliasing_light", taps(), one(aliasing_light));
+  add("aliasing_rms", static_cast<double>(receivers_), [&](size_t p) { return aliasing_squares_[p]; });
+  for (double& value : shares["aliasing_rms"]) value = std::sqrt(value);
+  add("coverage", taps(), sum(coverage_dark, coverage_light));
+  add("coverage_dark", taps(), one(coverage_dark));
+  add("coverage_light", taps(), one(coverage_light));
+  add("undecided", taps(), sum(undecided_dark, undecided_light));
+  return shares;
+}
+
+std::map<std::string, double> placement_metrics(const PlacementCounts& counts) {
+  std::map<std::string, double> metrics;
+  const auto shares = counts.shares();
+  for (const auto& [name, values] : shares) {
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());  // all are NaN, or none is
+    metrics[name + "_mean"] = std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(sorted.size());
+    metrics[name + "_worst"] = sorted.back();
+    // The nearest rank.
+    metrics[name + "_p95"] = sorted[static_cast<size_t>(std::ceil(0.95 * static_cast<double>(sorted.size()))) - 1];
+  }
+  const std::vector<double>& error = shares.at("error");
+  const auto worst = std::max_element(error.begin(), error.end()) - error.begin();
+  const glm::dvec2 shift = counts.placements().shift_texels(static_cast<int>(worst));
+  metrics["worst_shift_u_texels"] = shift.x;
+  metrics["worst_shift_v_texels"] = shift.y;
+  metrics["placement_disagreements"] = static_cast<double>(counts.disagreements());
+  return metrics;
+}
+
+void add_bands(BiasCurve& curve, const PlacementCounts& counts, double depth_per_unit) {
+  curve.placements = static_cast<uint64_t>(counts.placements().count());
+  const std::vector<float>& edges = counts.edges();
+  struct Band {
+    std::vector<double> mean, worst, best;
+  };
+  const auto band_at = [&](const auto& of, size_t edge, Band& band) {
+    double sum = 0, worst = 0, best = std::numeric_limits<double>::infinity();
+    for (int p = 0; p < counts.placements().count(); ++p) {
+      const double share = of(p, edge) / counts.taps();
+      sum += share;
+      worst = std::max(worst, share);
+      best = std::min(best, share);
+    }
+    band.mean.push_back(sum / counts.placements().count());
+    band.worst.push_back(worst);
+    band.best.push_back(best);
+  };
+  const auto caused = [&](Cause cause) {
+    return [&counts, cause](int p, size_t edge) { return counts.caused(cause, p, edge); };
+  };
+  const auto aliasing = [&](int p, size_t edge) {
+    return counts.caused(Cause::aliasing_dark, p, edge) + counts.caused(Cause::aliasing_light, p, edge);
+  };
+  Band error, acne, panning, aliased;
+  for (double bias : curve.bias_depth) {
+    const auto at = std::find(edges.begin(), edges.end(), static_cast<float>(bias / depth_per_unit));
+    if (at == edges.end()) throw std::logic_error("a bias of the curve is no edge of the placements' counts");
+    const auto edge = static_cast<size_t>(at - edges.begin());
+    band_at([&](int p, size_t e) { return counts.wrong_taps(p, e); }, edge, error);
+    band_at(caused(Cause::acne), edge, acne);
+    band_at(caused(Cause::peter_panning), edge, panning);
+    band_at(aliasing, edge, aliased);
+  }
+  curve.error_mean = error.mean, curve.error_worst = error.worst, curve.error_best = error.best;
+  curve.acne_mean = acne.mean, curve.acne_worst = acne.worst, curve.acne_best = acne.best;
+  curve.peter_panning_mean = panning.mean, curve.peter_panning_worst = panning.worst;
+  curve.peter_panning_best = panning.best;
+  curve.aliasing_mean = aliased.mean, curve.aliasing_worst = aliased.worst, curve.aliasing_best = aliased.best;
+
+  // The window at every placement, between two edges. Acne falls with the amount and Peter Panning grows.
+  Band acne_at, panning_at;
+  for (size_t edge = 0; edge < edges.size(); ++edge) {
+    band_at(caused(Cause::acne), edge, acne_at);
+    band_at(caused(Cause::peter_panning), edge, panning_at);
+  }
+  const auto from =
+      std::find_if(acne_at.worst.begin(), acne_at.worst.end(), [&](double share) { return share <= curve.acne_bound; });
+  const auto to = std::find_if(panning_at.worst.begin(), panning_at.worst.end(),
+                               [&](double share) { return !(share <= curve.peter_panning_bound); });
+  const auto first = from - acne_at.worst.begin(), end = to - panning_at.worst.begin();
+  if (first >= end) return;
+  curve.window_min_worst_depth = edges[static_cast<size_t>(first)] * depth_per_unit;
+  curve.window_max_worst_depth = edges[static_cast<size_t>(end) - 1] * depth_per_unit;
+}
+
+}  // namespace noonmark

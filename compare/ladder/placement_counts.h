@@ -1,0 +1,112 @@
+// The causes of all wrong taps at every placement of the map's grid, and at many amounts of one part of the bias.
+//
+//   PlacementCounts counts(placements, probe, part, placement_edges(grid, scale.depth_per_unit));
+//   counts.add(evidence, pixel, taps, box);          // for each facing receiver
+//   PlacementMetrics metrics = counts.metrics();     // at the point's own bias
+//   counts.caused(Cause::acne, 9, 0.005f);           // taps of placement 9, at one of the edges
+//
+// The causes are those of the ladder (compare/ladder/ladder.h). The depth that a tap reads is the exact map's; for the
+// error it is rounded to the map's format, as OpenGL stores it. So at R4 every number is the ladder's own, and the error
+// is that of R5 but for the rasteriser and the sampler's rounding of weights.
+//
+// The thresholds of the taps are counted between fixed amounts, the edges. So a sum is exact at an edge, and memory does
+// not grow with the number of taps.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "compare/ladder/ladder.h"
+#include "compare/store/records.h"
+#include "technique/placements.h"
+
+namespace noonmark {
+
+// Ascending floats, and the first of them that is not less than a number.
+class ThresholdBins {
+ public:
+  explicit ThresholdBins(std::vector<float> edges);
+  const std::vector<float>& edges() const { return edges_; }
+  // edges().size() if all edges are less. threshold: not NaN, at least 0.
+  size_t of(float threshold) const;
+
+ private:
+  std::vector<float> edges_;
+  std::vector<uint32_t> first_;  // for the leading bits of a float
+};
+
+// The edges for a curve over these biases (in window depth, ascending, from 0): its own, and others between them, so
+// that there are at least 16 in an octave. In units of the part's amount.
+std::vector<float> placement_edges(const std::vector<double>& bias_depth, double depth_per_unit);
+
+class PlacementCounts {
+ public:
+  // varied: the part whose amount the edges are of, or null. Without it only the point's own bias is counted.
+  PlacementCounts(const Placements& placements, const LookupProbe& probe, const BiasPart* varied,
+                  std::vector<float> edges);
+
+  // Adds a facing receiver. evidence.taps: of its strip, at placement 0; evidence.exact_map is not read. box: V and
+  // depths around the receiver. Receivers whose truth is ambiguous are not counted.
+  void add(const LookupEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box);
+  // Adds what other counts have counted, of the same probe, part and edges.
+  void add(const PlacementCounts& other);
+
+  const Placements& placements() const { return placements_; }
+  uint64_t receivers() const { return receivers_; }
+  double taps() const { return static_cast<double>(receivers_) * whole_; }
+
+  // The taps with this cause at one of the edges; Cause::undecided too. At R4.
+  double caused(Cause cause, int placement, size_t edge) const;
+  // The taps that differ from R1.
+  double wrong_taps(int placement, size_t edge) const;
+  const std::vector<float>& edges() const { return bins_.edges(); }
+
+  // At the point's own bias, for every placement, by the name of the metric: error, acne, ... as fractions.
+  std::map<std::string, std::vector<double>> shares() const;
+
+  // Differences from placement 0 as the ladder has it: taps whose V, clipping or depth is not the one in the evidence.
+  uint64_t disagreements() const { return disagreements_; }
+
+ private:
+  enum Kind {
+    acne,
+    peter_panning,
+    aliasing_dark,
+    aliasing_light,
+    coverage_dark,
+    coverage_light,
+    undecided_dark,
+    undecided_light,
+    error_dark,
+    error_light,
+    kinds
+  };
+  static Kind kind_of(Cause cause, bool darkens);
+  static bool darkens(Kind kind);
+  double& cell(Kind kind, int placement, size_t bin) {
+    return histogram_[(static_cast<size_t>(kind) * count_ + static_cast<size_t>(placement)) * (edges().size() + 1) +
+                      bin];
+  }
+  double wrong(Kind kind, int placement, size_t edge) const;
+
+  Placements placements_;
+  size_t count_;  // of placements
+  const BiasPart* varied_;
+  ThresholdBins bins_;
+  double whole_ = 1;
+  uint64_t receivers_ = 0, disagreements_ = 0;
+  std::vector<double> histogram_;                           // [kind][placement][bin]: weight of the thresholds
+  std::array<std::vector<double>, kinds> own_;              // [placement]: weight at the point's own bias
+  std::vector<double> wrong_receivers_, aliasing_squares_;  // [placement]
+};
+
+// Mean, worst and 95th percentile over the placements of every metric of shares(), and the shift of the placement with
+// the largest error. Names: "acne_mean", "acne_worst", "acne_p95", "worst_shift_u_texels".
+std::map<std::string, double> placement_metrics(const PlacementCounts& counts);
+
+// Adds bands and the window at every placement to a curve over the same part.
+void add_bands(BiasCurve& curve, const PlacementCounts& counts, double depth_per_unit);
+
+}  // namespace noonmark

@@ -1,0 +1,50 @@
+// The amount of a part of the bias from which a tap is lit. Curves over the amount, and the counts at all placements,
+// are made of these thresholds.
+//
+//   const TapThreshold threshold(evidence, *curve_part(settings.bias), pixel);
+//   float amount = threshold(tap_of(...));
+#pragma once
+#include <limits>
+#include <vector>
+
+#include "compare/ladder/ladder.h"
+#include "compare/ladder/thresholds.h"
+
+namespace noonmark {
+
+// The least amount of the varied part from which a tap of receiver i is lit. Each float operation from the amount to
+// the bias is monotone, so the thresholds can be traced back one operation at a time.
+class TapThreshold {
+ public:
+  TapThreshold(const LookupEvidence& e, const BiasPart& varied, size_t i) : unit_(e.probe.bias_unit[i]) {
+    const in_float::Surface surface = surface_of(e.probe, i);
+    factor_ = varied.formula.factor(surface);
+    for (const ActivePart& active : e.bias.compared()) {
+      if (active.part == &varied)
+        varied_ = active;
+      else if (active.part < &varied)  // the rows of one table; the shader adds them in its order
+        before_ += active.held(active.part->formula.factor(surface));
+      else
+        after_.push_back(active.held(active.part->formula.factor(surface)));
+    }
+  }
+  float operator()(const Tap& tap) const {
+    if (tap.always_lit) return 0;
+    if (tap.reference == std::numeric_limits<float>::infinity())
+      return std::numeric_limits<float>::infinity();  // dark at any bias
+    const float needed = lit_threshold(tap.reference, tap.depth);
+    float sum = unit_ == 1 ? needed : factor_threshold(needed, unit_);
+    for (auto part = after_.rbegin(); part != after_.rend(); ++part) sum = addend_threshold(sum, *part);
+    const float held = addend_threshold(sum, before_);
+    if (!(varied_.cap >= held)) return std::numeric_limits<float>::infinity();
+    return varied_.floor >= held ? 0.0f : factor_threshold(held, factor_);
+  }
+
+ private:
+  float unit_, factor_ = 1;
+  ActivePart varied_{};  // its floor and cap
+  float before_ = 0;     // the sum of the parts before it
+  std::vector<float> after_;
+};
+
+}  // namespace noonmark

@@ -1,0 +1,42 @@
+// What the map's pass draws, exactly: the depth along a light-side ray of the surfaces that the pass keeps. The bias may
+// move the casters, the settings may cull faces, and the near and far planes clip.
+//
+//   const DrawnMap drawn(traced, view, settings.map, bias, offset);
+//   float depth = drawn.depth_at(x, hit);      // window depth at place x; hit: the scene's first hit there
+#pragma once
+#include <optional>
+
+#include "raytrace/embree_scene.h"
+#include "raytrace/light_view.h"
+#include "raytrace/polygon_offset.h"
+#include "raytrace/traced_scene.h"
+#include "technique/bias.h"
+#include "technique/settings.h"
+
+namespace noonmark::raytrace {
+
+class DrawnMap {
+ public:
+  // view: the scene as the map's light sees it. traced must outlive this object.
+  DrawnMap(const TracedScene& traced, const LightView& view, const MapSettings& settings, const Bias& bias,
+           const std::optional<PolygonOffset>& offset);
+  DrawnMap(const DrawnMap&) = delete;
+  DrawnMap& operator=(const DrawnMap&) = delete;
+
+  // Window depths in [0,1] at these places; 1 if nothing is drawn there. count: 1 ... 16. hits: what the rays of the
+  // scene meet first there.
+  void depths(int count, const glm::dvec3* places, const uint32_t* hits, float* depths) const;
+
+ private:
+  float depth_of(uint32_t hit, glm::dvec3 place) const;
+
+  std::optional<Scene> moved_;
+  LightView view_;
+  bool depth_clamp_;
+  std::optional<PolygonOffset> offset_;
+  std::optional<EmbreeScene> own_tree_;  // of moved vertices, or without the culled faces
+  const EmbreeScene& scenes_tree_;
+  bool nothing_kept_ = false;
+};
+
+}  // namespace noonmark::raytrace

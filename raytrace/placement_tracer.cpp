@@ -1,0 +1,107 @@
+#include "raytrace/placement_tracer.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "raytrace/drawn_map.h"
+#include "raytrace/own_surface.h"
+#include "raytrace/stage_watch.h"
+#include "raytrace/texel_lattice.h"
+#include "raytrace/traced_scene.h"
+
+namespace noonmark::raytrace {
+namespace {
+
+// A polygon offset follows the slope over one texel of the map, which is S points of the lattice.
+std::optional<PolygonOffset> over_texels(std::optional<PolygonOffset> offset, const Placements& placements) {
+  if (offset) offset->factor *= placements.side();
+  return offset;
+}
+
+}  // namespace
+
+struct PlacementTracer::Impl {
+  TracedScene& traced;
+  const ReceiverImage& receivers;
+  const ReceiverTruth& truth;
+  Placements placements;
+  MapSettings map;
+  LightView view;  // of the lattice
+  Silhouettes silhouettes;
+  OwnSurface surface;
+  DrawnMap drawn;
+  std::optional<TexelLattice> lattice;
+
+  Impl(TracedScene& scene, const ReceiverImage& image, const ReceiverTruth& receiver_truth, const LightFrame& frame,
+       const Placements& all, const MapSettings& settings, const Bias& bias, const std::optional<PolygonOffset>& offset)
+      : traced(scene),
+        receivers(image),
+        truth(receiver_truth),
+        placements(all),
+        map(settings),
+        view(scene.scene, all.lattice(frame)),
+        silhouettes(scene.adjacency, view, Silhouettes::reach_of(view)),
+        surface(scene.embree, scene.adjacency, view, silhouettes),
+        drawn(scene, view, settings, bias, over_texels(offset, all)) {}
+};
+
+PlacementTracer::PlacementTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
+                                 const LightFrame& frame, const Placements& placements, const MapSettings& map,
+                                 const Bias& bias, double offset_unit)
+    : impl_(std::make_unique<Impl>(traced, receivers, truth, frame, placements, map, bias,
+                                   polygon_offset_of(frame, map, bias, offset_unit))) {}
+PlacementTracer::PlacementTracer(PlacementTracer&&) noexcept = default;
+PlacementTracer& PlacementTracer::operator=(PlacementTracer&&) noexcept = default;
+PlacementTracer::~PlacementTracer() = default;
+
+void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTime* stage) {
+  Impl& l = *impl_;
+  const StageWatch watch(stage, l.traced.device);
+  l.lattice.reset();  // freed before the next is made, because it is large
+  l.lattice.emplace(l.traced, l.view, l.drawn, l.placements, l.map.wrap);
+  PlacedTaps taps;
+  for (size_t i = strip.first; i < strip.end; ++i) {
+    if (!l.truth.facing[i]) continue;
+    probe.taps_of(i, taps);
+    l.lattice->want(taps);
+  }
+  l.lattice->trace();
+}
+
+void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& box) const {
+  const Impl& l = *impl_;
+  if (taps.low.x > taps.high.x) return;
+  const size_t side = static_cast<size_t>(l.placements.side());
+  const size_t points = static_cast<size_t>(taps.size().x) * static_cast<size_t>(taps.size().y);
+  box.bits.assign(points, lattice_unknown);
+  box.depth.resize(points);
+
+  const glm::dvec3 light = l.view.frame().to_light(l.receivers.position[pixel]);
+  const SurfacePoint p =
+      l.surface.point(light, l.traced.adjacency.first(l.receivers.primitive[pixel]), l.truth.lit[pixel] != 0);
+  thread_local Silhouettes::Nearby nearby;
+  const glm::dvec3 places[5] = {p.at, l.view.texel_place(taps.low), l.view.texel_place(taps.high),
+                                l.view.texel_place({taps.low.x, taps.high.y}),
+                                l.view.texel_place({taps.high.x, taps.low.y})};
+  l.silhouettes.list_nearby(places, nearby);
+  // Without a silhouette in the box, a lit receiver's surface is lit all over it (the rule of OwnSurface).
+  const bool all_lit = p.lit && nearby.none();
+
+  for (size_t tap = 0; tap < taps.column.size(); tap += side)
+    for (size_t j = 0; j < side; ++j)
+      for (size_t i = 0; i < side; ++i) {
+        const glm::ivec2 k(taps.column[tap + i], taps.row[tap + j]);
+        const size_t n = taps.index(k.x, k.y);
+        if (box.bits[n] != lattice_unknown) continue;
+        const uint32_t hit = l.lattice->hit(k);
+        const glm::dvec3 x = l.view.texel_place(k);
+        const OwnSurface::Verdict v =
+            all_lit ? OwnSurface::Verdict{true, !p.on_silhouette} : l.surface.lit_at(p, x, hit, nearby);
+        const bool clipped = !l.map.depth_clamp && l.surface.clipped(hit, x);
+        box.bits[n] = static_cast<uint8_t>((v.lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
+                                           (v.sure ? 0 : tap_texel_unsure));
+        box.depth[n] = l.lattice->depth(k);
+      }
+}
+
+}  // namespace noonmark::raytrace

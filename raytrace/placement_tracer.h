@@ -1,0 +1,43 @@
+// The truth of a lookup at every placement of the map's grid: V and the exact map's depth at the lattice points that a
+// receiver's taps read. Tracer::placements() makes one.
+//
+//   PlacementTracer rays = tracer.placements(receivers, truth, frame, placements, settings.map, bias);
+//   rays.trace(probe, strip);              // for every strip of the picture, in any order
+//   rays.judge(pixel, taps, box);          // for each facing receiver of that strip
+#pragma once
+#include <memory>
+
+#include "scenes/receivers.h"
+#include "technique/bias.h"
+#include "technique/evidence.h"
+#include "technique/light_frame.h"
+#include "technique/placements.h"
+#include "technique/settings.h"
+
+namespace noonmark::raytrace {
+
+class TracedScene;
+
+class PlacementTracer {
+ public:
+  // frame: of placement 0; a light whose grid can shift (KindOfLight). The rest is as for LookupTracer.
+  PlacementTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
+                  const LightFrame& frame, const Placements& placements, const MapSettings& map, const Bias& bias,
+                  double offset_unit);
+  ~PlacementTracer();
+  PlacementTracer(PlacementTracer&&) noexcept;
+  PlacementTracer& operator=(PlacementTracer&&) noexcept;
+
+  // Traces the lattice points that the taps of these pixels read. They replace those of another strip.
+  void trace(const PlacedProbe& probe, PixelRange strip, StageTime* stage = nullptr);
+
+  // The verdicts and depths at the points that the taps of this facing receiver read. It may be called from several
+  // threads. box: its memory is used again.
+  void judge(size_t pixel, const PlacedTaps& taps, LatticeBox& box) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace noonmark::raytrace

@@ -1,0 +1,76 @@
+// First hits and map depths at the points of the lattice of all placements (technique/placements.h), for the points
+// that receivers look up and for no others. The points lie in tiles of 64 x 64; a tile that nobody asks for takes no
+// memory.
+//
+//   TexelLattice lattice(traced, view, drawn, placements, settings.map);
+//   lattice.want(taps);                  // for each receiver
+//   lattice.trace();
+//   uint32_t triangle = lattice.hit({120, 71});
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "raytrace/drawn_map.h"
+#include "raytrace/light_view.h"
+#include "raytrace/traced_scene.h"
+#include "technique/map_address.h"
+#include "technique/placements.h"
+
+namespace noonmark::raytrace {
+
+class TexelLattice {
+ public:
+  static constexpr int side = 64;  // of a tile
+
+  // view: of the lattice's frame, Placements::lattice(). All references must outlive this object.
+  TexelLattice(const TracedScene& traced, const LightView& view, const DrawnMap& drawn, const Placements& placements,
+               Wrap wrap);
+
+  // Asks for the points that these taps read; and, where a point's texel lies outside the map, for the point of the
+  // texel that `wrap` reads in its stead.
+  void want(const PlacedTaps& taps);
+  // Traces one ray through each point that was asked for.
+  void trace();
+
+  // After trace(), at a point that was asked for: the triangle that its ray meets first, or no_primitive; and the window
+  // depth that the map of the point's placement gives to a lookup there.
+  uint32_t hit(glm::ivec2 point) const { return tile_of(point).hit[index(point)]; }
+  float depth(glm::ivec2 point) const;
+
+  uint64_t points() const { return points_; }
+
+ private:
+  struct Tile {
+    std::array<uint64_t, side> wanted{};  // a bit for each point, row by row
+    std::vector<uint32_t> hit;
+    std::vector<float> depth;
+  };
+
+  static uint64_t key(glm::ivec2 tile) {
+    return static_cast<uint64_t>(static_cast<uint32_t>(tile.y)) << 32 | static_cast<uint32_t>(tile.x);
+  }
+  static glm::ivec2 tile_at(glm::ivec2 point) { return {point.x >> 6, point.y >> 6}; }
+  static size_t index(glm::ivec2 point) { return static_cast<size_t>((point.y & 63) * side + (point.x & 63)); }
+  const Tile& tile_of(glm::ivec2 point) const { return *tiles_.at(key(tile_at(point))); }
+  void want(glm::ivec2 low, glm::ivec2 high);  // inclusive
+  // The point that a lookup reads in the stead of this one; no value for the border.
+  std::optional<glm::ivec2> read_at(glm::ivec2 point) const;
+  bool inside(glm::ivec2 point) const { return inside_map(placements_.texel_of(point), size_); }
+  void trace(glm::ivec2 at, Tile& tile) const;
+
+  const TracedScene& traced_;
+  const LightView& view_;
+  const DrawnMap& drawn_;
+  Placements placements_;
+  Wrap wrap_;
+  glm::ivec2 size_;  // of the map, in texels
+  std::unordered_map<uint64_t, std::unique_ptr<Tile>> tiles_;
+  uint64_t points_ = 0;
+};
+
+}  // namespace noonmark::raytrace
