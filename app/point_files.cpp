@@ -12,6 +12,7 @@
 #include "app/image_file.h"
 #include "compare/store/curve_fields.h"
 #include "compare/store/metrics.h"
+#include "compare/store/record_fields.h"
 #include "scenes/camera_frame.h"
 #include "technique/map_address.h"
 
@@ -204,10 +205,15 @@ std::string point_json(const Measurement& m, const std::string& command) {
     if (found != m.record.metrics.end()) json["metrics"][std::string(metric.name)] = number(found->second);
   }
   for (const auto& [name, value] : m.record.times) json["times"][name] = number(value);
-  json["worst"] = {{"x", m.record.worst.x},
-                   {"y", m.record.worst.y},
-                   {"error", number(m.record.worst.error)},
-                   {"cause", m.record.worst.cause}};
+  for (const RecordField& field : record_fields())
+    if (!field.group.empty())
+      json[std::string(field.group)][std::string(field.key())] =
+          with_value(field, m.record, [](const auto& value) -> nlohmann::json {
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+              return number(value);
+            else
+              return value;
+          });
 
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   json["camera"] = {{"projection", m.camera.projection == Projection::perspective ? "perspective" : "orthographic"},

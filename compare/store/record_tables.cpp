@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "compare/store/curve_fields.h"
+#include "compare/store/record_fields.h"
 
 namespace noonmark {
 namespace {
@@ -16,6 +17,30 @@ std::vector<Column<BiasCurve>> curve_columns() {
   std::vector<Column<BiasCurve>> columns;
   for (const CurveField& field : curve_fields())
     std::visit([&](auto member) { columns.push_back(column(field.name, member)); }, field.member);
+  return columns;
+}
+
+// The column of a member of the record itself. Every row has it.
+template <class Member>
+Column<PointRecord> record_column(std::string_view name, Member PointRecord::*member) {
+  Column<PointRecord> made = column(name, member);
+  static_assert(std::is_same_v<Member, std::string>);
+  made.type = "TEXT NOT NULL";
+  return made;
+}
+// The column of a member of the worst pixel.
+template <class Member>
+Column<PointRecord> record_column(std::string_view name, Member PointRecord::Worst::*member) {
+  const Column<PointRecord::Worst> inner = column(name, member);
+  return {name, inner.type,
+          [inner](Statement& row, int index, const PointRecord& record) { inner.bind(row, index, record.worst); },
+          [inner](const Statement& row, int index, PointRecord& record) { inner.read(row, index, record.worst); }};
+}
+
+std::vector<Column<PointRecord>> record_columns() {
+  std::vector<Column<PointRecord>> columns;
+  for (const RecordField& field : record_fields())
+    std::visit([&](auto member) { columns.push_back(record_column(field.name, member)); }, field.member);
   return columns;
 }
 
@@ -54,6 +79,11 @@ std::string series_names() {
 
 std::string json_text(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+const Table<PointRecord>& finished_table() {
+  static const Table<PointRecord> table("finished", {"point"}, record_columns());
+  return table;
 }
 
 const Table<BiasCurve>& curves_table() {

@@ -115,13 +115,10 @@ void load_curves(Database& db, std::map<int64_t, PointRecord>& points) {
 
 std::map<int64_t, PointRecord> load_points(Database& db) {
   std::map<int64_t, PointRecord> points;
-  for (Statement rows(db, "SELECT point, worst_x, worst_y, worst_error, worst_cause, part FROM finished");
-       rows.step();) {
-    PointRecord& point = points[rows.integer(0)];
-    point.id = rows.integer(0);
-    point.worst = {static_cast<int>(rows.integer(1)), static_cast<int>(rows.integer(2)), rows.real(3), rows.text(4)};
-    point.part = rows.text(5);
-  }
+  finished_table().read(db, [&](std::span<const int64_t> key, PointRecord point) {
+    point.id = key[0];
+    points.emplace(key[0], std::move(point));
+  });
   for (Statement rows(db, "SELECT point, name, text FROM settings"); rows.step();)
     points.at(rows.integer(0)).settings[rows.text(1)] = rows.text(2);
   for (Statement rows(db, "SELECT point, name, value FROM metrics"); rows.step();)
@@ -249,8 +246,7 @@ void ResultStore::add(const PointRecord& point) {
   if (db_->ask(fmt::format("SELECT 1 FROM finished WHERE point = {}", point.id)))
     throw Error(ErrorKind::usage,
                 fmt::format("point {} is in the result store already; let no two runs share one --out", point.id));
-  Statement(*db_, "INSERT INTO finished VALUES (?, ?, ?, ?, ?, ?)")
-      .run(point.id, point.part, point.worst.x, point.worst.y, point.worst.error, point.worst.cause);
+  Table<PointRecord>::Insert(*db_, finished_table()).row({point.id}, point);
   Statement settings(*db_, "INSERT INTO settings VALUES (?, ?, ?, ?)");
   for (const auto& [name, text] : point.settings) {
     bind_setting_value(settings, 3, name, text);

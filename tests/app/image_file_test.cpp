@@ -399,6 +399,7 @@ TEST_F(Pictures, PointHoldsEverySettingAndWhatIsNotFinite) {
   m.record.metrics["error"] = nan_value;
   m.record.metrics["acne"] = inf_value;
   m.record.times["map_ms"] = -inf_value;
+  m.record.worst = {3, 4, inf_value, "acne"};
   const nlohmann::json json = nlohmann::json::parse(point_json(m, "noonmark render 'x'"));
   for (const Setting& row : settings_table())
     EXPECT_TRUE(json.at("settings").contains(std::string(row.name))) << row.name;
@@ -415,6 +416,8 @@ TEST_F(Pictures, PointHoldsEverySettingAndWhatIsNotFinite) {
   ASSERT_EQ(json.at("causes").size(), cause_count);
   for (int c = 0; c < cause_count; ++c)
     EXPECT_EQ(json.at("causes")[static_cast<size_t>(c)], std::string(cause_name(static_cast<Cause>(c))));
+  EXPECT_EQ(json.at("worst"), nlohmann::json({{"x", 3}, {"y", 4}, {"error", "inf"}, {"cause", "acne"}}));
+  EXPECT_FALSE(json.contains("part"));
   EXPECT_EQ(json.at("flags").at("outside"), flag_outside);
   EXPECT_EQ(json.at("command"), "noonmark render 'x'");
 }

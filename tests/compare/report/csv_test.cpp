@@ -100,6 +100,9 @@ TEST(Csv, HoldsEverySettingMetricAndQuantity) {
         EXPECT_EQ(text, "") << row.name;
     }
   }
+  const auto cell = [&](const char* name) { return rows[1][column(rows[0], name)]; };
+  EXPECT_EQ(cell("worst_x") + " " + cell("worst_y") + " " + cell("worst_cause"), "12 34 acne");
+  EXPECT_EQ(number(cell("worst_error")), 2.0 / 3);
   EXPECT_EQ(rows[3][column(rows[0], "acne")], "nan");
   EXPECT_EQ(rows[3][column(rows[0], "error")], "inf");
   EXPECT_EQ(rows[3][column(rows[0], "window_min_depth")], "");
