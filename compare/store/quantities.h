@@ -13,8 +13,8 @@
 
 namespace noonmark {
 
-// Made from the rows of curve_fields() (curve_fields.h): each number itself, each depth also in metres and in texels,
-// and the width of the window.
+// Made from the rows of curve_fields() and curve_widths() (curve_fields.h): each number itself, and each depth also in
+// metres and in texels.
 struct CurveQuantity {
   std::string name;
   std::string unit;
