@@ -11,7 +11,7 @@
 #include "app/build_facts.h"
 #include "app/image_file.h"
 #include "compare/store/curve_fields.h"
-#include "compare/store/metrics.h"
+#include "compare/store/quantities.h"
 #include "compare/store/record_fields.h"
 #include "scenes/camera_frame.h"
 #include "technique/map_address.h"
@@ -200,7 +200,7 @@ std::string point_json(const Measurement& m, const std::string& command) {
                    {"notes", m.scene.notes}};
   for (const Setting& row : settings_table())
     json["settings"][std::string(row.name)] = setting_json(row, row.get(m.settings));
-  for (const Metric& metric : metrics_table()) {
+  for (const Metric& metric : metrics_of({&m.record, 1})) {
     const auto found = m.record.metrics.find(std::string(metric.name));
     if (found != m.record.metrics.end()) json["metrics"][std::string(metric.name)] = number(found->second);
   }
@@ -233,6 +233,15 @@ std::string point_json(const Measurement& m, const std::string& command) {
   std::string text = json_text(json);
   json.clear();
   for (const Ladder::CauseImage& cause : m.ladder.causes) json["causes"].push_back(cause.name);
+  if (!m.ladder.brought.empty()) {
+    for (const Ladder::RungImage& rung : m.ladder.rungs) json["rungs"].push_back(rung.name);
+    for (const RungCause& cause : m.ladder.brought)
+      json["rungs_on_top"].push_back({{"name", cause.rung},
+                                      {"cause", cause.name},
+                                      {"label", cause.label},
+                                      {"help", cause.help},
+                                      {"color", cause.color}});
+  }
   json["flags"] = {
       {"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
 #include "compare/store/curve_fields.h"
-#include "compare/store/metrics.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
 #include "technique/settings.h"
@@ -92,9 +92,35 @@ std::span<const CurveQuantity> curve_quantities() {
   return table;
 }
 
-QuantityInfo find_quantity(std::string_view name) {
+std::vector<const RungCause*> brought_causes(std::span<const PointRecord> points) {
+  std::vector<const RungCause*> causes;
+  for (const PointRecord& point : points)
+    for (const RungCause& cause : point.causes)
+      if (std::none_of(causes.begin(), causes.end(), [&](const RungCause* c) { return c->name == cause.name; }))
+        causes.push_back(&cause);
+  return causes;
+}
+
+std::vector<Metric> metrics_of(std::span<const PointRecord> points) {
+  std::vector<Metric> metrics(metrics_table().begin(), metrics_table().end());
+  for (const RungCause* cause : brought_causes(points)) metrics.push_back({cause->name, "fraction", cause->help, true});
+  return metrics;
+}
+
+bool is_free_name(std::string_view name) {
+  if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != name.npos) return false;
+  const auto is_this = [&](const auto& row) { return row.name == name; };
+  return std::none_of(metrics_table().begin(), metrics_table().end(), is_this) &&
+         std::none_of(curve_quantities().begin(), curve_quantities().end(), is_this);
+}
+
+std::string_view judged_rung(const PointRecord& point) {
+  return point.causes.empty() ? std::string_view("R5") : std::string_view(point.causes.back().rung);
+}
+
+QuantityInfo find_quantity(std::string_view name, std::span<const PointRecord> points) {
   std::vector<std::string_view> names;
-  for (const Metric& row : metrics_table()) {
+  for (const Metric& row : metrics_of(points)) {
     if (row.name == name) return {row.name, row.unit, row.help, false};
     names.push_back(row.name);
   }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "compare/store/curve_fields.h"
+#include "compare/store/quantities.h"
 #include "compare/store/record_fields.h"
 
 namespace noonmark {
@@ -157,6 +158,17 @@ void read_series(Database& db, const std::function<BiasCurve&(int64_t)>& curve_o
     int index = 1;
     for (const CurveSeries& series : curve_series()) (curve.*series.values).push_back(rows.real(index++));
   }
+}
+
+std::string text_of_cause(const RungCause& cause) {
+  return json_text({{"label", cause.label}, {"help", cause.help}, {"color", cause.color}, {"rung", cause.rung}});
+}
+
+RungCause cause_of_text(const std::string& name, const std::string& text) {
+  if (!is_free_name(name)) throw std::runtime_error("a cause with the name " + name);
+  const nlohmann::json json = nlohmann::json::parse(text);
+  const auto of = [&](const char* key) { return json.at(key).get<std::string>(); };
+  return {name, of("label"), of("help"), json.at("color").get<std::array<uint8_t, 3>>(), of("rung")};
 }
 
 std::string record_tables() {

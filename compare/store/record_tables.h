@@ -26,6 +26,12 @@ void read_series(sqlite::Database& db, const std::function<BiasCurve&(int64_t)>&
 // The SQL that makes all these tables, but finished_table().
 std::string record_tables();
 
+// A cause that a rung brought is kept in the table `info`, under the key cause_prefix + its name, as this text. The
+// second function throws std::exception if the text does not describe a cause of that name.
+inline constexpr std::string_view cause_prefix = "cause.";
+std::string text_of_cause(const RungCause& cause);
+RungCause cause_of_text(const std::string& name, const std::string& text);
+
 // Paths may have bytes that are not UTF-8. Only those bytes are replaced.
 std::string json_text(const nlohmann::json& json);
 

@@ -382,6 +382,48 @@ TEST_F(Pictures, ClassesShowTheColoursOfTheLegend) {
   EXPECT_EQ(truth[1], map[1]);
 }
 
+// A rung on top of R5 brings its cause: its colour in the picture of the classes, its numbers and its description in
+// point.json, its name in the captions.
+TEST_F(Pictures, ShowARungOnTopAndItsCause) {
+  for (float& cosine : probe.n_dot_l.pixels) cosine = 1;
+  ladder.flags.pixels = {1, 1, 1, 5, 0, 0};
+  ladder[Rung::truth].pixels = ladder[Rung::shown].pixels = {1, 1, 0, 1, 0, 0};
+  for (Ladder::CauseImage& cause : ladder.causes) cause.step = Image<float>(3, 2, 0);
+  Image<float> picture = ladder.shown();
+  picture[0] = 0;
+  const std::array<uint8_t, 3> leak{1, 2, 3};
+  add_rung(ladder, {"R6", picture, "leak", "Leak", "Light that leaks."});
+  picture[2] = 1;
+  add_rung(ladder, {"R7", picture, "penumbra", "Penumbra", "Its width.", leak});
+  std::map<std::string, std::string> captions;
+  for (const PictureRecord& record : write_pictures(measurement(), folder.path().string(), "images", "p"))
+    captions[record.name] = record.caption;
+  const Image<Color> classes = read_png(folder.file("p-classes.png"));
+  EXPECT_EQ(classes[0], Color(spare_colors[0][0], spare_colors[0][1], spare_colors[0][2]));
+  EXPECT_EQ(classes[1], named("lit"));
+  EXPECT_EQ(classes[2], Color(1, 2, 3));
+  EXPECT_EQ(captions.at("map"), "What the given picture showed (R7).");
+  EXPECT_EQ(captions.at("truth"), "The truth: one exact shadow ray for each pixel (R1).");
+  EXPECT_TRUE(captions.at("difference").starts_with("Given picture minus truth")) << captions.at("difference");
+  EXPECT_NE(captions.at("shaded-map").find("given picture's shadow (R7)"), std::string::npos);
+
+  Measurement m = measurement();
+  m.record.causes = ladder.brought;
+  m.record.metrics = {{"error", 0.5}, {"leak", 0.25}, {"penumbra", nan_value}};
+  const nlohmann::json json = nlohmann::json::parse(point_json(m, ""));
+  EXPECT_EQ(json.at("metrics"), nlohmann::json({{"error", 0.5}, {"leak", 0.25}, {"penumbra", "nan"}}));
+  EXPECT_EQ(json.at("rungs"), nlohmann::json({"R0", "R1", "R2", "R3", "R4", "R5", "R6", "R7"}));
+  EXPECT_EQ(json.at("rungs_on_top").at(1), nlohmann::json({{"name", "R7"},
+                                                           {"cause", "penumbra"},
+                                                           {"label", "Penumbra"},
+                                                           {"help", "Its width."},
+                                                           {"color", {1, 2, 3}}}));
+  write_images(m, folder.path().string(), ".", "");
+  const ReadImage file = read_exr(folder.file("ladder.exr"));
+  EXPECT_EQ(file.channels.at("R7"), picture.pixels);
+  EXPECT_EQ(file.channels.at("step.penumbra"), (std::vector<float>{0, 0, 1, 0, 0, 0}));
+}
+
 TEST_F(Pictures, ShowWhatIsNoNumberAsWrong) {
   ladder.flags.pixels[0] = flag_facing;
   ladder.cause.pixels[0] = static_cast<uint8_t>(Cause::precision);

@@ -109,6 +109,15 @@ TEST(Csv, HoldsEverySettingMetricAndQuantity) {
   EXPECT_EQ(rows[3][column(rows[0], "window_width_depth")], "0");
 }
 
+TEST(Csv, HasAColumnForTheCauseOfARung) {
+  Results results = sample();
+  results.points[1].causes = {{"leak", "Leak", "Light that leaks.", {}, "R6"}};
+  results.points[1].metrics["leak"] = 0.25;
+  const std::vector<Row> rows = parse(to_csv(results));
+  EXPECT_EQ(rows[1][column(rows[0], "leak")], "");
+  EXPECT_EQ(rows[2][column(rows[0], "leak")], "0.25");
+}
+
 TEST(Csv, GuardsAPlaceAndLeavesNumbersAlone) {
   Results results = sample();
   results.points[0].settings["light.position_m"] = "-5,4,5";

@@ -13,6 +13,7 @@
 
 #include "compare/store/quantities.h"
 #include "compare/store/record_fields.h"
+#include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -203,6 +204,36 @@ TEST_F(Store, ViewAgreesOnAnEmptyWindow) {
   }
   for (const char* width : {"window_width_depth", "window_width_m", "window_width_texels"})
     EXPECT_EQ(quantity(point, width), 0.0) << width;
+}
+
+// A cause that a rung on top of R5 brought comes back with the points that have its metric.
+TEST_F(Store, KeepsTheCausesOfRungs) {
+  PointRecord point = sample_point(1);
+  point.causes = {{"leak", "Leak", "Light that leaks.", {1, 2, 255}, "R6"}, {"a_penumbra", "Width", "x", {}, "R7"}};
+  point.metrics["leak"] = 0.25;
+  point.metrics["a_penumbra"] = nan_value;
+  {
+    ResultStore store = fresh();
+    store.add(point);
+    store.add(sample_point(2));
+    store.set_info(sample_info(), 2);
+  }
+  const Results results = ResultStore::open(path).load();
+  ASSERT_EQ(results.points.at(0).causes.size(), 2u);
+  const RungCause& leak = results.points[0].causes[0];
+  EXPECT_EQ(std::tie(leak.name, leak.label, leak.help, leak.rung),
+            std::make_tuple("leak", "Leak", "Light that leaks.", "R6"));
+  EXPECT_EQ(leak.color, (std::array<uint8_t, 3>{1, 2, 255}));
+  EXPECT_EQ(results.points[0].causes[1].name, "a_penumbra") << "not in the order of the rungs";
+  EXPECT_EQ(results.points[0].metrics.at("leak"), 0.25);
+  EXPECT_TRUE(results.points.at(1).causes.empty());
+  EXPECT_EQ(judged_rung(results.points[0]), "R7");
+  EXPECT_EQ(judged_rung(results.points[1]), "R5");
+
+  sqlite::Database db(path, sqlite::Database::Mode::existing);
+  db.execute("UPDATE info SET value = '{}' WHERE key = 'cause.leak'");
+  seal_info(db);
+  EXPECT_EQ(kind_thrown([&] { ResultStore::open(path).load(); }), static_cast<int>(ErrorKind::file));
 }
 
 TEST_F(Store, ResumesItsOwnExperimentOnly) {
