@@ -70,6 +70,7 @@ PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, cons
   record.metrics.merge(soundness);
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
+  record.causes = m.ladder.brought;
   record.worst = worst_pixel(m.ladder);
   return record;
 }
@@ -156,7 +157,8 @@ AvailableMemory Workbench::memory_of_program(bool pictures) const {
   return noonmark::memory_of_program(impl_->space_at_start, room_to_start(pictures));
 }
 
-Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options) {
+Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
+                               std::optional<RungOnTop> on_top) {
   validate(settings);
   Impl& b = *impl_;
   const SceneStage& loaded = b.load(settings);
@@ -184,6 +186,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
   Climbed climbed = climb_strips(b.renderer, lookup, view, truth, map.depth, shown, point,
                                  varied && !b.curve.has(curve_key) ? varied : nullptr);
+  if (on_top) add_rung(climbed.ladder, std::move(*on_top));
   Measurement m{{},           settings,  std::move(climbed.ladder), frame, view.camera, scene, view.receivers,
                 lookup.probe, map.depth, lookup.exact_depth};
   m.record = record_of(m, *loaded.tracer, point.bias, lookup, climbed.soundness);
