@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace noonmark {
 namespace {
@@ -28,6 +29,60 @@ void encode(const ImageToEncode& image, OIIO::Filesystem::IOVecOutput& bytes) {
     throw std::runtime_error(output->geterror());
 }
 
+// Thrown with the reason, as DecodeGrey gives it.
+struct Refused : std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
+// why: OpenImageIO's text, one line for each level of the libraries below it.
+Refused undecodable(const std::string& why) {
+  return Refused("cannot be decoded: " + why.substr(0, why.find('\n')) + "; write it again");
+}
+
+std::string text_of(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
+
+// Integers are divided in double and rounded once: 85 of 255 is the float that is nearest to 1/3, as in the lookup.
+template <class T>
+std::vector<float> read_as(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, double whole) {
+  std::vector<T> values(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) *
+                        static_cast<size_t>(spec.nchannels));
+  if (!input.read_image(0, 0, 0, spec.nchannels, type, values.data())) throw undecodable(input.geterror());
+  std::vector<float> result(values.size());
+  for (size_t i = 0; i < values.size(); ++i) result[i] = static_cast<float>(static_cast<double>(values[i]) / whole);
+  return result;
+}
+
+std::vector<float> decode(const GreyToDecode& file) {
+  OIIO::Filesystem::IOMemReader bytes(const_cast<void*>(file.bytes), file.count);
+  const std::unique_ptr<OIIO::ImageInput> input =
+      OIIO::ImageInput::open(std::string("picture.") + file.format, nullptr, &bytes);
+  if (!input) throw undecodable(OIIO::geterror());
+  const OIIO::ImageSpec spec = input->spec();
+  if (spec.width != file.width || spec.height != file.height)
+    throw Refused("has " + text_of(spec.width, spec.height) + " pixels, but the point's picture has " +
+                  text_of(file.width, file.height) +
+                  "; write it in that size, or set view.width_px and view.height_px to its size");
+  if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
+      spec.height != spec.full_height)
+    throw Refused("has a data window that is not its display window; write the whole picture");
+  if (spec.deep || spec.depth > 1 || (spec.nchannels != 1 && spec.nchannels != 3))
+    throw Refused("has " + std::to_string(spec.nchannels) + (spec.deep ? " deep" : "") +
+                  " channels; write visibility as one grey channel (or three equal ones)");
+  const std::vector<float> values =
+      spec.format == OIIO::TypeDesc::UINT8    ? read_as<uint8_t>(*input, spec, OIIO::TypeDesc::UINT8, 255)
+      : spec.format == OIIO::TypeDesc::UINT16 ? read_as<uint16_t>(*input, spec, OIIO::TypeDesc::UINT16, 65535)
+                                              : read_as<float>(*input, spec, OIIO::TypeDesc::FLOAT, 1);
+  if (spec.nchannels == 1) return values;
+  std::vector<float> grey(values.size() / 3);
+  for (size_t i = 0; i < grey.size(); ++i) {
+    const float* const rgb = &values[3 * i];
+    const bool equal = (rgb[0] == rgb[1] && rgb[0] == rgb[2]) || (rgb[0] != rgb[0] && rgb[1] != rgb[1]);  // both NaN
+    if (!equal) throw Refused("has colours; write visibility as one grey channel (or three equal ones)");
+    grey[i] = rgb[0];
+  }
+  return grey;
+}
+
 }  // namespace
 }  // namespace noonmark
 
@@ -45,4 +100,17 @@ extern "C" void noonmark_encode_image(const noonmark::ImageToEncode& image, void
     done(context, true, reinterpret_cast<const char*>(bytes.buffer().data()), bytes.buffer().size());
   else
     done(context, false, error.data(), error.size());
+}
+
+extern "C" void noonmark_decode_grey(const noonmark::GreyToDecode& file, void* context,
+                                     void (*done)(void*, const float*, const char*)) {
+  std::vector<float> pixels;
+  std::string why;
+  try {
+    pixels = noonmark::decode(file);
+  } catch (const std::exception& thrown) {
+    why = thrown.what();
+    if (why.empty()) why = "cannot be decoded; write it again";
+  }
+  done(context, why.empty() ? pixels.data() : nullptr, why.c_str());
 }

@@ -18,7 +18,21 @@ struct ImageToEncode {
 using EncodeImage = void(const ImageToEncode& image, void* context,
                          void (*done)(void* context, bool encoded, const char* bytes, size_t count));
 
+struct GreyToDecode {
+  const char* format;  // "png" or "exr"
+  const void* bytes;   // of the whole file
+  size_t count;
+  int width, height;  // the picture must have this size
+};
+
+// Calls done once: with the pixels, row 0 on top, width * height of them, or with null and the reason why there are
+// none, as the end of a sentence that begins with the file's name. Integers become [0,1], without sRGB's transfer
+// function. Throws nothing.
+using DecodeGrey = void(const GreyToDecode& file, void* context,
+                        void (*done)(void* context, const float* pixels, const char* why));
+
 inline constexpr const char* image_module_file = "noonmark_images.so";
 inline constexpr const char* image_module_function = "noonmark_encode_image";  // an EncodeImage
+inline constexpr const char* image_module_decoder = "noonmark_decode_grey";    // a DecodeGrey
 
 }  // namespace noonmark

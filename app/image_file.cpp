@@ -1,8 +1,11 @@
 #include "app/image_file.h"
 
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "app/image_codec.h"
@@ -24,21 +27,50 @@ std::string what_to_install(const std::string& why) {
 }
 
 // The loader searches the program's RUNPATH, which names places beside the program (app/CMakeLists.txt).
-EncodeImage* load_encoder() {
+template <class Function>
+Function* load(const char* name) {
   void* const module = dlopen(image_module_file, RTLD_NOW | RTLD_LOCAL);  // never closed
-  void* const function = module ? dlsym(module, image_module_function) : nullptr;
+  void* const function = module ? dlsym(module, name) : nullptr;
   if (!function) {
     const char* const said = dlerror();
     const std::string why = said ? said : image_module_file;
-    throw Error(ErrorKind::device, fmt::format("pictures cannot be written: {}; {}", why, what_to_install(why)));
+    throw Error(ErrorKind::device,
+                fmt::format("pictures cannot be read or written: {}; {}", why, what_to_install(why)));
   }
-  return reinterpret_cast<EncodeImage*>(function);
+  return reinterpret_cast<Function*>(function);
 }
 
 EncodeImage& encoder() {
-  static EncodeImage* const function = load_encoder();
+  static EncodeImage* const function = load<EncodeImage>(image_module_function);
   return *function;
 }
+
+DecodeGrey& decoder() {
+  static DecodeGrey* const function = load<DecodeGrey>(image_module_decoder);
+  return *function;
+}
+
+// libpng prints a line of its own about a damaged file. Errors that are thrown say the same, so until this object ends,
+// the standard error goes nowhere.
+class Quiet {
+ public:
+  Quiet() : kept_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)) {
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    if (kept_ >= 0) dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+  ~Quiet() {
+    if (kept_ < 0) return;
+    dup2(kept_, STDERR_FILENO);
+    close(kept_);
+  }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+ private:
+  int kept_;
+};
 
 std::string write(const ImageToEncode& image) {
   struct Result {
@@ -56,6 +88,33 @@ std::string write(const ImageToEncode& image) {
 }  // namespace
 
 void require_image_files() { encoder(); }
+
+Image<float> read_grey(const std::string& path, int width, int height) {
+  Image<float> picture(width, height);
+  constexpr uint64_t of_a_pixel = 64, of_the_head = uint64_t{16} << 20;  // more than any picture of three floats
+  const std::string bytes = read_file(path, of_the_head + of_a_pixel * picture.size());
+  const char* const format = bytes.starts_with("\x89PNG\r\n\x1a\n")  ? "png"
+                             : bytes.starts_with("\x76\x2f\x31\x01") ? "exr"
+                                                                     : nullptr;
+  if (!format)
+    throw Error(ErrorKind::file, fmt::format("{}: is neither a PNG nor an EXR file; write one of these", path));
+  struct Result {
+    Image<float>& picture;
+    std::string why;
+  } result{picture, ""};
+  DecodeGrey& decode = decoder();
+  const Quiet quiet;
+  decode({format, bytes.data(), bytes.size(), width, height}, &result,
+         [](void* context, const float* pixels, const char* why) {
+           Result& into = *static_cast<Result*>(context);
+           if (pixels)
+             std::copy_n(pixels, into.picture.size(), into.picture.pixels.begin());
+           else
+             into.why = why;
+         });
+  if (!result.why.empty()) throw Error(ErrorKind::file, fmt::format("{}: {}", path, result.why));
+  return picture;
+}
 
 std::string write_png(const std::string& path, const Image<Color>& picture) {
   return write({path.c_str(), picture.width, picture.height, 3, nullptr, picture.pixels.data()});

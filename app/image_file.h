@@ -1,6 +1,6 @@
 // Writes pictures and images with OpenImageIO: PNG for people, 32-bit float EXR for programs. A file is written under
-// another name beside its place and then renamed. Throws Error(file) if a file cannot be written, Error(device) if
-// OpenImageIO cannot be loaded.
+// another name beside its place and then renamed. Also reads grey pictures of other programs. Throws Error(file) if a
+// file cannot be written or read, Error(device) if OpenImageIO cannot be loaded.
 #pragma once
 #include <glm/glm.hpp>
 #include <string>
@@ -25,5 +25,9 @@ struct Channel {
   Image<float> values;
 };
 std::string write_exr(const std::string& path, const std::vector<Channel>& channels);
+
+// Reads a PNG or EXR file with one grey channel, or three equal ones, of this size. Row 0 is on top. Values are taken as
+// they are (linear); the whole numbers of a PNG become [0,1]. Throws Error(file) if the file is something else.
+Image<float> read_grey(const std::string& path, int width, int height);
 
 }  // namespace noonmark

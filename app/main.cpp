@@ -31,7 +31,7 @@ namespace {
 constexpr const char* exit_codes =
     "Exit codes: 0 done, all held; 1 a bound or a law is broken; otherwise what has to change:\n"
     "2 the command line or the experiment (wrong usage; a point too large for memory; a results' folder that\n"
-    "  cannot be used); 3 a file (a bad scene, or one too large for memory; damaged results; a full disk);\n"
+    "  cannot be used); 3 a file (a bad scene or picture, or one too large for memory; damaged results; a full disk);\n"
     "4 the machine (no usable OpenGL, ray tracer or picture library, no memory or threads left for them);\n"
     "5 Noonmark: a defect; 6 nothing: the sweep is incomplete. Of several experiments, the largest code is returned.";
 
@@ -100,7 +100,7 @@ int run(int argc, char** argv) {
 
   ExperimentArguments arguments;
   arguments.command = joined(argc, argv);
-  std::string experiment, folder;
+  std::string experiment, folder, picture;
   std::vector<std::string> paths;
   bool dry_run = false;
   long point = -1;
@@ -150,6 +150,12 @@ int run(int argc, char** argv) {
       ->check(not_empty);
   render->add_option("--point", point, "Number of the point in the experiment's sweep, from 0")
       ->check(whole_number(0, std::numeric_limits<long>::max(), "from 0 on"));
+  render
+      ->add_option("--picture", picture,
+                   "Judge this picture in place of the shadow map's: an EXR or PNG file of the view's size, one grey "
+                   "channel, linear, from 0 (shadowed) to 1 (lit)")
+      ->check(not_empty)
+      ->type_name("FILE");
   with_choices(render);
   with_out(render, "Folder for the files (default: out/render)");
 
@@ -175,7 +181,7 @@ int run(int argc, char** argv) {
     if (*run || *check || *render) limit.emplace(arguments.threads);
     if (*run) return verb_run(experiment, arguments, dry_run);
     if (*check) return verb_check(paths, arguments);
-    if (*render) return verb_render(experiment, point, arguments);
+    if (*render) return verb_render(experiment, point, picture, arguments);
     if (*report) return verb_report(folder);
     if (*scenes) return verb_scenes();
     if (*settings) return verb_settings();

@@ -36,6 +36,12 @@ Image<Color> shaded(const Measurement& m, const Image<float>& visibility) {
   });
 }
 
+Color color_of(const Ladder& ladder, size_t cause) {
+  if (cause < cause_count) return named_color(ladder.causes[cause].name);
+  const auto [r, g, b] = ladder.brought[cause - cause_count].color;
+  return {r, g, b};
+}
+
 // Each wrong pixel in the colour of its cause, over the grey of right pixels. The strength of the colour is the size of
 // the error. The arguments of std::min have this order so that NaN gets the full strength.
 Image<Color> classes(const Measurement& m) {
@@ -47,8 +53,9 @@ Image<Color> classes(const Measurement& m) {
     const glm::vec3 right = shade * glm::vec3(named_color(m.ladder.truth()[i] != 0 ? "lit" : "shadowed"));
     if (m.ladder.cause[i] == static_cast<uint8_t>(Cause::none)) return Color(right + 0.5f);
     const float wrong = std::abs(m.ladder.shown()[i] - m.ladder.truth()[i]);
-    return Color(glm::mix(right, glm::vec3(named_color(m.ladder.cause_of(i))), 0.25f + 0.75f * std::min(1.0f, wrong)) +
-                 0.5f);
+    return Color(
+        glm::mix(right, glm::vec3(color_of(m.ladder, m.ladder.cause[i])), 0.25f + 0.75f * std::min(1.0f, wrong)) +
+        0.5f);
   });
 }
 
@@ -94,9 +101,14 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
   };
   add("truth", "The truth: one exact shadow ray for each pixel (R1).", shaded(m, m.ladder.truth()));
   if (sized) add("soft-truth", "The truth of the light with its size (R0).", shaded(m, m.ladder.soft_truth()));
-  add("map", "What the shadow map showed (R5).", shaded(m, m.ladder.shown()));
+  const std::string& judged = m.ladder.rungs.back().name;
+  const bool given = !m.ladder.brought.empty();  // the judged picture is not the shadow map's
+  add("map", fmt::format("What the {} showed ({}).", given ? "given picture" : "shadow map", judged),
+      shaded(m, m.ladder.shown()));
   add("classes", "Why each wrong pixel is wrong.", classes(m));
-  add("difference", "Map minus truth: too dark is orange, too light is blue.", difference(m));
+  add("difference",
+      fmt::format("{} minus truth: too dark is orange, too light is blue.", given ? "Given picture" : "Map"),
+      difference(m));
   add("depth",
       m.frame.map_shape() == MapShape::cube
           ? "The cube map unfolded, as it looks from outside: bright is near in metres, black is empty."
@@ -108,7 +120,10 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
   if (sized)
     add("shaded-soft-truth", "Grey clay with the true shadow of the light with its size (R0).",
         greys(m, shaded_with(m.ladder.soft_truth())));
-  add("shaded-map", "Grey clay as a renderer shows it, with the map's shadow (R5).", greys(m, map));
+  add("shaded-map",
+      fmt::format("Grey clay as a renderer shows it, with the {} shadow ({}).", given ? "given picture's" : "map's",
+                  judged),
+      greys(m, map));
   Image<Color> apart(map.width, map.height);
   for (size_t i = 0; i < apart.size(); ++i)
     apart[i] = difference_color(std::abs(static_cast<double>(map[i]) - truth[i]));

@@ -11,7 +11,8 @@
 #include "app/build_facts.h"
 #include "app/image_file.h"
 #include "compare/store/curve_fields.h"
-#include "compare/store/metrics.h"
+#include "compare/store/quantities.h"
+#include "compare/store/record_fields.h"
 #include "scenes/camera_frame.h"
 #include "technique/map_address.h"
 
@@ -191,15 +192,20 @@ std::string point_json(const Measurement& m, const std::string& command) {
                    {"notes", m.scene.notes}};
   for (const Setting& row : settings_table())
     json["settings"][std::string(row.name)] = setting_json(row, row.get(m.settings));
-  for (const Metric& metric : metrics_table()) {
+  for (const Metric& metric : metrics_of({&m.record, 1})) {
     const auto found = m.record.metrics.find(std::string(metric.name));
     if (found != m.record.metrics.end()) json["metrics"][std::string(metric.name)] = number(found->second);
   }
   for (const auto& [name, value] : m.record.times) json["times"][name] = number(value);
-  json["worst"] = {{"x", m.record.worst.x},
-                   {"y", m.record.worst.y},
-                   {"error", number(m.record.worst.error)},
-                   {"cause", m.record.worst.cause}};
+  for (const RecordField& field : record_fields())
+    if (!field.group.empty())
+      json[std::string(field.group)][std::string(field.key())] =
+          with_value(field, m.record, [](const auto& value) -> nlohmann::json {
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+              return number(value);
+            else
+              return value;
+          });
 
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   json["camera"] = {{"projection", m.camera.projection == Projection::perspective ? "perspective" : "orthographic"},
@@ -219,6 +225,15 @@ std::string point_json(const Measurement& m, const std::string& command) {
   std::string text = json_text(json);
   json.clear();
   for (const Ladder::CauseImage& cause : m.ladder.causes) json["causes"].push_back(cause.name);
+  if (!m.ladder.brought.empty()) {
+    for (const Ladder::RungImage& rung : m.ladder.rungs) json["rungs"].push_back(rung.name);
+    for (const RungCause& cause : m.ladder.brought)
+      json["rungs_on_top"].push_back({{"name", cause.rung},
+                                      {"cause", cause.name},
+                                      {"label", cause.label},
+                                      {"help", cause.help},
+                                      {"color", cause.color}});
+  }
   json["flags"] = {
       {"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/experiment_arguments.h"
+#include "app/given_picture.h"
 #include "app/pictures.h"
 #include "app/point_files.h"
 #include "app/results_folder.h"
@@ -19,6 +20,9 @@
 
 namespace noonmark {
 namespace {
+
+// Bytes: the picture and its step as floats, and both as channels of ladder.exr, interleaved and encoded.
+constexpr double per_given_pixel = 2 * sizeof(float) * 4;
 
 Settings the_point(const Experiment& experiment, long point) {
   const std::vector<Settings> all = points(experiment);
@@ -40,8 +44,10 @@ void print_ladder(const Measurement& m) {
   fmt::print("\n");
   if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("\n  {}\n", poor);
   if (nothing_judged(m.record)) return;
+  if (!m.record.causes.empty())
+    fmt::print("\n  {} is judged in place of R5: error and wrong are its own\n", judged_rung(m.record));
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
-  for (const Metric& metric : metrics_table())
+  for (const Metric& metric : metrics_of({&m.record, 1}))
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract")  // of facing receivers
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
   fmt::print("\n");
@@ -49,7 +55,10 @@ void print_ladder(const Measurement& m) {
   for (const char* name : {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "residual",
                            "tap_residual", "rounding_excess", "map_ms", "lookup_ms"})
     fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);
-  if (const std::string why = why_no_curve(m.record); !why.empty()) fmt::print("\n  no bias curve: {}\n", why);
+  if (!m.record.causes.empty())
+    fmt::print("\n  no bias curve: no bias changes the given picture\n");
+  else if (const std::string why = why_no_curve(m.record); !why.empty())
+    fmt::print("\n  no bias curve: {}\n", why);
   if (!m.record.curve) return;
   const BiasCurve& c = *m.record.curve;
   const char* there = m.frame.uniform() ? "" : " (m and texels at the median receiver)";
@@ -80,20 +89,29 @@ void print_ladder(const Measurement& m) {
 
 }  // namespace
 
-int verb_render(const std::string& path, long point, const ExperimentArguments& arguments) {
+int verb_render(const std::string& path, long point, const std::string& picture, const ExperimentArguments& arguments) {
   const Experiment experiment = experiment_from(path, arguments);
   const Settings settings = the_point(experiment, point);
   const std::string out = arguments.out.empty() ? "out/render" : arguments.out;
+  std::optional<RungOnTop> given;
+  if (!picture.empty()) {  // before anything is written or measured
+    require_room_to_start(true);
+    given = given_picture(picture, settings.view);
+  }
   make_output_folder(out);
   clear_abandoned_files(out);
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
   require_image_files();
   const Experiment& part = part_of_point(experiment, std::max(point, 0L));
-  const MemoryEstimate memory =
-      at_point(experiment, std::max(point, 0L), [&] { return bench.memory(settings, part.curve_enabled, true); });
+  const bool curve = part.curve_enabled && !given;
+  MemoryEstimate memory =
+      at_point(experiment, std::max(point, 0L), [&] { return bench.memory(settings, curve, true); });
+  if (given)
+    memory.shares.push_back({"the given picture", "measure a smaller picture (view.width_px, view.height_px)",
+                             per_given_pixel * static_cast<double>(given->picture.size())});
   require_memory(memory, bench.memory_of_program(true), "this point");
-  const Measurement m = bench.measure(settings, part.curve_enabled ? std::optional(part.curve) : std::nullopt);
+  const Measurement m = bench.measure(settings, curve ? std::optional(part.curve) : std::nullopt, std::move(given));
   write_pictures(m, out, ".", "point");
   write_images(m, out, ".", "");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));

@@ -18,8 +18,9 @@ int verb_run(const std::string& experiment, const ExperimentArguments& arguments
 // paths: experiment files, or folders, whose *.toml files are all checked. Returns 0 if every bound and law held.
 int verb_check(const std::vector<std::string>& paths, const ExperimentArguments& arguments);
 // experiment: may be empty (the default settings). point: of the experiment's sweep; -1: the sweep must have one point
-// only.
-int verb_render(const std::string& experiment, long point, const ExperimentArguments& arguments);
+// only. picture: a file that is judged in place of R5, or empty.
+int verb_render(const std::string& experiment, long point, const std::string& picture,
+                const ExperimentArguments& arguments);
 int verb_report(const std::string& folder);
 int verb_scenes();
 int verb_settings();

@@ -83,6 +83,7 @@ PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, cons
   add_time(record, "soft_truth", truth.soft);
   add_time(record, "texel", lookup.texel_stage);
   add_time(record, "tap", lookup.tap_stage);
+  record.causes = m.ladder.brought;
   record.worst = worst_pixel(m.ladder);
   return record;
 }
@@ -164,7 +165,8 @@ AvailableMemory Workbench::memory_of_program(bool pictures) const {
   return noonmark::memory_of_program(impl_->space_at_start, room_to_start(pictures));
 }
 
-Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options) {
+Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
+                               std::optional<RungOnTop> on_top) {
   validate(settings);
   Impl& b = *impl_;
   const SceneStage& loaded = b.load(settings);
@@ -191,6 +193,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
   Climbed climbed = b.stages->climb_strips(b.renderer, map, lookup, view, truth, shown, point,
                                            varied && !b.curve.has(curve_key) ? varied : nullptr);
+  if (on_top) add_rung(climbed.ladder, std::move(*on_top));
   Measurement m{{},           settings,  std::move(climbed.ladder), frame, view.camera, scene, view.receivers,
                 lookup.probe, map.depth, lookup.exact_depth};
   m.record = record_of(m, *loaded.tracer, view, truth, map, lookup, shown, climbed.soundness);

@@ -39,8 +39,10 @@ class Workbench {
                      std::unique_ptr<Pipeline> stages = std::make_unique<Pipeline>());
   ~Workbench();
 
-  // curve: no curve if it is empty, or if no part of the bias can have one (curve_part). Throws Error.
-  Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve);
+  // curve: no curve if it is empty, or if no part of the bias can have one (curve_part). on_top: a picture that is
+  // judged in place of R5. Throws Error.
+  Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
+                      std::optional<RungOnTop> on_top = {});
 
   // The peak memory that measure() would take. pictures: whether its pictures and EXR files are written. Throws Error.
   MemoryEstimate memory(const Settings& settings, bool curve, bool pictures);

@@ -68,6 +68,8 @@ _noonmark() {
     compopt -o nospace 2>/dev/null
   elif [[ $previous == --out ]]; then
     mapfile -t files < <(compgen -d -- "$word")
+  elif [[ $previous == --picture ]]; then
+    mapfile -t files < <(_noonmark_files "$word" '[eE][xX][rR]' '[pP][nN][gG]')
   elif [[ $previous == --part || $previous == --point || $previous == --threads ]]; then
     :  # a name or a number that cannot be listed
   elif [[ $word == -* ]]; then

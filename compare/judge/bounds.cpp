@@ -66,7 +66,7 @@ void judge(const Bound& bound, const std::vector<Value>& values, BoundResult& re
 }
 
 BoundResult evaluate(std::span<const PointRecord> points, const Bound& bound) {
-  check_bound(bound);
+  check_bound(bound, points);
   BoundResult result;
   result.metric = bound.metric;
   result.max = bound.max;
@@ -102,8 +102,8 @@ std::string point_text(const PointRecord& point, std::span<const std::string> sw
 
 }  // namespace
 
-void check_bound(const Bound& bound) {
-  find_quantity(bound.metric);
+void check_bound(const Bound& bound, std::span<const PointRecord> points) {
+  find_quantity(bound.metric, points);
   if (!bound.max && !bound.min) refuse(bound, "has neither max nor min; give one of them");
   for (const std::optional<double>& limit : {bound.max, bound.min})
     if (limit && !std::isfinite(*limit)) refuse(bound, "max and min must be finite numbers");
@@ -164,14 +164,15 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
 
   if (!std::isfinite(bound.found)) text += "  a value that could not be measured breaks every bound\n";
   if (const std::string poor = point ? why_poor_view(*point) : ""; !poor.empty()) text += fmt::format("  {}\n", poor);
-  if (point && find_quantity(bound.metric).of_curve && !nothing_judged(*point) && !why_no_curve(*point).empty())
+  if (point && find_quantity(bound.metric, {point, 1}).of_curve && !nothing_judged(*point) &&
+      !why_no_curve(*point).empty())
     text += fmt::format("  it is read off the bias curve, but this point has no curve: {}\n", why_no_curve(*point));
   if (point) {
     text += fmt::format("  {}\n", point_text(*point, swept));
     if (point->worst.x >= 0)
-      text +=
-          fmt::format("  worst pixel by |R5 - R1|: x = {}, y = {} (row 0 on top), error {}{}{}\n", point->worst.x,
-                      point->worst.y, point->worst.error, point->worst.cause.empty() ? "" : ", ", point->worst.cause);
+      text += fmt::format("  worst pixel by |{} - R1|: x = {}, y = {} (row 0 on top), error {}{}{}\n",
+                          judged_rung(*point), point->worst.x, point->worst.y, point->worst.error,
+                          point->worst.cause.empty() ? "" : ", ", point->worst.cause);
   }
   if (!bound.reproduce.empty()) text += fmt::format("  reproduce: {}\n", bound.reproduce);
   return text;

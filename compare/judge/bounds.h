@@ -29,8 +29,9 @@ struct Bound {
 };
 
 // Throws Error(usage) for an unknown metric, setting or join (with the nearest name as a suggestion), for a value that
-// the setting cannot have, and for limits that are absent, not finite or crossed.
-void check_bound(const Bound& bound);
+// the setting cannot have, and for limits that are absent, not finite or crossed. points: the causes that rungs brought
+// there are metrics too.
+void check_bound(const Bound& bound, std::span<const PointRecord> points = {});
 
 // Returns one result for each bound, in order. reproduce returns the command that renders one point. Throws as
 // check_bound does.

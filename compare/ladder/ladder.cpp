@@ -8,6 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "compare/store/quantities.h"
+
 namespace noonmark {
 namespace {
 
@@ -75,13 +77,23 @@ Ladder empty_ladder(int width, int height) {
   return ladder;
 }
 
-void add_rung(Ladder& ladder, const std::string& name, Image<float> picture, const std::string& cause) {
+void add_rung(Ladder& ladder, RungOnTop rung) {
+  Image<float>& picture = rung.picture;
   if (picture.width != ladder.flags.width || picture.height != ladder.flags.height)
-    throw std::logic_error("the rung " + name + " has another size than the ladder");
+    throw std::logic_error("the rung " + rung.name + " has another size than the ladder");
   const auto named = [](const std::string& wanted) { return [&](const auto& one) { return one.name == wanted; }; };
-  if (std::any_of(ladder.rungs.begin(), ladder.rungs.end(), named(name)) ||
-      std::any_of(ladder.causes.begin(), ladder.causes.end(), named(cause)))
-    throw std::logic_error("the ladder has a rung " + name + " or a cause " + cause + " already");
+  if (std::any_of(ladder.rungs.begin(), ladder.rungs.end(), named(rung.name)) ||
+      std::any_of(ladder.causes.begin(), ladder.causes.end(), named(rung.cause)))
+    throw std::logic_error("the ladder has a rung " + rung.name + " or a cause " + rung.cause + " already");
+  if (!is_free_name(rung.cause)) throw std::logic_error("a cause cannot have the name " + rung.cause);
+  if (!rung.color) {
+    const auto taken = [&](const std::array<uint8_t, 3>& color) {
+      return std::any_of(ladder.brought.begin(), ladder.brought.end(),
+                         [&](const RungCause& cause) { return cause.color == color; });
+    };
+    const auto free = std::find_if_not(spare_colors.begin(), spare_colors.end(), taken);
+    rung.color = free == spare_colors.end() ? spare_colors.front() : *free;
+  }
   const Image<float>& below = ladder.shown();
   Image<float> step(picture.width, picture.height, 0);
   const auto index = static_cast<uint8_t>(ladder.causes.size());
@@ -100,8 +112,9 @@ void add_rung(Ladder& ladder, const std::string& name, Image<float> picture, con
       ladder.cause[i] = index;
     if (std::isnan(step[i])) ladder.residual = std::numeric_limits<double>::quiet_NaN();
   }
-  ladder.rungs.push_back({name, std::move(picture)});
-  ladder.causes.push_back({cause, std::move(step)});
+  ladder.rungs.push_back({rung.name, std::move(picture)});
+  ladder.causes.push_back({rung.cause, std::move(step)});
+  ladder.brought.push_back({rung.cause, rung.label, rung.help, *rung.color, rung.name});
 }
 
 void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {

@@ -35,10 +35,12 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "compare/store/records.h"
 #include "scenes/image.h"
 #include "technique/bias.h"
 #include "technique/evidence.h"
@@ -89,7 +91,7 @@ enum LadderFlags : uint8_t { flag_facing = 1, flag_outside = 2, flag_ambiguous =
 
 // An ordered list of rungs, and the causes whose steps lead from the first rung to the last. climb() makes the rungs of
 // a lookup that compares depths. A technique may put further rungs on top (add_rung), for example a picture that was
-// made elsewhere.
+// made elsewhere. Such a rung brings its own cause and describes it.
 struct Ladder {
   struct RungImage {
     std::string name;  // "R1"
@@ -101,6 +103,7 @@ struct Ladder {
   };
   std::vector<RungImage> rungs;
   std::vector<CauseImage> causes;  // the first is "none", whose step is 0 everywhere
+  std::vector<RungCause> brought;  // describes causes[cause_count] and the following
   Image<uint8_t> cause;            // an index into causes for each wrong pixel (shown() != truth()), 0 for a right one
   Image<uint8_t> flags;
   Image<float> doubt;  // weight of the undecided taps
@@ -124,11 +127,25 @@ inline bool is_counted(const Ladder& ladder, size_t i) {
   return (ladder.flags[i] & flag_facing) && !(ladder.flags[i] & flag_ambiguous);
 }
 
-// Puts a picture on top of the ladder. From then on this picture is judged, and the step to it from the rung below has
-// the one cause `cause`. If that step is larger than each step below it, that cause names the pixel. picture:
-// visibility in [0,1], of the ladder's size; it is not read at pixels that are not facing. Throws std::logic_error if
-// the size differs or the ladder already has one of the names.
-void add_rung(Ladder& ladder, const std::string& name, Image<float> picture, const std::string& cause);
+// A picture that is put on top of a ladder.
+struct RungOnTop {
+  std::string name;      // "R6"
+  Image<float> picture;  // visibility in [0,1], of the ladder's size; it is not read at pixels that are not facing
+  std::string cause;     // the name of its cause, which is also a metric: "elsewhere"
+  std::string label;     // of the cause, for legends
+  std::string help;      // of the cause: one sentence
+  std::optional<std::array<uint8_t, 3>> color{};  // of the cause, sRGB; empty: the first of spare_colors that is free
+};
+// From then on this picture is judged, and the step to it from the rung below has the one cause that the rung brings.
+// If that step is larger than each step below it, that cause names the pixel. Throws std::logic_error if the size
+// differs, if the ladder already has one of the names, and if the cause's name is that of a metric or cannot be one
+// (is_free_name).
+void add_rung(Ladder& ladder, RungOnTop rung);
+
+// For causes that are not built in. Under the common colour-vision deficiencies (Machado et al. 2009) they differ from
+// each other and from all colours of compare/report/cause_colors.h by 15 or more in CIELAB.
+inline constexpr std::array<std::array<uint8_t, 3>, 4> spare_colors{
+    {{180, 80, 255}, {34, 34, 170}, {102, 17, 0}, {64, 0, 64}}};
 
 // Climbs the whole picture.
 Ladder climb(const LookupEvidence& evidence);

@@ -36,7 +36,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& input);
 // occluders.
 Image<uint8_t> peter_panning_mask(const Ladder& ladder);
 
-// The counted receiver with the largest |R5 - R1|. x = -1 if there is no counted receiver.
+// The counted receiver with the largest error: |R5 - R1|, or that of the rung on top of R5. x = -1 if there is no counted receiver.
 PointRecord::Worst worst_pixel(const Ladder& ladder);
 
 }  // namespace noonmark

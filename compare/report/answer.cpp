@@ -25,8 +25,8 @@ std::string item(std::string_view kind, const std::string& inner) {
 
 std::string points_text(size_t count) { return fmt::format("{} point{}", count, count == 1 ? "" : "s"); }
 
-std::string_view unit_of(const std::string& metric) {
-  for (const Metric& row : metrics_table())
+std::string_view unit_of(const std::string& metric, const Results& results) {
+  for (const Metric& row : metrics_of(results.points))
     if (row.name == metric) return row.unit;
   return "";
 }
@@ -250,7 +250,7 @@ std::string bounds_table(const Results& results) {
     for (const auto& [name, values] : bound.where)
       where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", html(name),
                            html(fmt::format("{}", fmt::join(values, " | "))));
-    const std::string_view unit = unit_of(bound.metric);
+    const std::string_view unit = unit_of(bound.metric, results);
     std::string limit;
     if (bound.max) limit += fmt::format("at most {}", quantity(*bound.max, unit));
     if (bound.min) limit += fmt::format("{}at least {}", limit.empty() ? "" : ", ", quantity(*bound.min, unit));

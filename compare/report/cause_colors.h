@@ -5,7 +5,11 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
+#include <vector>
+
+#include "compare/store/quantities.h"
 
 namespace noonmark {
 
@@ -39,6 +43,15 @@ inline constexpr std::array<CauseColor, 5> pixel_state_colors{{
     {"ambiguous", 255, 250, 200, "Ambiguous truth, left out"},
     {"background", 30, 32, 38, "No surface"},
 }};
+
+// cause_colors, followed by the causes that rungs brought at these points (PointRecord::causes), whose texts the rows
+// refer to.
+inline std::vector<CauseColor> causes_of(std::span<const PointRecord> points) {
+  std::vector<CauseColor> causes(cause_colors.begin(), cause_colors.end());
+  for (const RungCause* cause : brought_causes(points))
+    causes.push_back({cause->name, cause->color[0], cause->color[1], cause->color[2], cause->label});
+  return causes;
+}
 
 constexpr const CauseColor* find_color(std::string_view name) {
   for (const CauseColor& color : cause_colors)

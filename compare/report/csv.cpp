@@ -10,6 +10,7 @@
 #include "compare/report/escape.h"
 #include "compare/store/metrics.h"
 #include "compare/store/quantities.h"
+#include "compare/store/record_fields.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -52,8 +53,17 @@ std::vector<Column> columns(const Results& results) {
 
   std::vector<Column> list, at_the_end;
   list.push_back({"point", [](const PointRecord& p) { return fmt::format("{}", p.id); }});
-  if (std::any_of(results.points.begin(), results.points.end(), [](const PointRecord& p) { return !p.part.empty(); }))
-    list.push_back({"part", [](const PointRecord& p) { return p.part; }});
+  const auto field_column = [&](const RecordField& field) {
+    list.push_back({std::string(field.name), [&field](const PointRecord& p) {
+                      return with_value(field, p, [](const auto& value) { return fmt::format("{}", value); });
+                    }});
+  };
+  // The part: left out if no point has one.
+  for (const RecordField& field : record_fields())
+    if (field.group.empty() && std::any_of(results.points.begin(), results.points.end(), [&](const PointRecord& p) {
+          return with_value(field, p, [](const auto& value) { return !fmt::format("{}", value).empty(); });
+        }))
+      field_column(field);
   for (const std::string& name : names(settings, present_settings))
     list.push_back({name, [name](const PointRecord& p) {
                       const auto found = p.settings.find(name);
@@ -68,10 +78,8 @@ std::vector<Column> columns(const Results& results) {
                       const std::optional<double> value = p.curve ? row.value(*p.curve) : std::nullopt;
                       return value ? number(*value) : std::string();
                     }});
-  list.push_back({"worst_x", [](const PointRecord& p) { return fmt::format("{}", p.worst.x); }});
-  list.push_back({"worst_y", [](const PointRecord& p) { return fmt::format("{}", p.worst.y); }});
-  list.push_back({"worst_error", [](const PointRecord& p) { return number(p.worst.error); }});
-  list.push_back({"worst_cause", [](const PointRecord& p) { return p.worst.cause; }});
+  for (const RecordField& field : record_fields())
+    if (!field.group.empty()) field_column(field);
   // A time that is also a metric has its column already.
   for (const std::string& name : present_times)
     if (!clocked.contains(name))

@@ -79,13 +79,14 @@ json chart_data(const Results& results) {
                              {"values", values}});
   }
   data["metrics"] = json::array();
-  for (const Metric& metric : metrics_table())
+  for (const Metric& metric : metrics_of(results.points))
     data["metrics"].push_back({{"name", metric.name},
                                {"label", metric_label(metric.name)},
                                {"unit", metric.unit},
                                {"plotted", metric.plotted}});
   data["causes"] = json::array();
-  for (const CauseColor& cause : cause_colors) data["causes"].push_back({{"name", cause.name}, {"label", cause.label}});
+  for (const CauseColor& cause : causes_of(results.points))
+    data["causes"].push_back({{"name", cause.name}, {"label", cause.label}});
   data["plot"] = results.info.plot;
 
   size_t entries = 0;

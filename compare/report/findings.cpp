@@ -151,10 +151,15 @@ std::vector<size_t> pareto_front(std::span<const std::pair<double, double>> poin
 std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points) {
   std::vector<CauseShare> shares;
   double sum = 0;
-  for (const CauseColor& cause : cause_colors) {
-    // Light size is not part of R5 - R1. Joined causes are already included as dark and light.
-    if (cause.name == "light_size" || cause.name == "aliasing" || cause.name == "coverage") continue;
-    CauseShare share{std::string(cause.name), 0, 0};
+  std::vector<std::string> names;
+  for (const CauseColor& cause : cause_colors) names.emplace_back(cause.name);
+  for (const PointRecord* point : points)
+    for (const RungCause& cause : point->causes)
+      if (std::find(names.begin(), names.end(), cause.name) == names.end()) names.push_back(cause.name);
+  for (const std::string& name : names) {
+    // Light size is not part of the error. Joined causes are already included as dark and light.
+    if (name == "light_size" || name == "aliasing" || name == "coverage") continue;
+    CauseShare share{name, 0, 0};
     size_t finite = 0;
     for (const PointRecord* point : points) {
       const double value = metric_of(*point, share.name);

@@ -61,7 +61,7 @@ struct CauseShare {
   double mean = 0;   // over the points at which it is finite
   double share = 0;  // its part of the sum over all causes
 };
-// The causes of R5 - R1, the largest first. Causes that are 0 everywhere are left out.
+// The causes of the error, the largest first, also those that rungs brought. Causes that are 0 everywhere are left out.
 std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points);
 
 }  // namespace noonmark

@@ -45,13 +45,13 @@ std::string vega_script() {
   return out;
 }
 
-std::string colour_rules() {
+std::string colour_rules(const Results& results) {
   std::string variables, classes;
   const auto add = [&](const CauseColor& color) {
     variables += fmt::format("--c-{}:#{:02x}{:02x}{:02x};", color.name, color.r, color.g, color.b);
     classes += fmt::format(".c-{0}{{background:var(--c-{0})}}\n", color.name);
   };
-  for (const CauseColor& color : cause_colors) add(color);
+  for (const CauseColor& color : causes_of(results.points)) add(color);
   for (const CauseColor& color : pixel_state_colors) add(color);
   return ":root{" + variables + "}\n" + classes;
 }
@@ -140,7 +140,7 @@ std::string render_report(const Results& results,
   return fill(file("report/page/page.html"), [&](std::string_view name) -> std::string {
     if (name == "title") return title;
     if (name == "subtitle") return subtitle(results);
-    if (name == "style") return colour_rules() + std::string(file("report/page/style.css"));
+    if (name == "style") return colour_rules(results) + std::string(file("report/page/style.css"));
     if (name == "nav") return navigation(results);
     if (name == "sections") {
       std::string sections;

@@ -172,24 +172,25 @@ std::string sweep_section(const Results& results) {
 std::string budget_section(const Results& results) {
   if (results.points.empty())
     return "<section id=\"budget\"><h2>The error budget</h2>\n<p>No point was measured.</p></section>\n";
+  const std::vector<CauseColor> causes = causes_of(results.points);
   double largest = 0;
   for (const PointRecord& point : results.points) {
     double sum = 0;
-    for (const CauseColor& cause : cause_colors)
+    for (const CauseColor& cause : causes)
       if (const double value = metric_of(point, std::string(cause.name));
           is_part(cause.name) && value > 0 && std::isfinite(value))
         sum += value;
     largest = std::max(largest, sum);
   }
   std::string legend, rows;
-  for (const CauseColor& cause : cause_colors)
+  for (const CauseColor& cause : causes)
     if (is_part(cause.name))
       legend += fmt::format("<span>{}{}</span>\n", swatch(std::string(cause.name)), html(cause.label));
   for (const PointRecord& point : results.points) {
     std::vector<std::pair<std::string_view, double>> sizes;
     std::string parts, told;
     double sum = 0;
-    for (const CauseColor& cause : cause_colors) {
+    for (const CauseColor& cause : causes) {
       const double value = metric_of(point, std::string(cause.name));
       if (!is_part(cause.name)) continue;
       if (std::isnan(value) && !point.metrics.contains(std::string(cause.name))) continue;
@@ -212,14 +213,14 @@ std::string budget_section(const Results& results) {
   return fmt::format(
       "<section id=\"budget\"><h2>The error budget</h2>\n<p>The part of the error that each cause adds, with the bias "
       "as rendered, as a share of counted "
-      "receivers. The number at the end is the whole error, mean |R5 − R1|. With a filter, causes can cancel in it, "
+      "receivers. The number at the end is the whole error, mean |{} − R1|. With a filter, causes can cancel in it, "
       "and displacement can cancel with the others, so the bar can be longer.</p>\n"
       "<div class=\"legend\">{}</div>\n"
       "<div class=\"budget{}\"><input type=\"radio\" name=\"budget\" id=\"budget-size\" checked><label "
       "for=\"budget-size\">By size</label>"
       "<input type=\"radio\" name=\"budget\" id=\"budget-share\"><label for=\"budget-share\">By share</label>\n<div "
       "class=\"rows\">\n{}</div></div></section>\n",
-      legend, results.points.size() > open_rows ? " many" : "", rows);
+      judged_rung(results.points.front()), legend, results.points.size() > open_rows ? " many" : "", rows);
 }
 
 std::string cost_section(const Results& results) {

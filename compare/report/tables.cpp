@@ -85,7 +85,7 @@ std::string pictures_section(const Results& results, const std::function<std::st
   out +=
       "<p class=\"js-only small\">Flip with <kbd>←</kbd> <kbd>→</kbd> or the number keys.</p>\n<div "
       "class=\"legend\">\n";
-  for (const CauseColor& color : cause_colors)
+  for (const CauseColor& color : causes_of(results.points))
     if (color.name != "aliasing" && color.name != "coverage")
       out += fmt::format("<span>{}{}</span>\n", swatch(std::string(color.name)), html(color.label));
   for (const CauseColor& color : pixel_state_colors)
@@ -96,9 +96,10 @@ std::string pictures_section(const Results& results, const std::function<std::st
 std::string points_section(const Results& results) {
   std::string out = "<section id=\"points\"><h2>Every point</h2>\n";
   if (results.points.empty()) return out + "<p>No point was measured.</p></section>\n";
+  const std::vector<Metric> metrics = metrics_of(results.points);
   std::vector<const Metric*> columns;
   std::string same;
-  for (const Metric& metric : metrics_table()) {
+  for (const Metric& metric : metrics) {
     const std::string name(metric.name);
     if (results.points.size() == 1 || varies(results, name))
       columns.push_back(&metric);
@@ -154,8 +155,14 @@ std::string meaning_section(const Results& results) {
       "centres of their texels. R4: the technique on an exact depth map. R5: the result of the GPU. Each step is the "
       "effect of one cause. Fractions are fractions of the counted receivers, which face the light and have a truth "
       "that is not "
-      "ambiguous.</p>\n<dl class=\"terms\">\n";
-  for (const Metric& metric : metrics_table())
+      "ambiguous.</p>\n";
+  for (const RungCause* cause : brought_causes(results.points))
+    out += fmt::format(
+        "<p>{}, a picture on top of the ladder, is judged in place of the rung below it. Its step is the "
+        "cause {}.</p>\n",
+        html(cause->rung), html(metric_label(cause->name)));
+  out += "<dl class=\"terms\">\n";
+  for (const Metric& metric : metrics_of(results.points))
     out += fmt::format("<div><dt>{} <code>{}</code>{}</dt><dd>{}</dd></div>\n", html(metric_label(metric.name)),
                        html(metric.name),
                        head_unit(metric.unit).empty() ? "" : fmt::format(" <small>{}</small>", head_unit(metric.unit)),

@@ -28,6 +28,11 @@ constexpr CurveField fields[] = {
      &BiasCurve::acne_free_bias_stored_depth, true},
 };
 
+constexpr CurveWidth widths[] = {
+    {"window_width_depth", "depth", "Width of the usable bias window; 0 when no bias is good enough.",
+     "window_min_depth", "window_max_depth"},
+};
+
 constexpr CurveSeries series[] = {
     {"bias_depth", &BiasCurve::bias_depth},
     {"error", &BiasCurve::error},
@@ -42,6 +47,7 @@ constexpr CurveSeries series[] = {
 }  // namespace
 
 std::span<const CurveField> curve_fields() { return fields; }
+std::span<const CurveWidth> curve_widths() { return widths; }
 std::span<const CurveSeries> curve_series() { return series; }
 
 }  // namespace noonmark

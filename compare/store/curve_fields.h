@@ -26,6 +26,16 @@ struct CurveField {
 };
 std::span<const CurveField> curve_fields();
 
+// The distance between two ends that the curve has both or neither. The width is 0 if there are none, so that a `min` of
+// `window_width_depth` asserts that there is a usable bias.
+struct CurveWidth {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view help;      // one sentence
+  std::string_view from, to;  // fields of curve_fields(), std::optional<double>; the width is listed after `to`
+};
+std::span<const CurveWidth> curve_widths();
+
 // One value for each bias.
 struct CurveSeries {
   std::string_view name;  // "bias_depth"; the others are metrics

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 #include "compare/store/curve_fields.h"
-#include "compare/store/metrics.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
 #include "technique/settings.h"
@@ -13,54 +14,73 @@
 namespace noonmark {
 namespace {
 
+// A number that is computed from a curve, as a function and as SQL over the store's table `curves` as c. Each way to
+// compute a number is one function below, which gives both. Without a curve the SQL gives NULL.
+struct Expression {
+  std::function<std::optional<double>(const BiasCurve&)> value;
+  std::string sql;
+};
+
 // The field's number. No value if the field is empty.
-std::optional<double> number_of_field(const CurveField& field, const BiasCurve& curve) {
-  return std::visit(
-      [&](auto member) -> std::optional<double> {
-        if constexpr (std::is_same_v<decltype(member), std::string BiasCurve::*>)
-          return std::nullopt;
-        else if constexpr (std::is_same_v<decltype(member), std::optional<double> BiasCurve::*>)
-          return curve.*member;
-        else
-          return static_cast<double>(curve.*member);
-      },
-      field.member);
+Expression number_of(const CurveField& field) {
+  return {[&field](const BiasCurve& curve) {
+            return std::visit(
+                [&](auto member) -> std::optional<double> {
+                  if constexpr (std::is_same_v<decltype(member), std::string BiasCurve::*>)
+                    return std::nullopt;
+                  else if constexpr (std::is_same_v<decltype(member), std::optional<double> BiasCurve::*>)
+                    return curve.*member;
+                  else
+                    return static_cast<double>(curve.*member);
+                },
+                field.member);
+          },
+          fmt::format("c.{}", field.name)};
 }
 
-// The width is 0 for an empty window, so that a `min` of `window_width_depth` asserts that there is a usable bias.
-double window_width(const BiasCurve& c) {
-  return c.window_min_depth && c.window_max_depth ? *c.window_max_depth - *c.window_min_depth : 0;
+Expression number_of(std::string_view name) {
+  for (const CurveField& field : curve_fields())
+    if (field.name == name) return number_of(field);
+  throw std::logic_error(fmt::format("the curve has no field {}", name));
+}
+
+Expression product(const Expression& a, const Expression& b) {
+  return {[a = a.value, b = b.value](const BiasCurve& curve) {
+            const std::optional<double> x = a(curve), y = b(curve);
+            return x && y ? std::optional(*x * *y) : std::nullopt;
+          },
+          fmt::format("({}) * {}", a.sql, b.sql)};
+}
+
+Expression width_of(const CurveWidth& width) {
+  const Expression from = number_of(width.from), to = number_of(width.to);
+  return {
+      [a = from.value, b = to.value](const BiasCurve& curve) -> std::optional<double> {
+        const std::optional<double> x = a(curve), y = b(curve);
+        return x && y ? *y - *x : 0;
+      },
+      fmt::format("CASE WHEN c.point IS NULL THEN NULL WHEN {0} IS NULL THEN 0 ELSE {1} - {0} END", from.sql, to.sql)};
 }
 
 constexpr std::string_view depth_ending = "_depth";
 
 std::vector<CurveQuantity> make_table() {
   std::vector<CurveQuantity> table;
-  const auto add = [&](CurveQuantity quantity) {
-    const bool is_depth = quantity.unit == "depth";
-    table.push_back(quantity);
-    if (!is_depth) return;
-    const std::string stem = quantity.name.substr(0, quantity.name.size() - depth_ending.size());
-    const auto in = [&](const char* ending, const char* unit, double BiasCurve::*factor, const char* column) {
-      table.push_back({stem + ending, unit, quantity.help,
-                       [of = quantity.value, factor](const BiasCurve& c) {
-                         const std::optional<double> depth = of(c);
-                         return depth ? std::optional(*depth * (c.*factor)) : std::nullopt;
-                       },
-                       fmt::format("({}) * c.{}", quantity.sql, column)});
+  const auto add = [&](std::string_view name, std::string_view unit, std::string_view help, const Expression& number) {
+    const auto row = [&](const std::string& row_name, std::string_view row_unit, const Expression& e) {
+      table.push_back({row_name, std::string(row_unit), std::string(help), e.value, e.sql});
     };
-    in("_m", "m", &BiasCurve::m_per_depth, "m_per_depth");
-    in("_texels", "texels", &BiasCurve::texels_per_depth, "texels_per_depth");
+    row(std::string(name), unit, number);
+    if (unit != "depth") return;
+    const std::string stem(name.substr(0, name.size() - depth_ending.size()));
+    row(stem + "_m", "m", product(number, number_of("m_per_depth")));
+    row(stem + "_texels", "texels", product(number, number_of("texels_per_depth")));
   };
   for (const CurveField& field : curve_fields()) {
     if (!field.quantity) continue;
-    add({std::string(field.name), std::string(field.unit), std::string(field.help),
-         [&field](const BiasCurve& c) { return number_of_field(field, c); }, fmt::format("c.{}", field.name)});
-    if (field.name == "window_max_depth")
-      add({"window_width_depth", "depth", "Width of the usable bias window; 0 when no bias is good enough.",
-           window_width,
-           "CASE WHEN c.point IS NULL THEN NULL WHEN c.window_min_depth IS NULL THEN 0 ELSE c.window_max_depth - "
-           "c.window_min_depth END"});
+    add(field.name, field.unit, field.help, number_of(field));
+    for (const CurveWidth& width : curve_widths())
+      if (width.to == field.name) add(width.name, width.unit, width.help, width_of(width));
   }
   return table;
 }
@@ -72,9 +92,35 @@ std::span<const CurveQuantity> curve_quantities() {
   return table;
 }
 
-QuantityInfo find_quantity(std::string_view name) {
+std::vector<const RungCause*> brought_causes(std::span<const PointRecord> points) {
+  std::vector<const RungCause*> causes;
+  for (const PointRecord& point : points)
+    for (const RungCause& cause : point.causes)
+      if (std::none_of(causes.begin(), causes.end(), [&](const RungCause* c) { return c->name == cause.name; }))
+        causes.push_back(&cause);
+  return causes;
+}
+
+std::vector<Metric> metrics_of(std::span<const PointRecord> points) {
+  std::vector<Metric> metrics(metrics_table().begin(), metrics_table().end());
+  for (const RungCause* cause : brought_causes(points)) metrics.push_back({cause->name, "fraction", cause->help, true});
+  return metrics;
+}
+
+bool is_free_name(std::string_view name) {
+  if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != name.npos) return false;
+  const auto is_this = [&](const auto& row) { return row.name == name; };
+  return std::none_of(metrics_table().begin(), metrics_table().end(), is_this) &&
+         std::none_of(curve_quantities().begin(), curve_quantities().end(), is_this);
+}
+
+std::string_view judged_rung(const PointRecord& point) {
+  return point.causes.empty() ? std::string_view("R5") : std::string_view(point.causes.back().rung);
+}
+
+QuantityInfo find_quantity(std::string_view name, std::span<const PointRecord> points) {
   std::vector<std::string_view> names;
-  for (const Metric& row : metrics_table()) {
+  for (const Metric& row : metrics_of(points)) {
     if (row.name == name) return {row.name, row.unit, row.help, false};
     names.push_back(row.name);
   }

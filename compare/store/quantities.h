@@ -8,13 +8,15 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "compare/store/metrics.h"
 #include "compare/store/records.h"
 
 namespace noonmark {
 
-// Made from the rows of curve_fields() (curve_fields.h): each number itself, each depth also in metres and in texels,
-// and the width of the window.
+// Made from the rows of curve_fields() and curve_widths() (curve_fields.h): each number itself, and each depth also in
+// metres and in texels.
 struct CurveQuantity {
   std::string name;
   std::string unit;
@@ -29,8 +31,20 @@ struct QuantityInfo {
   std::string_view name, unit, help;
   bool of_curve = false;  // known only if the point has a curve
 };
-// Throws Error(usage) that suggests the nearest name.
-QuantityInfo find_quantity(std::string_view name);
+// points: their own causes (PointRecord::causes) have names too; the result refers to them. Throws Error(usage) that
+// suggests the nearest name.
+QuantityInfo find_quantity(std::string_view name, std::span<const PointRecord> points = {});
+
+// The causes that rungs on top of R5 brought at any of these points: each name once, in the order in which the points
+// have them. The pointers are to the points' own.
+std::vector<const RungCause*> brought_causes(std::span<const PointRecord> points);
+// metrics_table(), followed by the metrics of brought_causes(points), whose texts the rows refer to.
+std::vector<Metric> metrics_of(std::span<const PointRecord> points);
+// Whether a cause can have this name, as a metric and as a column: lower-case letters, digits and _, and no metric of
+// the table or quantity of the curve.
+bool is_free_name(std::string_view name);
+// The name of the rung that is judged: "R5", or that of the rung on top of it.
+std::string_view judged_rung(const PointRecord& point);
 
 // Empty if the point does not have it: its curve is off, its window is empty, or its metric was not recorded.
 std::optional<double> quantity(const PointRecord& point, std::string_view name);

@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "compare/store/curve_fields.h"
+#include "compare/store/quantities.h"
+#include "compare/store/record_fields.h"
 
 namespace noonmark {
 namespace {
@@ -16,6 +18,30 @@ std::vector<Column<BiasCurve>> curve_columns() {
   std::vector<Column<BiasCurve>> columns;
   for (const CurveField& field : curve_fields())
     std::visit([&](auto member) { columns.push_back(column(field.name, member)); }, field.member);
+  return columns;
+}
+
+// The column of a member of the record itself. Every row has it.
+template <class Member>
+Column<PointRecord> record_column(std::string_view name, Member PointRecord::*member) {
+  Column<PointRecord> made = column(name, member);
+  static_assert(std::is_same_v<Member, std::string>);
+  made.type = "TEXT NOT NULL";
+  return made;
+}
+// The column of a member of the worst pixel.
+template <class Member>
+Column<PointRecord> record_column(std::string_view name, Member PointRecord::Worst::*member) {
+  const Column<PointRecord::Worst> inner = column(name, member);
+  return {name, inner.type,
+          [inner](Statement& row, int index, const PointRecord& record) { inner.bind(row, index, record.worst); },
+          [inner](const Statement& row, int index, PointRecord& record) { inner.read(row, index, record.worst); }};
+}
+
+std::vector<Column<PointRecord>> record_columns() {
+  std::vector<Column<PointRecord>> columns;
+  for (const RecordField& field : record_fields())
+    std::visit([&](auto member) { columns.push_back(record_column(field.name, member)); }, field.member);
   return columns;
 }
 
@@ -54,6 +80,11 @@ std::string series_names() {
 
 std::string json_text(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+const Table<PointRecord>& finished_table() {
+  static const Table<PointRecord> table("finished", {"point"}, record_columns());
+  return table;
 }
 
 const Table<BiasCurve>& curves_table() {
@@ -127,6 +158,17 @@ void read_series(Database& db, const std::function<BiasCurve&(int64_t)>& curve_o
     int index = 1;
     for (const CurveSeries& series : curve_series()) (curve.*series.values).push_back(rows.real(index++));
   }
+}
+
+std::string text_of_cause(const RungCause& cause) {
+  return json_text({{"label", cause.label}, {"help", cause.help}, {"color", cause.color}, {"rung", cause.rung}});
+}
+
+RungCause cause_of_text(const std::string& name, const std::string& text) {
+  if (!is_free_name(name)) throw std::runtime_error("a cause with the name " + name);
+  const nlohmann::json json = nlohmann::json::parse(text);
+  const auto of = [&](const char* key) { return json.at(key).get<std::string>(); };
+  return {name, of("label"), of("help"), json.at("color").get<std::array<uint8_t, 3>>(), of("rung")};
 }
 
 std::string record_tables() {

@@ -10,6 +10,7 @@
 
 namespace noonmark {
 
+const Table<PointRecord>& finished_table();    // one row per point: the record's own fields (record_fields.h)
 const Table<BiasCurve>& curves_table();        // one row per point, without the series
 const Table<PictureRecord>& pictures_table();  // one row per point and place in the list
 const Table<ImageRecord>& images_table();      // the same keys
@@ -22,8 +23,14 @@ void add_series(sqlite::Database& db, int64_t point, const BiasCurve& curve);
 // Calls curve_of(point) for each row, and adds the row's values to that curve's series.
 void read_series(sqlite::Database& db, const std::function<BiasCurve&(int64_t)>& curve_of);
 
-// The SQL that makes all these tables.
+// The SQL that makes all these tables, but finished_table().
 std::string record_tables();
+
+// A cause that a rung brought is kept in the table `info`, under the key cause_prefix + its name, as this text. The
+// second function throws std::exception if the text does not describe a cause of that name.
+inline constexpr std::string_view cause_prefix = "cause.";
+std::string text_of_cause(const RungCause& cause);
+RungCause cause_of_text(const std::string& name, const std::string& text);
 
 // Paths may have bytes that are not UTF-8. Only those bytes are replaced.
 std::string json_text(const nlohmann::json& json);

@@ -1,6 +1,7 @@
 // Records: the results of a sweep for each point, as plain numbers and text. The store keeps them. The report, the
 // bounds, CSV, JUnit and the summary read them.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -50,6 +51,16 @@ struct BiasCurve {
   std::optional<double> window_min_worst_depth, window_max_worst_depth;
 };
 
+// A cause that a rung on top of R5 brought (add_rung, compare/ladder/ladder.h). Its share is the metric of its name. The
+// built-in causes are described in metrics.h and compare/report/cause_colors.h.
+struct RungCause {
+  std::string name;                // "elsewhere": lower-case letters, digits and _; not the name of another metric
+  std::string label;               // for legends: "Elsewhere (not from the shadow map)"
+  std::string help;                // one sentence
+  std::array<uint8_t, 3> color{};  // sRGB
+  std::string rung;                // "R6": the rung on top of the step
+};
+
 // A picture of a point, for people. Path relative to the results' directory.
 struct PictureRecord {
   std::string name;      // "truth", "map", "classes", "difference", "shaded" ...
@@ -76,6 +87,7 @@ struct PointRecord : PointPictures {
   std::map<std::string, double> metrics;  // by metric name; not finite: could not be measured, which breaks any bound
   std::map<std::string, double> times;    // of stages: "hard_truth_ms", "texel_rays" ...
   std::optional<BiasCurve> curve;
+  std::vector<RungCause> causes;  // the causes that rungs on top of R5 brought, in the order of the rungs
   struct Worst {
     int x = -1, y = -1;
     double error = 0;

@@ -7,6 +7,7 @@
 
 #include "compare/store/metrics.h"
 #include "compare/store/quantities.h"
+#include "compare/store/record_fields.h"
 #include "compare/store/record_tables.h"
 #include "technique/settings.h"
 
@@ -14,10 +15,9 @@ namespace noonmark {
 namespace {
 
 // settings.value: integers, reals and flags (0 or 1) as numbers, all others as text. settings.text: canonical text.
-constexpr std::string_view tables = R"sql(
-CREATE TABLE info (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE finished (
-  point INTEGER PRIMARY KEY, part TEXT NOT NULL, worst_x INTEGER, worst_y INTEGER, worst_error REAL, worst_cause TEXT);
+constexpr std::string_view info_table =
+    "CREATE TABLE info (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;\n";
+constexpr std::string_view named_values = R"sql(
 CREATE TABLE settings (point INTEGER, name TEXT, value, text TEXT NOT NULL, PRIMARY KEY (point, name)) WITHOUT ROWID;
 CREATE TABLE metrics (point INTEGER, name TEXT, value REAL, PRIMARY KEY (point, name)) WITHOUT ROWID;
 CREATE TABLE times (point INTEGER, name TEXT, value REAL, PRIMARY KEY (point, name)) WITHOUT ROWID;
@@ -57,8 +57,12 @@ std::string value_of(std::string_view table, std::string_view name) {
 
 std::string store_schema() {
   View view;
+  const auto field_column = [&](const RecordField& field) {
+    view.column(field.name, fmt::format("f.{}", field.name), field.group, field.unit, field.help);
+  };
   view.column("point", "f.point", "", "", "Position in the sweep, from 0.");
-  view.column("part", "f.part", "", "", "The experiment's part; empty if it has no parts.");
+  for (const RecordField& field : record_fields())
+    if (field.group.empty()) field_column(field);
   for (const Setting& row : settings_table()) {
     std::string name(row.name);  // every query would have to quote a dot
     std::replace(name.begin(), name.end(), '.', '_');
@@ -69,11 +73,10 @@ std::string store_schema() {
   view.column("not_measured", "(SELECT count(*) FROM metrics WHERE point = f.point AND value IS NULL)", "metric",
               "count", "Number of metrics that could not be measured (NaN).");
   for (const CurveQuantity& row : curve_quantities()) view.column(row.name, row.sql, "curve", row.unit, row.help);
-  view.column("worst_x", "f.worst_x", "worst", "px", "The worst pixel's column.");
-  view.column("worst_y", "f.worst_y", "worst", "px", "The worst pixel's row, 0 on top.");
-  view.column("worst_error", "f.worst_error", "worst", "fraction", "Its error.");
-  view.column("worst_cause", "f.worst_cause", "worst", "", "Its cause.");
-  return std::string(tables) + record_tables() + view.sql();
+  for (const RecordField& field : record_fields())
+    if (!field.group.empty()) field_column(field);
+  return std::string(info_table) + finished_table().create("\n  ") + std::string(named_values) + record_tables() +
+         view.sql();
 }
 
 }  // namespace noonmark

@@ -113,15 +113,24 @@ void load_curves(Database& db, std::map<int64_t, PointRecord>& points) {
   read_series(db, [&](int64_t point) -> BiasCurve& { return points.at(point).curve.value(); });
 }
 
+// A point has the causes whose metric it has.
+void load_causes(Database& db, std::map<int64_t, PointRecord>& points) {
+  std::vector<RungCause> causes;
+  for (Statement rows(db, "SELECT key, value FROM info ORDER BY key"); rows.step();)
+    if (const std::string key = rows.text(0); key.starts_with(cause_prefix))
+      causes.push_back(cause_of_text(key.substr(cause_prefix.size()), rows.text(1)));
+  std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.rung < b.rung; });
+  for (auto& [id, point] : points)
+    for (const RungCause& cause : causes)
+      if (point.metrics.contains(cause.name)) point.causes.push_back(cause);
+}
+
 std::map<int64_t, PointRecord> load_points(Database& db) {
   std::map<int64_t, PointRecord> points;
-  for (Statement rows(db, "SELECT point, worst_x, worst_y, worst_error, worst_cause, part FROM finished");
-       rows.step();) {
-    PointRecord& point = points[rows.integer(0)];
-    point.id = rows.integer(0);
-    point.worst = {static_cast<int>(rows.integer(1)), static_cast<int>(rows.integer(2)), rows.real(3), rows.text(4)};
-    point.part = rows.text(5);
-  }
+  finished_table().read(db, [&](std::span<const int64_t> key, PointRecord point) {
+    point.id = key[0];
+    points.emplace(key[0], std::move(point));
+  });
   for (Statement rows(db, "SELECT point, name, text FROM settings"); rows.step();)
     points.at(rows.integer(0)).settings[rows.text(1)] = rows.text(2);
   for (Statement rows(db, "SELECT point, name, value FROM metrics"); rows.step();)
@@ -135,6 +144,7 @@ std::map<int64_t, PointRecord> load_points(Database& db) {
     points.at(key[0]).images.push_back(std::move(image));
   });
   load_curves(db, points);
+  load_causes(db, points);
   return points;
 }
 
@@ -249,8 +259,7 @@ void ResultStore::add(const PointRecord& point) {
   if (db_->ask(fmt::format("SELECT 1 FROM finished WHERE point = {}", point.id)))
     throw Error(ErrorKind::usage,
                 fmt::format("point {} is in the result store already; let no two runs share one --out", point.id));
-  Statement(*db_, "INSERT INTO finished VALUES (?, ?, ?, ?, ?, ?)")
-      .run(point.id, point.part, point.worst.x, point.worst.y, point.worst.error, point.worst.cause);
+  Table<PointRecord>::Insert(*db_, finished_table()).row({point.id}, point);
   Statement settings(*db_, "INSERT INTO settings VALUES (?, ?, ?, ?)");
   for (const auto& [name, text] : point.settings) {
     bind_setting_value(settings, 3, name, text);
@@ -261,7 +270,11 @@ void ResultStore::add(const PointRecord& point) {
   add_numbers(*db_, "times", point.id, point.times);
   if (point.curve) add_curve(*db_, point.id, *point.curve);
   add_pictures(*db_, point.id, point);
+  for (const RungCause& cause : point.causes)
+    Statement(*db_, "INSERT OR REPLACE INTO info VALUES (?, ?)")
+        .run(std::string(cause_prefix) + cause.name, text_of_cause(cause));
   seal_point(*db_, point.id);
+  if (!point.causes.empty()) seal_info(*db_);
   transaction.commit();
 }
 
@@ -278,7 +291,7 @@ void ResultStore::set_pictures(int64_t point, const PointPictures& pictures) {
 
 void ResultStore::set_info(const RunInfo& info, int64_t planned_points) {
   Transaction transaction(*db_);
-  db_->execute("DELETE FROM info WHERE key <> 'fingerprint'");
+  db_->execute(fmt::format("DELETE FROM info WHERE key <> 'fingerprint' AND key NOT GLOB '{}*'", cause_prefix));
   Statement insert(*db_, "INSERT INTO info VALUES (?, ?)");
   for (const auto& [name, member] : info_texts) insert.run(name, info.*member);
   for (const auto& [name, version] : info.libraries) insert.run(std::string(library_prefix) + name, version);

@@ -68,8 +68,9 @@ class Table {
   Table(std::string_view name, std::vector<std::string_view> keys, std::vector<Column<Record>> columns)
       : name_(name), keys_(std::move(keys)), columns_(std::move(columns)) {}
 
-  std::string create() const {
-    std::string sql = fmt::format("CREATE TABLE {} (", name_);
+  // before_columns: white space. A store holds the text that made its tables, and check_store() compares it.
+  std::string create(std::string_view before_columns = "") const {
+    std::string sql = fmt::format("CREATE TABLE {} ({}", name_, before_columns);
     for (std::string_view key : keys_)
       sql += fmt::format("{} INTEGER{}, ", key, keys_.size() == 1 ? " PRIMARY KEY" : "");
     for (size_t i = 0; i < columns_.size(); ++i)

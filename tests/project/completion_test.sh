@@ -47,7 +47,7 @@ expect 'check doctor render report run scenes settings' ''
 expect 'render report run' r
 expect '--help --version' -
 expect '--dry-run --help --out --overwrite --part --set --threads' run --
-expect '--part --point' render --p
+expect '--part --picture --point' render --p
 expect '--help' doctor -
 expect '' scenes ''
 expect '' run --threads ''

@@ -136,6 +136,21 @@ TEST(Bounds, QuantitiesOfTheCurveCanBeBounded) {
       << describe(without, &points[0]);
 }
 
+TEST(Bounds, TheCauseOfARungCanBeBounded) {
+  Bound leak;
+  leak.metric = "leak";
+  leak.max = 0.2;
+  std::vector<PointRecord> points = {sample_point(0)};
+  EXPECT_THROW(evaluate_bounds(points, std::span(&leak, 1), command_of), Error) << "no point has it";
+  points[0].causes = {{"leak", "Leak", "Light that leaks.", {}, "R6"}};
+  points[0].metrics["leak"] = 0.25;
+  const BoundResult broken = evaluate_bounds(points, std::span(&leak, 1), command_of).at(0);
+  expect(broken, false, 0.25, 0);
+  EXPECT_NE(describe(broken, &points[0]).find("worst pixel by |R6 - R1|"), std::string::npos);
+  points.push_back(sample_point(1));  // without the rung
+  expect(evaluate_bounds(points, std::span(&leak, 1), command_of).at(0), false, nan_value, 1);
+}
+
 TEST(Bounds, MistakesNameWhatWasMeant) {
   const auto message = [](const Bound& bound) -> std::string {
     try {

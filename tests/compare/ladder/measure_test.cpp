@@ -422,7 +422,7 @@ TEST(Measure, OfAPictureFromElsewhereOnTopOfTheLadder) {
   picture.at(0, 0) = 0.75f;  // wrong only here
   picture.at(1, 0) = 1;      // right where R5 is wrong
   picture.at(2, 0) = 0.25f;  // less wrong than R5
-  add_rung(p.ladder, "engine", picture, "elsewhere");
+  add_rung(p.ladder, {"engine", picture, "elsewhere", "Elsewhere", "From elsewhere."});
   EXPECT_EQ(p.ladder.shown().pixels, picture.pixels);
   EXPECT_EQ(p.ladder.cause_of(0), "elsewhere");
   EXPECT_EQ(p.ladder.cause_of(1), "none");
@@ -431,9 +431,16 @@ TEST(Measure, OfAPictureFromElsewhereOnTopOfTheLadder) {
   EXPECT_DOUBLE_EQ(m.at("error"), (0.25 + 0 + 0.75) / 3);
   EXPECT_DOUBLE_EQ(m.at("elsewhere"), (0.25 + 1 + 0.25) / 3);
   EXPECT_DOUBLE_EQ(m.at("acne"), 2.0 / 3) << "the acne of the rung below it must stay";
-  EXPECT_THROW(add_rung(p.ladder, "engine", picture, "again"), std::logic_error);
-  EXPECT_THROW(add_rung(p.ladder, "other", picture, "acne"), std::logic_error);
-  EXPECT_THROW(add_rung(p.ladder, "other", Image<float>(2, 1, 0), "again"), std::logic_error);
+  const auto refused = [&](const char* rung, const Image<float>& of_rung, const char* cause) {
+    EXPECT_THROW(add_rung(p.ladder, {rung, of_rung, cause, "", ""}), std::logic_error) << rung << " " << cause;
+  };
+  refused("engine", picture, "again");
+  refused("other", picture, "elsewhere");
+  refused("other", picture, "acne");
+  refused("other", picture, "error");               // a metric
+  refused("other", picture, "window_width_depth");  // a quantity of the curve
+  refused("other", picture, "Not a column");
+  refused("other", Image<float>(2, 1, 0), "again");
 }
 
 }  // namespace

@@ -100,10 +100,22 @@ TEST(Csv, HoldsEverySettingMetricAndQuantity) {
         EXPECT_EQ(text, "") << row.name;
     }
   }
+  const auto cell = [&](const char* name) { return rows[1][column(rows[0], name)]; };
+  EXPECT_EQ(cell("worst_x") + " " + cell("worst_y") + " " + cell("worst_cause"), "12 34 acne");
+  EXPECT_EQ(number(cell("worst_error")), 2.0 / 3);
   EXPECT_EQ(rows[3][column(rows[0], "acne")], "nan");
   EXPECT_EQ(rows[3][column(rows[0], "error")], "inf");
   EXPECT_EQ(rows[3][column(rows[0], "window_min_depth")], "");
   EXPECT_EQ(rows[3][column(rows[0], "window_width_depth")], "0");
+}
+
+TEST(Csv, HasAColumnForTheCauseOfARung) {
+  Results results = sample();
+  results.points[1].causes = {{"leak", "Leak", "Light that leaks.", {}, "R6"}};
+  results.points[1].metrics["leak"] = 0.25;
+  const std::vector<Row> rows = parse(to_csv(results));
+  EXPECT_EQ(rows[1][column(rows[0], "leak")], "");
+  EXPECT_EQ(rows[2][column(rows[0], "leak")], "0.25");
 }
 
 TEST(Csv, GuardsAPlaceAndLeavesNumbersAlone) {

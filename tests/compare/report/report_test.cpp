@@ -12,6 +12,7 @@
 #include <set>
 
 #include "compare/judge/soundness.h"
+#include "compare/ladder/ladder.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/findings.h"
@@ -356,6 +357,27 @@ TEST(Report, ALargeSweepStaysSensibleInSize) {
   EXPECT_LT(render_report(results, sample_picture).size(), 12u << 20);  // a browser opens this without delay
 }
 
+// The cause of a rung on top of R5 (add_rung) has its colour, its bar, its column and its meaning.
+TEST(Report, ShowsTheCauseOfARung) {
+  Results results = sample_results();
+  const std::string without = render_report(results, sample_picture);
+  for (PointRecord& point : results.points) {
+    point.causes = {{"leak", "Leak <of light>", "Light that leaks.", {1, 2, 255}, "R6"}};
+    point.metrics["leak"] = 0.5 + 0.001 * static_cast<double>(point.id);
+  }
+  const std::string page = render_report(results, sample_picture);
+  for (const char* text : {"--c-leak:#0102ff", ".c-leak{", "<i class=\"c-leak\" style", "Leak &lt;of light&gt;",
+                           "Light that leaks.", "<code>leak</code>", "mean |R6 − R1|",
+                           "R6, a picture on top of the ladder", "title=\"Light that leaks.\"", "\"name\":\"leak\""}) {
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+    EXPECT_EQ(without.find(text), std::string::npos) << text;
+  }
+  EXPECT_NE(without.find("mean |R5 − R1|"), std::string::npos);
+  std::vector<const PointRecord*> points;
+  for (const PointRecord& point : results.points) points.push_back(&point);
+  EXPECT_EQ(cause_shares(points).at(0).name, "leak");
+}
+
 TEST(CauseColors, AreDistinctAndNamed) {
   std::set<std::tuple<int, int, int>> seen;
   for (const CauseColor& c : cause_colors) {
@@ -363,6 +385,7 @@ TEST(CauseColors, AreDistinctAndNamed) {
     EXPECT_TRUE(seen.insert({c.r, c.g, c.b}).second) << c.name;
     EXPECT_NO_THROW(find_metric(c.name));
   }
+  for (const auto& [r, g, b] : spare_colors) EXPECT_TRUE(seen.insert({r, g, b}).second) << "a spare colour";
   EXPECT_EQ(find_color("acne")->g, 94);
   EXPECT_EQ(find_color("nothing"), nullptr);
 }

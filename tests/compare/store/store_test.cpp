@@ -1,6 +1,7 @@
 // The result store: it returns what was stored, and only damage to the file can destroy it.
 #include "compare/store/store.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <signal.h>
@@ -11,6 +12,8 @@
 #include <fstream>
 
 #include "compare/store/quantities.h"
+#include "compare/store/record_fields.h"
+#include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -164,8 +167,73 @@ TEST_F(Store, ViewHasEveryNumberAsATypedColumn) {
     ASSERT_TRUE(rows.step());
     EXPECT_TRUE(rows.null(0)) << row.name << " of a point without a curve";
   }
+  EXPECT_EQ(db.ask("SELECT part || worst_x || '/' || worst_y || worst_cause FROM points WHERE point = 3"), "12/34acne");
+  EXPECT_EQ(db.ask("SELECT round(3 * worst_error) FROM points WHERE point = 3"), "2.0");
+  for (const RecordField& field : record_fields())
+    EXPECT_EQ(
+        db.ask(fmt::format("SELECT kind || '/' || unit || '/' || help FROM columns WHERE name = '{}'", field.name)),
+        fmt::format("{}/{}/{}", field.group, field.unit, field.help));
   EXPECT_EQ(db.ask("SELECT unit FROM columns WHERE name = 'map_extent_m'"), "m");
   EXPECT_EQ(db.ask("SELECT count(*) FROM pragma_table_info('points')"), db.ask("SELECT count(*) FROM columns"));
+}
+
+// Between stores of one version the text of the tables is compared, so it must not change by accident.
+TEST_F(Store, KeepsTheTextOfTheTableOfPoints) {
+  fresh();
+  sqlite::Database db(path, sqlite::Database::Mode::existing);
+  EXPECT_EQ(
+      db.ask("SELECT sql FROM sqlite_schema WHERE name = 'finished'"),
+      "CREATE TABLE finished (\n  point INTEGER PRIMARY KEY, part TEXT NOT NULL, worst_x INTEGER, worst_y INTEGER, "
+      "worst_error REAL, worst_cause TEXT)");
+}
+
+TEST_F(Store, ViewAgreesOnAnEmptyWindow) {
+  ResultStore store = fresh();
+  PointRecord point = sample_point(3);
+  point.curve->window_min_depth = point.curve->window_max_depth = std::nullopt;
+  store.add(point);
+  sqlite::Database db(path, sqlite::Database::Mode::existing);
+  for (const CurveQuantity& row : curve_quantities()) {
+    sqlite::Statement rows(db, "SELECT " + std::string(row.name) + " FROM points");
+    ASSERT_TRUE(rows.step());
+    const std::optional<double> value = quantity(point, row.name);
+    EXPECT_EQ(rows.null(0), !value.has_value()) << row.name;
+    if (value) {
+      EXPECT_EQ(rows.real(0), *value) << row.name;
+    }
+  }
+  for (const char* width : {"window_width_depth", "window_width_m", "window_width_texels"})
+    EXPECT_EQ(quantity(point, width), 0.0) << width;
+}
+
+// A cause that a rung on top of R5 brought comes back with the points that have its metric.
+TEST_F(Store, KeepsTheCausesOfRungs) {
+  PointRecord point = sample_point(1);
+  point.causes = {{"leak", "Leak", "Light that leaks.", {1, 2, 255}, "R6"}, {"a_penumbra", "Width", "x", {}, "R7"}};
+  point.metrics["leak"] = 0.25;
+  point.metrics["a_penumbra"] = nan_value;
+  {
+    ResultStore store = fresh();
+    store.add(point);
+    store.add(sample_point(2));
+    store.set_info(sample_info(), 2);
+  }
+  const Results results = ResultStore::open(path).load();
+  ASSERT_EQ(results.points.at(0).causes.size(), 2u);
+  const RungCause& leak = results.points[0].causes[0];
+  EXPECT_EQ(std::tie(leak.name, leak.label, leak.help, leak.rung),
+            std::make_tuple("leak", "Leak", "Light that leaks.", "R6"));
+  EXPECT_EQ(leak.color, (std::array<uint8_t, 3>{1, 2, 255}));
+  EXPECT_EQ(results.points[0].causes[1].name, "a_penumbra") << "not in the order of the rungs";
+  EXPECT_EQ(results.points[0].metrics.at("leak"), 0.25);
+  EXPECT_TRUE(results.points.at(1).causes.empty());
+  EXPECT_EQ(judged_rung(results.points[0]), "R7");
+  EXPECT_EQ(judged_rung(results.points[1]), "R5");
+
+  sqlite::Database db(path, sqlite::Database::Mode::existing);
+  db.execute("UPDATE info SET value = '{}' WHERE key = 'cause.leak'");
+  seal_info(db);
+  EXPECT_EQ(kind_thrown([&] { ResultStore::open(path).load(); }), static_cast<int>(ErrorKind::file));
 }
 
 TEST_F(Store, ResumesItsOwnExperimentOnly) {

@@ -1,0 +1,254 @@
+// The pictures, images and point.json of a measurement that is written by hand.
+#include "app/pictures.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/point_files.h"
+#include "compare/report/cause_colors.h"
+#include "compare/store/metrics.h"
+#include "tests/app/read_image.h"
+#include "tests/support/sample_results.h"
+
+namespace noonmark {
+namespace {
+
+// A point of 3 x 2 pixels over a map of 2 x 2 texels, in which all numbers are different.
+class Pictures : public testing::Test {
+ protected:
+  Pictures() {
+    const auto fill = [](auto& image, int width, int height, const auto& value) {
+      image = std::remove_reference_t<decltype(image)>(width, height);
+      for (size_t i = 0; i < image.size(); ++i) image[i] = value(i);
+    };
+    const auto numbered = [](float first) { return [=](size_t i) { return first + static_cast<float>(i) / 8; }; };
+    fill(receivers.position, 3, 2, [](size_t i) {
+      const float f = static_cast<float>(i);
+      return glm::vec3(f, f + 0.25f, -f);
+    });
+    fill(receivers.normal, 3, 2, [](size_t i) {
+      const float f = static_cast<float>(i);
+      return glm::vec3(-f, 1, f * 2);
+    });
+    fill(receivers.primitive, 3, 2, [](size_t i) { return i == 5 ? no_primitive : static_cast<uint32_t>(1000 + i); });
+    fill(probe.reference, 3, 2, numbered(0.125f));
+    fill(probe.n_dot_l, 3, 2, [](size_t) { return 0.5f; });
+    // In order: inside the map, on the repetition of (1, 1), at two corners, outside, and no receiver.
+    probe.map_texels = Image<glm::vec2>(3, 2);
+    probe.map_texels.pixels = {{0.5f, 0}, {-1, 3.5f}, {1, 0.9f}, {0, 1}, {2, 0}, {0, 0}};
+    probe.pattern = tap_pattern({});
+    fill(stored, 2, 2, numbered(0.1f));
+    fill(exact, 2, 2, numbered(0.2f));
+    for (size_t n = 0; n < 6; ++n)
+      fill(ladder.rungs[n].lit, 3, 2, [n](size_t i) { return static_cast<float>((n + i) % 2); });
+    for (size_t c = 0; c < cause_count; ++c) fill(ladder.causes[c].step, 3, 2, numbered(static_cast<float>(c)));
+    ladder.cause = ladder.flags = Image<uint8_t>(3, 2);
+    ladder.cause.pixels = {0, 5, 6, 9, 3, 0};
+    ladder.flags.pixels = {1, 3, 5, 7, 1, 0};
+    scene.light.angular_diameter_deg = 0;
+    settings.map.wrap = Wrap::repeat;
+    frame.resolution = 2;
+  }
+  Measurement measurement() const {
+    const Camera camera{.near_m = 0.1, .far_m = 100};
+    return {{}, settings, ladder, frame, camera, scene, receivers, probe, stored, exact};
+  }
+
+  TemporaryFolder folder;
+  Settings settings;
+  Ladder ladder = empty_ladder(3, 2);
+  LightFrame frame;
+  Scene scene;
+  ReceiverImage receivers;
+  LookupProbe probe;
+  Image<float> stored, exact;
+};
+
+TEST_F(Pictures, LadderHoldsEveryRungAndWhatItWasMadeOf) {
+  write_images(measurement(), folder.path().string(), "images", "p-");
+  EXPECT_EQ(files_in(folder.path()), (std::set<std::string>{"p-ladder.exr", "p-map.exr"}));
+  const ReadImage image = read_exr(folder.file("p-ladder.exr"));
+  const auto expect = [&](const std::string& name, const std::vector<float>& values) {
+    ASSERT_TRUE(image.channels.contains(name)) << name;
+    EXPECT_EQ(bits(image.channels.at(name)), bits(values)) << name;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<float> p, n;
+    for (size_t i = 0; i < 6; ++i) {
+      p.push_back(receivers.position[i][axis]);
+      n.push_back(receivers.normal[i][axis]);
+    }
+    expect(std::string("P.") + "XYZ"[axis], p);
+    expect(std::string("N.") + "XYZ"[axis], n);
+  }
+  expect("primitive", {1000, 1001, 1002, 1003, 1004, -1});
+  for (size_t n = 0; n < 6; ++n) expect("R" + std::to_string(n), ladder.rungs[n].lit.pixels);
+  expect("depth.reference", probe.reference.pixels);
+  expect("cause", {0, 5, 6, 9, 3, 0});
+  expect("flags", {1, 3, 5, 7, 1, 0});
+  for (int c = 1; c < cause_count; ++c)
+    expect("step." + std::string(cause_name(static_cast<Cause>(c))), ladder.causes[static_cast<size_t>(c)].step.pixels);
+  EXPECT_EQ(image.channels.size(), 6 + 1 + 6 + 3 + 2 + cause_count - 1);
+  EXPECT_EQ(image.spec.format, OIIO::TypeDesc::FLOAT);
+
+  // The depths that the wrap mode gives for the texels above. The last pixel has no receiver.
+  const auto expect_depths = [&](std::vector<int> texels) {
+    write_images(measurement(), folder.path().string(), "images", "q-");
+    const ReadImage read = read_exr(folder.file("q-ladder.exr"));
+    for (const auto& [name, map] : {std::pair("depth.stored", &stored), std::pair("depth.exact", &exact)}) {
+      for (size_t i = 0; i < 5; ++i)
+        EXPECT_EQ(read.channels.at(name)[i], texels[i] < 0 ? 1.0f : (*map)[static_cast<size_t>(texels[i])])
+            << name << " of pixel " << i;
+      EXPECT_TRUE(std::isnan(read.channels.at(name)[5]));
+    }
+  };
+  expect_depths({0, 3, 1, 2, 0});
+  settings.map.wrap = Wrap::clamp_to_edge;
+  expect_depths({0, 2, 1, 2, 1});
+  settings.map.wrap = Wrap::clamp_to_border;
+  expect_depths({0, -1, 1, 2, -1});
+}
+
+TEST_F(Pictures, MapHasItsHighestRowOnTop) {
+  write_images(measurement(), folder.path().string(), ".", "");
+  const ReadImage map = read_exr(folder.file("map.exr"));
+  EXPECT_EQ(map.channels.size(), 2);
+  EXPECT_EQ(map.channels.at("depth.stored"), (std::vector<float>{stored[2], stored[3], stored[0], stored[1]}));
+  EXPECT_EQ(map.channels.at("depth.exact"), (std::vector<float>{exact[2], exact[3], exact[0], exact[1]}));
+}
+
+TEST_F(Pictures, AreNamedInTheirRecords) {
+  const auto names_of = [&] {
+    std::set<std::string> names;
+    for (const PictureRecord& record : write_pictures(measurement(), folder.path().string(), "images", "p0003")) {
+      EXPECT_EQ(record.path, "images/p0003-" + record.name + ".png");
+      EXPECT_TRUE(record.caption.ends_with('.'));
+      const Image<Color> picture = read_png(folder.file("p0003-" + record.name + ".png"));
+      EXPECT_EQ(picture.width, record.name == "depth" ? 2 : 3) << record.name;
+      EXPECT_EQ(picture.height, 2) << record.name;
+      names.insert(record.name);
+    }
+    return names;
+  };
+  std::set<std::string> names = {"truth",   "map",          "classes",    "difference",       "depth",
+                                 "frustum", "shaded-truth", "shaded-map", "shaded-difference"};
+  EXPECT_EQ(names_of(), names);
+  settings.light.angular_diameter_deg = 0.5;
+  names.insert({"soft-truth", "shaded-soft-truth"});
+  EXPECT_EQ(names_of(), names);
+}
+
+Color named(std::string_view name) {
+  const CauseColor* color = find_color(name);
+  if (!color) throw std::logic_error(std::string(name));
+  return {color->r, color->g, color->b};
+}
+
+TEST_F(Pictures, ClassesShowTheColoursOfTheLegend) {
+  for (float& cosine : probe.n_dot_l.pixels)
+    cosine = 1;  // full light, so that shading does not change the colours of the legend
+  // In order: completely wrong (full colour), right and lit, right and dark, ambiguous, facing away, no surface.
+  ladder.flags.pixels = {1, 1, 1, 5, 0, 0};
+  ladder.cause.pixels = {static_cast<uint8_t>(Cause::acne), 0, 0, 0, 0, 0};
+  ladder[Rung::truth].pixels = {1, 1, 0, 1, 0, 0};
+  ladder[Rung::shown].pixels = {0, 1, 0, 0, 0, 0};
+  write_pictures(measurement(), folder.path().string(), "images", "p");
+  EXPECT_EQ(read_png(folder.file("p-classes.png")).pixels,
+            (std::vector<Color>{named("acne"), named("lit"), named("shadowed"), named("ambiguous"), named("attached"),
+                                named("background")}));
+  const Image<Color> difference = read_png(folder.file("p-difference.png"));
+  EXPECT_EQ(difference[0], named("acne"));
+  EXPECT_EQ(difference[1], named("lit"));
+  EXPECT_EQ(difference[5], named("background"));
+  const Image<Color> truth = read_png(folder.file("p-truth.png")), map = read_png(folder.file("p-map.png"));
+  EXPECT_GT(truth[0].r, map[0].r);  // lit, and falsely dark in the map
+  EXPECT_EQ(truth[1], map[1]);
+}
+
+// A rung on top of R5 brings its cause: its colour in the picture of the classes, its numbers and its description in
+// point.json, its name in the captions.
+TEST_F(Pictures, ShowARungOnTopAndItsCause) {
+  for (float& cosine : probe.n_dot_l.pixels) cosine = 1;
+  ladder.flags.pixels = {1, 1, 1, 5, 0, 0};
+  ladder[Rung::truth].pixels = ladder[Rung::shown].pixels = {1, 1, 0, 1, 0, 0};
+  for (Ladder::CauseImage& cause : ladder.causes) cause.step = Image<float>(3, 2, 0);
+  Image<float> picture = ladder.shown();
+  picture[0] = 0;
+  const std::array<uint8_t, 3> leak{1, 2, 3};
+  add_rung(ladder, {"R6", picture, "leak", "Leak", "Light that leaks."});
+  picture[2] = 1;
+  add_rung(ladder, {"R7", picture, "penumbra", "Penumbra", "Its width.", leak});
+  std::map<std::string, std::string> captions;
+  for (const PictureRecord& record : write_pictures(measurement(), folder.path().string(), "images", "p"))
+    captions[record.name] = record.caption;
+  const Image<Color> classes = read_png(folder.file("p-classes.png"));
+  EXPECT_EQ(classes[0], Color(spare_colors[0][0], spare_colors[0][1], spare_colors[0][2]));
+  EXPECT_EQ(classes[1], named("lit"));
+  EXPECT_EQ(classes[2], Color(1, 2, 3));
+  EXPECT_EQ(captions.at("map"), "What the given picture showed (R7).");
+  EXPECT_EQ(captions.at("truth"), "The truth: one exact shadow ray for each pixel (R1).");
+  EXPECT_TRUE(captions.at("difference").starts_with("Given picture minus truth")) << captions.at("difference");
+  EXPECT_NE(captions.at("shaded-map").find("given picture's shadow (R7)"), std::string::npos);
+
+  Measurement m = measurement();
+  m.record.causes = ladder.brought;
+  m.record.metrics = {{"error", 0.5}, {"leak", 0.25}, {"penumbra", nan_value}};
+  const nlohmann::json json = nlohmann::json::parse(point_json(m, ""));
+  EXPECT_EQ(json.at("metrics"), nlohmann::json({{"error", 0.5}, {"leak", 0.25}, {"penumbra", "nan"}}));
+  EXPECT_EQ(json.at("rungs"), nlohmann::json({"R0", "R1", "R2", "R3", "R4", "R5", "R6", "R7"}));
+  EXPECT_EQ(json.at("rungs_on_top").at(1), nlohmann::json({{"name", "R7"},
+                                                           {"cause", "penumbra"},
+                                                           {"label", "Penumbra"},
+                                                           {"help", "Its width."},
+                                                           {"color", {1, 2, 3}}}));
+  write_images(m, folder.path().string(), ".", "");
+  const ReadImage file = read_exr(folder.file("ladder.exr"));
+  EXPECT_EQ(file.channels.at("R7"), picture.pixels);
+  EXPECT_EQ(file.channels.at("step.penumbra"), (std::vector<float>{0, 0, 1, 0, 0, 0}));
+}
+
+TEST_F(Pictures, ShowWhatIsNoNumberAsWrong) {
+  ladder.flags.pixels[0] = flag_facing;
+  ladder.cause.pixels[0] = static_cast<uint8_t>(Cause::precision);
+  ladder[Rung::truth].pixels[0] = 1;
+  ladder[Rung::shown].pixels[0] = std::numeric_limits<float>::quiet_NaN();
+  write_pictures(measurement(), folder.path().string(), "images", "p");
+  EXPECT_EQ(read_png(folder.file("p-classes.png"))[0], named("precision"));
+  EXPECT_EQ(read_png(folder.file("p-difference.png"))[0], named("peter_panning"));
+  EXPECT_EQ(read_png(folder.file("p-map.png"))[0], Color(0, 0, 0));
+}
+
+TEST_F(Pictures, PointHoldsEverySettingAndWhatIsNotFinite) {
+  Measurement m = measurement();
+  for (const Metric& metric : metrics_table()) m.record.metrics[std::string(metric.name)] = 0.25;
+  m.record.metrics["error"] = nan_value;
+  m.record.metrics["acne"] = inf_value;
+  m.record.times["map_ms"] = -inf_value;
+  m.record.worst = {3, 4, inf_value, "acne"};
+  const nlohmann::json json = nlohmann::json::parse(point_json(m, "noonmark render 'x'"));
+  for (const Setting& row : settings_table())
+    EXPECT_TRUE(json.at("settings").contains(std::string(row.name))) << row.name;
+  for (const Metric& metric : metrics_table())
+    EXPECT_TRUE(json.at("metrics").contains(std::string(metric.name))) << metric.name;
+  EXPECT_EQ(json.at("metrics").at("error"), "nan");
+  EXPECT_EQ(json.at("metrics").at("acne"), "inf");
+  EXPECT_EQ(json.at("metrics").at("wrong"), 0.25);
+  EXPECT_EQ(json.at("times").at("map_ms"), "-inf");
+  EXPECT_EQ(json.at("settings").at("map.resolution"), 1024);
+  EXPECT_EQ(json.at("settings").at("map.extent_m"), "auto");
+  EXPECT_EQ(json.at("settings").at("bias.constant"), 0);
+  EXPECT_EQ(json.at("settings").at("map.lit_beyond_far"), true);
+  ASSERT_EQ(json.at("causes").size(), cause_count);
+  for (int c = 0; c < cause_count; ++c)
+    EXPECT_EQ(json.at("causes")[static_cast<size_t>(c)], std::string(cause_name(static_cast<Cause>(c))));
+  EXPECT_EQ(json.at("worst"), nlohmann::json({{"x", 3}, {"y", 4}, {"error", "inf"}, {"cause", "acne"}}));
+  EXPECT_FALSE(json.contains("part"));
+  EXPECT_EQ(json.at("flags").at("outside"), flag_outside);
+  EXPECT_EQ(json.at("command"), "noonmark render 'x'");
+}
+
+}  // namespace
+}  // namespace noonmark
