@@ -53,6 +53,10 @@ LookupEvidence evidence_of(const LookupStage& l, const TruthStage& truth, const 
 
 }  // namespace
 
+double polygon_offset_unit(gl::Renderer& renderer, const Settings& settings) {
+  return Bias(settings.bias).polygon_offset() ? renderer.polygon_offset_unit(settings.map.format) : 0;
+}
+
 SceneStage Pipeline::load_scene(gl::Renderer& renderer, const Settings& settings) {
   auto scene = std::make_unique<Scene>(make_scene(settings.scene));
   auto tracer = std::make_unique<raytrace::Tracer>(*scene);
@@ -110,8 +114,8 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
   const Bias bias(settings.bias);
   std::vector<PixelRange> strips = strips_of(settings, frame.kind, strip_bytes_);
   LookupProbe probe = renderer.probe(frame, settings, gl::ProbeTaps::none);
-  const double offset_unit = bias.polygon_offset() ? renderer.polygon_offset_unit(settings.map.format) : 0;
-  raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, frame, settings.map, bias, offset_unit);
+  raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, frame, settings.map, bias,
+                                              polygon_offset_unit(renderer, settings));
   StageTime texel_stage;
   for (const PixelRange& strip : strips) {
     renderer.probe_strip(probe, frame, settings, strip);
@@ -146,7 +150,7 @@ ShownStage Pipeline::show(gl::Renderer& renderer, const MapStage& map, const Loo
 
 Climbed Pipeline::climb_strips(gl::Renderer& renderer, const MapStage& map, LookupStage& lookup, const ViewStage& view,
                                const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
-                               const BiasPart* varied) {
+                               const BiasPart* varied, const EachStrip& each_strip) {
   const LookupEvidence evidence = evidence_of(lookup, truth, shown, point.settings);
   SoundnessCheck soundness(
       {evidence, map.depth, shown.ties, shown.tie_lookup, view.receivers, point.frame, view.camera.eye_m});
@@ -158,6 +162,7 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, const MapStage& map, Look
     climb(evidence, strip, climbed.ladder);
     soundness.add(strip);
     if (climbed.counts) climbed.counts->add(evidence, map.depth, strip);
+    if (each_strip) each_strip(evidence, strip);
   }
   climbed.soundness = soundness.metrics();
   return climbed;

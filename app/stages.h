@@ -9,6 +9,7 @@
 //   struct FlippedMap : Pipeline { MapStage draw_map(...) override; };
 //   Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<FlippedMap>());
 #pragma once
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -27,7 +28,7 @@ namespace noonmark {
 // The inputs of one point of a sweep.
 struct PointSetup {
   const Settings& settings;
-  const LightFrame& frame;  // make_light_frame()
+  const LightFrame& frame;  // make_light_frame(), or a placement of it (technique/placements.h)
 };
 
 struct SceneStage {
@@ -79,6 +80,11 @@ struct Climbed {
   std::optional<BiasCounts> counts;         // if a part is varied
 };
 
+using EachStrip = std::function<void(const LookupEvidence&, PixelRange)>;
+
+// gl::Renderer::polygon_offset_unit, or 0 if the bias has no polygon offset.
+double polygon_offset_unit(gl::Renderer& renderer, const Settings& settings);
+
 // Each virtual method is one stage as the program runs it. What a stage is given must outlive its result.
 class Pipeline {
  public:
@@ -99,9 +105,10 @@ class Pipeline {
   virtual ShownStage show(gl::Renderer& renderer, const MapStage& map, const LookupStage& lookup,
                           const TruthStage& truth, const PointSetup& point);
   // Traces the taps strip by strip and books them. varied: the part of the bias that a curve varies, or null.
+  // each_strip: called for each strip while its taps are at hand, or empty.
   virtual Climbed climb_strips(gl::Renderer& renderer, const MapStage& map, LookupStage& lookup, const ViewStage& view,
                                const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
-                               const BiasPart* varied);
+                               const BiasPart* varied, const EachStrip& each_strip = {});
 
  private:
   size_t strip_bytes_;

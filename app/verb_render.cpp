@@ -48,7 +48,8 @@ void print_ladder(const Measurement& m) {
     fmt::print("\n  {} is judged in place of R5: error and wrong are its own\n", judged_rung(m.record));
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_of({&m.record, 1}))
-    if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract")  // of facing receivers
+    if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" &&
+        m.record.metrics.contains(std::string(metric.name)))  // of facing receivers
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
   fmt::print("\n");
   if (const std::string doubt = undecided_note({&m.record, 1}); !doubt.empty()) fmt::print("  {}\n\n", doubt);

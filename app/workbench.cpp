@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/experiment.h"
+#include "app/placement_stage.h"
 #include "app/view_shading.h"
 #include "compare/judge/poor_view.h"
 #include "compare/ladder/law_metrics.h"
@@ -104,6 +105,9 @@ struct Workbench::Impl {
     return scene.get(settings_key(settings, {Stage::scene}), [&] { return stages->load_scene(renderer, settings); });
   }
 
+  void add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen, const TruthStage& traced,
+                      const PointSetup& point);
+
   gl::Renderer renderer;
   std::unique_ptr<Pipeline> stages;
   AvailableMemory space_at_start;
@@ -165,6 +169,33 @@ AvailableMemory Workbench::memory_of_program(bool pictures) const {
   return noonmark::memory_of_program(impl_->space_at_start, room_to_start(pictures));
 }
 
+// Adds the metrics over all placements. OpenGL renders the worst placement too: the lattice is compared with it tap by
+// tap, and what it shows there is a metric of its own.
+void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen,
+                                     const TruthStage& traced, const PointSetup& point) {
+  record.metrics.merge(placement_metrics(placements.counts()));
+  const int worst = worst_placement(placements.counts());
+  const LightFrame frame = placements.frame(worst);
+  const PointSetup moved{point.settings, frame};
+  const SceneStage& loaded = load(point.settings);
+  const MapStage drawn = stages->draw_map(renderer, *loaded.scene, moved);
+  LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, moved);
+  const ShownStage shown = stages->show(renderer, drawn, asked, traced, moved);
+  const Climbed climbed = stages->climb_strips(
+      renderer, drawn, asked, seen, traced, shown, moved, nullptr,
+      [&](const LookupEvidence& evidence, PixelRange strip) { placements.compare(evidence, worst, strip); });
+  record.metrics["error_worst_shown"] = error_of(climbed.ladder);
+  record.metrics["placement_disagreements"] = static_cast<double>(placements.disagreements());
+  // A defect that only the worst placement shows makes the point unsound too.
+  std::map<std::string, double> there = climbed.soundness;
+  there["residual"] = climbed.ladder.residual;
+  there["tap_residual"] = climbed.ladder.tap_residual;
+  for (const SoundLimit& limit : sound_limits)
+    if (const auto value = there.find(limit.metric); value != there.end())
+      if (double& found = record.metrics[limit.metric]; !(value->second <= found)) found = value->second;
+  add_time(record, "placement", placements.time());
+}
+
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
                                std::optional<RungOnTop> on_top) {
   validate(settings);
@@ -191,17 +222,28 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
 
   const BiasPart* const varied = curve_options ? curve_part(settings.bias) : nullptr;
   const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
-  Climbed climbed = b.stages->climb_strips(b.renderer, map, lookup, view, truth, shown, point,
-                                           varied && !b.curve.has(curve_key) ? varied : nullptr);
+  const BiasPart* const unknown = varied && !b.curve.has(curve_key) ? varied : nullptr;
+  const BiasScale scale = bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit);
+  std::optional<PlacementStage> placements;
+  EachStrip each_strip;
+  if (settings.map.placements > 1) {
+    placements.emplace(
+        b.renderer, *loaded.tracer, lookup, view, truth, point, unknown,
+        unknown ? placement_edges(biases_of(*curve_options), scale.depth_per_unit) : std::vector<float>());
+    each_strip = [&](const LookupEvidence& evidence, PixelRange strip) { placements->add(evidence, strip); };
+  }
+  Climbed climbed = b.stages->climb_strips(b.renderer, map, lookup, view, truth, shown, point, unknown, each_strip);
   if (on_top) add_rung(climbed.ladder, std::move(*on_top));
   Measurement m{{},           settings,  std::move(climbed.ladder), frame, view.camera, scene, view.receivers,
                 lookup.probe, map.depth, lookup.exact_depth};
   m.record = record_of(m, *loaded.tracer, view, truth, map, lookup, shown, climbed.soundness);
   if (varied && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
-      const BiasScale scale = bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit);
-      return summarise(*climbed.counts, scale, *curve_options);
+      BiasCurve curve = summarise(*climbed.counts, scale, *curve_options);
+      if (placements) add_bands(curve, placements->counts(), scale.depth_per_unit);
+      return curve;
     });
+  if (placements && !nothing_judged(m.record)) b.add_placements(m.record, *placements, view, truth, point);
   return m;
 }
 

@@ -54,7 +54,8 @@ PlacementTracer::PlacementTracer(PlacementTracer&&) noexcept = default;
 PlacementTracer& PlacementTracer::operator=(PlacementTracer&&) noexcept = default;
 PlacementTracer::~PlacementTracer() = default;
 
-void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTime* stage) {
+void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTime* stage,
+                            std::optional<int> placement) {
   Impl& l = *impl_;
   const StageWatch watch(stage, l.traced.device);
   l.lattice.reset();  // freed before the next is made, because it is large
@@ -62,7 +63,10 @@ void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTim
   PlacedTaps taps;
   for (size_t i = strip.first; i < strip.end; ++i) {
     if (!l.truth.facing[i]) continue;
-    probe.taps_of(i, taps);
+    if (placement)
+      probe.taps_of(i, *placement, taps);
+    else
+      probe.taps_of(i, taps);
     l.lattice->want(taps);
   }
   l.lattice->trace();
@@ -71,7 +75,7 @@ void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTim
 void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& box) const {
   const Impl& l = *impl_;
   if (taps.low.x > taps.high.x) return;
-  const size_t side = static_cast<size_t>(l.placements.side());
+  const size_t side = static_cast<size_t>(taps.side);
   const size_t points = static_cast<size_t>(taps.size().x) * static_cast<size_t>(taps.size().y);
   box.bits.assign(points, lattice_unknown);
   box.depth.resize(points);

@@ -6,6 +6,7 @@
 //   rays.judge(pixel, taps, box);          // for each facing receiver of that strip
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "scenes/receivers.h"
 #include "technique/bias.h"
@@ -28,8 +29,10 @@ class PlacementTracer {
   PlacementTracer(PlacementTracer&&) noexcept;
   PlacementTracer& operator=(PlacementTracer&&) noexcept;
 
-  // Traces the lattice points that the taps of these pixels read. They replace those of another strip.
-  void trace(const PlacedProbe& probe, PixelRange strip, StageTime* stage = nullptr);
+  // Traces the lattice points that the taps of these pixels read, at all placements or at one. They replace those of
+  // another strip.
+  void trace(const PlacedProbe& probe, PixelRange strip, StageTime* stage = nullptr,
+             std::optional<int> placement = {});
 
   // The verdicts and depths at the points that the taps of this facing receiver read. It may be called from several
   // threads. box: its memory is used again.

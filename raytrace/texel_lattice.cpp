@@ -31,8 +31,8 @@ void TexelLattice::want(glm::ivec2 low, glm::ivec2 high) {
 
 void TexelLattice::want(const PlacedTaps& taps) {
   if (taps.low.x > taps.high.x) return;
-  const size_t s = static_cast<size_t>(placements_.side());
-  // The columns of one tap are S whole numbers in a row, and so are its rows.
+  const size_t s = static_cast<size_t>(taps.side);
+  // The columns of one tap are whole numbers in a row, and so are its rows.
   for (size_t tap = 0; tap < taps.column.size(); tap += s) {
     const auto [left, right] = std::minmax_element(&taps.column[tap], &taps.column[tap] + s);
     const auto [bottom, top] = std::minmax_element(&taps.row[tap], &taps.row[tap] + s);
@@ -56,7 +56,9 @@ std::optional<glm::ivec2> TexelLattice::read_at(glm::ivec2 point) const {
 
 float TexelLattice::depth(glm::ivec2 point) const {
   const std::optional<glm::ivec2> read = inside(point) ? point : read_at(point);
-  return read ? tile_of(*read).depth[index(*read)] : border_depth;
+  if (!read) return border_depth;
+  const Tile& tile = tile_of(*read);
+  return tile.depth[tile.index(*read)];
 }
 
 void TexelLattice::trace() {
@@ -69,8 +71,13 @@ void TexelLattice::trace() {
 }
 
 void TexelLattice::trace(glm::ivec2 at, Tile& tile) const {
-  tile.hit.assign(side * side, no_primitive);
-  tile.depth.assign(side * side, 1.0f);
+  size_t wanted = 0;
+  for (size_t row = 0; row < side; ++row) {
+    tile.first[row] = static_cast<uint16_t>(wanted);
+    wanted += static_cast<size_t>(std::popcount(tile.wanted[row]));
+  }
+  tile.hit.assign(wanted, no_primitive);
+  tile.depth.assign(wanted, 1.0f);
   glm::ivec2 points[packet_size];
   int count = 0;
   const auto flush = [&] {
@@ -81,8 +88,8 @@ void TexelLattice::trace(glm::ivec2 at, Tile& tile) const {
     view_.first_hits(traced_.embree, count, places, hits);
     drawn_.depths(count, places, hits, depths);
     for (int i = 0; i < count; ++i) {
-      tile.hit[index(points[i])] = hits[i];
-      tile.depth[index(points[i])] = depths[i];
+      tile.hit[tile.index(points[i])] = hits[i];
+      tile.depth[tile.index(points[i])] = depths[i];
     }
     count = 0;
   };

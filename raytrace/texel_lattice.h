@@ -1,6 +1,6 @@
 // First hits and map depths at the points of the lattice of all placements (technique/placements.h), for the points
-// that receivers look up and for no others. The points lie in tiles of 64 x 64; a tile that nobody asks for takes no
-// memory.
+// that receivers look up and for no others. The points lie in tiles of 64 x 64; points that nobody asks for
+// take a bit each, and tiles that nobody asks for take nothing.
 //
 //   TexelLattice lattice(traced, view, drawn, placements, settings.map);
 //   lattice.want(taps);                  // for each receiver
@@ -8,6 +8,7 @@
 //   uint32_t triangle = lattice.hit({120, 71});
 #pragma once
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -39,7 +40,10 @@ class TexelLattice {
 
   // After trace(), at a point that was asked for: the triangle that its ray meets first, or no_primitive; and the window
   // depth that the map of the point's placement gives to a lookup there.
-  uint32_t hit(glm::ivec2 point) const { return tile_of(point).hit[index(point)]; }
+  uint32_t hit(glm::ivec2 point) const {
+    const Tile& tile = tile_of(point);
+    return tile.hit[tile.index(point)];
+  }
   float depth(glm::ivec2 point) const;
 
   uint64_t points() const { return points_; }
@@ -47,15 +51,20 @@ class TexelLattice {
  private:
   struct Tile {
     std::array<uint64_t, side> wanted{};  // a bit for each point, row by row
-    std::vector<uint32_t> hit;
+    std::array<uint16_t, side> first{};   // the index of each row's first wanted point in the lists
+    std::vector<uint32_t> hit;            // of the wanted points
     std::vector<float> depth;
+    size_t index(glm::ivec2 point) const {
+      const auto row = static_cast<size_t>(point.y & 63);
+      const uint64_t before = wanted[row] & ((uint64_t{1} << (point.x & 63)) - 1);
+      return first[row] + static_cast<size_t>(std::popcount(before));
+    }
   };
 
   static uint64_t key(glm::ivec2 tile) {
     return static_cast<uint64_t>(static_cast<uint32_t>(tile.y)) << 32 | static_cast<uint32_t>(tile.x);
   }
   static glm::ivec2 tile_at(glm::ivec2 point) { return {point.x >> 6, point.y >> 6}; }
-  static size_t index(glm::ivec2 point) { return static_cast<size_t>((point.y & 63) * side + (point.x & 63)); }
   const Tile& tile_of(glm::ivec2 point) const { return *tiles_.at(key(tile_at(point))); }
   void want(glm::ivec2 low, glm::ivec2 high);  // inclusive
   // The point that a lookup reads in the stead of this one; no value for the border.

@@ -21,8 +21,9 @@ LightFrame Placements::lattice(const LightFrame& map) const {
   return fine;
 }
 
-void PlacedProbe::taps_of(size_t pixel, PlacedTaps& taps) const {
-  const int side = placements_.side(), count = probe_.taps();
+void PlacedProbe::list(size_t pixel, int column, int side, int row, PlacedTaps& taps) const {
+  const int count = probe_.taps();
+  taps.side = side;
   taps.column.resize(static_cast<size_t>(count * side));
   taps.row.resize(taps.column.size());
   taps.low = glm::ivec2(0);
@@ -31,12 +32,13 @@ void PlacedProbe::taps_of(size_t pixel, PlacedTaps& taps) const {
   taps.low = glm::ivec2(std::numeric_limits<int>::max());
   taps.high = glm::ivec2(std::numeric_limits<int>::min());
   for (int i = 0; i < side; ++i) {
-    const glm::vec2 at = positions_[static_cast<size_t>(i)][pixel];
+    const glm::vec2 at(positions_[static_cast<size_t>(column + i)][pixel].x,
+                       positions_[static_cast<size_t>(row + i)][pixel].y);
     taps.x[static_cast<size_t>(i)] = at.x;
     taps.y[static_cast<size_t>(i)] = at.y;
     for (int t = 0; t < count; ++t) {
       const glm::ivec2 texel = probe_.texel_at(at, pixel, t);
-      const glm::ivec2 k(placements_.point(texel.x, i), placements_.point(texel.y, i));
+      const glm::ivec2 k(placements_.point(texel.x, column + i), placements_.point(texel.y, row + i));
       taps.column[static_cast<size_t>(t * side + i)] = k.x;
       taps.row[static_cast<size_t>(t * side + i)] = k.y;
       taps.low = glm::min(taps.low, k);

@@ -53,6 +53,7 @@ class Placements {
 
 // Where the taps of a receiver read, at every placement.
 struct PlacedTaps {
+  int side = 1;  // the number of columns and of rows
   // The position of the receiver in the map, in texels, for each column and each row.
   std::array<float, Placements::most> x{}, y{};
   // [tap * side + i]: the lattice point that the tap reads, for each column and each row.
@@ -77,9 +78,15 @@ class PlacedProbe {
 
   const Placements& placements() const { return placements_; }
   const LookupProbe& probe() const { return probe_; }
-  void taps_of(size_t pixel, PlacedTaps& taps) const;
+  void taps_of(size_t pixel, PlacedTaps& taps) const { list(pixel, 0, placements_.side(), 0, taps); }
+  // At one placement only: one column and one row.
+  void taps_of(size_t pixel, int placement, PlacedTaps& taps) const {
+    list(pixel, placements_.column(placement), 1, placements_.row(placement), taps);
+  }
 
  private:
+  // `side` columns from column, and as many rows from row.
+  void list(size_t pixel, int column, int side, int row, PlacedTaps& taps) const;
   Placements placements_;
   const LookupProbe& probe_;
   std::vector<Image<glm::vec2>> positions_;

@@ -132,6 +132,14 @@ std::string cube_shifted_along_v(const Settings& s, std::optional<LightKind> lig
   return shifted_cube("map.shift_v_texels", s.map.shift_v_texels, light);
 }
 
+std::string placements_of_cube(const Settings& s, std::optional<LightKind> light) {
+  if (s.map.placements == 1 || !light || kind_of_light(*light).grid_can_shift()) return "";
+  return fmt::format(
+      "map.placements = {} needs a light whose grid of texels can be shifted; a point light's cube has "
+      "no such shift, so leave it at 1",
+      s.map.placements);
+}
+
 std::string snapped_perspective(const Settings& s, std::optional<LightKind> light) {
   if (!s.map.snap || !light || kind_of_light(*light).rays().have_one_direction()) return "";
   return "map.snap needs a directional light: only its texels have one size everywhere";

@@ -11,6 +11,7 @@
 #include "scenes/text.h"
 #include "technique/filters.h"
 #include "technique/light_kind.h"
+#include "technique/placements.h"
 #include "technique/setting_rows.h"
 #include "technique/setting_rules.h"
 
@@ -213,6 +214,12 @@ std::vector<Setting> make_table() {
       real("map.shift_v_texels", "texels", -1, 1, "Moves the map with its texel grid up, as the light sees it.",
            MEMBER(map.shift_v_texels))
           .refused(cube_shifted_along_v),
+      integer("map.placements", "", 1, Placements::most,
+              "S: measures at S x S placements of the texel grid, shifted by 1/S texel from one to the next, and gives "
+              "mean, worst and 95th percentile over them. Placement 0 is the map as the other settings place it.",
+              MEMBER(map.placements))
+          .refused(placements_of_cube)
+          .only_read_by({Stage::ladder}),
       real("map.near_m", "m", -1e9, 1e9,
            "Near plane, measured from the light's position along its axis (point light: along the axis of each face); "
            "auto: by map.fit.",

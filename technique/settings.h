@@ -51,6 +51,7 @@ struct MapSettings {
   bool snap = false;               // directional: the grid stays fixed in the world when the light's position moves
   double shift_u_texels = 0;       // moves the whole grid in the light's plane: along `right` ...
   double shift_v_texels = 0;       // ... and along `up`
+  int placements = 1;              // S: measured at S x S placements of the grid (technique/placements.h)
   std::optional<double> near_m;    // along the light's axis from its position; empty: the scene's own, or fitted
   std::optional<double> far_m;
   Wrap wrap = Wrap::clamp_to_border;  // the depth of the border is 1, which is lit

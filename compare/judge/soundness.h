@@ -93,6 +93,7 @@ inline constexpr SoundLimit sound_limits[] = {
     {"tap_residual", 1e-6},
     {"contract", 0},
     {"rounding_excess", 1},
+    {"placement_disagreements", 0},
 };
 
 // A number of a stored point that no sound program has. Points in which nothing faces the light have none.

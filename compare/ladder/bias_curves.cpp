@@ -272,11 +272,16 @@ std::vector<double> default_bias_grid() {
   return grid;
 }
 
+const std::vector<double>& biases_of(const CurveOptions& options) {
+  static const std::vector<double> usual = default_bias_grid();
+  return options.bias_depth.empty() ? usual : options.bias_depth;
+}
+
 BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const CurveOptions& options) {
   BiasCurve curve;
   curve.parameter = "bias." + std::string(counts.varied().name);
   curve.made = counts.blended() ? "one pass, except for the sampler's weights" : "one pass";
-  curve.bias_depth = options.bias_depth.empty() ? default_bias_grid() : options.bias_depth;
+  curve.bias_depth = biases_of(options);
   const auto in_depth = [&](float x) { return x * scale.depth_per_unit; };
   for (double bias : curve.bias_depth) {
     const float x = static_cast<float>(bias / scale.depth_per_unit);

@@ -118,6 +118,9 @@ struct CurveOptions {
   std::vector<double> bias_depth;                          // ascending, from 0; empty: default_bias_grid()
 };
 
+// The biases of a curve, in window depth.
+const std::vector<double>& biases_of(const CurveOptions& options);
+
 // 0, then 20 steps a decade from 1e-7 (about one quantum of 24 bits) to 1.
 std::vector<double> default_bias_grid();
 

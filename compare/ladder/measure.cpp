@@ -82,10 +82,20 @@ Image<uint8_t> peter_panning_mask(const Ladder& ladder) {
   return mask;
 }
 
+double error_of(const Ladder& ladder) {
+  double error = 0, counted = 0;
+  for (size_t i = 0; i < ladder.flags.size(); ++i) {
+    if (!is_counted(ladder, i)) continue;
+    error += std::abs(static_cast<double>(ladder.shown()[i]) - ladder.truth()[i]);
+    ++counted;
+  }
+  return counted == 0 ? std::numeric_limits<double>::quiet_NaN() : error / counted;
+}
+
 std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   const Ladder& ladder = in.ladder;
   uint64_t receivers = 0, facing = 0, base = 0, lit = 0, outside = 0, wrong = 0, aliased = 0, undecided = 0;
-  double error = 0, doubt = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0,
+  double doubt = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0,
          edge_sum = 0;
   std::vector<double> size(ladder.causes.size());
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
@@ -99,7 +109,6 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     undecided += (ladder.flags[i] & flag_undecided) != 0;
     doubt += ladder.doubt[i];
     const double hard = static_cast<double>(ladder.shown()[i]) - ladder.truth()[i];
-    error += std::abs(hard);
     error_soft += std::abs(static_cast<double>(ladder.shown()[i]) - ladder.soft_truth()[i]);
     wrong += hard != 0;
     for (size_t c = 0; c < size.size(); ++c) size[c] += std::abs(static_cast<double>(ladder.causes[c].step[i]));
@@ -128,7 +137,7 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   const auto share = [&](double sum) { return measured(sum / static_cast<double>(base)); };
   const auto caused = [&](Cause cause) { return share(size[static_cast<size_t>(cause)]); };
   std::map<std::string, double> metrics = {
-      {"error", share(error)},
+      {"error", error_of(ladder)},
       {"error_soft", share(error_soft)},
       {"wrong", share(static_cast<double>(wrong))},
       {"light_size", caused(Cause::light_size)},

@@ -25,6 +25,9 @@ struct MeasureInput {
 // that moves the caster, because that is the occluder. light: P in the light's frame.
 double panning_reach_m(const MeasureInput& input, size_t i, glm::dvec3 light);
 
+// Mean |shown - R1| over the counted receivers, the metric `error`. NaN if there are none.
+double error_of(const Ladder& ladder);
+
 // Every metric of the table that is about the ladder; those of the light's plane (law_metrics.h), of soundness, of the
 // view, of the shaded frame and the times come from elsewhere. If a rung was put on top of R5, `error` is measured
 // against that rung, and the mean step of its cause is added under the cause's name. A value in the images that is not

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "compare/ladder/tap_threshold.h"
@@ -23,6 +24,8 @@ float stored_depth(float depth, DepthFormat format) {
   const double steps = format == DepthFormat::d16 ? 0xffff : 0xffffff;
   return static_cast<float>(std::round(std::clamp<double>(depth, 0, 1) * steps) / steps);
 }
+
+constexpr uint8_t of_texel = tap_texel_lit | tap_near_clipped | tap_texel_unsure;
 
 bool within_one_float(float a, float b) { return a == b || std::nextafter(a, b) == b; }
 
@@ -62,11 +65,16 @@ std::vector<float> placement_edges(const std::vector<double>& bias_depth, double
 
 PlacementCounts::PlacementCounts(const Placements& placements, const LookupProbe& probe, const BiasPart* varied,
                                  std::vector<float> edges)
+    : PlacementCounts(placements, varied, ThresholdBins(varied ? std::move(edges) : std::vector<float>{0}),
+                      whole_weight(probe)) {}
+
+PlacementCounts::PlacementCounts(const Placements& placements, const BiasPart* varied, const ThresholdBins& bins,
+                                 double whole)
     : placements_(placements),
       count_(static_cast<size_t>(placements.count())),
       varied_(varied),
-      bins_(varied ? std::move(edges) : std::vector<float>{0}),
-      whole_(whole_weight(probe)),
+      bins_(bins),
+      whole_(whole),
       wrong_receivers_(count_),
       aliasing_squares_(count_) {
   if (varied) histogram_.resize(kinds * count_ * (bins_.edges().size() + 1));
@@ -127,13 +135,6 @@ void PlacementCounts::add(const LookupEvidence& e, size_t pixel, const PlacedTap
           const size_t n = taps.index(point.x, point.y);
           const uint8_t found = box.bits[n];
           read = {placements_.texel_of(point), box.depth[n], {taps.x[i], taps.y[j]}};
-          constexpr uint8_t of_texel = tap_texel_lit | tap_near_clipped | tap_texel_unsure;
-          if (placement == 0) {
-            const glm::ivec2 in_map = wrapped(read.texel, size, e.map.wrap);
-            const float ladders = in_map.x < 0 ? border_depth : e.exact_map.at(in_map.x, in_map.y);
-            const bool unsure = (base | found) & tap_texel_unsure;
-            disagreements_ += (!unsure && ((base ^ found) & of_texel)) || !within_one_float(read.depth, ladders);
-          }
           if (plain && found == tap_texel_lit && (base & ~of_texel) == tap_exact_lit &&
               !(probe.reference[pixel] > read.depth) && inside_map(read.texel, size))
             continue;
@@ -175,7 +176,6 @@ void PlacementCounts::add(const LookupEvidence& e, size_t pixel, const PlacedTap
 
 void PlacementCounts::add(const PlacementCounts& other) {
   receivers_ += other.receivers_;
-  disagreements_ += other.disagreements_;
   const auto sum = [](std::vector<double>& to, const std::vector<double>& from) {
     std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
   };
@@ -232,6 +232,25 @@ std::map<std::string, std::vector<double>> PlacementCounts::shares() const {
   return shares;
 }
 
+uint64_t disagreements(const LookupEvidence& e, size_t pixel, const PlacedTaps& taps, const LatticeBox& box) {
+  if (!e.probe.asks(pixel)) return 0;
+  uint64_t count = 0;
+  for (int t = 0; t < e.probe.taps(); ++t) {
+    const auto first = static_cast<size_t>(t * taps.side);
+    const size_t n = taps.index(taps.column[first], taps.row[first]);
+    const glm::ivec2 texel = wrapped(e.probe.texel(pixel, t), {e.exact_map.width, e.exact_map.height}, e.map.wrap);
+    const float depth = texel.x < 0 ? border_depth : e.exact_map.at(texel.x, texel.y);
+    const uint8_t bits = e.taps.bits(pixel, t), unsure = (bits | box.bits[n]) & tap_texel_unsure;
+    count += (!unsure && ((bits ^ box.bits[n]) & of_texel)) || !within_one_float(depth, box.depth[n]);
+  }
+  return count;
+}
+
+int worst_placement(const PlacementCounts& counts) {
+  const std::vector<double> error = counts.shares().at("error");
+  return static_cast<int>(std::max_element(error.begin(), error.end()) - error.begin());
+}
+
 std::map<std::string, double> placement_metrics(const PlacementCounts& counts) {
   std::map<std::string, double> metrics;
   const auto shares = counts.shares();
@@ -243,12 +262,9 @@ std::map<std::string, double> placement_metrics(const PlacementCounts& counts) {
     // The nearest rank.
     metrics[name + "_p95"] = sorted[static_cast<size_t>(std::ceil(0.95 * static_cast<double>(sorted.size()))) - 1];
   }
-  const std::vector<double>& error = shares.at("error");
-  const auto worst = std::max_element(error.begin(), error.end()) - error.begin();
-  const glm::dvec2 shift = counts.placements().shift_texels(static_cast<int>(worst));
+  const glm::dvec2 shift = counts.placements().shift_texels(worst_placement(counts));
   metrics["worst_shift_u_texels"] = shift.x;
   metrics["worst_shift_v_texels"] = shift.y;
-  metrics["placement_disagreements"] = static_cast<double>(counts.disagreements());
   return metrics;
 }
 

@@ -47,7 +47,10 @@ class PlacementCounts {
   PlacementCounts(const Placements& placements, const LookupProbe& probe, const BiasPart* varied,
                   std::vector<float> edges);
 
-  // Adds a facing receiver. evidence.taps: of its strip, at placement 0; evidence.exact_map is not read. box: V and
+  // The same without anything counted.
+  PlacementCounts empty_copy() const { return {placements_, varied_, bins_, whole_}; }
+
+  // Adds a facing receiver. evidence.taps: of its strip, at placement 0; Of evidence.exact_map only the size is read. box: V and
   // depths around the receiver. Receivers whose truth is ambiguous are not counted.
   void add(const LookupEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box);
   // Adds what other counts have counted, of the same probe, part and edges.
@@ -66,10 +69,8 @@ class PlacementCounts {
   // At the point's own bias, for every placement, by the name of the metric: error, acne, ... as fractions.
   std::map<std::string, std::vector<double>> shares() const;
 
-  // Differences from placement 0 as the ladder has it: taps whose V, clipping or depth is not the one in the evidence.
-  uint64_t disagreements() const { return disagreements_; }
-
  private:
+  PlacementCounts(const Placements& placements, const BiasPart* varied, const ThresholdBins& bins, double whole);
   enum Kind {
     acne,
     peter_panning,
@@ -96,11 +97,19 @@ class PlacementCounts {
   const BiasPart* varied_;
   ThresholdBins bins_;
   double whole_ = 1;
-  uint64_t receivers_ = 0, disagreements_ = 0;
+  uint64_t receivers_ = 0;
   std::vector<double> histogram_;                           // [kind][placement][bin]: weight of the thresholds
   std::array<std::vector<double>, kinds> own_;              // [placement]: weight at the point's own bias
   std::vector<double> wrong_receivers_, aliasing_squares_;  // [placement]
 };
+
+// The number of taps of a receiver at which V, what the near plane clips or the depth differs between the lattice and
+// the evidence of one placement: that of the first column and row of `taps`. Where float error can change V, and one
+// float in the depth, are no difference: the two are computed around different origins.
+uint64_t disagreements(const LookupEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box);
+
+// The placement with the largest error at the point's own bias; the first of several.
+int worst_placement(const PlacementCounts& counts);
 
 // Mean, worst and 95th percentile over the placements of every metric of shares(), and the shift of the placement with
 // the largest error. Names: "acne_mean", "acne_worst", "acne_p95", "worst_shift_u_texels".

@@ -48,7 +48,8 @@ json curve_of(const PointRecord& point, size_t entries_of_all_curves) {
     else
       out[name] = value;
   });
-  for (const CurveSeries& series : curve_series()) out[series.name] = drawn(curve.*series.values, indices);
+  for (const CurveSeries& series : curve_series())
+    if (!(curve.*series.values).empty()) out[series.name] = drawn(curve.*series.values, indices);
   if (const std::optional<double> set = bias_as_set(point)) out["set_bias_depth"] = value_of(*set);
   return out;
 }

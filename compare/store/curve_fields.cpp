@@ -26,6 +26,13 @@ constexpr CurveField fields[] = {
     {"acne_free_bias_stored_depth", "depth",
      "Least amount of the curve's part that leaves no acne on the GPU's own map, with its format and rasteriser.",
      &BiasCurve::acne_free_bias_stored_depth, true},
+    {"placements", "count", "Placements of the texel grid over which the bands and the window below are; 0: none.",
+     &BiasCurve::placements},
+    {"window_min_worst_depth", "depth",
+     "Least bias that is usable at every placement of the texel grid (map.placements), to a sixteenth of an octave.",
+     &BiasCurve::window_min_worst_depth, true},
+    {"window_max_worst_depth", "depth", "Largest bias that is usable at every placement.",
+     &BiasCurve::window_max_worst_depth, true},
 };
 
 constexpr CurveWidth widths[] = {
@@ -42,6 +49,18 @@ constexpr CurveSeries series[] = {
     {"aliasing_dark", &BiasCurve::aliasing_dark},
     {"aliasing_light", &BiasCurve::aliasing_light},
     {"coverage", &BiasCurve::coverage},
+    {"error_mean", &BiasCurve::error_mean, true},
+    {"error_worst", &BiasCurve::error_worst, true},
+    {"error_best", &BiasCurve::error_best, true},
+    {"acne_mean", &BiasCurve::acne_mean, true},
+    {"acne_worst", &BiasCurve::acne_worst, true},
+    {"acne_best", &BiasCurve::acne_best, true},
+    {"peter_panning_mean", &BiasCurve::peter_panning_mean, true},
+    {"peter_panning_worst", &BiasCurve::peter_panning_worst, true},
+    {"peter_panning_best", &BiasCurve::peter_panning_best, true},
+    {"aliasing_mean", &BiasCurve::aliasing_mean, true},
+    {"aliasing_worst", &BiasCurve::aliasing_worst, true},
+    {"aliasing_best", &BiasCurve::aliasing_best, true},
 };
 
 }  // namespace

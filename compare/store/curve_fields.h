@@ -40,6 +40,7 @@ std::span<const CurveWidth> curve_widths();
 struct CurveSeries {
   std::string_view name;  // "bias_depth"; the others are metrics
   std::vector<double> BiasCurve::*values;
+  bool of_placements = false;  // empty without map.placements
 };
 std::span<const CurveSeries> curve_series();
 

@@ -135,18 +135,23 @@ const Table<LawResult::Sample>& law_samples_table() {
   return table;
 }
 
+static bool is_absent(const CurveSeries& series, const BiasCurve& curve) {
+  return series.of_placements && curve.placements == 0;
+}
+
 void add_series(Database& db, int64_t point, const BiasCurve& curve) {
   const size_t count = curve.bias_depth.size();
   std::string values = "?, ?";
   for (const CurveSeries& series : curve_series()) {
-    if ((curve.*series.values).size() != count)
+    if ((curve.*series.values).size() != (is_absent(series, curve) ? 0 : count))
       throw std::logic_error("a series of a bias curve has another length than its biases");
     values += ", ?";
   }
   Statement insert(db, fmt::format("INSERT INTO curve_points (point, i{}) VALUES ({})", series_names(), values));
   for (size_t i = 0; i < count; ++i) {
     int index = 2;
-    for (const CurveSeries& series : curve_series()) insert.bind(++index, (curve.*series.values)[i]);
+    for (const CurveSeries& series : curve_series())
+      insert.bind(++index, is_absent(series, curve) ? std::nullopt : std::optional((curve.*series.values)[i]));
     insert.run(point, static_cast<int64_t>(i));
   }
 }
@@ -156,7 +161,10 @@ void read_series(Database& db, const std::function<BiasCurve&(int64_t)>& curve_o
        rows.step();) {
     BiasCurve& curve = curve_of(rows.integer(0));
     int index = 1;
-    for (const CurveSeries& series : curve_series()) (curve.*series.values).push_back(rows.real(index++));
+    for (const CurveSeries& series : curve_series()) {
+      if (!is_absent(series, curve)) (curve.*series.values).push_back(rows.real(index));
+      ++index;
+    }
   }
 }
 

@@ -184,7 +184,7 @@ struct CountsKept : Pipeline {
   CountsKept(const BiasPart& part, std::optional<BiasCounts>& to) : varied(part), counts(to) {}
   Climbed climb_strips(gl::Renderer& renderer, const MapStage& map, LookupStage& lookup, const ViewStage& view,
                        const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
-                       const BiasPart*) override {
+                       const BiasPart*, const EachStrip&) override {
     Climbed climbed =
         Pipeline::climb_strips(renderer, map, lookup, view, truth, shown, point, counts ? nullptr : &varied);
     if (climbed.counts) counts = climbed.counts;

@@ -1,7 +1,6 @@
 // Helpers of the acceptance tests: settings in one line, the paths of models, and the tolerance of sums.
 #pragma once
 #include <filesystem>
-#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +12,7 @@ namespace noonmark::acceptance {
 
 using Assignment = std::pair<std::string, std::string>;
 
-inline Settings with(std::initializer_list<Assignment> assignments, Settings settings = {}) {
+inline Settings with(const std::vector<Assignment>& assignments, Settings settings = {}) {
   for (const auto& [name, value] : assignments) find_setting(name).set(settings, value);
   return settings;
 }

@@ -1,0 +1,98 @@
+#include "app/placement_stage.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+
+namespace noonmark {
+namespace {
+
+// The lattice points that are held at a time. One takes 8 bytes and a share of its tile.
+constexpr size_t most_points = size_t{1} << 23;
+
+// Positions in the map at the placements (i, i); OpenGL itself computes them.
+std::vector<Image<glm::vec2>> positions_of(gl::Renderer& renderer, const Placements& placements,
+                                           const LookupProbe& probe, const PointSetup& point) {
+  std::vector<Image<glm::vec2>> positions = {probe.map_texels};
+  for (int i = 1; i < placements.side(); ++i)
+    positions.push_back(
+        renderer.probe(placements.frame(point.frame, i * placements.side() + i), point.settings).map_texels);
+  return positions;
+}
+
+}  // namespace
+
+PlacementStage::PlacementStage(gl::Renderer& renderer, const raytrace::Tracer& tracer, const LookupStage& lookup,
+                               const ViewStage& view, const TruthStage& truth, const PointSetup& point,
+                               const BiasPart* part, std::vector<float> edges)
+    : placements_(point.settings.map.placements),
+      frame_(point.frame),
+      truth_(truth.receivers),
+      probe_(placements_, lookup.probe, positions_of(renderer, placements_, lookup.probe, point)),
+      rays_(tracer.placements(view.receivers, truth.receivers, point.frame, placements_, point.settings.map,
+                              Bias(point.settings.bias), polygon_offset_unit(renderer, point.settings))),
+      counts_(placements_, lookup.probe, part, std::move(edges)) {}
+
+template <class Visit>
+void PlacementStage::in_parts(PixelRange strip, size_t points, const Visit& visit) const {
+  const size_t pixels = std::max<size_t>(1, most_points / (points * static_cast<size_t>(probe_.probe().taps())));
+  for (size_t first = strip.first; first < strip.end; first += pixels)
+    visit(PixelRange{first, std::min(strip.end, first + pixels)});
+}
+
+void PlacementStage::add(const LookupEvidence& evidence, PixelRange strip) {
+  in_parts(strip, static_cast<size_t>(placements_.count()), [&](PixelRange part) {
+    rays_.trace(probe_, part, &time_);
+    // The same partition on any machine, so that the sums of weights are too.
+    struct Body {
+      const PlacementStage& stage;
+      const LookupEvidence& evidence;
+      PlacementCounts counts;
+      uint64_t disagreements = 0;
+      Body(const PlacementStage& s, const LookupEvidence& e) : stage(s), evidence(e), counts(s.counts_.empty_copy()) {}
+      Body(Body& other, tbb::split) : Body(other.stage, other.evidence) {}
+      void operator()(const tbb::blocked_range<size_t>& range) {
+        PlacedTaps taps;
+        LatticeBox box;
+        for (size_t i = range.begin(); i != range.end(); ++i) {
+          if (!stage.truth_.facing[i]) continue;
+          stage.probe_.taps_of(i, taps);
+          stage.rays_.judge(i, taps, box);
+          counts.add(evidence, i, taps, box);
+          disagreements += noonmark::disagreements(evidence, i, taps, box);
+        }
+      }
+      void join(const Body& other) {
+        counts.add(other.counts);
+        disagreements += other.disagreements;
+      }
+    } body(*this, evidence);
+    tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<size_t>(part.first, part.end, std::max<size_t>(1, part.size() / 16)), body);
+    counts_.add(body.counts);
+    disagreements_ += body.disagreements;
+  });
+}
+
+void PlacementStage::compare(const LookupEvidence& evidence, int placement, PixelRange strip) {
+  in_parts(strip, 1, [&](PixelRange part) {
+    rays_.trace(probe_, part, &time_, placement);
+    disagreements_ += tbb::parallel_reduce(
+        tbb::blocked_range<size_t>(part.first, part.end, 8192), uint64_t{0},
+        [&](const tbb::blocked_range<size_t>& range, uint64_t found) {
+          PlacedTaps taps;
+          LatticeBox box;
+          for (size_t i = range.begin(); i != range.end(); ++i) {
+            if (!truth_.facing[i]) continue;
+            probe_.taps_of(i, placement, taps);
+            rays_.judge(i, taps, box);
+            found += noonmark::disagreements(evidence, i, taps, box);
+          }
+          return found;
+        },
+        std::plus<>());
+  });
+}
+
+}  // namespace noonmark
