@@ -23,6 +23,7 @@
 #include "compare/judge/undecided.h"
 #include "compare/report/csv.h"
 #include "compare/report/report.h"
+#include "compare/store/metrics.h"
 #include "compare/store/store.h"
 #include "raytrace/tracer.h"
 #include "scenes/error.h"
@@ -189,8 +190,9 @@ void judge(const Experiment& experiment, Results& results) {
 bool has_what_a_sweep_reads(const PointRecord& point) {
   const auto has = [&](std::string_view name) { return point.metrics.contains(std::string(name)); };
   return has("facing") && has("error") &&
-         std::all_of(std::begin(sound_limits), std::end(sound_limits),
-                     [&](const SoundLimit& limit) { return has(limit.metric); });
+         std::all_of(std::begin(sound_limits), std::end(sound_limits), [&](const SoundLimit& limit) {
+           return has(limit.metric) || find_metric(limit.metric).of_placements;
+         });
 }
 
 }  // namespace

@@ -45,9 +45,9 @@ std::optional<Scene> moved_scene(const TracedScene& traced, const LightFrame& fr
 
 }  // namespace
 
-DrawnMap::DrawnMap(const TracedScene& traced, const LightView& view, const MapSettings& settings, const Bias& bias,
-                   const std::optional<PolygonOffset>& offset)
-    : moved_(moved_scene(traced, view.frame(), bias)),
+DrawnMap::DrawnMap(const TracedScene& traced, const LightView& view, const LightFrame& map, const MapSettings& settings,
+                   const Bias& bias, const std::optional<PolygonOffset>& offset)
+    : moved_(moved_scene(traced, map, bias)),
       view_(moved_ ? LightView(*moved_, view.frame()) : view),
       depth_clamp_(settings.depth_clamp),
       offset_(offset),

@@ -1,7 +1,7 @@
 // What the map's pass draws, exactly: the depth along a light-side ray of the surfaces that the pass keeps. The bias may
 // move the casters, the settings may cull faces, and the near and far planes clip.
 //
-//   const DrawnMap drawn(traced, view, settings.map, bias, offset);
+//   const DrawnMap drawn(traced, view, view.frame(), settings.map, bias, offset);
 //   float depth = drawn.depth_at(x, hit);      // window depth at place x; hit: the scene's first hit there
 #pragma once
 #include <optional>
@@ -17,9 +17,10 @@ namespace noonmark::raytrace {
 
 class DrawnMap {
  public:
-  // view: the scene as the map's light sees it. traced must outlive this object.
-  DrawnMap(const TracedScene& traced, const LightView& view, const MapSettings& settings, const Bias& bias,
-           const std::optional<PolygonOffset>& offset);
+  // view: the scene as the map's light sees it. map: the frame whose texels the bias is measured in; that of the view,
+  // or the map whose lattice the view has (technique/placements.h). traced must outlive this object.
+  DrawnMap(const TracedScene& traced, const LightView& view, const LightFrame& map, const MapSettings& settings,
+           const Bias& bias, const std::optional<PolygonOffset>& offset);
   DrawnMap(const DrawnMap&) = delete;
   DrawnMap& operator=(const DrawnMap&) = delete;
 

@@ -65,7 +65,8 @@ void LookupTracer::ask(const LookupProbe& probe, PixelRange strip, StageTime* st
 Image<float> LookupTracer::trace_map(StageTime* stage) {
   const StageWatch watch(stage, impl_->traced.device);
   impl_->texels.trace();
-  return exact_map_of({impl_->traced, impl_->view, impl_->map, impl_->bias, impl_->offset}, impl_->view, impl_->texels);
+  return exact_map_of({impl_->traced, impl_->view, impl_->view.frame(), impl_->map, impl_->bias, impl_->offset},
+                      impl_->view, impl_->texels);
 }
 
 TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Image<float>& edge_distance_texels,

@@ -42,7 +42,7 @@ struct PlacementTracer::Impl {
         view(scene.scene, all.lattice(frame)),
         silhouettes(scene.adjacency, view, Silhouettes::reach_of(view)),
         surface(scene.embree, scene.adjacency, view, silhouettes),
-        drawn(scene, view, settings, bias, over_texels(offset, all)) {}
+        drawn(scene, view, frame, settings, bias, over_texels(offset, all)) {}
 };
 
 PlacementTracer::PlacementTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,

@@ -159,16 +159,16 @@ constexpr Metric measured_once[] = {
 
 constexpr Metric over_placements[] = {
     {"error_worst_shown", "fraction",
-     "Mean |R5 - R1| at the placement of the texel grid with the largest error_worst, as OpenGL renders it.", true},
+     "Mean |R5 - R1| at the placement of the texel grid with the largest error, as OpenGL renders it.", true, true},
     {"worst_shift_u_texels", "texels",
      "The shift of that placement along the rows of texels, from the map of the settings. Add it to "
      "map.shift_u_texels to render it.",
-     false},
-    {"worst_shift_v_texels", "texels", "The same along the columns.", false},
+     false, true},
+    {"worst_shift_v_texels", "texels", "The same along the columns.", false, true},
     {"placement_disagreements", "count",
      "Number of taps at which the truth of all placements differs from the ladder's own, at the two placements that "
      "are rendered too. Above 0 it is a defect.",
-     false},
+     false, true},
 };
 
 // Mean, worst and 95th percentile over the placements of the texel grid of each of these.
@@ -189,11 +189,12 @@ const Table& table() {
     for (std::string_view name : placed)
       for (const auto& [ending, what] :
            {std::pair("mean", "Mean"), std::pair("worst", "Largest"), std::pair("p95", "95th percentile")})
-        t.rows.push_back({text(std::string(name) + "_" + ending), "fraction",
-                          text(std::string(what) + " over the placements of the texel grid (map.placements) of " +
-                               std::string(name) + ", on the exact map" +
-                               (std::string_view(ending) == "worst" ? "; of all placements it may be 10% more." : ".")),
-                          true});
+        t.rows.push_back(
+            {text(std::string(name) + "_" + ending), "fraction",
+             text(std::string(what) + " over the placements of the texel grid (map.placements) of " +
+                  std::string(name) + ", on the exact map" +
+                  (std::string_view(ending) == "worst" ? ". The largest of all placements may be a tenth more." : ".")),
+             true, true});
     t.rows.insert(t.rows.end(), std::begin(over_placements), std::end(over_placements));
     return t;
   }();

@@ -8,9 +8,10 @@ namespace noonmark {
 
 struct Metric {
   std::string_view name;
-  std::string_view unit;  // "fraction", "m", "depth", "texels", "pixels", "count", "ms"; "": a plain number
-  std::string_view help;  // one sentence
-  bool plotted;           // whether a chart over the sweep makes sense
+  std::string_view unit;       // "fraction", "m", "depth", "texels", "pixels", "count", "ms"; "": a plain number
+  std::string_view help;       // one sentence
+  bool plotted;                // whether a chart over the sweep makes sense
+  bool of_placements = false;  // measured only with map.placements above 1
 };
 
 std::span<const Metric> metrics_table();

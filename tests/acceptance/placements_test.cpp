@@ -44,6 +44,7 @@ std::vector<Case> cases() {
       {"receiver_plane", {{"bias.reference", "receiver_plane"}, {"filter.kind", "box"}}},
       {"texel_plane", {{"bias.reference", "texel_plane"}}},
       {"polygon_offset", {{"bias.polygon_factor", "1.5"}, {"bias.polygon_units", "4"}}},
+      {"moved_casters", {{"bias.caster_offset", "1.2"}, {"bias.caster_normal_offset", "0.7"}}},
       {"front_faces", {{"map.cull", "front"}}},
       {"beyond_near", {{"map.near_m", "4"}}},
   };

@@ -44,6 +44,7 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
   for (const Setting& row : settings_table()) point.settings[std::string(row.name)] = row.get(settings);
   double value = 0.1 + static_cast<double>(id);
   for (const Metric& row : metrics_table()) point.metrics[std::string(row.name)] = value /= 3;
+  point.metrics["placement_disagreements"] = 0;
   point.metrics["contract"] = 0;                                // a sound measurement (compare/judge/soundness.h)
   point.metrics["counted"] = 700000 - static_cast<double>(id);  // enough for a picture
   point.times = {{"map_ms", 1.25}, {"truth_ms", 1.0 / 3 + static_cast<double>(id)}, {"rays", 1e9 + 1}};
@@ -69,6 +70,17 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
     curve.flat_min_depth = 0.04;
     curve.flat_max_depth = 0.06;
     curve.breakpoints = 87420;
+    if (id % 2) {
+      curve.placements = 16;
+      curve.window_min_worst_depth = 0.11 / 3;
+      curve.window_max_worst_depth = 0.19 / 3;
+      for (auto series :
+           {&BiasCurve::error_mean, &BiasCurve::error_worst, &BiasCurve::error_best, &BiasCurve::acne_mean,
+            &BiasCurve::acne_worst, &BiasCurve::acne_best, &BiasCurve::peter_panning_mean,
+            &BiasCurve::peter_panning_worst, &BiasCurve::peter_panning_best, &BiasCurve::aliasing_mean,
+            &BiasCurve::aliasing_worst, &BiasCurve::aliasing_best})
+        for (size_t i = 0; i < curve.bias_depth.size(); ++i) (curve.*series).push_back(value = std::sqrt(value + 1));
+    }
     curve.acne_free_bias_depth = 0.1 / 7;
     curve.acne_free_bias_stored_depth = id % 2 ? std::optional(0.2 / 7) : std::nullopt;
     point.curve = curve;

@@ -48,8 +48,9 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 
 TEST(SettingsTable, HasAWholeRowForEverySetting) {
   // Numbers without a unit.
-  const std::set<std::string_view> pure = {"scene.animation",     "map.extent_scale",   "truth.standard_error",
-                                           "bias.polygon_factor", "bias.polygon_units", "view.up"};
+  const std::set<std::string_view> pure = {
+      "scene.animation",     "map.placements",     "map.extent_scale", "truth.standard_error",
+      "bias.polygon_factor", "bias.polygon_units", "view.up"};
   const std::set<std::string_view> units = {"s", "px", "m", "deg", "texels", "taps", "bias.unit"};
   std::set<std::string_view> names;
   for (const Setting& row : settings_table()) {
