@@ -59,6 +59,11 @@ class LightView {
   // How wide the triangle is at its narrowest, in metres.
   double width(uint32_t triangle) const;
 
+  // LightRays::nearness of its plane.
+  glm::dvec3 nearness(uint32_t triangle) const {
+    return rays_.nearness(planes_[triangle].normal, planes_[triangle].gradient, corner(triangle, 0));
+  }
+
   // Depth of the triangle's plane at x, also beyond the triangle; infinity if the ray does not meet the plane.
   double plane_depth(uint32_t triangle, glm::dvec3 x) const {
     return rays_.plane_depth(planes_[triangle].normal, planes_[triangle].gradient, corner(triangle, 0), x);

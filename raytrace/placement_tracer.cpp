@@ -30,6 +30,7 @@ struct PlacementTracer::Impl {
   Silhouettes silhouettes;
   OwnSurface surface;
   DrawnMap drawn;
+  LatticeRaster raster;
   std::optional<TexelLattice> lattice;
 
   Impl(TracedScene& scene, const ReceiverImage& image, const ReceiverTruth& receiver_truth, const LightFrame& frame,
@@ -42,7 +43,8 @@ struct PlacementTracer::Impl {
         view(scene.scene, all.lattice(frame)),
         silhouettes(scene.adjacency, view, Silhouettes::reach_of(view)),
         surface(scene.embree, scene.adjacency, view, silhouettes),
-        drawn(scene, view, frame, settings, bias, over_texels(offset, all)) {}
+        drawn(scene, view, frame, settings, bias, over_texels(offset, all)),
+        raster(scene, view, silhouettes) {}
 };
 
 PlacementTracer::PlacementTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
@@ -59,7 +61,7 @@ void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTim
   Impl& l = *impl_;
   const StageWatch watch(stage, l.traced.device);
   l.lattice.reset();  // freed before the next is made, because it is large
-  l.lattice.emplace(l.traced, l.view, l.drawn, l.placements, l.map.wrap);
+  l.lattice.emplace(l.raster, l.view, l.drawn, l.placements, l.map.wrap);
   PlacedTaps taps;
   for (size_t i = strip.first; i < strip.end; ++i) {
     if (!l.truth.facing[i]) continue;

@@ -7,9 +7,9 @@
 
 namespace noonmark::raytrace {
 
-TexelLattice::TexelLattice(const TracedScene& traced, const LightView& view, const DrawnMap& drawn,
+TexelLattice::TexelLattice(const LatticeRaster& raster, const LightView& view, const DrawnMap& drawn,
                            const Placements& placements, Wrap wrap)
-    : traced_(traced),
+    : raster_(raster),
       view_(view),
       drawn_(drawn),
       placements_(placements),
@@ -62,15 +62,18 @@ float TexelLattice::depth(glm::ivec2 point) const {
 }
 
 void TexelLattice::trace() {
-  std::vector<std::pair<glm::ivec2, Tile*>> list;
-  for (const auto& [at, tile] : tiles_) {
-    list.push_back({{static_cast<int32_t>(at & 0xffffffff), static_cast<int32_t>(at >> 32)}, tile.get()});
+  std::vector<glm::ivec2> at;
+  std::vector<Tile*> list;
+  for (const auto& [place, tile] : tiles_) {
+    at.push_back({static_cast<int32_t>(place & 0xffffffff), static_cast<int32_t>(place >> 32)});
+    list.push_back(tile.get());
     for (uint64_t row : tile->wanted) points_ += static_cast<uint64_t>(std::popcount(row));
   }
-  tbb::parallel_for(size_t{0}, list.size(), [&](size_t i) { trace(list[i].first, *list[i].second); });
+  const std::vector<std::vector<uint32_t>> candidates = raster_.candidates(at);
+  tbb::parallel_for(size_t{0}, list.size(), [&](size_t i) { trace(at[i], candidates[i], *list[i]); });
 }
 
-void TexelLattice::trace(glm::ivec2 at, Tile& tile) const {
+void TexelLattice::trace(glm::ivec2 at, std::span<const uint32_t> candidates, Tile& tile) const {
   size_t wanted = 0;
   for (size_t row = 0; row < side; ++row) {
     tile.first[row] = static_cast<uint16_t>(wanted);
@@ -78,30 +81,21 @@ void TexelLattice::trace(glm::ivec2 at, Tile& tile) const {
   }
   tile.hit.assign(wanted, no_primitive);
   tile.depth.assign(wanted, 1.0f);
-  glm::ivec2 points[packet_size];
+  raster_.hits(at, candidates, tile.wanted, tile.hit);
+
+  glm::dvec3 places[packet_size];
+  size_t first = 0;
   int count = 0;
   const auto flush = [&] {
-    glm::dvec3 places[packet_size];
-    uint32_t hits[packet_size];
-    float depths[packet_size];
-    for (int i = 0; i < count; ++i) places[i] = view_.texel_place(points[i]);
-    view_.first_hits(traced_.embree, count, places, hits);
-    drawn_.depths(count, places, hits, depths);
-    for (int i = 0; i < count; ++i) {
-      tile.hit[tile.index(points[i])] = hits[i];
-      tile.depth[tile.index(points[i])] = depths[i];
-    }
+    drawn_.depths(count, places, &tile.hit[first], &tile.depth[first]);
+    first += static_cast<size_t>(count);
     count = 0;
   };
-  // Blocks of 4 x 4, so that the rays of a packet lie close together.
-  for (int y = 0; y < side; y += 4)
-    for (int x = 0; x < side; x += 4)
-      for (int row = y; row < y + 4; ++row)
-        for (int column = x; column < x + 4; ++column) {
-          if (!(tile.wanted[static_cast<size_t>(row)] >> column & 1)) continue;
-          points[count++] = at * side + glm::ivec2(column, row);
-          if (count == packet_size) flush();
-        }
+  for (int row = 0; row < side; ++row)
+    for (uint64_t bits = tile.wanted[static_cast<size_t>(row)]; bits; bits &= bits - 1) {
+      places[count++] = view_.texel_place(at * side + glm::ivec2(std::countr_zero(bits), row));
+      if (count == packet_size) flush();
+    }
   if (count > 0) flush();
 }
 

@@ -2,7 +2,7 @@
 // that receivers look up and for no others. The points lie in tiles of 64 x 64; points that nobody asks for
 // take a bit each, and tiles that nobody asks for take nothing.
 //
-//   TexelLattice lattice(traced, view, drawn, placements, settings.map);
+//   TexelLattice lattice(raster, view, drawn, placements, settings.map.wrap);
 //   lattice.want(taps);                  // for each receiver
 //   lattice.trace();
 //   uint32_t triangle = lattice.hit({120, 71});
@@ -13,12 +13,13 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "raytrace/drawn_map.h"
+#include "raytrace/lattice_raster.h"
 #include "raytrace/light_view.h"
-#include "raytrace/traced_scene.h"
 #include "technique/map_address.h"
 #include "technique/placements.h"
 
@@ -26,16 +27,16 @@ namespace noonmark::raytrace {
 
 class TexelLattice {
  public:
-  static constexpr int side = 64;  // of a tile
+  static constexpr int side = LatticeRaster::side;  // of a tile
 
-  // view: of the lattice's frame, Placements::lattice(). All references must outlive this object.
-  TexelLattice(const TracedScene& traced, const LightView& view, const DrawnMap& drawn, const Placements& placements,
+  // raster, view: of the lattice's frame, Placements::lattice(). All references must outlive this object.
+  TexelLattice(const LatticeRaster& raster, const LightView& view, const DrawnMap& drawn, const Placements& placements,
                Wrap wrap);
 
   // Asks for the points that these taps read; and, where a point's texel lies outside the map, for the point of the
   // texel that `wrap` reads in its stead.
   void want(const PlacedTaps& taps);
-  // Traces one ray through each point that was asked for.
+  // Finds the first hits of the points that were asked for.
   void trace();
 
   // After trace(), at a point that was asked for: the triangle that its ray meets first, or no_primitive; and the window
@@ -70,9 +71,9 @@ class TexelLattice {
   // The point that a lookup reads in the stead of this one; no value for the border.
   std::optional<glm::ivec2> read_at(glm::ivec2 point) const;
   bool inside(glm::ivec2 point) const { return inside_map(placements_.texel_of(point), size_); }
-  void trace(glm::ivec2 at, Tile& tile) const;
+  void trace(glm::ivec2 at, std::span<const uint32_t> candidates, Tile& tile) const;
 
-  const TracedScene& traced_;
+  const LatticeRaster& raster_;
   const LightView& view_;
   const DrawnMap& drawn_;
   Placements placements_;

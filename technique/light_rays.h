@@ -52,6 +52,16 @@ class LightRays {
     return along < 0 ? std::numeric_limits<double>::infinity() : along;
   }
   glm::dvec3 at_depth(glm::dvec3 x, double depth) const { return parallel_ ? glm::dvec3(x.x, x.y, depth) : x * depth; }
+  // A point of the light's frame as a place of any length.
+  glm::dvec3 as_place(glm::dvec3 p) const { return parallel_ ? glm::dvec3(p.x, p.y, 1) : p; }
+  // A function of the place (x, y, 1), as a dot product, that grows as the plane through a comes nearer to the light:
+  // minus the depth for parallel rays, and one over the depth otherwise. is_ahead: of its value, that the ray meets the
+  // plane at all.
+  glm::dvec3 nearness(glm::dvec3 normal, glm::dvec2 gradient, glm::dvec3 a) const {
+    if (parallel_) return {-gradient.x, -gradient.y, glm::dot(gradient, glm::dvec2(a)) - a.z};
+    return normal / glm::dot(normal, a);
+  }
+  bool is_ahead(double nearness) const { return parallel_ || nearness > 0; }
   // Metres across the rays for a step of 1 between places, at this depth.
   double metres_across(double depth_m) const { return parallel_ ? 1 : depth_m; }
   // Of a place on one side of all three edges of a triangle: whether its ray meets the triangle before the light, not

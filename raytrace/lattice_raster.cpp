@@ -1,0 +1,195 @@
+#include "raytrace/lattice_raster.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace noonmark::raytrace {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int farthest = 1 << 30;  // of a lattice point; LookupProbe::farthest_texel times the placements is less
+
+int floor_to_int(double x) { return static_cast<int>(std::floor(std::clamp<double>(x, -farthest, farthest))); }
+int ceil_to_int(double x) { return static_cast<int>(std::ceil(std::clamp<double>(x, -farthest, farthest))); }
+
+uint64_t key(glm::ivec2 tile) {
+  return static_cast<uint64_t>(static_cast<uint32_t>(tile.y)) << 32 | static_cast<uint32_t>(tile.x);
+}
+
+}  // namespace
+
+LatticeRaster::LatticeRaster(const TracedScene& traced, const LightView& view, const Silhouettes& silhouettes)
+    : traced_(traced), view_(view), silhouettes_(silhouettes) {
+  origin_ = glm::dvec2(view.texel_place({0, 0}));
+  step_ = glm::dvec2(view.texel_place({1, 1})) - origin_;
+  triangles_.resize(traced.scene.triangles.size());
+  tbb::parallel_for(size_t{0}, triangles_.size(),
+                    [&](size_t t) { triangles_[t] = triangle(static_cast<uint32_t>(t)); });
+}
+
+LatticeRaster::Triangle LatticeRaster::triangle(uint32_t index) const {
+  Triangle t;
+  if (traced_.adjacency.is_copy(index) || view_.edge_on(index)) return t;
+  const LightRays rays = view_.rays();
+  glm::dvec3 corner[3];
+  for (int i = 0; i < 3; ++i) corner[i] = rays.as_place(view_.corner(index, i));
+  const double sign = view_.orientation(index) < 0 ? -1 : 1;
+  for (size_t e = 0; e < 3; ++e) t.inside[e] = sign * glm::cross(corner[e], corner[(e + 1) % 3]);
+  t.nearness = view_.nearness(index);
+  // The points between its corners. A triangle that reaches behind the light may cover any.
+  glm::dvec2 low(infinity), high(-infinity);
+  for (const glm::dvec3& c : corner) {
+    const glm::dvec2 at = c.z > 0 ? (glm::dvec2(c) / c.z - origin_) / step_ : glm::dvec2(infinity);
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  const bool behind = corner[0].z <= 0 || corner[1].z <= 0 || corner[2].z <= 0;
+  if (corner[0].z <= 0 && corner[1].z <= 0 && corner[2].z <= 0) return t;
+  // One point more on each side for the rounding of the division.
+  t.low = behind ? glm::ivec2(-farthest) : glm::ivec2(floor_to_int(low.x) - 1, floor_to_int(low.y) - 1);
+  t.high = behind ? glm::ivec2(farthest) : glm::ivec2(ceil_to_int(high.x) + 1, ceil_to_int(high.y) + 1);
+  return t;
+}
+
+std::vector<std::vector<uint32_t>> LatticeRaster::candidates(std::span<const glm::ivec2> tiles) const {
+  std::vector<std::vector<uint32_t>> lists(tiles.size());
+  std::unordered_map<uint64_t, size_t> index;
+  index.reserve(tiles.size());
+  for (size_t i = 0; i < tiles.size(); ++i) index[key(tiles[i])] = i;
+  for (uint32_t t = 0; t < triangles_.size(); ++t) {
+    const Triangle& triangle = triangles_[t];
+    if (triangle.low.x > triangle.high.x) continue;
+    const glm::ivec2 first(triangle.low.x >> 6, triangle.low.y >> 6), last(triangle.high.x >> 6, triangle.high.y >> 6);
+    const double many = (static_cast<double>(last.x) - first.x + 1) * (static_cast<double>(last.y) - first.y + 1);
+    if (many > static_cast<double>(tiles.size())) {
+      for (size_t i = 0; i < tiles.size(); ++i)
+        if (tiles[i].x >= first.x && tiles[i].x <= last.x && tiles[i].y >= first.y && tiles[i].y <= last.y)
+          lists[i].push_back(t);
+      continue;
+    }
+    for (int y = first.y; y <= last.y; ++y)
+      for (int x = first.x; x <= last.x; ++x)
+        if (const auto found = index.find(key({x, y})); found != index.end()) lists[found->second].push_back(t);
+  }
+  return lists;
+}
+
+// True if all corners lie beyond one edge. It may be false for a triangle that covers nothing of the square.
+bool LatticeRaster::covers_nothing_of(const Triangle& t, const glm::dvec3 (&corners)[4]) const {
+  return std::any_of(t.inside.begin(), t.inside.end(), [&](glm::dvec3 inside) {
+    return std::all_of(std::begin(corners), std::end(corners),
+                       [&](glm::dvec3 corner) { return glm::dot(inside, corner) < 0; });
+  });
+}
+
+void LatticeRaster::hits(glm::ivec2 tile, std::span<const uint32_t> candidates,
+                         const std::array<uint64_t, side>& wanted, std::span<uint32_t> hits) const {
+  const glm::ivec2 base = tile * side;
+  const double far_side = side - 1;
+  const glm::dvec3 corners[4] = {place(base), place(glm::dvec2(base) + glm::dvec2(far_side, 0)),
+                                 place(glm::dvec2(base) + far_side), place(glm::dvec2(base) + glm::dvec2(0, far_side))};
+  struct Kept {
+    uint32_t triangle;
+    double nearest;
+  };
+  thread_local std::vector<Kept> kept;
+  kept.clear();
+  // Surfaces behind one that covers the whole tile are never the first.
+  double covered_from = -infinity;
+  for (uint32_t t : candidates) {
+    const Triangle& triangle = triangles_[t];
+    if (covers_nothing_of(triangle, corners)) continue;
+    double nearest = -infinity, least = infinity;
+    bool whole = true;
+    for (const glm::dvec3& corner : corners) {
+      const double nearness = glm::dot(triangle.nearness, corner);
+      nearest = std::max(nearest, nearness);
+      least = std::min(least, nearness);
+      for (glm::dvec3 inside : triangle.inside) whole = whole && glm::dot(inside, corner) >= 0;
+    }
+    kept.push_back({t, nearest});
+    if (whole && view_.rays().is_ahead(least)) covered_from = std::max(covered_from, least);
+  }
+  std::erase_if(kept, [&](const Kept& k) { return k.nearest < covered_from; });
+
+  thread_local std::vector<double> nearest;
+  thread_local std::vector<uint32_t> first;
+  nearest.assign(side * side, -infinity);
+  first.assign(side * side, no_primitive);
+  for (const Kept& k : kept) {
+    const Triangle& t = triangles_[k.triangle];
+    const int from_row = std::max(0, t.low.y - base.y), to_row = std::min(side - 1, t.high.y - base.y);
+    for (int row = from_row; row <= to_row; ++row) {
+      if (!wanted[static_cast<size_t>(row)]) continue;
+      const double y = place(glm::dvec2(0, base.y + row)).y;
+      // Where the line of the row crosses each edge: the triangle lies on one side of it.
+      double left = -infinity, right = infinity;
+      for (glm::dvec3 inside : t.inside) {
+        const double rest = inside.y * y + inside.z;
+        if (inside.x == 0) {
+          if (rest < 0) left = infinity;
+          continue;
+        }
+        const double x = -rest / inside.x;
+        if (inside.x > 0)
+          left = std::max(left, x);
+        else
+          right = std::min(right, x);
+      }
+      if (!(left <= right)) continue;
+      const int wanted_from = std::countr_zero(wanted[static_cast<size_t>(row)]),
+                wanted_to = side - 1 - std::countl_zero(wanted[static_cast<size_t>(row)]);
+      const int from = std::max(wanted_from, ceil_to_int((left - origin_.x) / step_.x) - base.x);
+      const int to = std::min(wanted_to, floor_to_int((right - origin_.x) / step_.x) - base.x);
+      const double start = t.nearness.y * y + t.nearness.z;
+      for (int column = from; column <= to; ++column) {
+        const double nearness = start + t.nearness.x * (origin_.x + step_.x * (base.x + column));
+        const auto at = static_cast<size_t>(row * side + column);
+        if (nearness > nearest[at] && view_.rays().is_ahead(nearness)) {
+          nearest[at] = nearness;
+          first[at] = k.triangle;
+        }
+      }
+    }
+  }
+  size_t at = 0;
+  for (size_t row = 0; row < side; ++row)
+    for (uint64_t bits = wanted[row]; bits; bits &= bits - 1)
+      hits[at++] = first[row * side + static_cast<size_t>(std::countr_zero(bits))];
+  ask_again(tile, wanted, hits);
+}
+
+void LatticeRaster::ask_again(glm::ivec2 tile, const std::array<uint64_t, side>& wanted,
+                              std::span<uint32_t> hits) const {
+  thread_local Silhouettes::Nearby nearby;
+  const glm::ivec2 base = tile * side;
+  const glm::dvec3 ends[2] = {view_.texel_place(base), view_.texel_place(base + (side - 1))};
+  silhouettes_.list_nearby(ends, nearby);
+  if (nearby.none()) return;
+  glm::dvec3 places[packet_size];
+  uint32_t again[packet_size];
+  size_t where[packet_size];
+  int count = 0;
+  const auto flush = [&] {
+    view_.first_hits(traced_.embree, count, places, again);
+    for (int i = 0; i < count; ++i) hits[where[i]] = again[i];
+    count = 0;
+  };
+  size_t at = 0;
+  for (int row = 0; row < side; ++row)
+    for (uint64_t bits = wanted[static_cast<size_t>(row)]; bits; bits &= bits - 1, ++at) {
+      const glm::dvec3 x = view_.texel_place(base + glm::ivec2(std::countr_zero(bits), row));
+      if (!silhouettes_.near(x)) continue;
+      places[count] = x;
+      where[count++] = at;
+      if (count == packet_size) flush();
+    }
+  if (count > 0) flush();
+}
+
+}  // namespace noonmark::raytrace
