@@ -13,6 +13,7 @@
 
 #include "compare/store/check.h"
 #include "compare/store/fingerprint.h"
+#include "compare/store/journal.h"
 #include "compare/store/record_tables.h"
 #include "compare/store/schema.h"
 #include "compare/store/seals.h"
@@ -187,19 +188,21 @@ ResultStore::ResultStore(const std::string& path, const std::string& fingerprint
       seal_info(*db_);
       seal_verdict(*db_);
       transaction.commit();
-      return;
     }
   }
   check_store(*db_);
-  db_->execute("PRAGMA journal_mode = DELETE");  // another tool may have changed it
   const std::string there = this->fingerprint();
   if (there != fingerprint)
     throw OtherResults(fmt::format("{}: holds the results of another experiment ({}); {}", path,
                                    first_difference(fingerprint, there), db_->way_out()));
+  begin_writing(*db_);
+  writes_ = true;
 }
 
 ResultStore::ResultStore(std::unique_ptr<Database> db) : db_(std::move(db)) {}
-ResultStore::~ResultStore() = default;
+ResultStore::~ResultStore() {
+  if (db_ && writes_) end_writing(*db_);
+}
 ResultStore::ResultStore(ResultStore&&) noexcept = default;
 ResultStore& ResultStore::operator=(ResultStore&&) noexcept = default;
 
