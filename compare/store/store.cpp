@@ -69,6 +69,12 @@ void bind_setting_value(Statement& insert, int index, const std::string& name, c
   insert.bind(index, text);
 }
 
+bool is_finished(Database& db, int64_t point) {
+  Statement rows(db, "SELECT 1 FROM finished WHERE point = ?");
+  rows.bind(1, point);
+  return rows.step();
+}
+
 void add_numbers(Database& db, const char* table, int64_t point, const std::map<std::string, double>& numbers) {
   Statement insert(db, fmt::format("INSERT INTO {} VALUES (?, ?, ?)", table));
   for (const auto& [name, value] : numbers) insert.run(point, name, value);
@@ -249,7 +255,7 @@ std::vector<std::string> ResultStore::repair(int64_t planned_points,
 
 void ResultStore::add(const PointRecord& point) {
   Transaction transaction(*db_);
-  if (db_->ask(fmt::format("SELECT 1 FROM finished WHERE point = {}", point.id)))
+  if (is_finished(*db_, point.id))
     throw Error(ErrorKind::usage,
                 fmt::format("point {} is in the result store already; let no two runs share one --out", point.id));
   Statement(*db_, "INSERT INTO finished VALUES (?, ?, ?, ?, ?, ?)")
@@ -270,7 +276,7 @@ void ResultStore::add(const PointRecord& point) {
 
 void ResultStore::set_pictures(int64_t point, const PointPictures& pictures) {
   Transaction transaction(*db_);
-  if (!db_->ask(fmt::format("SELECT 1 FROM finished WHERE point = {}", point)))
+  if (!is_finished(*db_, point))
     throw std::logic_error(fmt::format("pictures of point {}, which is not in the store", point));
   Statement(*db_, "DELETE FROM pictures WHERE point = ?").run(point);
   Statement(*db_, "DELETE FROM images WHERE point = ?").run(point);
