@@ -39,6 +39,8 @@ struct Disk {
   const char* journal;  // the file that the store must have been written with
 };
 
+void PrintTo(const Disk& disk, std::ostream* out) { *out << disk.name; }
+
 class PowerCut : public Program, public testing::WithParamInterface<Disk> {
  protected:
   // Runs a check with its results in disk/new/out and returns what it did to the folder disk.
