@@ -1,5 +1,6 @@
-// The points that the report shows one by one. A page with a row, a bar and a symbol for each of 10 000 points has 80 MB,
-// and a browser needs minutes to draw it. So charts and tables of a large sweep show a choice of its points, and say so.
+// The points that the report shows one by one. Each point takes 4 to 9 kB of the page, for its row, bar, symbols and
+// curve, and a browser on two cores needs 1.5 to 2 s for 1000 of them. So charts and tables of a large sweep show a choice
+// of its points, and say so.
 //
 //   const ShownPoints shown = shown_points(results);
 //   for (const PointRecord& point : shown.results.points) ...  // rows, bars, symbols
