@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <map>
+#include <optional>
 
 #include "app/build_facts.h"
 #include "app/clock.h"
@@ -139,11 +140,29 @@ std::vector<MemoryEstimate> survey(Workbench& bench, const Experiment& experimen
 
 bool writes_pictures(const Experiment& experiment) { return experiment.pictures != "none"; }
 
-void require_memory_of(const Workbench& bench, const Experiment& experiment, const std::vector<MemoryEstimate>& memory,
-                       size_t id) {
-  require_memory(memory[id], bench.memory_of_program(writes_pictures(experiment)),
-                 fmt::format("point {} ({})", id, name_of_point(experiment, static_cast<int64_t>(id))));
-}
+// Compares points with the memory that is free. Reading it opens some 20 files of the system, which takes longer than a
+// small point, so a value is used for a tenth of a second.
+class MemoryCheck {
+ public:
+  MemoryCheck(const Workbench& bench, const Experiment& experiment, const std::vector<MemoryEstimate>& memory)
+      : bench_(bench), experiment_(experiment), memory_(memory) {}
+  void require_room_for(size_t id) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!there_ || now - read_ > std::chrono::milliseconds(100)) {
+      there_ = bench_.memory_of_program(writes_pictures(experiment_));
+      read_ = now;
+    }
+    require_memory(memory_[id], *there_,
+                   fmt::format("point {} ({})", id, name_of_point(experiment_, static_cast<int64_t>(id))));
+  }
+
+ private:
+  const Workbench& bench_;
+  const Experiment& experiment_;
+  const std::vector<MemoryEstimate>& memory_;
+  std::optional<AvailableMemory> there_;
+  std::chrono::steady_clock::time_point read_;
+};
 
 // Opens the store. It also removes an earlier run's report and results.csv, because they can show an old verdict or
 // other results.
@@ -231,9 +250,10 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     fmt::print(stderr, "{} of {} {} in {} already\n", before.size(), counted(planned.size(), "point"),
                total == 1 ? "is" : "are", printable(folder.path()));
   // All of them are checked before the first is measured, so that a user does not get the error hours later.
+  MemoryCheck room(bench, experiment, memory);
   const auto measured_before = [&](int64_t id) { return std::binary_search(before.begin(), before.end(), id); };
   for (int64_t id = 0; id < total; ++id)
-    if (!measured_before(id)) require_memory_of(bench, experiment, memory, static_cast<size_t>(id));
+    if (!measured_before(id)) room.require_room_for(static_cast<size_t>(id));
   SweepOutcome outcome;
   {
     const StopOnSignal guard;
@@ -242,8 +262,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     IdleNotes notes;
     for (int64_t id = 0; id < total && !outcome.interrupted; ++id) {
       if (measured_before(id)) continue;
-      require_memory_of(bench, experiment, memory,
-                        static_cast<size_t>(id));  // other programs may have taken memory since
+      room.require_room_for(static_cast<size_t>(id));  // other programs may have taken memory since
       const Experiment& part = part_of_point(experiment, id);
       scenes.require_unchanged(bench, planned[static_cast<size_t>(id)]);
       Measurement m = bench.measure(planned[static_cast<size_t>(id)],
@@ -266,6 +285,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   if (const std::string doubt = undecided_note(outcome.results.points); !doubt.empty())
     fmt::print(stderr, "note: {}\n", doubt);
   if (!outcome.interrupted) {
+    bool changed = false;
     for (int64_t id : points_with_pictures(experiment.pictures, outcome.results.points)) {
       const PointRecord& point = *find_point(outcome.results.points, id);
       if (!point.pictures.empty()) {
@@ -274,11 +294,12 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
         fmt::print(stderr, "note: {}; the pictures of point {} are made again\n", printable(why), id);
       }
       const Settings& settings = planned[static_cast<size_t>(id)];
-      require_memory_of(bench, experiment, memory, static_cast<size_t>(id));
+      room.require_room_for(static_cast<size_t>(id));
       scenes.require_unchanged(bench, settings);
       store.set_pictures(id, keep_pictures(bench.measure(settings, std::nullopt), id, folder.path()));
+      changed = true;
     }
-    outcome.results = store.load();
+    if (changed) outcome.results = store.load();
   }
   judge(experiment, outcome.results);
   store.set_bounds(outcome.results.bounds);
@@ -322,7 +343,8 @@ void print_plan(const Experiment& experiment) {
   fmt::print("memory: at most {}, by point {} ({} of it for {}); {}\n", bytes_text(most->bytes()),
              most - memory.begin(), bytes_text(share.bytes), share.what,
              bench.memory_of_program(writes_pictures(experiment)).text());
-  for (size_t i = 0; i < planned.size(); ++i) require_memory_of(bench, experiment, memory, i);
+  MemoryCheck room(bench, experiment, memory);
+  for (size_t i = 0; i < planned.size(); ++i) room.require_room_for(i);
   // The time is almost a constant for each point plus a share for each tap. Two small pictures of the first point give
   // both.
   const auto seconds = [&](int divisor, double nudge) {

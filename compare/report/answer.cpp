@@ -72,8 +72,9 @@ Where where_text(const Results& results, const std::vector<bool>& chosen, const 
   const size_t count = static_cast<size_t>(std::count(chosen.begin(), chosen.end(), true));
   if (count == chosen.size())
     return {results.points.size() == 1 ? "here" : fmt::format("at every one of the {}", points_text(count)), ""};
-  const std::vector<Rule> rules = describe_points(results, chosen, either_way);
   constexpr size_t most_rules = 4;  // more rules are harder to read than the table
+  RuleSearch search{.most_rules = most_rules + 1};
+  const std::vector<Rule> rules = describe_points(results, chosen, either_way, &search);
   std::string list;
   for (size_t i = 0; i < std::min(rules.size(), most_rules); ++i)
     list += fmt::format("<li>{}{}</li>", html(rule_phrase(rules[i])),

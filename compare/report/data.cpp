@@ -66,11 +66,17 @@ std::vector<size_t> drawn_biases(const BiasCurve& curve, size_t entries_of_all_c
   return indices;
 }
 
-json chart_data(const Results& results) {
+size_t curve_entries(const Results& results) {
+  size_t entries = 0;
+  for (const PointRecord& point : results.points) entries += point.curve ? point.curve->bias_depth.size() : 0;
+  return entries;
+}
+
+json chart_data(const Results& results, const ShownPoints& shown) {
   json data;
   data["swept"] = json::array();
   for (const std::string& name : results.info.swept) {
-    const std::vector<std::string> values = values_of(results, name);
+    const std::vector<std::string> values = values_of(shown.results, name);
     bool numeric = !values.empty();
     for (const std::string& value : values) numeric = numeric && number_of(value);
     data["swept"].push_back({{"name", name},
@@ -90,10 +96,9 @@ json chart_data(const Results& results) {
     data["causes"].push_back({{"name", cause.name}, {"label", cause.label}});
   data["plot"] = results.info.plot;
 
-  size_t entries = 0;
-  for (const PointRecord& point : results.points) entries += point.curve ? point.curve->bias_depth.size() : 0;
+  const size_t entries = curve_entries(shown.results);
   data["points"] = json::array();
-  for (const PointRecord& point : results.points) {
+  for (const PointRecord& point : shown.results.points) {
     json settings = json::object(), metrics = json::object();
     for (const std::string& name : results.info.swept) settings[name] = setting_of(point, name);
     for (const auto& [name, value] : point.metrics) metrics[name] = value_of(value);
@@ -107,13 +112,8 @@ json chart_data(const Results& results) {
   const Recommendation recommendation = recommend(results);
   data["recommended"] = recommendation.point ? json(recommendation.point->id) : json();
   for (const char* which : {"error", "best_error"}) {
-    std::vector<std::pair<double, double>> plane;
-    for (const PointRecord& point : results.points)
-      plane.emplace_back(metric_of(point, "shadow_ms"), std::string_view(which) == "error" ? metric_of(point, "error")
-                                                        : point.curve                      ? point.curve->best_error
-                                                                                           : std::nan(""));
     data["pareto"][which] = json::array();
-    for (size_t i : pareto_front(plane)) data["pareto"][which].push_back(results.points[i].id);
+    for (size_t i : front_of(results, which)) data["pareto"][which].push_back(results.points[i].id);
   }
   return data;
 }

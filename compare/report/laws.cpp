@@ -8,6 +8,7 @@
 
 #include "compare/judge/laws.h"
 #include "compare/report/sections.h"
+#include "compare/report/shown.h"
 #include "compare/report/text.h"
 
 namespace noonmark::report {
@@ -24,6 +25,11 @@ bool charted(const LawResult& law) {
     high = std::max(high, sample.predicted);
   }
   return high > low;
+}
+
+// The chart draws every n-th sample of a law, and the worst. With most_whole_points samples or fewer it draws all.
+size_t drawn_every(const LawResult& law) {
+  return law.samples.size() <= most_whole_points ? 1 : 1 + law.samples.size() / max_even_points;
 }
 
 std::string broken_rows(const LawResult& law) {
@@ -59,6 +65,11 @@ std::string laws_table(const Results& results) {
   std::string out = "<h3 id=\"laws\">Laws</h3>\n";
   if (std::any_of(results.laws.begin(), results.laws.end(), charted))
     out += chart_place("laws", "Measured against predicted. On the line the two are equal.");
+  if (std::any_of(results.laws.begin(), results.laws.end(), [](const auto& law) { return drawn_every(law) > 1; }))
+    out += fmt::format(
+        "<p class=\"note thinned\">Of a law with more than {} samples the chart draws some, evenly chosen, and the "
+        "worst. All samples are judged; <code>results.sqlite</code> has them.</p>\n",
+        most_whole_points);
   return out +
          "<div class=\"scroll\"><table class=\"bounds laws\"><thead><tr><th>Verdict</th><th>Law</th><th>Samples</th>"
          "<th>Predicted</th><th>Measured</th><th>Measured / predicted</th></tr></thead><tbody>\n" +
@@ -72,12 +83,16 @@ json law_data(const Results& results) {
   for (const LawResult& law : results.laws) {
     if (!charted(law)) continue;
     json samples = json::array();
-    for (const LawResult::Sample& sample : law.samples)
+    const size_t every = drawn_every(law);
+    for (size_t i = 0; i < law.samples.size(); ++i) {
+      const LawResult::Sample& sample = law.samples[i];
+      if (i % every != 0 && static_cast<int>(i) != law.worst) continue;
       if (std::isfinite(sample.predicted) && std::isfinite(sample.measured))
         samples.push_back({{"point", sample.point},
                            {"predicted", sample.predicted},
                            {"measured", sample.measured},
                            {"allowed", sample.allowed}});
+    }
     laws.push_back(
         {{"name", law.name}, {"measured", law.measured}, {"predicted", law.predicted}, {"samples", samples}});
   }

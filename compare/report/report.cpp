@@ -11,6 +11,7 @@
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/sections.h"
+#include "compare/report/shown.h"
 #include "compare/report/tables.h"
 #include "compare/report/text.h"
 #include "report_files.h"
@@ -92,26 +93,34 @@ std::string subtitle(const Results& results) {
   return out;
 }
 
+using report::ShownPoints;
 using ReadFile = std::function<std::string(const std::string& path)>;
 
 struct Section {
   const char* id;
   const char* label;  // in the page's head
-  std::string (*html)(const Results&, const ReadFile&);
+  std::string (*html)(const Results&, const ShownPoints&, const ReadFile&);
   bool compares;  // compares points with each other, which has no meaning across parts
 };
 template <std::string (*make)(const Results&)>
-std::string plain(const Results& results, const ReadFile&) {
+std::string plain(const Results& results, const ShownPoints&, const ReadFile&) {
   return make(results);
+}
+template <std::string (*make)(const Results&, const ShownPoints&)>
+std::string by_point(const Results& results, const ShownPoints& shown, const ReadFile&) {
+  return make(results, shown);
+}
+std::string pictures(const Results& results, const ShownPoints&, const ReadFile& read_file) {
+  return report::pictures_section(results, read_file);
 }
 constexpr Section all_sections[] = {
     {"answer", "Answer", plain<report::answer_section>, false},
-    {"bias", "Bias", plain<report::bias_section>, true},
-    {"sweep", "Resolution", plain<report::sweep_section>, true},
-    {"budget", "Causes", plain<report::budget_section>, true},
-    {"cost", "Speed", plain<report::cost_section>, true},
-    {"pictures", "Pictures", report::pictures_section, false},
-    {"points", "Points", plain<report::points_section>, false},
+    {"bias", "Bias", by_point<report::bias_section>, true},
+    {"sweep", "Resolution", by_point<report::sweep_section>, true},
+    {"budget", "Causes", by_point<report::budget_section>, true},
+    {"cost", "Speed", by_point<report::cost_section>, true},
+    {"pictures", "Pictures", pictures, false},
+    {"points", "Points", by_point<report::points_section>, false},
     {"meaning", "Meaning", plain<report::meaning_section>, false},
     {"making", "Making", plain<report::making_section>, false},
 };
@@ -136,6 +145,7 @@ std::string navigation(const Results& results) {
 std::string render_report(const Results& results,
                           const std::function<std::string(const std::string& path)>& read_file) {
   const std::string& given = !results.info.title.empty() ? results.info.title : results.info.scene_name;
+  const ShownPoints shown = report::shown_points(results);
   const std::string title = report::html(given.empty() ? "Shadow-map errors" : given);
   return fill(file("report/page/page.html"), [&](std::string_view name) -> std::string {
     if (name == "title") return title;
@@ -144,10 +154,10 @@ std::string render_report(const Results& results,
     if (name == "nav") return navigation(results);
     if (name == "sections") {
       std::string sections;
-      for (const Section& section : sections_of(results)) sections += section.html(results, read_file);
+      for (const Section& section : sections_of(results)) sections += section.html(results, shown, read_file);
       return sections;
     }
-    if (name == "data") return report::script_json(report::chart_data(results));
+    if (name == "data") return report::script_json(report::chart_data(results, shown));
     if (name == "vega") return vega_script();
     if (name == "script") {
       std::string script;

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "compare/report/cause_colors.h"
+#include "compare/report/data.h"
 #include "compare/report/findings.h"
 #include "compare/report/rules.h"
 #include "compare/report/text.h"
@@ -61,7 +64,7 @@ std::string chart_place(const std::string& name, const std::string& caption) {
 
 std::string swatch(const std::string& cause) { return fmt::format("<i class=\"sw c-{}\"></i>", html(cause)); }
 
-std::string bias_section(const Results& results) {
+std::string bias_section(const Results& results, const ShownPoints& shown) {
   std::string rows;
   size_t count = 0;
   const BiasCurve* first = nullptr;
@@ -71,7 +74,7 @@ std::string bias_section(const Results& results) {
     if (!first) first = &*point.curve;
     alike = alike && point.curve->parameter == first->parameter && point.curve->made == first->made;
   }
-  for (const PointRecord& point : results.points) {
+  for (const PointRecord& point : shown.results.points) {
     if (!point.curve) continue;
     ++count;
     const BiasCurve& curve = *point.curve;
@@ -93,13 +96,20 @@ std::string bias_section(const Results& results) {
     out += fmt::format("<p class=\"small\">Some points have no curve: {}.</p>\n", why_no_curve(point));
     break;
   }
-  if (count == 0) return out + "<p>No bias curve was measured.</p></section>\n";
+  if (!first) return out + "<p>No bias curve was measured.</p></section>\n";
   out += fmt::format(
       "<p>Too little bias leaves acne; too much detaches shadows. The usable window is every bias that keeps acne "
       "within {} and "
       "Peter Panning within {} of the counted receivers.{}</p>\n",
       quantity(first->acne_bound, "fraction"), quantity(first->peter_panning_bound, "fraction"),
       alike ? fmt::format(" Varied: <code>{}</code>; made: {}.", html(first->parameter), html(first->made)) : "");
+  out += shown.note;
+  if (const size_t drawn = drawn_biases(*first, curve_entries(shown.results)).size(); drawn < first->bias_depth.size())
+    out += fmt::format(
+        "<p class=\"small\">The chart draws {} of the {} biases of a curve, evenly chosen. <code>results.sqlite</code> "
+        "has "
+        "all of them. Windows and best biases are of the exact curve.</p>\n",
+        drawn, first->bias_depth.size());
   out += chart_place("bias", "Share of counted receivers by cause against the bias; the usable window is shaded.");
   std::string head =
       "<thead><tr>" + swept_head(results) +
@@ -112,13 +122,13 @@ std::string bias_section(const Results& results) {
   head += "<th>error %</th><th class=\"first\">depth</th>";
   if (!alike) head += "<th></th><th></th>";
   head += "</tr></thead>";
-  out += folded("Every window", count,
+  out += folded(shown.note.empty() ? "Every window" : "The windows of the points that are shown", count,
                 "<div class=\"scroll\"><table class=\"numbers windows\">" + head + "<tbody>\n" + rows +
                     "</tbody></table></div>\n");
   return out + "</section>\n";
 }
 
-std::string sweep_section(const Results& results) {
+std::string sweep_section(const Results& results, const ShownPoints& shown) {
   std::string out = "<section id=\"sweep\"><h2>Error against resolution and extent</h2>\n";
   const auto swept = [&](const std::string& name) {
     return std::find(results.info.swept.begin(), results.info.swept.end(), name) != results.info.swept.end() &&
@@ -127,6 +137,7 @@ std::string sweep_section(const Results& results) {
   if (!swept("map.resolution")) out += "<p class=\"small\">Resolution was not swept.</p>\n";
   if (!swept("map.extent_m") && !swept("map.extent_scale"))
     out += "<p class=\"small\">The frustum's extent was not swept.</p>\n";
+  out += shown.note;
   size_t charts = 0;
   for (const std::string& name : results.info.swept) {
     const std::vector<std::string> values = values_of(results, name);
@@ -135,18 +146,23 @@ std::string sweep_section(const Results& results) {
       continue;
     ++charts;
     // Mean and worst over all other settings: the chart's trend in numbers.
-    std::string rows;
-    for (const std::string& value : values) {
+    struct Trend {
       double sum = 0, worst = 0, best_sum = 0;
       size_t finite = 0, of = 0, curves = 0;
-      for (const PointRecord& point : results.points) {
-        if (setting_of(point, name) != value) continue;
-        ++of;
-        if (point.curve && std::isfinite(point.curve->best_error)) best_sum += point.curve->best_error, ++curves;
-        const double error = metric_of(point, "error");
-        if (!std::isfinite(error)) continue;
-        ++finite, sum += error, worst = std::max(worst, error);
-      }
+    };
+    std::unordered_map<std::string, Trend> trends;
+    for (const PointRecord& point : results.points) {
+      Trend& trend = trends[setting_of(point, name)];
+      ++trend.of;
+      if (point.curve && std::isfinite(point.curve->best_error))
+        trend.best_sum += point.curve->best_error, ++trend.curves;
+      const double error = metric_of(point, "error");
+      if (!std::isfinite(error)) continue;
+      ++trend.finite, trend.sum += error, trend.worst = std::max(trend.worst, error);
+    }
+    std::string rows;
+    for (const std::string& value : values) {
+      const auto& [sum, worst, best_sum, finite, of, curves] = trends[value];
       const double none = std::nan("");
       rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                           html(value), cell(finite ? sum / static_cast<double>(finite) : none, "fraction"),
@@ -169,12 +185,12 @@ std::string sweep_section(const Results& results) {
   return out + "</section>\n";
 }
 
-std::string budget_section(const Results& results) {
+std::string budget_section(const Results& results, const ShownPoints& shown) {
   if (results.points.empty())
     return "<section id=\"budget\"><h2>The error budget</h2>\n<p>No point was measured.</p></section>\n";
   const std::vector<CauseColor> causes = causes_of(results.points);
   double largest = 0;
-  for (const PointRecord& point : results.points) {
+  for (const PointRecord& point : shown.results.points) {
     double sum = 0;
     for (const CauseColor& cause : causes)
       if (const double value = metric_of(point, std::string(cause.name));
@@ -186,7 +202,7 @@ std::string budget_section(const Results& results) {
   for (const CauseColor& cause : causes)
     if (is_part(cause.name))
       legend += fmt::format("<span>{}{}</span>\n", swatch(std::string(cause.name)), html(cause.label));
-  for (const PointRecord& point : results.points) {
+  for (const PointRecord& point : shown.results.points) {
     std::vector<std::pair<std::string_view, double>> sizes;
     std::string parts, told;
     double sum = 0;
@@ -214,37 +230,44 @@ std::string budget_section(const Results& results) {
       "<section id=\"budget\"><h2>The error budget</h2>\n<p>The part of the error that each cause adds, with the bias "
       "as rendered, as a share of counted "
       "receivers. The number at the end is the whole error, mean |{} − R1|. With a filter, causes can cancel in it, "
-      "and displacement can cancel with the others, so the bar can be longer.</p>\n"
+      "and displacement can cancel with the others, so the bar can be longer.</p>\n{}"
       "<div class=\"legend\">{}</div>\n"
       "<div class=\"budget{}\"><input type=\"radio\" name=\"budget\" id=\"budget-size\" checked><label "
       "for=\"budget-size\">By size</label>"
       "<input type=\"radio\" name=\"budget\" id=\"budget-share\"><label for=\"budget-share\">By share</label>\n<div "
       "class=\"rows\">\n{}</div></div></section>\n",
-      judged_rung(results.points.front()), legend, results.points.size() > open_rows ? " many" : "", rows);
+      judged_rung(results.points.front()), shown.note, legend, results.points.size() > open_rows ? " many" : "", rows);
 }
 
-std::string cost_section(const Results& results) {
-  std::vector<std::pair<double, double>> plane;
-  for (const PointRecord& point : results.points)
-    plane.emplace_back(metric_of(point, "shadow_ms"), metric_of(point, "error"));
-  const std::vector<size_t> front = pareto_front(plane);
+std::string cost_section(const Results& results, const ShownPoints& shown) {
+  const std::vector<size_t> front = front_of(results, "error");
   std::string out = "<section id=\"cost\"><h2>Speed against accuracy</h2>\n";
   if (front.empty()) return out + "<p>No point has both a finite time and a finite error.</p></section>\n";
   out += "<p>These points are on the Pareto front: no other point is both faster and more accurate.</p>\n";
+  out += shown.note;
   if (results.points.size() > 1)
     out += chart_place("cost", "Error against the time of shadow map and lookup. The line is the Pareto front.");
   std::string rows;
+  std::unordered_set<int64_t> has_row;  // in "Every point", where the point's link leads
+  for (const PointRecord& point : shown.results.points) has_row.insert(point.id);
+  size_t count = 0;
   for (size_t i : front) {
     const PointRecord& point = results.points[i];
+    if (!has_row.contains(point.id)) continue;
+    ++count;
     rows += fmt::format("<tr>{}<td>{}</td><td>{}</td><td>{}</td></tr>\n", swept_cells(results, point),
-                        number(plane[i].first), cell(plane[i].second, "fraction"),
+                        number(metric_of(point, "shadow_ms")), cell(metric_of(point, "error"), "fraction"),
                         point.curve ? cell(point.curve->best_error, "fraction") : "–");
   }
-  out += folded("The Pareto front, with the bias as rendered", front.size(),
-                "<div class=\"scroll\"><table class=\"numbers\"><thead><tr>" + swept_head(results) +
-                    "<th>Shadow <small>ms</small></th><th>Error <small>%</small></th><th>Error at best bias "
-                    "<small>%</small></th></tr></thead><tbody>\n" +
-                    rows + "</tbody></table></div>\n");
+  out += folded(
+      count == front.size()
+          ? "The Pareto front, with the bias as rendered"
+          : fmt::format("{} of the {} points of the Pareto front, with the bias as rendered", count, front.size()),
+      count,
+      "<div class=\"scroll\"><table class=\"numbers\"><thead><tr>" + swept_head(results) +
+          "<th>Shadow <small>ms</small></th><th>Error <small>%</small></th><th>Error at best bias "
+          "<small>%</small></th></tr></thead><tbody>\n" +
+          rows + "</tbody></table></div>\n");
   return out + "</section>\n";
 }
 

@@ -1,15 +1,19 @@
-// The report's sections with a chart. Each is a function from results to HTML.
+// The report's sections with a chart. Each is a function from results to HTML: all points for what is counted, and the
+// points that are shown one by one.
 #pragma once
 #include <string>
 
+#include "compare/report/shown.h"
 #include "compare/store/records.h"
 
 namespace noonmark::report {
 
-std::string bias_section(const Results& results);    // error against bias: the chart's place and the windows' table
-std::string sweep_section(const Results& results);   // error against resolution, extent and other swept numbers
-std::string budget_section(const Results& results);  // bars by cause
-std::string cost_section(const Results& results);    // speed against accuracy
+// Error against bias: the chart's place and the windows' table.
+std::string bias_section(const Results& results, const ShownPoints& shown);
+// Error against resolution, extent and other swept numbers.
+std::string sweep_section(const Results& results, const ShownPoints& shown);
+std::string budget_section(const Results& results, const ShownPoints& shown);  // bars by cause
+std::string cost_section(const Results& results, const ShownPoints& shown);    // speed against accuracy
 
 // The figure that charts.js fills. It is hidden without JavaScript; the table below it has the same numbers.
 std::string chart_place(const std::string& name, const std::string& caption);

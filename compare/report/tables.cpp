@@ -93,8 +93,8 @@ std::string pictures_section(const Results& results, const std::function<std::st
   return out + "</div>\n<div class=\"picture-picker js-only\"></div>\n" + sets + "</section>\n";
 }
 
-std::string points_section(const Results& results) {
-  std::string out = "<section id=\"points\"><h2>Every point</h2>\n";
+std::string points_section(const Results& results, const ShownPoints& shown) {
+  std::string out = fmt::format("<section id=\"points\"><h2>{}</h2>\n", shown.note.empty() ? "Every point" : "Points");
   if (results.points.empty()) return out + "<p>No point was measured.</p></section>\n";
   const std::vector<Metric> metrics = metrics_of(results.points);
   std::vector<const Metric*> columns;
@@ -108,6 +108,7 @@ std::string points_section(const Results& results) {
                           quantity(metric_of(results.points.front(), name), metric.unit));
   }
   const bool parts = !results.points.front().part.empty();  // with parts the page has no chart of bias curves
+  out += shown.note;
   out += fmt::format("<p class=\"js-only small\">Click a head to sort{}.</p>\n",
                      parts ? "" : ", a row to see its bias curve");
   out += "<div class=\"scroll tall\"><table class=\"numbers sortable\"><thead><tr><th>Point</th>";
@@ -122,7 +123,7 @@ std::string points_section(const Results& results) {
         fmt::format("<th title=\"{}\">{}{}</th>", html(metric->help), html(metric_label(metric->name)),
                     head_unit(metric->unit).empty() ? "" : fmt::format(" <small>{}</small>", head_unit(metric->unit)));
   out += "</tr></thead><tbody>\n";
-  for (const PointRecord& point : results.points) {
+  for (const PointRecord& point : shown.results.points) {
     out += fmt::format("<tr id=\"p{0}\" data-point=\"{0}\"><th scope=\"row\" data-v=\"{0}\">{0}</th>", point.id);
     if (parts) out += fmt::format("<td class=\"text\" data-v=\"{0}\">{0}</td>", html(point.part));
     for (const std::string& name : results.info.swept) {

@@ -3,13 +3,14 @@
 #include <functional>
 #include <string>
 
+#include "compare/report/shown.h"
 #include "compare/store/records.h"
 
 namespace noonmark::report {
 
 // read_file: as for render_report().
 std::string pictures_section(const Results& results, const std::function<std::string(const std::string&)>& read_file);
-std::string points_section(const Results& results);
+std::string points_section(const Results& results, const ShownPoints& shown);
 std::string meaning_section(const Results& results);
 std::string making_section(const Results& results);
 

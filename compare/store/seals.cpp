@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -24,19 +25,19 @@ constexpr std::string_view point_tables[] = {"finished", "settings",     "metric
 constexpr std::string_view info_tables[] = {"info"};
 constexpr std::string_view verdict_tables[] = {"bounds", "laws", "law_samples"};
 
-std::string digest_of(Database& db, std::span<const std::string_view> tables, const std::string& where) {
+// point: only the rows of this point; otherwise all rows.
+std::string digest_of(Database& db, std::span<const std::string_view> tables, std::optional<int64_t> point = {}) {
   Digest digest;
   for (std::string_view table : tables) {
     digest.text(table);
-    for (Statement rows(db, fmt::format("SELECT * FROM {} {} ORDER BY 1, 2", table, where)); rows.step();)
-      rows.add_to(digest);
+    Statement rows(db, fmt::format("SELECT * FROM {} {} ORDER BY 1, 2", table, point ? "WHERE point = ?" : ""));
+    if (point) rows.bind(1, *point);
+    while (rows.step()) rows.add_to(digest);
   }
   return digest.hex();
 }
 
-std::string point_digest(Database& db, int64_t point) {
-  return digest_of(db, point_tables, fmt::format("WHERE point = {}", point));
-}
+std::string point_digest(Database& db, int64_t point) { return digest_of(db, point_tables, point); }
 
 std::string point_seal(int64_t point) { return fmt::format("point {}", point); }
 
@@ -53,8 +54,8 @@ bool holds(Database& db, const std::string& name, const std::string& digest) {
 }  // namespace
 
 void seal_point(Database& db, int64_t point) { set_seal(db, point_seal(point), point_digest(db, point)); }
-void seal_info(Database& db) { set_seal(db, "info", digest_of(db, info_tables, "")); }
-void seal_verdict(Database& db) { set_seal(db, "verdict", digest_of(db, verdict_tables, "")); }
+void seal_info(Database& db) { set_seal(db, "info", digest_of(db, info_tables)); }
+void seal_verdict(Database& db) { set_seal(db, "verdict", digest_of(db, verdict_tables)); }
 
 std::vector<int64_t> broken_points(Database& db) {
   std::set<int64_t> ids, broken;
@@ -66,7 +67,7 @@ std::vector<int64_t> broken_points(Database& db) {
   return {broken.begin(), broken.end()};
 }
 
-bool verdict_holds(Database& db) { return holds(db, "verdict", digest_of(db, verdict_tables, "")); }
+bool verdict_holds(Database& db) { return holds(db, "verdict", digest_of(db, verdict_tables)); }
 
 void require_sealed(Database& db) {
   const auto refuse = [&](const std::string& what) {
@@ -77,7 +78,7 @@ void require_sealed(Database& db) {
   };
   if (const std::vector<int64_t> broken = broken_points(db); !broken.empty())
     refuse(fmt::format("the rows of point {}", fmt::join(broken, ", ")));
-  if (!holds(db, "info", digest_of(db, info_tables, ""))) refuse("the facts of the run");
+  if (!holds(db, "info", digest_of(db, info_tables))) refuse("the facts of the run");
   if (!verdict_holds(db)) refuse("the bounds and laws");
 }
 

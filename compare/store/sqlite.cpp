@@ -82,7 +82,27 @@ std::string_view Database::way_out() const {
                                : "run the experiment into this folder again, with --overwrite";
 }
 
-Database::~Database() { sqlite3_close(handle_); }
+Database::~Database() {
+  for (const auto& [sql, statement] : free_) sqlite3_finalize(statement);
+  sqlite3_close(handle_);
+}
+
+sqlite3_stmt* Database::take(const std::string& sql) {
+  const auto found = free_.find(sql);
+  if (found == free_.end()) return nullptr;
+  sqlite3_stmt* const statement = found->second;
+  free_.erase(found);
+  return statement;
+}
+
+void Database::give_back(const std::string& sql, sqlite3_stmt* statement) {
+  constexpr size_t most_free = 64;
+  sqlite3_reset(statement);
+  sqlite3_clear_bindings(statement);
+  if (sqlite3_bind_parameter_count(statement) == 0 || free_.size() >= most_free ||
+      !free_.emplace(sql, statement).second)
+    sqlite3_finalize(statement);
+}
 
 void Database::execute(const std::string& sql) {
   const int code = sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr);
@@ -110,12 +130,13 @@ void Transaction::commit() {
   open_ = false;
 }
 
-Statement::Statement(Database& db, const std::string& sql) : db_(db) {
+Statement::Statement(Database& db, const std::string& sql) : db_(db), sql_(sql), handle_(db.take(sql)) {
+  if (handle_) return;
   check(sqlite3_prepare_v2(db.handle(), sql.c_str(), static_cast<int>(sql.size()), &handle_, nullptr),
         "cannot be read");
 }
 
-Statement::~Statement() { sqlite3_finalize(handle_); }
+Statement::~Statement() { db_.give_back(sql_, handle_); }
 
 void Statement::check(int code, std::string_view doing) const {
   if (code != SQLITE_OK) db_.fail(code, doing);

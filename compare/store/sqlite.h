@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -46,6 +47,13 @@ class Database {
   sqlite3* handle() const { return handle_; }
 
  private:
+  friend class Statement;
+  // Statements with parameters are compiled once and then lent to one Statement after the other, because compiling the
+  // statements of a point takes longer than running them. null: none is free.
+  sqlite3_stmt* take(const std::string& sql);
+  void give_back(const std::string& sql, sqlite3_stmt* statement);
+  std::unordered_map<std::string, sqlite3_stmt*> free_;
+
   std::string path_;
   Mode mode_;
   sqlite3* handle_ = nullptr;
@@ -101,6 +109,7 @@ class Statement {
   void finish();
   void check(int code, std::string_view doing) const;
   Database& db_;
+  std::string sql_;
   sqlite3_stmt* handle_ = nullptr;
 };
 

@@ -13,6 +13,7 @@
 
 #include "compare/store/check.h"
 #include "compare/store/fingerprint.h"
+#include "compare/store/journal.h"
 #include "compare/store/record_tables.h"
 #include "compare/store/schema.h"
 #include "compare/store/seals.h"
@@ -66,6 +67,12 @@ void bind_setting_value(Statement& insert, int index, const std::string& name, c
     }
   }
   insert.bind(index, text);
+}
+
+bool is_finished(Database& db, int64_t point) {
+  Statement rows(db, "SELECT 1 FROM finished WHERE point = ?");
+  rows.bind(1, point);
+  return rows.step();
 }
 
 void add_numbers(Database& db, const char* table, int64_t point, const std::map<std::string, double>& numbers) {
@@ -197,19 +204,21 @@ ResultStore::ResultStore(const std::string& path, const std::string& fingerprint
       seal_info(*db_);
       seal_verdict(*db_);
       transaction.commit();
-      return;
     }
   }
   check_store(*db_);
-  db_->execute("PRAGMA journal_mode = DELETE");  // another tool may have changed it
   const std::string there = this->fingerprint();
   if (there != fingerprint)
     throw OtherResults(fmt::format("{}: holds the results of another experiment ({}); {}", path,
                                    first_difference(fingerprint, there), db_->way_out()));
+  begin_writing(*db_);
+  writes_ = true;
 }
 
 ResultStore::ResultStore(std::unique_ptr<Database> db) : db_(std::move(db)) {}
-ResultStore::~ResultStore() = default;
+ResultStore::~ResultStore() {
+  if (db_ && writes_) end_writing(*db_);
+}
 ResultStore::ResultStore(ResultStore&&) noexcept = default;
 ResultStore& ResultStore::operator=(ResultStore&&) noexcept = default;
 
@@ -256,7 +265,7 @@ std::vector<std::string> ResultStore::repair(int64_t planned_points,
 
 void ResultStore::add(const PointRecord& point) {
   Transaction transaction(*db_);
-  if (db_->ask(fmt::format("SELECT 1 FROM finished WHERE point = {}", point.id)))
+  if (is_finished(*db_, point.id))
     throw Error(ErrorKind::usage,
                 fmt::format("point {} is in the result store already; let no two runs share one --out", point.id));
   Table<PointRecord>::Insert(*db_, finished_table()).row({point.id}, point);
@@ -280,7 +289,7 @@ void ResultStore::add(const PointRecord& point) {
 
 void ResultStore::set_pictures(int64_t point, const PointPictures& pictures) {
   Transaction transaction(*db_);
-  if (!db_->ask(fmt::format("SELECT 1 FROM finished WHERE point = {}", point)))
+  if (!is_finished(*db_, point))
     throw std::logic_error(fmt::format("pictures of point {}, which is not in the store", point));
   Statement(*db_, "DELETE FROM pictures WHERE point = ?").run(point);
   Statement(*db_, "DELETE FROM images WHERE point = ?").run(point);

@@ -10,8 +10,9 @@
 // tables behind it are info, settings, metrics, times, curves, curve_points, pictures, images, bounds, laws,
 // law_samples.
 //
-// - A point is one transaction, which is on the disk before add() returns. So a kill loses at most the point that is
-//   being measured. The journal is a rollback journal and not a write-ahead log, so that a finished store is one file.
+// - A point is one transaction, which is on the disk before add() returns. So a kill, or a power cut, loses at most the
+//   point that is being measured. While a run writes, and after a kill, the newest points may be in results.sqlite-wal
+//   (compare/store/journal.h): the files belong together. A finished store is one file.
 // - SQLite has no NaN. A metric that could not be measured (NaN) is a row whose value is NULL. A metric that was not
 //   recorded has no row. In `points` both are NULL, and `not_measured` counts the metrics of the first kind. Infinities
 //   are stored as infinities.
@@ -78,6 +79,7 @@ class ResultStore {
  private:
   explicit ResultStore(std::unique_ptr<sqlite::Database> db);
   std::unique_ptr<sqlite::Database> db_;
+  bool writes_ = false;  // the journal is that of begin_writing (compare/store/journal.h)
 };
 
 }  // namespace noonmark

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <random>
 
 #include "compare/store/store.h"
@@ -32,7 +33,15 @@ max = 1e-6
 )";
 constexpr int64_t points = 6;
 
-class PowerCut : public Program {
+struct Disk {
+  const char* name;
+  bool network;         // the folder claims to be on a network file system
+  const char* journal;  // the file that the store must have been written with
+};
+
+void PrintTo(const Disk& disk, std::ostream* out) { *out << disk.name; }
+
+class PowerCut : public Program, public testing::WithParamInterface<Disk> {
  protected:
   // Runs a check with its results in disk/new/out and returns what it did to the folder disk.
   std::vector<test::DiskStep> traced_check() {
@@ -41,18 +50,34 @@ class PowerCut : public Program {
       setenv("LD_PRELOAD", NOONMARK_PRELOAD_DISK, 1);
       setenv("NOONMARK_TEST_DISK_ROOT", (folder_ / "disk").c_str(), 1);
       setenv("NOONMARK_TEST_DISK_LOG", (folder_ / "trace").c_str(), 1);
+      if (GetParam().network) setenv("NOONMARK_TEST_DISK_NETWORK", "1", 1);
     };
     EXPECT_EQ(run({"check", write("sweep.toml", sweep), "--out", "disk/new/out"}, prepare), 0) << output_;
     return test::read_trace((folder_ / "trace").string());
   }
 };
 
-TEST_F(PowerCut, LosesNothingThatWasSaidToBeMeasured) {
+TEST_P(PowerCut, LosesNothingThatWasSaidToBeMeasured) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "AddressSanitizer must be loaded before anything else";
 #endif
   const std::vector<test::DiskStep> steps = traced_check();
   ASSERT_GT(steps.size(), 300u);
+  // The journal of this kind of file system is the one that took the points, and a finished store is one file.
+  const std::string journal = GetParam().journal;
+  EXPECT_GT(std::count_if(steps.begin(), steps.end(),
+                          [&](const test::DiskStep& step) {
+                            return step.op == test::DiskOp::create && step.path.ends_with(journal);
+                          }),
+            0);
+  EXPECT_EQ(std::count_if(steps.begin(), steps.end(),
+                          [](const test::DiskStep& step) {
+                            return step.op == test::DiskOp::create && step.path.ends_with("-shm");
+                          }),
+            GetParam().network ? 0 : 1)
+      << "shared memory is for file systems of this machine";
+  for (const char* ending : {"-journal", "-wal", "-shm"})
+    EXPECT_FALSE(fs::exists(folder_ / ("disk/new/out/results.sqlite" + std::string(ending)))) << ending;
   const std::string root = (folder_ / "disk").string(), after = (folder_ / "after").string();
   const std::string store = "/new/out/results.sqlite";
   const Results whole = ResultStore::open(root + store).load();
@@ -118,6 +143,11 @@ TEST_F(PowerCut, LosesNothingThatWasSaidToBeMeasured) {
   for (const auto& entry : fs::recursive_directory_iterator(root)) files -= entry.is_regular_file();
   EXPECT_EQ(files, 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(Disks, PowerCut,
+                         testing::Values(Disk{"Local", false, "results.sqlite-wal"},
+                                         Disk{"Network", true, "results.sqlite-journal"}),
+                         [](const auto& disk) { return disk.param.name; });
 
 }  // namespace
 }  // namespace noonmark::acceptance

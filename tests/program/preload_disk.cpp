@@ -2,9 +2,11 @@
 // the call did to files below the folder NOONMARK_TEST_DISK_ROOT (both absolute). Format: tests/program/disk_trace.h.
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <linux/magic.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/types.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <cstdarg>
@@ -171,6 +173,17 @@ TRUNCATE(ftruncate64, off64_t)
   }
 SYNC(fsync)
 SYNC(fdatasync)
+
+// With NOONMARK_TEST_DISK_NETWORK the folder claims to be on a network file system (NFS).
+#define STATFS(name)                                                                                \
+  int name(const char* path, struct name* status) {                                                 \
+    static const auto real = next<int(const char*, struct name*)>(#name);                           \
+    const int result = real(path, status);                                                          \
+    if (result == 0 && std::getenv("NOONMARK_TEST_DISK_NETWORK")) status->f_type = NFS_SUPER_MAGIC; \
+    return result;                                                                                  \
+  }
+STATFS(statfs)
+STATFS(statfs64)
 
 int rename(const char* from, const char* to) {
   static const auto real = next<int(const char*, const char*)>("rename");

@@ -15,16 +15,18 @@ const auto any_point = [](const PointRecord&) { return true; };
 class StoreSeals : public testing::Test {
  protected:
   void SetUp() override {
-    ResultStore store(whole, "x = 1\n", Existing::overwrite);
-    store.set_info(sample_info(), 3);
-    for (int id = 0; id < 3; ++id) store.add(sample_point(id));
-    BoundResult bound;
-    bound.metric = "acne";
-    bound.max = 0.1;
-    bound.found = 0.2;
-    store.set_bounds({bound});
-    store.set_laws({sample_law()});
-    afresh();
+    {
+      ResultStore store(whole, "x = 1\n", Existing::overwrite);
+      store.set_info(sample_info(), 3);
+      for (int id = 0; id < 3; ++id) store.add(sample_point(id));
+      BoundResult bound;
+      bound.metric = "acne";
+      bound.max = 0.1;
+      bound.found = 0.2;
+      store.set_bounds({bound});
+      store.set_laws({sample_law()});
+    }
+    afresh();  // of the closed store, because an open one has its newest rows in its log
   }
   void afresh() { std::filesystem::copy_file(whole, path, std::filesystem::copy_options::overwrite_existing); }
   void edit(const std::string& sql) {
