@@ -7,8 +7,16 @@
 
 namespace noonmark {
 
+namespace {
+
+std::optional<MapTile> tile_of_flat(const LightFrame& frame) {
+  return frame.tiles == 1 && frame.map_shape() == MapShape::flat ? std::optional(frame.tile(0)) : std::nullopt;
+}
+
+}  // namespace
+
 LightView::LightView(const Scene& scene, const LightFrame& frame)
-    : scene_(&scene), frame_(frame), rays_(frame.light().rays()) {
+    : scene_(&scene), frame_(frame), rays_(frame.light().rays()), only_tile_(tile_of_flat(frame)) {
   const auto geometry = std::make_shared<Geometry>();
   geometry_ = geometry;
   std::vector<glm::dvec3>& vertices = geometry->vertices;
@@ -57,6 +65,7 @@ LightView LightView::with_map_of(const LightFrame& frame) const {
   if (!same_light(frame)) throw std::logic_error("a map of another light than the one that the scene was seen by");
   LightView view = *this;
   view.frame_ = frame;
+  view.only_tile_ = tile_of_flat(frame);
   return view;
 }
 
@@ -99,7 +108,5 @@ void LightView::first_hits(const EmbreeScene& embree, int count, const glm::dvec
       if (!edge_on(t) && (hits[i] == no_primitive || hit_depth(t, x[i]) < hit_depth(hits[i], x[i]))) hits[i] = t;
   }
 }
-
-double LightView::near_depth(glm::dvec3 x) const { return frame_.tile_at(x).near_depth(x); }
 
 }  // namespace noonmark

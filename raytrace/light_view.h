@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "raytrace/embree_scene.h"
@@ -35,7 +36,12 @@ class LightView {
 
   glm::dvec3 normal_place(glm::dvec3 place) const { return frame_.light().normal_place(place); }
   glm::dvec3 place_of(glm::dvec3 light) const { return normal_place(frame_.place(light)); }
-  glm::dvec3 texel_place(glm::ivec2 texel) const { return normal_place(frame_.texel_place(texel)); }
+  glm::dvec3 texel_place(glm::ivec2 texel) const {
+    // The places of a flat map's texels are normalised already.
+    return only_tile_ ? only_tile_->place_of(texel) : normal_place(frame_.texel_place(texel));
+  }
+  // The tile that a lookup at this place reads.
+  MapTile tile_at(glm::dvec3 x) const { return only_tile_ ? *only_tile_ : frame_.tile_at(x); }
 
   double orientation(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b) const { return rays_.orientation(p, a, b); }
   double orientation(uint32_t triangle) const {
@@ -99,7 +105,9 @@ class LightView {
   void first_hits(const EmbreeScene& embree, int count, const glm::dvec3* x, uint32_t* hits) const;
 
   // Depth at which the map's near plane cuts the ray through x.
-  double near_depth(glm::dvec3 x) const;
+  double near_depth(glm::dvec3 x) const {
+    return only_tile_ ? only_tile_->near_depth(x) : frame_.tile_at(x).near_depth(x);
+  }
 
   // The float error of a light-side ray: how far it may pass beside its exact place, in metres. It comes from the
   // rounding of the ray's float origin and direction and of Embree's edge tests over the scene's size (4 roundings of
@@ -127,6 +135,7 @@ class LightView {
   const Scene* scene_;
   LightFrame frame_;
   LightRays rays_;
+  std::optional<MapTile> only_tile_;  // of a map with one tile
   std::shared_ptr<const Geometry> geometry_;
   const glm::dvec3* vertices_ = nullptr;  // of geometry_
   const Plane* planes_ = nullptr;

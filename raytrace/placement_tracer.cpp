@@ -61,7 +61,7 @@ void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTim
   Impl& l = *impl_;
   const StageWatch watch(stage, l.traced.device);
   l.lattice.reset();  // freed before the next is made, because it is large
-  l.lattice.emplace(l.raster, l.view, l.drawn, l.placements, l.map.wrap);
+  l.lattice.emplace(l.raster, l.view, l.drawn, l.placements, l.map);
   PlacedTaps taps;
   for (size_t i = strip.first; i < strip.end; ++i) {
     if (!l.truth.facing[i]) continue;
@@ -93,20 +93,23 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
   // Without a silhouette in the box, a lit receiver's surface is lit all over it (the rule of OwnSurface).
   const bool all_lit = p.lit && nearby.none();
 
+  thread_local std::vector<TexelLattice::Point> found;
+  l.lattice->read(taps, found);
+  const auto bits_of = [](OwnSurface::Verdict v, bool clipped) {
+    return static_cast<uint8_t>((v.lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
+                                (v.sure ? 0 : tap_texel_unsure));
+  };
   for (size_t tap = 0; tap < taps.column.size(); tap += side)
     for (size_t j = 0; j < side; ++j)
       for (size_t i = 0; i < side; ++i) {
         const glm::ivec2 k(taps.column[tap + i], taps.row[tap + j]);
         const size_t n = taps.index(k.x, k.y);
         if (box.bits[n] != lattice_unknown) continue;
-        const uint32_t hit = l.lattice->hit(k);
-        const glm::dvec3 x = l.view.texel_place(k);
-        const OwnSurface::Verdict v =
-            all_lit ? OwnSurface::Verdict{true, !p.on_silhouette} : l.surface.lit_at(p, x, hit, nearby);
-        const bool clipped = !l.map.depth_clamp && l.surface.clipped(hit, x);
-        box.bits[n] = static_cast<uint8_t>((v.lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
-                                           (v.sure ? 0 : tap_texel_unsure));
-        box.depth[n] = l.lattice->depth(k);
+        const TexelLattice::Point& at = found[n];
+        const OwnSurface::Verdict v = all_lit ? OwnSurface::Verdict{true, !p.on_silhouette}
+                                              : l.surface.lit_at(p, l.view.texel_place(k), at.hit, nearby);
+        box.bits[n] = bits_of(v, at.clipped);
+        box.depth[n] = at.depth;
       }
 }
 

@@ -31,8 +31,7 @@ class PlacementTracer {
 
   // Traces the lattice points that the taps of these pixels read, at all placements or at one. They replace those of
   // another strip.
-  void trace(const PlacedProbe& probe, PixelRange strip, StageTime* stage = nullptr,
-             std::optional<int> placement = {});
+  void trace(const PlacedProbe& probe, PixelRange strip, StageTime* stage = nullptr, std::optional<int> placement = {});
 
   // The verdicts and depths at the points that the taps of this facing receiver read. It may be called from several
   // threads. box: its memory is used again.

@@ -8,12 +8,13 @@
 namespace noonmark::raytrace {
 
 TexelLattice::TexelLattice(const LatticeRaster& raster, const LightView& view, const DrawnMap& drawn,
-                           const Placements& placements, Wrap wrap)
+                           const Placements& placements, const MapSettings& settings)
     : raster_(raster),
       view_(view),
       drawn_(drawn),
       placements_(placements),
-      wrap_(wrap),
+      wrap_(settings.wrap),
+      depth_clamp_(settings.depth_clamp),
       size_(view.frame().map_size() / placements.side()) {}
 
 void TexelLattice::want(glm::ivec2 low, glm::ivec2 high) {
@@ -54,11 +55,51 @@ std::optional<glm::ivec2> TexelLattice::read_at(glm::ivec2 point) const {
   return point + (read - texel) * placements_.side();
 }
 
-float TexelLattice::depth(glm::ivec2 point) const {
-  const std::optional<glm::ivec2> read = inside(point) ? point : read_at(point);
-  if (!read) return border_depth;
-  const Tile& tile = tile_of(*read);
-  return tile.depth[tile.index(*read)];
+TexelLattice::Point TexelLattice::at(glm::ivec2 point) const {
+  const Tile& tile = tile_of(point);
+  const size_t index = tile.index(point);
+  Point found{tile.hit[index], tile.clipped[index] != 0, tile.depth[index]};
+  if (inside(point)) return found;
+  const std::optional<glm::ivec2> read = read_at(point);
+  found.depth = border_depth;
+  if (read) {
+    const Tile& other = tile_of(*read);
+    found.depth = other.depth[other.index(*read)];
+  }
+  return found;
+}
+
+void TexelLattice::read(const PlacedTaps& taps, std::vector<Point>& points) const {
+  const glm::ivec2 size = taps.size(), first = tile_at(taps.low), last = tile_at(taps.high);
+  points.resize(static_cast<size_t>(size.x) * static_cast<size_t>(size.y));
+  if (!inside(taps.low) || !inside(taps.high)) {
+    const auto side_of_taps = static_cast<size_t>(taps.side);
+    for (size_t tap = 0; tap < taps.column.size(); tap += side_of_taps)
+      for (size_t j = 0; j < side_of_taps; ++j)
+        for (size_t i = 0; i < side_of_taps; ++i) {
+          const glm::ivec2 k(taps.column[tap + i], taps.row[tap + j]);
+          points[taps.index(k.x, k.y)] = at(k);
+        }
+    return;
+  }
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x) {
+      const auto found = tiles_.find(key({x, y}));
+      if (found == tiles_.end()) continue;  // no tap reads this part of the box
+      const Tile& tile = *found->second;
+      const glm::ivec2 from = glm::max(taps.low, glm::ivec2(x, y) * side);
+      const glm::ivec2 to = glm::min(taps.high, glm::ivec2(x, y) * side + (side - 1));
+      const int begin = from.x & (side - 1), end = to.x & (side - 1);
+      const uint64_t columns = (~uint64_t{0} >> (side - 1 - end)) & (~uint64_t{0} << begin);
+      for (int row = from.y; row <= to.y; ++row) {
+        const uint64_t bits = tile.wanted[static_cast<size_t>(row & (side - 1))] & columns;
+        if (!bits) continue;
+        size_t index = tile.index({x * side + std::countr_zero(bits), row});
+        Point* const out = &points[taps.index(from.x, row)];
+        for (uint64_t rest = bits; rest; rest &= rest - 1, ++index)
+          out[std::countr_zero(rest) - begin] = {tile.hit[index], tile.clipped[index] != 0, tile.depth[index]};
+      }
+    }
 }
 
 void TexelLattice::trace() {
@@ -81,6 +122,7 @@ void TexelLattice::trace(glm::ivec2 at, std::span<const uint32_t> candidates, Ti
   }
   tile.hit.assign(wanted, no_primitive);
   tile.depth.assign(wanted, 1.0f);
+  tile.clipped.assign(wanted, 0);
   raster_.hits(at, candidates, tile.wanted, tile.hit);
 
   glm::dvec3 places[packet_size];
@@ -88,6 +130,11 @@ void TexelLattice::trace(glm::ivec2 at, std::span<const uint32_t> candidates, Ti
   int count = 0;
   const auto flush = [&] {
     drawn_.depths(count, places, &tile.hit[first], &tile.depth[first]);
+    for (int i = 0; i < count; ++i) {
+      const auto at_place = first + static_cast<size_t>(i);
+      tile.clipped[at_place] = !depth_clamp_ && tile.hit[at_place] != no_primitive &&
+                               view_.hit_depth(tile.hit[at_place], places[i]) < view_.near_depth(places[i]);
+    }
     first += static_cast<size_t>(count);
     count = 0;
   };

@@ -2,10 +2,10 @@
 // that receivers look up and for no others. The points lie in tiles of 64 x 64; points that nobody asks for
 // take a bit each, and tiles that nobody asks for take nothing.
 //
-//   TexelLattice lattice(raster, view, drawn, placements, settings.map.wrap);
+//   TexelLattice lattice(raster, view, drawn, placements, settings.map);
 //   lattice.want(taps);                  // for each receiver
 //   lattice.trace();
-//   uint32_t triangle = lattice.hit({120, 71});
+//   lattice.read(taps, points);
 #pragma once
 #include <array>
 #include <bit>
@@ -31,7 +31,7 @@ class TexelLattice {
 
   // raster, view: of the lattice's frame, Placements::lattice(). All references must outlive this object.
   TexelLattice(const LatticeRaster& raster, const LightView& view, const DrawnMap& drawn, const Placements& placements,
-               Wrap wrap);
+               const MapSettings& settings);
 
   // Asks for the points that these taps read; and, where a point's texel lies outside the map, for the point of the
   // texel that `wrap` reads in its stead.
@@ -39,13 +39,17 @@ class TexelLattice {
   // Finds the first hits of the points that were asked for.
   void trace();
 
-  // After trace(), at a point that was asked for: the triangle that its ray meets first, or no_primitive; and the window
-  // depth that the map of the point's placement gives to a lookup there.
-  uint32_t hit(glm::ivec2 point) const {
-    const Tile& tile = tile_of(point);
-    return tile.hit[tile.index(point)];
-  }
-  float depth(glm::ivec2 point) const;
+  // After trace(), at a point that was asked for: the triangle that its ray meets first, or no_primitive; whether the
+  // map's near plane clips it; and the window depth that the map of the point's placement gives to a lookup there.
+  struct Point {
+    uint32_t hit = no_primitive;
+    bool clipped = false;
+    float depth = border_depth;
+  };
+  Point at(glm::ivec2 point) const;
+  // The same for the box of some taps, point by point in the order of PlacedTaps::index. Points that no tap reads are
+  // left as they are. Its memory is used again.
+  void read(const PlacedTaps& taps, std::vector<Point>& points) const;
 
   uint64_t points() const { return points_; }
 
@@ -55,6 +59,7 @@ class TexelLattice {
     std::array<uint16_t, side> first{};   // the index of each row's first wanted point in the lists
     std::vector<uint32_t> hit;            // of the wanted points
     std::vector<float> depth;
+    std::vector<uint8_t> clipped;  // 1: the near plane clips the first hit
     size_t index(glm::ivec2 point) const {
       const auto row = static_cast<size_t>(point.y & 63);
       const uint64_t before = wanted[row] & ((uint64_t{1} << (point.x & 63)) - 1);
@@ -78,6 +83,7 @@ class TexelLattice {
   const DrawnMap& drawn_;
   Placements placements_;
   Wrap wrap_;
+  bool depth_clamp_;
   glm::ivec2 size_;  // of the map, in texels
   std::unordered_map<uint64_t, std::unique_ptr<Tile>> tiles_;
   uint64_t points_ = 0;
