@@ -17,12 +17,14 @@
 #include "app/build_facts.h"
 #include "app/experiment.h"
 #include "app/failure.h"
+#include "app/phase_diagram.h"
 #include "app/retract.h"
 #include "app/terminal.h"
 #include "app/threads.h"
 #include "app/verbs.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
+#include "technique/placements.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -100,7 +102,7 @@ int run(int argc, char** argv) {
 
   ExperimentArguments arguments;
   arguments.command = joined(argc, argv);
-  std::string experiment, folder, picture;
+  std::string experiment, folder, picture, scene;
   std::vector<std::string> paths;
   bool dry_run = false;
   long point = -1;
@@ -159,6 +161,40 @@ int run(int argc, char** argv) {
   with_choices(render);
   with_out(render, "Folder for the files (default: out/render)");
 
+  PhaseOptions phase;
+  CLI::App* map = app.add_subcommand(
+      "map", "Draw a scene's phase diagram: which texel sizes and biases are usable, and what is wrong elsewhere");
+  map->add_option("scene", scene, "A built-in scene, or the path of a .gltf or .glb file")
+      ->required()
+      ->check(not_empty);
+  map->add_option("--set", arguments.sets,
+                  "Override a setting: name=value (noonmark settings lists them). May be repeated")
+      ->expected(1)
+      ->take_all()
+      ->type_name("NAME=VALUE");
+  const auto share = [](double& to, const char* name, const char* what, CLI::App* verb) {
+    verb->add_option(name, to, what)->check(CLI::Range(0.0, 1.0))->type_name("FRACTION")->capture_default_str();
+  };
+  share(phase.acne_bound, "--acne", "The most acne of a usable pair, as a fraction of the counted receivers", map);
+  share(phase.peter_panning_bound, "--peter-panning", "The most Peter Panning of a usable pair", map);
+  map->add_option("--from", phase.coarsest, "The coarsest texels: resolution at the present extent")
+      ->check(whole_number(4, 16384, "from 4 to 16384"))
+      ->capture_default_str();
+  map->add_option("--to", phase.finest, "The finest texels")
+      ->check(whole_number(4, 16384, "from 4 to 16384"))
+      ->capture_default_str();
+  map->add_option("--rows", phase.rows, "Number of texel sizes")
+      ->check(whole_number(2, 200, "from 2 to 200"))
+      ->capture_default_str();
+  map->add_option("--placements", phase.placements, "S: each texel size is measured at S x S placements of its grid")
+      ->check(whole_number(1, Placements::most, "from 1 to 64"))
+      ->capture_default_str();
+  map->add_option("--threads", arguments.threads,
+                  "Number of threads (default: one for each core); no result depends on it")
+      ->check(whole_number(1, 1024, "from 1 to 1024"));
+  map->footer(exit_codes);
+  with_out(map, "Folder for the files (default: out/map-<name of the scene>)");
+
   CLI::App* report = app.add_subcommand("report", "Write report.html and results.csv again from stored results");
   report->add_option("folder", folder, "The results' folder")->required()->check(not_empty);
 
@@ -178,10 +214,11 @@ int run(int argc, char** argv) {
     if (argc > 1) refuse_unknown(argv[1], verbs);
     app.parse(argc, argv);
     std::optional<ThreadLimit> limit;
-    if (*run || *check || *render) limit.emplace(arguments.threads);
+    if (*run || *check || *render || *map) limit.emplace(arguments.threads);
     if (*run) return verb_run(experiment, arguments, dry_run);
     if (*check) return verb_check(paths, arguments);
     if (*render) return verb_render(experiment, point, picture, arguments);
+    if (*map) return verb_map(scene, phase, arguments);
     if (*report) return verb_report(folder);
     if (*scenes) return verb_scenes();
     if (*settings) return verb_settings();

@@ -23,16 +23,18 @@ std::vector<Image<glm::vec2>> positions_of(gl::Renderer& renderer, const Placeme
 
 }  // namespace
 
-PlacementStage::PlacementStage(gl::Renderer& renderer, const raytrace::Tracer& tracer, const LookupStage& lookup,
+PlacementStage::PlacementStage(gl::Renderer& renderer, const raytrace::Tracer& tracer, const LookupProbe& probe,
                                const ViewStage& view, const TruthStage& truth, const PointSetup& point,
                                const BiasPart* part, std::vector<float> edges)
     : placements_(point.settings.map.placements),
       frame_(point.frame),
       truth_(truth.receivers),
-      probe_(placements_, lookup.probe, positions_of(renderer, placements_, lookup.probe, point)),
+      map_(point.settings.map),
+      bias_(point.settings.bias),
+      probe_(placements_, probe, positions_of(renderer, placements_, probe, point)),
       rays_(tracer.placements(view.receivers, truth.receivers, point.frame, placements_, point.settings.map,
                               Bias(point.settings.bias), polygon_offset_unit(renderer, point.settings))),
-      counts_(placements_, lookup.probe, part, std::move(edges)) {}
+      counts_(placements_, probe, part, std::move(edges)) {}
 
 template <class Visit>
 void PlacementStage::in_parts(PixelRange strip, size_t points, const Visit& visit) const {
@@ -41,16 +43,17 @@ void PlacementStage::in_parts(PixelRange strip, size_t points, const Visit& visi
     visit(PixelRange{first, std::min(strip.end, first + pixels)});
 }
 
-void PlacementStage::add(const LookupEvidence& evidence, PixelRange strip) {
+void PlacementStage::add(const TapTruth& known, PixelRange strip) {
+  const PlacementEvidence evidence{truth_, probe_.probe(), known, map_, bias_, frame_.map_size()};
   in_parts(strip, static_cast<size_t>(placements_.count()), [&](PixelRange part) {
     rays_.trace(probe_, part, &time_);
     // The same partition on any machine, so that the sums of weights are too.
     struct Body {
       const PlacementStage& stage;
-      const LookupEvidence& evidence;
+      const PlacementEvidence& evidence;
       PlacementCounts counts;
-      uint64_t disagreements = 0;
-      Body(const PlacementStage& s, const LookupEvidence& e) : stage(s), evidence(e), counts(s.counts_.empty_copy()) {}
+      Body(const PlacementStage& s, const PlacementEvidence& e)
+          : stage(s), evidence(e), counts(s.counts_.empty_copy()) {}
       Body(Body& other, tbb::split) : Body(other.stage, other.evidence) {}
       void operator()(const tbb::blocked_range<size_t>& range) {
         PlacedTaps taps;
@@ -60,18 +63,13 @@ void PlacementStage::add(const LookupEvidence& evidence, PixelRange strip) {
           stage.probe_.taps_of(i, taps);
           stage.rays_.judge(i, taps, box);
           counts.add(evidence, i, taps, box);
-          disagreements += noonmark::disagreements(evidence, i, taps, box);
         }
       }
-      void join(const Body& other) {
-        counts.add(other.counts);
-        disagreements += other.disagreements;
-      }
+      void join(const Body& other) { counts.add(other.counts); }
     } body(*this, evidence);
     tbb::parallel_deterministic_reduce(
         tbb::blocked_range<size_t>(part.first, part.end, std::max<size_t>(1, part.size() / 16)), body);
     counts_.add(body.counts);
-    disagreements_ += body.disagreements;
   });
 }
 

@@ -29,16 +29,6 @@ double scene_behind(const Scene& scene, const Camera& camera) {
   return static_cast<double>(behind) / static_cast<double>(scene.positions.size());
 }
 
-// Whole rows of the picture: as many as have room for their taps in this many bytes, at least one.
-std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t strip_bytes) {
-  const auto width = static_cast<size_t>(settings.view.width_px), height = static_cast<size_t>(settings.view.height_px);
-  const size_t row_bytes = width * static_cast<size_t>(tap_pattern(settings.filter).taps) * bytes_per_tap(light);
-  const size_t rows = std::clamp<size_t>(strip_bytes / row_bytes, 1, height);
-  std::vector<PixelRange> strips;
-  for (size_t row = 0; row < height; row += rows) strips.push_back({row * width, std::min(row + rows, height) * width});
-  return strips;
-}
-
 // Traces the truth of this strip's taps, which replaces that of another strip.
 void bring_taps(gl::Renderer& renderer, LookupStage& lookup, const PointSetup& point, PixelRange strip) {
   lookup.taps = {};  // freed before the next is made, because it is large
@@ -52,6 +42,15 @@ LookupEvidence evidence_of(const LookupStage& l, const TruthStage& truth, const 
 }
 
 }  // namespace
+
+std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t strip_bytes) {
+  const auto width = static_cast<size_t>(settings.view.width_px), height = static_cast<size_t>(settings.view.height_px);
+  const size_t row_bytes = width * static_cast<size_t>(tap_pattern(settings.filter).taps) * bytes_per_tap(light);
+  const size_t rows = std::clamp<size_t>(strip_bytes / row_bytes, 1, height);
+  std::vector<PixelRange> strips;
+  for (size_t row = 0; row < height; row += rows) strips.push_back({row * width, std::min(row + rows, height) * width});
+  return strips;
+}
 
 double polygon_offset_unit(gl::Renderer& renderer, const Settings& settings) {
   return Bias(settings.bias).polygon_offset() ? renderer.polygon_offset_unit(settings.map.format) : 0;

@@ -82,6 +82,9 @@ struct Climbed {
 
 using EachStrip = std::function<void(const LookupEvidence&, PixelRange)>;
 
+// Whole rows of the picture: as many as have room for their taps in this many bytes, at least one.
+std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t strip_bytes);
+
 // gl::Renderer::polygon_offset_unit, or 0 if the bias has no polygon offset.
 double polygon_offset_unit(gl::Renderer& renderer, const Settings& settings);
 

@@ -4,6 +4,10 @@
 #include <vector>
 
 namespace noonmark {
+struct PhaseOptions;
+}
+
+namespace noonmark {
 
 struct ExperimentArguments {
   std::vector<std::string> sets;   // --set name=value, in order
@@ -21,6 +25,8 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
 // only. picture: a file that is judged in place of R5, or empty.
 int verb_render(const std::string& experiment, long point, const std::string& picture,
                 const ExperimentArguments& arguments);
+// The phase diagram of a scene: a built-in one, or a file.
+int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentArguments arguments);
 int verb_report(const std::string& folder);
 int verb_scenes();
 int verb_settings();

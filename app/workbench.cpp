@@ -105,6 +105,25 @@ struct Workbench::Impl {
     return scene.get(settings_key(settings, {Stage::scene}), [&] { return stages->load_scene(renderer, settings); });
   }
 
+  struct Looked {
+    const ViewStage& view;
+    const TruthStage& truth;
+  };
+  // The receivers and their truth; the receivers are then on the device.
+  Looked look(const SceneStage& loaded, const PointSetup& point) {
+    const Settings& settings = point.settings;
+    const std::string view_key = settings_key(settings, {Stage::scene, Stage::view});
+    const ViewStage& seen =
+        view.get(view_key, [&] { return stages->take_view(renderer, *loaded.scene, settings.view); });
+    const TruthStage& traced = truth.get(settings_key(settings, {Stage::scene, Stage::view, Stage::truth}),
+                                         [&] { return stages->trace_truth(loaded, seen, point); });
+    if (receivers_on_device != view_key) {
+      renderer.load_receivers(seen.receivers, seen.camera.eye_m);
+      receivers_on_device = view_key;
+    }
+    return {seen, traced};
+  }
+
   void add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen, const TruthStage& traced,
                       const PointSetup& point);
 
@@ -196,6 +215,14 @@ void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placem
   add_time(record, "placement", placements.time());
 }
 
+PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& options) {
+  validate(settings);
+  const SceneStage& loaded = impl_->load(settings);
+  const LightFrame frame = make_light_frame(*loaded.scene, settings);
+  const auto [view, truth] = impl_->look(loaded, {settings, frame});
+  return measure_phase(impl_->renderer, *loaded.tracer, *loaded.scene, view, truth, settings, options);
+}
+
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
                                std::optional<RungOnTop> on_top) {
   validate(settings);
@@ -205,14 +232,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const LightFrame frame = make_light_frame(scene, settings);
   const PointSetup point{settings, frame};
 
-  const std::string view_key = settings_key(settings, {Stage::scene, Stage::view});
-  const ViewStage& view = b.view.get(view_key, [&] { return b.stages->take_view(b.renderer, scene, settings.view); });
-  const TruthStage& truth = b.truth.get(settings_key(settings, {Stage::scene, Stage::view, Stage::truth}),
-                                        [&] { return b.stages->trace_truth(loaded, view, point); });
-  if (b.receivers_on_device != view_key) {
-    b.renderer.load_receivers(view.receivers, view.camera.eye_m);
-    b.receivers_on_device = view_key;
-  }
+  const auto [view, truth] = b.look(loaded, point);
   const MapStage& map = b.map.get(settings_key(settings, {Stage::scene, Stage::map}),
                                   [&] { return b.stages->draw_map(b.renderer, scene, point); });
   LookupStage& lookup = b.lookup.get(lookup_key_of(settings), [&] {
@@ -228,9 +248,12 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   EachStrip each_strip;
   if (settings.map.placements > 1) {
     placements.emplace(
-        b.renderer, *loaded.tracer, lookup, view, truth, point, unknown,
+        b.renderer, *loaded.tracer, lookup.probe, view, truth, point, unknown,
         unknown ? placement_edges(biases_of(*curve_options), scale.depth_per_unit) : std::vector<float>());
-    each_strip = [&](const LookupEvidence& evidence, PixelRange strip) { placements->add(evidence, strip); };
+    each_strip = [&](const LookupEvidence& evidence, PixelRange strip) {
+      placements->add(evidence.taps, strip);
+      placements->compare(evidence, 0, strip);
+    };
   }
   Climbed climbed = b.stages->climb_strips(b.renderer, map, lookup, view, truth, shown, point, unknown, each_strip);
   if (on_top) add_rung(climbed.ladder, std::move(*on_top));

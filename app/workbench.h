@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "app/phase_diagram.h"
 #include "app/stages.h"
 #include "compare/store/records.h"
 
@@ -43,6 +44,9 @@ class Workbench {
   // judged in place of R5. Throws Error.
   Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
                       std::optional<RungOnTop> on_top = {});
+
+  // The phase diagram of the scene under these settings (phase_settings()). Throws Error.
+  PhaseDiagram phase(const Settings& settings, const PhaseOptions& options);
 
   // The peak memory that measure() would take. pictures: whether its pictures and EXR files are written. Throws Error.
   MemoryEstimate memory(const Settings& settings, bool curve, bool pictures);

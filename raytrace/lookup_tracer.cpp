@@ -71,6 +71,15 @@ Image<float> LookupTracer::trace_map(StageTime* stage) {
 
 TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Image<float>& edge_distance_texels,
                                   StageTime* stage) {
+  return trace(probe, strip, &edge_distance_texels, stage);
+}
+
+TapTruth LookupTracer::trace_places(const LookupProbe& probe, PixelRange strip, StageTime* stage) {
+  return trace(probe, strip, nullptr, stage);
+}
+
+TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<float>* edge_distance_texels,
+                             StageTime* stage) {
   Impl& l = *impl_;
   const StageWatch watch(stage, l.traced.device);
   const OwnSurface surface(l.traced.embree, l.traced.adjacency, l.view, l.light->silhouettes());
@@ -94,7 +103,7 @@ TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Im
       points[active] = surface.point(at[active], l.traced.adjacency.first(l.receivers.primitive[first + i]),
                                      l.truth.lit[first + i] != 0);
       looked_up[active] = frame.to_light(l.bias.looked_up(frame, p, normal));
-      edge_distance_texels[first + static_cast<size_t>(i)] = 0;
+      if (edge_distance_texels) (*edge_distance_texels)[first + static_cast<size_t>(i)] = 0;
       lanes[active++] = i;
     }
     if (active == 0) return;
@@ -128,21 +137,23 @@ TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Im
       }
       for (int k = 0; k < active; ++k) {
         const size_t pixel = first + static_cast<size_t>(lanes[k]);
+        const bool exact_lit = exact[k].lit, moved_lit = moved[k].lit;
+        uint8_t& bits = result.taps[(pixel - strip.first) * static_cast<size_t>(taps) + static_cast<size_t>(tap)];
+        bits = static_cast<uint8_t>((exact_lit ? tap_exact_lit : 0) | (moved_lit != exact_lit ? tap_displaced : 0) |
+                                    (exact[k].sure ? 0 : tap_exact_unsure) | (moved[k].sure ? 0 : tap_moved_unsure));
+        if (!edge_distance_texels) continue;
         const glm::ivec2 texel = probe.texel(pixel, tap);
         const uint32_t hit = l.texels.hit(texel);
         const glm::dvec3 centre = view.texel_place(texel);
         const OwnSurface::Verdict at_texel = surface.lit_at(points[k], centre, hit);
-        const bool exact_lit = exact[k].lit, moved_lit = moved[k].lit, texel_lit = at_texel.lit;
-        const bool clipped = !l.map.depth_clamp && surface.clipped(hit, centre);
-        result.taps[(pixel - strip.first) * static_cast<size_t>(taps) + static_cast<size_t>(tap)] =
-            static_cast<uint8_t>((exact_lit ? tap_exact_lit : 0) | (moved_lit != exact_lit ? tap_displaced : 0) |
-                                 (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
-                                 (exact[k].sure ? 0 : tap_exact_unsure) | (moved[k].sure ? 0 : tap_moved_unsure) |
-                                 (at_texel.sure ? 0 : tap_texel_unsure));
+        const bool texel_lit = at_texel.lit, clipped = !l.map.depth_clamp && surface.clipped(hit, centre);
+        bits = static_cast<uint8_t>(bits | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
+                                    (at_texel.sure ? 0 : tap_texel_unsure));
         if (moved_lit != texel_lit && !behind[k]) {
           const glm::dvec3 from = view.normal_place(frame.tap_place(looked_up[k], offsets[k]));
           const double distance = surface.edge_distance_texels(points[k], from, centre, moved_lit);
-          edge_distance_texels[pixel] = std::max(edge_distance_texels[pixel], static_cast<float>(distance));
+          float& farthest = (*edge_distance_texels)[pixel];
+          farthest = std::max(farthest, static_cast<float>(distance));
         }
       }
     }

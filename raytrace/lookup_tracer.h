@@ -42,7 +42,11 @@ class LookupTracer {
   TapTruth trace_taps(const LookupProbe& probe, PixelRange strip, Image<float>& edge_distance_texels,
                       StageTime* stage = nullptr);
 
+  // Only F and D: the truth at the exact places, without that of texels. Neither ask() nor trace_map() is needed.
+  TapTruth trace_places(const LookupProbe& probe, PixelRange strip, StageTime* stage = nullptr);
+
  private:
+  TapTruth trace(const LookupProbe& probe, PixelRange strip, Image<float>* edge_distance_texels, StageTime* stage);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -42,7 +42,7 @@ void append(Taps& to, Taps& from) {
 
 void receiver(const LookupEvidence& e, const Image<float>& stored_map, const BiasPart& varied, size_t i, Lists& lists) {
   const bool blended = e.probe.pattern.bilinear();
-  const TapThreshold threshold(e, varied, i);
+  const TapThreshold threshold(e.probe, e.bias, varied, i);
   const auto list = [&](Taps& to, float at, double weight) {
     to.thresholds.push_back(at);
     if (blended) to.weights.push_back(weight);

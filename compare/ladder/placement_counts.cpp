@@ -106,7 +106,7 @@ PlacementCounts::Kind PlacementCounts::kind_of(Cause cause, bool dark) {
   }
 }
 
-void PlacementCounts::add(const LookupEvidence& e, size_t pixel, const PlacedTaps& taps, const LatticeBox& box) {
+void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const PlacedTaps& taps, const LatticeBox& box) {
   const LookupProbe& probe = e.probe;
   if (e.truth.ambiguous[pixel]) return;
   ++receivers_;
@@ -114,9 +114,9 @@ void PlacementCounts::add(const LookupEvidence& e, size_t pixel, const PlacedTap
   const int tap_count = probe.taps();
   const bool truth = e.truth.lit[pixel] != 0, asks = probe.asks(pixel);
   const float bias = e.bias.at(probe, pixel);
-  const glm::ivec2 size(e.exact_map.width, e.exact_map.height);
+  const glm::ivec2 size = e.map_size;
   std::optional<TapThreshold> threshold;
-  if (varied_) threshold.emplace(e, *varied_, pixel);
+  if (varied_) threshold.emplace(probe, e.bias, *varied_, pixel);
   // A tap that is lit at any bias, and should be, is in no sum. Most taps are, so they are not looked at further.
   const bool plain = truth && asks && probe.reference[pixel] <= 1.0f && !probe.tap_reference->plane &&
                      !probe.pattern.bilinear() && e.map.format == DepthFormat::d32f;

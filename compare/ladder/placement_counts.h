@@ -41,6 +41,16 @@ class ThresholdBins {
 // that there are at least 16 in an octave. In units of the part's amount.
 std::vector<float> placement_edges(const std::vector<double>& bias_depth, double depth_per_unit);
 
+// What PlacementCounts reads besides the lattice.
+struct PlacementEvidence {
+  const ReceiverTruth& truth;
+  const LookupProbe& probe;  // of placement 0
+  const TapTruth& taps;      // F and D of the strip; V is the lattice's
+  const MapSettings& map;
+  Bias bias;
+  glm::ivec2 map_size;
+};
+
 class PlacementCounts {
  public:
   // varied: the part whose amount the edges are of, or null. Without it only the point's own bias is counted.
@@ -50,9 +60,8 @@ class PlacementCounts {
   // The same without anything counted.
   PlacementCounts empty_copy() const { return {placements_, varied_, bins_, whole_}; }
 
-  // Adds a facing receiver. evidence.taps: of its strip, at placement 0; Of evidence.exact_map only the size is read. box: V and
-  // depths around the receiver. Receivers whose truth is ambiguous are not counted.
-  void add(const LookupEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box);
+  // Adds a facing receiver. box: V and depths around it. Receivers whose truth is ambiguous are not counted.
+  void add(const PlacementEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box);
   // Adds what other counts have counted, of the same probe, part and edges.
   void add(const PlacementCounts& other);
 

@@ -1,7 +1,7 @@
 // The amount of a part of the bias from which a tap is lit. Curves over the amount, and the counts at all placements,
 // are made of these thresholds.
 //
-//   const TapThreshold threshold(evidence, *curve_part(settings.bias), pixel);
+//   const TapThreshold threshold(probe, bias, *curve_part(settings.bias), pixel);
 //   float amount = threshold(tap_of(...));
 #pragma once
 #include <limits>
@@ -16,10 +16,11 @@ namespace noonmark {
 // the bias is monotone, so the thresholds can be traced back one operation at a time.
 class TapThreshold {
  public:
-  TapThreshold(const LookupEvidence& e, const BiasPart& varied, size_t i) : unit_(e.probe.bias_unit[i]) {
-    const in_float::Surface surface = surface_of(e.probe, i);
+  TapThreshold(const LookupProbe& probe, const Bias& bias, const BiasPart& varied, size_t i)
+      : unit_(probe.bias_unit[i]) {
+    const in_float::Surface surface = surface_of(probe, i);
     factor_ = varied.formula.factor(surface);
-    for (const ActivePart& active : e.bias.compared()) {
+    for (const ActivePart& active : bias.compared()) {
       if (active.part == &varied)
         varied_ = active;
       else if (active.part < &varied)  // the rows of one table; the shader adds them in its order

@@ -1,0 +1,26 @@
+// Measures the phase diagram of a scene (compare/report/phase.h): every texel size at all placements of its own grid,
+// and every bias from one set of thresholds. Nothing is rendered but where OpenGL looks up.
+#pragma once
+#include "app/stages.h"
+#include "compare/report/phase.h"
+
+namespace noonmark {
+
+struct PhaseOptions {
+  int rows = 25;                                           // texel sizes, in equal steps of their logarithm
+  int coarsest = 128, finest = 8192;                       // texels on a side, at the present extent
+  int placements = 8;                                      // S, along each axis
+  double acne_bound = 0.001, peter_panning_bound = 0.001;  // fractions of the counted receivers
+  int biases_per_octave = 16;
+};
+
+// The settings that the diagram is about: those given, with the bias in metres if nothing else of it is set. Throws
+// Error(usage) if the diagram has no meaning for them, with what to change.
+Settings phase_settings(const Settings& settings, const Scene& scene);
+
+// settings: from phase_settings(). The receivers are on the device. The texts of the diagram are left empty.
+PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& tracer, const Scene& scene,
+                           const ViewStage& view, const TruthStage& truth, const Settings& settings,
+                           const PhaseOptions& options);
+
+}  // namespace noonmark
