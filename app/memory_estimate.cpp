@@ -36,6 +36,10 @@ constexpr double per_kept_triangle = 150;  // the second tree for the rays, with
 // Per byte of the scene's parts. point.json lists each part in up to 135 bytes and its name; the part itself has 40
 // bytes, and those of a long name.
 constexpr double per_listed_part_byte = 3.5;
+// All placements of the map's grid: where each placement looks up, the points of the lattice that are held at a time with
+// their tiles, and the sums by cause, placement and bias of each thread and of the whole.
+constexpr double per_placed_pixel = 8, per_lattice_triangle = 260, per_placement = 10 * 8 * 512.0 * 12;
+constexpr double lattice_points = 9e6 * 28;
 constexpr double per_grid_cell = 8;  // the grid that lists a shadow's edges, for each face of the map
 constexpr double least_grid_cells = 256 * 256, most_grid_cells = 2048 * 2048;
 
@@ -79,7 +83,13 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   // The lists of texels beside the map are freed when the curve is made, except those that later strips read.
   const double outside = per_outside_texel * std::min(taps, input.outside_texels);
   const double beside = strip < all_taps ? curve + outside : std::max(curve, outside);
+  const double side = s.map.placements;
+  const double placements = side > 1 ? lattice_points + pixels * per_placed_pixel * side + side * side * per_placement +
+                                           per_lattice_triangle * static_cast<double>(input.scene.triangles) +
+                                           texels * per_texel  // the worst placement is rendered too
+                                     : 0;
   return {{
+      {"the placements of the map's grid", "lower map.placements", placements},
       {"the program itself", "use a machine with more memory, or raise its limit", program},
       {"the scene", "use a scene with fewer triangles (scene.name, scene.mesh)", scene},
       {"the picture", "lower view.width_px and view.height_px",

@@ -16,8 +16,6 @@
 namespace noonmark {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // P(p U1 + q U2 > c) for U1, U2 uniform in (-1/2, 1/2): the tail of a trapezoid.
 double trapezoid_tail(double p, double q, double c) {
   if (p < q) std::swap(p, q);
@@ -226,9 +224,7 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
     PhaseRow row = row_of(counts, edges.size(), blurred / static_cast<double>(counts.receivers()));
     row.resolution = settings.map.resolution;
     row.texel_m = median_texel_m(frame, view, truth.receivers);
-    const auto none = std::find(row.acne_worst.begin(), row.acne_worst.end(), 0.0);
-    row.last_acne_m =
-        none == row.acne_worst.end() ? infinity : diagram.bias_m[static_cast<size_t>(none - row.acne_worst.begin())];
+    row.last_acne_m = counts.acne_free_from();
     diagram.rows.push_back(std::move(row));
     diagram.receivers = static_cast<double>(counts.receivers());
     if (r == 0) add_law(diagram, frame, view, truth, settings);

@@ -45,10 +45,13 @@ std::optional<Scene> moved_scene(const TracedScene& traced, const LightFrame& fr
 
 }  // namespace
 
-DrawnMap::DrawnMap(const TracedScene& traced, const LightView& view, const LightFrame& map, const MapSettings& settings,
-                   const Bias& bias, const std::optional<PolygonOffset>& offset)
+DrawnMap::DrawnMap(const TracedScene& traced, const LightView& view, const OwnSurface& surface,
+                   const Silhouettes& silhouettes, const LightFrame& map, const MapSettings& settings, const Bias& bias,
+                   const std::optional<PolygonOffset>& offset)
     : moved_(moved_scene(traced, map, bias)),
       view_(moved_ ? LightView(*moved_, view.frame()) : view),
+      surface_(surface),
+      silhouettes_(silhouettes),
       depth_clamp_(settings.depth_clamp),
       offset_(offset),
       scenes_tree_(traced.embree) {
@@ -71,8 +74,10 @@ void DrawnMap::depths(int count, const glm::dvec3* places, const uint32_t* hits,
     view_.first_hits(*own_tree_, count, places, own_hits);
     hits = own_hits;
   }
-  for (int i = 0; i < count; ++i)
-    if (hits[i] != no_primitive) depths[i] = depth_of(hits[i], places[i]);
+  for (int i = 0; i < count; ++i) {
+    const uint32_t hit = !own_tree_ && silhouettes_.near(places[i]) ? surface_.exact_first(places[i]) : hits[i];
+    if (hit != no_primitive) depths[i] = depth_of(hit, places[i]);
+  }
 }
 
 float DrawnMap::depth_of(uint32_t hit, glm::dvec3 place) const {

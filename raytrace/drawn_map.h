@@ -1,13 +1,14 @@
 // What the map's pass draws, exactly: the depth along a light-side ray of the surfaces that the pass keeps. The bias may
 // move the casters, the settings may cull faces, and the near and far planes clip.
 //
-//   const DrawnMap drawn(traced, view, view.frame(), settings.map, bias, offset);
+//   const DrawnMap drawn(traced, view, surface, silhouettes, view.frame(), settings.map, bias, offset);
 //   float depth = drawn.depth_at(x, hit);      // window depth at place x; hit: the scene's first hit there
 #pragma once
 #include <optional>
 
 #include "raytrace/embree_scene.h"
 #include "raytrace/light_view.h"
+#include "raytrace/own_surface.h"
 #include "raytrace/polygon_offset.h"
 #include "raytrace/traced_scene.h"
 #include "technique/bias.h"
@@ -19,13 +20,16 @@ class DrawnMap {
  public:
   // view: the scene as the map's light sees it. map: the frame whose texels the bias is measured in; that of the view,
   // or the map whose lattice the view has (technique/placements.h). traced must outlive this object.
-  DrawnMap(const TracedScene& traced, const LightView& view, const LightFrame& map, const MapSettings& settings,
-           const Bias& bias, const std::optional<PolygonOffset>& offset);
+  // surface, silhouettes: of the view.
+  DrawnMap(const TracedScene& traced, const LightView& view, const OwnSurface& surface, const Silhouettes& silhouettes,
+           const LightFrame& map, const MapSettings& settings, const Bias& bias,
+           const std::optional<PolygonOffset>& offset);
   DrawnMap(const DrawnMap&) = delete;
   DrawnMap& operator=(const DrawnMap&) = delete;
 
   // Window depths in [0,1] at these places; 1 if nothing is drawn there. count: 1 ... 16. hits: what the rays of the
-  // scene meet first there.
+  // scene meet first there. Beside a silhouette a ray of float may pass on its wrong side; there the first hit is
+  // found in double.
   void depths(int count, const glm::dvec3* places, const uint32_t* hits, float* depths) const;
 
  private:
@@ -33,6 +37,8 @@ class DrawnMap {
 
   std::optional<Scene> moved_;
   LightView view_;
+  const OwnSurface& surface_;
+  const Silhouettes& silhouettes_;
   bool depth_clamp_;
   std::optional<PolygonOffset> offset_;
   std::optional<EmbreeScene> own_tree_;  // of moved vertices, or without the culled faces

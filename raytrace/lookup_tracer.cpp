@@ -65,7 +65,9 @@ void LookupTracer::ask(const LookupProbe& probe, PixelRange strip, StageTime* st
 Image<float> LookupTracer::trace_map(StageTime* stage) {
   const StageWatch watch(stage, impl_->traced.device);
   impl_->texels.trace();
-  return exact_map_of({impl_->traced, impl_->view, impl_->view.frame(), impl_->map, impl_->bias, impl_->offset},
+  const Impl& l = *impl_;
+  const OwnSurface surface(l.traced.embree, l.traced.adjacency, l.view, l.light->silhouettes());
+  return exact_map_of({l.traced, l.view, surface, l.light->silhouettes(), l.view.frame(), l.map, l.bias, l.offset},
                       impl_->view, impl_->texels);
 }
 

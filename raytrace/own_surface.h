@@ -61,6 +61,10 @@ class OwnSurface {
   // Whether the first hit at x lies before the map's near plane.
   bool clipped(uint32_t hit, glm::dvec3 x) const;
 
+  // The triangle that the exact ray through x meets first, or no_primitive: of all triangles that the float ray meets,
+  // and of those that end so near to x that it may have missed them, the first one that covers x in double.
+  uint32_t exact_first(glm::dvec3 x) const;
+
   struct Sheet {
     double depth_m = 0;                // S
     uint32_t triangle = no_primitive;  // where the walk arrived, or no_primitive when it ended early
@@ -72,9 +76,6 @@ class OwnSurface {
   template <class Edges>  // Silhouettes, or those nearby
   Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Edges& silhouettes) const;
   uint32_t first_hit(glm::dvec3 x) const;
-  // The same, exactly: of all triangles that the ray through x meets, and of those that end so near to x that the ray
-  // may have missed them, the first one that covers x in double.
-  uint32_t exact_first(glm::dvec3 x) const;
 
   // The verdict for this first hit. crossed: the silhouettes between P and x.
   Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,

@@ -43,7 +43,7 @@ struct PlacementTracer::Impl {
         view(scene.scene, all.lattice(frame)),
         silhouettes(scene.adjacency, view, Silhouettes::reach_of(view)),
         surface(scene.embree, scene.adjacency, view, silhouettes),
-        drawn(scene, view, frame, settings, bias, over_texels(offset, all)),
+        drawn(scene, view, surface, silhouettes, frame, settings, bias, over_texels(offset, all)),
         raster(scene, view, silhouettes) {}
 };
 

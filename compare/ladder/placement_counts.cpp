@@ -164,6 +164,7 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
         if (!right || needed > 0) {
           const Cause cause = exact.moved_sure ? tap_cause(exact, !right) : Cause::undecided;
           cell(kind_of(cause, right), static_cast<int>(placement), bins_.of(needed)) += exact.weight;
+          if (cause == Cause::acne) acne_free_from_ = std::max(acne_free_from_, needed);
         }
         const float shown_at = e.map.format == DepthFormat::d32f ? needed : (*threshold)(shown);
         if (!truth || shown_at > 0)
@@ -176,6 +177,7 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
 
 void PlacementCounts::add(const PlacementCounts& other) {
   receivers_ += other.receivers_;
+  acne_free_from_ = std::max(acne_free_from_, other.acne_free_from_);
   const auto sum = [](std::vector<double>& to, const std::vector<double>& from) {
     std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
   };

@@ -74,6 +74,8 @@ class PlacementCounts {
   // The taps that differ from R1.
   double wrong_taps(int placement, size_t edge) const;
   const std::vector<float>& edges() const { return bins_.edges(); }
+  // The least amount from which no tap is acne at any placement; exact, not at an edge. Infinity if there is none.
+  float acne_free_from() const { return acne_free_from_; }
 
   // At the point's own bias, for every placement, by the name of the metric: error, acne, ... as fractions.
   std::map<std::string, std::vector<double>> shares() const;
@@ -107,6 +109,7 @@ class PlacementCounts {
   ThresholdBins bins_;
   double whole_ = 1;
   uint64_t receivers_ = 0;
+  float acne_free_from_ = 0;
   std::vector<double> histogram_;                           // [kind][placement][bin]: weight of the thresholds
   std::array<std::vector<double>, kinds> own_;              // [placement]: weight at the point's own bias
   std::vector<double> wrong_receivers_, aliasing_squares_;  // [placement]

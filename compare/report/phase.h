@@ -16,7 +16,7 @@ struct PhaseRow {
   // and Peter Panning also the largest over the placements.
   std::vector<double> error, acne, peter_panning, aliasing, coverage, filter, undecided;
   std::vector<double> error_worst, acne_worst, peter_panning_worst;
-  double last_acne_m = 0;  // the least bias without acne at any placement; infinity: more than the largest bias
+  double last_acne_m = 0;  // the least bias without acne at any placement; infinity: none is enough
 };
 
 // An interval of biases in metres; empty if from > to.

@@ -50,7 +50,8 @@ std::vector<Case> cases() {
   };
   for (const char* scene : {"cube-room", "spot-room"})
     for (const auto& [name, set] : techniques) all.push_back({named(std::string(scene) + "_" + name), scene, set});
-  all.push_back({"even_number", "cube-room", {}, 4});
+  // Shifted, because half a texel puts centres of texels exactly on edges of the cubes, where a verdict is a tie.
+  all.push_back({"even_number", "cube-room", {{"map.shift_u_texels", "0.013"}, {"map.shift_v_texels", "0.029"}}, 4});
   return all;
 }
 
