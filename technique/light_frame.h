@@ -93,7 +93,8 @@ struct LightFrame {
   // Directional: u and v of a texel's centre.
   glm::dvec2 texel_centre(glm::ivec2 texel) const { return glm::dvec2(texel_place(texel)); }
 
-  glm::dmat4 clip_from_world(int tile) const;
+  glm::dmat4 clip_from_world(const MapTile& tile) const;
+  glm::dmat4 clip_from_world(int index) const { return clip_from_world(tile(index)); }
   // The window depth of one unit of bias (settings.bias.unit), at a point in the light's frame.
   double depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const;
 };
