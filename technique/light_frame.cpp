@@ -38,6 +38,12 @@ glm::dvec3 LightFrame::to_world(glm::dvec3 light) const {
   return origin_m + light.x * right + light.y * up + light.z * forward;
 }
 
+bool LightFrame::has_depth(TileDepth depth) const {
+  for (int index = 0; index < tiles; ++index)
+    if (tile(index).depth == depth) return true;
+  return false;
+}
+
 glm::dmat4 LightFrame::clip_from_world(const MapTile& t) const {
   const auto in_world = [&](glm::dvec3 axis) { return axis.x * right + axis.y * up + axis.z * forward; };
   const glm::dvec3 axes[3] = {in_world(t.right), in_world(t.up), in_world(t.forward)};
