@@ -234,7 +234,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   });
   const ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, point);
 
-  const BiasPart* const varied = curve_options ? curve_part(settings.bias) : nullptr;
+  const BiasPart* const varied = curve_options && !on_top ? curve_part(settings.bias) : nullptr;
   const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
   const BiasPart* const unknown = varied && !b.curve.has(curve_key) ? varied : nullptr;
   const BiasScale scale = bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit);
