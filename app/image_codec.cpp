@@ -34,19 +34,29 @@ struct Refused : std::runtime_error {
   using runtime_error::runtime_error;
 };
 
-// why: OpenImageIO's text, one line for each level of the libraries below it.
-Refused undecodable(const std::string& why) {
-  return Refused("cannot be decoded: " + why.substr(0, why.find('\n')) + "; write it again");
+// The name under which OpenImageIO knows the bytes: its ending selects the decoder.
+std::string name_inside(const char* format) { return std::string("picture.") + format; }
+
+// why: OpenImageIO's text, one line for each level of the libraries below it. Some of them name the file, but they know
+// only the name inside.
+Refused undecodable(const std::string& why, const char* format) {
+  std::string line = why.substr(0, why.find('\n'));
+  for (const std::string& name : {"image file \"" + name_inside(format) + "\"", "file \"" + name_inside(format) + "\"",
+                                  "\"" + name_inside(format) + "\""})
+    for (size_t at = line.find(name); at != line.npos; at = line.find(name)) line.replace(at, name.size(), "the file");
+  while (line.ends_with('.') || line.ends_with(' ')) line.pop_back();
+  return Refused("cannot be decoded: " + line + "; write it again");
 }
 
 std::string text_of(int width, int height) { return std::to_string(width) + " x " + std::to_string(height); }
 
 // Integers are divided in double and rounded once: 85 of 255 is the float that is nearest to 1/3, as in the lookup.
 template <class T>
-std::vector<float> read_as(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, double whole) {
+std::vector<float> read_as(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const char* format,
+                           OIIO::TypeDesc type, double whole) {
   std::vector<T> values(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height) *
                         static_cast<size_t>(spec.nchannels));
-  if (!input.read_image(0, 0, 0, spec.nchannels, type, values.data())) throw undecodable(input.geterror());
+  if (!input.read_image(0, 0, 0, spec.nchannels, type, values.data())) throw undecodable(input.geterror(), format);
   std::vector<float> result(values.size());
   for (size_t i = 0; i < values.size(); ++i) result[i] = static_cast<float>(static_cast<double>(values[i]) / whole);
   return result;
@@ -54,9 +64,14 @@ std::vector<float> read_as(OIIO::ImageInput& input, const OIIO::ImageSpec& spec,
 
 std::vector<float> decode(const GreyToDecode& file) {
   OIIO::Filesystem::IOMemReader bytes(const_cast<void*>(file.bytes), file.count);
+  OIIO::Filesystem::IOProxy* const source = &bytes;
+  OIIO::ImageSpec as_they_are;
+  as_they_are.attribute("oiio:UnassociatedAlpha", 1);  // colours are not multiplied by alpha
+  // OpenImageIO 2.4 forgets the bytes if there is a configuration that does not name them.
+  as_they_are.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &source);
   const std::unique_ptr<OIIO::ImageInput> input =
-      OIIO::ImageInput::open(std::string("picture.") + file.format, nullptr, &bytes);
-  if (!input) throw undecodable(OIIO::geterror());
+      OIIO::ImageInput::open(name_inside(file.format), &as_they_are, &bytes);
+  if (!input) throw undecodable(OIIO::geterror(), file.format);
   const OIIO::ImageSpec spec = input->spec();
   if (spec.width != file.width || spec.height != file.height)
     throw Refused("has " + text_of(spec.width, spec.height) + " pixels, but the point's picture has " +
@@ -65,18 +80,25 @@ std::vector<float> decode(const GreyToDecode& file) {
   if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
       spec.height != spec.full_height)
     throw Refused("has a data window that is not its display window; write the whole picture");
-  if (spec.deep || spec.depth > 1 || (spec.nchannels != 1 && spec.nchannels != 3))
-    throw Refused("has " + std::to_string(spec.nchannels) + (spec.deep ? " deep" : "") +
+  const int channels = spec.nchannels;
+  const bool has_alpha = channels > 1 && spec.alpha_channel == channels - 1;
+  const int colours = has_alpha ? channels - 1 : channels;
+  if (spec.deep || spec.depth > 1 || (colours != 1 && colours != 3))
+    throw Refused("has " + std::to_string(channels) + (spec.deep ? " deep" : "") +
                   " channels; write visibility as one grey channel (or three equal ones)");
-  const std::vector<float> values =
-      spec.format == OIIO::TypeDesc::UINT8    ? read_as<uint8_t>(*input, spec, OIIO::TypeDesc::UINT8, 255)
-      : spec.format == OIIO::TypeDesc::UINT16 ? read_as<uint16_t>(*input, spec, OIIO::TypeDesc::UINT16, 65535)
-                                              : read_as<float>(*input, spec, OIIO::TypeDesc::FLOAT, 1);
-  if (spec.nchannels == 1) return values;
-  std::vector<float> grey(values.size() / 3);
+  const std::vector<float> values = spec.format == OIIO::TypeDesc::UINT8
+                                        ? read_as<uint8_t>(*input, spec, file.format, OIIO::TypeDesc::UINT8, 255)
+                                    : spec.format == OIIO::TypeDesc::UINT16
+                                        ? read_as<uint16_t>(*input, spec, file.format, OIIO::TypeDesc::UINT16, 65535)
+                                        : read_as<float>(*input, spec, file.format, OIIO::TypeDesc::FLOAT, 1);
+  if (channels == 1) return values;
+  std::vector<float> grey(values.size() / static_cast<size_t>(channels));
   for (size_t i = 0; i < grey.size(); ++i) {
-    const float* const rgb = &values[3 * i];
-    const bool equal = (rgb[0] == rgb[1] && rgb[0] == rgb[2]) || (rgb[0] != rgb[0] && rgb[1] != rgb[1]);  // both NaN
+    const float* const rgb = &values[i * static_cast<size_t>(channels)];
+    if (has_alpha && rgb[colours] != 1)
+      throw Refused("has an alpha channel that is not 1 everywhere; remove the alpha channel");
+    const bool equal =
+        colours == 1 || (rgb[0] == rgb[1] && rgb[0] == rgb[2]) || (rgb[0] != rgb[0] && rgb[1] != rgb[1]);  // both NaN
     if (!equal) throw Refused("has colours; write visibility as one grey channel (or three equal ones)");
     grey[i] = rgb[0];
   }

@@ -153,9 +153,11 @@ int run(int argc, char** argv) {
   render->add_option("--point", point, "Number of the point in the experiment's sweep, from 0")
       ->check(whole_number(0, std::numeric_limits<long>::max(), "from 0 on"));
   render
-      ->add_option("--picture", picture,
-                   "Judge this picture in place of the shadow map's: an EXR or PNG file of the view's size, one grey "
-                   "channel, linear, from 0 (shadowed) to 1 (lit)")
+      ->add_option(
+          "--picture", picture,
+          "Judge this picture in place of the shadow map's: an EXR or PNG file of the view's size, the top row "
+          "first; one grey channel, linear, from 0 (shadowed) to 1 (lit); one sample at each pixel's centre, "
+          "without antialiasing, jitter and tone mapping")
       ->check(not_empty)
       ->type_name("FILE");
   with_choices(render);

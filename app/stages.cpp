@@ -121,7 +121,7 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
     rays.ask(probe, strip, &texel_stage);
   }
   Image<float> depth = rays.trace_map(&texel_stage);
-  gl::ShadowMap exact = renderer.upload_map(depth, settings.map);
+  gl::ShadowMap exact = renderer.upload_map(depth, settings.map, frame.map_shape());
   return {.probe = std::move(probe),
           .exact_map = std::move(exact),
           .exact_depth = std::move(depth),
@@ -143,7 +143,8 @@ ShownStage Pipeline::show(gl::Renderer& renderer, const MapStage& map, const Loo
   shown.time_ms = median_time([&](double* ms) { shown.r5 = look_up(renderer, map.map, point, ms); });
   shown.r4 = look_up(renderer, lookup.exact_map, point, nullptr);
   shown.ties = tie_map(evidence_of(lookup, truth, shown, point.settings));
-  shown.tie_lookup = look_up(renderer, renderer.upload_map(shown.ties, point.settings.map), point, nullptr);
+  shown.tie_lookup =
+      look_up(renderer, renderer.upload_map(shown.ties, point.settings.map, point.frame.map_shape()), point, nullptr);
   return shown;
 }
 

@@ -1,6 +1,7 @@
 // The verbs that only print: report, scenes, settings, doctor.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "app/build_facts.h"
@@ -47,9 +48,12 @@ int verb_scenes() {
 
 int verb_settings() {
   const Settings defaults;
+  size_t width = 0;  // of the column of names
+  for (const Setting& row : settings_table()) width = std::max(width, row.name.size());
   fmt::print("Settings: --set name=value, or in an experiment file ([map] resolution = 2048).\n\n");
   for (const Setting& row : settings_table())
-    fmt::print("{:<28} {:<16} {}\n{:<45} {}\n", row.name, row.get(defaults), row.help, "", row.range_with_unit());
+    fmt::print("{:<{}} {:<16} {}\n{:<{}} {}\n", row.name, width, row.get(defaults), row.help, "", width + 17,
+               row.range_with_unit());
   fmt::print("\nMetrics: for [[bound]] and [plot].\n\n");
   for (const Metric& metric : metrics_table()) fmt::print("{:<32} {:<10} {}\n", metric.name, metric.unit, metric.help);
   fmt::print("\nQuantities of the bias curve, for [[bound]]:\n\n");

@@ -45,7 +45,10 @@ void print_ladder(const Measurement& m) {
   if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("\n  {}\n", poor);
   if (nothing_judged(m.record)) return;
   if (!m.record.causes.empty())
-    fmt::print("\n  {} is judged in place of R5: error and wrong are its own\n", judged_rung(m.record));
+    fmt::print(
+        "\n  {} is judged in place of R5: error and wrong are its own;\n"
+        "  the causes other than {} are those of the settings' technique (R0 to R5)\n",
+        judged_rung(m.record), m.record.causes.front().name);
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_of({&m.record, 1}))
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" &&
@@ -120,6 +123,8 @@ int verb_render(const std::string& path, long point, const std::string& picture,
   if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", note);
   for (const IdleSetting& idle : idle_settings(m.frame.kind, settings))
     fmt::print("  note: {} has no effect {}\n", idle.name, idle.why);
+  if (!part.bounds.empty() || !part.laws.empty())
+    fmt::print("  note: render judges no bounds and no laws; noonmark check does\n");
   fmt::print("\n{0}/point.json, {0}/ladder.exr, {0}/map.exr and {0}/point-*.png are written\n", printable(out));
   return 0;
 }

@@ -28,6 +28,8 @@ class Remembered {
  public:
   bool has(const std::string& key) const { return value_ && key == key_; }
 
+  void forget() { value_.reset(); }
+
   template <class Make>
   T& get(const std::string& key, const Make& make) {
     if (!value_ || key != key_) {
@@ -102,7 +104,19 @@ struct Workbench::Impl {
       : renderer(debug, std::move(shaders)), stages(std::move(all)) {}
 
   const SceneStage& load(const Settings& settings) {
-    return scene.get(settings_key(settings, {Stage::scene}), [&] { return stages->load_scene(renderer, settings); });
+    const std::string key = settings_key(settings, {Stage::scene});
+    if (!scene.has(key)) forget_scene();
+    return scene.get(key, [&] { return stages->load_scene(renderer, settings); });
+  }
+
+  // The other stages depend on the scene; the rays of a lookup in strips even refer to its tracer.
+  void forget_scene() {
+    lookup.forget();
+    map.forget();
+    truth.forget();
+    view.forget();
+    curve.forget();
+    receivers_on_device.clear();
   }
 
   struct Looked {
@@ -240,7 +254,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   });
   const ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, point);
 
-  const BiasPart* const varied = curve_options ? curve_part(settings.bias) : nullptr;
+  const BiasPart* const varied = curve_options && !on_top ? curve_part(settings.bias) : nullptr;
   const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
   const BiasPart* const unknown = varied && !b.curve.has(curve_key) ? varied : nullptr;
   const BiasScale scale = bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit);

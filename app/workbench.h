@@ -40,8 +40,8 @@ class Workbench {
                      std::unique_ptr<Pipeline> stages = std::make_unique<Pipeline>());
   ~Workbench();
 
-  // curve: no curve if it is empty, or if no part of the bias can have one (curve_part). on_top: a picture that is
-  // judged in place of R5. Throws Error.
+  // on_top: a picture that is judged in place of R5. curve: no curve if it is empty, if no part of the bias can have
+  // one (curve_part), or if there is a picture on top, because no bias changes that. Throws Error.
   Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
                       std::optional<RungOnTop> on_top = {});
 

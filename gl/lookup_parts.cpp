@@ -17,7 +17,7 @@ ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bi
   const std::string name(filter.name);
   ShaderSlots slots = receiver_slots(programs, light, bias);
   slots["filter"] = fmt::format("shaders/filter/{}.glsl", filter.shader);
-  if (!filter.sizes.empty()) {
+  if (filter.own_weights) {
     slots["weights"] = "weights of " + name;
     programs.define(slots["weights"], fmt::format("#include \"technique/filters/{0}.glsl\"\nuniform int filter_size;\n"
                                                   "float filter_weight(int texel, float s) {{ return {0}_weight(texel, "

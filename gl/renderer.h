@@ -93,10 +93,10 @@ class Renderer {
                        std::span<const glm::vec3> casters = {});
 
   // Uploads a map that was made elsewhere, such as the exact map of R4. Its format is 32-bit float depth, whatever
-  // settings.format is; its wrap mode is the one of the settings. depth has the size LightFrame::map_size(); an image
-  // six times as high as wide is a cube map. Throws Error(defect) for NaN and for depths outside [0, 1], because OpenGL
-  // may clamp them.
-  ShadowMap upload_map(const Image<float>& depth, const MapSettings& settings);
+  // settings.format is; its wrap mode is the one of the settings. depth has the size LightFrame::map_size(), and
+  // shape is LightFrame::map_shape(). Throws Error(defect) if the size is not that of the shape, and for NaN and depths
+  // outside [0, 1], because OpenGL may clamp them.
+  ShadowMap upload_map(const Image<float>& depth, const MapSettings& settings, MapShape shape = MapShape::flat);
 
   // The depths that the lookup's sampler returns, bit for bit, in the layout of LightFrame::map_size().
   Image<float> read_map(const ShadowMap& map);

@@ -1,9 +1,9 @@
 // The shadow-map pass: it draws shadow maps as engines do.
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "gl/renderer_impl.h"
 #include "scenes/error.h"
@@ -60,9 +60,8 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
       !cube     ? ShaderStages{"shaders/scene.vert", "shaders/depth.frag"}
       : layered ? ShaderStages{"shaders/cube_layers.vert", "shaders/distance.frag", "shaders/cube_layers.geom"}
                 : ShaderStages{"shaders/cube_face.vert", "shaders/distance.frag"});
-  std::array<glm::mat4, 6> clip_from_world;
-  for (int face = 0; face < frame.tiles; ++face)
-    clip_from_world[static_cast<size_t>(face)] = glm::mat4(frame.clip_from_world(face));
+  std::vector<glm::mat4> clip_from_world;
+  for (int tile = 0; tile < frame.tiles; ++tile) clip_from_world.emplace_back(frame.clip_from_world(tile));
   if (cube) {
     program.set("light_position", glm::vec3(frame.origin_m));
     program.set("light_far_m", static_cast<float>(frame.far_m));
@@ -74,7 +73,7 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
   // This draws the same map as the layered pass. But llvmpipe rounds vertices from a geometry shader differently in the
   // transform to the viewport. So the two maps are bit for bit the same only if the side is a power of two.
   const auto draw_faces = [&] {
-    for (int face = 0; face < 6; ++face) {
+    for (int face = 0; face < frame.tiles; ++face) {
       glNamedFramebufferTextureLayer(r.framebuffer.id(), GL_DEPTH_ATTACHMENT, depth.id(), 0, face);
       program.set("clip_from_world", clip_from_world[static_cast<size_t>(face)]);
       draw_once();
@@ -83,7 +82,7 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
   if (layered)
     program.set("clip_from_world", std::span<const glm::mat4>(clip_from_world));
   else
-    program.set("clip_from_world", clip_from_world[0]);
+    program.set("clip_from_world", clip_from_world.front());
 
   Buffer moved;  // the map's pass draws this buffer while it exists
   if (!casters.empty()) {

@@ -53,14 +53,17 @@ Texture Renderer::Impl::make_map_texture(GLenum format, int resolution, bool cub
   return texture;
 }
 
-ShadowMap Renderer::upload_map(const Image<float>& depth, const MapSettings& settings) {
+ShadowMap Renderer::upload_map(const Image<float>& depth, const MapSettings& settings, MapShape shape) {
   Impl& r = *impl_;
   r.context->make_current();
   const int side = depth.width;
-  const bool cube = depth.height == 6 * side;
-  if ((!cube && depth.height != side) || side != settings.resolution)
-    throw Error(ErrorKind::defect, fmt::format("upload_map: the image is {} x {}, the settings ask for {} texels", side,
-                                               depth.height, settings.resolution));
+  const bool cube = shape == MapShape::cube;
+  const int faces = cube ? 6 : 1;
+  if (side != settings.resolution || depth.height != faces * side)
+    throw Error(ErrorKind::defect,
+                fmt::format("upload_map: the image is {} x {}, the settings ask for {} face(s) of {} "
+                            "texels",
+                            side, depth.height, faces, settings.resolution));
   // OpenGL may clamp values outside this range; then the map would not be the uploaded one.
   const auto outside =
       std::find_if(depth.pixels.begin(), depth.pixels.end(), [](float d) { return !(d >= 0 && d <= 1); });

@@ -10,6 +10,7 @@ double PolygonOffset::of(const LightView& view, uint32_t triangle) const {
   const glm::dvec3 n = view.normal_away(triangle), a = view.corner(triangle, 0);
   glm::dvec2 per_texel;
   const MapTile tile = frame.tile_at(a);
+  if (tile.depth == TileDepth::distance) return 0;  // the shader writes this depth, and OpenGL moves none of those
   if (tile.orthographic) {
     per_texel = glm::dvec2(n) / n.z * tile.texel_m(a) / (tile.far_m - tile.near_m);
   } else {
@@ -36,7 +37,8 @@ double PolygonOffset::of(const LightView& view, uint32_t triangle) const {
 
 std::optional<PolygonOffset> polygon_offset_of(const LightFrame& frame, const MapSettings& map, const Bias& bias,
                                                double format_unit) {
-  if (!bias.polygon_offset() || frame.tile(0).depth == TileDepth::distance) return std::nullopt;
+  const bool drawn_by_the_rasterizer = frame.has_depth(TileDepth::linear) || frame.has_depth(TileDepth::perspective);
+  if (!bias.polygon_offset() || !drawn_by_the_rasterizer) return std::nullopt;
   return PolygonOffset{bias.polygon_offset()->factor, bias.polygon_offset()->units,
                        map.format == DepthFormat::d32f ? 0 : format_unit};
 }

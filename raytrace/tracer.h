@@ -2,7 +2,7 @@
 //
 //   raytrace::Tracer tracer(scene);
 //   ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {light});
-//   raytrace::LookupTruth taps = tracer.lookup_truth(receivers, truth, renderer.probe(frame, s), frame, s.map, bias);
+//   raytrace::LookupTracer rays = tracer.lookup(receivers, truth, frame, s.map, bias);  // raytrace/lookup_tracer.h
 //
 // Conventions: scenes/scene.h. All calls use every core; results do not depend on how many there are. The scene must
 // outlive the tracer. Throws Error(device) when Embree fails.
@@ -56,7 +56,8 @@ class Tracer {
   PlacementTracer placements(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
                              const Placements& placements, const MapSettings& map, const Bias& bias = {},
                              double offset_unit = 0) const;
-  // The whole picture's at once.
+  // The whole picture's at once, for tests and benchmarks. The program traces it in strips, because the taps of a wide
+  // filter need more memory than there is.
   LookupTruth lookup_truth(const ReceiverImage& receivers, const ReceiverTruth& truth, const LookupProbe& probe,
                            const LightFrame& frame, const MapSettings& map, const Bias& bias = {},
                            double offset_unit = 0) const;

@@ -28,8 +28,8 @@ struct Filter {
   std::vector<std::string_view> reads = {};  // the settings that it reads, besides filter.kind
   bool blended = false;                      // a comparison sampler blends the taps: one reference for all texels of a
                                              // fetch
-  // If the file <name>.glsl gives the weights of the blend: the sizes that filter.size may have.
-  std::vector<int> sizes = {};
+  std::vector<int> sizes = {};               // the sizes that filter.size may have; empty: any odd size
+  bool own_weights = false;                  // the file <name>.glsl gives the weights of the blend: <name>_weight
 };
 
 std::span<const Filter> filters();

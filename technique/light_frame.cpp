@@ -38,8 +38,13 @@ glm::dvec3 LightFrame::to_world(glm::dvec3 light) const {
   return origin_m + light.x * right + light.y * up + light.z * forward;
 }
 
-glm::dmat4 LightFrame::clip_from_world(int index) const {
-  const MapTile t = tile(index);
+bool LightFrame::has_depth(TileDepth depth) const {
+  for (int index = 0; index < tiles; ++index)
+    if (tile(index).depth == depth) return true;
+  return false;
+}
+
+glm::dmat4 LightFrame::clip_from_world(const MapTile& t) const {
   const auto in_world = [&](glm::dvec3 axis) { return axis.x * right + axis.y * up + axis.z * forward; };
   const glm::dvec3 axes[3] = {in_world(t.right), in_world(t.up), in_world(t.forward)};
   const double range = t.far_m - t.near_m;
@@ -50,6 +55,8 @@ glm::dmat4 LightFrame::clip_from_world(int index) const {
     rows[1] = axes[1] * (1 / t.half);
     rows[2] = axes[2] * (2 / range);
     rows[3] = glm::dvec3(0);
+    offsets[0] -= t.centre_m.x / t.half;
+    offsets[1] -= t.centre_m.y / t.half;
     offsets[2] = -2 * t.near_m / range - 1;
     offsets[3] = 1;
   } else {

@@ -54,6 +54,8 @@ struct LightFrame {
   // The map's tiles stand one above the other in its image.
   MapTile tile(int index) const { return light().tile(*this, index); }
   int tile_of(glm::dvec3 point) const { return light().tile_of(*this, point); }
+  // True if a tile of the map stores depths by this formula.
+  bool has_depth(TileDepth depth) const;
   // The tile that a lookup reads at a point in the light's frame.
   MapTile tile_at(glm::dvec3 point) const { return tile(tile_of(point)); }
   MapTile tile_of_texel(glm::ivec2 texel) const { return tile(tiles > 1 ? texel.y / resolution : 0); }
@@ -93,7 +95,8 @@ struct LightFrame {
   // Directional: u and v of a texel's centre.
   glm::dvec2 texel_centre(glm::ivec2 texel) const { return glm::dvec2(texel_place(texel)); }
 
-  glm::dmat4 clip_from_world(int tile) const;
+  glm::dmat4 clip_from_world(const MapTile& tile) const;
+  glm::dmat4 clip_from_world(int index) const { return clip_from_world(tile(index)); }
   // The window depth of one unit of bias (settings.bias.unit), at a point in the light's frame.
   double depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const;
 };

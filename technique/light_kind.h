@@ -88,6 +88,7 @@ class KindOfLight {
   virtual bool reaches(const LightFrame& /*frame*/, glm::dvec3 /*world*/) const { return true; }
   // True if the light does not reach any point of the triangle. It is false too if a quick test cannot decide that.
   virtual bool misses(const LightFrame& /*frame*/, const glm::dvec3 (&/*corners*/)[3]) const { return false; }
+  virtual bool has_cone() const { return false; }  // true: Light::cone_deg is read
   // Tangent of half the light's cone; no value if the light has no cone.
   virtual std::optional<double> tan_half_cone(const LightFrame& /*frame*/) const { return std::nullopt; }
   // True if a point in the light's frame has a place in the map. A point behind a spot light has none.

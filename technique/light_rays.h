@@ -1,5 +1,6 @@
 // The geometry of a light's rays: they are parallel, or they come from one point. Each function here has one branch for
-// the two cases, so that no other file needs to ask. KindOfLight::rays() says which case a kind of light is.
+// the two cases, so that other files seldom need to ask. Those that do ask what follows from the case: whether the rays
+// start at the light, or have one direction. KindOfLight::rays() says which case a kind of light is.
 //
 // Points are in the light's frame. Places are normalised: (u, v, 1) for parallel rays; (x / z, y / z, 1) or a unit
 // vector for rays from one point (technique/light_frame.h).

@@ -46,13 +46,14 @@ double MapTile::texel_m(glm::dvec3 light) const {
 
 glm::dvec3 MapTile::place_of(glm::ivec2 texel) const {
   const glm::dvec2 centre = glm::dvec2(texel - corner) + 0.5;
-  if (orthographic) return {centre * (2 * half / resolution) - half, 1};
+  if (orthographic) return {centre * (2 * half / resolution) - half + centre_m, 1};
   const glm::dvec2 side = (2.0 * (centre + shift_texels) / static_cast<double>(resolution) - 1.0) * half;
   return forward + side.x * right + side.y * up;
 }
 
 glm::dvec2 MapTile::texels(glm::dvec3 place) const {
-  if (orthographic) return (glm::dvec2(place) / (2 * half) + 0.5) * static_cast<double>(resolution);
+  if (orthographic)
+    return ((glm::dvec2(place) - centre_m) / (2 * half) + 0.5) * static_cast<double>(resolution) + glm::dvec2(corner);
   const glm::dvec2 side = glm::dvec2(glm::dot(place, right), glm::dot(place, up)) / (along(place) * half);
   return (side + 1.0) / 2.0 * static_cast<double>(resolution) - shift_texels + glm::dvec2(corner);
 }

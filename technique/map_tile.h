@@ -18,10 +18,11 @@ enum class TileDepth {
 
 struct MapTile {
   // Unit vectors in the light's frame: along the rows of texels, along the columns, and in the tile's direction of
-  // view.
+  // view. An orthographic tile has the frame's own axes, these defaults.
   glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1};
   bool orthographic = true;
-  double half = 1;  // half of its side in metres (orthographic), or the tangent of half its angle
+  double half = 1;         // half of its side in metres (orthographic), or the tangent of half its angle
+  glm::dvec2 centre_m{0};  // orthographic: u and v of its middle
   double near_m = 0, far_m = 1;
   TileDepth depth = TileDepth::linear;
   int resolution = 1;          // texels on a side

@@ -7,6 +7,7 @@
 
 #include "scenes/builtin.h"
 #include "scenes/library.h"
+#include "technique/bias.h"
 #include "technique/filters.h"
 #include "technique/light_kind.h"
 
@@ -59,15 +60,41 @@ std::string where_depths_are_fitted(const Settings& s, LightKind) {
   if (!names_file(s.scene.name)) return "in a built-in scene, where near and far are always fitted";
   return s.view.near_m && s.view.far_m ? "with both view.near_m and view.far_m" : "";
 }
-std::string not_on_directional(const Settings&, LightKind light) {
-  return light == LightKind::directional ? on_a(light) : "";
+std::string with_parallel_rays(const Settings&, LightKind light) {
+  return kind_of_light(light).rays().have_one_direction() ? on_a(light) : "";
 }
-std::string not_on_point(const Settings&, LightKind light) { return light == LightKind::point ? on_a(light) : ""; }
-std::string only_on_directional(const Settings&, LightKind light) {
-  return light == LightKind::directional ? "" : on_a(light);
+std::string without_parallel_rays(const Settings&, LightKind light) {
+  return kind_of_light(light).rays().have_one_direction() ? "" : on_a(light);
 }
-std::string only_on_spot(const Settings&, LightKind light) { return light == LightKind::spot ? "" : on_a(light); }
-std::string only_on_point(const Settings&, LightKind light) { return light == LightKind::point ? "" : on_a(light); }
+std::string where_light_has_no_target(const Settings&, LightKind light) {
+  return kind_of_light(light).is_aimed() ? "" : on_a(light);
+}
+std::string without_cone(const Settings&, LightKind light) {
+  return kind_of_light(light).has_cone() ? "" : on_a(light);
+}
+std::string on_cube_map(const Settings&, LightKind light) {
+  return kind_of_light(light).map_shape() == MapShape::cube ? on_a(light) : "";
+}
+std::string on_flat_map(const Settings&, LightKind light) {
+  return kind_of_light(light).map_shape() == MapShape::flat ? on_a(light) : "";
+}
+std::string where_map_is_given(const Settings& s, LightKind light) {
+  if (!s.map.near_m || !s.map.far_m) return "";
+  if (!kind_of_light(light).rays().have_one_direction()) return "with both map.near_m and map.far_m";
+  return s.map.extent_m ? "with map.extent_m, map.near_m and map.far_m" : "";
+}
+// A light has a size only if the settings give it one: neither the built-in scenes nor glTF have lights with a size.
+std::string without_size_of_light(const Settings& s, LightKind kind) {
+  Light light;
+  light.angular_diameter_deg = s.light.angular_diameter_deg.value_or(0);
+  light.radius_m = s.light.radius_m.value_or(0);
+  return kind_of_light(kind).disc_radius(light) > 0 ? "" : "with a light without a size";
+}
+// A part of the compared depth is in this unit, also the one that a curve would vary; and so is the cap.
+std::string without_part_in_unit(const Settings& s, LightKind) {
+  const bool capped = s.bias.plane_cap && tap_reference(s.bias.reference).reads_cap;
+  return capped || curve_part(s.bias) ? "" : "without a part of the bias in that unit";
+}
 std::string without_capped_plane(const Settings& s, LightKind) {
   return tap_reference(s.bias.reference).reads_cap ? "" : "with bias.reference = " + s.bias.reference;
 }

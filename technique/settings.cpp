@@ -62,7 +62,7 @@ Setting bias_row(const BiasParameter& parameter) {
   const BiasPart& part = *parameter.part;
   if (part.acts_on == BiasTarget::caster && !part.formula.way)
     row.why_idle = [](const Settings& s, LightKind light) {
-      const std::string why = not_on_point(s, light);
+      const std::string why = on_cube_map(s, light);
       return why.empty() ? why : why + ", whose shader writes its depth itself";
     };
   if (!is_cap) return row;
@@ -166,25 +166,25 @@ std::vector<Setting> make_table() {
       point("light.target_m", "m",
             "The point that the light points at, which is the middle of its map; auto: the scene's.",
             MEMBER(light.target_m))
-          .idle(not_on_point),
+          .idle(where_light_has_no_target),
       real("light.angular_diameter_deg", "deg", 0, 90,
            "directional: angular diameter of the sun, for R0 (the real sun: 0.53); 0: no size; auto: the scene's.",
            MEMBER(light.angular_diameter_deg))
           .only_read_by({Stage::truth})
-          .idle(only_on_directional),
+          .idle(without_parallel_rays),
       real("light.radius_m", "m", 0, 1e6, "spot, point: radius of the light, for R0; 0: no size; auto: the scene's.",
            MEMBER(light.radius_m))
           .only_read_by({Stage::truth})
-          .idle(not_on_directional),
+          .idle(with_parallel_rays),
       choice("light.shape", {"sphere", "disc"},
              "spot, point: shape of a light with a size, for R0. sphere; disc: across a spot light's axis, or facing "
              "each receiver for a point light.",
              MEMBER(light.shape))
           .only_read_by({Stage::truth})
-          .idle(not_on_directional),
+          .idle(with_parallel_rays),
       real("light.cone_deg", "deg", 1, 170,
            "spot: whole angle of the cone; outside it nothing is lit; auto: the scene's.", MEMBER(light.cone_deg))
-          .idle(only_on_spot),
+          .idle(without_cone),
       integer("map.resolution", "texels", 1, 16384, "Texels along each side of the shadow map.",
               MEMBER(map.resolution)),
       choice("map.format", {"16", "24", "32f"}, "Depth format of the shadow map.", MEMBER(map.format))
@@ -192,16 +192,17 @@ std::vector<Setting> make_table() {
       choice("map.fit", {"scene", "tight"},
              "Where extent, near and far come from if they are auto. scene: from the scene, or fitted tightly if the "
              "scene has none or the light is not the scene's; tight: always fitted tightly around the scene.",
-             MEMBER(map.fit)),
+             MEMBER(map.fit))
+          .idle(where_map_is_given),
       real("map.extent_m", "m", 1e-6, 1e9,
            "directional: whole width of the area that the map covers; auto: by map.fit.", MEMBER(map.extent_m))
-          .idle(only_on_directional),
+          .idle(without_parallel_rays),
       real("map.extent_scale", "", 1e-3, 1e3, "Multiplies the extent, whether it is given or fitted.",
            MEMBER(map.extent_scale))
-          .idle(not_on_point),
+          .idle(on_cube_map),
       real("map.fov_deg", "deg", 1, 175, "spot: whole angle that the map covers; auto: the light's cone.",
            MEMBER(map.fov_deg))
-          .idle(only_on_spot),
+          .idle(without_cone),
       flag("map.snap",
            "directional: moves the map by less than a texel, so that its texel grid stays fixed in the world when the "
            "light's position or target moves without a rotation.",
@@ -231,7 +232,7 @@ std::vector<Setting> make_table() {
            MEMBER(map.far_m)),
       choice("map.wrap", {"repeat", "clamp_to_edge", "clamp_to_border"},
              "What a lookup outside the map reads. The border of clamp_to_border is lit.", MEMBER(map.wrap))
-          .idle(not_on_point),
+          .idle(on_cube_map),
       flag("map.lit_beyond_far", "Receivers beyond the far plane are lit without a comparison.",
            MEMBER(map.lit_beyond_far))
           .only_read_by({Stage::ladder}),
@@ -244,12 +245,13 @@ std::vector<Setting> make_table() {
              "point: all six faces in one pass through a geometry shader, or one pass for each face. The map is the "
              "same; the time differs.",
              MEMBER(map.cube_pass))
-          .idle(only_on_point)
+          .idle(on_flat_map)
           .only_read_by({Stage::map}),
       choice("bias.unit", {"depth", "m", "texel"},
              "Unit of the parts of the bias that have no unit of their own: window depth, metres of the map's depth, "
              "or texels of the map at the receiver.",
-             MEMBER(bias.unit)),
+             MEMBER(bias.unit))
+          .idle(without_part_in_unit),
       named("bias.reference", "The depth that a tap is compared with, before the bias is subtracted.", tap_references(),
             MEMBER(bias.reference))
           .refused(plane_on_cube_or_blended),
@@ -278,7 +280,8 @@ std::vector<Setting> make_table() {
           .idle(where_disk_follows_view),
       real("truth.standard_error", "", 1e-3, 0.5,
            "Largest standard error of R0 at a receiver, for a light with a size. A smaller value takes more rays.",
-           MEMBER(truth.standard_error)),
+           MEMBER(truth.standard_error))
+          .idle(without_size_of_light),
   };
   // The rows of the parts stand after the other settings of the bias.
   auto at = std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "bias.plane_cap"; });

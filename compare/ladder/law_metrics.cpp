@@ -161,11 +161,12 @@ std::map<std::string, double> measure_laws(const LawInput& in) {
   };
   const auto area = [&](Cause cause) { return measured(receivers.area[static_cast<size_t>(cause)]); };
   const double range_m = in.frame.far_m - in.frame.near_m;
+  const double quantum_there = in.frame.has_depth(TileDepth::perspective)
+                                   ? measured(receivers.quantum_m)
+                                   : quantum_m(in.frame, quantum, &MapTile::far_m);
   return {{"texel_m", in.frame.uniform() ? in.frame.texel_m(glm::dvec3(0)) : median_texel_m(in)},
           {"map_range_m", range_m},
-          {"depth_quantum_m", in.frame.tile(0).depth == TileDepth::perspective
-                                  ? measured(receivers.quantum_m)
-                                  : quantum_m(in.frame, quantum, &MapTile::far_m)},
+          {"depth_quantum_m", quantum_there},
           {"acne_free_bias_law_depth", measured(receivers.law_depth)},
           {"acne_free_bias_law_m", measured(receivers.law_m)},
           {"acne_free_bias_scene_law_depth", faces.law_depth},

@@ -95,8 +95,7 @@ double error_of(const Ladder& ladder) {
 std::map<std::string, double> measure_ladder(const MeasureInput& in) {
   const Ladder& ladder = in.ladder;
   uint64_t receivers = 0, facing = 0, base = 0, lit = 0, outside = 0, wrong = 0, aliased = 0, undecided = 0;
-  double doubt = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0,
-         edge_sum = 0;
+  double doubt = 0, error_soft = 0, aliasing_squares = 0, panning_lit = 0, gap = 0, edge_max = 0, edge_sum = 0;
   std::vector<double> size(ladder.causes.size());
   for (size_t i = 0; i < ladder.flags.size(); ++i) {
     receivers += in.receivers.primitive[i] != no_primitive;

@@ -15,6 +15,8 @@ class Spot final : public KindOfLight {
   std::string_view name() const override { return "spot"; }
   std::string_view help() const override { return "one perspective map"; }
 
+  bool has_cone() const override { return true; }
+
   LightFrame axes(const Light& light) const override {
     LightFrame frame;
     frame.kind = LightKind::spot;

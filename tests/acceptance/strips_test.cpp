@@ -65,6 +65,39 @@ TEST_P(Strips, ChangeNoResult) {
   }
 }
 
+// A lookup of several strips keeps its rays, which refer to the scene's tracer. When another scene has been loaded in
+// between, the rays must be made anew, although the settings are the same as before.
+TEST(StripsOfAScene, AreForgottenWithIt) {
+  struct CountedLookups : Pipeline {
+    explicit CountedLookups(int& count) : Pipeline(1), count_(count) {}
+    LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
+                               const TruthStage& truth, const PointSetup& point) override {
+      ++count_;
+      return Pipeline::prepare_lookup(renderer, tracer, view, truth, point);
+    }
+    int& count_;
+  };
+  Settings settings = small("cube-room", 160, 100);
+  find_setting("map.resolution").set(settings, "200");
+  const Settings other = small("fence", 160, 100);
+  int lookups = 0;
+  Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<CountedLookups>(lookups));
+  const Ladder first = bench.measure(settings, std::nullopt).ladder;
+  const auto same_again = [&] {
+    const Ladder again = bench.measure(settings, std::nullopt).ladder;
+    for (size_t n = 0; n < first.rungs.size(); ++n)
+      EXPECT_EQ(again.rungs[n].lit.pixels, first.rungs[n].lit.pixels) << n;
+  };
+  same_again();
+  EXPECT_EQ(lookups, 1) << "the same scene's rays are kept";
+  bench.scene(other.scene);
+  same_again();
+  EXPECT_EQ(lookups, 2);
+  bench.memory(other, false, false);
+  same_again();
+  EXPECT_EQ(lookups, 3);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Of, Strips,
     testing::Values(

@@ -204,7 +204,7 @@ TEST_F(GlTest, UploadedCubesComeBackBitForBit) {
     settings.map.wrap = Wrap::repeat;
     Image<float> depth(side, 6 * side);
     for (float& d : depth.pixels) d = static_cast<float>(random() >> 8) * 0x1p-24f;
-    const Image<float> back = renderer.read_map(renderer.upload_map(depth, settings.map));
+    const Image<float> back = renderer.read_map(renderer.upload_map(depth, settings.map, MapShape::cube));
     ASSERT_EQ(back.height, 6 * side);
     EXPECT_TRUE(back.pixels == depth.pixels);
   }
@@ -223,7 +223,9 @@ TEST_F(GlTest, AMapOfAnotherKindIsADefect) {
   const LightFrame frame = make_light_frame(scene, settings);
   const ShadowMap flat = renderer.upload_map(Image<float>(8, 8, 1.0f), settings.map);
   EXPECT_EQ(kind_thrown([&] { renderer.lookup(flat, frame, settings); }), static_cast<int>(ErrorKind::defect));
-  EXPECT_EQ(kind_thrown([&] { renderer.upload_map(Image<float>(8, 40, 1.0f), settings.map); }),
+  EXPECT_EQ(kind_thrown([&] { renderer.upload_map(Image<float>(8, 40, 1.0f), settings.map, MapShape::cube); }),
+            static_cast<int>(ErrorKind::defect));
+  EXPECT_EQ(kind_thrown([&] { renderer.upload_map(Image<float>(8, 48, 1.0f), settings.map, MapShape::flat); }),
             static_cast<int>(ErrorKind::defect));
   settings.filter.kind = "box";
   EXPECT_EQ(kind_thrown([&] { renderer.probe(frame, settings); }), static_cast<int>(ErrorKind::usage));

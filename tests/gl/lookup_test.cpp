@@ -86,7 +86,8 @@ TEST_F(GlLookupTest, AllLitIsOneAndAllDarkIsNought) {
         const LightFrame frame = make_light_frame(scene, settings);
         const LookupProbe probe = renderer.probe(frame, settings);
         for (const float depth : {0.0f, 1.0f}) {
-          const ShadowMap map = renderer.upload_map(Image<float>(64, frame.map_size().y, depth), settings.map);
+          const ShadowMap map =
+              renderer.upload_map(Image<float>(64, frame.map_size().y, depth), settings.map, frame.map_shape());
           const Image<float> seen = renderer.lookup(map, frame, settings);
           for (size_t i = 0; i < seen.size(); ++i) {
             if (probe.bias_unit[i] == 0 || probe.reference[i] <= 0) continue;
@@ -119,8 +120,9 @@ TEST_F(GlLookupTest, ATieIsLit) {
       const float reference = renderer.probe(frame, settings).reference[0];
       ASSERT_GT(reference, 0);
       const auto seen_with = [&](float depth) {
-        return renderer.lookup(renderer.upload_map(Image<float>(8, frame.map_size().y, depth), settings.map), frame,
-                               settings)[0];
+        return renderer.lookup(
+            renderer.upload_map(Image<float>(8, frame.map_size().y, depth), settings.map, frame.map_shape()), frame,
+            settings)[0];
       };
       EXPECT_EQ(seen_with(reference), 1) << describe(settings);
       EXPECT_EQ(seen_with(std::nextafter(reference, 0.0f)), 0) << describe(settings);
@@ -350,7 +352,7 @@ TEST_F(GlLookupTest, ReceiversWithoutAPlaceInTheMapAreDark) {
     const LookupProbe probe = renderer.probe(frame, settings);
     for (size_t i = 0; i < 4; ++i) EXPECT_TRUE(std::isfinite(probe.n_dot_l[i]) && std::isfinite(probe.reference[i]));
     const Image<float> open(4, frame.map_size().y, 1.0f);
-    return renderer.lookup(renderer.upload_map(open, settings.map), frame, settings).pixels;
+    return renderer.lookup(renderer.upload_map(open, settings.map, frame.map_shape()), frame, settings).pixels;
   };
   EXPECT_EQ(seen_by(LightKind::spot), (std::vector<float>{1, 0, 0, 0}));
   EXPECT_EQ(seen_by(LightKind::point), (std::vector<float>{1, 1, 1, 0}));

@@ -53,6 +53,7 @@ TEST_F(GivenPicture, ThatEqualsR5AddsNothing) {
   EXPECT_EQ(json.at("rungs_on_top").at(0).at("cause"), "elsewhere");
   EXPECT_FALSE(json.contains("bias_curve"));
   EXPECT_TRUE(says("R6 is judged in place of R5")) << output_;
+  EXPECT_TRUE(says("the causes other than elsewhere are those of the settings' technique (R0 to R5)")) << output_;
   EXPECT_TRUE(says("elsewhere" + std::string(27, ' ') + "0.00000%")) << output_;
 }
 
@@ -96,6 +97,39 @@ TEST_F(GivenPicture, MayBeAPngWhoseValuesAreTakenAsTheyAre) {
   EXPECT_NEAR(point().at("metrics").at("error").get<double>(), 0.8 * lit + 0.2 * (1 - lit), 1e-6);
 }
 
+TEST_F(GivenPicture, MayHaveAnAlphaChannelThatIsOneEverywhere) {
+  measure("none");
+  const Image<float>& grey = ladder_.shown();
+  Image<float> alpha(width, height, 1);
+  const auto with_alpha = [&](const std::string& file, const std::vector<const char*>& colours) {
+    std::vector<Channel> channels;
+    for (const char* name : colours) channels.push_back({name, grey});
+    channels.push_back({"A", alpha});
+    write_exr((folder_ / file).string(), channels);
+    return render(file);
+  };
+  for (const std::vector<const char*>& colours : {std::vector<const char*>{"Y"}, {"R", "G", "B"}}) {
+    ASSERT_EQ(with_alpha("alpha.exr", colours), 0) << output_;
+    EXPECT_EQ(point().at("metrics").at("elsewhere"), 0);
+    EXPECT_EQ(point().at("metrics").at("error"), metrics_.at("error"));
+  }
+  alpha.at(5, 5) = 0.5f;
+  for (const std::vector<const char*>& colours : {std::vector<const char*>{"Y"}, {"R", "G", "B"}}) {
+    EXPECT_EQ(with_alpha("alpha.exr", colours), 3) << output_;
+    EXPECT_TRUE(says("alpha.exr: has an alpha channel that is not 1 everywhere; remove the alpha channel")) << output_;
+  }
+}
+
+TEST_F(GivenPicture, OfAnExperimentWithBoundsSaysWhoJudgesThem) {
+  measure("none");
+  write("bound.toml", "[view]\nwidth_px = 160\nheight_px = 90\n[[bound]]\nmetric = \"error\"\nmax = 0.5\n");
+  const std::string note = "render judges no bounds and no laws; noonmark check does";
+  ASSERT_EQ(run({"render", "bound.toml", "--picture", exr(ladder_.shown()), "--out", "out"}), 0) << output_;
+  EXPECT_TRUE(says(note)) << output_;
+  ASSERT_EQ(render("engine.exr"), 0) << output_;
+  EXPECT_FALSE(says(note)) << output_;
+}
+
 TEST_F(GivenPicture, ThatCannotBeJudgedEndsWithOneError) {
   const auto refused = [&](const std::string& file, const std::vector<std::string>& words) {
     EXPECT_EQ(render(file), 3) << file << output_;
@@ -124,7 +158,11 @@ TEST_F(GivenPicture, ThatCannotBeJudgedEndsWithOneError) {
     with(1);
     const std::string bytes = text(file);
     write("half", bytes.substr(0, bytes.size() / 2));
-    refused("half", {"cannot be decoded", "write it again"});
+    for (const size_t length : {bytes.size() / 2, size_t{20}}) {
+      write("half", bytes.substr(0, length));
+      refused("half", {"cannot be decoded", "write it again"});
+      for (const char* inside : {"picture.exr", "picture.png", ".;"}) EXPECT_FALSE(says(inside)) << output_;
+    }
   }
   write("notes.png", "no picture");
   refused("notes.png", {"is neither a PNG nor an EXR file"});

@@ -75,6 +75,46 @@ TEST(Tiles, CoverTheMapAndKnowTheirTexels) {
   }
 }
 
+// Two orthographic tiles as a cascade split would lay them: of different width, middle and depth, one above the other
+// in the image. No light has them yet. The expected numbers are written out from the tile's rectangle in metres.
+TEST(Tiles, OfDifferentSizeAndMiddleAgreeWithTheirMatrices) {
+  std::mt19937 random(9);
+  for (int i = 0; i < 200; ++i) {
+    const LightFrame f = random_frame(random, LightKind::directional);
+    const int n = f.resolution;
+    MapTile wide = f.tile(0);
+    wide.centre_m = {random_in(random, -5, 5), random_in(random, -5, 5)};
+    MapTile narrow = wide;
+    narrow.half = wide.half * random_in(random, 0.1, 0.9);
+    narrow.centre_m = {random_in(random, -5, 5), random_in(random, -5, 5)};
+    narrow.near_m = f.near_m + 0.5;
+    narrow.far_m = f.far_m - 0.5;
+    narrow.corner = {0, n};
+    for (const MapTile& tile : {wide, narrow}) {
+      // A point in a known texel of the tile.
+      const glm::dvec2 in_tile(random_in(random, 0, n), random_in(random, 0, n));
+      const double w = 2 * tile.half / n, z = random_in(random, tile.near_m, tile.far_m);
+      const glm::dvec3 light(tile.centre_m - tile.half + in_tile * w, z);
+      const glm::dvec2 texels = tile.texels({light.x, light.y, 1});
+      EXPECT_NEAR(texels.x, in_tile.x, 1e-8);  // of up to thousands of texels
+      EXPECT_NEAR(texels.y, in_tile.y + tile.corner.y, 1e-8);
+      const glm::dvec4 clip = f.clip_from_world(tile) * glm::dvec4(f.to_world(light), 1);
+      EXPECT_EQ(clip.w, 1);
+      EXPECT_NEAR((clip.x + 1) / 2 * n, in_tile.x, 1e-8);
+      EXPECT_NEAR((clip.y + 1) / 2 * n, in_tile.y, 1e-8);
+      EXPECT_NEAR((clip.z + 1) / 2, tile.window_depth(z), 1e-10);
+      EXPECT_DOUBLE_EQ(tile.texel_m(light), w);
+      const glm::ivec2 texel = glm::ivec2(glm::floor(in_tile)) + tile.corner;
+      const glm::dvec3 centre = tile.place_of(texel);
+      EXPECT_LE(std::abs(centre.x - light.x), w / 2 * (1 + 1e-8) + rounding);
+      EXPECT_LE(std::abs(centre.y - light.y), w / 2 * (1 + 1e-8) + rounding);
+      const glm::dvec2 back = tile.texels(centre);
+      EXPECT_NEAR(back.x, texel.x + 0.5, 1e-8);
+      EXPECT_NEAR(back.y, texel.y + 0.5, 1e-8);
+    }
+  }
+}
+
 TEST_P(Kinds, MatrixAgreesWithPlacesAndDepths) {
   std::mt19937 random(1);
   for (int i = 0; i < 500; ++i) {

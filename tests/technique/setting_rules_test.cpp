@@ -95,6 +95,13 @@ TEST(Settings, ThoseThatChangeNothingAreNamed) {
     EXPECT_EQ(idle(light, {}), "") << "a default was not set by the user";
   EXPECT_EQ(idle(LightKind::directional, {{"light.radius_m", "0.5"}}), "light.radius_m on a directional light;");
   EXPECT_EQ(idle(LightKind::spot, {{"light.radius_m", "0.5"}, {"light.cone_deg", "30"}}), "");
+  EXPECT_EQ(idle(LightKind::spot, {{"light.angular_diameter_deg", "1"}, {"map.extent_m", "3"}}),
+            "light.angular_diameter_deg on a spot light;map.extent_m on a spot light;");
+  EXPECT_EQ(idle(LightKind::point, {{"light.cone_deg", "30"}, {"map.fov_deg", "30"}, {"map.extent_scale", "2"}}),
+            "light.cone_deg on a point light;map.extent_scale on a point light;map.fov_deg on a point light;");
+  EXPECT_EQ(idle(LightKind::directional, {{"map.cube_pass", "six_passes"}, {"light.shape", "disc"}}),
+            "light.shape on a directional light;map.cube_pass on a directional light;");
+  EXPECT_EQ(idle(LightKind::spot, {{"map.cube_pass", "six_passes"}}), "map.cube_pass on a spot light;");
   EXPECT_EQ(idle(LightKind::point, {{"map.wrap", "repeat"}}), "map.wrap on a point light;");
   EXPECT_EQ(idle(LightKind::point, {{"light.target_m", "1,2,3"}}), "light.target_m on a point light;");
   EXPECT_EQ(idle(LightKind::spot, {{"light.target_m", "1,2,3"}}), "");
@@ -121,6 +128,30 @@ TEST(Settings, ThoseThatChangeNothingAreNamed) {
   EXPECT_EQ(idle(LightKind::spot,
                  {{"scene.name", "a.glb"}, {"view.fit_depths", "true"}, {"view.near_m", "1"}, {"view.far_m", "9"}}),
             "view.fit_depths with both view.near_m and view.far_m;");
+  EXPECT_EQ(idle(LightKind::spot, {{"map.fit", "tight"}, {"map.near_m", "1"}}), "");
+  EXPECT_EQ(idle(LightKind::spot, {{"map.fit", "tight"}, {"map.near_m", "1"}, {"map.far_m", "9"}}),
+            "map.fit with both map.near_m and map.far_m;");
+  EXPECT_EQ(idle(LightKind::directional, {{"map.fit", "tight"}, {"map.near_m", "1"}, {"map.far_m", "9"}}), "");
+  EXPECT_EQ(idle(LightKind::directional,
+                 {{"map.fit", "tight"}, {"map.near_m", "1"}, {"map.far_m", "9"}, {"map.extent_m", "4"}}),
+            "map.fit with map.extent_m, map.near_m and map.far_m;");
+  EXPECT_EQ(idle(LightKind::directional, {{"truth.standard_error", "0.1"}}),
+            "truth.standard_error with a light without a size;");
+  EXPECT_EQ(idle(LightKind::directional, {{"truth.standard_error", "0.1"}, {"light.angular_diameter_deg", "1"}}), "");
+  EXPECT_EQ(idle(LightKind::point, {{"truth.standard_error", "0.1"}, {"light.radius_m", "0.2"}}), "");
+  const char* const no_unit = "bias.unit without a part of the bias in that unit;";
+  EXPECT_EQ(idle(LightKind::spot, {{"bias.unit", "m"}}), "") << "bias.constant is in it";
+  EXPECT_EQ(idle(LightKind::spot, {{"bias.unit", "m"}, {"bias.constant", "0"}}), "") << "a curve varies bias.constant";
+  EXPECT_EQ(idle(LightKind::spot, {{"bias.unit", "m"}, {"bias.constant", "0"}, {"bias.normal_offset", "1"}}), no_unit);
+  EXPECT_EQ(idle(LightKind::spot,
+                 {{"bias.unit", "m"}, {"bias.constant", "0"}, {"bias.normal_offset", "1"}, {"bias.slope_floor", "1"}}),
+            "");
+  EXPECT_EQ(idle(LightKind::spot, {{"bias.unit", "m"},
+                                   {"bias.constant", "0"},
+                                   {"bias.normal_offset", "1"},
+                                   {"bias.reference", "receiver_plane"},
+                                   {"bias.plane_cap", "1"}}),
+            "");
   EXPECT_EQ(idle(LightKind::spot, {{"scene.time_s", "2"}}), "scene.time_s in a built-in scene;");
   EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"scene.animation", "1"}}),
             "scene.animation without scene.time_s;");
