@@ -53,6 +53,13 @@ auto whole_number(long least, long most, const char* range) {
   };
 }
 
+std::string fraction(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc{} && end == text.data() + text.size() && value >= 0 && value <= 1) return "";
+  return fmt::format("'{}' is not a number from 0 to 1", text);
+}
+
 std::string not_empty(const std::string& path) { return path.empty() ? "the path is empty" : ""; }
 
 // CLI11 writes to C++ streams. This writes its text through stdio, like all other output.
@@ -175,22 +182,20 @@ int run(int argc, char** argv) {
       ->take_all()
       ->type_name("NAME=VALUE");
   const auto share = [](double& to, const char* name, const char* what, CLI::App* verb) {
-    verb->add_option(name, to, what)->check(CLI::Range(0.0, 1.0))->type_name("FRACTION")->capture_default_str();
+    verb->add_option(name, to, what)->check(fraction)->type_name("FRACTION");
   };
-  share(phase.acne_bound, "--acne", "The most acne of a usable pair, as a fraction of the counted receivers", map);
-  share(phase.peter_panning_bound, "--peter-panning", "The most Peter Panning of a usable pair", map);
-  map->add_option("--from", phase.coarsest, "The coarsest texels: resolution at the present extent")
-      ->check(whole_number(4, 16384, "from 4 to 16384"))
-      ->capture_default_str();
-  map->add_option("--to", phase.finest, "The finest texels")
-      ->check(whole_number(4, 16384, "from 4 to 16384"))
-      ->capture_default_str();
-  map->add_option("--rows", phase.rows, "Number of texel sizes")
-      ->check(whole_number(2, 200, "from 2 to 200"))
-      ->capture_default_str();
-  map->add_option("--placements", phase.placements, "S: each texel size is measured at S x S placements of its grid")
-      ->check(whole_number(1, Placements::most, "from 1 to 64"))
-      ->capture_default_str();
+  share(phase.acne_bound, "--acne",
+        "The most acne of a usable pair, as a fraction of the counted receivers (default: 0.001)", map);
+  share(phase.peter_panning_bound, "--peter-panning", "The most Peter Panning of a usable pair (default: 0.001)", map);
+  map->add_option("--from", phase.coarsest, "The coarsest texels: resolution at the present extent (default: 128)")
+      ->check(whole_number(4, 16384, "from 4 to 16384"));
+  map->add_option("--to", phase.finest, "The finest texels (default: 8192)")
+      ->check(whole_number(4, 16384, "from 4 to 16384"));
+  map->add_option("--rows", phase.rows, "Number of texel sizes (default: 25)")
+      ->check(whole_number(2, 200, "from 2 to 200"));
+  map->add_option("--placements", phase.placements,
+                  "S: each texel size is measured at S x S placements of its grid (default: 8)")
+      ->check(whole_number(1, Placements::most, "from 1 to 64"));
   map->add_option("--threads", arguments.threads,
                   "Number of threads (default: one for each core); no result depends on it")
       ->check(whole_number(1, 1024, "from 1 to 1024"));

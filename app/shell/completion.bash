@@ -70,12 +70,17 @@ _noonmark() {
     mapfile -t files < <(compgen -d -- "$word")
   elif [[ $previous == --picture ]]; then
     mapfile -t files < <(_noonmark_files "$word" '[eE][xX][rR]' '[pP][nN][gG]')
-  elif [[ $previous == --part || $previous == --point || $previous == --threads ]]; then
+  elif [[ $previous == --part || $previous == --point || $previous == --threads || $previous == --acne ||
+    $previous == --peter-panning || $previous == --from || $previous == --to || $previous == --rows ||
+    $previous == --placements ]]; then
     :  # a name or a number that cannot be listed
   elif [[ $word == -* ]]; then
     mapfile -t choices < <(_noonmark_options "$program" "$verb")
   elif [[ $verb == run || $verb == check || $verb == render ]]; then
     mapfile -t files < <(_noonmark_files "$word" '[tT][oO][mM][lL]')
+  elif [[ $verb == map ]]; then
+    mapfile -t choices < <(_noonmark_scenes "$program")
+    mapfile -t files < <(_noonmark_files "$word" '[gG][lL][tT][fF]' '[gG][lL][bB]')
   elif [[ $verb == report ]]; then
     mapfile -t files < <(compgen -d -- "$word")
   fi
