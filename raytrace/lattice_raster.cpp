@@ -23,8 +23,7 @@ uint64_t key(glm::ivec2 tile) {
 
 }  // namespace
 
-LatticeRaster::LatticeRaster(const TracedScene& traced, const LightView& view, const Silhouettes& silhouettes)
-    : traced_(traced), view_(view), silhouettes_(silhouettes) {
+LatticeRaster::LatticeRaster(const TracedScene& traced, const LightView& view) : traced_(traced), view_(view) {
   origin_ = glm::dvec2(view.texel_place({0, 0}));
   step_ = glm::dvec2(view.texel_place({1, 1})) - origin_;
   triangles_.resize(traced.scene.triangles.size());
@@ -161,35 +160,6 @@ void LatticeRaster::hits(glm::ivec2 tile, std::span<const uint32_t> candidates,
   for (size_t row = 0; row < side; ++row)
     for (uint64_t bits = wanted[row]; bits; bits &= bits - 1)
       hits[at++] = first[row * side + static_cast<size_t>(std::countr_zero(bits))];
-  ask_again(tile, wanted, hits);
-}
-
-void LatticeRaster::ask_again(glm::ivec2 tile, const std::array<uint64_t, side>& wanted,
-                              std::span<uint32_t> hits) const {
-  thread_local Silhouettes::Nearby nearby;
-  const glm::ivec2 base = tile * side;
-  const glm::dvec3 ends[2] = {view_.texel_place(base), view_.texel_place(base + (side - 1))};
-  silhouettes_.list_nearby(ends, nearby);
-  if (nearby.none()) return;
-  glm::dvec3 places[packet_size];
-  uint32_t again[packet_size];
-  size_t where[packet_size];
-  int count = 0;
-  const auto flush = [&] {
-    view_.first_hits(traced_.embree, count, places, again);
-    for (int i = 0; i < count; ++i) hits[where[i]] = again[i];
-    count = 0;
-  };
-  size_t at = 0;
-  for (int row = 0; row < side; ++row)
-    for (uint64_t bits = wanted[static_cast<size_t>(row)]; bits; bits &= bits - 1, ++at) {
-      const glm::dvec3 x = view_.texel_place(base + glm::ivec2(std::countr_zero(bits), row));
-      if (!silhouettes_.near(x)) continue;
-      places[count] = x;
-      where[count++] = at;
-      if (count == packet_size) flush();
-    }
-  if (count > 0) flush();
 }
 
 }  // namespace noonmark::raytrace

@@ -1,7 +1,8 @@
-// First hits at the points of a lattice by scan conversion in double, in place of one ray for each point. A point beside
-// a silhouette gets a ray after all: there the map that is compared holds what a ray of float meets.
+// First hits at the points of a lattice by scan conversion in double, in place of one ray for each point. They are the
+// exact first hits; where a ray of float may meet another surface, beside a silhouette, OwnSurface and DrawnMap find the
+// first in double too.
 //
-//   LatticeRaster raster(traced, view, silhouettes);
+//   LatticeRaster raster(traced, view);
 //   const auto lists = raster.candidates(tiles);              // for each tile the triangles that may cover it
 //   raster.hits(tiles[i], lists[i], wanted, found);
 #pragma once
@@ -12,7 +13,6 @@
 #include <vector>
 
 #include "raytrace/light_view.h"
-#include "raytrace/silhouettes.h"
 #include "raytrace/traced_scene.h"
 
 namespace noonmark::raytrace {
@@ -22,7 +22,7 @@ class LatticeRaster {
   static constexpr int side = 64;  // points along a tile
 
   // view: of the lattice's frame, a flat map. All must outlive this object.
-  LatticeRaster(const TracedScene& traced, const LightView& view, const Silhouettes& silhouettes);
+  LatticeRaster(const TracedScene& traced, const LightView& view);
 
   // tiles: tile (x, y) holds the points from (64 x, 64 y) on; none twice.
   std::vector<std::vector<uint32_t>> candidates(std::span<const glm::ivec2> tiles) const;
@@ -46,7 +46,6 @@ class LatticeRaster {
 
   const TracedScene& traced_;
   const LightView& view_;
-  const Silhouettes& silhouettes_;
   glm::dvec2 origin_{0}, step_{0};  // the place of point (0, 0), and from one point to the next
   std::vector<Triangle> triangles_;
 };

@@ -44,7 +44,7 @@ struct PlacementTracer::Impl {
         silhouettes(scene.adjacency, view, Silhouettes::reach_of(view)),
         surface(scene.embree, scene.adjacency, view, silhouettes),
         drawn(scene, view, surface, silhouettes, frame, settings, bias, over_texels(offset, all)),
-        raster(scene, view, silhouettes) {}
+        raster(scene, view) {}
 };
 
 PlacementTracer::PlacementTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,

@@ -1,0 +1,78 @@
+// The silhouettes listed around a few places give the answers of all silhouettes.
+#include "raytrace/silhouettes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "raytrace/traced_scene.h"
+#include "technique/light_frame.h"
+
+namespace noonmark {
+namespace {
+
+class Nearby : public testing::TestWithParam<LightKind> {
+ protected:
+  // Small triangles around the origin, none of which shares an edge with another: every edge is a silhouette.
+  static Scene scraps(std::mt19937& random) {
+    std::uniform_real_distribution<float> at(-2, 2), side(-0.3f, 0.3f);
+    Scene scene;
+    for (uint32_t t = 0; t < 300; ++t) {
+      const glm::vec3 corner(at(random), at(random), at(random));
+      scene.positions.push_back(corner);
+      for (int i = 0; i < 2; ++i)
+        scene.positions.push_back(corner + glm::vec3(side(random), side(random), side(random)));
+      scene.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+    scene.light = {.kind = GetParam(), .position_m = {0.3, 9, 0.2}, .target_m = {0, 0, 0.1}};
+    return scene;
+  }
+};
+
+TEST_P(Nearby, AnswersLikeAllSilhouettes) {
+  std::mt19937 random(20261122);
+  const Scene scene = scraps(random);
+  const LightFrame frame = make_light_frame(scene, {});
+  const Adjacency adjacency(scene);
+  const LightView view(scene, frame);
+  const double reach = 1e-3;
+  const Silhouettes all(adjacency, view, reach);
+  Silhouettes::Nearby listed;
+  std::uniform_real_distribution<double> unit(-1, 1);
+  uint64_t near = 0, crossed = 0, none = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    // A place close to a corner of a triangle: inside the reach of its edges, or just outside.
+    const glm::dvec3 corner = view.corner(static_cast<uint32_t>(random() % scene.triangles.size()), 0);
+    const glm::dvec3 way(unit(random), unit(random), 0);
+    const glm::dvec3 x = view.place_of(corner + 1.5 * reach * way);
+    const double size = view.place_of(corner + glm::dvec3(0.05, 0, 0)).x - view.place_of(corner).x;
+    // The rectangle begins at x and goes away from the corner, so that the edges that are near x may lie beside it.
+    glm::dvec3 y = x;
+    y.x += (way.x > 0 ? 1 : -1) * std::abs(size);
+    y.y += (way.y > 0 ? 1 : -1) * std::abs(size);
+    y = view.normal_place(y);
+    const glm::dvec3 places[2] = {x, y};
+    all.list_nearby(places, listed);
+    for (const glm::dvec3 place : {x, y, view.normal_place((x + y) / 2.0)}) {
+      ASSERT_EQ(listed.near(place), all.near(place)) << trial;
+      ASSERT_EQ(listed.near(place, reach / 3), all.near(place, reach / 3)) << trial;
+      near += all.near(place);
+    }
+    ASSERT_EQ(listed.crossings(x, y), all.crossings(x, y)) << trial;
+    crossed += !all.crossings(x, y).empty();
+    none += listed.none();
+    if (listed.none()) {
+      ASSERT_TRUE(all.crossings(x, y).empty() && !all.near(x) && !all.near(y)) << trial;
+    }
+  }
+  EXPECT_GT(near, 500u);
+  EXPECT_GT(crossed, 500u);
+  // Under the other lights the rectangle is widened by twice the reach, which holds the corner's own edges.
+  if (GetParam() == LightKind::directional) {
+    EXPECT_GT(none, 20u);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Lights, Nearby, testing::Values(LightKind::directional, LightKind::spot, LightKind::point));
+
+}  // namespace
+}  // namespace noonmark
