@@ -8,7 +8,7 @@
 namespace noonmark {
 namespace {
 
-// The lattice points that are held at a time. One takes 8 bytes and a share of its tile.
+// The lattice points that are held at a time. One takes 9 bytes and a share of its tile.
 constexpr size_t most_points = size_t{1} << 23;
 
 // Positions in the map at the placements (i, i); OpenGL itself computes them.

@@ -42,7 +42,6 @@ class LatticeRaster {
   Triangle triangle(uint32_t index) const;
   glm::dvec3 place(glm::dvec2 point) const { return {origin_.x + step_.x * point.x, origin_.y + step_.y * point.y, 1}; }
   bool covers_nothing_of(const Triangle& t, const glm::dvec3 (&corners)[4]) const;
-  void ask_again(glm::ivec2 tile, const std::array<uint64_t, side>& wanted, std::span<uint32_t> hits) const;
 
   const TracedScene& traced_;
   const LightView& view_;

@@ -7,7 +7,8 @@
 //
 //   const Placements placements(settings.map.placements);
 //   LightFrame moved = placements.frame(frame, 9);           // the map of placement 9
-//   glm::ivec2 k = placements.point({12, 7}, 9);             // the lattice point of its texel (12, 7)
+//   glm::ivec2 k(placements.point(12, placements.column(9)), placements.point(7, placements.row(9)));
+//                                                            // the lattice point of its texel (12, 7)
 //   glm::dvec3 x = placements.lattice(frame).texel_place(k); // the place of that texel's centre
 #pragma once
 #include <array>

@@ -2,8 +2,8 @@
 //
 //   PlacementCounts counts(placements, probe, part, placement_edges(grid, scale.depth_per_unit));
 //   counts.add(evidence, pixel, taps, box);          // for each facing receiver
-//   PlacementMetrics metrics = counts.metrics();     // at the point's own bias
-//   counts.caused(Cause::acne, 9, 0.005f);           // taps of placement 9, at one of the edges
+//   std::map<std::string, double> metrics = placement_metrics(counts);   // at the point's own bias
+//   counts.caused(Cause::acne, 9, 3);                // taps of placement 9, at the amount edges()[3]
 //
 // The causes are those of the ladder (compare/ladder/ladder.h). The depth that a tap reads is the exact map's; for the
 // error it is rounded to the map's format, as OpenGL stores it. So at R4 every number is the ladder's own, and the error

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/report/phase.h"
 #include "compare/report/report.h"
 #include "scenes/file.h"
 #include "tests/compare/report/sample.h"
@@ -31,24 +32,20 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
-class Page : public testing::Test {
+class Browser : public testing::Test {
  protected:
-  // Without a browser the tests are skipped, with this reason.
-  void SetUp() override {
+  // Opens the page and runs a probe in it (a file beside this one), which leaves what it saw. Without a browser the test
+  // is skipped, with this reason.
+  void open(std::string page, const char* probe) {
     std::string browser = output_of("command -v chromium || command -v chromium-browser || command -v google-chrome");
     if (browser.empty()) GTEST_SKIP() << "there is no chromium, so the scripts of the page are not tested";
     browser.pop_back();
-    Results results = sample_results();
-    results.points[3].metrics["error"] = std::numeric_limits<double>::quiet_NaN();
-    results.points[4].metrics["error"] = 0;
-    results.points[26].pictures.push_back({"map", "images/p0018-map.png", "The map of another."});
-    std::string page = render_report(results, sample_picture);
     const auto insert = [&](const std::string& before, const std::string& script) {
       const size_t at = page.rfind(before);
       ASSERT_NE(at, std::string::npos);
       page.insert(at, "<script>" + script + "</script>");
     };
-    insert("</body>", read_file(NOONMARK_SOURCE_DIR "/tests/compare/report/page_probe.js"));
+    insert("</body>", read_file(std::string(NOONMARK_SOURCE_DIR "/tests/compare/report/") + probe));
     insert("</head>",
            "var errors = []; addEventListener('error', function(e) { errors.push(e.message); });"
            "addEventListener('securitypolicyviolation', function(e) { errors.push(e.violatedDirective); });"
@@ -78,6 +75,17 @@ class Page : public testing::Test {
 
   std::filesystem::path folder_;
   json saw_;
+};
+
+class Page : public Browser {
+ protected:
+  void SetUp() override {
+    Results results = sample_results();
+    results.points[3].metrics["error"] = std::numeric_limits<double>::quiet_NaN();
+    results.points[4].metrics["error"] = 0;
+    results.points[26].pictures.push_back({"map", "images/p0018-map.png", "The map of another."});
+    open(render_report(results, sample_picture), "page_probe.js");
+  }
 };
 
 TEST_F(Page, ChartsHaveTheirMarks) {
@@ -125,6 +133,60 @@ TEST_F(Page, KeysFlipThePicturesInSight) {
                                  "1 18 map",     // there is no ninth
                                  "1 18 map",     // the list has the focus
                                  "1 26 map"}));  // another point, the same picture
+}
+
+class PhasePage : public Browser {
+ protected:
+  // Three texel sizes and eight biases. Acne falls with the bias and grows with the texel, Peter Panning begins at the
+  // sixth bias; so the two finer rows have a usable interval and the coarsest has none.
+  void SetUp() override {
+    PhaseDiagram d;
+    d.scene = "a <b> scene";
+    d.light = "directional";
+    d.render = "noonmark render --set scene.name='x y'";
+    d.placements = 8;
+    d.receivers = 1000;
+    d.acne_bound = d.peter_panning_bound = 0.001;
+    d.range_m = 10;
+    d.law_at_bound = 1.5;
+    d.law_steepest = 3;
+    for (int i = 0; i < 8; ++i) d.bias_m.push_back(0.001 * std::exp2(i));
+    for (int r = 0; r < 3; ++r) {
+      PhaseRow row;
+      row.resolution = 64 << r;
+      row.texel_m = 0.04 / (1 << r);
+      for (int i = 0; i < 8; ++i) {
+        row.acne.push_back(i < 6 - 2 * r ? 0.1 / (i + 1) : 0);
+        row.acne_worst.push_back(1.2 * row.acne.back());
+        row.peter_panning.push_back(i < 5 ? 0 : 0.01);
+        row.peter_panning_worst.push_back(row.peter_panning.back());
+        row.aliasing.push_back(0.002);
+        row.error.push_back(row.acne.back() + row.peter_panning.back() + 0.002);
+        row.error_worst.push_back(1.2 * row.error.back());
+        for (auto list : {&PhaseRow::coverage, &PhaseRow::filter, &PhaseRow::undecided}) (row.*list).push_back(0);
+      }
+      row.last_acne_m = 0.05;
+      d.rows.push_back(row);
+    }
+    ASSERT_TRUE(d.usable(d.rows[0]).empty());
+    ASSERT_EQ(d.usable(d.rows[1]).from, d.bias_m[4]);
+    ASSERT_EQ(d.usable(d.rows[1]).to, d.bias_m[4]);
+    ASSERT_EQ(d.usable(d.rows[2]).from, d.bias_m[2]);
+    open(render_phase(d), "phase_probe.js");
+  }
+};
+
+TEST_F(PhasePage, HasACellForEachPairAndAnswersThePointer) {
+  EXPECT_EQ(saw_["cells"], 24) << "three texel sizes and eight biases";
+  EXPECT_EQ(saw_["lines"], 6) << "two bounds, each worst and mean, and two lines of law 1";
+  EXPECT_GT(saw_["hatch"], 4);
+  EXPECT_NE(saw_["texts"].dump().find("usable up to 20"), std::string::npos) << saw_["texts"];
+  EXPECT_NE(saw_["tip"].get<std::string>().find("64 texels of 40"), std::string::npos) << saw_["tip"];
+  EXPECT_NE(saw_["tip"].get<std::string>().find("Acne"), std::string::npos) << saw_["tip"];
+  EXPECT_EQ(saw_["command"],
+            "noonmark render --set scene.name='x y' --set map.resolution=64 --set bias.constant=0.001");
+  EXPECT_EQ(saw_["rows"], 3) << "the table for readers without JavaScript";
+  EXPECT_EQ(saw_["title"], "Phase diagram of a <b> scene");
 }
 
 }  // namespace
