@@ -36,6 +36,25 @@ Settings the_point(const Experiment& experiment, long point) {
   return all[static_cast<size_t>(std::max(point, 0L))];
 }
 
+// "over 64 placements of the grid            mean      worst        p95", and a line for each metric.
+void print_placements(const Measurement& m) {
+  const std::map<std::string, double>& metrics = m.record.metrics;
+  if (!metrics.contains("error_mean")) return;
+  const int side = m.settings.map.placements;
+  fmt::print("\n  {:<32}{:>12}{:>12}{:>12}\n", fmt::format("over {} placements of the grid", side * side), "mean",
+             "worst", "p95");
+  constexpr std::string_view ending = "_mean";
+  for (const Metric& metric : metrics_table()) {
+    if (!metric.of_placements || !metric.name.ends_with(ending)) continue;
+    const std::string name(metric.name.substr(0, metric.name.size() - ending.size()));
+    fmt::print("  {:<32}{:>11.5f}%{:>11.5f}%{:>11.5f}%\n", name, 100 * metrics.at(name + "_mean"),
+               100 * metrics.at(name + "_worst"), 100 * metrics.at(name + "_p95"));
+  }
+  fmt::print("  the worst is {:+g}, {:+g} texels from this point; OpenGL shows {:.5f}% error there\n",
+             metrics.at("worst_shift_u_texels"), metrics.at("worst_shift_v_texels"),
+             100 * metrics.at("error_worst_shown"));
+}
+
 void print_ladder(const Measurement& m) {
   const auto value = [&](const char* name) { return m.record.metrics.at(name); };
   fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", printable(m.scene.name), value("receivers"),
@@ -52,8 +71,9 @@ void print_ladder(const Measurement& m) {
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_of({&m.record, 1}))
     if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" &&
-        m.record.metrics.contains(std::string(metric.name)))  // of facing receivers
+        !metric.of_placements)  // printed otherwise
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
+  print_placements(m);
   fmt::print("\n");
   if (const std::string doubt = undecided_note({&m.record, 1}); !doubt.empty()) fmt::print("  {}\n\n", doubt);
   for (const char* name : {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "residual",

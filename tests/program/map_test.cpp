@@ -1,4 +1,6 @@
 // noonmark map: the files, the words and the mistakes.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -65,6 +67,28 @@ TEST_F(Map, ACellIsThePointThatItsCommandRenders) {
   EXPECT_NEAR(std::stod(cells.at(7)), metrics.at("peter_panning").get<double>(), 1e-9);
   EXPECT_NEAR(std::stod(cells.at(9)), metrics.at("aliasing").get<double>(), 1e-9);
   EXPECT_NEAR(std::stod(cells.at(3)), metrics.at("error").get<double>(), metrics.at("precision").get<double>() + 1e-9);
+}
+
+// All placements of one point: what render prints of them, and the worst one rendered by itself.
+TEST_F(Map, RenderPrintsWhatHoldsOverAllPlacements) {
+  const std::vector<std::string> point = {
+      "render",         "--set", "view.width_px=96",   "--set", "view.height_px=54", "--set",
+      "map.format=32f", "--set", "bias.constant=0.003"};
+  const auto render = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = point;
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(run(words), 0) << output_;
+    return nlohmann::json::parse(text("out/point.json")).at("metrics");
+  };
+  const nlohmann::json all = render({"--set", "map.placements=4", "--out", "out"});
+  EXPECT_TRUE(says("over 16 placements of the grid")) << output_;
+  EXPECT_TRUE(says("texels from this point; OpenGL shows")) << output_;
+  EXPECT_FALSE(says("acne_mean")) << output_;
+  const auto shift = [&](const char* name) { return fmt::format("{}", all.at(name).get<double>()); };
+  const nlohmann::json worst = render({"--set", "map.shift_u_texels=" + shift("worst_shift_u_texels"), "--set",
+                                       "map.shift_v_texels=" + shift("worst_shift_v_texels"), "--out", "out"});
+  EXPECT_EQ(worst.at("error"), all.at("error_worst_shown"));
+  EXPECT_FALSE(says("placements")) << output_;
 }
 
 TEST_F(Map, SaysWhatItCannotDraw) {
