@@ -257,7 +257,9 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const BiasPart* const varied = curve_options && !on_top ? curve_part(settings.bias) : nullptr;
   const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
   const BiasPart* const unknown = varied && !b.curve.has(curve_key) ? varied : nullptr;
-  const BiasScale scale = bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit);
+  // Only for a curve that is not known yet.
+  const BiasScale scale =
+      unknown ? bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit) : BiasScale();
   std::optional<PlacementStage> placements;
   EachStrip each_strip;
   if (settings.map.placements > 1) {

@@ -17,10 +17,6 @@ constexpr int farthest = 1 << 30;  // of a lattice point; LookupProbe::farthest_
 int floor_to_int(double x) { return static_cast<int>(std::floor(std::clamp<double>(x, -farthest, farthest))); }
 int ceil_to_int(double x) { return static_cast<int>(std::ceil(std::clamp<double>(x, -farthest, farthest))); }
 
-uint64_t key(glm::ivec2 tile) {
-  return static_cast<uint64_t>(static_cast<uint32_t>(tile.y)) << 32 | static_cast<uint32_t>(tile.x);
-}
-
 }  // namespace
 
 LatticeRaster::LatticeRaster(const TracedScene& traced, const LightView& view) : traced_(traced), view_(view) {

@@ -24,6 +24,11 @@ class LatticeRaster {
   // view: of the lattice's frame, a flat map. All must outlive this object.
   LatticeRaster(const TracedScene& traced, const LightView& view);
 
+  // A tile's key in a hash table.
+  static uint64_t key(glm::ivec2 tile) {
+    return static_cast<uint64_t>(static_cast<uint32_t>(tile.y)) << 32 | static_cast<uint32_t>(tile.x);
+  }
+
   // tiles: tile (x, y) holds the points from (64 x, 64 y) on; none twice.
   std::vector<std::vector<uint32_t>> candidates(std::span<const glm::ivec2> tiles) const;
 

@@ -136,8 +136,8 @@ void Silhouettes::put_in_order(std::vector<Crossing>& at) {
   at.erase(std::unique(at.begin(), at.end()), at.end());  // an edge is listed in many cells
 }
 
-// An edge is listed in every cell that it touches or comes within reach_m of. So the cells of the rectangle list every
-// edge that a place or a way within it can ask for.
+// An edge is listed in every cell that it touches, and in every cell within reach_m of it. So the cells of the rectangle
+// together list all edges that are near one of its places, or that cross a way inside it.
 void Silhouettes::list_nearby(std::span<const glm::dvec3> places, Nearby& nearby) const {
   nearby.all_ = this;
   nearby.edges_.clear();

@@ -67,9 +67,7 @@ class TexelLattice {
     }
   };
 
-  static uint64_t key(glm::ivec2 tile) {
-    return static_cast<uint64_t>(static_cast<uint32_t>(tile.y)) << 32 | static_cast<uint32_t>(tile.x);
-  }
+  static uint64_t key(glm::ivec2 tile) { return LatticeRaster::key(tile); }
   static glm::ivec2 tile_at(glm::ivec2 point) { return {point.x >> 6, point.y >> 6}; }
   const Tile& tile_of(glm::ivec2 point) const { return *tiles_.at(key(tile_at(point))); }
   void want(glm::ivec2 low, glm::ivec2 high);  // inclusive

@@ -117,7 +117,7 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
   const glm::ivec2 size = e.map_size;
   std::optional<TapThreshold> threshold;
   if (varied_) threshold.emplace(probe, e.bias, *varied_, pixel);
-  // A tap that is lit at any bias, and should be, is in no sum. Most taps are, so they are not looked at further.
+  // Most taps should be lit and are lit at every bias. They are never wrong, so they add to no sum and are skipped.
   const bool plain = truth && asks && probe.reference[pixel] <= 1.0f && !probe.tap_reference->plane &&
                      !probe.pattern.bilinear() && e.map.format == DepthFormat::d32f;
 

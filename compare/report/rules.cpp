@@ -45,7 +45,7 @@ class Mask {
   std::vector<uint64_t> words_;
 };
 
-// A setting, or the texel's size, with the value of each point as a number of the value.
+// A setting (or the texel's size), its values, and for each point the index of its value.
 struct Axis {
   std::string name;
   std::vector<std::string> values;

@@ -42,7 +42,6 @@ TEST(PhaseDiagram, AcneOfAPlaneIsTheTailOfItsSlopeOverTheTexel) {
   for (const auto& [theta, phi] : {std::pair(60.0, 0.0), std::pair(60.0, 45.0), std::pair(75.0, 20.0)}) {
     SCOPED_TRACE(std::to_string(theta) + " turned by " + std::to_string(phi));
     const Settings settings = plane(theta, phi);
-    Workbench bench(gl::DebugMode::fatal);
     const PhaseDiagram d =
         phase_of(settings, {.rows = 3, .coarsest = 64, .finest = 256, .placements = 8, .biases_per_octave = 4});
     ASSERT_GT(d.receivers, 10000);
