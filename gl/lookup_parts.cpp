@@ -7,6 +7,12 @@
 
 namespace noonmark::gl {
 
+namespace {
+
+std::string uniform(const FilterRead& read) { return fmt::format("filter_{}", read.parameter->name()); }
+
+}  // namespace
+
 ShaderSlots receiver_slots(ProgramCache& programs, LightKind light, const Bias& bias) {
   const std::string bias_name = bias_text_name(bias);
   programs.define(bias_name, bias_text(bias));
@@ -15,16 +21,31 @@ ShaderSlots receiver_slots(ProgramCache& programs, LightKind light, const Bias& 
 
 ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bias, const Filter& filter) {
   const std::string name(filter.name);
+  std::string text;
+  for (const FilterRead& read : filter.reads)
+    text += fmt::format("uniform {} {};  // {}\n", read.parameter->type == ValueType::real ? "float" : "int",
+                        uniform(read), read.parameter->unit);
+  if (filter.own_weights)
+    text += fmt::format(
+        "#include \"technique/filters/{0}.glsl\"\n"
+        "float filter_weight(int texel, float s) {{ return {0}_weight(texel, s, filter_size); }}\n",
+        name);
+  text += fmt::format("#include \"shaders/filter/{}.glsl\"\n", filter.shader);
+
   ShaderSlots slots = receiver_slots(programs, light, bias);
-  slots["filter"] = fmt::format("shaders/filter/{}.glsl", filter.shader);
-  if (filter.own_weights) {
-    slots["weights"] = "weights of " + name;
-    programs.define(slots["weights"], fmt::format("#include \"technique/filters/{0}.glsl\"\nuniform int filter_size;\n"
-                                                  "float filter_weight(int texel, float s) {{ return {0}_weight(texel, "
-                                                  "s, filter_size); }}\n",
-                                                  name));
-  }
+  slots["filter"] = "filter " + name;
+  programs.define(slots["filter"], text);
   return slots;
+}
+
+void set_filter_uniforms(Program& program, const Filter& filter, const FilterSettings& settings) {
+  for (const FilterRead& read : filter.reads) {
+    const double value = settings[read.parameter->name()];
+    if (read.parameter->type == ValueType::real)
+      program.set_if_used(uniform(read).c_str(), static_cast<float>(value));
+    else
+      program.set_if_used(uniform(read).c_str(), static_cast<int>(value));
+  }
 }
 
 }  // namespace noonmark::gl

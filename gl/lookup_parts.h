@@ -12,12 +12,14 @@ namespace noonmark::gl {
 // defines in `programs`.
 ShaderSlots receiver_slots(ProgramCache& programs, LightKind light, const Bias& bias);
 
-// The slots of a program that looks up the map. They are those of receiver_slots() and <filter>, a file that defines
+// The slots of a program that looks up the map. They are those of receiver_slots() and <filter>, a text that it defines in
+// `programs`: the uniforms of the filter's parameters (technique/filters.h), and the filter's file, which defines
 //   float lit(Receiver receiver, float bias)  the number of lit taps; for blended taps their weighted mean
 //   float all_lit()                           its greatest value
-// If a formula gives the weights of the filter's taps, there is also the slot <weights>, whose text is defined in
-// `programs` too:
+// If a formula gives the weights of the filter's taps, the text has before that file
 //   float filter_weight(int texel, float s)   the weight of texel 0 ... filter_size along one axis
 ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bias, const Filter& filter);
+
+void set_filter_uniforms(Program& program, const Filter& filter, const FilterSettings& settings);
 
 }  // namespace noonmark::gl

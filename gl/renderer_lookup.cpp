@@ -108,9 +108,7 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/lookup.frag"}, slots);
   r.set_receiver_uniforms(program, frame, settings);
   r.set_pattern(program, pattern);
-  program.set_if_used("box_radius", settings.filter.size / 2);
-  program.set_if_used("filter_size", settings.filter.size);
-  program.set_if_used("box_step", static_cast<float>(settings.filter.step_texels));
+  set_filter_uniforms(program, filter, settings.filter);
   program.set("lit_beyond_far", settings.map.lit_beyond_far ? 1 : 0);
   glBindTextureUnit(2, map.impl_->depth.id());
   if (pattern.bilinear()) {

@@ -23,6 +23,9 @@ constexpr std::string_view moves_the_lookup = "moves the lookup, so each of its 
 constexpr std::string_view is_in_the_map =
     "changes the map that is drawn, so each of its values needs a map of its own";
 
+constexpr std::string_view law_35 =
+    "law 35: what the parts give along the light adds up, and the sum must reach k·A·tan θ texels";
+
 constexpr double most_units = 1e6;
 
 #define FACTOR(name) \
@@ -36,12 +39,14 @@ constexpr BiasPart parts[] = {
      .unit = "bias.unit",
      .most = most_units,
      .help = "The same bias at every receiver.",
+     .law = "law 1: free of acne from k·w·A·tan θ; law 2: a gap of b·sin θ − t / cos ψ at the foot of a wall",
      .formula = FACTOR(constant)},
     {.name = "slope",
      .acts_on = BiasTarget::compared_depth,
      .unit = "bias.unit",
      .most = most_units,
      .help = "Slope-scaled bias: max(bias.slope * (1 - N.L), bias.slope_floor).",
+     .law = "law 1 at each receiver",
      .floor_help = "Smallest value of the slope-scaled bias.",
      .formula = FACTOR(slope)},
     {.name = "tan",
@@ -49,6 +54,7 @@ constexpr BiasPart parts[] = {
      .unit = "bias.unit",
      .most = most_units,
      .help = "Bias proportional to the slope: bias.tan * tan(theta), at least bias.tan_floor and at most bias.tan_cap.",
+     .law = "law 1: free of acne at every slope from tan = k·w·A",
      .floor_help = "Smallest value of the bias by tan(theta).",
      .cap_help = "Largest value of the bias by tan(theta); auto: no limit.",
      .formula = FACTOR(tan)},
@@ -58,6 +64,7 @@ constexpr BiasPart parts[] = {
      .most = 1e6,
      .help = "Normal offset: the receiver is looked up at a place moved along its normal by this many texels (texel_m "
              "metres each).",
+     .law = "law 3: free of acne from k·w·A·sin θ; shadows move by d·tan θ",
      .no_curve = moves_the_lookup,
      .formula = WAY(normal_offset)},
     {.name = "normal_offset_sin",
@@ -65,6 +72,7 @@ constexpr BiasPart parts[] = {
      .unit = "texels",
      .most = 1e6,
      .help = "Like bias.normal_offset, multiplied by sin(theta).",
+     .law = law_35,
      .no_curve = moves_the_lookup,
      .formula = WAY(normal_offset_sin)},
     {.name = "normal_offset_turned",
@@ -72,6 +80,7 @@ constexpr BiasPart parts[] = {
      .unit = "texels",
      .most = 1e6,
      .help = "Like bias.normal_offset, multiplied by (1 - N.L).",
+     .law = law_35,
      .no_curve = moves_the_lookup,
      .formula = WAY(normal_offset_turned)},
     {.name = "normal_offset_lateral",
@@ -79,6 +88,7 @@ constexpr BiasPart parts[] = {
      .unit = "texels",
      .most = 1e6,
      .help = "Like bias.normal_offset_turned, but without the component along the light.",
+     .law = law_35,
      .no_curve = moves_the_lookup,
      .formula = WAY(normal_offset_lateral)},
     {.name = "normal_offset_axes",
@@ -86,6 +96,7 @@ constexpr BiasPart parts[] = {
      .unit = "texels",
      .most = 1e6,
      .help = "Like bias.normal_offset, multiplied by |N.u| + |N.v|, where u and v are the texel's two axes.",
+     .law = law_35,
      .no_curve = moves_the_lookup,
      .formula = WAY(normal_offset_axes)},
     {.name = "caster_offset",
@@ -95,6 +106,7 @@ constexpr BiasPart parts[] = {
      .help =
          "While the map is drawn, each vertex is moved away from the light by this many texels, as wide as texels are "
          "at the vertex.",
+     .law = law_35,
      .no_curve = is_in_the_map,
      .formula = WAY(caster_offset)},
     {.name = "caster_normal_offset",
@@ -103,6 +115,7 @@ constexpr BiasPart parts[] = {
      .most = 1e4,
      .help = "Like bias.caster_offset, but each vertex is moved against its normal, the mean of its faces' "
              "normals, weighted by their areas.",
+     .law = law_35,
      .no_curve = is_in_the_map,
      .formula = WAY(caster_normal_offset)},
     {.name = "caster_normal_offset_sin",
@@ -110,6 +123,7 @@ constexpr BiasPart parts[] = {
      .unit = "texels",
      .most = 1e4,
      .help = "Like bias.caster_normal_offset, multiplied by sin(theta) at the vertex.",
+     .law = law_35,
      .no_curve = is_in_the_map,
      .formula = WAY(caster_normal_offset_sin)},
     {.name = "caster_normal_offset_turned",
@@ -117,6 +131,7 @@ constexpr BiasPart parts[] = {
      .unit = "texels",
      .most = 1e4,
      .help = "Like bias.caster_normal_offset, multiplied by (1 - N.L) at the vertex.",
+     .law = law_35,
      .no_curve = is_in_the_map,
      .formula = WAY(caster_normal_offset_turned)},
     {.name = "polygon_factor",
@@ -125,24 +140,31 @@ constexpr BiasPart parts[] = {
      .most = 1e4,
      .help = "Polygon offset: glPolygonOffset(bias.polygon_factor, bias.polygon_units) while the map is drawn. The "
              "factor multiplies the largest depth slope of each triangle, in depth per texel.",
+     .law = "adds factor·max(|∂d/∂i|, |∂d/∂j|) to the depth in the map",
      .no_curve = is_in_the_map},
     {.name = "polygon_units",
      .acts_on = BiasTarget::caster,
      .unit = "",
      .most = 1e8,
      .help = "Polygon offset: the units multiply the smallest depth difference that the map's format resolves.",
+     .law = "adds units·r to the depth in the map; r: the least difference of the format",
      .no_curve = is_in_the_map},
 };
 
 constexpr TapReference references[] = {
-    {.name = "own_depth", .help = "the receiver's own depth", .depth = in_float::own_depth},
+    {.name = "own_depth",
+     .help = "the receiver's own depth",
+     .law = "law 1: needs k·w·A·tan θ",
+     .depth = in_float::own_depth},
     {.name = "receiver_plane",
      .help = "the depth of the receiver's plane at the tap",
+     .law = "needs w/2·A·tan θ with any filter; over creases the plane is carried too far, up to bias.plane_cap",
      .depth = in_float::receiver_plane,
      .plane = true,
      .reads_cap = true},
     {.name = "texel_plane",
      .help = "the depth of the receiver's plane at the centre of the tap's texel",
+     .law = "needs the rounding alone on planes, with any filter; over creases as receiver_plane",
      .depth = in_float::texel_plane,
      .plane = true,
      .at_texel = true},

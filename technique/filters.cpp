@@ -1,5 +1,8 @@
 #include "technique/filters.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <stdexcept>
 
 #include "technique/filters/patterns.h"
@@ -20,75 +23,207 @@ using glm::abs, glm::clamp;
 
 namespace {
 
-using Names = std::vector<std::string_view>;
+// The parameters.
+
+constexpr FilterParameter size{.setting = "filter.size",
+                               .unit = "taps",
+                               .type = ValueType::integer,
+                               .min = 1,
+                               .max = 31,
+                               .initial = 3,
+                               .help = "taps along each side; an odd number."};
+
+std::string even_size(const FilterSettings& s) {
+  if (s.whole("size") % 2 != 0) return "";
+  return fmt::format(
+      "filter.size = {} is even; the filter {} has an odd number of taps on a side, so that one is at the receiver",
+      s["size"], s.kind);
+}
+
+// For kernels that are defined for three sizes only.
+std::string not_3_5_7(const FilterSettings& s) {
+  const std::string even = even_size(s);
+  if (!even.empty() || (s.whole("size") >= 3 && s.whole("size") <= 7)) return even;
+  return fmt::format("filter.size = {}: the filter {} has a size of 3, 5, 7", s["size"], s.kind);
+}
+
+constexpr FilterParameter step_texels{.setting = "filter.step_texels",
+                                      .unit = "texels",
+                                      .max = 64,
+                                      .initial = 1,
+                                      .help = "distance from one tap to the next."};
+
+constexpr FilterParameter sigma_texels{.setting = "filter.sigma_texels",
+                                       .unit = "texels",
+                                       .min = 0.1,
+                                       .max = 64,
+                                       .initial = 1,
+                                       .help = "standard deviation of the weights."};
+
+constexpr FilterParameter radius_texels{
+    .setting = "filter.radius_texels", .unit = "texels", .max = 256, .initial = 2, .help = "radius of the disk."};
+
+constexpr FilterParameter rotate{.setting = "filter.rotate",
+                                 .unit = "",
+                                 .type = ValueType::flag,
+                                 .help = "the disk is rotated by a different angle at each pixel."};
+
+constexpr FilterParameter number_of_taps{.setting = "filter.taps",
+                                         .unit = "taps",
+                                         .type = ValueType::integer,
+                                         .min = 1,
+                                         .max = 64,
+                                         .initial = 16,
+                                         .help = "number of taps."};
+
+constexpr FilterParameter offset_m{
+    .setting = "filter.offset_m",
+    .unit = "m",
+    .max = 1e3,
+    .initial = 0.1,
+    .help = "the taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world."};
+
+constexpr std::string_view disks[] = {"fixed", "view_distance"};
+constexpr FilterParameter disk{
+    .setting = "filter.disk",
+    .unit = "",
+    .type = ValueType::choice,
+    .help =
+        "radius of the disk. fixed: filter.radius_m; view_distance: (1 + distance to the camera / far) / 25 metres.",
+    .choices = disks};
+
+constexpr FilterParameter radius_m{.setting = "filter.radius_m",
+                                   .unit = "m",
+                                   .max = 1e3,
+                                   .initial = 0.05,
+                                   .help = "factor of the 20 directions (1,1,1), (1,1,0) and so on."};
+
+std::string disk_follows_view(const FilterSettings& s) {
+  return disks[s.whole("disk")] == "view_distance" ? "with filter.disk = view_distance" : "";
+}
+
+// The filters.
 
 // The taps of a filter whose formula gives the weight of each texel.
 template <double (*weight)(int, double, int)>
 TapPattern weighted(const FilterSettings& settings) {
-  return weighted_texels(settings.size, weight);
+  return weighted_texels(settings.whole("size"), weight);
 }
 
 std::vector<Filter> make_filters() {
   return {
-      {.name = "none", .help = "one nearest tap", .map = FilterMap::any, .shader = "none", .taps = none_taps},
+      {.name = "none",
+       .help = "one nearest tap",
+       .law = "k = ½; aliasing w·(a/4 + b²/12a) for each metre of edge (law 5)",
+       .map = FilterMap::any,
+       .shader = "none",
+       .taps = none_taps},
       {.name = "box",
        .help = "mean of N x N nearest taps",
+       .law = "k = r·step + ½; blur Σ wᵢ·|oᵢ·n| (law 7)",
        .shader = "box",
        .taps = box_taps,
-       .reads = Names{"filter.size", "filter.step_texels"}},
+       .reads = {{&size, even_size}, {&step_texels}}},
       {.name = "hardware",
        .help = "one linear fetch of a comparison sampler (2 x 2 texels)",
+       .law = "k = 1; half of the blur of 3 × 3",
        .shader = "bilinear",
        .taps = hardware_taps,
        .blended = true},
       {.name = "gaussian",
        .help = "Gaussian mean of N x N linear fetches of a comparison sampler",
+       .law = "k = r + 1; blur Σ wᵢ·|oᵢ·n| (law 7)",
        .shader = "bilinear",
        .taps = gaussian_taps,
-       .reads = Names{"filter.size", "filter.sigma_texels"},
+       .reads = {{&size, even_size}, {&sigma_texels}},
        .blended = true},
       {.name = "poisson",
        .help = "mean of 16 nearest taps in a disk",
+       .law = "k from the tap furthest up the slope",
        .shader = "mean",
        .taps = poisson_taps,
-       .reads = Names{"filter.radius_texels", "filter.rotate"}},
+       .reads = {{&radius_texels}, {&rotate}}},
       {.name = "castano",
        .help = "Castano's kernel of N x N comparisons, N = 3, 5 or 7, in 4, 9 or 16 fetches",
+       .law = "k = (N + 1) / 2; blur ¾, 1 and 29/26 texels along them",
        .shader = "fetches",
        .taps = weighted<filter_formulas::castano_weight>,
-       .reads = Names{"filter.size"},
+       .reads = {{&size, not_3_5_7}},
        .blended = true,
-       .sizes = {3, 5, 7},
        .own_weights = true},
       {.name = "tent",
        .help = "a tent whose base is N texels wide, integrated over each texel, N = 3, 5 or 7, in 4, 9 or 16 fetches",
+       .law = "k = (N + 1) / 2; blur N/6 + (3N − 1)/(6N²) texels along them",
        .shader = "fetches",
        .taps = weighted<filter_formulas::tent_weight>,
-       .reads = Names{"filter.size"},
+       .reads = {{&size, not_3_5_7}},
        .blended = true,
-       .sizes = {3, 5, 7},
        .own_weights = true},
       {.name = "vogel",
        .help = "mean of filter.taps nearest taps along a spiral in a disk",
+       .law = "k from the tap furthest up the slope",
        .shader = "mean",
        .taps = vogel_taps,
-       .reads = Names{"filter.taps", "filter.radius_texels", "filter.rotate"}},
+       .reads = {{&number_of_taps}, {&radius_texels}, {&rotate}}},
       {.name = "cube_grid",
        .help = "mean of 4 x 4 x 4 taps around the receiver",
+       .law = "k from the tap furthest up the slope; not centred on the receiver",
        .map = FilterMap::cube,
        .shader = "mean",
        .taps = cube_grid_taps,
-       .reads = Names{"filter.offset_m"}},
+       .reads = {{&offset_m}}},
       {.name = "cube_disk",
        .help = "mean of taps in 20 directions",
+       .law = "k from the tap furthest up the slope",
        .map = FilterMap::cube,
        .shader = "mean",
        .taps = cube_disk_taps,
-       .reads = Names{"filter.disk", "filter.radius_m"}},
+       .reads = {{&disk}, {&radius_m, nullptr, disk_follows_view}}},
   };
 }
 
+std::vector<const FilterParameter*> make_parameters() {
+  std::vector<const FilterParameter*> all;
+  for (const Filter& filter : filters())
+    for (const FilterRead& read : filter.reads)
+      if (std::find(all.begin(), all.end(), read.parameter) == all.end()) all.push_back(read.parameter);
+  return all;
+}
+
+size_t parameter_index(std::string_view name) {
+  const std::span<const FilterParameter* const> all = filter_parameters();
+  for (size_t i = 0; i < all.size(); ++i)
+    if (all[i]->name() == name) return i;
+  throw std::logic_error("no filter has a parameter '" + std::string(name) + "'");
+}
+
 }  // namespace
+
+const FilterRead* Filter::read(const FilterParameter& parameter) const {
+  for (const FilterRead& read : reads)
+    if (read.parameter == &parameter) return &read;
+  return nullptr;
+}
+
+std::span<const FilterParameter* const> filter_parameters() {
+  static const std::vector<const FilterParameter*> all = make_parameters();
+  return all;
+}
+
+FilterSettings::FilterSettings(std::string kind_name,
+                               std::initializer_list<std::pair<std::string_view, double>> parameters)
+    : kind(std::move(kind_name)) {
+  for (const auto& [name, value] : parameters) (*this)[name] = value;
+}
+
+double& FilterSettings::operator[](std::string_view parameter) { return values_[parameter_index(parameter)]; }
+double FilterSettings::operator[](std::string_view parameter) const { return values_[parameter_index(parameter)]; }
+
+std::vector<double> FilterSettings::defaults() {
+  std::vector<double> values;
+  for (const FilterParameter* parameter : filter_parameters()) values.push_back(parameter->initial);
+  return values;
+}
 
 std::span<const Filter> filters() {
   static const std::vector<Filter> all = make_filters();

@@ -98,24 +98,6 @@ std::string without_part_in_unit(const Settings& s, LightKind) {
 std::string without_capped_plane(const Settings& s, LightKind) {
   return tap_reference(s.bias.reference).reads_cap ? "" : "with bias.reference = " + s.bias.reference;
 }
-std::string where_disk_follows_view(const Settings& s, LightKind) {
-  return s.filter.kind == "cube_disk" && s.filter.disk == DiskRadius::view_distance ? "with filter.disk = view_distance"
-                                                                                    : "";
-}
-
-std::string even_or_unknown_size(const Settings& s, std::optional<LightKind>) {
-  const Filter& filter = find_filter(s.filter.kind);
-  if (std::find(filter.reads.begin(), filter.reads.end(), "filter.size") == filter.reads.end()) return "";
-  if (s.filter.size % 2 == 0)
-    return fmt::format(
-        "filter.size = {} is even; the filter {} has an odd number of taps on a side, so that one is at the receiver",
-        s.filter.size, s.filter.kind);
-  const std::vector<int>& sizes = filter.sizes;
-  if (sizes.empty() || std::find(sizes.begin(), sizes.end(), s.filter.size) != sizes.end()) return "";
-  return fmt::format("filter.size = {}: the filter {} has a size of {}", s.filter.size, s.filter.kind,
-                     fmt::join(sizes, ", "));
-}
-
 std::string map_near_beyond_far(const Settings& s, std::optional<LightKind>) {
   return near_beyond_far("map", s.map.near_m, s.map.far_m);
 }

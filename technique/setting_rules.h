@@ -64,10 +64,8 @@ std::string where_map_is_given(const Settings&, LightKind);
 std::string without_size_of_light(const Settings&, LightKind);
 std::string without_part_in_unit(const Settings&, LightKind);
 std::string without_capped_plane(const Settings&, LightKind);
-std::string where_disk_follows_view(const Settings&, LightKind);
 
 // The conflict as a whole message; empty if there is none. light: as for validate().
-std::string even_or_unknown_size(const Settings&, std::optional<LightKind>);
 std::string map_near_beyond_far(const Settings&, std::optional<LightKind>);
 std::string view_near_beyond_far(const Settings&, std::optional<LightKind>);
 std::string no_direction_up(const Settings&, std::optional<LightKind>);

@@ -80,6 +80,39 @@ Setting bias_row(const BiasParameter& parameter) {
   return row;
 }
 
+// The row of one parameter of the filters. It is idle with a filter that does not read it.
+Setting filter_row(const FilterParameter& parameter) {
+  std::vector<std::string_view> readers;
+  for (const Filter& filter : filters())
+    if (filter.read(parameter)) readers.push_back(filter.name);
+  const std::string help = fmt::format("{}: {}", fmt::join(readers, ", "), parameter.help);
+  const auto member = [&parameter](Settings& s) -> double& { return s.filter[parameter.name()]; };
+  const auto bare = [&] {
+    switch (parameter.type) {
+      case ValueType::integer:
+        return integer(parameter.setting, parameter.unit, parameter.min, parameter.max, help, member);
+      case ValueType::real:
+        return real(parameter.setting, parameter.unit, parameter.min, parameter.max, help, member);
+      case ValueType::flag:
+        return flag(parameter.setting, help, member);
+      case ValueType::choice:
+        return choice(parameter.setting, {parameter.choices.begin(), parameter.choices.end()}, help, member);
+      default:
+        throw std::logic_error("a parameter of a filter that is no number, flag or choice");
+    }
+  };
+  return bare()
+      .idle([&parameter](const Settings& s, LightKind) {
+        const FilterRead* read = find_filter(s.filter.kind).read(parameter);
+        if (!read) return "with filter.kind = " + s.filter.kind;
+        return read->why_idle ? read->why_idle(s.filter) : "";
+      })
+      .refused([&parameter](const Settings& s, std::optional<LightKind>) {
+        const FilterRead* read = find_filter(s.filter.kind).read(parameter);
+        return read && read->why_refused ? read->why_refused(s.filter) : "";
+      });
+}
+
 // The stages that read the settings of this group, except for rows with stages of their own.
 Stages stages_of_group(std::string_view group) {
   if (group == "scene") return {Stage::scene};
@@ -262,46 +295,20 @@ std::vector<Setting> make_table() {
           .idle(without_capped_plane),
       named("filter.kind", "The filter: where the lookup reads the map.", filters(), MEMBER(filter.kind))
           .refused(filter_of_another_map),
-      integer("filter.size", "taps", 1, 31, "taps along each side; an odd number.", MEMBER(filter.size))
-          .refused(even_or_unknown_size),
-      real("filter.step_texels", "texels", 0, 64, "distance from one tap to the next.", MEMBER(filter.step_texels)),
-      real("filter.sigma_texels", "texels", 0.1, 64, "standard deviation of the weights.", MEMBER(filter.sigma_texels)),
-      integer("filter.taps", "taps", 1, 64, "number of taps.", MEMBER(filter.taps)),
-      real("filter.radius_texels", "texels", 0, 256, "radius of the disk.", MEMBER(filter.radius_texels)),
-      flag("filter.rotate", "the disk is rotated by a different angle at each pixel.", MEMBER(filter.rotate)),
-      real("filter.offset_m", "m", 0, 1e3,
-           "the taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world.", MEMBER(filter.offset_m)),
-      choice(
-          "filter.disk", {"fixed", "view_distance"},
-          "radius of the disk. fixed: filter.radius_m; view_distance: (1 + distance to the camera / far) / 25 metres.",
-          MEMBER(filter.disk)),
-      real("filter.radius_m", "m", 0, 1e3, "factor of the 20 directions (1,1,1), (1,1,0) and so on.",
-           MEMBER(filter.radius_m))
-          .idle(where_disk_follows_view),
       real("truth.standard_error", "", 1e-3, 0.5,
            "Largest standard error of R0 at a receiver, for a light with a size. A smaller value takes more rays.",
            MEMBER(truth.standard_error))
           .idle(without_size_of_light),
   };
-  // The rows of the parts stand after the other settings of the bias.
-  auto at = std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "bias.plane_cap"; });
-  for (const BiasParameter& parameter : bias_parameters()) at = table.insert(at + 1, bias_row(parameter));
+  // The rows of the parts of the bias and of the filters' parameters stand after the other settings of their group.
+  const auto after = [&](std::string_view name, const auto& parameters, auto row_of) {
+    auto at = std::find_if(table.begin(), table.end(), [&](const Setting& row) { return row.name == name; });
+    for (const auto& parameter : parameters) at = table.insert(at + 1, row_of(parameter));
+  };
+  after("bias.plane_cap", bias_parameters(), bias_row);
+  after("filter.kind", filter_parameters(), [](const FilterParameter* parameter) { return filter_row(*parameter); });
   for (Setting& row : table)
     if (row.read_by.bits == 0) row.read_by = stages_of_group(row.name.substr(0, row.name.find('.')));
-  // "box, gaussian: ..." in the help: the filters that read the setting. With any other filter it is idle.
-  for (Setting& row : table) {
-    if (!row.name.starts_with("filter.") || row.name == "filter.kind") continue;
-    std::vector<std::string_view> readers;
-    for (const Filter& filter : filters())
-      if (std::find(filter.reads.begin(), filter.reads.end(), row.name) != filter.reads.end())
-        readers.push_back(filter.name);
-    row.help = fmt::format("{}: {}", fmt::join(readers, ", "), row.help);
-    row.why_idle = [readers, more = row.why_idle](const Settings& s, LightKind light) {
-      if (std::find(readers.begin(), readers.end(), s.filter.kind) == readers.end())
-        return "with filter.kind = " + s.filter.kind;
-      return more ? more(s, light) : "";
-    };
-  }
   return table;
 }
 

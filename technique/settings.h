@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenes/scene_settings.h"
@@ -28,7 +29,6 @@ enum class CulledFaces { none, back, front };
 enum class MapFit { scene, tight };
 enum class CubePass { layered, six_passes };
 enum class BiasUnit { depth, m, texel };
-enum class DiskRadius { fixed, view_distance };
 enum class LightChoice { automatic, directional, spot, point };
 
 struct LightSettings {  // automatic and empty: as the scene's light
@@ -77,16 +77,21 @@ struct BiasSettings {
 };
 
 struct FilterSettings {
+  FilterSettings() = default;
+  // FilterSettings("box", {{"size", 5}})
+  FilterSettings(std::string kind_name, std::initializer_list<std::pair<std::string_view, double>> parameters);
+
   std::string kind = "none";  // the name of one of filters()
-  int size = 3;               // box, gaussian, castano, tent: taps on a side, odd
-  double step_texels = 1;     // box: distance of neighbouring taps
-  double sigma_texels = 1;    // gaussian: standard deviation
-  double radius_texels = 2;   // poisson, vogel: radius of the disk
-  int taps = 16;              // vogel: number of taps
-  bool rotate = false;        // poisson, vogel: another rotation of the disk at each pixel
-  double offset_m = 0.1;      // cube_grid: taps lie at -offset, -offset/2, 0 and offset/2 along each axis of the world
-  DiskRadius disk = DiskRadius::fixed;  // cube_disk: radius_m, or (1 + view distance / far) / 25 metres
-  double radius_m = 0.05;
+
+  // A parameter of a filter by its name without the group: "size" is filter.size. A flag is 0 or 1; a choice is the
+  // index of its value. Throws std::logic_error if no filter has such a parameter.
+  double& operator[](std::string_view parameter);
+  double operator[](std::string_view parameter) const;
+  int whole(std::string_view parameter) const { return static_cast<int>((*this)[parameter]); }
+
+ private:
+  static std::vector<double> defaults();
+  std::vector<double> values_ = defaults();  // in the order of filter_parameters() (technique/filters.h)
 };
 
 struct TruthSettings {

@@ -4,9 +4,10 @@ namespace noonmark {
 
 // Percentage-closer filtering over a square (Reeves, Salesin, Cook 1987).
 TapPattern box_taps(const FilterSettings& f) {
+  const int side = f.whole("size");
   TapPattern pattern;
-  pattern.taps = f.size * f.size;
-  pattern.offsets = square_of_taps(f.size, static_cast<float>(f.step_texels));
+  pattern.taps = side * side;
+  pattern.offsets = square_of_taps(side, static_cast<float>(f["step_texels"]));
   return pattern;
 }
 

@@ -8,8 +8,8 @@ namespace noonmark {
 TapPattern cube_disk_taps(const FilterSettings& f) {
   TapPattern pattern;
   pattern.in_world = true;
-  pattern.scaled_by_view = f.disk == DiskRadius::view_distance;
-  const double scale = pattern.scaled_by_view ? 1 : f.radius_m;
+  pattern.scaled_by_view = f["disk"] != 0;
+  const double scale = pattern.scaled_by_view ? 1 : f["radius_m"];
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
       for (int z = -1; z <= 1; ++z)

@@ -2,6 +2,6 @@
 
 namespace noonmark {
 
-TapPattern gaussian_taps(const FilterSettings& f) { return linear_fetches(f.size, f.sigma_texels); }
+TapPattern gaussian_taps(const FilterSettings& f) { return linear_fetches(f.whole("size"), f["sigma_texels"]); }
 
 }  // namespace noonmark

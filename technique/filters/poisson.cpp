@@ -39,10 +39,10 @@ const std::array<glm::dvec2, 16>& poisson_disk() {
 TapPattern poisson_taps(const FilterSettings& f) {
   TapPattern pattern;
   pattern.taps = 16;
-  pattern.variants = f.rotate ? 64 : 1;
+  pattern.variants = f["rotate"] != 0 ? 64 : 1;
   for (int v = 0; v < pattern.variants; ++v) {
     const double angle = 2 * std::numbers::pi * v / pattern.variants;
-    const double c = std::cos(angle) * f.radius_texels, s = std::sin(angle) * f.radius_texels;
+    const double c = std::cos(angle) * f["radius_texels"], s = std::sin(angle) * f["radius_texels"];
     for (glm::dvec2 p : poisson_disk()) pattern.offsets.emplace_back(c * p.x - s * p.y, s * p.x + c * p.y, 0);
   }
   return pattern;

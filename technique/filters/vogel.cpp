@@ -9,12 +9,12 @@ namespace noonmark {
 // A disk of taps on a spiral with the golden angle. Each tap stands for the same area (Vogel 1979).
 TapPattern vogel_taps(const FilterSettings& f) {
   TapPattern pattern;
-  pattern.taps = f.taps;
-  pattern.variants = f.rotate ? std::min(64, most_listed_taps / f.taps) : 1;
+  pattern.taps = f.whole("taps");
+  pattern.variants = f["rotate"] != 0 ? std::min(64, most_listed_taps / pattern.taps) : 1;
   const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
   for (int v = 0; v < pattern.variants; ++v)
-    for (int i = 0; i < f.taps; ++i) {
-      const double radius = f.radius_texels * std::sqrt((i + 0.5) / f.taps);
+    for (int i = 0; i < pattern.taps; ++i) {
+      const double radius = f["radius_texels"] * std::sqrt((i + 0.5) / pattern.taps);
       const double angle = i * golden + 2 * std::numbers::pi * v / pattern.variants;
       pattern.offsets.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
     }

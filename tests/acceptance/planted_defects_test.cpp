@@ -86,7 +86,7 @@ std::vector<Planted> defects() {
   // The loop ends one tap early in x: six of nine taps, moved by half a texel. Lit receivers become 2/3 lit.
   all.push_back({"EvenKernel",
                  cubes_3x3(),
-                 {.shaders = patched(box, "x <= box_radius", "x < box_radius")},
+                 {.shaders = patched(box, "x <= radius", "x < radius")},
                  {{"contract", 0, 0.7}, {"tap_residual", 1e-6, 0.333}, {"error", 0.011, 0.8 / 3}}});
   // Only the middle tap is compared without its bias: half of the middle taps have acne.
   all.push_back({"ReferenceNotBiasedInOneBranch",

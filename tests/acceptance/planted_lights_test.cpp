@@ -143,7 +143,7 @@ std::vector<Planted> defects() {
   // The disk has the fixed radius of the settings at every pixel.
   all.push_back({"DiskOfFixedRadiusInTheLookup",
                  point_room({{"filter.kind", "cube_disk"}, {"filter.disk", "view_distance"}, {"bias.constant", "0.3"}}),
-                 {.asked = [](Settings& s) { s.filter.disk = DiskRadius::fixed; }},
+                 {.asked = [](Settings& s) { s.filter["disk"] = 0; }},
                  {{"contract", 0, 0.01}, {"tap_residual", 1e-6, 0.04}},
                  {"rounding_excess"}});
   return all;

@@ -50,7 +50,7 @@ std::vector<Planted> defects() {
   // The setting is a step of 2 texels, but the shader uses 1.
   all.push_back({"BoxWithoutItsStep",
                  cubes_3x3({{"filter.step_texels", "2"}, {"bias.constant", "0.015"}}),
-                 {.asked = [](Settings& s) { s.filter.step_texels = 1; }},
+                 {.asked = [](Settings& s) { s.filter["step_texels"] = 1; }},
                  {{"contract", 0, 0.01}, {"tap_residual", 1e-6, 0.3}},
                  {"rounding_excess"}});
 

@@ -103,18 +103,18 @@ TEST_F(Estimate, SeesWhatTakesTooMuch) {
 // Before they were traced in strips, 31 x 31 taps took 6.7 kB per pixel.
 TEST_F(Estimate, DoesNotGrowWithTheKernelBeyondAStrip) {
   settings_.filter.kind = "box";
-  settings_.filter.size = 31;
+  settings_.filter["size"] = 31;
   const double most = bytes();
   EXPECT_EQ(estimate().largest().what, std::string("the taps"));
   EXPECT_LT(most, 2.2e9);
-  settings_.filter.size = 25;
+  settings_.filter["size"] = 25;
   EXPECT_EQ(bytes(), most);
   settings_.view.width_px *= 2;
   settings_.view.height_px *= 2;
   const double larger = bytes();
-  settings_.filter.size = 31;
+  settings_.filter["size"] = 31;
   EXPECT_EQ(bytes(), larger);
-  settings_.filter.size = 3;
+  settings_.filter["size"] = 3;
   EXPECT_LT(bytes(), larger);
 }
 

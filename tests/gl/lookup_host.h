@@ -108,19 +108,17 @@ inline Settings random_settings(std::mt19937& random, LightKind kind) {
   for (const BiasPart& part : bias_parts())
     if (part.formula.way && random() % 8 == 0) s.bias[part.name] = 3 * unit(random);
   if (random() % 2) s.bias.plane_cap = 0.01 * unit(random);
-  s.filter.size = one_of(random, {1, 3, 3, 5, 5, 7, 31});
-  s.filter.step_texels = one_of(random, {0.5, 1.0, 1.7, 3.0});
-  s.filter.sigma_texels = one_of(random, {0.5, 1.0, 4.0});
-  s.filter.radius_texels = 0.5 + 5 * unit(random);
-  s.filter.rotate = random() % 2;
-  s.filter.offset_m = 0.02 + 0.2 * unit(random);
-  s.filter.disk = one_of(random, {DiskRadius::fixed, DiskRadius::view_distance});
-  s.filter.radius_m = 0.01 + 0.1 * unit(random);
+  s.filter["size"] = one_of(random, {1, 3, 3, 5, 5, 7, 31});
+  s.filter["step_texels"] = one_of(random, {0.5, 1.0, 1.7, 3.0});
+  s.filter["sigma_texels"] = one_of(random, {0.5, 1.0, 4.0});
+  s.filter["radius_texels"] = 0.5 + 5 * unit(random);
+  s.filter["rotate"] = one_of(random, {0, 1});
+  s.filter["offset_m"] = 0.02 + 0.2 * unit(random);
+  s.filter["disk"] = one_of(random, {0, 1});
+  s.filter["radius_m"] = 0.01 + 0.1 * unit(random);
   do {
     s.bias.reference = std::string(tap_references()[random() % tap_references().size()].name);
     s.filter.kind = std::string(filters()[random() % filters().size()].name);
-    if (const std::vector<int>& sizes = find_filter(s.filter.kind).sizes; !sizes.empty())
-      s.filter.size = sizes[random() % sizes.size()];
   } while (kind_thrown([&] { validate(s, kind); }));
   return s;
 }

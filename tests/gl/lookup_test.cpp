@@ -79,8 +79,8 @@ TEST_F(GlLookupTest, AllLitIsOneAndAllDarkIsNought) {
         settings.map.far_m = 30;
         settings.bias = {};
         settings.filter.kind = std::string(find_setting("filter.kind").choices[f]);
-        settings.filter.size = size;
-        settings.filter.sigma_texels = 0.3 * size;
+        settings.filter["size"] = size;
+        settings.filter["sigma_texels"] = 0.3 * size;
         if (kind_thrown([&] { validate(settings, kind); })) continue;
         ++filters;
         const LightFrame frame = make_light_frame(scene, settings);
@@ -169,14 +169,13 @@ TEST_F(GlLookupTest, AnEdgeThroughEachFilter) {
   };
   const auto nearest = [](double at) { return std::floor(at) >= 8 ? 1.0 : 0.0; };
   const auto ramp = [](double at) { return std::clamp(at - 7.5, 0.0, 1.0); };
-  expect_edge({.kind = "none"}, nearest);
-  expect_edge({.kind = "box", .size = 3},
-              [&](double at) { return (nearest(at - 1) + nearest(at) + nearest(at + 1)) / 3; });
-  expect_edge({.kind = "box", .size = 3, .step_texels = 2.5},
+  expect_edge({"none", {}}, nearest);
+  expect_edge({"box", {{"size", 3}}}, [&](double at) { return (nearest(at - 1) + nearest(at) + nearest(at + 1)) / 3; });
+  expect_edge({"box", {{"size", 3}, {"step_texels", 2.5}}},
               [&](double at) { return (nearest(at - 2.5) + nearest(at) + nearest(at + 2.5)) / 3; });
-  expect_edge({.kind = "hardware"}, ramp);
+  expect_edge({"hardware", {}}, ramp);
   const double g = std::exp(-1 / (2 * 0.8 * 0.8)), sum = 1 + 2 * g;
-  expect_edge({.kind = "gaussian", .size = 3, .sigma_texels = 0.8},
+  expect_edge({"gaussian", {{"size", 3}, {"sigma_texels", 0.8}}},
               [&](double at) { return (g * ramp(at - 1) + ramp(at) + g * ramp(at + 1)) / sum; });
 }
 
@@ -200,7 +199,7 @@ TEST_F(GlLookupTest, PlaneFormsFreeAPlaneOfAcne) {
     settings.map.near_m = 1;
     settings.map.far_m = 30;
     settings.filter.kind = "box";
-    settings.filter.size = 5;
+    settings.filter["size"] = 5;
     const LightFrame frame = make_light_frame(scene, settings);
     const ShadowMap map = renderer.render_map(frame, settings);
     const auto dark_share = [&](const char* reference, double constant) {
@@ -363,7 +362,7 @@ TEST_F(GlLookupTest, TimesArePositiveAndDifferentSizesFollowEachOther) {
   const Scene scene = random_scene(random);
   Settings settings;
   settings.map.resolution = 64;
-  settings.filter = {"box", 5};
+  settings.filter = {"box", {{"size", 5}}};
   const LightFrame frame = make_light_frame(scene, settings);
   for (const int width : {32, 200, 32}) {
     load(scene, width, 24);
@@ -395,7 +394,7 @@ TEST_F(GlLookupTest, TimesIncludeTheWork) {
   };
   // Seen: about 50 on llvmpipe. A GPU may be idle most of the time, because the picture is so small.
   const double least_ratio = renderer.info().software ? 5 : 1;
-  EXPECT_GT(fastest({"box", 31}), least_ratio * fastest({"none", 1}));
+  EXPECT_GT(fastest({"box", {{"size", 31}}}), least_ratio * fastest({"none", {}}));
 }
 
 TEST_F(GlLookupTest, AMapOfAnotherResolutionIsADefect) {

@@ -9,7 +9,7 @@ namespace noonmark::gl {
 namespace {
 
 TEST(TapTable, HoldsThePatternsOffsets) {
-  const TapPattern pattern = tap_pattern({.kind = "poisson", .rotate = true});
+  const TapPattern pattern = tap_pattern({"poisson", {{"rotate", 1}}});
   const auto table = tap_table(pattern);
   ASSERT_EQ(table.size(), 64u * 16u);
   for (int v = 0; v < 64; ++v)
@@ -19,7 +19,7 @@ TEST(TapTable, HoldsThePatternsOffsets) {
 TEST(TapTable, FetchesWeighOneExactly) {
   for (const int size : {1, 3, 5, 31})
     for (const double sigma : {0.2, 1.0, 7.0}) {
-      const TapPattern pattern = tap_pattern({.kind = "gaussian", .size = size, .sigma_texels = sigma});
+      const TapPattern pattern = tap_pattern({"gaussian", {{"size", size}, {"sigma_texels", sigma}}});
       const auto table = tap_table(pattern);
       const size_t n = static_cast<size_t>(size);
       ASSERT_EQ(table.size(), n * n);

@@ -256,17 +256,17 @@ inline Modelled model_of(const SceneSpec& spec, const Site& site, int segments) 
 inline Settings settings_of(const SceneSpec& spec) {
   const int size = spec.seed % 2 ? 5 : 3;
   const FilterSettings flat[] = {{},
-                                 {.kind = "box", .size = size},
-                                 {.kind = "box", .size = size, .step_texels = 1.5},
-                                 {.kind = "hardware"},
-                                 {.kind = "gaussian", .size = size},
-                                 {.kind = "poisson", .radius_texels = 3, .rotate = true}},
+                                 {"box", {{"size", size}}},
+                                 {"box", {{"size", size}, {"step_texels", 1.5}}},
+                                 {"hardware", {}},
+                                 {"gaussian", {{"size", size}}},
+                                 {"poisson", {{"radius_texels", 3}, {"rotate", 1}}}},
                        cube[] = {{},
                                  {},
-                                 {.kind = "cube_grid", .offset_m = 0.1},
-                                 {.kind = "cube_disk", .radius_m = 0.02},
-                                 {.kind = "cube_disk", .radius_m = 0.5},
-                                 {.kind = "cube_disk", .disk = DiskRadius::view_distance}};
+                                 {"cube_grid", {{"offset_m", 0.1}}},
+                                 {"cube_disk", {{"radius_m", 0.02}}},
+                                 {"cube_disk", {{"radius_m", 0.5}}},
+                                 {"cube_disk", {{"disk", 1}}}};
   Settings s;
   s.map.resolution = spec.resolution;
   s.map.extent_scale = spec.light == LightKind::spot ? 0.01 * spec.extent_percent : 1;

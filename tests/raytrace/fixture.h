@@ -245,7 +245,7 @@ inline raytrace::SoftTruth sun(double diameter_deg, double standard_error = 0.01
 inline FilterSettings box(int size) {
   FilterSettings filter;
   filter.kind = "box";
-  filter.size = size;
+  filter["size"] = size;
   return filter;
 }
 

@@ -15,11 +15,11 @@ namespace {
 
 TEST(Validate, FindsWhatNoRowCanSee) {
   Settings s;
-  s.filter.size = 4;
+  s.filter["size"] = 4;
   EXPECT_NO_THROW(validate(s)) << "no filter reads it";
   s.filter.kind = "box";
   EXPECT_THROW(validate(s), Error);
-  s.filter.size = 31;
+  s.filter["size"] = 31;
   EXPECT_NO_THROW(validate(s));
   s.map.near_m = 5;
   EXPECT_NO_THROW(validate(s));

@@ -14,12 +14,7 @@
 namespace noonmark {
 namespace {
 
-FilterSettings filter(const std::string& kind, int size = 3) {
-  FilterSettings f;
-  f.kind = kind;
-  f.size = size;
-  return f;
-}
+FilterSettings filter(const std::string& kind, int size = 3) { return {kind, {{"size", size}}}; }
 
 TEST(TapPattern, HasAsManyTapsAsTheFilterSays) {
   const auto expect = [](const FilterSettings& f, int taps, int variants, bool in_world, bool bilinear) {
@@ -39,7 +34,7 @@ TEST(TapPattern, HasAsManyTapsAsTheFilterSays) {
   expect(filter("hardware"), 4, 1, false, true);
   expect(filter("poisson"), 16, 1, false, false);
   FilterSettings turned = filter("poisson");
-  turned.rotate = true;
+  turned["rotate"] = true;
   expect(turned, 16, 64, false, false);
   expect(filter("cube_grid"), 64, 1, true, false);
   expect(filter("cube_disk"), 20, 1, true, false);
@@ -47,7 +42,7 @@ TEST(TapPattern, HasAsManyTapsAsTheFilterSays) {
 
 TEST(TapPattern, OfABoxHasItsStepAndItsMiddle) {
   FilterSettings f = filter("box", 5);
-  f.step_texels = 1.5;
+  f["step_texels"] = 1.5;
   const TapPattern p = tap_pattern(f);
   std::set<std::pair<float, float>> places;
   for (int t = 0; t < p.taps; ++t) {
@@ -98,10 +93,10 @@ TEST(TapPattern, ATentIsIntegratedOverEachTexel) {
 
 TEST(TapPattern, VogelsTapsFillADiskEvenly) {
   FilterSettings settings = filter("vogel");
-  settings.taps = 40;
-  settings.radius_texels = 3;
+  settings["taps"] = 40;
+  settings["radius_texels"] = 3;
   for (const bool rotate : {false, true}) {
-    settings.rotate = rotate;
+    settings["rotate"] = rotate;
     const TapPattern p = tap_pattern(settings);
     EXPECT_EQ(p.taps, 40);
     EXPECT_EQ(p.variants, rotate ? 25 : 1) << "as many rotations as the shader has room for";
@@ -128,8 +123,13 @@ TEST(TapPattern, WeightsSumToOneWhereverPLies) {
   std::uniform_real_distribution<double> share(0, 1);
   for (const Filter& row : filters()) {
     const std::string kind(row.name);
-    for (int size : row.sizes.empty() ? std::vector<int>{1, 3, 7} : row.sizes) {
-      const TapPattern p = tap_pattern(filter(kind, size));
+    for (int size : {1, 3, 5, 7}) {
+      const FilterSettings settings = filter(kind, size);
+      const auto refused = [&](const FilterRead& read) {
+        return read.why_refused && !read.why_refused(settings).empty();
+      };
+      if (std::any_of(row.reads.begin(), row.reads.end(), refused)) continue;
+      const TapPattern p = tap_pattern(settings);
       for (int i = 0; i < 50; ++i) {
         // The first four places are the corners, where a row of taps has the weight 0.
         const glm::dvec2 fraction = i < 4 ? glm::dvec2(i % 2, i / 2) : glm::dvec2(share(random), share(random));
@@ -151,7 +151,7 @@ TEST(TapPattern, OfFetchesWeighsTexelsAsTheSamplerDoes) {
   std::uniform_real_distribution<float> somewhere(20, 30);
   for (int size : {1, 3, 5}) {
     FilterSettings f = filter(size == 1 ? "hardware" : "gaussian", size);
-    f.sigma_texels = 1.25;
+    f["sigma_texels"] = 1.25;
     LookupProbe probe;
     probe.pattern = tap_pattern(f);
     for (int i = 0; i < 200; ++i) {
@@ -202,7 +202,7 @@ TEST(TapPattern, OfFetchesReadsTheTexelNearestToEachTapsPlace) {
 
 TEST(TapPattern, OfAPoissonDiskIsSpreadOverIt) {
   FilterSettings f = filter("poisson");
-  f.radius_texels = 2.5;
+  f["radius_texels"] = 2.5;
   const TapPattern p = tap_pattern(f);
   for (int a = 0; a < p.taps; ++a) {
     EXPECT_LE(glm::length(p.offset(0, a)), 2.5f * (1 + 0x1p-22f));
@@ -213,7 +213,7 @@ TEST(TapPattern, OfAPoissonDiskIsSpreadOverIt) {
       EXPECT_GT(glm::length(p.offset(0, a) - p.offset(0, b)), 0.3f * 2.5f) << a << ' ' << b;
   }
   EXPECT_LE(p.reach_texels(), 3);
-  f.rotate = true;
+  f["rotate"] = true;
   const TapPattern turned = tap_pattern(f);
   for (int v = 0; v < turned.variants; ++v)
     for (int t = 0; t < turned.taps; ++t) {
@@ -239,7 +239,7 @@ TEST(TapPattern, VariantsAreAllUsedAndNeighboursDiffer) {
 // The loops of the tutorials run from -offset to +offset in steps of offset / 2, without the last value.
 TEST(TapPattern, OfACubeGridIsTheTutorials) {
   FilterSettings f = filter("cube_grid");
-  f.offset_m = 0.1;
+  f["offset_m"] = 0.1;
   const TapPattern p = tap_pattern(f);
   std::set<std::array<float, 3>> places;
   for (const glm::vec3& o : p.offsets) places.insert({o.x, o.y, o.z});
@@ -251,7 +251,7 @@ TEST(TapPattern, OfACubeGridIsTheTutorials) {
 
 TEST(TapPattern, OfACubeDiskIsTheTutorials20Directions) {
   FilterSettings f = filter("cube_disk");
-  f.radius_m = 0.5;
+  f["radius_m"] = 0.5;
   int corners = 0, edges = 0;
   std::set<std::array<float, 3>> places;
   for (const glm::vec3& o : tap_pattern(f).offsets) {
@@ -264,7 +264,7 @@ TEST(TapPattern, OfACubeDiskIsTheTutorials20Directions) {
   EXPECT_EQ(corners, 8);
   EXPECT_EQ(edges, 12);
   EXPECT_FALSE(tap_pattern(f).scaled_by_view);
-  f.disk = DiskRadius::view_distance;  // the receiver's own radius is the factor, not radius_m
+  f["disk"] = 1;  // the receiver's own radius is the factor, not radius_m
   EXPECT_TRUE(tap_pattern(f).scaled_by_view);
   LookupProbe probe;
   probe.pattern = tap_pattern(f);

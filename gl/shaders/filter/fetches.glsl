@@ -1,7 +1,7 @@
 // A kernel of hardware comparisons with a weight for each texel along each axis. Each fetch blends two texels along
 // either axis by its position between them, and has the weight of both. So half as many fetches as texels are enough
 // along each axis.
-#include <weights>
+// filter_weight is the weight of a texel, from the formula of the filter.
 
 // The sampler is linear, with GL_LEQUAL so that a tie is lit.
 layout(binding = 3) uniform sampler2DShadow comparing_map;

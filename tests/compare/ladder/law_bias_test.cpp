@@ -79,7 +79,7 @@ LookupProbe probe_of(const FilterSettings& filter, std::string_view reference = 
 FilterSettings filter_of(const std::string& kind, int size = 3) {
   FilterSettings filter;
   filter.kind = kind;
-  filter.size = size;
+  filter["size"] = size;
   return filter;
 }
 
@@ -177,10 +177,10 @@ TEST(AcneLaw, AsksNothingOfTheTexelPlane) {
 
 std::vector<LookupProbe> cube_probes() {
   FilterSettings grid = filter_of("cube_grid"), disk = filter_of("cube_disk");
-  grid.offset_m = 0.2;
-  disk.radius_m = 0.1;
+  grid["offset_m"] = 0.2;
+  disk["radius_m"] = 0.1;
   std::vector<LookupProbe> probes = {probe_of(filter_of("none")), probe_of(grid), probe_of(disk)};
-  disk.disk = DiskRadius::view_distance;
+  disk["disk"] = 1;
   probes.push_back(probe_of(disk));
   probes.back().radius = Image<float>(1, 1, 0.07f);
   return probes;

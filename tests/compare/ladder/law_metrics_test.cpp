@@ -46,10 +46,7 @@ struct Sight {
   }
   std::map<std::string, double> metrics(DepthFormat format = DepthFormat::d24, int kernel = 1) const {
     LookupProbe probe;
-    FilterSettings box;
-    box.kind = "box";
-    box.size = kernel;
-    probe.pattern = tap_pattern(box);
+    probe.pattern = tap_pattern({"box", {{"size", kernel}}});
     probe.tap_reference = &tap_reference(reference);
     return measure_laws({ladder, scene, receivers, camera, frame, format, probe});
   }
