@@ -310,6 +310,9 @@ void add_bands(BiasCurve& curve, const PlacementCounts& counts, double depth_per
   curve.peter_panning_best = panning.best;
   curve.aliasing_mean = aliased.mean, curve.aliasing_worst = aliased.worst, curve.aliasing_best = aliased.best;
 
+  if (std::isfinite(counts.acne_free_from()))
+    curve.acne_free_bias_worst_depth = counts.acne_free_from() * depth_per_unit;
+
   // The window at every placement, between two edges. Acne falls with the amount and Peter Panning grows.
   Band acne_at, panning_at;
   for (size_t edge = 0; edge < edges.size(); ++edge) {

@@ -33,6 +33,9 @@ constexpr CurveField fields[] = {
      &BiasCurve::window_min_worst_depth, true},
     {"window_max_worst_depth", "depth", "Largest bias that is usable at every placement.",
      &BiasCurve::window_max_worst_depth, true},
+    {"acne_free_bias_worst_depth", "depth",
+     "Least amount of the curve's part that leaves no acne at any placement, on an exact map.",
+     &BiasCurve::acne_free_bias_worst_depth, true},
 };
 
 constexpr CurveWidth widths[] = {

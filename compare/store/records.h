@@ -49,6 +49,7 @@ struct BiasCurve {
   std::vector<double> error_mean, error_worst, error_best, acne_mean, acne_worst, acne_best, peter_panning_mean,
       peter_panning_worst, peter_panning_best, aliasing_mean, aliasing_worst, aliasing_best;
   std::optional<double> window_min_worst_depth, window_max_worst_depth;
+  std::optional<double> acne_free_bias_worst_depth;  // exact, not at an edge
 };
 
 // A cause that a rung on top of R5 brought (add_rung, compare/ladder/ladder.h). Its share is the metric of its name. The
