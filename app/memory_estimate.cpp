@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "compare/ladder/bias_curves.h"
+#include "compare/ladder/receiver_taps.h"
 #include "scenes/error.h"
 #include "technique/tap_pattern.h"
 
@@ -20,10 +20,11 @@ constexpr double per_pixel = 260;          // receivers, truth, probe, ladder, o
 constexpr double per_picture_pixel = 270;  // pictures, channels of the EXR files and their encoded bytes [245]
 constexpr double per_texel = 36;           // map: as drawn, as read back, exact, exact as uploaded, tie map [30]
 constexpr double per_picture_texel = 28;   // map.exr [25]
-// For each tap in the batch whose thresholds are being listed (curve_batch_taps): a threshold of the error and one of
-// its cause, 4 bytes each. Not every tap has both; the difference covers the growth of the lists [3].
-constexpr double per_curve_tap = 8;
-constexpr double per_blended_tap = 36;  // with a weight of 8 each, and a list being sorted [18]
+// For each tap in the batch whose thresholds are being listed (batch_taps): a threshold of the error and one of its
+// cause, 4 bytes each, and again while they are sorted. Not every tap has both; the difference covers the growth of the
+// lists.
+constexpr double per_curve_tap = 16;
+constexpr double per_blended_tap = 56;  // with a weight of 8 each
 // For each tap, the sums over different thresholds: 12 bytes for the error, 12 for the cause, 12 while strips are
 // joined. The total is limited to 28 million of them, because differences of float depths repeat: 52 million taps had
 // 1.6 million different ones, 885 million taps had 10.5 million.
@@ -76,7 +77,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
 
   double curve = 0;
   if (input.curve && curve_part(s.bias))
-    curve = std::min<double>(taps, curve_batch_taps) * (pattern.bilinear() ? per_blended_tap : per_curve_tap) +
+    curve = std::min<double>(taps, batch_taps) * (pattern.bilinear() ? per_blended_tap : per_curve_tap) +
             std::min(taps * per_summed_tap, most_sums);
   const double all_taps = taps * static_cast<double>(bytes_per_tap(input.light)), row = all_taps / s.view.height_px;
   const double strip = std::min(all_taps, std::max<double>(most_strip_bytes, row));

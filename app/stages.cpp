@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "compare/ladder/receiver_taps.h"
 #include "scenes/camera_fit.h"
 #include "scenes/library.h"
 #include "scenes/scene_digest.h"
@@ -159,9 +160,13 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, const MapStage& map, Look
   if (lookup.rays) lookup.tap_stage = {};
   for (const PixelRange& strip : lookup.strips) {
     if (lookup.rays) bring_taps(renderer, lookup, point, strip);
-    climb(evidence, strip, climbed.ladder);
-    soundness.add(strip);
-    if (climbed.counts) climbed.counts->add(evidence, map.depth, strip);
+    Climb climbing(evidence, strip, climbed.ladder);
+    if (climbed.counts) {
+      BiasCounts::Adding counting(*climbed.counts, evidence, map.depth);
+      read_taps(evidence, strip, climbing, soundness, counting);
+    } else {
+      read_taps(evidence, strip, climbing, soundness);
+    }
     if (each_strip) each_strip(evidence, strip);
   }
   climbed.soundness = soundness.metrics();

@@ -1,8 +1,6 @@
 #include "compare/judge/soundness.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "compare/ladder/probe_errors.h"
+#include "compare/ladder/receiver_taps.h"
 #include "compare/store/quantities.h"
 
 namespace noonmark {
@@ -31,21 +30,18 @@ double quantum(DepthFormat format, float depth) {
 
 // Whether `visibility` is what the technique's definition gives for the probe and a map whose depths are of `format`.
 // If all taps have the same weight, it must be the number of lit taps, divided, bit for bit.
-bool holds(const LookupEvidence& e, const Image<float>& map, DepthFormat format, size_t i, float visibility) {
-  MapSettings settings = e.map;
-  settings.format = format;
-  const int taps = e.taps.taps_per_receiver;
-  const float bias = e.bias.at(e.probe, i);
+bool holds(const LookupEvidence& e, const ReceiverTaps& taps, float bias, const Image<float>& map, DepthFormat format,
+           size_t i, float visibility) {
   if (!e.probe.pattern.bilinear()) {
     int lit = 0;
-    for (int t = 0; t < taps; ++t) lit += tap_of(e.probe, e.taps, settings, map, i, t).lit(bias);
-    return visibility == static_cast<float>(lit) / static_cast<float>(taps);
+    for (size_t t = 0; t < taps.size(); ++t) lit += taps.on(map, format, t).lit(bias);
+    return visibility == static_cast<float>(lit) / static_cast<float>(taps.size());
   }
   // A sampler's comparison may round the reference to the map's fixed-point format. So within one step of the depth
   // both verdicts are right.
   double least = 0, most = 0;
-  for (int t = 0; t < taps; ++t) {
-    const Tap tap = tap_of(e.probe, e.taps, settings, map, i, t);
+  for (size_t t = 0; t < taps.size(); ++t) {
+    const Tap tap = taps.on(map, format, t);
     const bool lit = tap.lit(bias);
     const bool tie = format != DepthFormat::d32f && !tap.always_lit &&
                      std::abs(static_cast<double>(tap.reference - bias) - tap.depth) <= quantum(format, tap.depth);
@@ -68,13 +64,23 @@ bool held_by(int bits, float depth) {
 
 }  // namespace
 
-SoundnessCheck::Found SoundnessCheck::join(Found a, const Found& b) {
-  a.facing += b.facing;
-  a.broken += b.broken;
-  raise_error(a.probe.excess, b.probe.excess);
-  raise_error(a.probe.address_texels, b.probe.address_texels);
-  raise_error(a.probe.reference_m, b.probe.reference_m);
-  return a;
+void SoundnessCheck::receiver(size_t i, const ReceiverTaps& taps, Part& part) const {
+  const LookupEvidence& e = in_.evidence;
+  const float bias = e.bias.at(e.probe, i);
+  ++part.facing;
+  // Uploaded maps are 32-bit float, whatever format the settings name.
+  part.broken += !(holds(e, taps, bias, e.exact_map, DepthFormat::d32f, i, e.r4[i]) &&
+                   holds(e, taps, bias, in_.stored_map, e.map.format, i, e.r5[i]) &&
+                   holds(e, taps, bias, in_.ties, DepthFormat::d32f, i, in_.tie_lookup[i]));
+  check_.compare(i, part.probe);
+}
+
+void SoundnessCheck::join(const Part& part) {
+  found_.facing += part.facing;
+  found_.broken += part.broken;
+  raise_error(found_.probe.excess, part.probe.excess);
+  raise_error(found_.probe.address_texels, part.probe.address_texels);
+  raise_error(found_.probe.reference_m, part.probe.reference_m);
 }
 
 SoundnessCheck::MapFound SoundnessCheck::compare_maps() const {
@@ -119,26 +125,7 @@ Image<float> tie_map(const LookupEvidence& e) {
 SoundnessCheck::SoundnessCheck(const SoundnessInput& in)
     : in_(in), check_(in.evidence, in.receivers, in.frame, in.eye_m) {}
 
-void SoundnessCheck::add(PixelRange strip) {
-  const LookupEvidence& e = in_.evidence;
-  require_strip(e, strip);
-  const Found found = tbb::parallel_reduce(
-      tbb::blocked_range<size_t>(strip.first, strip.end, 8192), Found{},
-      [&](const tbb::blocked_range<size_t>& range, Found so_far) {
-        for (size_t i = range.begin(); i != range.end(); ++i) {
-          if (!e.truth.facing[i]) continue;
-          ++so_far.facing;
-          // Uploaded maps are 32-bit float, whatever format the settings name.
-          so_far.broken += !(holds(e, e.exact_map, DepthFormat::d32f, i, e.r4[i]) &&
-                             holds(e, in_.stored_map, e.map.format, i, e.r5[i]) &&
-                             holds(e, in_.ties, DepthFormat::d32f, i, in_.tie_lookup[i]));
-          check_.compare(i, so_far.probe);
-        }
-        return so_far;
-      },
-      join);
-  found_ = join(found_, found);
-}
+void SoundnessCheck::add(PixelRange strip) { read_taps(in_.evidence, strip, *this); }
 
 std::map<std::string, double> SoundnessCheck::metrics() const {
   const MapFound map = compare_maps();

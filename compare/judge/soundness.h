@@ -57,16 +57,20 @@ class SoundnessCheck {
  public:
   explicit SoundnessCheck(const SoundnessInput& input);  // the objects it refers to must outlive this
 
-  // Adds a strip; the evidence holds the taps of one strip at a time. Every pixel must be added once.
+  // Adds a strip by itself; the evidence holds the taps of one strip at a time. Every pixel must be added once.
   void add(PixelRange strip);
   std::map<std::string, double> metrics() const;  // over the strips added so far
 
- private:
-  struct Found {
+  // As a judge of read_taps (compare/ladder/receiver_taps.h), which adds the strip too.
+  struct Part {
     uint64_t facing = 0, broken = 0;
     ProbeErrors probe;
   };
-  static Found join(Found a, const Found& b);
+  void receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
+  void join(const Part& part);
+  void end_batch() const {}
+
+ private:
   struct MapFound {
     double error_quanta = 0;
     int bits = 16;
@@ -75,7 +79,7 @@ class SoundnessCheck {
 
   SoundnessInput in_;
   ProbeCheck check_;
-  Found found_;
+  Part found_;
 };
 
 // Measures the whole picture.

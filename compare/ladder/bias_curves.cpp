@@ -1,32 +1,20 @@
 #include "compare/ladder/bias_curves.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/combinable.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
+#include "compare/ladder/receiver_taps.h"
 #include "compare/ladder/tap_threshold.h"
 
 namespace noonmark {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-struct Taps {
-  std::vector<float> thresholds;
-  std::vector<double> weights;  // empty if each weighs 1
-};
-
-struct Lists {
-  Taps error_dark, error_light, wrong_dark, wrong_light, undecided_dark, undecided_light;
-  std::array<Taps, cause_count> by_cause;
-  uint64_t receivers = 0;
-  float stored_acne = 0;  // the largest threshold
-};
 
 // Empties `from`, because with many taps these lists are gigabytes and memory has no room for two copies.
 template <class T>
@@ -35,47 +23,25 @@ void append(std::vector<T>& to, std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
   std::vector<T>().swap(from);
 }
-void append(Taps& to, Taps& from) {
-  append(to.thresholds, from.thresholds);
-  append(to.weights, from.weights);
-}
 
-void receiver(const LookupEvidence& e, const Image<float>& stored_map, const BiasPart& varied, size_t i, Lists& lists) {
-  const bool blended = e.probe.pattern.bilinear();
-  const TapThreshold threshold(e.probe, e.bias, varied, i);
-  const auto list = [&](Taps& to, float at, double weight) {
-    to.thresholds.push_back(at);
-    if (blended) to.weights.push_back(weight);
-  };
-  ++lists.receivers;
-  float least = infinity, most = 0;
-  for (int t = 0; t < e.taps.taps_per_receiver; ++t) {
-    const Tap exact = tap_of(e.probe, e.taps, e.map, e.exact_map, i, t);
-    if (exact.weight == 0) continue;  // P lies exactly on a texel's centre: the sampler reads no other texel
-    const float at_r4 = threshold(exact);
-    // A tap is wrong on one side of its threshold only: if it should be lit, it is wrong while it is dark, and the
-    // reverse. It should have the verdict D (compare/ladder/ladder.h), or the receiver's own truth if D is unsure.
-    const bool right = exact.moved_sure ? exact.moved_lit : e.truth.lit[i] != 0;
-    if (!right || at_r4 > 0) {
-      const Cause cause = exact.moved_sure ? tap_cause(exact, !right) : Cause::undecided;
-      Taps& undecided = right ? lists.undecided_dark : lists.undecided_light;
-      list(cause == Cause::undecided ? undecided : lists.by_cause[static_cast<size_t>(cause)], at_r4, exact.weight);
-    }
-    const float at_r5 = threshold(tap_of(e.probe, e.taps, e.map, stored_map, i, t));
-    const bool sure = exact.moved_sure && exact.texel_sure;
-    if (exact.covered && sure && exact.moved_lit && exact.texel_lit)
-      lists.stored_acne = std::max(lists.stored_acne, at_r5);
-    least = std::min(least, at_r5);
-    most = std::max(most, at_r5);
-    if (!e.truth.lit[i])
-      list(lists.error_light, at_r5, exact.weight);
-    else if (at_r5 > 0)
-      list(lists.error_dark, at_r5, exact.weight);
+// Sorts floats that are at least 0, by their bits from the lowest digit to the highest (radix sort). Their order is that
+// of their bits.
+void sort_by_bits(std::vector<float>& values) {
+  constexpr int digit_bits = 11;
+  constexpr uint32_t digits = 1u << digit_bits;
+  if (values.size() < digits) {
+    std::sort(values.begin(), values.end());
+    return;
   }
-  if (!e.truth.lit[i])
-    lists.wrong_light.thresholds.push_back(least);
-  else if (most > 0)
-    lists.wrong_dark.thresholds.push_back(most);
+  std::vector<float> other(values.size());
+  for (int shift = 0; shift < 32; shift += digit_bits) {
+    const auto digit = [shift](float x) { return (std::bit_cast<uint32_t>(x) >> shift) % digits; };
+    std::array<size_t, digits + 1> begin{};
+    for (float x : values) ++begin[digit(x) + 1];
+    for (size_t d = 0; d < digits; ++d) begin[d + 1] += begin[d];
+    for (float x : values) other[begin[digit(x)]++] = x;
+    values.swap(other);
+  }
 }
 
 double share_of(double part, double whole) {
@@ -95,7 +61,7 @@ void ThresholdSums::add(std::vector<float>& thresholds, std::vector<double>& wei
     batch.up_to_.back() = sum;
   };
   if (weights.empty()) {
-    tbb::parallel_sort(thresholds);
+    sort_by_bits(thresholds);
     for (size_t i = 0; i < thresholds.size(); ++i) count(thresholds[i], static_cast<double>(i + 1));
   } else {
     // Sorted by weight too, so that sums do not depend on the order in which the threads added them.
@@ -129,7 +95,7 @@ double ThresholdSums::up_to(float x) const {
 }
 
 BiasCounts::BiasCounts(const LookupProbe& probe, const BiasPart& varied)
-    : varied_(&varied), blended_(probe.pattern.bilinear()), whole_(whole_weight(probe)) {}
+    : varied_(&varied), blended_(probe.pattern.bilinear()), taps_(probe.taps()), whole_(whole_weight(probe)) {}
 
 BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, const BiasPart& varied)
     : BiasCounts(e.probe, varied) {
@@ -137,48 +103,74 @@ BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, 
 }
 
 void BiasCounts::add(const LookupEvidence& e, const Image<float>& stored_map, PixelRange strip) {
-  require_strip(e, strip);
-  const size_t batch = std::max<size_t>(1, curve_batch_taps / static_cast<size_t>(e.taps.taps_per_receiver));
-  for (size_t first = strip.first; first < strip.end; first += batch)
-    add_batch(e, stored_map, {first, std::min(strip.end, first + batch)});
+  Adding adding(*this, e, stored_map);
+  read_taps(e, strip, adding);
 }
 
-void BiasCounts::add_batch(const LookupEvidence& e, const Image<float>& stored_map, PixelRange pixels) {
-  tbb::combinable<Lists> parts;
-  tbb::parallel_for(tbb::blocked_range<size_t>(pixels.first, pixels.end, 8192),
-                    [&](const tbb::blocked_range<size_t>& range) {
-                      Lists& lists = parts.local();
-                      for (size_t i = range.begin(); i != range.end(); ++i)
-                        if (e.truth.facing[i] && !e.truth.ambiguous[i]) receiver(e, stored_map, *varied_, i, lists);
-                    });
-  Lists all;
-  parts.combine_each([&](Lists& part) {
-    receivers_ += part.receivers;
-    stored_acne_free_from_ = std::max(stored_acne_free_from_, part.stored_acne);
-    for (Taps Lists::*list : {&Lists::error_dark, &Lists::error_light, &Lists::wrong_dark, &Lists::wrong_light,
-                              &Lists::undecided_dark, &Lists::undecided_light})
-      append(all.*list, part.*list);
-    for (int c = 0; c < cause_count; ++c) append(all.by_cause[c], part.by_cause[c]);
-  });
-  const auto add = [](ThresholdSums& to, Taps& from) { to.add(from.thresholds, from.weights); };
-  add(error_dark_, all.error_dark);
-  add(error_light_, all.error_light);
-  add(wrong_dark_, all.wrong_dark);
-  add(wrong_light_, all.wrong_light);
-  add(undecided_dark_, all.undecided_dark);
-  add(undecided_light_, all.undecided_light);
-  for (int c = 0; c < cause_count; ++c) add(by_cause_[c], all.by_cause[c]);
+void BiasCounts::Adding::receiver(size_t i, const ReceiverTaps& taps, Part& part) const {
+  if (e_.truth.ambiguous[i]) return;
+  const bool blended = counts_.blended_, should_be_lit = e_.truth.lit[i] != 0;
+  const TapThreshold threshold(e_.probe, e_.bias, *counts_.varied_, i);
+  const auto list = [&](Thresholds& to, float at, double weight) {
+    to.at.push_back(at);
+    if (blended) to.weights.push_back(weight);
+  };
+  ++part.receivers;
+  float least = infinity, most = 0;
+  for (size_t t = 0; t < taps.size(); ++t) {
+    const Tap& exact = taps[t];
+    if (exact.weight == 0) continue;  // P lies exactly on a texel's centre: the sampler reads no other texel
+    const float at_r4 = threshold(exact);
+    // A tap is wrong on one side of its threshold only: if it should be lit, it is wrong while it is dark, and the
+    // reverse. It should have the verdict D (compare/ladder/ladder.h), or the receiver's own truth if D is unsure.
+    const bool right = exact.moved_sure ? exact.moved_lit : should_be_lit;
+    if (!right || at_r4 > 0) {
+      const Cause cause = exact.moved_sure ? tap_cause(exact, !right) : Cause::undecided;
+      const List undecided = right ? undecided_dark : undecided_light;
+      list(part.lists[cause == Cause::undecided ? undecided : of_cause(cause)], at_r4, exact.weight);
+    }
+    const Tap stored = taps.on(stored_map_, e_.map.format, t);
+    const float at_r5 =
+        stored.depth == exact.depth && stored.always_lit == exact.always_lit ? at_r4 : threshold(stored);
+    const bool sure = exact.moved_sure && exact.texel_sure;
+    if (exact.covered && sure && exact.moved_lit && exact.texel_lit)
+      part.stored_acne = std::max(part.stored_acne, at_r5);
+    least = std::min(least, at_r5);
+    most = std::max(most, at_r5);
+    if (!should_be_lit)
+      list(part.lists[error_light], at_r5, exact.weight);
+    else if (at_r5 > 0)
+      list(part.lists[error_dark], at_r5, exact.weight);
+  }
+  if (taps.size() == 1) return;  // wrong taps are wrong receivers
+  if (!should_be_lit)
+    part.lists[wrong_light].at.push_back(least);
+  else if (most > 0)
+    part.lists[wrong_dark].at.push_back(most);
+}
+
+void BiasCounts::Adding::join(Part& part) {
+  counts_.receivers_ += part.receivers;
+  counts_.stored_acne_free_from_ = std::max(counts_.stored_acne_free_from_, part.stored_acne);
+  for (size_t l = 0; l < lists; ++l) {
+    append(all_[l].at, part.lists[l].at);
+    append(all_[l].weights, part.lists[l].weights);
+  }
+}
+
+void BiasCounts::Adding::end_batch() {
+  tbb::parallel_for(size_t{0}, size_t{lists}, [&](size_t l) { counts_.sums_[l].add(all_[l].at, all_[l].weights); });
 }
 
 double BiasCounts::caused(Cause cause, float x) const {
-  if (cause == Cause::undecided) return undecided_dark_.above(x) + undecided_light_.up_to(x);
-  const ThresholdSums& list = by_cause_[static_cast<size_t>(cause)];
+  if (cause == Cause::undecided) return sums_[undecided_dark].above(x) + sums_[undecided_light].up_to(x);
+  const ThresholdSums& list = sums_[of_cause(cause)];
   const bool darkens = cause == Cause::acne || cause == Cause::aliasing_dark || cause == Cause::coverage_dark;
   return darkens ? list.above(x) : list.up_to(x);
 }
 
 float BiasCounts::acne_free_from(double share) const {
-  const ThresholdSums& t = by_cause_[static_cast<size_t>(Cause::acne)];
+  const ThresholdSums& t = sums_[of_cause(Cause::acne)];
   // The smallest number of lowest thresholds that must be reached. The last threshold ends all acne, even if the sums
   // are rounded.
   size_t reached = 0, all = t.size();
@@ -193,7 +185,7 @@ float BiasCounts::acne_free_from(double share) const {
 }
 
 float BiasCounts::peter_panning_free_to(double share) const {
-  const ThresholdSums& t = by_cause_[static_cast<size_t>(Cause::peter_panning)];
+  const ThresholdSums& t = sums_[of_cause(Cause::peter_panning)];
   size_t within = 0, beyond = t.size() + 1;  // how many of the lowest thresholds may be reached
   while (beyond - within > 1) {
     const size_t middle = within + (beyond - within) / 2;
@@ -212,13 +204,13 @@ BiasCounts::Best BiasCounts::best(float most) const {
     size_t d = 0, l = 0;
     float x = 0;
     for (bool last = false; !last;) {
-      while (d < error_dark_.size() && error_dark_[d] <= x) ++d;
-      while (l < error_light_.size() && error_light_[l] <= x) ++l;
-      const float next = std::min(d < error_dark_.size() ? error_dark_[d] : infinity,
-                                  l < error_light_.size() ? error_light_[l] : infinity);
+      while (d < sums_[error_dark].size() && sums_[error_dark][d] <= x) ++d;
+      while (l < sums_[error_light].size() && sums_[error_light][l] <= x) ++l;
+      const float next = std::min(d < sums_[error_dark].size() ? sums_[error_dark][d] : infinity,
+                                  l < sums_[error_light].size() ? sums_[error_light][l] : infinity);
       last = next > most || next == infinity;
       visit(x, last ? most : std::nextafter(next, -infinity),
-            error_dark_.total() - error_dark_.before(d) + error_light_.before(l));
+            sums_[error_dark].total() - sums_[error_dark].before(d) + sums_[error_light].before(l));
       x = next;
     }
   };

@@ -43,9 +43,6 @@ class ThresholdSums {
   std::vector<double> up_to_;  // [i]: the sum of all thresholds that are at most at_[i]
 };
 
-// At most this many taps are listed before their thresholds are sorted and added to the sums.
-inline constexpr size_t curve_batch_taps = size_t{1} << 24;
-
 class BiasCounts {
  public:
   // Counts no receiver yet. varied: a part of evidence.bias, or a part that is 0 there and has neither floor nor cap.
@@ -65,10 +62,11 @@ class BiasCounts {
   double taps() const { return static_cast<double>(receivers_) * whole_; }
 
   // The taps of R5 that differ from R1. This number divided by taps() is the mean |R5 - R1|.
-  double wrong_taps(float x) const { return error_dark_.above(x) + error_light_.up_to(x); }
+  double wrong_taps(float x) const { return sums_[error_dark].above(x) + sums_[error_light].up_to(x); }
   // The receivers with R5 != R1.
   uint64_t wrong_receivers(float x) const {
-    return static_cast<uint64_t>(wrong_dark_.above(x) + wrong_light_.up_to(x));
+    if (taps_ == 1) return static_cast<uint64_t>(wrong_taps(x));
+    return static_cast<uint64_t>(sums_[wrong_dark].above(x) + sums_[wrong_light].up_to(x));
   }
   // The taps at R4 that have this cause. cause: one of the six that are booked tap by tap, or undecided. Among
   // undecided taps, those that darken and those that lighten do not cancel here, as they do in a pixel's step.
@@ -91,17 +89,45 @@ class BiasCounts {
   Best best(float most = 1) const;
 
  private:
-  void add_batch(const LookupEvidence& evidence, const Image<float>& stored_map, PixelRange pixels);
-
   // Taps that should be lit are wrong below their threshold. Taps that should be dark are wrong from their threshold
-  // on.
+  // on. wrong_*: of receivers; empty if each has one tap, because then the lists of errors say the same.
+  enum List : size_t { error_dark, error_light, wrong_dark, wrong_light, undecided_dark, undecided_light, first_cause };
+  static constexpr size_t lists = first_cause + cause_count;
+  static List of_cause(Cause cause) { return static_cast<List>(first_cause + static_cast<size_t>(cause)); }
+
   uint64_t receivers_ = 0;
   const BiasPart* varied_;
   bool blended_ = false;
+  int taps_ = 1;  // of a receiver
   double whole_ = 1;
   float stored_acne_free_from_ = 0;
-  ThresholdSums error_dark_, error_light_, wrong_dark_, wrong_light_, undecided_dark_, undecided_light_;
-  std::array<ThresholdSums, cause_count> by_cause_;
+  std::array<ThresholdSums, lists> sums_;
+
+ public:
+  // Adds a strip, as a judge of read_taps (compare/ladder/receiver_taps.h).
+  class Adding {
+   public:
+    struct Thresholds {
+      std::vector<float> at;
+      std::vector<double> weights;  // empty if each weighs 1
+    };
+    struct Part {
+      std::array<Thresholds, BiasCounts::lists> lists;
+      uint64_t receivers = 0;
+      float stored_acne = 0;  // the largest threshold
+    };
+    Adding(BiasCounts& counts, const LookupEvidence& evidence, const Image<float>& stored_map)
+        : counts_(counts), e_(evidence), stored_map_(stored_map) {}
+    void receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
+    void join(Part& part);
+    void end_batch();
+
+   private:
+    BiasCounts& counts_;
+    const LookupEvidence& e_;
+    const Image<float>& stored_map_;
+    std::array<Thresholds, BiasCounts::lists> all_;  // of the batch
+  };
 };
 
 // The size of one unit of the curve in the other units, at the place that BiasCurve::m_per_depth names.

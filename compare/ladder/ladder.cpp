@@ -1,13 +1,11 @@
 #include "compare/ladder/ladder.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "compare/ladder/receiver_taps.h"
 #include "compare/store/quantities.h"
 
 namespace noonmark {
@@ -17,10 +15,6 @@ namespace {
 double larger(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b);
 }
-
-struct Residuals {
-  double steps = 0, taps = 0;
-};
 
 // The cause that names a wrong pixel. Without a filter it is the cause of the step from which on the pixel stays wrong.
 // With a filter one pixel can have several causes, and the largest step gives the name.
@@ -117,83 +111,80 @@ void add_rung(Ladder& ladder, RungOnTop rung) {
   ladder.brought.push_back({rung.cause, rung.label, rung.help, *rung.color, rung.name});
 }
 
-void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {
-  const int taps = e.taps.taps_per_receiver;
-  require_strip(e, strip);
+Climb::Climb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder) : e_(evidence), ladder_(ladder) {
+  for (size_t i = strip.first; i < strip.end; ++i)
+    ladder.flags[i] = static_cast<uint8_t>((evidence.truth.facing[i] ? flag_facing : 0) |
+                                           (evidence.truth.ambiguous[i] ? flag_ambiguous : 0));
+}
+
+void Climb::receiver(size_t i, const ReceiverTaps& taps, Part& worst) const {
+  const LookupEvidence& e = e_;
+  Ladder& ladder = ladder_;
   const bool blended = e.probe.pattern.bilinear();
   const double whole = whole_weight(e.probe);
+  if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside(e.probe, i, e.exact_map))
+    ladder.flags[i] |= flag_outside;
 
-  const auto receiver = [&](size_t i, Residuals& worst) {
-    ladder.flags[i] =
-        static_cast<uint8_t>((e.truth.facing[i] ? flag_facing : 0) | (e.truth.ambiguous[i] ? flag_ambiguous : 0));
-    if (!e.truth.facing[i]) return;
-    if (e.probe.reference[i] > 1.0f || !e.probe.asks(i) || !inside(e.probe, i, e.exact_map))
-      ladder.flags[i] |= flag_outside;
+  const float bias = e.bias.at(e.probe, i);
+  double exact_lit = 0, moved_lit = 0, texel_lit = 0, all_lit = 0, unsure = 0;
+  // The undecided parts of three steps: from R1 to the exact places, from there to the places looked up, and from
+  // there to R4. They are signed.
+  double before_exact = 0, before_moved = 0, before_r4 = 0;
+  std::array<double, cause_count> booked{};
+  for (size_t t = 0; t < taps.size(); ++t) {
+    const Tap& tap = taps[t];
+    const bool lit = tap.lit(bias);
+    if (tap.exact_lit) exact_lit += tap.weight;
+    if (tap.moved_lit) moved_lit += tap.weight;
+    if (tap.texel_lit) texel_lit += tap.weight;
+    if (lit) all_lit += tap.weight;
+    const Cause cause = tap_cause(tap, lit);
+    booked[static_cast<size_t>(cause)] += tap.weight;
+    if (tap.exact_sure && tap.moved_sure && tap.texel_sure) continue;
+    unsure += tap.weight;
+    const auto step = [&](bool from, bool to) { return tap.weight * (static_cast<int>(to) - static_cast<int>(from)); };
+    if (!tap.exact_sure) before_exact += step(e.truth.lit[i] != 0, tap.exact_lit);
+    if (!tap.exact_sure || !tap.moved_sure) before_moved += step(tap.exact_lit, tap.moved_lit);
+    if (cause == Cause::undecided) before_r4 += step(tap.moved_lit, lit);
+  }
+  if (unsure > 0) ladder.flags[i] |= flag_undecided;
+  // Computed in double and rounded once to float: the shader's own count / N is the same quotient in float.
+  const auto share = [&](double weight) { return static_cast<float>(weight / whole); };
+  const float r[std::size(rung_names)] = {e.truth.soft[i],  static_cast<float>(e.truth.lit[i]), share(exact_lit),
+                                          share(texel_lit), blended ? share(all_lit) : e.r4[i], e.r5[i]};
+  for (size_t n = 0; n < std::size(r); ++n) ladder.rungs[n].lit[i] = r[n];
 
-    const float bias = e.bias.at(e.probe, i);
-    double exact_lit = 0, moved_lit = 0, texel_lit = 0, all_lit = 0, unsure = 0;
-    // The undecided parts of three steps: from R1 to the exact places, from there to the places looked up, and from
-    // there to R4. They are signed.
-    double before_exact = 0, before_moved = 0, before_r4 = 0;
-    std::array<double, cause_count> booked{};
-    for (int t = 0; t < taps; ++t) {
-      const Tap tap = tap_of(e.probe, e.taps, e.map, e.exact_map, i, t);
-      const bool lit = tap.lit(bias);
-      if (tap.exact_lit) exact_lit += tap.weight;
-      if (tap.moved_lit) moved_lit += tap.weight;
-      if (tap.texel_lit) texel_lit += tap.weight;
-      if (lit) all_lit += tap.weight;
-      const Cause cause = tap_cause(tap, lit);
-      booked[static_cast<size_t>(cause)] += tap.weight;
-      if (tap.exact_sure && tap.moved_sure && tap.texel_sure) continue;
-      unsure += tap.weight;
-      const auto step = [&](bool from, bool to) {
-        return tap.weight * (static_cast<int>(to) - static_cast<int>(from));
-      };
-      if (!tap.exact_sure) before_exact += step(e.truth.lit[i] != 0, tap.exact_lit);
-      if (!tap.exact_sure || !tap.moved_sure) before_moved += step(tap.exact_lit, tap.moved_lit);
-      if (cause == Cause::undecided) before_r4 += step(tap.moved_lit, lit);
-    }
-    if (unsure > 0) ladder.flags[i] |= flag_undecided;
-    // Computed in double and rounded once to float: the shader's own count / N is the same quotient in float.
-    const auto share = [&](double weight) { return static_cast<float>(weight / whole); };
-    const float r[std::size(rung_names)] = {e.truth.soft[i],  static_cast<float>(e.truth.lit[i]), share(exact_lit),
-                                            share(texel_lit), blended ? share(all_lit) : e.r4[i], e.r5[i]};
-    for (size_t n = 0; n < std::size(r); ++n) ladder.rungs[n].lit[i] = r[n];
+  const auto set = [&](Cause cause, float value) { ladder[cause][i] = value; };
+  set(Cause::light_size, r[1] - r[0]);
+  set(Cause::filter, r[2] - r[1] - share(before_exact));
+  set(Cause::displacement, share(moved_lit) - r[2] - share(before_moved));
+  set(Cause::undecided, share(before_exact + before_moved + before_r4));
+  ladder.doubt[i] = share(unsure);
+  set(Cause::precision, r[5] - r[4]);
+  for (Cause dark : {Cause::acne, Cause::aliasing_dark, Cause::coverage_dark})
+    set(dark, -share(booked[static_cast<size_t>(dark)]));
+  for (Cause light : {Cause::peter_panning, Cause::aliasing_light, Cause::coverage_light})
+    set(light, share(booked[static_cast<size_t>(light)]));
 
-    const auto set = [&](Cause cause, float value) { ladder[cause][i] = value; };
-    set(Cause::light_size, r[1] - r[0]);
-    set(Cause::filter, r[2] - r[1] - share(before_exact));
-    set(Cause::displacement, share(moved_lit) - r[2] - share(before_moved));
-    set(Cause::undecided, share(before_exact + before_moved + before_r4));
-    ladder.doubt[i] = share(unsure);
-    set(Cause::precision, r[5] - r[4]);
-    for (Cause dark : {Cause::acne, Cause::aliasing_dark, Cause::coverage_dark})
-      set(dark, -share(booked[static_cast<size_t>(dark)]));
-    for (Cause light : {Cause::peter_panning, Cause::aliasing_light, Cause::coverage_light})
-      set(light, share(booked[static_cast<size_t>(light)]));
+  double all = 0, classes = 0;
+  for (const Ladder::CauseImage& c : ladder.causes) all += c.step[i];
+  for (int c = static_cast<int>(Cause::displacement); c <= static_cast<int>(Cause::coverage_light); ++c)
+    classes += ladder[static_cast<Cause>(c)][i];
+  classes += (before_moved + before_r4) / whole;
+  worst.steps = larger(worst.steps, std::abs((static_cast<double>(r[5]) - r[0]) - all));
+  worst.taps = larger(worst.taps, std::abs((static_cast<double>(r[4]) - r[2]) - classes));
+  ladder.cause[i] = static_cast<uint8_t>(pixel_cause(ladder, i, taps.size() > 1));
+}
 
-    double all = 0, classes = 0;
-    for (const Ladder::CauseImage& c : ladder.causes) all += c.step[i];
-    for (int c = static_cast<int>(Cause::displacement); c <= static_cast<int>(Cause::coverage_light); ++c)
-      classes += ladder[static_cast<Cause>(c)][i];
-    classes += (before_moved + before_r4) / whole;
-    worst.steps = larger(worst.steps, std::abs((static_cast<double>(r[5]) - r[0]) - all));
-    worst.taps = larger(worst.taps, std::abs((static_cast<double>(r[4]) - r[2]) - classes));
-    ladder.cause[i] = static_cast<uint8_t>(pixel_cause(ladder, i, taps > 1));
-  };
+void Climb::join(const Part& part) {
+  ladder_.residual = larger(ladder_.residual, part.steps);
+  ladder_.tap_residual = larger(ladder_.tap_residual, part.taps);
+}
 
-  const Residuals worst = tbb::parallel_reduce(
-      tbb::blocked_range<size_t>(strip.first, strip.end, 8192), Residuals{},
-      [&](const tbb::blocked_range<size_t>& range, Residuals so_far) {
-        for (size_t i = range.begin(); i != range.end(); ++i) receiver(i, so_far);
-        return so_far;
-      },
-      [](Residuals a, Residuals b) {
-        return Residuals{larger(a.steps, b.steps), larger(a.taps, b.taps)};
-      });
-  ladder.residual = larger(ladder.residual, worst.steps);
-  ladder.tap_residual = larger(ladder.tap_residual, worst.taps);
+void climb(const LookupEvidence& e, PixelRange strip, Ladder& ladder) {
+  require_strip(e, strip);
+  Climb climbing(e, strip, ladder);
+  read_taps(e, strip, climbing);
 }
 
 }  // namespace noonmark

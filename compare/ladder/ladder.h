@@ -155,6 +155,24 @@ Ladder climb(const LookupEvidence& evidence);
 Ladder empty_ladder(int width, int height);
 void climb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder);
 
+class ReceiverTaps;
+
+// Climbs a strip, as a judge of read_taps (compare/ladder/receiver_taps.h).
+class Climb {
+ public:
+  struct Part {
+    double steps = 0, taps = 0;  // the largest residuals
+  };
+  Climb(const LookupEvidence& evidence, PixelRange strip, Ladder& ladder);  // both must outlive this
+  void receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
+  void join(const Part& part);
+  void end_batch() const {}
+
+ private:
+  const LookupEvidence& e_;
+  Ladder& ladder_;
+};
+
 // A tap of a lookup, with all that is needed to judge it at any bias. The ladder and the bias curves share it.
 struct Tap {
   bool exact_lit = false;  // F
@@ -182,6 +200,12 @@ struct TapRead {
   glm::vec2 position{0};
 };
 
+// A comparison sampler clamps the compared depth to [0,1] if the format is fixed-point (OpenGL 4.5 core, 8.23.1). So a
+// stored depth of 1 makes nothing dark.
+inline bool compares_clamped(bool sampler_compares, DepthFormat format, float depth) {
+  return sampler_compares && format != DepthFormat::d32f && depth >= 1;
+}
+
 // Tap number `tap` of pixel i. bits: of TapBits. size: of the map's image.
 inline Tap tap_of(const LookupProbe& probe, uint8_t bits, const MapSettings& map, glm::ivec2 size, size_t i, int tap,
                   const TapRead& read) {
@@ -203,24 +227,9 @@ inline Tap tap_of(const LookupProbe& probe, uint8_t bits, const MapSettings& map
   }
   result.reference = probe.tap_depth_at(read.position, read.texel, i, tap);
   result.depth = read.depth;
-  // A comparison sampler clamps the compared depth to [0,1] if the format is fixed-point (OpenGL 4.5 core, 8.23.1). So
-  // a stored depth of 1 makes nothing dark.
-  const bool clamped = sampler_compares && map.format != DepthFormat::d32f && result.depth >= 1;
-  result.always_lit = (beyond_far && map.lit_beyond_far) || clamped;
+  result.always_lit =
+      (beyond_far && map.lit_beyond_far) || compares_clamped(sampler_compares, map.format, result.depth);
   return result;
-}
-
-// The same with what the probe and the truth of the taps say of it. map_depth: the map that it reads (the exact map, or
-// the GPU's as its sampler returns it).
-inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSettings& map, const Image<float>& map_depth,
-                  size_t i, int tap) {
-  const glm::ivec2 size(map_depth.width, map_depth.height);
-  TapRead read;
-  read.texel = probe.texel(i, tap);
-  const glm::ivec2 at = wrapped(read.texel, size, map.wrap);
-  if (at.x >= 0) read.depth = map_depth.at(at.x, at.y);
-  if (probe.cube_resolution == 0) read.position = probe.map_texels[i];
-  return tap_of(probe, taps.bits(i, tap), map, size, i, tap, read);
 }
 
 // The cause of a tap whose verdict at R4 is `lit`.

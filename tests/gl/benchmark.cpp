@@ -77,7 +77,7 @@ void upload_map(benchmark::State& state) {
 
 void lookup(benchmark::State& state) {
   Bench b(100);
-  b.settings.filter = {"box", static_cast<int>(state.range(0))};
+  b.settings.filter = {"box", {{"size", static_cast<double>(state.range(0))}}};
   if (state.range(0) == 1) b.settings.filter.kind = "none";
   b.load_receivers();
   const LightFrame frame = make_light_frame(b.scene, b.settings);

@@ -12,7 +12,7 @@
 #include <iostream>
 #include <random>
 
-#include "compare/ladder/ladder.h"
+#include "compare/ladder/receiver_taps.h"
 #include "raytrace/light_view.h"
 #include "tests/raytrace/fixture.h"
 #include "tests/support/bias_of.h"
@@ -94,10 +94,12 @@ void add_acne(const Valley& v, double offset_m, std::mt19937& random, Acne& foun
   const ReceiverTruth truth = tracer.receiver_truth(receivers, v.frame, {});
   const raytrace::LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe, v.frame, {}, bias);
   uint64_t ambiguous = 0;
+  ReceiverTaps taps;
   for (size_t i = 0; i < receivers.position.size(); ++i) {
     ambiguous += !test::is_sure(truth, lookup.taps, i);
     if (!test::is_sure(truth, lookup.taps, i)) continue;
-    const Tap tap = tap_of(probe, lookup.taps, {}, lookup.exact_map, i, 0);
+    taps.read(probe, lookup.taps, {}, lookup.exact_map, i);
+    const Tap& tap = taps[0];
     const Cause cause = tap_cause(tap, !(probe.reference[i] > tap.depth));
     EXPECT_TRUE(cause == Cause::none || cause == Cause::acne) << cause_name(cause) << ": a valley has no shadow";
     EXPECT_FALSE(tap.exact_lit != tap.moved_lit);

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/ladder/ladder.h"
+#include "compare/ladder/receiver_taps.h"
 #include "tests/raytrace/fixture.h"
 
 namespace noonmark::curved {
@@ -94,7 +94,11 @@ struct Judged {
   }
   // How far from a receiver its taps' texel centres may lie.
   double reach() const { return frame.texel_m(glm::dvec3(0)) * std::sqrt(2.0) * (kernel / 2 + 0.5); }
-  Tap tap(size_t i, int number) const { return tap_of(probe, lookup.taps, MapSettings{}, lookup.exact_map, i, number); }
+  Tap tap(size_t i, int number) const {
+    ReceiverTaps taps;
+    taps.read(probe, lookup.taps, MapSettings{}, lookup.exact_map, i);
+    return taps[static_cast<size_t>(number)];
+  }
 
   using Causes = std::array<uint64_t, cause_count>;
   // Counts the taps of the chosen counted receivers by their cause at this bias.

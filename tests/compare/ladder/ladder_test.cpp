@@ -9,6 +9,7 @@
 #include <set>
 
 #include "compare/ladder/measure.h"
+#include "compare/ladder/receiver_taps.h"
 #include "compare/report/cause_colors.h"
 #include "scenes/receivers.h"
 #include "tests/compare/ladder/evidence.h"
@@ -54,8 +55,10 @@ TEST(TapOf, ReadsWhatOpenGLWould) {
     for (size_t i = 0; i < s.r4.size(); ++i) {
       if (!s.truth.facing[i]) continue;
       const std::vector<naive::Tap> expected = naive::taps_of(s, s.stored, i);
+      ReceiverTaps taps;
+      taps.read(s.probe, s.taps, s.map, s.stored, i);
       for (size_t t = 0; t < expected.size(); ++t) {
-        const Tap tap = tap_of(s.probe, s.taps, s.map, s.stored, i, static_cast<int>(t));
+        const Tap& tap = taps[t];
         ASSERT_EQ(tap.exact_lit, expected[t].exact_lit);
         ASSERT_EQ(tap.moved_lit, expected[t].moved_lit);
         ASSERT_EQ(tap.texel_lit, expected[t].texel_lit);
