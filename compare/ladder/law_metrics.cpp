@@ -1,6 +1,7 @@
 #include "compare/ladder/law_metrics.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
@@ -131,7 +132,7 @@ Image<double> light_plane_areas(const Camera& camera, const LightFrame& frame, c
   // Perspective: the area on the plane at distance 1. Orthographic: the area in m2.
   const double pixel = 4 * view.half_width * view.half_height / (static_cast<double>(width) * height);
   Image<double> areas(width, height, 0);
-  for (int y = 0; y < height; ++y) {
+  tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       if (receivers.primitive.at(x, y) == no_primitive) continue;
       const glm::dvec3 normal(receivers.normal.at(x, y));
@@ -146,7 +147,7 @@ Image<double> light_plane_areas(const Camera& camera, const LightFrame& frame, c
       }
       areas.at(x, y) = area;
     }
-  }
+  });
   return areas;
 }
 

@@ -36,6 +36,7 @@ struct ProbeCheck::Place {
 ProbeCheck::ProbeCheck(const LookupEvidence& evidence, const ReceiverImage& receivers, const LightFrame& frame,
                        glm::dvec3 eye_m)
     : e_(evidence), receivers_(receivers), frame_(frame), eye_m_(eye_m), light_position_(glm::vec3(frame.origin_m)) {
+  for (int tile = 0; tile < frame.tiles; ++tile) tiles_.push_back(frame.tile(tile));
   if (frame.map_shape() == MapShape::cube) return;
   for (int tile = 0; tile < frame.tiles; ++tile) {
     clip_.push_back(frame.clip_from_world(tile));
@@ -110,7 +111,7 @@ glm::dvec4 ProbeCheck::row_errors(const Place& place) const {
   constexpr double in_double = (6 + 7 + 6) * 0x1p-53;
   glm::dvec4 errors(0);
   const glm::dmat4& clip = clip_[static_cast<size_t>(place.tile)];
-  for (int row = 0; row < (frame_.tile(place.tile).orthographic ? 3 : 4); ++row) {
+  for (int row = 0; row < (tiles_[static_cast<size_t>(place.tile)].orthographic ? 3 : 4); ++row) {
     double sum = std::abs(clip[3][row]), moved = 0, exact = 0;
     for (int j = 0; j < 3; ++j) {
       sum += std::abs(clip[j][row] * place.world[j]);
@@ -147,14 +148,14 @@ void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) 
     return std::pair((ndc + 1) / 2, error / 2 + u * std::abs((ndc + 1) / 2));
   };
   const LookupProbe& probe = e_.probe;
-  const MapTile tile = frame_.tile(place.tile);
-  const double depth = frame_.window_depth(place.light);
-  const double reference = std::abs(probe.reference[i] - depth);
-  raise_error(found.reference_m, reference / frame_.window_depth_slope(place.light));
+  const MapTile& tile = tiles_[static_cast<size_t>(place.tile)];
+  const double depth_m = tile.depth_m(place.light);
+  const double reference = std::abs(probe.reference[i] - tile.window_depth(depth_m));
+  raise_error(found.reference_m, reference / tile.window_depth_slope(depth_m));
   raise_error(found.excess, reference / window(2).second);
 
   constexpr double farthest = LookupProbe::farthest_texel;
-  const glm::dvec2 texels = frame_.map_texels(place.light);
+  const glm::dvec2 texels = tile.texels(frame_.place(place.light));
   const glm::ivec2 texel = LookupProbe::floored(probe.map_texels[i]);
   for (int axis = 0; axis < 2; ++axis) {
     const auto [at, error] = window(axis);
@@ -201,7 +202,7 @@ void ProbeCheck::compare_cube(size_t i, const Place& place, ProbeErrors& found) 
     // The texel is compared with the exact direction in the face that the sampler chose, even if the exact direction
     // lies just beyond that face's edge.
     const glm::ivec2 texel = probe.texel(i, t);
-    const MapTile face = frame_.tile(probe.tile(i, t));
+    const MapTile& face = tiles_[static_cast<size_t>(probe.tile(i, t))];
     const glm::dvec2 in_face(texel - face.corner);
     const double ahead = glm::dot(way, face.forward), ahead_error = glm::dot(way_error, glm::abs(face.forward));
     for (int axis = 0; axis < 2; ++axis) {

@@ -45,6 +45,7 @@ class ProbeCheck {
   glm::dvec3 eye_m_;
   // Of each tile of a flat map: clip space from the world; and from planes (normal, offset from the light's position in
   // float).
+  std::vector<MapTile> tiles_;
   std::vector<glm::dmat4> clip_, planes_;
   glm::dvec3 light_position_;
 };
