@@ -224,7 +224,7 @@ class Reader : private SettingsReader {
       else if (item.key == "where")
         bound.where = read_conditions(*item.node, "where");
       else
-        unknown(item, "key", {"metric", "max", "min", "join", "where"}, "bound.");
+        unknown(item, "key", {"metric", "max", "min", "join", "placement", "where"}, "bound.");
     }
     if (bound.metric.empty()) fail(table, "a [[bound]] needs a metric");
     at(table.source(), [&] { check_bound(bound); });
@@ -251,6 +251,8 @@ class Reader : private SettingsReader {
       const std::vector<std::string> known = values_of(row);
       if (std::find(known.begin(), known.end(), text) == known.end())
         fail(*node, fmt::format("no point has {} = {}; it is {}", name, text, fmt::join(known, " | ")));
+      else if (item.key == "placement")
+        bound.placement = one_of(*item.node, "placement", {"worst", "first"});
       (*where_)[name].push_back(text);
     }
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/judge/bounds.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
@@ -260,7 +261,7 @@ std::string bounds_table(const Results& results) {
     rows += fmt::format(
         "<tr class=\"{}\"><td>{}</td><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
         bound.held ? "held" : "broken", bound.held ? "✓ holds" : "✗ broken", html(metric_label(bound.metric)), limit,
-        found, html(bound.join),
+        found, html(bound.join) + (bound.placement.empty() ? "" : fmt::format(", {}", placement_text(bound))),
         where.empty() ? fmt::format("all ({})", bound.points) : fmt::format("{} ({})", where, bound.points));
     if (!bound.held && !bound.reproduce.empty())
       rows += fmt::format("<tr class=\"command\"><td></td><td colspan=\"5\">See it: <code>{}</code></td></tr>\n",

@@ -108,6 +108,8 @@ struct BoundResult {
   std::string reproduce;  // the command that renders the worst point
 };
 
+  // "worst", "first": which placement of the map's grid was judged; empty: the points have one placement each
+  std::string placement{};
 enum class LawRelation { equal, at_most, at_least };
 
 // A law and its result (compare/judge/laws.h).
