@@ -97,6 +97,29 @@ where.view.eye_m = [1, 2.5, -3]
   EXPECT_EQ(e.bounds[1].where.at("view.eye_m"), Texts{"1,2.5,-3"});
 }
 
+TEST(Experiment, APhaseDiagramIsAskedForByItsTable) {
+  EXPECT_FALSE(parse("").phase.enabled);
+  const PhaseRequest plain = parse("[phase]\n").phase;
+  EXPECT_TRUE(plain.enabled);
+  EXPECT_FALSE(plain.acne_bound || plain.peter_panning_bound) << "those of the curve";
+  const PhaseRequest all =
+      parse(
+          "[phase]\nacne_bound = 0.01\npeter_panning_bound = 0.002\nplacements = 4\ntexel_sizes = 9\nwidth_px = 160\n")
+          .phase;
+  EXPECT_EQ(all.acne_bound, 0.01);
+  EXPECT_EQ(all.peter_panning_bound, 0.002);
+  EXPECT_EQ(all.placements, 4);
+  EXPECT_EQ(all.texel_sizes, 9);
+  EXPECT_EQ(all.width_px, 160);
+  const Experiment parts =
+      parse("[phase]\nplacements = 4\n[[part]]\nname = \"a\"\n[[part]]\nname = \"b\"\n[part.phase]\nenabled = false\n");
+  EXPECT_TRUE(parts.parts[0].phase.enabled);
+  EXPECT_EQ(parts.parts[0].phase.placements, 4);
+  EXPECT_FALSE(parts.parts[1].phase.enabled);
+  // Only the diagram is made anew if its options change.
+  EXPECT_EQ(fingerprint(parse("[phase]\n"), {}), fingerprint(parse(""), {}));
+}
+
 TEST(Experiment, SweepsEveryCombinationFirstNamedOutermost) {
   // Only the order in the file decides, not the order of names or of groups.
   const Experiment e = parse(
@@ -281,6 +304,14 @@ TEST(Experiment, EveryMistakeNamesItsPlaceAndWhatWasMeant) {
       {"map = 3", "1:7", "[map] must be a table"},
       {"pictures = \"frist\"", "1:12", "did you mean 'first'?"},
       {"scene = 3", "1:9", "[scene] must be a table"},
+      {"phase = 3", "1:9", "[phase] must be a table"},
+      {"[phase]\nenabeld = true", "2:1", "did you mean 'phase.enabled'?"},
+      {"[phase]\nenabled = 1", "2:11", "phase.enabled must be true or false"},
+      {"[phase]\nacne_bound = 2", "2:14", "phase.acne_bound = 2 must be a fraction"},
+      {"[phase]\nplacements = 65", "2:14", "phase.placements must be an integer, 1 ... 64"},
+      {"[phase]\ntexel_sizes = 1", "2:15", "phase.texel_sizes must be an integer, 2 ... 200"},
+      {"[phase]\nwidth_px = 3.5", "2:12", "phase.width_px must be an integer, 1 ... 8192"},
+      {"[[bound]]\nmetric = \"acne\"\nmax = 1\nplacement = \"all\"", "4:13", "worst | first"},
       {"[map]\nresolutoin = 512", "2:1", "did you mean 'map.resolution'?"},
       {"[map]\nresolution = 0", "2:14", "1 ... 16384"},
       {"[map]\nresolution = 512.5", "2:14", "1 ... 16384"},
