@@ -97,29 +97,6 @@ where.view.eye_m = [1, 2.5, -3]
   EXPECT_EQ(e.bounds[1].where.at("view.eye_m"), Texts{"1,2.5,-3"});
 }
 
-TEST(Experiment, APhaseDiagramIsAskedForByItsTable) {
-  EXPECT_FALSE(parse("").phase.enabled);
-  const PhaseRequest plain = parse("[phase]\n").phase;
-  EXPECT_TRUE(plain.enabled);
-  EXPECT_FALSE(plain.acne_bound || plain.peter_panning_bound) << "those of the curve";
-  const PhaseRequest all =
-      parse(
-          "[phase]\nacne_bound = 0.01\npeter_panning_bound = 0.002\nplacements = 4\ntexel_sizes = 9\nwidth_px = 160\n")
-          .phase;
-  EXPECT_EQ(all.acne_bound, 0.01);
-  EXPECT_EQ(all.peter_panning_bound, 0.002);
-  EXPECT_EQ(all.placements, 4);
-  EXPECT_EQ(all.texel_sizes, 9);
-  EXPECT_EQ(all.width_px, 160);
-  const Experiment parts =
-      parse("[phase]\nplacements = 4\n[[part]]\nname = \"a\"\n[[part]]\nname = \"b\"\n[part.phase]\nenabled = false\n");
-  EXPECT_TRUE(parts.parts[0].phase.enabled);
-  EXPECT_EQ(parts.parts[0].phase.placements, 4);
-  EXPECT_FALSE(parts.parts[1].phase.enabled);
-  // Only the diagram is made anew if its options change.
-  EXPECT_EQ(fingerprint(parse("[phase]\n"), {}), fingerprint(parse(""), {}));
-}
-
 TEST(Experiment, SweepsEveryCombinationFirstNamedOutermost) {
   // Only the order in the file decides, not the order of names or of groups.
   const Experiment e = parse(

@@ -20,6 +20,7 @@
 #include "compare/report/summary.h"
 #include "compare/report/text.h"
 #include "compare/store/metrics.h"
+#include "tests/compare/report/page_text.h"
 #include "tests/compare/report/sample.h"
 #include "tests/support/sample_results.h"
 
@@ -29,56 +30,6 @@ namespace {
 using nlohmann::json;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// The report without its scripts, as a reader without JavaScript sees it.
-std::string without_scripts(const std::string& page) {
-  std::string out;
-  size_t at = 0;
-  while (true) {
-    const size_t open = page.find("<script", at);
-    out += page.substr(at, open - at);
-    if (open == std::string::npos) return out;
-    at = page.find("</script>", open) + 9;
-  }
-}
-
-json embedded_data(const std::string& page) {
-  const std::string head = "<script type=\"application/json\" id=\"noonmark-data\">";
-  const size_t open = page.find(head) + head.size();
-  return json::parse(page.substr(open, page.find("</script>", open) - open));
-}
-
-// Without JavaScript too: words, tables, links to the points, and why a part has no diagram.
-TEST(Report, OpensWithThePhaseDiagrams) {
-  Results results = sample_results();
-  EXPECT_EQ(render_report(results, sample_picture).find("id=\"phase\""), std::string::npos);
-  PhaseDiagram refused;
-  refused.part = "lamp";
-  refused.refused = "a <lamp> has none";
-  results.phases = {sample_phase(), refused, sample_phase()};
-  const std::string page = render_report(results, sample_picture), text = without_scripts(page);
-  EXPECT_LT(text.find("<section id=\"phase\""), text.find("<section id=\"answer\""));
-  EXPECT_LT(text.find("class=\"verdict\""), text.find("<section id=\"phase\""));
-  EXPECT_LT(text.find("href=\"#phase\""), text.find("href=\"#answer\""));
-  for (const char* words : {
-           "At 256 texels, each 10 mm wide, a constant bias from 4 mm to 16 mm keeps acne and Peter Panning each "
-           "within",
-           "3 of the 4 points of part room &amp; &lt;hall&gt; are on the diagram, as rings; 2 of them have a bias that",
-           "1 with filter.kind = box",
-           "<a href=\"#p2\">2</a>",
-           "too large",
-           "There is no phase diagram: a &lt;lamp&gt; has none.",
-           "1000 receivers of a picture of 320 × 180 pixels",
-           "id=\"chart-phase\"",
-           "id=\"chart-phase-2\"",
-       })
-    EXPECT_NE(text.find(words), std::string::npos) << words;
-  const json data = embedded_data(page);
-  ASSERT_EQ(data["phases"].size(), 2u) << "only diagrams with rows";
-  EXPECT_EQ(data["phases"][0]["points"].size(), 3u);
-  EXPECT_EQ(data["phases"][0]["points"][2], json({{"id", 2}, {"texel_m", 0.02}, {"bias_m", 0.1}}));
-  EXPECT_EQ(data["phases"][0]["rows"][0]["last_acne_m"], json()) << "infinity";
-}
 
 TEST(ReportText, NumbersReadAsPeopleWriteThem) {
   using report::number;
