@@ -360,11 +360,6 @@ void print_plan(const Experiment& experiment) {
     fmt::print("{:5}{}  ({})\n", i, text, bytes_text(memory[i].bytes()));
     all_taps += taps(planned[i]);
   }
-  for (const PhasePlan& plan : phase_plans(experiment, planned)) {
-    require_room_for(bench, plan);
-    fmt::print("{}: {} texel sizes, each at {} placements of its grid\n", printable(plan.name()),
-               plan.request.texel_sizes, plan.request.placements * plan.request.placements);
-  }
   const auto most =
       std::max_element(memory.begin(), memory.end(),
                        [](const MemoryEstimate& a, const MemoryEstimate& b) { return a.bytes() < b.bytes(); });
@@ -374,6 +369,11 @@ void print_plan(const Experiment& experiment) {
              bench.memory_of_program(writes_pictures(experiment)).text());
   MemoryCheck room(bench, experiment, memory);
   for (size_t i = 0; i < planned.size(); ++i) room.require_room_for(i);
+  for (const PhasePlan& plan : phase_plans(experiment, planned)) {
+    require_room_for(bench, plan);
+    fmt::print("{}: {} texel sizes, each at {} placements of its grid; its time is not in the estimate below\n",
+               printable(plan.name()), plan.request.texel_sizes, plan.request.placements * plan.request.placements);
+  }
   // The time is almost a constant for each point plus a share for each tap. Two small pictures of the first point give
   // both.
   const auto seconds = [&](int divisor, double nudge) {

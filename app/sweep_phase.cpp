@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "scenes/error.h"
+#include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
@@ -60,8 +61,9 @@ PhaseOptions options_of(const PhasePlan& plan) {
 // The finest map that a command may ask for, so that each cell of the diagram can be rendered.
 constexpr int most_texels = 16384;
 
-// The map of the diagram, and its resolutions: from 90 to 8192, and wider where the points' texels are. Of the extents of the points it has the largest that needs no more than most_texels for the finest texel, because
-// what lies outside the map is wrong at every texel size and every bias.
+// The map of the diagram, and its resolutions: from 90 to 8192, and wider where the points' texels are. Of the extents of
+// the points it has the largest that needs no more than most_texels for the finest texel, because what lies outside the
+// map is wrong at every texel size and every bias.
 struct Range {
   Settings settings;
   int coarsest = 0, finest = 0;
@@ -82,12 +84,24 @@ Range range_of(const std::vector<Settings>& points, const std::vector<PhasePlace
           std::max(8192, static_cast<int>(std::ceil(texels(fine) * (1 - 1e-9))))};
 }
 
-// Everything of the diagram but its numbers and its points' places.
-PhaseDiagram empty_diagram(const PhasePlan& plan) {
-  PhaseDiagram diagram;
-  diagram.part = plan.part;
-  diagram.made_from = plan.made_from();
-  return diagram;
+bool can_have_one(const Settings& point, const Scene& scene) {
+  try {
+    phase_settings(point, scene);
+    return true;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::usage) throw;
+    return false;
+  }
+}
+
+// The first point that can have a diagram, of those with the first point's scene; otherwise the first point, for which
+// phase_settings() says why.
+const Settings& point_of_diagram(const PhasePlan& plan, const Scene& scene) {
+  const std::string key = settings_key(plan.points.front(), {Stage::scene});
+  const auto found = std::find_if(plan.points.begin(), plan.points.end(), [&](const Settings& point) {
+    return settings_key(point, {Stage::scene}) == key && can_have_one(point, scene);
+  });
+  return found == plan.points.end() ? plan.points.front() : *found;
 }
 
 }  // namespace
@@ -127,50 +141,53 @@ std::vector<PhasePlan> phase_plans(const Experiment& experiment, std::span<const
 }
 
 void require_room_for(Workbench& bench, const PhasePlan& plan) {
-  // No map is drawn, and none is kept.
-  Settings coarse = picture_of(plan.points.front(), plan.request.width_px);
-  coarse.map.resolution = 1;
+  const Scene& scene = bench.scene(plan.points.front().scene);
+  const Settings& point = point_of_diagram(plan, scene);
+  if (!can_have_one(point, scene)) return;
+  Settings coarse = picture_of(point, plan.request.width_px);
+  coarse.map.resolution = 1;  // no map is drawn, and none is kept
+  coarse.map.placements = plan.request.placements;
   require_memory(bench.memory(coarse, false, false), bench.memory_of_program(false), plan.name());
 }
 
 PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan) {
-  PhaseDiagram diagram = empty_diagram(plan);
-  const Settings first = picture_of(plan.points.front(), plan.request.width_px);
-  const Scene& scene = bench.scene(first.scene);
+  const Scene& scene = bench.scene(plan.points.front().scene);
+  const Settings& chosen = point_of_diagram(plan, scene);
+  std::vector<PhasePoint> points;
   std::vector<Settings> members;
   for (size_t i = 0; i < plan.points.size(); ++i) {
     PhasePoint point;
     point.point = plan.first + static_cast<int64_t>(i);
-    point.left_out = other_settings(plan.points[i], plan.points.front());
+    point.left_out = other_settings(plan.points[i], chosen);
     if (point.left_out.empty()) members.push_back(plan.points[i]);
-    diagram.points.push_back(std::move(point));
+    points.push_back(std::move(point));
   }
+  PhaseDiagram diagram;
   try {
-    phase_settings(first, scene);  // before the points' places, which a point light does not have
-    const std::vector<PhasePlace> places = bench.places(first, members);
+    phase_settings(chosen, scene);  // before the points' places, which a point light does not have
+    const std::vector<PhasePlace> places = bench.places(picture_of(chosen, plan.request.width_px), members);
+    size_t at = 0;
+    for (PhasePoint& point : points)
+      if (point.left_out.empty()) {
+        point.texel_m = places[at].texel_m;
+        point.bias_m = places[at++].bias_m;
+      }
     const Range range = range_of(members, places);
     const Settings settings = phase_settings(picture_of(range.settings, plan.request.width_px), scene);
     PhaseOptions options = options_of(plan);
     options.coarsest = range.coarsest;
     options.finest = range.finest;
-    PhaseDiagram measured = bench.phase(settings, options);
-    describe_phase(measured, settings, scene);
-    measured.part = diagram.part;
-    measured.made_from = diagram.made_from;
-    measured.points = std::move(diagram.points);
-    size_t at = 0;
-    for (PhasePoint& point : measured.points)
-      if (point.left_out.empty()) {
-        point.texel_m = places[at].texel_m;
-        point.bias_m = places[at++].bias_m;
-      }
-    return measured;
+    diagram = bench.phase(settings, options);
+    describe_phase(diagram, settings, scene);
+    diagram.points = std::move(points);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::usage) throw;
+    diagram = {};
     diagram.refused = error.what();
-    diagram.points.clear();
-    return diagram;
   }
+  diagram.part = plan.part;
+  diagram.made_from = plan.made_from();
+  return diagram;
 }
 
 }  // namespace noonmark

@@ -3,8 +3,8 @@
 //   for (const PhasePlan& plan : phase_plans(experiment, points))
 //     store.add_phase(plan.number, make_phase(bench, plan));
 //
-// A part can have points of many techniques. The diagram is that of its first point; points whose settings differ from
-// it in more than texel size and bias are not on it, and the diagram names these settings.
+// A part can have points of many techniques. The diagram is that of its first point that can have one; points whose
+// settings differ from it in more than texel size and bias are not on it, and the diagram names these settings.
 #pragma once
 #include <span>
 #include <string>

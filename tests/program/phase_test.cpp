@@ -137,17 +137,22 @@ name = "slope"
 bias.slope = 0.01
 [[part]]
 name = "wall"
+[part.sweep]
+bias.slope = [0.01, 0]
 [[part]]
 name = "quiet"
 phase.enabled = false
 )");
   ASSERT_EQ(run({"run", "x.toml", "--out", "out"}), 0) << output_;
-  EXPECT_TRUE(says("4 points measured")) << output_;
+  EXPECT_TRUE(says("5 points measured")) << output_;
   const std::vector<PhaseDiagram> all = phases("out");
   ASSERT_EQ(all.size(), 3u);
   EXPECT_NE(all[0].refused.find("a point light's cube"), std::string::npos) << all[0].refused;
   EXPECT_NE(all[1].refused.find("bias.unit = m"), std::string::npos) << all[1].refused;
   EXPECT_EQ(all[2].refused, "");
+  ASSERT_EQ(all[2].points.size(), 2u);
+  EXPECT_EQ(all[2].points[0].left_out, "bias.slope = 0.01") << "the first point that can have a diagram is the second";
+  EXPECT_EQ(all[2].points[1].left_out, "");
   const std::string page = report("out");
   EXPECT_NE(page.find("There is no phase diagram: a phase diagram needs a map"), std::string::npos);
   EXPECT_NE(page.find("id=\"chart-phase\""), std::string::npos);
