@@ -8,6 +8,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,16 @@ struct Swept {
   std::vector<std::string> values;  // canonical texts, in the file's order, all different
 };
 
+// The phase diagram that an experiment, or a part of it, asks for (app/sweep_phase.h).
+inline constexpr int most_phase_rows = 200;
+struct PhaseRequest {
+  bool enabled = false;
+  std::optional<double> acne_bound, peter_panning_bound;  // empty: those of the bias curve
+  int placements = 8;                                     // S, along each axis
+  int texel_sizes = 25;
+  int width_px = 640;  // of its picture, at most that of the view; its height follows from the view's
+};
+
 struct Experiment {
   std::string path;  // as given
   std::string title;
@@ -39,6 +50,7 @@ struct Experiment {
   std::vector<Law> laws;
   bool curve_enabled = true;
   CurveOptions curve;
+  PhaseRequest phase;
   std::string pictures = "first";       // which points get pictures: first | all | none | worst | extremes
   std::vector<std::string> overridden;  // settings given by apply_override, in order
   std::vector<std::string> chosen;      // parts given by choose_parts
@@ -106,7 +118,7 @@ std::string shell_quoted(const std::string& word);
 // --set. If the experiment has parts, it passes the point's number among the chosen parts.
 std::string reproduce_command(const Experiment& experiment, const PointRecord& point);
 
-// Everything that determines the results, for ResultStore, as text with one "name = value" per line. more: what the
+// Everything that determines the points' results, for ResultStore, as text with one "name = value" per line. more: what the
 // experiment does not contain itself (app/identity.h).
 std::string fingerprint(const Experiment& experiment, std::span<const std::pair<std::string, std::string>> more);
 

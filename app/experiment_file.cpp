@@ -15,6 +15,7 @@
 #include "compare/store/quantities.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
+#include "technique/placements.h"
 
 namespace noonmark {
 namespace {
@@ -43,6 +44,8 @@ class Reader : private SettingsReader {
         sweep_ = &table(*item.node, "[sweep]");
       else if (item.key == "curve")
         read_curve(table(*item.node, "[curve]"));
+      else if (item.key == "phase")
+        read_phase(table(*item.node, "[phase]"));
       else if (item.key == "let")
         read_let(table(*item.node, "[let]"));
       else if (item.key == "bound")
@@ -78,7 +81,7 @@ class Reader : private SettingsReader {
  private:
   std::vector<std::string_view> root_keys() const {
     std::vector<std::string_view> names = groups();
-    for (std::string_view key : {"sweep", "curve", "let", "bound", "law"}) names.push_back(key);
+    for (std::string_view key : {"sweep", "curve", "phase", "let", "bound", "law"}) names.push_back(key);
     if (in_part_) names.push_back("name");
     if (!in_part_)
       for (std::string_view key : {"title", "pictures", "plot", "part"}) names.push_back(key);
@@ -151,7 +154,7 @@ class Reader : private SettingsReader {
     experiment_.swept.push_back(std::move(swept));
   }
 
-  // ---- [plot] [curve]
+  // ---- [plot] [curve] [phase]
 
   void read_plot(const toml::table& table) {
     for (const Item& item : items(table)) {
@@ -181,6 +184,33 @@ class Reader : private SettingsReader {
       else
         unknown(item, "key", {"enabled", "acne_bound", "peter_panning_bound", "bias_depth"}, "curve.");
     }
+  }
+  void read_phase(const toml::table& table) {
+    PhaseRequest& phase = experiment_.phase;
+    phase.enabled = true;
+    for (const Item& item : items(table)) {
+      const std::string name = "phase." + item.key;
+      if (item.key == "enabled")
+        phase.enabled = boolean(*item.node, name);
+      else if (item.key == "acne_bound")
+        phase.acne_bound = fraction(*item.node, name);
+      else if (item.key == "peter_panning_bound")
+        phase.peter_panning_bound = fraction(*item.node, name);
+      else if (item.key == "placements")
+        phase.placements = integer(*item.node, name, 1, Placements::most);
+      else if (item.key == "texel_sizes")
+        phase.texel_sizes = integer(*item.node, name, 2, most_phase_rows);
+      else if (item.key == "width_px")
+        phase.width_px = integer(*item.node, name, 1, 8192);
+      else
+        unknown(item, "key", {"enabled", "acne_bound", "peter_panning_bound", "placements", "texel_sizes", "width_px"},
+                "phase.");
+    }
+  }
+  int integer(const toml::node& node, const std::string& name, int least, int most) const {
+    const int64_t value = node.is_integer() ? node.as_integer()->get() : int64_t{least} - 1;
+    if (value < least || value > most) fail(node, fmt::format("{} must be an integer, {} ... {}", name, least, most));
+    return static_cast<int>(value);
   }
   double fraction(const toml::node& node, const std::string& name) const {
     const double value = number(node, name);
@@ -221,10 +251,12 @@ class Reader : private SettingsReader {
         bound.min = number(*item.node, "min");
       else if (item.key == "join")
         bound.join = one_of(*item.node, "join", {"worst", "mean", "median"});
+      else if (item.key == "placement")
+        bound.placement = one_of(*item.node, "placement", {"worst", "first"});
       else if (item.key == "where")
         bound.where = read_conditions(*item.node, "where");
       else
-        unknown(item, "key", {"metric", "max", "min", "join", "where"}, "bound.");
+        unknown(item, "key", {"metric", "max", "min", "join", "placement", "where"}, "bound.");
     }
     if (bound.metric.empty()) fail(table, "a [[bound]] needs a metric");
     at(table.source(), [&] { check_bound(bound); });

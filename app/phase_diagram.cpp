@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/experiment.h"
 #include "app/placement_stage.h"
 #include "compare/ladder/law_bias.h"
 #include "scenes/error.h"
@@ -153,6 +154,32 @@ PhaseRow row_of(const PlacementCounts& counts, size_t biases, double filter) {
   return row;
 }
 
+// The settings of a point of the diagram, as the words of a command; without texel size and bias.
+std::string render_command(const Settings& settings) {
+  const Settings defaults;
+  std::string command = "noonmark render";
+  for (const Setting& row : settings_table()) {
+    const std::string value = row.get(settings);
+    if (row.name == "map.resolution" || row.name == "bias.constant" || value == row.get(defaults)) continue;
+    command += " --set " + shell_quoted(std::string(row.name) + "=" + value);
+  }
+  return command;
+}
+
+std::string technique_text(const Settings& settings) {
+  std::string text = "constant bias in metres";
+  const Settings defaults;
+  for (const Setting& row : settings_table()) {
+    const bool of_technique =
+        row.name.starts_with("filter.") || row.name.starts_with("bias.") || row.name.starts_with("map.");
+    if (!of_technique || row.name == "bias.unit" || row.name == "map.resolution" || row.name == "map.placements")
+      continue;
+    if (const std::string value = row.get(settings); value != row.get(defaults))
+      text += fmt::format(", {} = {}", row.name, value);
+  }
+  return text;
+}
+
 }  // namespace
 
 Settings phase_settings(const Settings& given, const Scene& scene) {
@@ -179,6 +206,8 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
                            const ViewStage& view, const TruthStage& truth, const Settings& given,
                            const PhaseOptions& options) {
   PhaseDiagram diagram;
+  diagram.width_px = view.receivers.width();
+  diagram.height_px = view.receivers.height();
   diagram.placements = options.placements;
   diagram.acne_bound = options.acne_bound;
   diagram.peter_panning_bound = options.peter_panning_bound;
@@ -230,6 +259,20 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
     if (r == 0) add_law(diagram, frame, view, truth, settings);
   }
   return diagram;
+}
+
+void describe_phase(PhaseDiagram& diagram, const Settings& settings, const Scene& scene) {
+  diagram.scene = scene.name;
+  diagram.light = kind_of_light(effective_light(scene, settings).kind).name();
+  diagram.technique = technique_text(settings);
+  diagram.render = render_command(settings);
+}
+
+PhasePlace phase_place(const Scene& scene, const ViewStage& view, const TruthStage& truth, const Settings& settings) {
+  const LightFrame frame = make_light_frame(scene, settings);
+  const BiasScale scale = bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit);
+  return {median_texel_m(frame, view, truth.receivers),
+          settings.bias["constant"] * scale.depth_per_unit * scale.m_per_depth};
 }
 
 }  // namespace noonmark

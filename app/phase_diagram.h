@@ -18,9 +18,20 @@ struct PhaseOptions {
 // Error(usage) if the diagram has no meaning for them, with what to change.
 Settings phase_settings(const Settings& settings, const Scene& scene);
 
-// settings: from phase_settings(). The receivers are on the device. The texts of the diagram are left empty.
+// settings: from phase_settings(). The receivers are on the device. The texts of the diagram are left empty
+// (describe_phase).
 PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& tracer, const Scene& scene,
                            const ViewStage& view, const TruthStage& truth, const Settings& settings,
                            const PhaseOptions& options);
+
+// Fills in the names for the reader and the command that renders a cell.
+void describe_phase(PhaseDiagram& diagram, const Settings& settings, const Scene& scene);
+
+// Where a point lies on a diagram of the same receivers: the width of its texel, and its constant bias along the light,
+// both in metres and at the median receiver.
+struct PhasePlace {
+  double texel_m = 0, bias_m = 0;
+};
+PhasePlace phase_place(const Scene& scene, const ViewStage& view, const TruthStage& truth, const Settings& settings);
 
 }  // namespace noonmark

@@ -17,6 +17,12 @@ Progress::~Progress() {
   if (line_open_) write_to_terminal("\n");
 }
 
+void Progress::say(const std::string& what) {
+  if (!terminal_) return fmt::print(stderr, "{}\n", printable(what));
+  write_to_terminal(fmt::format("\r{:.78}\x1b[K", printable(what)));
+  line_open_ = true;
+}
+
 void Progress::finished(int64_t done, const std::string& what) {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const int64_t here = done - already_;

@@ -16,6 +16,7 @@
 #include "app/image_file.h"
 #include "app/point_pictures.h"
 #include "app/progress.h"
+#include "app/sweep_phase.h"
 #include "app/workbench.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/laws.h"
@@ -242,6 +243,14 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   const auto total = static_cast<int64_t>(planned.size());
   for (const std::string& repaired : store.repair(total, expected))
     fmt::print(stderr, "note: {}\n", printable(repaired));
+  const std::vector<PhasePlan> diagrams = phase_plans(experiment, planned);
+  const auto as_planned = [&](int64_t number, const PhaseDiagram& stored) {
+    return std::any_of(diagrams.begin(), diagrams.end(), [&](const PhasePlan& plan) {
+      return plan.number == number && plan.made_from() == stored.made_from;
+    });
+  };
+  for (const std::string& repaired : store.repair_phases(as_planned))
+    fmt::print(stderr, "note: {}\n", printable(repaired));
   store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene), scenes.notes()),
                  total);
 
@@ -254,6 +263,12 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   const auto measured_before = [&](int64_t id) { return std::binary_search(before.begin(), before.end(), id); };
   for (int64_t id = 0; id < total; ++id)
     if (!measured_before(id)) room.require_room_for(static_cast<size_t>(id));
+  std::vector<const PhasePlan*> undrawn;
+  for (const std::vector<int64_t> drawn = store.phases(); const PhasePlan& plan : diagrams)
+    if (!std::binary_search(drawn.begin(), drawn.end(), plan.number)) {
+      require_room_for(bench, plan);
+      undrawn.push_back(&plan);
+    }
   SweepOutcome outcome;
   {
     const StopOnSignal guard;
@@ -261,6 +276,15 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     auto done = static_cast<int64_t>(before.size());
     IdleNotes notes;
     for (int64_t id = 0; id < total && !outcome.interrupted; ++id) {
+      // Before the part's first point, which shares its scene and, in a picture of the same size, its view.
+      if (!undrawn.empty() && undrawn.front()->first == id) {
+        const PhasePlan& plan = *undrawn.front();
+        scenes.require_unchanged(bench, planned[static_cast<size_t>(id)]);
+        progress.aside(plan.name(), [&] { store.add_phase(plan.number, make_phase(bench, plan)); });
+        undrawn.erase(undrawn.begin());
+        outcome.interrupted = stop_asked && (done < total || !undrawn.empty());
+        if (outcome.interrupted) break;
+      }
       if (measured_before(id)) continue;
       room.require_room_for(static_cast<size_t>(id));  // other programs may have taken memory since
       const Experiment& part = part_of_point(experiment, id);
@@ -274,7 +298,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
         static_cast<PointPictures&>(m.record) = keep_pictures(m, id, folder.path());
       store.add(m.record);
       progress.finished(++done, name_of_point(experiment, id));
-      outcome.interrupted = stop_asked && done < total;
+      outcome.interrupted = stop_asked && (done < total || !undrawn.empty());
     }
     notes.print();
   }
@@ -345,6 +369,11 @@ void print_plan(const Experiment& experiment) {
              bench.memory_of_program(writes_pictures(experiment)).text());
   MemoryCheck room(bench, experiment, memory);
   for (size_t i = 0; i < planned.size(); ++i) room.require_room_for(i);
+  for (const PhasePlan& plan : phase_plans(experiment, planned)) {
+    require_room_for(bench, plan);
+    fmt::print("{}: {} texel sizes, each at {} placements of its grid; its time is not in the estimate below\n",
+               printable(plan.name()), plan.request.texel_sizes, plan.request.placements * plan.request.placements);
+  }
   // The time is almost a constant for each point plus a share for each tap. Two small pictures of the first point give
   // both.
   const auto seconds = [&](int divisor, double nudge) {

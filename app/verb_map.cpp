@@ -13,38 +13,8 @@
 #include "scenes/file.h"
 #include "scenes/library.h"
 #include "scenes/text.h"
-#include "technique/setting_rules.h"
 
 namespace noonmark {
-namespace {
-
-// The settings of a point of the diagram, as the words of a command; without texel size and bias.
-std::string render_command(const Settings& settings) {
-  const Settings defaults;
-  std::string command = "noonmark render";
-  for (const Setting& row : settings_table()) {
-    const std::string value = row.get(settings);
-    if (row.name == "map.resolution" || row.name == "bias.constant" || value == row.get(defaults)) continue;
-    command += " --set " + shell_quoted(std::string(row.name) + "=" + value);
-  }
-  return command;
-}
-
-std::string technique_text(const Settings& settings) {
-  std::string text = "constant bias in metres";
-  const Settings defaults;
-  for (const Setting& row : settings_table()) {
-    const bool of_technique =
-        row.name.starts_with("filter.") || row.name.starts_with("bias.") || row.name.starts_with("map.");
-    if (!of_technique || row.name == "bias.unit" || row.name == "map.resolution" || row.name == "map.placements")
-      continue;
-    if (const std::string value = row.get(settings); value != row.get(defaults))
-      text += fmt::format(", {} = {}", row.name, value);
-  }
-  return text;
-}
-
-}  // namespace
 
 int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentArguments arguments) {
   if (options.coarsest >= options.finest)
@@ -65,11 +35,8 @@ int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentAr
   coarse.map.placements = options.placements;
   require_memory(bench.memory(coarse, false, false), bench.memory_of_program(false), "this diagram");
   PhaseDiagram diagram = bench.phase(settings, options);
-  diagram.scene = loaded.name;
-  diagram.light = kind_of_light(effective_light(loaded, settings).kind).name();
-  diagram.technique = technique_text(settings);
+  describe_phase(diagram, settings, loaded);
   diagram.command = arguments.command;
-  diagram.render = render_command(settings);
   diagram.version = build_facts().version;
   diagram.notes = notes_line(loaded);
   make_output_folder(out);

@@ -237,6 +237,27 @@ PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& opti
   return measure_phase(impl_->renderer, *loaded.tracer, *loaded.scene, view, truth, settings, options);
 }
 
+std::vector<PhasePlace> Workbench::places(const Settings& picture, std::span<const Settings> points) {
+  const SceneStage& loaded = impl_->load(picture);
+  const LightFrame frame = make_light_frame(*loaded.scene, picture);
+  const auto [view, truth] = impl_->look(loaded, {picture, frame});
+  // Each place reads medians over the receivers, and the points of a sweep share most of their maps.
+  std::map<std::string, PhasePlace> of_one_unit;
+  std::vector<PhasePlace> places;
+  for (const Settings& point : points) {
+    Settings one = point;
+    one.bias["constant"] = 1;
+    std::string key = find_setting("bias.unit").get(one);
+    for (const Setting& row : settings_table())
+      if (row.name.starts_with("map.")) key += " " + row.get(one);
+    auto known = of_one_unit.find(key);
+    if (known == of_one_unit.end())
+      known = of_one_unit.emplace(key, phase_place(*loaded.scene, view, truth, one)).first;
+    places.push_back({known->second.texel_m, known->second.bias_m * point.bias["constant"]});
+  }
+  return places;
+}
+
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
                                std::optional<RungOnTop> on_top) {
   validate(settings);

@@ -6,7 +6,9 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "app/phase_diagram.h"
 #include "app/stages.h"
@@ -47,6 +49,10 @@ class Workbench {
 
   // The phase diagram of the scene under these settings (phase_settings()). Throws Error.
   PhaseDiagram phase(const Settings& settings, const PhaseOptions& options);
+
+  // The places of points on a diagram that counts the receivers of `picture`: the points differ from it in texel size,
+  // in bias and in settings that move no receiver. Throws Error.
+  std::vector<PhasePlace> places(const Settings& picture, std::span<const Settings> points);
 
   // The peak memory that measure() would take. pictures: whether its pictures and EXR files are written. Throws Error.
   MemoryEstimate memory(const Settings& settings, bool curve, bool pictures);

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view joins[] = {"worst", "mean", "median"};
+constexpr std::string_view placements[] = {"worst", "first"};
 
 [[noreturn]] void refuse(const Bound& bound, const std::string& why) {
   throw Error(ErrorKind::usage, fmt::format("bound on '{}': {}", bound.metric, why));
@@ -39,30 +40,48 @@ double median(std::vector<Value> values) {
   return values[middle - 1].value / 2 + values[middle].value / 2;
 }
 
+// The values that a bound compares with its limits, one for each point. Without placements both are the same.
+struct Values {
+  std::vector<Value> for_max, for_min;
+};
+
+double mean(const std::vector<Value>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0, [](double sum, const Value& v) { return sum + v.value; }) /
+         static_cast<double>(values.size());
+}
+
 // values: all finite, at least one.
-void judge(const Bound& bound, const std::vector<Value>& values, BoundResult& result) {
-  const Value largest = *std::max_element(values.begin(), values.end(), by_value);
-  const Value smallest = *std::min_element(values.begin(), values.end(), by_value);
+void judge(const Bound& bound, const Values& values, BoundResult& result) {
+  const Value largest = *std::max_element(values.for_max.begin(), values.for_max.end(), by_value);
+  const Value smallest = *std::min_element(values.for_min.begin(), values.for_min.end(), by_value);
   const auto below_min = [&](double value) { return bound.min && !(value >= *bound.min); };
   const auto above_max = [&](double value) { return bound.max && !(value <= *bound.max); };
 
-  if (bound.join == "worst") {
-    const bool from_below = !bound.max || (below_min(smallest.value) && !above_max(largest.value));
-    const Value worst = from_below ? smallest : largest;
-    result.found = worst.value;
-    result.point = worst.point->id;
-  } else {
-    if (bound.join == "mean")
-      result.found =
-          std::accumulate(values.begin(), values.end(), 0.0, [](double sum, const Value& v) { return sum + v.value; }) /
-          static_cast<double>(values.size());
-    else
-      result.found = median(values);
-    const bool from_below = !bound.max || (below_min(result.found) && !above_max(result.found));
-    result.point = (from_below ? smallest : largest).point->id;
+  double high = largest.value, low = smallest.value;
+  if (bound.join != "worst") {
+    const auto joined = [&](const std::vector<Value>& list) {
+      return bound.join == "mean" ? mean(list) : median(list);
+    };
+    high = joined(values.for_max);
+    low = joined(values.for_min);
   }
+  const bool from_below = !bound.max || (below_min(low) && !above_max(high));
+  result.found = from_below ? low : high;
+  result.point = (from_below ? smallest : largest).point->id;
   // A sum of finite values can overflow, so a joined value that is not finite breaks the bound too.
   result.held = std::isfinite(result.found) && !below_min(result.found) && !above_max(result.found);
+}
+
+// The largest or the least of a point's quantities of these names. Not a number if one of them is missing.
+template <class Better>
+double extreme_of(const PointRecord& point, const std::vector<std::string>& names, const Better& better) {
+  double found = not_a_number;
+  for (const std::string& name : names) {
+    const double value = quantity(point, name).value_or(not_a_number);
+    if (!std::isfinite(value)) return value;
+    if (std::isnan(found) || better(value, found)) found = value;
+  }
+  return found;
 }
 
 BoundResult evaluate(std::span<const PointRecord> points, const Bound& bound) {
@@ -74,19 +93,32 @@ BoundResult evaluate(std::span<const PointRecord> points, const Bound& bound) {
   result.join = bound.join;
   result.where = bound.where;
 
-  std::vector<Value> values;
-  for (const PointRecord& point : points)
-    if (matches(point, bound.where)) values.push_back({&point, quantity(point, bound.metric).value_or(not_a_number)});
-  result.points = static_cast<int>(values.size());
-  result.found = not_a_number;
-  if (values.empty()) return result;
-
-  const auto bad = std::find_if(values.begin(), values.end(), [](const Value& v) { return !std::isfinite(v.value); });
-  if (bad != values.end()) {
-    result.found = bad->value;
-    result.point = bad->point->id;
-    return result;
+  const PlacedNames placed = placed_names(bound.metric);
+  Values values;
+  for (const PointRecord& point : points) {
+    if (!matches(point, bound.where)) continue;
+    double high = quantity(point, bound.metric).value_or(not_a_number), low = high;
+    if (!placed.largest.empty() && has_placements(point)) {
+      result.placement = bound.placement;
+      if (bound.placement == "worst") {
+        high = extreme_of(point, placed.largest, std::greater<>());
+        low = extreme_of(point, placed.least, std::less<>());
+      }
+    }
+    values.for_max.push_back({&point, high});
+    values.for_min.push_back({&point, low});
   }
+  result.points = static_cast<int>(values.for_max.size());
+  result.found = not_a_number;
+  if (values.for_max.empty()) return result;
+
+  for (const auto* list : {&values.for_max, &values.for_min})
+    for (const Value& value : *list)
+      if (!std::isfinite(value.value)) {
+        result.found = value.value;
+        result.point = value.point->id;
+        return result;
+      }
   judge(bound, values, result);
   return result;
 }
@@ -114,6 +146,8 @@ void check_bound(const Bound& bound, std::span<const PointRecord> points) {
     refuse(bound, fmt::format("join = '{}' is not one of worst | mean | median{}", bound.join,
                               near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
   }
+  if (std::find(std::begin(placements), std::end(placements), bound.placement) == std::end(placements))
+    refuse(bound, fmt::format("placement = '{}' is not one of worst | first", bound.placement));
   try {
     check_conditions(bound.where);
   } catch (const Error& error) {
@@ -145,7 +179,14 @@ std::string bound_text(const BoundResult& bound) {
     text += fmt::format("{}{} = {}", word, name, fmt::join(values, " | "));
     word = " and ";
   }
-  return bound.join == "worst" ? text : fmt::format("{} ({})", text, bound.join);
+  std::vector<std::string_view> how;
+  if (bound.join != "worst") how.push_back(bound.join);
+  if (!bound.placement.empty()) how.push_back(placement_text(bound));
+  return how.empty() ? text : fmt::format("{} ({})", text, fmt::join(how, ", "));
+}
+
+std::string_view placement_text(const BoundResult& bound) {
+  return bound.placement.empty() ? "" : bound.placement == "worst" ? "worst placement" : "placement 0";
 }
 
 std::string found_text(const BoundResult& bound) {
@@ -155,8 +196,9 @@ std::string found_text(const BoundResult& bound) {
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept) {
   std::string text = fmt::format("{}: {}", bound.held ? "held" : "broken", bound_text(bound));
   if (bound.points == 0) return text + "\n  no finished point matches it; change its where, or the swept values\n";
-  text += fmt::format("; found {} ({} of {} point{})\n", found_text(bound), bound.join, bound.points,
-                      bound.points == 1 ? "" : "s");
+  text += fmt::format("; found {} ({} of {} point{}{}{})\n", found_text(bound), bound.join, bound.points,
+                      bound.points == 1 ? "" : "s", bound.placement.empty() ? "" : ", at ",
+                      bound.placement == "worst" ? "the worst placement of the grid" : placement_text(bound));
   if (bound.held) {
     const std::string doubt = point ? undecided_note(bound, *point) : "";
     return doubt.empty() ? text : text + fmt::format("  {}\n", doubt);

@@ -26,6 +26,9 @@ struct Bound {
   // otherwise the largest. mean, median: over all points of the bound. The median of an even number is the mean of the
   // two middle values.
   std::string join = "worst";
+  // Of a point with map.placements: "worst", the placement that is worst for each limit; or "first", the map as the
+  // settings place it. A quantity that is measured once for all placements is the same with both.
+  std::string placement = "worst";
 };
 
 // Throws Error(usage) for an unknown metric, setting or join (with the nearest name as a suggestion), for a value that
@@ -40,6 +43,9 @@ std::vector<BoundResult> evaluate_bounds(std::span<const PointRecord> points, st
 
 // "acne <= 0.01 where map.resolution = 512 | 1024 (mean)"
 std::string bound_text(const BoundResult& bound);
+
+// "worst placement", "placement 0"; empty if the points have one placement each.
+std::string_view placement_text(const BoundResult& bound);
 
 // The value found with all its digits, or "not measured".
 std::string found_text(const BoundResult& bound);

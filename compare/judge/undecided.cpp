@@ -41,7 +41,7 @@ std::string undecided_note(std::span<const PointRecord> points) {
 std::string undecided_note(const BoundResult& bound, const PointRecord& point) {
   if (!bound.held || !bound.max || bound.join != "worst") return "";
   if (std::find(causes.begin(), causes.end(), bound.metric) == causes.end()) return "";
-  const double undecided = metric_of(point, "undecided");
+  const double undecided = metric_of(point, bound.placement == "worst" ? "undecided_worst" : "undecided");
   if (!(bound.found + undecided > *bound.max)) return "";
   return fmt::format("it would be broken if all that is undecided there, {:.3g}, were {}", undecided, bound.metric);
 }

@@ -261,6 +261,7 @@ std::map<std::string, double> placement_metrics(const PlacementCounts& counts) {
     std::sort(sorted.begin(), sorted.end());  // all are NaN, or none is
     metrics[name + "_mean"] = std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(sorted.size());
     metrics[name + "_worst"] = sorted.back();
+    metrics[name + "_best"] = sorted.front();
     // The nearest rank.
     metrics[name + "_p95"] = sorted[static_cast<size_t>(std::ceil(0.95 * static_cast<double>(sorted.size()))) - 1];
   }

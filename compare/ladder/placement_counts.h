@@ -123,8 +123,8 @@ uint64_t disagreements(const LookupEvidence& evidence, size_t pixel, const Place
 // The placement with the largest error at the point's own bias; the first of several.
 int worst_placement(const PlacementCounts& counts);
 
-// Mean, worst and 95th percentile over the placements of every metric of shares(), and the shift of the placement with
-// the largest error. Names: "acne_mean", "acne_worst", "acne_p95", "worst_shift_u_texels".
+// Mean, worst, best and 95th percentile over the placements of every metric of shares(), and the shift of the placement
+// with the largest error. Names: "acne_mean", "acne_worst", "acne_best", "acne_p95", "worst_shift_u_texels".
 std::map<std::string, double> placement_metrics(const PlacementCounts& counts);
 
 // Adds bands and the window at every placement to a curve over the same part.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/judge/bounds.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
@@ -29,31 +30,6 @@ std::string_view unit_of(const std::string& metric, const Results& results) {
   for (const Metric& row : metrics_of(results.points))
     if (row.name == metric) return row.unit;
   return "";
-}
-
-// "All 4 bounds hold", as the coloured line at the top.
-std::string verdict(const Results& results) {
-  std::string out;
-  const auto judge = [&](const auto& list, const char* noun, const char* alone) {
-    if (list.empty()) return;
-    const auto broken = std::count_if(list.begin(), list.end(), [](const auto& one) { return !one.held; });
-    const std::string text = broken             ? fmt::format("{} of {} {}s broken", broken, list.size(), noun)
-                             : list.size() == 1 ? std::string(alone)
-                                                : fmt::format("All {} {}s hold", list.size(), noun);
-    out += fmt::format("{}<span class=\"pill {}\">{}</span>", out.empty() ? "" : " ", broken ? "broken" : "held", text);
-  };
-  if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty()) {
-    // If the numbers are not sound, the verdicts on them have no meaning.
-    out = "<span class=\"pill broken\">Not sound: the measurement contradicts itself</span>";
-  } else {
-    judge(results.bounds, "bound", "The bound holds");
-    judge(results.laws, "law", "The law holds");
-  }
-  if (out.empty()) out = "<span class=\"pill none\">No bounds were set</span>";
-  if (static_cast<int64_t>(results.points.size()) < results.planned_points)
-    out += fmt::format(" <span class=\"pill broken\">Incomplete: {} of {} points</span>", results.points.size(),
-                       results.planned_points);
-  return "<p class=\"verdict\">" + out + "</p>\n";
 }
 
 std::vector<bool> flags_of(const Results& results, bool (*holds)(const PointRecord&)) {
@@ -260,7 +236,7 @@ std::string bounds_table(const Results& results) {
     rows += fmt::format(
         "<tr class=\"{}\"><td>{}</td><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
         bound.held ? "held" : "broken", bound.held ? "✓ holds" : "✗ broken", html(metric_label(bound.metric)), limit,
-        found, html(bound.join),
+        found, html(bound.join) + (bound.placement.empty() ? "" : fmt::format(", {}", placement_text(bound))),
         where.empty() ? fmt::format("all ({})", bound.points) : fmt::format("{} ({})", where, bound.points));
     if (!bound.held && !bound.reproduce.empty())
       rows += fmt::format("<tr class=\"command\"><td></td><td colspan=\"5\">See it: <code>{}</code></td></tr>\n",
@@ -274,14 +250,38 @@ std::string bounds_table(const Results& results) {
 
 }  // namespace
 
+std::string verdict_line(const Results& results) {
+  std::string out;
+  const auto judge = [&](const auto& list, const char* noun, const char* alone) {
+    if (list.empty()) return;
+    const auto broken = std::count_if(list.begin(), list.end(), [](const auto& one) { return !one.held; });
+    const std::string text = broken             ? fmt::format("{} of {} {}s broken", broken, list.size(), noun)
+                             : list.size() == 1 ? std::string(alone)
+                                                : fmt::format("All {} {}s hold", list.size(), noun);
+    out += fmt::format("{}<span class=\"pill {}\">{}</span>", out.empty() ? "" : " ", broken ? "broken" : "held", text);
+  };
+  if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty()) {
+    // If the numbers are not sound, the verdicts on them have no meaning.
+    out = "<span class=\"pill broken\">Not sound: the measurement contradicts itself</span>";
+  } else {
+    judge(results.bounds, "bound", "The bound holds");
+    judge(results.laws, "law", "The law holds");
+  }
+  if (out.empty()) out = "<span class=\"pill none\">No bounds were set</span>";
+  if (static_cast<int64_t>(results.points.size()) < results.planned_points)
+    out += fmt::format(" <span class=\"pill broken\">Incomplete: {} of {} points</span>", results.points.size(),
+                       results.planned_points);
+  return "<p class=\"verdict\">" + out + "</p>\n";
+}
+
 std::string answer_section(const Results& results) {
   if (results.points.empty())
-    return "<section id=\"answer\"><h2>The answer</h2>" + verdict(results) +
+    return "<section id=\"answer\"><h2>The answer</h2>"
            "<p>No point was measured.</p></section>\n";
   // Points of different parts are not meant to be compared, so none of them is the cheapest.
   if (!results.points.front().part.empty())
-    return "<section id=\"answer\"><h2>The answer</h2>" + verdict(results) + laws_table(results) +
-           bounds_table(results) + "<ul class=\"findings\">\n" + health_items(results) + "</ul></section>\n";
+    return "<section id=\"answer\"><h2>The answer</h2>" + laws_table(results) + bounds_table(results) +
+           "<ul class=\"findings\">\n" + health_items(results) + "</ul></section>\n";
   std::vector<const PointRecord*> all;
   for (const PointRecord& point : results.points) all.push_back(&point);
   std::string items = window_items(results);
@@ -289,9 +289,9 @@ std::string answer_section(const Results& results) {
     items += item("note", fmt::format("Largest causes of error over {}, with the bias as rendered: {}.",
                                       all.size() == 1 ? "this point" : "all points", causes));
   items += health_items(results);
-  return "<section id=\"answer\"><h2>The answer</h2>" + verdict(results) + "<div class=\"answer\">" +
-         recommendation_box(results) + "<div class=\"breaks\"><h3>What breaks</h3><ul class=\"findings\">\n" + items +
-         "</ul></div></div>\n" + bounds_table(results) + laws_table(results) + "</section>\n";
+  return "<section id=\"answer\"><h2>The answer</h2><div class=\"answer\">" + recommendation_box(results) +
+         "<div class=\"breaks\"><h3>What breaks</h3><ul class=\"findings\">\n" + items + "</ul></div></div>\n" +
+         bounds_table(results) + laws_table(results) + "</section>\n";
 }
 
 }  // namespace noonmark::report

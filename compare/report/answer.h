@@ -1,4 +1,4 @@
-// The report's first section: the verdict, what breaks, what to set, bounds and laws.
+// The report's verdict, and its section with what breaks, what to set, bounds and laws.
 #pragma once
 #include <string>
 
@@ -6,6 +6,8 @@
 
 namespace noonmark::report {
 
+// "All 4 bounds hold", as the coloured line at the top of the page.
+std::string verdict_line(const Results& results);
 std::string answer_section(const Results& results);
 
 }  // namespace noonmark::report

@@ -9,6 +9,7 @@
 #include "compare/report/cause_colors.h"
 #include "compare/report/findings.h"
 #include "compare/report/laws.h"
+#include "compare/report/phase_section.h"
 #include "compare/report/rules.h"
 #include "compare/report/text.h"
 #include "compare/store/curve_fields.h"
@@ -109,6 +110,9 @@ json chart_data(const Results& results, const ShownPoints& shown) {
   }
 
   data["laws"] = law_data(results);
+  data["phases"] = json::array();
+  for (const PhaseDiagram& diagram : results.phases)
+    if (diagram.refused.empty()) data["phases"].push_back(phase_data(diagram));
   const Recommendation recommendation = recommend(results);
   data["recommended"] = recommendation.point ? json(recommendation.point->id) : json();
   for (const char* which : {"error", "best_error"}) {

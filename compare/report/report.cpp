@@ -10,6 +10,7 @@
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/page_parts.h"
+#include "compare/report/phase_section.h"
 #include "compare/report/sections.h"
 #include "compare/report/shown.h"
 #include "compare/report/tables.h"
@@ -60,6 +61,7 @@ std::string pictures(const Results& results, const ShownPoints&, const ReadFile&
   return report::pictures_section(results, read_file);
 }
 constexpr Section all_sections[] = {
+    {"phase", "Diagram", by_point<report::phase_section>, false},
     {"answer", "Answer", plain<report::answer_section>, false},
     {"bias", "Bias", by_point<report::bias_section>, true},
     {"sweep", "Resolution", by_point<report::sweep_section>, true},
@@ -75,7 +77,8 @@ std::vector<Section> sections_of(const Results& results) {
   const bool parts = !results.points.empty() && !results.points.front().part.empty();
   std::vector<Section> sections;
   for (const Section& section : all_sections)
-    if (!parts || !section.compares) sections.push_back(section);
+    if ((!parts || !section.compares) && (section.id != std::string_view("phase") || !results.phases.empty()))
+      sections.push_back(section);
   return sections;
 }
 
@@ -93,7 +96,7 @@ std::string render_report(const Results& results,
   const std::string& given = !results.info.title.empty() ? results.info.title : results.info.scene_name;
   const ShownPoints shown = report::shown_points(results);
   const std::string title = report::html(given.empty() ? "Shadow-map errors" : given);
-  std::string sections;
+  std::string sections = report::verdict_line(results);
   for (const Section& section : sections_of(results)) sections += section.html(results, shown, read_file);
   std::vector<CauseColor> causes;
   for (const CauseColor& color : causes_of(results.points)) causes.push_back(color);
@@ -103,7 +106,7 @@ std::string render_report(const Results& results,
                             .sections = sections,
                             .data = report::chart_data(results, shown),
                             .causes = causes,
-                            .scripts = {"charts", "chart_bias", "chart_sweep", "chart_laws", "page"},
+                            .scripts = {"charts", "chart_bias", "chart_sweep", "chart_laws", "chart_phase", "page"},
                             .version = results.info.version});
 }
 

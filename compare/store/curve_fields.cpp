@@ -41,6 +41,9 @@ constexpr CurveField fields[] = {
 constexpr CurveWidth widths[] = {
     {"window_width_depth", "depth", "Width of the usable bias window; 0 when no bias is good enough.",
      "window_min_depth", "window_max_depth"},
+    {"window_width_worst_depth", "depth",
+     "Width of the window that is usable at every placement; 0 when no bias is good enough at all of them.",
+     "window_min_worst_depth", "window_max_worst_depth", true},
 };
 
 constexpr CurveSeries series[] = {

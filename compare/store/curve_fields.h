@@ -31,8 +31,9 @@ std::span<const CurveField> curve_fields();
 struct CurveWidth {
   std::string_view name;
   std::string_view unit;
-  std::string_view help;      // one sentence
-  std::string_view from, to;  // fields of curve_fields(), std::optional<double>; the width is listed after `to`
+  std::string_view help;       // one sentence
+  std::string_view from, to;   // fields of curve_fields(), std::optional<double>; the width is listed after `to`
+  bool of_placements = false;  // no value without map.placements
 };
 std::span<const CurveWidth> curve_widths();
 

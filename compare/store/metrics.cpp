@@ -171,7 +171,7 @@ constexpr Metric over_placements[] = {
      false, true},
 };
 
-// Mean, worst and 95th percentile over the placements of the texel grid of each of these.
+// Mean, worst, best and 95th percentile over the placements of the texel grid of each of these.
 constexpr std::string_view placed[] = {"error",    "wrong",         "acne",           "peter_panning",
                                        "aliasing", "aliasing_dark", "aliasing_light", "aliasing_rms",
                                        "coverage", "coverage_dark", "coverage_light", "undecided"};
@@ -187,8 +187,8 @@ const Table& table() {
     t.rows.assign(std::begin(measured_once), std::end(measured_once));
     const auto text = [&](const std::string& made_text) -> std::string_view { return t.texts.emplace_back(made_text); };
     for (std::string_view name : placed)
-      for (const auto& [ending, what] :
-           {std::pair("mean", "Mean"), std::pair("worst", "Largest"), std::pair("p95", "95th percentile")})
+      for (const auto& [ending, what] : {std::pair("mean", "Mean"), std::pair("worst", "Largest"),
+                                         std::pair("best", "Least"), std::pair("p95", "95th percentile")})
         t.rows.push_back(
             {text(std::string(name) + "_" + ending), "fraction",
              text(std::string(what) + " over the placements of the texel grid (map.placements) of " +

@@ -55,11 +55,13 @@ Expression product(const Expression& a, const Expression& b) {
 Expression width_of(const CurveWidth& width) {
   const Expression from = number_of(width.from), to = number_of(width.to);
   return {
-      [a = from.value, b = to.value](const BiasCurve& curve) -> std::optional<double> {
+      [a = from.value, b = to.value, placed = width.of_placements](const BiasCurve& curve) -> std::optional<double> {
+        if (placed && curve.placements == 0) return std::nullopt;
         const std::optional<double> x = a(curve), y = b(curve);
         return x && y ? *y - *x : 0;
       },
-      fmt::format("CASE WHEN c.point IS NULL THEN NULL WHEN {0} IS NULL THEN 0 ELSE {1} - {0} END", from.sql, to.sql)};
+      fmt::format("CASE WHEN c.point IS NULL{2} THEN NULL WHEN {0} IS NULL THEN 0 ELSE {1} - {0} END", from.sql, to.sql,
+                  width.of_placements ? " OR c.placements = 0" : "")};
 }
 
 constexpr std::string_view depth_ending = "_depth";
@@ -153,6 +155,33 @@ std::optional<double> quantity(const PointRecord& point, std::string_view name) 
   for (const CurveQuantity& row : curve_quantities())
     if (row.name == name) return row.value(*point.curve);
   return std::nullopt;
+}
+
+PlacedNames placed_names(std::string_view name) {
+  const std::string text(name);
+  const auto is_metric = [](const std::string& one) {
+    return std::any_of(metrics_table().begin(), metrics_table().end(),
+                       [&](const Metric& row) { return row.of_placements && row.name == one; });
+  };
+  if (is_metric(text + "_worst")) {
+    PlacedNames names{{text, text + "_worst"}, {text, text + "_best"}};
+    if (is_metric(text + "_worst_shown")) names.largest.push_back(text + "_worst_shown");
+    return names;
+  }
+  // "window_min_m" -> "window_min_worst_m"
+  const auto& table = curve_quantities();
+  for (std::string_view unit : {"_depth", "_m", "_texels"}) {
+    if (!name.ends_with(unit)) continue;
+    const std::string worst = fmt::format("{}_worst{}", name.substr(0, name.size() - unit.size()), unit);
+    if (std::any_of(table.begin(), table.end(), [&](const CurveQuantity& row) { return row.name == worst; }))
+      return {{worst}, {worst}};
+  }
+  return {};
+}
+
+bool has_placements(const PointRecord& point) {
+  const std::string side = setting_of(point, "map.placements");
+  return !side.empty() && side != "1";
 }
 
 double metric_of(const PointRecord& point, const std::string& name) {

@@ -49,6 +49,16 @@ std::string_view judged_rung(const PointRecord& point);
 // Empty if the point does not have it: its curve is off, its window is empty, or its metric was not recorded.
 std::optional<double> quantity(const PointRecord& point, std::string_view name);
 
+// The quantities of a point with map.placements that together say how large a quantity is at its worst placement: the
+// largest of `largest`, and how small at any: the least of `least`. The metric itself is among them, because OpenGL drew
+// it, and the others are those of the exact map. Empty if the quantity is measured once for all placements.
+struct PlacedNames {
+  std::vector<std::string> largest, least;
+};
+PlacedNames placed_names(std::string_view name);
+// Whether the point was measured at several placements of the map's grid.
+bool has_placements(const PointRecord& point);
+
 // The metric, or NaN if the point has no metric of that name.
 double metric_of(const PointRecord& point, const std::string& name);
 // The setting's canonical text, or empty.

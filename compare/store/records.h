@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/store/phase_record.h"
+
 namespace noonmark {
 
 // The error as a function of the amount of one part of the bias, from one lookup pass (compare/ladder/bias_curves.h).
@@ -107,6 +109,8 @@ struct BoundResult {
   int64_t point = -1;     // the worst point
   int points = 0;         // the number of points it was checked on; 0 breaks the bound
   std::string reproduce;  // the command that renders the worst point
+  // "worst", "first": which placement of the map's grid was judged; empty: the points have one placement each
+  std::string placement{};
 };
 
 enum class LawRelation { equal, at_most, at_least };
@@ -154,6 +158,7 @@ struct Results {
   int64_t planned_points = 0;
   std::vector<BoundResult> bounds;
   std::vector<LawResult> laws;
+  std::vector<PhaseDiagram> phases;  // one for each part that asks for it; an interrupted sweep may have fewer
 };
 
 // An experiment that failed before it could be judged.

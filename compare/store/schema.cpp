@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "compare/store/metrics.h"
+#include "compare/store/phase_tables.h"
 #include "compare/store/quantities.h"
 #include "compare/store/record_fields.h"
 #include "compare/store/record_tables.h"
@@ -76,7 +77,7 @@ std::string store_schema() {
   for (const RecordField& field : record_fields())
     if (!field.group.empty()) field_column(field);
   return std::string(info_table) + finished_table().create("\n  ") + std::string(named_values) + record_tables() +
-         view.sql();
+         phase_tables() + view.sql();
 }
 
 }  // namespace noonmark

@@ -22,24 +22,40 @@ using sqlite::Statement;
 // Each table has a column `point`, and its first two columns give the order of its rows.
 constexpr std::string_view point_tables[] = {"finished", "settings",     "metrics",  "times",
                                              "curves",   "curve_points", "pictures", "images"};
+// Each table has a column `phase`, and its first three columns give the order of its rows.
+constexpr std::string_view phase_tables[] = {"phases", "phase_rows", "phase_cells", "phase_points"};
 constexpr std::string_view info_tables[] = {"info"};
 constexpr std::string_view verdict_tables[] = {"bounds", "laws", "law_samples"};
 
-// point: only the rows of this point; otherwise all rows.
-std::string digest_of(Database& db, std::span<const std::string_view> tables, std::optional<int64_t> point = {}) {
+// What is sealed by its id: the tables that hold it, with the column of the id and the columns that order the rows.
+struct Sealed {
+  std::string_view name;
+  std::span<const std::string_view> tables;
+  std::string_view order;
+  std::string seal(int64_t id) const { return fmt::format("{} {}", name, id); }
+};
+constexpr Sealed sealed_points{"point", point_tables, "1, 2"};
+constexpr Sealed sealed_phases{"phase", phase_tables, "1, 2, 3"};
+
+std::string digest_of(Database& db, std::span<const std::string_view> tables) {
   Digest digest;
   for (std::string_view table : tables) {
     digest.text(table);
-    Statement rows(db, fmt::format("SELECT * FROM {} {} ORDER BY 1, 2", table, point ? "WHERE point = ?" : ""));
-    if (point) rows.bind(1, *point);
-    while (rows.step()) rows.add_to(digest);
+    for (Statement rows(db, fmt::format("SELECT * FROM {} ORDER BY 1, 2", table)); rows.step();) rows.add_to(digest);
   }
   return digest.hex();
 }
 
-std::string point_digest(Database& db, int64_t point) { return digest_of(db, point_tables, point); }
-
-std::string point_seal(int64_t point) { return fmt::format("point {}", point); }
+std::string digest_of(Database& db, const Sealed& what, int64_t id) {
+  Digest digest;
+  for (std::string_view table : what.tables) {
+    digest.text(table);
+    Statement rows(db, fmt::format("SELECT * FROM {} WHERE {} = ? ORDER BY {}", table, what.name, what.order));
+    rows.bind(1, id);
+    while (rows.step()) rows.add_to(digest);
+  }
+  return digest.hex();
+}
 
 void set_seal(Database& db, const std::string& name, const std::string& digest) {
   Statement(db, "INSERT OR REPLACE INTO seals VALUES (?, ?)").run(name, digest);
@@ -51,21 +67,33 @@ bool holds(Database& db, const std::string& name, const std::string& digest) {
   return seal.step() && seal.text(0) == digest;
 }
 
+void seal(Database& db, const Sealed& what, int64_t id) { set_seal(db, what.seal(id), digest_of(db, what, id)); }
+
+std::vector<int64_t> broken(Database& db, const Sealed& what) {
+  std::set<int64_t> ids, found;
+  for (std::string_view table : what.tables)
+    for (Statement rows(db, fmt::format("SELECT DISTINCT {} FROM {}", what.name, table)); rows.step();)
+      ids.insert(rows.integer(0));
+  for (int64_t id : ids)
+    if (!holds(db, what.seal(id), digest_of(db, what, id))) found.insert(id);
+  return {found.begin(), found.end()};
+}
+
+void remove(Database& db, const Sealed& what, int64_t id) {
+  for (std::string_view table : what.tables)
+    Statement(db, fmt::format("DELETE FROM {} WHERE {} = ?", table, what.name)).run(id);
+  Statement(db, "DELETE FROM seals WHERE name = ?").run(what.seal(id));
+}
+
 }  // namespace
 
-void seal_point(Database& db, int64_t point) { set_seal(db, point_seal(point), point_digest(db, point)); }
+void seal_point(Database& db, int64_t point) { seal(db, sealed_points, point); }
+void seal_phase(Database& db, int64_t phase) { seal(db, sealed_phases, phase); }
 void seal_info(Database& db) { set_seal(db, "info", digest_of(db, info_tables)); }
 void seal_verdict(Database& db) { set_seal(db, "verdict", digest_of(db, verdict_tables)); }
 
-std::vector<int64_t> broken_points(Database& db) {
-  std::set<int64_t> ids, broken;
-  for (std::string_view table : point_tables)
-    for (Statement rows(db, fmt::format("SELECT DISTINCT point FROM {}", table)); rows.step();)
-      ids.insert(rows.integer(0));
-  for (int64_t id : ids)
-    if (!holds(db, point_seal(id), point_digest(db, id))) broken.insert(id);
-  return {broken.begin(), broken.end()};
-}
+std::vector<int64_t> broken_points(Database& db) { return broken(db, sealed_points); }
+std::vector<int64_t> broken_phases(Database& db) { return broken(db, sealed_phases); }
 
 bool verdict_holds(Database& db) { return holds(db, "verdict", digest_of(db, verdict_tables)); }
 
@@ -73,19 +101,18 @@ void require_sealed(Database& db) {
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::file,
                 fmt::format("{}: {} are not those that were stored (edited or lost, or from another store); run the "
-                            "experiment into this folder again, which measures the damaged points anew",
+                            "experiment into this folder again, which measures what is damaged anew",
                             db.path(), what));
   };
-  if (const std::vector<int64_t> broken = broken_points(db); !broken.empty())
-    refuse(fmt::format("the rows of point {}", fmt::join(broken, ", ")));
+  if (const std::vector<int64_t> points = broken_points(db); !points.empty())
+    refuse(fmt::format("the rows of point {}", fmt::join(points, ", ")));
+  if (const std::vector<int64_t> phases = broken_phases(db); !phases.empty())
+    refuse(fmt::format("the rows of phase diagram {}", fmt::join(phases, ", ")));
   if (!holds(db, "info", digest_of(db, info_tables))) refuse("the facts of the run");
   if (!verdict_holds(db)) refuse("the bounds and laws");
 }
 
-void remove_point(Database& db, int64_t point) {
-  for (std::string_view table : point_tables)
-    Statement(db, fmt::format("DELETE FROM {} WHERE point = ?", table)).run(point);
-  Statement(db, "DELETE FROM seals WHERE name = ?").run(point_seal(point));
-}
+void remove_point(Database& db, int64_t point) { remove(db, sealed_points, point); }
+void remove_phase(Database& db, int64_t phase) { remove(db, sealed_phases, phase); }
 
 }  // namespace noonmark

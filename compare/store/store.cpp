@@ -14,6 +14,7 @@
 #include "compare/store/check.h"
 #include "compare/store/fingerprint.h"
 #include "compare/store/journal.h"
+#include "compare/store/phase_tables.h"
 #include "compare/store/record_tables.h"
 #include "compare/store/schema.h"
 #include "compare/store/seals.h"
@@ -263,6 +264,40 @@ std::vector<std::string> ResultStore::repair(int64_t planned_points,
   return said;
 }
 
+std::vector<int64_t> ResultStore::phases() const {
+  std::vector<int64_t> ids;
+  for (Statement rows(*db_, "SELECT phase FROM phases ORDER BY phase"); rows.step();) ids.push_back(rows.integer(0));
+  return ids;
+}
+
+std::vector<std::string> ResultStore::repair_phases(const std::function<bool(int64_t, const PhaseDiagram&)>& expected) {
+  std::vector<std::string> said;
+  Transaction transaction(*db_);
+  for (int64_t phase : broken_phases(*db_)) {
+    remove_phase(*db_, phase);
+    said.push_back(
+        fmt::format("{}: the rows of phase diagram {} are not those that were stored (edited or lost, or "
+                    "from another store); it is made anew",
+                    db_->path(), phase));
+  }
+  // Another [phase] changes no point, so only the diagram is made anew.
+  for (const auto& [id, diagram] : read_rows(*db_, [&] { return load_phase_rows(*db_); }))
+    if (!expected(id, diagram)) remove_phase(*db_, id);
+  transaction.commit();
+  return said;
+}
+
+void ResultStore::add_phase(int64_t phase, const PhaseDiagram& diagram) {
+  Transaction transaction(*db_);
+  const std::vector<int64_t> there = phases();
+  if (std::find(there.begin(), there.end(), phase) != there.end())
+    throw Error(ErrorKind::usage,
+                fmt::format("phase diagram {} is in the result store already; let no two runs share one --out", phase));
+  add_phase_rows(*db_, phase, diagram);
+  seal_phase(*db_, phase);
+  transaction.commit();
+}
+
 void ResultStore::add(const PointRecord& point) {
   Transaction transaction(*db_);
   if (is_finished(*db_, point.id))
@@ -347,6 +382,7 @@ Results ResultStore::load() const {
       for (auto& [id, point] : load_points(*db_)) results.points.push_back(std::move(point));
       results.bounds = load_bounds(*db_);
       results.laws = load_laws(*db_);
+      for (auto& [id, diagram] : load_phase_rows(*db_)) results.phases.push_back(std::move(diagram));
     });
   } catch (...) {
     db_->execute("ROLLBACK");

@@ -8,9 +8,9 @@
 // A person can ask `SELECT map_resolution, filter_kind, acne FROM points`. This view has every setting, metric and
 // quantity of the curve as a column of its own type. `columns` gives the meaning and unit of each of its columns. The
 // tables behind it are info, settings, metrics, times, curves, curve_points, pictures, images, bounds, laws,
-// law_samples.
+// law_samples, and of the phase diagrams phases, phase_rows, phase_cells, phase_points.
 //
-// - A point is one transaction, which is on the disk before add() returns. So a kill, or a power cut, loses at most the
+// - A point, and a phase diagram, is one transaction, which is on the disk before add() returns. So a kill, or a power cut, loses at most the
 //   point that is being measured. While a run writes, and after a kill, the newest points may be in results.sqlite-wal
 //   (compare/store/journal.h): the files belong together. A finished store is one file.
 // - SQLite has no NaN. A metric that could not be measured (NaN) is a row whose value is NULL. A metric that was not
@@ -64,6 +64,10 @@ class ResultStore {
   std::vector<std::string> repair(int64_t planned_points, const std::function<bool(const PointRecord&)>& expected);
   // Throws Error(usage) if the store has this id already.
   void add(const PointRecord& point);
+  // The same for the phase diagrams, by their number.
+  std::vector<int64_t> phases() const;
+  std::vector<std::string> repair_phases(const std::function<bool(int64_t, const PhaseDiagram&)>& expected);
+  void add_phase(int64_t phase, const PhaseDiagram& diagram);
   // Replaces the pictures of a point in the store. Some pictures are chosen after the sweep, and some are lost and made
   // again.
   void set_pictures(int64_t point, const PointPictures& pictures);

@@ -118,13 +118,14 @@ TEST(ExperimentDocuments, EveryKeyChoiceAndFunctionIsNamed) {
   };
   const std::string bound = "[[bound]]\nmetric = \"acne\"\nmax = 1\n";
   const std::string law = "[[law]]\nname = \"x\"\nmeasured = \"acne\"\nequals = 0\n";
-  keys("The keys of the file", "", 16);
+  keys("The keys of the file", "", 17);
   keys("Sweeps", "[sweep.map.extent_m]\n", 4);
   keys("Charts and bias curves", "[plot]\n", 1);
   keys("Charts and bias curves", "[curve]\n", 4);
-  keys("Bounds", bound, 5);
+  keys("The phase diagram", "[phase]\n", 6);
+  keys("Bounds", bound, 6);
   keys("Laws", law, 13);
-  keys("Several experiments in one file", "[[part]]\n", 13);
+  keys("Several experiments in one file", "[[part]]\n", 14);
 
   const auto choices = [&](const std::string& toml, size_t least) {
     named(text, words(refusal(toml + " = \"qqqqqqqqq\""), "is not one of ", "\n"), least);
@@ -132,6 +133,7 @@ TEST(ExperimentDocuments, EveryKeyChoiceAndFunctionIsNamed) {
   choices("pictures", 5);
   choices("[sweep.map.extent_m]\nscale", 2);
   choices(bound + "join", 3);
+  choices(bound + "placement", 2);
   choices(law + "join", 3);
   named(first_cells(text, "Laws"), words(refusal("[let]\nx = \"1 +\""), "(functions: ", ")"), 20);
 }

@@ -1,4 +1,4 @@
-// Experiment files with parts and laws.
+// Experiment files with parts, phase diagrams and laws.
 #include <gtest/gtest.h>
 
 #include "app/experiment.h"
@@ -57,6 +57,29 @@ scene.thickness_m = [0.1, 0.2]
 [part.curve]
 enabled = false
 )";
+
+TEST(ExperimentParts, APhaseDiagramIsAskedForByItsTable) {
+  EXPECT_FALSE(parse("").phase.enabled);
+  const PhaseRequest plain = parse("[phase]\n").phase;
+  EXPECT_TRUE(plain.enabled);
+  EXPECT_FALSE(plain.acne_bound || plain.peter_panning_bound) << "those of the curve";
+  const PhaseRequest all =
+      parse(
+          "[phase]\nacne_bound = 0.01\npeter_panning_bound = 0.002\nplacements = 4\ntexel_sizes = 9\nwidth_px = 160\n")
+          .phase;
+  EXPECT_EQ(all.acne_bound, 0.01);
+  EXPECT_EQ(all.peter_panning_bound, 0.002);
+  EXPECT_EQ(all.placements, 4);
+  EXPECT_EQ(all.texel_sizes, 9);
+  EXPECT_EQ(all.width_px, 160);
+  const Experiment parts =
+      parse("[phase]\nplacements = 4\n[[part]]\nname = \"a\"\n[[part]]\nname = \"b\"\n[part.phase]\nenabled = false\n");
+  EXPECT_TRUE(parts.parts[0].phase.enabled);
+  EXPECT_EQ(parts.parts[0].phase.placements, 4);
+  EXPECT_FALSE(parts.parts[1].phase.enabled);
+  // Only the diagram is made anew if its options change.
+  EXPECT_EQ(fingerprint(parse("[phase]\n"), {}), fingerprint(parse(""), {}));
+}
 
 TEST(ExperimentParts, FollowEachOtherWithTheirOwnSettings) {
   const Experiment e = parse(two_parts);

@@ -98,6 +98,12 @@ metrics = ["error", "acne"]
 enabled = true
 acne_bound = 0.25
 bias_depth = [0, 0.001, 0.002]
+[phase]
+enabled = true
+acne_bound = 0.5
+placements = 2
+texel_sizes = 3
+width_px = 16
 [let]
 k = "(filter.size - 1) / 2 + 0.5"
 [[bound]]
@@ -107,6 +113,7 @@ max = inf
 metric = "window_width_depth"
 min = 0.01
 join = "median"
+placement = "first"
 where = {"filter.kind" = ["none", "box"]}
 [[law]]
 name = "1"

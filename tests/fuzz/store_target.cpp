@@ -108,6 +108,7 @@ std::string store_bytes(int points, bool compact) {
     bound.reproduce = "noonmark render x.toml --point 1";
     store.set_bounds({bound});
     store.set_laws({sample_law()});
+    store.add_phase(0, sample_phase());
   }
   if (compact) {
     sqlite3* db = nullptr;
@@ -296,6 +297,7 @@ std::string sealed(const std::string& bytes) {
     db.execute("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF");
     sqlite::Transaction all(db);
     for (int64_t point : broken_points(db)) seal_point(db, point);
+    for (int64_t phase : broken_phases(db)) seal_phase(db, phase);
     seal_info(db);
     seal_verdict(db);
     all.commit();

@@ -2,6 +2,7 @@
 #pragma once
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -109,6 +110,47 @@ inline LawResult sample_law() {
   return law;
 }
 
+// Texel sizes and biases by octaves. Acne falls with the bias and grows with the texel; Peter Panning begins at the sixth
+// bias. So the finer rows have a usable interval and the coarsest has none.
+inline PhaseDiagram sample_phase() {
+  PhaseDiagram d;
+  d.part = "room & <hall>";
+  d.made_from = "placements = 8\n";
+  d.scene = "a <b> scene";
+  d.light = "directional";
+  d.technique = "constant bias in metres";
+  d.render = "noonmark render --set scene.name='x y'";
+  d.width_px = 320;
+  d.height_px = 180;
+  d.placements = 8;
+  d.receivers = 1000;
+  d.acne_bound = d.peter_panning_bound = 0.001;
+  d.range_m = 10;
+  d.law_at_bound = 1.5;
+  d.law_steepest = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 8; ++i) d.bias_m.push_back(0.001 * std::exp2(i));
+  for (int r = 0; r < 3; ++r) {
+    PhaseRow row;
+    row.resolution = 64 << r;
+    row.texel_m = 0.04 / (1 << r);
+    for (int i = 0; i < 8; ++i) {
+      row.acne.push_back(i < 6 - 2 * r ? 0.1 / (i + 1) : 0);
+      row.acne_worst.push_back(1.2 * row.acne.back());
+      row.peter_panning.push_back(i < 5 ? 0 : 0.01);
+      row.peter_panning_worst.push_back(row.peter_panning.back());
+      row.aliasing.push_back(0.002);
+      row.error.push_back(row.acne.back() + row.peter_panning.back() + 0.002);
+      row.error_worst.push_back(1.2 * row.error.back());
+      for (auto list : {&PhaseRow::coverage, &PhaseRow::filter, &PhaseRow::undecided}) (row.*list).push_back(0);
+    }
+    row.last_acne_m = r ? 0.05 : std::numeric_limits<double>::infinity();
+    d.rows.push_back(row);
+  }
+  // Two points at one place, one whose bias is too large, and one of another technique.
+  d.points = {{0, 0.01, 0.006, ""}, {1, 0.01, 0.006, ""}, {2, 0.02, 0.1, ""}, {3, 0, 0, "filter.kind = box"}};
+  return d;
+}
+
 inline RunInfo sample_info() {
   RunInfo info;
   info.experiment = "experiments/cube room.toml";
@@ -172,6 +214,25 @@ inline bool same(const PointRecord& a, const PointRecord& b) {
              [](const ImageRecord& x, const ImageRecord& y) { return x.path == y.path && x.digest == y.digest; }) &&
          a.worst.x == b.worst.x && a.worst.y == b.worst.y && same(a.worst.error, b.worst.error) &&
          a.worst.cause == b.worst.cause;
+}
+
+inline bool same(const PhaseDiagram& a, const PhaseDiagram& b) {
+  const auto same_row = [](const PhaseRow& x, const PhaseRow& y) {
+    return x.resolution == y.resolution && same(x.texel_m, y.texel_m) && same(x.last_acne_m, y.last_acne_m) &&
+           std::all_of(phase_series().begin(), phase_series().end(),
+                       [&](const PhaseSeries& series) { return same(x.*series.values, y.*series.values); });
+  };
+  const auto same_point = [](const PhasePoint& x, const PhasePoint& y) {
+    return x.point == y.point && same(x.texel_m, y.texel_m) && same(x.bias_m, y.bias_m) && x.left_out == y.left_out;
+  };
+  return a.part == b.part && a.refused == b.refused && a.made_from == b.made_from && a.scene == b.scene &&
+         a.light == b.light && a.technique == b.technique && a.render == b.render && a.width_px == b.width_px &&
+         a.height_px == b.height_px && a.placements == b.placements && same(a.receivers, b.receivers) &&
+         same(a.acne_bound, b.acne_bound) && same(a.peter_panning_bound, b.peter_panning_bound) &&
+         same(a.range_m, b.range_m) && same(a.metres_per_bias, b.metres_per_bias) && same(a.bias_m, b.bias_m) &&
+         same(a.law_at_bound, b.law_at_bound) && same(a.law_steepest, b.law_steepest) &&
+         std::equal(a.rows.begin(), a.rows.end(), b.rows.begin(), b.rows.end(), same_row) &&
+         std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same_point);
 }
 
 inline bool same(const LawResult& a, const LawResult& b) {

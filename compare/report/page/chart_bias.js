@@ -7,12 +7,18 @@ var curved = data.points.filter(function(p) {
   return p.curve;
 });
 var state = {unit: 'depth', view: 'lines', id: null};
+// What has a band over the placements of the map's grid (map.placements), on the exact map.
+var banded = ['error', 'acne', 'peter_panning', 'aliasing'];
 var series = ['acne', 'peter_panning', 'aliasing_dark', 'aliasing_light', 'coverage'];
 if (!curved.length) return;
 state.id = data.recommended !== null && kit.byId[data.recommended].curve ? data.recommended : curved[0].id;
 
 function factor(curve) {
   return state.unit === 'm' ? curve.m_per_depth : state.unit === 'texels' ? curve.texels_per_depth : 1;
+}
+
+function hasBands(curve) {
+  return curve.placements > 1 && curve.error_worst !== undefined;
 }
 
 function build(width) {
@@ -33,6 +39,16 @@ function build(width) {
   var all = [];
   lines.forEach(function(s) {
     curve[s].forEach(function(v) {
+      if (v > 0) all.push(v);
+    });
+  });
+  var bands = hasBands(curve) ? banded.filter(function(s) {
+    return curve[s + '_worst'].some(function(v) {
+      return v > 0;
+    });
+  }) : [];
+  bands.forEach(function(s) {
+    curve[s + '_worst'].forEach(function(v) {
       if (v > 0) all.push(v);
     });
   });
@@ -61,6 +77,23 @@ function build(width) {
     if (stacked)
       top = Math.max(i ? top : 0, sum * 1.04, (kit.finite(curve.error[i]) ? curve.error[i] : 0) * 1.04, 1e-9);
   });
+  // A band from the least to the largest over the placements, and the mean in it. On the axis where it is 0.
+  var band = [];
+  if (!stacked)
+    bias.forEach(function(b, i) {
+      bands.forEach(function(s) {
+        function within(v) {
+          return Math.max(v, bottom);
+        }
+        band.push({
+          b: b,
+          s: s,
+          low: within(curve[s + '_best'][i]),
+          high: within(curve[s + '_worst'][i]),
+          mean: within(curve[s + '_mean'][i])
+        });
+      });
+    });
   function at(b) {
     return b > 0 ? {scale: 'x', value: Math.min(Math.max(b, low), high)} : {value: 12};
   }
@@ -92,6 +125,20 @@ function build(width) {
       }
     });
   }
+  if (hasBands(curve) && curve.window_min_worst_depth !== undefined)
+    marks.push({
+      type: 'rect',
+      name: 'every',
+      encode: {
+        enter: {
+          x: at(curve.window_min_worst_depth * k),
+          x2: at(curve.window_max_worst_depth * k),
+          y: {value: 0},
+          y2: {value: height},
+          fill: {value: 'var(--window)'}
+        }
+      }
+    });
   if (!stacked) {
     (bounds.length === 2 && bounds[0] === bounds[1] ? [[bounds[0], 'bound']] : [
       [curve.acne_bound, 'acne bound'], [curve.peter_panning_bound, 'Peter Panning bound']
@@ -157,6 +204,57 @@ function build(width) {
         }
       }]
     });
+  if (band.length) {
+    marks.push({
+      type: 'group',
+      from: {facet: {name: 'bands', data: 'band', groupby: 's'}},
+      marks: [
+        {
+          type: 'area',
+          from: {data: 'bands'},
+          interactive: false,
+          encode: {
+            enter: {
+              x: {scale: 'x', field: 'b'},
+              y: {scale: 'y', field: 'high'},
+              y2: {scale: 'y', field: 'low'},
+              fill: strokeOf,
+              fillOpacity: {signal: 'datum.s === \'error\' ? 0.14 : 0.26'}
+            }
+          }
+        },
+        {
+          type: 'line',
+          from: {data: 'bands'},
+          interactive: false,
+          encode: {
+            enter: {
+              x: {scale: 'x', field: 'b'},
+              y: {scale: 'y', field: 'mean'},
+              stroke: strokeOf,
+              strokeWidth: {value: 1.1},
+              strokeDash: {value: [1.5, 2.5]}
+            }
+          }
+        }
+      ]
+    });
+    marks.push({
+      type: 'rule',
+      from: {data: 'band0'},
+      interactive: false,
+      encode: {
+        enter: {
+          x: {value: 12},
+          y: {scale: 'y', field: 'low'},
+          y2: {scale: 'y', field: 'high'},
+          stroke: strokeOf,
+          strokeWidth: {value: 9},
+          strokeOpacity: {value: 0.26}
+        }
+      }
+    });
+  }
   marks.push({
     type: 'group',
     from: {facet: {name: 'g', data: 'positive', groupby: 's'}},
@@ -268,6 +366,18 @@ function build(width) {
         {name: 'rows', values: rows},
         {name: 'positive', source: 'rows', transform: [{type: 'filter', expr: 'datum.b > 0'}]},
         {name: 'zero', source: 'rows', transform: [{type: 'filter', expr: 'datum.b <= 0'}]}, {
+          name: 'band',
+          values: band.filter(function(r) {
+            return r.b > 0;
+          })
+        },
+        {
+          name: 'band0',
+          values: band.filter(function(r) {
+            return r.b <= 0;
+          })
+        },
+        {
           name: 'stack0',
           values: stack.filter(function(r) {
             return r.b <= 0;
@@ -323,11 +433,11 @@ function build(width) {
         }
         view.signal('hover', bias[i] > 0 ? view.scale('x')(bias[i]) : 12).run();
         kit.showTip(
-            event, ['error'].concat(series).map(function(s) {
-              return [
-                s === 'error' ? 'Error' : kit.causeLabel[s], kit.shown(curve[s][i], 'fraction'), s === 'error' ? '' : s
-              ];
-            }),
+            event, ['error'].concat(series)
+                       .map(function(s) {
+                         return [nameOf(s), kit.shown(curve[s][i], 'fraction'), s === 'error' ? '' : s];
+                       })
+                       .concat(hasBands(curve) ? bandRows(curve, i) : []),
             kit.digits(curve.bias_depth[i]) + ' depth = ' + kit.digits(curve.bias_depth[i] * curve.m_per_depth) +
                 ' m = ' + kit.digits(curve.bias_depth[i] * curve.texels_per_depth) + ' texels');
       });
@@ -337,6 +447,21 @@ function build(width) {
       });
     }
   };
+}
+
+function nameOf(s) {
+  return s === 'error' ? 'Error' : kit.causeLabel[s] || s;
+}
+// "Acne: least, mean, largest over 64 placements".
+function bandRows(curve, i) {
+  return [['Over ' + curve.placements + ' placements', 'least · mean · largest']].concat(banded.map(function(s) {
+    return [
+      nameOf(s), ['_best', '_mean', '_worst'].map(function(e) {
+        return kit.shown(curve[s + e][i], 'fraction');
+      }).join(' · '),
+      s === 'error' ? '' : s
+    ];
+  }));
 }
 
 var self = kit.chart('bias', build);
@@ -356,6 +481,17 @@ function describe() {
         kit.make('b', {}, three(curve.window_max_depth, curve)), '. ');
   else
     facts.append(kit.make('b', {style: 'color:var(--bad)'}, 'No usable window: no bias is good enough. '));
+  if (hasBands(curve)) {
+    if (curve.window_min_worst_depth !== undefined)
+      facts.append(
+          'At every one of ' + curve.placements + ' placements of the grid from ',
+          kit.make('b', {}, three(curve.window_min_worst_depth, curve)), ' to ',
+          kit.make('b', {}, three(curve.window_max_worst_depth, curve)), '. ');
+    else
+      facts.append(kit.make(
+          'b', {style: 'color:var(--bad)'},
+          'No bias is good enough at every one of ' + curve.placements + ' placements of the grid. '));
+  }
   facts.append(
       'Best at ' + three(curve.best_bias_depth, curve) + ', with ' + kit.shown(curve.best_error, 'fraction') +
       ' error. Made: ' + curve.made + '.');
@@ -370,6 +506,16 @@ function legend() {
     self.legend.append(kit.make('span', {}, [kit.make('i', {class: 'sw c-' + s}), kit.causeLabel[s]]));
   });
   self.legend.append(dash);
+  if (!curved.some(function(p) {
+        return hasBands(p.curve);
+      }))
+    return;
+  var band = kit.make('span');
+  band.innerHTML = '<svg viewBox="0 0 26 10" aria-hidden="true"><rect width="26" height="10" fill="var(--c-acne)" ' +
+      'fill-opacity=".26"/><line x1="0" x2="26" y1="5" y2="5" stroke="var(--c-acne)" stroke-width="1.1" ' +
+      'stroke-dasharray="1.5 2.5"/></svg>';
+  band.append('least to largest over the placements of the grid, and their mean');
+  self.legend.append(band);
 }
 function controls() {
   self.controls.textContent = '';

@@ -1,9 +1,8 @@
-// The phase diagram: texel size against bias. A cell's colour is the cause with the largest share, and it is stronger
-// the larger the error is.
+// The phase diagrams: texel size against bias. A cell's colour is the cause with the largest share, and it is stronger
+// the larger the error is. The points of a sweep are rings on it.
 (function() {
 'use strict';
-var page = window.noonmarkPage, kit = page.kit, phase = page.data.phase;
-if (!phase) return;
+var page = window.noonmarkPage, kit = page.kit;
 var causes = ['acne', 'peter_panning', 'aliasing', 'coverage', 'filter', 'undecided'];
 var least = 1e-5;  // an error below this share has the colour of the page
 
@@ -17,13 +16,43 @@ function edges(list) {  // the borders between the values of a logarithmic axis
   }
   return out;
 }
+function draw(phase, number) {
 function commandOf(row, bias) {
   return phase.render + ' --set map.resolution=' + row.resolution + ' --set bias.constant=' +
       String(+(bias * phase.per_metre).toPrecision(6));
 }
 
 var said = kit.make('p', {class: 'small command'});
-var self = kit.chart('phase', function(width) {
+function pointsTip(event, place) {
+  kit.showTip(
+      event, place.points.map(function(id) {
+        var p = kit.byId[id];
+        return ['Point ' + id + (p.phrase ? ': ' + p.phrase : ''), kit.shown(kit.value(p, 'error'), 'fraction')];
+      }),
+      'Texel ' + millimetres(place.t) + ', bias ' + millimetres(place.b) + '; error');
+}
+function choose(place) {
+  page.select(place.points[0]);
+  said.textContent = '';
+  said.append(place.points.length > 1 ? 'Points of the sweep: ' : 'Point of the sweep: ');
+  place.points.forEach(function(id, i) {
+    said.append(i ? ', ' : '', kit.make('a', {href: '#p' + id}, 'point ' + id));
+  });
+}
+// The sweep's points, those at the same place together.
+var places = {};
+phase.points.forEach(function(p) {
+  if (!kit.finite(p.texel_m) || !kit.finite(p.bias_m) || !kit.byId[p.id]) return;
+  var key = p.texel_m.toPrecision(3) + ' ' + p.bias_m.toPrecision(3);
+  (places[key] = places[key] || {t: p.texel_m, b: p.bias_m, points: []}).points.push(p.id);
+});
+places = Object.keys(places).map(function(key) {
+  return places[key];
+});
+function millimetres(m) {
+  return kit.digits(1000 * m) + ' mm';
+}
+var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width) {
   var left = 74, right = 66, w = width - left - right, h = Math.round(Math.min(520, Math.max(300, w * 0.56)));
   var bias = phase.bias_m, x = edges(bias), texels = phase.rows.map(function(r) {
     return r.texel_m;
@@ -170,6 +199,15 @@ var self = kit.chart('phase', function(width) {
       }
     });
   });
+  // A bias of 0, or beyond the axis, is on the axis' end.
+  var rings = places.map(function(p) {
+    return {
+      b: Math.max(low, Math.min(high, p.b)),
+      t: Math.max(fine, Math.min(coarse, p.t)),
+      place: p,
+      size: p.points.length > 1 ? 120 : 70
+    };
+  });
   // The tip's name, on a rim in the page's colour.
   if (tip)
     [4, 0].forEach(function(rim) {
@@ -191,6 +229,22 @@ var self = kit.chart('phase', function(width) {
         }
       });
     });
+  [{stroke: 'var(--card)', width: 5}, {stroke: 'var(--ink)', width: 2}].forEach(function(rim) {
+    marks.push({
+      type: 'symbol',
+      from: {data: 'rings'},
+      encode: {
+        enter: {
+          x: {scale: 'x', field: 'b'},
+          y: {scale: 'y', field: 't'},
+          size: {field: 'size'},
+          fill: {value: 'transparent'},
+          stroke: {value: rim.stroke},
+          strokeWidth: {value: rim.width}
+        }
+      }
+    });
+  });
   return {
     measure: 'error',
     spec: {
@@ -198,7 +252,7 @@ var self = kit.chart('phase', function(width) {
       height: h,
       padding: {left: left, right: right, top: 12, bottom: 48},
       autosize: 'none',
-      data: [{name: 'cells', values: cells}, {name: 'hatch', values: hatch}].concat(lines.map(function(line) {
+      data: [{name: 'cells', values: cells}, {name: 'hatch', values: hatch}, {name: 'rings', values: rings}].concat(lines.map(function(line) {
         return {name: line.name, values: line.points};
       })),
       scales: [scale('x', [0, w], [low, high]), scale('y', [h, 0], [fine, coarse])],
@@ -230,6 +284,7 @@ var self = kit.chart('phase', function(width) {
     hover: function(view) {
       view.addEventListener('mousemove', function(event, item) {
         var d = item && item.datum;
+        if (d && d.place) return pointsTip(event, d.place);
         if (!d || d.row === undefined) return kit.hideTip();
         var row = phase.rows[d.row], i = d.bias, rows = [
           ['error, mean', kit.shown(row.error[i], 'fraction')], ['error, worst', kit.shown(row.error_worst[i], 'fraction')]
@@ -239,12 +294,12 @@ var self = kit.chart('phase', function(width) {
         });
         kit.showTip(
             event, rows,
-            row.resolution + ' texels of ' + kit.digits(1000 * row.texel_m) + ' mm, bias ' +
-                kit.digits(1000 * phase.bias_m[i]) + ' mm');
+            row.resolution + ' texels of ' + millimetres(row.texel_m) + ', bias ' + millimetres(phase.bias_m[i]));
       });
       view.addEventListener('mouseout', kit.hideTip);
       view.addEventListener('click', function(event, item) {
         var d = item && item.datum;
+        if (d && d.place) return choose(d.place);
         if (!d || d.row === undefined) return;
         said.textContent = '';
         said.append('This point: ', kit.make('code', {}, commandOf(phase.rows[d.row], phase.bias_m[d.bias])));
@@ -254,7 +309,7 @@ var self = kit.chart('phase', function(width) {
 });
 if (self) {
   self.plot.after(said);
-  said.append('Click a cell for the command that renders it.');
+  said.append('Click a cell for the command that renders it' + (places.length ? ', a ring for its points.' : '.'));
   var box = self.legend;
   function key(svg, text) {
     var e = kit.make('span');
@@ -282,5 +337,10 @@ if (self) {
   if (kit.finite(phase.law_steepest)) key(stroke('var(--ink)', '1.5 3.5', 1.3), 'law 1: the steepest lit plane');
   key('<path d="M2 10L12 0M10 10L20 0M18 10L26 2" stroke="var(--ink)" stroke-opacity=".6" fill="none"/>',
       'usable at every placement');
+  if (places.length)
+    key('<circle cx="13" cy="5" r="4" fill="none" stroke="var(--ink)" stroke-width="2"/>',
+        'points of the sweep; the larger rings are several');
 }
+}
+(page.data.phases || []).forEach(draw);
 })();

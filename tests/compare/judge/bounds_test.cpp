@@ -106,6 +106,90 @@ TEST(Bounds, NoPointToAskBreaksTheBoundAndSaysSo) {
   EXPECT_FALSE(ask({0, 0}, elsewhere).held);
 }
 
+void give(PointRecord& point, const std::map<std::string, double>& metrics) {
+  for (const auto& [name, value] : metrics) point.metrics[name] = value;
+}
+
+// Two points measured at 64 placements each. Placement 0 of the first is the better one, of the second the worse one.
+std::vector<PointRecord> placed_points() {
+  std::vector<PointRecord> points = points_with({0.1, 0.3});
+  for (PointRecord& point : points) point.settings["map.placements"] = "8";
+  give(points[0], {{"acne_worst", 0.5}, {"acne_best", 0.1}, {"acne_mean", 0.2}});
+  give(points[1], {{"acne_worst", 0.4}, {"acne_best", 0.05}, {"acne_mean", 0.1}});
+  return points;
+}
+BoundResult ask_placed(const Bound& bound, const std::vector<PointRecord>& points = placed_points()) {
+  return evaluate_bounds(points, std::span(&bound, 1), command_of).at(0);
+}
+
+TEST(Bounds, TheWorstPlacementIsJudgedUnlessTheBoundSaysOtherwise) {
+  expect(ask_placed(at_most(0.45)), false, 0.5, 0);
+  expect(ask_placed(at_most(0.5)), true, 0.5, 0);
+  expect(ask_placed(at_least(0.06)), false, 0.05, 1);
+  expect(ask_placed(at_most(0.45, "mean")), true, 0.45, 0);
+  expect(ask_placed(at_least(0.08, "mean")), false, (0.1 + 0.05) / 2, 1);
+  Bound both = at_most(0.6);
+  both.min = 0.07;
+  expect(ask_placed(both), false, 0.05, 1);
+
+  Bound first = at_most(0.3);
+  first.placement = "first";
+  expect(ask_placed(first), true, 0.3, 1);
+  Bound mean = at_most(0.15);
+  mean.metric = "acne_mean";
+  const BoundResult named = ask_placed(mean);
+  expect(named, false, 0.2, 0);
+  EXPECT_EQ(bound_text(named), "acne_mean <= 0.15") << "the bound names what it is about";
+
+  EXPECT_EQ(bound_text(ask_placed(at_most(0.5))), "acne <= 0.5 (worst placement)");
+  EXPECT_EQ(bound_text(ask_placed(at_most(0.5, "mean"))), "acne <= 0.5 (mean, worst placement)");
+  EXPECT_EQ(bound_text(ask_placed(first)), "acne <= 0.3 (placement 0)");
+  const std::vector<PointRecord> points = placed_points();
+  EXPECT_NE(describe(ask_placed(at_most(0.45)), &points[0])
+                .find("found 0.5 (worst of 2 points, at the worst placement of the grid)"),
+            std::string::npos);
+  EXPECT_EQ(bound_text(ask({0.1}, at_most(0.5))), "acne <= 0.5") << "a point with one placement";
+}
+
+TEST(Bounds, OpenGlsOwnPictureOfAPlacementCountsToo) {
+  // The rasteriser adds to what the exact map shows, at placement 0 (the metric itself) and at the worst one.
+  std::vector<PointRecord> points = placed_points();
+  for (PointRecord& point : points)
+    give(point, {{"error_worst", 0.2}, {"error_best", 0.1}, {"error_worst_shown", 0.2}});
+  Bound bound = at_most(1);
+  bound.metric = "error";
+  points[0].metrics["error"] = 0.25;
+  points[1].metrics["error"] = 0.15;
+  expect(ask_placed(bound, points), true, 0.25, 0);
+  points[1].metrics["error_worst_shown"] = 0.3;
+  expect(ask_placed(bound, points), true, 0.3, 1);
+  points[1].metrics.erase("error_best");
+  expect(ask_placed(bound, points), false, nan_value, 1);
+}
+
+TEST(Bounds, TheWindowIsThatOfEveryPlacement) {
+  std::vector<PointRecord> points = placed_points();
+  for (PointRecord& point : points) {
+    ASSERT_TRUE(point.curve);
+    point.curve->placements = 64;
+    point.curve->window_min_depth = 0.1;
+    point.curve->window_max_depth = 0.5;
+    point.curve->window_min_worst_depth = 0.2;
+    point.curve->window_max_worst_depth = 0.3;
+  }
+  Bound bound;
+  bound.metric = "window_max_depth";
+  bound.min = 0.35;
+  expect(ask_placed(bound, points), false, 0.3, 0);
+  bound.metric = "window_width_depth";
+  bound.min = 0.05;
+  expect(ask_placed(bound, points), true, 0.3 - 0.2, 0);
+  points[1].curve->window_min_worst_depth = points[1].curve->window_max_worst_depth = {};
+  expect(ask_placed(bound, points), false, 0, 1);
+  points[1].curve->placements = 0;
+  EXPECT_FALSE(quantity(points[1], "window_width_worst_depth")) << "a curve without placements has no such window";
+}
+
 TEST(Bounds, WhereChoosesThePoints) {
   Bound bound = at_most(0.2);
   bound.where["map.resolution"] = {"256", "1024"};

@@ -17,6 +17,7 @@
 #include "compare/report/report.h"
 #include "scenes/file.h"
 #include "tests/compare/report/sample.h"
+#include "tests/support/sample_results.h"
 
 namespace noonmark {
 namespace {
@@ -135,39 +136,49 @@ TEST_F(Page, KeysFlipThePicturesInSight) {
                                  "1 26 map"}));  // another point, the same picture
 }
 
+class BandsPage : public Browser {
+ protected:
+  // Every curve has bands: a fifth less to a fifth more than the curve itself, at 64 placements.
+  void SetUp() override {
+    Results results = sample_results();
+    for (PointRecord& point : results.points) {
+      BiasCurve& curve = *point.curve;
+      curve.placements = 64;
+      for (size_t i = 0; i < curve.bias_depth.size(); ++i) {
+        const auto add = [&](double value, auto best, auto mean, auto worst) {
+          (curve.*best).push_back(0.8 * value);
+          (curve.*mean).push_back(value);
+          (curve.*worst).push_back(1.2 * value);
+        };
+        using C = BiasCurve;
+        add(curve.error[i], &C::error_best, &C::error_mean, &C::error_worst);
+        add(curve.acne[i], &C::acne_best, &C::acne_mean, &C::acne_worst);
+        add(curve.peter_panning[i], &C::peter_panning_best, &C::peter_panning_mean, &C::peter_panning_worst);
+        add(curve.aliasing_dark[i], &C::aliasing_best, &C::aliasing_mean, &C::aliasing_worst);
+      }
+      if (!curve.window_min_depth) continue;
+      curve.window_min_worst_depth = *curve.window_min_depth * 1.1;
+      curve.window_max_worst_depth = *curve.window_max_depth * 0.9;
+    }
+    open(render_report(results, sample_picture), "page_probe.js");
+  }
+};
+
+TEST_F(BandsPage, TheBiasChartDrawsTheBandsOfAllPlacements) {
+  EXPECT_EQ(marks("chart-bias", "area"), 4) << "a band for the error, acne, Peter Panning and aliasing";
+  EXPECT_EQ(marks("chart-bias", "line"), 5 + 4) << "and the mean of each";
+  const json& bias = saw_["bias"];
+  EXPECT_NE(bias["facts"].get<std::string>().find("At every one of 64 placements of the grid from "), std::string::npos)
+      << bias["facts"];
+  EXPECT_NE(bias["tip"].get<std::string>().find("Over 64 placements"), std::string::npos) << bias["tip"];
+}
+
 class PhasePage : public Browser {
  protected:
-  // Three texel sizes and eight biases. Acne falls with the bias and grows with the texel, Peter Panning begins at the
-  // sixth bias; so the two finer rows have a usable interval and the coarsest has none.
   void SetUp() override {
-    PhaseDiagram d;
-    d.scene = "a <b> scene";
-    d.light = "directional";
-    d.render = "noonmark render --set scene.name='x y'";
-    d.placements = 8;
-    d.receivers = 1000;
-    d.acne_bound = d.peter_panning_bound = 0.001;
-    d.range_m = 10;
-    d.law_at_bound = 1.5;
+    PhaseDiagram d = sample_phase();
     d.law_steepest = 3;
-    for (int i = 0; i < 8; ++i) d.bias_m.push_back(0.001 * std::exp2(i));
-    for (int r = 0; r < 3; ++r) {
-      PhaseRow row;
-      row.resolution = 64 << r;
-      row.texel_m = 0.04 / (1 << r);
-      for (int i = 0; i < 8; ++i) {
-        row.acne.push_back(i < 6 - 2 * r ? 0.1 / (i + 1) : 0);
-        row.acne_worst.push_back(1.2 * row.acne.back());
-        row.peter_panning.push_back(i < 5 ? 0 : 0.01);
-        row.peter_panning_worst.push_back(row.peter_panning.back());
-        row.aliasing.push_back(0.002);
-        row.error.push_back(row.acne.back() + row.peter_panning.back() + 0.002);
-        row.error_worst.push_back(1.2 * row.error.back());
-        for (auto list : {&PhaseRow::coverage, &PhaseRow::filter, &PhaseRow::undecided}) (row.*list).push_back(0);
-      }
-      row.last_acne_m = 0.05;
-      d.rows.push_back(row);
-    }
+    d.points.clear();
     ASSERT_TRUE(d.usable(d.rows[0]).empty());
     ASSERT_EQ(d.usable(d.rows[1]).from, d.bias_m[4]);
     ASSERT_EQ(d.usable(d.rows[1]).to, d.bias_m[4]);
@@ -187,6 +198,31 @@ TEST_F(PhasePage, HasACellForEachPairAndAnswersThePointer) {
             "noonmark render --set scene.name='x y' --set map.resolution=64 --set bias.constant=0.001");
   EXPECT_EQ(saw_["rows"], 3) << "the table for readers without JavaScript";
   EXPECT_EQ(saw_["title"], "Phase diagram of a <b> scene");
+}
+
+// The diagram of a sweep, with its points.
+class ReportWithPhase : public Browser {
+ protected:
+  void SetUp() override {
+    Results results = sample_results();
+    results.phases = {sample_phase()};
+    open(render_report(results, sample_picture), "phase_probe.js");
+  }
+};
+
+TEST_F(ReportWithPhase, OpensWithTheDiagramAndThePointsOnIt) {
+  EXPECT_EQ(saw_["first_figure"], "chart-phase");
+  EXPECT_EQ(saw_["cells"], 24);
+  EXPECT_EQ(saw_["lines"], 5) << "the steepest plane has no line, because law 1 gave no number";
+  const json& points = saw_["points"];
+  EXPECT_EQ(points["rings"], 2) << "two points share a place, a third has its own, the fourth is left out";
+  EXPECT_NE(points["tip"].get<std::string>().find("Point 0: "), std::string::npos) << points["tip"];
+  EXPECT_NE(points["tip"].get<std::string>().find("Point 1: "), std::string::npos) << points["tip"];
+  EXPECT_EQ(points["links"], json({"#p0", "#p1"}));
+  EXPECT_EQ(points["selected"], json({0}));
+  EXPECT_EQ(points["rows"], 3) << "the table for readers without JavaScript";
+  EXPECT_EQ(saw_["command"],
+            "noonmark render --set scene.name='x y' --set map.resolution=64 --set bias.constant=0.001");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// Runs in the page of a phase diagram after its own scripts (tests/compare/report/page_test.cpp). It points at the cell
-// of the coarsest texel and the least bias, clicks it, and writes its observations to the element `probe`.
+// Runs in a page with a phase diagram after its own scripts (tests/compare/report/page_test.cpp). It points at the first of
+// the sweep's points, if there are any, and clicks it; then the same at the cell of the coarsest texel and the least bias.
+// It writes its observations to the element `probe`.
 (async function() {
 'use strict';
 var saw = {errors: errors};
@@ -13,17 +14,36 @@ saw.hatch = all('.mark-rule.role-mark line', figure).length;
 saw.texts = all('.mark-text.role-mark text', figure).map(function(t) {
   return t.textContent;
 });
-var cell = cells[0], box = cell.getBoundingClientRect();
-function send(kind) {
-  cell.dispatchEvent(new MouseEvent(
-      kind, {bubbles: true, cancelable: true, clientX: box.left + box.width / 2, clientY: box.top + box.height / 2}));
+// What the tip says over an element, which is then clicked.
+async function use(element) {
+  var box = element.getBoundingClientRect();
+  function send(kind) {
+    element.dispatchEvent(new MouseEvent(
+        kind, {bubbles: true, cancelable: true, clientX: box.left + box.width / 2, clientY: box.top + box.height / 2}));
+  }
+  send('mousemove');
+  var tip = document.getElementById('tip').textContent;
+  send('click');
+  await new Promise(function(go) {
+    setTimeout(go, 0);
+  });
+  return tip;
 }
-send('mousemove');
-saw.tip = document.getElementById('tip').textContent;
-send('click');
-await new Promise(function(go) {
-  setTimeout(go, 0);
-});
+var rings = all('.mark-symbol.role-mark path', figure);
+saw.first_figure = document.querySelector('figure').id;
+if (rings.length) {
+  saw.points = {rings: rings.length / 2, tip: await use(rings[rings.length / 2])};  // each ring has a rim below it
+  saw.points.links = all('.command a', figure).map(function(a) {
+    return a.getAttribute('href');
+  });
+  saw.points.selected = all('tr.selected').map(function(row) {
+    return +row.dataset.point;
+  });
+  saw.points.rows = all('#phase details:not([open]) tbody').filter(function(body) {
+    return body.querySelector('a');
+  })[0].rows.length;
+}
+saw.tip = await use(cells[0]);
 var code = figure.querySelector('.command code');
 saw.command = code ? code.textContent : '';
 saw.rows = all('#phase table.numbers tbody tr').length;

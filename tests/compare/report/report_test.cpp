@@ -20,6 +20,7 @@
 #include "compare/report/summary.h"
 #include "compare/report/text.h"
 #include "compare/store/metrics.h"
+#include "tests/compare/report/page_text.h"
 #include "tests/compare/report/sample.h"
 #include "tests/support/sample_results.h"
 
@@ -29,24 +30,6 @@ namespace {
 using nlohmann::json;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// The report without its scripts, as a reader without JavaScript sees it.
-std::string without_scripts(const std::string& page) {
-  std::string out;
-  size_t at = 0;
-  while (true) {
-    const size_t open = page.find("<script", at);
-    out += page.substr(at, open - at);
-    if (open == std::string::npos) return out;
-    at = page.find("</script>", open) + 9;
-  }
-}
-
-json embedded_data(const std::string& page) {
-  const std::string head = "<script type=\"application/json\" id=\"noonmark-data\">";
-  const size_t open = page.find(head) + head.size();
-  return json::parse(page.substr(open, page.find("</script>", open) - open));
-}
 
 TEST(ReportText, NumbersReadAsPeopleWriteThem) {
   using report::number;

@@ -25,6 +25,7 @@ class StoreSeals : public testing::Test {
       bound.found = 0.2;
       store.set_bounds({bound});
       store.set_laws({sample_law()});
+      for (int id = 0; id < 2; ++id) store.add_phase(id, sample_phase());
     }
     afresh();  // of the closed store, because an open one has its newest rows in its log
   }
@@ -84,6 +85,31 @@ TEST_F(StoreSeals, NoticeEveryCellOfAPoint) {
       ++cells;
     }
   EXPECT_GT(cells, 40);
+}
+
+TEST_F(StoreSeals, NoticeEveryCellOfAPhaseDiagram) {
+  int cells = 0;
+  for (const std::string table : {"phases", "phase_rows", "phase_cells", "phase_points"})
+    for (const std::string& column : columns(table)) {
+      SCOPED_TRACE(table + "." + column);
+      if (column == "phase") continue;
+      afresh();
+      std::string last;  // one row alone
+      for (const std::string& key : columns(table))
+        if (key == "row" || key == "i")
+          last += " AND " + key + " = (SELECT max(" + key + ") FROM " + table + " WHERE phase = 1)";
+      edit("UPDATE " + table + " SET " + column + " = coalesce(" + column + ", '') || '1' WHERE phase = 1" + last);
+      EXPECT_NE(refusal().find("rows of phase diagram 1 "), std::string::npos);
+      ResultStore store(path, "x = 1\n", Existing::resume);
+      const auto any = [](int64_t, const PhaseDiagram&) { return true; };
+      EXPECT_EQ(store.repair_phases(any).size(), 1u);
+      EXPECT_EQ(store.phases(), std::vector<int64_t>{0});
+      store.add_phase(1, sample_phase());  // no old rows may be left
+      EXPECT_TRUE(same(store.load().phases.at(1), sample_phase()));
+      EXPECT_EQ(store.finished().size(), 3u) << "no point is measured anew";
+      ++cells;
+    }
+  EXPECT_GT(cells, 30);
 }
 
 TEST_F(StoreSeals, NoticeLostAndForeignRows) {

@@ -39,6 +39,30 @@ class Store : public testing::Test {
   const std::string path = folder.file("results.sqlite");
 };
 
+TEST_F(Store, ReturnsThePhaseDiagrams) {
+  PhaseDiagram refused;
+  refused.part = "lamp";
+  refused.refused = "a point light has none";
+  {
+    ResultStore store = fresh();
+    store.add_phase(1, sample_phase());
+    store.add_phase(0, refused);
+    EXPECT_THROW(store.add_phase(1, sample_phase()), Error) << "another run wrote it";
+    EXPECT_EQ(store.phases(), (std::vector<int64_t>{0, 1}));
+  }
+  const Results results = ResultStore::open(path).load();
+  ASSERT_EQ(results.phases.size(), 2u);
+  EXPECT_TRUE(same(results.phases[0], refused));
+  EXPECT_TRUE(same(results.phases[1], sample_phase()));
+
+  // A diagram that the experiment no longer asks for, or asks for with other options, is dropped.
+  ResultStore store = fresh();
+  EXPECT_TRUE(store.repair_phases([](int64_t id, const PhaseDiagram&) { return id == 1; }).empty());
+  EXPECT_EQ(store.phases(), std::vector<int64_t>{1});
+  store.add_phase(0, refused);
+  EXPECT_EQ(store.load().phases.size(), 2u);
+}
+
 TEST_F(Store, ReturnsWhatItWasGiven) {
   {
     ResultStore store = fresh();

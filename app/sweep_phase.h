@@ -1,0 +1,39 @@
+// The phase diagrams of a sweep: one for each part of the experiment that asks for it ([phase]).
+//
+//   for (const PhasePlan& plan : phase_plans(experiment, points))
+//     store.add_phase(plan.number, make_phase(bench, plan));
+//
+// A part can have points of many techniques. The diagram is that of its first point that can have one; points whose
+// settings differ from it in more than texel size and bias are not on it, and the diagram names these settings.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/experiment.h"
+#include "app/workbench.h"
+
+namespace noonmark {
+
+struct PhasePlan {
+  int64_t number = 0;  // of the part, from 0; its number in the store
+  std::string part;    // its name
+  PhaseRequest request;
+  double acne_bound = 0, peter_panning_bound = 0;
+  int64_t first = 0;  // the id of the part's first point
+  std::vector<Settings> points;
+
+  std::string name() const;  // "the phase diagram of part 'x'"
+  // PhaseDiagram::made_from. A stored diagram with another text is made anew.
+  std::string made_from() const;
+};
+
+std::vector<PhasePlan> phase_plans(const Experiment& experiment, std::span<const Settings> points);
+
+// Throws Error(usage) if it does not fit into the memory that is free.
+void require_room_for(Workbench& bench, const PhasePlan& plan);
+
+// If the part can have no diagram, the result says why (PhaseDiagram::refused). Throws Error.
+PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan);
+
+}  // namespace noonmark

@@ -1,0 +1,188 @@
+#include "compare/report/phase_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "compare/report/phase.h"
+#include "compare/report/sections.h"
+#include "compare/report/text.h"
+
+namespace noonmark::report {
+namespace {
+
+double six_digits(double value) { return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr); }
+
+int64_t placements_of(const PhaseDiagram& d) { return int64_t{d.placements} * d.placements; }
+
+nlohmann::json finite(double value) {
+  return std::isfinite(value) ? nlohmann::json(six_digits(value)) : nlohmann::json(nullptr);
+}
+
+nlohmann::json series(const std::vector<double>& values) {
+  nlohmann::json list = nlohmann::json::array();
+  for (double value : values) list.push_back(finite(value));
+  return list;
+}
+
+std::string table(const PhaseDiagram& d) {
+  std::string rows;
+  for (const PhaseRow& row : d.rows) {
+    const BiasInterval worst = d.usable(row), mean = d.usable_on_average(row);
+    const auto least = std::min_element(row.error_worst.begin(), row.error_worst.end()) - row.error_worst.begin();
+    const auto best = static_cast<size_t>(least);
+    const auto cells = [](const BiasInterval& interval) {
+      return interval.empty() ? std::string("<td colspan=\"2\">none</td>")
+                              : fmt::format("<td>{}</td><td>{}</td>", metres(interval.from), metres(interval.to));
+    };
+    rows +=
+        fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td>{}{}<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                    row.resolution, metres(row.texel_m), cells(worst), cells(mean), metres(d.bias_m[best]),
+                    quantity(row.error_worst[best], "fraction"), quantity(row.error[best], "fraction"),
+                    std::isfinite(row.last_acne_m) ? metres(row.last_acne_m) : "more");
+  }
+  return fmt::format(
+      "<details{}><summary>The same as a table</summary>\n<div class=\"scroll\"><table class=\"numbers\"><thead>"
+      "<tr><th>Resolution</th><th>Texel</th><th>Usable from</th><th>to</th><th>In the mean from</th><th>to</th>"
+      "<th>Least error at</th><th>Error, worst</th><th>mean</th><th>No acne from</th></tr></thead><tbody>\n{}"
+      "</tbody></table></div></details>\n",
+      d.points.empty() ? " open" : "", rows);
+}
+
+// Where a bias lies to the usable interval of its texel size.
+std::string_view verdict_of(const BiasInterval& usable, double bias_m) {
+  return usable.empty()         ? "no bias is"
+         : bias_m < usable.from ? "too small"
+         : bias_m > usable.to   ? "too large"
+                                : "usable";
+}
+
+// "16 with filter.kind = box, 4 with ...": the most frequent first.
+std::string left_out_text(const PhaseDiagram& d) {
+  std::map<std::string, size_t> reasons;
+  for (const PhasePoint& point : d.points)
+    if (!point.left_out.empty()) ++reasons[point.left_out];
+  std::vector<std::pair<std::string, size_t>> ordered(reasons.begin(), reasons.end());
+  std::stable_sort(ordered.begin(), ordered.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  constexpr size_t most = 4;  // the point's own rows in the table of all points have the rest
+  std::string text;
+  for (size_t i = 0; i < std::min(most, ordered.size()); ++i)
+    text += fmt::format("{}{} with {}", i ? ", " : "", ordered[i].second, html(ordered[i].first));
+  if (ordered.size() > most) text += fmt::format(", and others with {} other settings", ordered.size() - most);
+  return text;
+}
+
+// The points of the sweep that lie on the diagram: in words, and as a table of those that are shown one by one.
+std::string points_of(const PhaseDiagram& d, const ShownPoints& shown) {
+  size_t on = 0, usable = 0;
+  std::string rows;
+  for (const PhasePoint& point : d.points) {
+    if (!point.left_out.empty()) continue;
+    ++on;
+    const PhaseRow& row = d.nearest_row(point.texel_m);
+    const BiasInterval window = d.usable(row);
+    const std::string_view verdict = verdict_of(window, point.bias_m);
+    usable += verdict == "usable";
+    const auto& all = shown.results.points;
+    const auto record = std::find_if(all.begin(), all.end(), [&](const auto& p) { return p.id == point.point; });
+    if (record == all.end()) continue;
+    rows += fmt::format(
+        "<tr><th scope=\"row\"><a href=\"#p{0}\">{0}</a></th><td class=\"text\">{1}</td><td>{2}</td><td>{3}</td>"
+        "<td>{4}</td><td class=\"text{6}\">{5}</td></tr>\n",
+        point.point, html(settings_phrase(*record, shown.results.info.swept)), metres(point.texel_m),
+        metres(point.bias_m), window.empty() ? "none" : fmt::format("{} … {}", metres(window.from), metres(window.to)),
+        verdict, verdict == "usable" ? "" : " fails");
+  }
+  if (d.points.empty()) return "";
+  std::string text = fmt::format(
+      "<p>{} of the {} point{} of {} {} on the diagram, as rings; {} of them {} a bias that is usable at every "
+      "placement "
+      "of the grid. A point lies at the width of its texel and its constant bias; what lies outside its own map is not "
+      "on the diagram.",
+      on, d.points.size(), d.points.size() == 1 ? "" : "s",
+      d.part.empty() ? "this sweep" : fmt::format("part {}", html(d.part)), on == 1 ? "is" : "are", usable,
+      usable == 1 ? "has" : "have");
+  if (on < d.points.size())
+    text += fmt::format(
+        " The diagram is of {}. Points with other settings are not on it, because other texel sizes and biases are "
+        "usable for them: {}.",
+        html(d.technique), left_out_text(d));
+  text += "</p>\n";
+  if (rows.empty()) return text;
+  return text +
+         "<details><summary>The sweep's points on the diagram</summary>\n<div class=\"scroll\"><table "
+         "class=\"numbers\"><thead><tr><th>Point</th><th class=\"text\">Settings</th><th>Texel</th><th>Bias</th>"
+         "<th>Usable at the nearest texel size</th><th class=\"text\">Its bias is</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div></details>\n";
+}
+
+}  // namespace
+
+std::string metres(double m) { return m < 1 ? fmt::format("{} mm", number(1000 * m)) : fmt::format("{} m", number(m)); }
+
+nlohmann::json phase_data(const PhaseDiagram& d) {
+  nlohmann::json phase{{"bias_m", series(d.bias_m)},
+                       {"acne_bound", finite(d.acne_bound)},
+                       {"peter_panning_bound", finite(d.peter_panning_bound)},
+                       {"law_at_bound", finite(d.law_at_bound)},
+                       {"law_steepest", finite(d.law_steepest)},
+                       {"render", d.render},
+                       {"per_metre", finite(1 / d.metres_per_bias)},
+                       {"placements", placements_of(d)},
+                       {"rows", nlohmann::json::array()},
+                       {"points", nlohmann::json::array()}};
+  for (const PhaseRow& row : d.rows) {
+    nlohmann::json json{
+        {"resolution", row.resolution}, {"texel_m", finite(row.texel_m)}, {"last_acne_m", finite(row.last_acne_m)}};
+    for (const PhaseSeries& one : phase_series()) json[one.name] = series(row.*one.values);
+    const BiasInterval worst = d.usable(row), mean = d.usable_on_average(row);
+    if (!worst.empty()) json["usable"] = {worst.from, worst.to};
+    if (!mean.empty()) json["usable_mean"] = {mean.from, mean.to};
+    phase["rows"].push_back(std::move(json));
+  }
+  for (const PhasePoint& point : d.points)
+    if (point.left_out.empty())
+      phase["points"].push_back(
+          {{"id", point.point}, {"texel_m", finite(point.texel_m)}, {"bias_m", finite(point.bias_m)}});
+  return phase;
+}
+
+std::string phase_figure(const PhaseDiagram& d, size_t index, const std::string& points) {
+  std::string sentences;
+  for (const std::string& sentence : phase_words(d)) sentences += fmt::format("<p>{}</p>\n", html(sentence));
+  const int64_t placements = placements_of(d);
+  return sentences +
+         chart_place(index == 0 ? std::string("phase") : fmt::format("phase-{}", index + 1),
+                     "Texel size against a constant bias. Hatched: usable at every placement of the texel grid. "
+                     "Red line: acne meets its bound; blue line: Peter Panning meets its bound (solid: worst "
+                     "placement, dashed: mean). Move over the figure for all causes; click for the command that "
+                     "renders a point.") +
+         points + table(d) +
+         fmt::format(
+             "<p class=\"small\">{} receivers of a picture of {} × {} pixels. Each texel size is measured at {} "
+             "placements of its grid, all from one set of first hits. Colour: the cause with the largest share; the "
+             "stronger, the larger the error. The largest error of all placements may be a tenth more than the largest "
+             "of these {}. The error is that on an exact map: what the depth format and the rasteriser add is not in "
+             "it.</p>\n",
+             number(d.receivers), d.width_px, d.height_px, placements, placements);
+}
+
+std::string phase_section(const Results& results, const ShownPoints& shown) {
+  if (results.phases.empty()) return "";
+  std::string out = "<section id=\"phase\"><h2>Texel size and bias</h2>\n";
+  size_t index = 0;
+  for (const PhaseDiagram& diagram : results.phases) {
+    if (!diagram.part.empty()) out += fmt::format("<h3>{}</h3>\n", html(diagram.part));
+    if (!diagram.refused.empty())
+      out += fmt::format("<p>There is no phase diagram: {}.</p>\n", html(diagram.refused));
+    else
+      out += phase_figure(diagram, index++, points_of(diagram, shown));
+  }
+  return out + "</section>\n";
+}
+
+}  // namespace noonmark::report

@@ -1,0 +1,23 @@
+// The phase diagrams as parts of a page: in the report of a sweep with the sweep's own points on them, and on the page of
+// `noonmark map`. compare/report/page/chart_phase.js draws what phase_data() gives into the place in phase_figure().
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "compare/report/shown.h"
+#include "compare/store/records.h"
+
+namespace noonmark::report {
+
+// The report's section, with the points that are shown one by one; empty if the experiment asks for no diagram.
+std::string phase_section(const Results& results, const ShownPoints& shown);
+
+// One diagram in words, as the place of its chart and as a table. number: from 0, of the diagrams of a page. points: HTML
+// about the points on it.
+std::string phase_figure(const PhaseDiagram& diagram, size_t number, const std::string& points = "");
+nlohmann::json phase_data(const PhaseDiagram& diagram);
+
+// "12.3 mm", "1.2 m".
+std::string metres(double m);
+
+}  // namespace noonmark::report
