@@ -75,6 +75,7 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
       curve.placements = 16;
       curve.window_min_worst_depth = 0.11 / 3;
       curve.window_max_worst_depth = 0.19 / 3;
+      curve.acne_free_bias_worst_depth = 0.17 / 3;
       for (auto series :
            {&BiasCurve::error_mean, &BiasCurve::error_worst, &BiasCurve::error_best, &BiasCurve::acne_mean,
             &BiasCurve::acne_worst, &BiasCurve::acne_best, &BiasCurve::peter_panning_mean,
@@ -198,7 +199,11 @@ inline bool same(const BiasCurve& a, const BiasCurve& b) {
          same(a.best_error, b.best_error) && same(a.flat_min_depth, b.flat_min_depth) &&
          same(a.flat_max_depth, b.flat_max_depth) && a.breakpoints == b.breakpoints &&
          same(a.acne_free_bias_depth, b.acne_free_bias_depth) &&
-         same(a.acne_free_bias_stored_depth, b.acne_free_bias_stored_depth);
+         same(a.acne_free_bias_stored_depth, b.acne_free_bias_stored_depth) && a.placements == b.placements &&
+         same(a.window_min_worst_depth, b.window_min_worst_depth) &&
+         same(a.window_max_worst_depth, b.window_max_worst_depth) &&
+         same(a.acne_free_bias_worst_depth, b.acne_free_bias_worst_depth) && same(a.error_mean, b.error_mean) &&
+         same(a.acne_worst, b.acne_worst) && same(a.peter_panning_best, b.peter_panning_best);
 }
 inline bool same(const PictureRecord& a, const PictureRecord& b) {
   return a.name == b.name && a.path == b.path && a.caption == b.caption && a.digest == b.digest;
