@@ -50,8 +50,7 @@ class LightView {
 
   // Whether the light sees the triangle from the side. Such a triangle covers nothing, and no surface continues over it.
   bool edge_on(uint32_t triangle) const {
-    const glm::dvec3 a = corner(triangle, 0), n = glm::cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
-    return rays_.edge_on(n, a);
+    return rays_.edge_on(planes_[triangle].normal, corner(triangle, 0));
   }
 
   // The triangle's normal in the light's frame, away from the light; not of unit length.
@@ -64,6 +63,9 @@ class LightView {
 
   // How wide the triangle is at its narrowest, in metres.
   double width(uint32_t triangle) const;
+
+  // Parallel rays: how much deeper its plane becomes for a metre along u and along v; not finite when it is edge-on.
+  glm::dvec2 gradient(uint32_t triangle) const { return planes_[triangle].gradient; }
 
   // LightRays::nearness of its plane.
   glm::dvec3 nearness(uint32_t triangle) const {

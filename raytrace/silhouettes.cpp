@@ -14,20 +14,10 @@ constexpr int least_cells = 256, most_cells = 2048;  // on a side: from 0.25 to 
 constexpr int coarsest_cells = 16;
 constexpr size_t listed_per_piece = 16, listed_besides = size_t{1} << 20;
 
-// Whether another triangle at this edge lies on its other side, as the light sees it.
 bool goes_on(const Adjacency& adjacency, const LightView& view, uint32_t triangle, int edge) {
-  const glm::dvec3 a = view.corner(triangle, edge), b = view.corner(triangle, (edge + 1) % 3);
-  const double own = view.orientation(a, b, view.corner(triangle, (edge + 2) % 3));
-  for (uint32_t other : adjacency.across(triangle, edge)) {
-    if (view.edge_on(other)) continue;
-    for (int i = 0; i < 3; ++i) {
-      const uint32_t v = adjacency.welded(other)[i];
-      if (v == adjacency.welded(triangle)[edge] || v == adjacency.welded(triangle)[(edge + 1) % 3]) continue;
-      const double side = view.orientation(a, b, view.corner(other, i));
-      if ((own > 0 && side < 0) || (own < 0 && side > 0)) return true;
-    }
-  }
-  return false;
+  bool any = false;
+  each_beyond(adjacency, view, triangle, edge, [&](uint32_t) { any = true; });
+  return any;
 }
 
 }  // namespace
