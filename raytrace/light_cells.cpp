@@ -21,7 +21,9 @@ constexpr size_t largest_sheet = 48;  // triangles in a square; a search among
 // Long triangles that lie on one another would be listed in all squares. So
 // there are fewer squares until the lists are at most so long.
 constexpr size_t listed_per_triangle = 16, listed_besides = size_t{1} << 16;
-constexpr double reaches_per_cell = 32;  // the finest squares are at least so many reaches wide
+constexpr uint32_t most_base_of_disc = 64;  // a wider disc takes about as long as its rays
+constexpr double rounded_up = 1 + 0x1p-10;  // the rounding of double, and of the directions to float
+constexpr double reaches_per_cell = 32;     // the finest squares are at least so many reaches wide
 
 }  // namespace
 
@@ -43,6 +45,7 @@ LightCells::LightCells(const Adjacency& adjacency, const LightView& view, double
     triangles_ += !adjacency.is_copy(t);
     for (int i = 0; i < 3; ++i) {
       const glm::dvec2 corner(view.corner(t, i));
+      nearest_m_ = std::min(nearest_m_, view.corner(t, i).z);
       low = glm::min(low, corner);
       high = glm::max(high, corner);
     }
@@ -100,8 +103,8 @@ void LightCells::list_base() {
   };
   begin_.assign(size * size + 1, 0);
   listed_.clear();
-  const size_t most = base_size_ == 1 ? std::numeric_limits<size_t>::max()
-                                      : listed_per_triangle * triangles_ + listed_besides;
+  const size_t most =
+      base_size_ == 1 ? std::numeric_limits<size_t>::max() : listed_per_triangle * triangles_ + listed_besides;
   size_t count = 0;
   each([&](uint32_t, size_t cell) {
     ++begin_[cell + 1];
@@ -219,7 +222,11 @@ void LightCells::judge(Cell& cell, const Square& square) const {
            o.low.y < square.middle.y - square.half && o.high.y > square.middle.y + square.half;
   };
   const bool many = cell.triangles.size() > largest_sheet;
-  if (many && cell.divisions > 0 && std::none_of(cell.triangles.begin(), cell.triangles.end(), may_cover)) return;
+  if (many && cell.divisions > 0 && std::none_of(cell.triangles.begin(), cell.triangles.end(), may_cover)) {
+    for (uint32_t t : cell.triangles)
+      for (int i = 0; i < 3; ++i) cell.nearest_m = std::min(cell.nearest_m, view_.corner(t, i).z);
+    return;
+  }
   for (uint32_t t : cell.triangles) {
     const double a = view_.corner(t, 0).z, b = view_.corner(t, 1).z, c = view_.corner(t, 2).z;
     Part& part =
@@ -235,6 +242,7 @@ void LightCells::judge(Cell& cell, const Square& square) const {
     for (int e = 0; e < 3 && part.covers; ++e)
       part.covers = part.outline.inside(e, square.middle) > part.outline.spread(e, square.half);
   }
+  for (const Part& part : parts) cell.nearest_m = std::min(cell.nearest_m, part.least);
   const bool good = judge_triangle(cell, parts, square) || judge_sheet(cell, parts, square);
   if (good || cell.divisions == 0) std::vector<uint32_t>().swap(cell.triangles);
 }
@@ -252,6 +260,7 @@ bool LightCells::judge_triangle(Cell& cell, const std::vector<Part>& parts, cons
   });
   if (!first) return false;
   cell.kind = Kind::triangle;
+  cell.slope = glm::length(front->gradient);
   cell.front = cell.triangles[static_cast<size_t>(front - parts.data())];
   return true;
 }
@@ -295,6 +304,7 @@ bool LightCells::judge_sheet(Cell& cell, const std::vector<Part>& parts, const S
     for (size_t j = i + 1; j < found; ++j)
       if (!apart(parts[sheet[i]].outline, parts[sheet[j]].outline)) return false;
   cell.kind = Kind::sheet;
+  for (size_t i = 0; i < found; ++i) cell.slope = std::max(cell.slope, glm::length(parts[sheet[i]].gradient));
   cell.split_m = std::isfinite(behind) ? 0.5 * (most + behind) : infinity;
   return true;
 }
@@ -306,6 +316,45 @@ bool LightCells::well_inside(uint32_t triangle, glm::dvec2 at) const {
     const double beside = t.inside(e, at);
     if (!(beside > 0 && beside * beside > reach_m_ * reach_m_ * glm::dot(way, way))) return false;
   }
+  return true;
+}
+
+LightCells::Answer LightCells::Reader::disc_at(glm::dvec3 at, uint32_t primitive, double tangent) {
+  const Answer centre = this->at(at, primitive);
+  if (centre == Answer::unknown) return centre;
+  const double reach = (at.z - cells_.nearest_m_) * tangent * rounded_up + cells_.reach_m_;
+  // Mostly all rays stay within P's own square.
+  const glm::dvec2 beside = glm::dvec2(at) - cells_.square_at(x_, y_, shift_).middle;
+  const double half = 0.5 * (1u << shift_) / cells_.fine_per_m_;
+  if (std::max(std::abs(beside.x), std::abs(beside.y)) + reach <= half && cell_->slope * tangent <= 0.5) return centre;
+  const glm::dvec2 most(cells_.fine_size_ - 1.0);
+  const glm::uvec2 low(glm::clamp(cells_.place(glm::dvec2(at) - reach), glm::dvec2(0), most)),
+      high(glm::clamp(cells_.place(glm::dvec2(at) + reach), glm::dvec2(0), most));
+  const int divisions = cells_.divisions_;
+  const uint32_t columns = (high.x >> divisions) - (low.x >> divisions) + 1,
+                 rows = (high.y >> divisions) - (low.y >> divisions) + 1;
+  if (columns * rows > most_base_of_disc) return Answer::unknown;
+  for (uint32_t y = low.y >> divisions; y <= high.y >> divisions; ++y)
+    for (uint32_t x = low.x >> divisions; x <= high.x >> divisions; ++x) {
+      Cell* cell = cells_.base_cell(x << divisions, y << divisions);
+      if (!cells_.disc_is_certain(*cell, x << divisions, y << divisions, at, tangent)) return Answer::unknown;
+    }
+  return centre;
+}
+
+bool LightCells::disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent) {
+  if (cell.kind == Kind::nothing) return true;
+  const Square square = square_at(x, y, cell.divisions);
+  const glm::dvec2 beside = glm::abs(glm::dvec2(at) - square.middle) - square.half;
+  if ((at.z - cell.nearest_m) * tangent * rounded_up + reach_m_ < std::max(beside.x, beside.y)) return true;
+  if (cell.kind != Kind::mixed) return cell.slope * tangent <= 0.5;
+  if (cell.divisions == 0) return false;
+  Four* four = cell.four.load(std::memory_order_acquire);
+  if (!four) four = divide(cell, x, y);
+  if (!four) return false;
+  const uint32_t half = 1u << (cell.divisions - 1);
+  for (uint32_t i = 0; i < 4; ++i)
+    if (!disc_is_certain(four->cell[i], x + i % 2 * half, y + i / 2 * half, at, tangent)) return false;
   return true;
 }
 

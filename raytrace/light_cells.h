@@ -37,11 +37,27 @@
 // If F is a sheet, whether a receiver is on it is read off its depth: F ends before split_m, everything else lies behind
 // it, each by 2 near.
 //
+// ---- Why the rays to all of a sun meet the same
+//
+// A ray from P to a place of the disc is, s metres nearer to the light, at most s tangent beside P. A square is *out of
+// reach* if a ray is nearer to the light than all that is in the square before it comes there. If all squares are either
+// good or out of reach, and P's own square is good:
+//   - F is the first surface at each place of a good square, so it is one continuous surface over neighbouring good
+//     squares. Where its slope times tangent is at most 1/2, s metres of a ray bring it at least s / 2 further from F.
+//   - A ray from a receiver on F never meets F again: it leaves its own triangle at least reach_m beside P, and is then at
+//     least reach_m / (2 tangent) before F; a float ray, e beside it, is nearer to F by at most e / (2 tangent). Where it
+//     enters a square out of reach, it lies before everything there and, at the border, before F. So each receiver that
+//     is lit sees the whole disc.
+//   - A ray from a receiver behind F ends before everything. On its way F is continuous until it is before F, so it meets
+//     F, at a distance of at least 2 / 3 of gap_m > near. So each dark receiver sees nothing of the disc.
+//   - No ray starts below the receiver's own horizon, because N.L is greater than tangent.
+//
 // Only parallel rays have cells so far.
 #pragma once
 #include <atomic>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -78,6 +94,9 @@ class LightCells {
     uint8_t divisions = 0;          // how many times it can be divided
     uint32_t front = no_primitive;  // Kind::triangle: F
     double split_m = 0;             // Kind::sheet
+    double nearest_m =
+        std::numeric_limits<double>::infinity();  // no triangle in the widened square is nearer to the light
+    double slope = 0;                             // good squares: how much deeper F becomes for a metre, at most
     std::atomic<Four*> four{nullptr};
     std::vector<uint32_t> triangles;  // that touch the widened square; empty if it is not divided any further
   };
@@ -124,6 +143,8 @@ class LightCells {
   void judge(Cell& cell, const Square& square) const;
   bool judge_triangle(Cell& cell, const std::vector<Part>& parts, const Square& square) const;
   bool judge_sheet(Cell& cell, const std::vector<Part>& parts, const Square& square) const;
+  // Whether no ray from `at` can be hidden in one part of its way and free in another because of what is in this cell.
+  bool disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent);
   bool well_inside(uint32_t triangle, glm::dvec2 at) const;
   void free_below(Cell& cell);
 
@@ -131,7 +152,8 @@ class LightCells {
   const Adjacency& adjacency_;
   LightView view_;
   double reach_m_, gap_m_;
-  uint32_t triangles_ = 0;  // without copies
+  uint32_t triangles_ = 0;                                      // without copies
+  double nearest_m_ = std::numeric_limits<double>::infinity();  // of the scene
   glm::dvec2 low_{0};
   double fine_per_m_ = 0;
   uint32_t base_size_ = 0;                // undivided squares on a side
@@ -165,6 +187,10 @@ class LightCells::Reader {
     if (at.z > cell_->split_m) return Answer::dark;
     return cells_.well_inside(primitive, glm::dvec2(at)) ? Answer::lit : Answer::unknown;
   }
+
+  // The same for all rays to a disc of directions, whose radius is `tangent`: lit if no such ray meets an occluder, dark
+  // if all do. The receiver's N.L is at least least_cosine + tangent.
+  Answer disc_at(glm::dvec3 at, uint32_t primitive, double tangent);
 
  private:
   void find(uint32_t x, uint32_t y);

@@ -49,9 +49,7 @@ class LightView {
   }
 
   // Whether the light sees the triangle from the side. Such a triangle covers nothing, and no surface continues over it.
-  bool edge_on(uint32_t triangle) const {
-    return rays_.edge_on(planes_[triangle].normal, corner(triangle, 0));
-  }
+  bool edge_on(uint32_t triangle) const { return rays_.edge_on(planes_[triangle].normal, corner(triangle, 0)); }
 
   // The triangle's normal in the light's frame, away from the light; not of unit length.
   glm::dvec3 normal_away(uint32_t triangle) const { return planes_[triangle].normal; }

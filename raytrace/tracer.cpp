@@ -105,7 +105,8 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
   ReceiverTruth truth{Image<uint8_t>(width, height), Image<uint8_t>(width, height), Image<uint8_t>(width, height), {}};
 
   const std::shared_ptr<LightSide> light = traced_->lit_by(frame);
-  const Facing found = find_facing(receivers, frame, use_cells_ ? light->cells(receivers) : nullptr, truth);
+  LightCells* const cells = use_cells_ ? light->cells(receivers) : nullptr;
+  const Facing found = find_facing(receivers, frame, cells, truth);
 
   // The verdict of each receiver at P and at four places beside it, at the distance of the float error.
   const double error = light->view().ray_error_m();
@@ -131,8 +132,8 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
 
   watch.emplace(soft_stage, traced_->device);
   if (has_size(soft.light)) {
-    truth.soft =
-        sample_light(traced_->scene, traced_->embree, receivers, found.facing, frame, soft.light, soft.standard_error);
+    truth.soft = sample_light(traced_->scene, traced_->embree, receivers, found.facing, frame, soft.light,
+                              soft.standard_error, cells);
   } else {
     truth.soft = Image<float>(width, height);
     std::copy(truth.lit.pixels.begin(), truth.lit.pixels.end(), truth.soft.pixels.begin());

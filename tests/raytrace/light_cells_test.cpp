@@ -44,7 +44,8 @@ ReceiverImage receivers_of(const Scene& scene, glm::dvec3 to_light, int count, u
 }
 
 // Returns the rays that were cast with cells.
-Rays expect_same(const Scene& scene, int count = 4000, uint32_t seed = 1, const std::string& what = "") {
+Rays expect_same(const Scene& scene, int count = 4000, uint32_t seed = 1, const std::string& what = "",
+                 double sun_deg = 1) {
   const LightFrame frame = frame_of(scene, 128);
   const glm::dvec3 to_light =
       frame.light().rays().have_one_direction() ? frame.direction_to_light() : glm::dvec3(0, 1, 0);
@@ -53,7 +54,7 @@ Rays expect_same(const Scene& scene, int count = 4000, uint32_t seed = 1, const 
   const auto measure = [&](bool use_cells, Rays& rays) {
     const Tracer tracer(scene, use_cells);
     StageTime hard, soft;
-    const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, sun(1, 0.1), &hard, &soft);
+    const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, sun(sun_deg, 0.1), &hard, &soft);
     const LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe_of(receivers, frame, box(3)), frame, {});
     rays = {hard.rays, soft.rays, lookup.texel_stage.rays, lookup.tap_stage.rays};
     return std::pair(truth, lookup);
@@ -103,6 +104,9 @@ TEST(LightCells, AnswerMostReceivers) {
   tracer.receiver_truth(receivers, frame, {}, &first);
   tracer.receiver_truth(receivers, frame, {}, &again);
   EXPECT_LT(first.rays, 5 * 20000 / 20);
+  StageTime soft;
+  tracer.receiver_truth(receivers, frame, sun(0.53, 0.05), nullptr, &soft);
+  EXPECT_LT(soft.rays, 3 * 20000u);
   EXPECT_EQ(first.rays, again.rays);
 }
 
@@ -261,6 +265,36 @@ TEST(LightCells, GrazingReceivers) {
                                   add_quad(s, "behind", {0.1, 0.5 - behind_m, -1}, u, v);
                                 }),
                   1000, 15, std::to_string(cosine) + " " + std::to_string(behind_m));
+}
+
+// Suns of all sizes: penumbrae end within the cells, or reach over many of them.
+TEST(LightCells, Suns) {
+  const Scene steps = under_a_light(oblique, [](Scene& s) {
+    add_floor(s);
+    for (int i = 0; i < 12; ++i)
+      add_quad(s, "step", {-1.8 + 0.3 * i, 0.05 + 0.12 * i, -1}, {0, 0, 2 - 0.1 * i}, {0.2, 0.02 * i, 0});
+  });
+  const Scene waves = under_a_light(low, [](Scene& s) {
+    add_surface(s, "waves", 40, 40, false, [&](double a, double t) {
+      return glm::dvec3(4 * a - 2, 0.3 * std::sin(9 * a) * std::cos(7 * t), 2 - 4 * t);
+    });
+  });
+  // One surface that hides nothing of itself from the middle of the light: walls, steeper than the sun is narrow.
+  const Scene gorge = under_a_light(above, [](Scene& s) {
+    add_surface(s, "gorge", 5, 1, false, [&](double a, double t) {
+      const int column = static_cast<int>(std::lround(5 * a));
+      const double x[6] = {-3, -0.55, -0.5, 0.5, 0.55, 3};
+      return glm::dvec3(x[column], column == 2 || column == 3 ? 0 : 2, 3 - 6 * t);
+    });
+  });
+  // Part of the sun lies below the receivers' horizon.
+  const Scene inclined = make_scene({.name = "plane", .theta_deg = 85});
+  for (const double sun_deg : {0.05, 0.53, 3.0, 12.0, 40.0}) {
+    for (const Scene* scene : {&steps, &waves, &gorge, &inclined})
+      expect_same(*scene, 1500, 16, std::to_string(sun_deg), sun_deg);
+    expect_same(builtin("cube-room"), 1500, 16, std::to_string(sun_deg), sun_deg);
+    expect_same(builtin("fence"), 1500, 16, std::to_string(sun_deg), sun_deg);
+  }
 }
 
 TEST(LightCells, FarFromTheOrigin) {
