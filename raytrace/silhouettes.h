@@ -78,6 +78,9 @@ class Silhouettes {
     bool listed_ = false;  // false: the places lie in several charts, and all silhouettes are asked
     std::vector<uint32_t> edges_;
   };
+  // True only if no silhouette comes within reach_m of a place of the rectangle around these places, so that none
+  // crosses a way inside it.
+  bool none_among(std::span<const glm::dvec3> places) const;
   // nearby: its memory is used again.
   void list_nearby(std::span<const glm::dvec3> places, Nearby& nearby) const;
 
@@ -122,6 +125,8 @@ class Silhouettes {
   };
 
   void fill(Grid& grid, const std::vector<Piece>& pieces);
+  // The rectangle around these places in their chart; false if they lie in several.
+  bool rectangle(std::span<const glm::dvec3> places, int& chart, glm::dvec2& low, glm::dvec2& high) const;
   // The grid that x lies in, and where.
   const Grid& grid_of(glm::dvec3 x, glm::dvec2& at) const {
     return grids_[static_cast<size_t>(view_.rays().chart_of(x, at))];

@@ -143,7 +143,7 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
 
 LookupTracer Tracer::lookup(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
                             const MapSettings& map, const Bias& bias, double offset_unit) const {
-  return LookupTracer(*traced_, receivers, truth, frame, map, bias, offset_unit);
+  return LookupTracer(*traced_, receivers, truth, frame, map, bias, offset_unit, use_cells_);
 }
 
 PlacementTracer Tracer::placements(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,

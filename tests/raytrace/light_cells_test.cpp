@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "scenes/builtin.h"
+#include "technique/filters.h"
 #include "tests/raytrace/fixture.h"
 
 namespace noonmark::raytrace {
@@ -45,7 +46,7 @@ ReceiverImage receivers_of(const Scene& scene, glm::dvec3 to_light, int count, u
 
 // Returns the rays that were cast with cells.
 Rays expect_same(const Scene& scene, int count = 4000, uint32_t seed = 1, const std::string& what = "",
-                 double sun_deg = 1) {
+                 double sun_deg = 1, const FilterSettings& filter = box(3)) {
   const LightFrame frame = frame_of(scene, 128);
   const glm::dvec3 to_light =
       frame.light().rays().have_one_direction() ? frame.direction_to_light() : glm::dvec3(0, 1, 0);
@@ -55,7 +56,7 @@ Rays expect_same(const Scene& scene, int count = 4000, uint32_t seed = 1, const 
     const Tracer tracer(scene, use_cells);
     StageTime hard, soft;
     const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, sun(sun_deg, 0.1), &hard, &soft);
-    const LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe_of(receivers, frame, box(3)), frame, {});
+    const LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe_of(receivers, frame, filter), frame, {});
     rays = {hard.rays, soft.rays, lookup.texel_stage.rays, lookup.tap_stage.rays};
     return std::pair(truth, lookup);
   };
@@ -294,6 +295,15 @@ TEST(LightCells, Suns) {
       expect_same(*scene, 1500, 16, std::to_string(sun_deg), sun_deg);
     expect_same(builtin("cube-room"), 1500, 16, std::to_string(sun_deg), sun_deg);
     expect_same(builtin("fence"), 1500, 16, std::to_string(sun_deg), sun_deg);
+  }
+}
+
+TEST(LightCells, EveryFilter) {
+  for (const Filter& given : filters()) {
+    if (given.map == FilterMap::cube) continue;
+    FilterSettings filter = box(5);
+    filter.kind = given.name;
+    expect_same(builtin("cube-room"), 2000, 17, filter.kind, 1, filter);
   }
 }
 
