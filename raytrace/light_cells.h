@@ -18,7 +18,7 @@
 // off by at most e: they lie at most 2 e beside P, so the widened square holds all that they can meet.
 // The triangles of the widened square are listed without gaps. Copies are not among them, because no ray meets them.
 //   1. F covers the widened square. It is one triangle that covers it, or a sheet: a triangle together with all
-//      triangles that follow over the edges at which the surface goes on (goes_on_to(), the rule of the silhouettes).
+//      triangles that follow over the edges at which the surface goes on (each_beyond(), the rule of the silhouettes).
 //      All these edges go on, wherever they touch the widened square, so the sheet has no border in it.
 //   2. F covers each place only once: of two triangles of the sheet, an edge of one separates their shadows on the
 //      light's plane. This excludes sheets that wind around a point and lie above themselves.
@@ -143,7 +143,7 @@ class LightCells {
   void judge(Cell& cell, const Square& square) const;
   bool judge_triangle(Cell& cell, const std::vector<Part>& parts, const Square& square) const;
   bool judge_sheet(Cell& cell, const std::vector<Part>& parts, const Square& square) const;
-  // Whether no ray from `at` can be hidden in one part of its way and free in another because of what is in this cell.
+  // Whether the cell is out of reach of the disc as `at` sees it, or good, or divided into such cells.
   bool disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent);
   bool well_inside(uint32_t triangle, glm::dvec2 at) const;
   void free_below(Cell& cell);

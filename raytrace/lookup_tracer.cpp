@@ -34,8 +34,8 @@ Image<float> exact_map_of(const DrawnMap& drawn, const LightView& view, const Te
 }
 
 // Receivers that are lit and have no silhouette among their taps. Their surface is lit at all of these places, for sure
-// (OwnSurface::lit_at() without a crossing), so no ray is needed at a tap's exact place. Only where one table of offsets serves all receivers of parallel rays;
-// then the corners of the table are the corners of the rectangle around the taps.
+// (OwnSurface::lit_at() without a crossing), so no ray is needed at a tap's exact place. Only where one table of offsets
+// serves all receivers of parallel rays; then the corners of the table are those of the rectangle around the taps.
 class FreeOfSilhouettes {
  public:
   FreeOfSilhouettes(const LightView& view, const Silhouettes& silhouettes, const LookupProbe& probe, const Bias& bias)
