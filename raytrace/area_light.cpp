@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <bit>
+#include <optional>
 
 #include "raytrace/shadow_start.h"
 #include "technique/tap_pattern.h"
@@ -25,12 +26,14 @@ bool has_size(const Light& light) { return kind_of_light(light.kind).disc_radius
 
 Image<float> sample_light(const Scene& scene, const EmbreeScene& embree, const ReceiverImage& receivers,
                           const std::vector<uint32_t>& facing, const LightFrame& frame, const Light& light,
-                          double standard_error) {
+                          double standard_error, LightCells* cells) {
   const KindOfLight& kind = frame.light();
   const LightDisc disc{light.shape, kind.disc_radius(light)};
   const ShadowStart start(scene, receivers, frame);
   Image<float> seen(receivers.width(), receivers.height(), 0);
   tbb::parallel_for(tbb::blocked_range<size_t>(0, facing.size(), 256), [&](const tbb::blocked_range<size_t>& range) {
+    std::optional<LightCells::Reader> reader;
+    if (cells) reader.emplace(*cells);
     for (size_t index = range.begin(); index != range.end(); ++index) {
       const uint32_t pixel = facing[index];
       const glm::dvec2 shift(hash_pixel(pixel) * 0x1p-32, hash_pixel(pixel ^ 0x9e3779b9u) * 0x1p-32);
@@ -38,6 +41,14 @@ Image<float> sample_light(const Scene& scene, const EmbreeScene& embree, const R
       if (kind.surrounds(frame, disc, position)) {
         seen[pixel] = 1;
         continue;
+      }
+      if (reader && glm::dot(normal, frame.direction_to_light(position)) >= LightCells::least_cosine + disc.radius) {
+        const LightCells::Answer answer =
+            reader->disc_at(frame.to_light(position), receivers.primitive[pixel], disc.radius);
+        if (answer != LightCells::Answer::unknown) {
+          seen[pixel] = answer == LightCells::Answer::lit;
+          continue;
+        }
       }
       uint32_t n = 0, lit = 0;
       for (;;) {

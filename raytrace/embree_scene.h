@@ -80,6 +80,10 @@ class EmbreeScene {
   // Bit i: ray i meets another triangle than its own, beyond its own plane and before the light. count: 1 ... 16.
   uint32_t occluded(int count, const ShadowRay* rays) const;
 
+  // occluded() counts a hit further than this from both ends of the ray, and further than twice the ray's own_distance,
+  // whatever the triangle is. It decides nearer hits in double.
+  double near_distance() const { return near_distance_; }
+
   // Distance (in units of the direction's length) to the occluder nearest to the receiver; infinity without one.
   double occluder_distance(const ShadowRay& ray) const;
 

@@ -29,6 +29,7 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
+  nearest_m_ = low.z;
   const double size = glm::length(high - low);
   ray_error_m_ = 0x1p-24 * (std::sqrt(3.0) * largest_coordinate(scene) + 4 * size);
   // A margin for the rounding of the start, so that nothing is behind it.
@@ -36,6 +37,7 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
 
   vertices_ = vertices.data();
   geometry->planes.reserve(scene.triangles.size());
+  planes_ = geometry->planes.data();
   for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const glm::dvec3 a = corner(t, 0), b = corner(t, 1), c = corner(t, 2), e = b - a, f = c - a;
     const glm::dvec3 n = glm::cross(e, f);
@@ -53,7 +55,6 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
     const double length = glm::length(n);
     plane.low = std::max(plane.low - longest, length > 0 ? std::abs(glm::dot(n, a)) / length : 0.0);
   }
-  planes_ = geometry->planes.data();
 }
 
 bool LightView::same_light(const LightFrame& frame) const {

@@ -49,10 +49,7 @@ class LightView {
   }
 
   // Whether the light sees the triangle from the side. Such a triangle covers nothing, and no surface continues over it.
-  bool edge_on(uint32_t triangle) const {
-    const glm::dvec3 a = corner(triangle, 0), n = glm::cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
-    return rays_.edge_on(n, a);
-  }
+  bool edge_on(uint32_t triangle) const { return rays_.edge_on(planes_[triangle].normal, corner(triangle, 0)); }
 
   // The triangle's normal in the light's frame, away from the light; not of unit length.
   glm::dvec3 normal_away(uint32_t triangle) const { return planes_[triangle].normal; }
@@ -64,6 +61,9 @@ class LightView {
 
   // How wide the triangle is at its narrowest, in metres.
   double width(uint32_t triangle) const;
+
+  // Parallel rays: how much deeper its plane becomes for a metre along u and along v; not finite when it is edge-on.
+  glm::dvec2 gradient(uint32_t triangle) const { return planes_[triangle].gradient; }
 
   // LightRays::nearness of its plane.
   glm::dvec3 nearness(uint32_t triangle) const {
@@ -109,6 +109,12 @@ class LightView {
     return only_tile_ ? only_tile_->near_depth(x) : frame_.tile_at(x).near_depth(x);
   }
 
+  // Parallel rays: no point of the scene is nearer to the light, in metres along the light.
+  double nearest_m() const { return nearest_m_; }
+
+  // No point of the triangle has less depth.
+  double nearest_m(uint32_t triangle) const { return planes_[triangle].low; }
+
   // The float error of a light-side ray: how far it may pass beside its exact place, in metres. It comes from the
   // rounding of the ray's float origin and direction and of Embree's edge tests over the scene's size (4 roundings of
   // 2^-24).
@@ -142,6 +148,7 @@ class LightView {
   bool in_a_face_ = false;  // the light stands in the plane of a triangle
   glm::dvec3 start_{0};     // directional: where the ray through (0, 0) starts, in the world
   double ray_error_m_ = 0;
+  double nearest_m_ = 0;
 };
 
 }  // namespace noonmark

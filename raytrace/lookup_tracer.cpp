@@ -33,6 +33,48 @@ Image<float> exact_map_of(const DrawnMap& drawn, const LightView& view, const Te
   return map;
 }
 
+// Receivers that are lit and have no silhouette among their taps. Their surface is lit at all of these places, for sure
+// (OwnSurface::lit_at() without a crossing), so no ray is needed at a tap's exact place. Only where one table of offsets
+// serves all receivers of parallel rays; then the corners of the table are those of the rectangle around the taps.
+class FreeOfSilhouettes {
+ public:
+  FreeOfSilhouettes(const LightView& view, const Silhouettes& silhouettes, const LookupProbe& probe, const Bias& bias)
+      : view_(view), silhouettes_(silhouettes), probe_(probe) {
+    applies_ = view.rays().have_one_direction() && probe.pattern.variants == 1 && !probe.pattern.scaled_by_view &&
+               probe.cube_resolution == 0 && !bias.moves_lookup();
+    for (int tap = 0; tap < probe.taps(); ++tap) {
+      low_ = glm::min(low_, probe.pattern.offset(0, tap));
+      high_ = glm::max(high_, probe.pattern.offset(0, tap));
+    }
+  }
+
+  // p: the receiver in the light's frame, lit.
+  bool holds(size_t pixel, glm::dvec3 p) const {
+    if (!applies_) return false;
+    const LightFrame& frame = view_.frame();
+    glm::ivec2 low, high;
+    const glm::vec2 at = probe_.map_texels[pixel];
+    if (probe_.pattern.bilinear()) {
+      low = probe_.texel_at(at, pixel, 0);
+      high = probe_.texel_at(at, pixel, probe_.taps() - 1);
+    } else {  // as LookupProbe::texel_at() rounds, which keeps the order of the offsets
+      low = LookupProbe::floored(at + glm::vec2(low_));
+      high = LookupProbe::floored(at + glm::vec2(high_));
+    }
+    const glm::dvec3 places[] = {frame.place(p), frame.tap_place(p, glm::dvec3(low_)),
+                                 frame.tap_place(p, glm::dvec3(high_)), view_.texel_place(low),
+                                 view_.texel_place(high)};
+    return silhouettes_.none_among(places);
+  }
+
+ private:
+  const LightView& view_;
+  const Silhouettes& silhouettes_;
+  const LookupProbe& probe_;
+  glm::vec3 low_{0}, high_{0};  // of the offsets, and of no offset
+  bool applies_;
+};
+
 }  // namespace
 
 struct LookupTracer::Impl {
@@ -44,14 +86,16 @@ struct LookupTracer::Impl {
   std::optional<PolygonOffset> offset;
   std::shared_ptr<LightSide> light;
   LightView view;
+  bool use_cells;
   TexelRays texels{traced.embree, view, map.wrap};
 };
 
 LookupTracer::LookupTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
-                           const LightFrame& frame, const MapSettings& map, const Bias& bias, double offset_unit) {
+                           const LightFrame& frame, const MapSettings& map, const Bias& bias, double offset_unit,
+                           bool use_cells) {
   const std::shared_ptr<LightSide> light = traced.lit_by(frame);
   impl_.reset(new Impl{traced, receivers, truth, map, bias, polygon_offset_of(frame, map, bias, offset_unit), light,
-                       light->view().with_map_of(frame)});
+                       light->view().with_map_of(frame), use_cells});
 }
 LookupTracer::LookupTracer(LookupTracer&&) noexcept = default;
 LookupTracer& LookupTracer::operator=(LookupTracer&&) noexcept = default;
@@ -92,29 +136,54 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
   TapTruth result{taps, {}, strip.first};
   result.taps.assign(strip.size() * static_cast<size_t>(taps), 0);
 
-  for_each_packet(strip.size(), [&](size_t begin, int n) {
-    const size_t first = strip.first + begin;
-    SurfacePoint points[packet_size];
-    glm::dvec3 at[packet_size];          // P in the light's frame
-    glm::dvec3 looked_up[packet_size];   // P' there; P unless a part moves the lookup
-    int lanes[packet_size], active = 0;  // the facing ones among the packet's pixels
-    for (int i = 0; i < n; ++i) {
-      if (!l.truth.facing[first + i]) continue;
-      const glm::dvec3 p = l.receivers.position[first + i], normal = l.receivers.normal[first + i];
-      at[active] = frame.to_light(p);
-      points[active] = surface.point(at[active], l.traced.adjacency.first(l.receivers.primitive[first + i]),
-                                     l.truth.lit[first + i] != 0);
-      looked_up[active] = frame.to_light(l.bias.looked_up(frame, p, normal));
-      if (edge_distance_texels) (*edge_distance_texels)[first + static_cast<size_t>(i)] = 0;
-      lanes[active++] = i;
+  const FreeOfSilhouettes free_of_silhouettes(view, l.light->silhouettes(), probe, l.bias);
+  const auto certain = static_cast<uint8_t>(tap_exact_lit | (edge_distance_texels ? tap_texel_lit : 0));
+  const bool may_clip = edge_distance_texels && !l.map.depth_clamp && view.nearest_m() < frame.near_m;
+  const auto answer = [&](size_t pixel) {
+    uint8_t* bits = &result.taps[(pixel - strip.first) * static_cast<size_t>(taps)];
+    std::fill_n(bits, taps, certain);
+    for (int tap = 0; tap < taps && may_clip; ++tap) {
+      const glm::ivec2 texel = probe.texel(pixel, tap);
+      const uint32_t hit = l.texels.hit(texel);
+      if (hit != no_primitive && view.nearest_m(hit) < frame.near_m && surface.clipped(hit, view.texel_place(texel)))
+        bits[tap] |= tap_near_clipped;
     }
-    if (active == 0) return;
+  };
+  constexpr size_t pixels_per_part = 4096;
+  std::vector<std::vector<size_t>> parts((strip.size() + pixels_per_part - 1) / pixels_per_part);
+  tbb::parallel_for(size_t{0}, parts.size(), [&](size_t part) {
+    const size_t from = strip.first + part * pixels_per_part, to = std::min(strip.end, from + pixels_per_part);
+    for (size_t pixel = from; pixel < to; ++pixel) {
+      if (!l.truth.facing[pixel]) continue;
+      if (edge_distance_texels) (*edge_distance_texels)[pixel] = 0;
+      if (l.truth.lit[pixel] && l.use_cells &&
+          free_of_silhouettes.holds(pixel, frame.to_light(l.receivers.position[pixel])))
+        answer(pixel);
+      else
+        parts[part].push_back(pixel);
+    }
+  });
+  std::vector<size_t> asked;
+  for (const std::vector<size_t>& part : parts) asked.insert(asked.end(), part.begin(), part.end());
+
+  for_each_packet(asked.size(), [&](size_t begin, int active) {
+    SurfacePoint points[packet_size];
+    glm::dvec3 at[packet_size];         // P in the light's frame
+    glm::dvec3 looked_up[packet_size];  // P' there; P unless a part moves the lookup
+    const size_t* const pixels = &asked[begin];
+    for (int k = 0; k < active; ++k) {
+      const glm::dvec3 p = l.receivers.position[pixels[k]], normal = l.receivers.normal[pixels[k]];
+      at[k] = frame.to_light(p);
+      points[k] =
+          surface.point(at[k], l.traced.adjacency.first(l.receivers.primitive[pixels[k]]), l.truth.lit[pixels[k]] != 0);
+      looked_up[k] = frame.to_light(l.bias.looked_up(frame, p, normal));
+    }
     for (int tap = 0; tap < taps; ++tap) {
       glm::dvec3 offsets[packet_size];
       if (one_for_all)
         std::fill_n(offsets, active, glm::dvec3(probe.pattern.offset(0, tap)));
       else
-        for (int k = 0; k < active; ++k) offsets[k] = probe.offset(first + static_cast<size_t>(lanes[k]), tap);
+        for (int k = 0; k < active; ++k) offsets[k] = probe.offset(pixels[k], tap);
       OwnSurface::Verdict exact[packet_size], moved[packet_size];  // F and D
       const auto at_offset = [&](const glm::dvec3* from, OwnSurface::Verdict* verdicts) {
         glm::dvec3 x[packet_size];
@@ -138,7 +207,7 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
         if (behind[k]) moved[k] = exact[k];
       }
       for (int k = 0; k < active; ++k) {
-        const size_t pixel = first + static_cast<size_t>(lanes[k]);
+        const size_t pixel = pixels[k];
         const bool exact_lit = exact[k].lit, moved_lit = moved[k].lit;
         uint8_t& bits = result.taps[(pixel - strip.first) * static_cast<size_t>(taps) + static_cast<size_t>(tap)];
         bits = static_cast<uint8_t>((exact_lit ? tap_exact_lit : 0) | (moved_lit != exact_lit ? tap_displaced : 0) |

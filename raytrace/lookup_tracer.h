@@ -25,7 +25,7 @@ class LookupTracer {
  public:
   // What Tracer::lookup() is given.
   LookupTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
-               const MapSettings& map, const Bias& bias, double offset_unit);
+               const MapSettings& map, const Bias& bias, double offset_unit, bool use_cells);
   ~LookupTracer();
   LookupTracer(LookupTracer&&) noexcept;
   LookupTracer& operator=(LookupTracer&&) noexcept;

@@ -14,20 +14,10 @@ constexpr int least_cells = 256, most_cells = 2048;  // on a side: from 0.25 to 
 constexpr int coarsest_cells = 16;
 constexpr size_t listed_per_piece = 16, listed_besides = size_t{1} << 20;
 
-// Whether another triangle at this edge lies on its other side, as the light sees it.
 bool goes_on(const Adjacency& adjacency, const LightView& view, uint32_t triangle, int edge) {
-  const glm::dvec3 a = view.corner(triangle, edge), b = view.corner(triangle, (edge + 1) % 3);
-  const double own = view.orientation(a, b, view.corner(triangle, (edge + 2) % 3));
-  for (uint32_t other : adjacency.across(triangle, edge)) {
-    if (view.edge_on(other)) continue;
-    for (int i = 0; i < 3; ++i) {
-      const uint32_t v = adjacency.welded(other)[i];
-      if (v == adjacency.welded(triangle)[edge] || v == adjacency.welded(triangle)[(edge + 1) % 3]) continue;
-      const double side = view.orientation(a, b, view.corner(other, i));
-      if ((own > 0 && side < 0) || (own < 0 && side > 0)) return true;
-    }
-  }
-  return false;
+  bool any = false;
+  each_beyond(adjacency, view, triangle, edge, [&](uint32_t) { any = true; });
+  return any;
 }
 
 }  // namespace
@@ -136,21 +126,34 @@ void Silhouettes::put_in_order(std::vector<Crossing>& at) {
   at.erase(std::unique(at.begin(), at.end()), at.end());  // an edge is listed in many cells
 }
 
+bool Silhouettes::rectangle(std::span<const glm::dvec3> places, int& chart, glm::dvec2& low, glm::dvec2& high) const {
+  chart = view_.rays().chart_of(places.front(), low);
+  high = low;
+  for (glm::dvec3 x : places.subspan(1)) {
+    glm::dvec2 at;
+    if (view_.rays().chart_of(x, at) != chart) return false;
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  return true;
+}
+
+bool Silhouettes::none_among(std::span<const glm::dvec3> places) const {
+  int chart = 0;
+  glm::dvec2 low, high;
+  if (!rectangle(places, chart, low, high)) return false;
+  const Grid& grid = grids_[static_cast<size_t>(chart)];
+  return grid.size == 0 || grid.empty_between(low, high);
+}
+
 // An edge is listed in every cell that it touches, and in every cell within reach_m of it. So the cells of the rectangle
 // together list all edges that are near one of its places, or that cross a way inside it.
 void Silhouettes::list_nearby(std::span<const glm::dvec3> places, Nearby& nearby) const {
   nearby.all_ = this;
   nearby.edges_.clear();
   glm::dvec2 low, high;
-  const int chart = view_.rays().chart_of(places.front(), low);
-  high = low;
-  nearby.listed_ = true;
-  for (glm::dvec3 x : places.subspan(1)) {
-    glm::dvec2 at;
-    nearby.listed_ = nearby.listed_ && view_.rays().chart_of(x, at) == chart;
-    low = glm::min(low, at);
-    high = glm::max(high, at);
-  }
+  int chart = 0;
+  nearby.listed_ = rectangle(places, chart, low, high);
   const Grid& grid = grids_[static_cast<size_t>(chart)];
   if (!nearby.listed_ || grid.size == 0 || grid.empty_between(low, high)) return;
   const size_t first = grid.cell_of(low), last = grid.cell_of(high), row = static_cast<size_t>(grid.size);

@@ -14,6 +14,27 @@
 
 namespace noonmark {
 
+// Calls visit(other) for each triangle over which the surface continues beyond this edge, as the light sees it: the
+// other triangle lies on the other side of the edge. An edge without one is a silhouette.
+template <class Visit>
+void each_beyond(const Adjacency& adjacency, const LightView& view, uint32_t triangle, int edge, const Visit& visit) {
+  const glm::dvec3 a = view.corner(triangle, edge), b = view.corner(triangle, (edge + 1) % 3);
+  const double own = view.orientation(a, b, view.corner(triangle, (edge + 2) % 3));
+  const std::array<uint32_t, 3>& corners = adjacency.welded(triangle);
+  for (uint32_t other : adjacency.across(triangle, edge)) {
+    if (view.edge_on(other)) continue;
+    for (int i = 0; i < 3; ++i) {
+      const uint32_t v = adjacency.welded(other)[i];
+      if (v == corners[edge] || v == corners[(edge + 1) % 3]) continue;
+      const double side = view.orientation(a, b, view.corner(other, i));
+      if ((own > 0 && side < 0) || (own < 0 && side > 0)) {
+        visit(other);
+        break;
+      }
+    }
+  }
+}
+
 class Silhouettes {
  public:
   // reach_m: the distance that counts as near, in metres across the light's rays.
@@ -57,6 +78,9 @@ class Silhouettes {
     bool listed_ = false;  // false: the places lie in several charts, and all silhouettes are asked
     std::vector<uint32_t> edges_;
   };
+  // True only if no silhouette comes within reach_m of a place of the rectangle around these places, so that none
+  // crosses a way inside it.
+  bool none_among(std::span<const glm::dvec3> places) const;
   // nearby: its memory is used again.
   void list_nearby(std::span<const glm::dvec3> places, Nearby& nearby) const;
 
@@ -101,6 +125,8 @@ class Silhouettes {
   };
 
   void fill(Grid& grid, const std::vector<Piece>& pieces);
+  // The rectangle around these places in their chart; false if they lie in several.
+  bool rectangle(std::span<const glm::dvec3> places, int& chart, glm::dvec2& low, glm::dvec2& high) const;
   // The grid that x lies in, and where.
   const Grid& grid_of(glm::dvec3 x, glm::dvec2& at) const {
     return grids_[static_cast<size_t>(view_.rays().chart_of(x, at))];

@@ -14,6 +14,57 @@
 #include "scenes/error.h"
 
 namespace noonmark::raytrace {
+namespace {
+
+// Pixels, in the picture's order.
+struct Facing {
+  std::vector<uint32_t> facing;   // that face the light
+  std::vector<uint32_t> unknown;  // those of them that the cells do not answer
+};
+
+// Sets truth.facing; and truth.lit where the cells answer. cells: may be null.
+Facing find_facing(const ReceiverImage& receivers, const LightFrame& frame, LightCells* cells, ReceiverTruth& truth) {
+  constexpr size_t pixels_per_part = 8192;
+  const size_t pixels = receivers.primitive.size();
+  std::vector<Facing> parts((pixels + pixels_per_part - 1) / pixels_per_part);
+  const bool one_direction = frame.light().rays().have_one_direction();
+  const glm::dvec3 only_direction = one_direction ? frame.direction_to_light() : glm::dvec3(0);
+  // LightFrame::to_light(), without the cost of a call for each pixel.
+  const glm::dvec3 origin = frame.origin_m, right = frame.right, up = frame.up, forward = frame.forward;
+  const auto in_light = [=](glm::dvec3 p) {
+    return glm::dvec3(glm::dot(p - origin, right), glm::dot(p - origin, up), glm::dot(p - origin, forward));
+  };
+  tbb::parallel_for(size_t{0}, parts.size(), [&](size_t part) {
+    std::optional<LightCells::Reader> reader;
+    if (cells) reader.emplace(*cells);
+    Facing& found = parts[part];
+    for (size_t i = part * pixels_per_part; i < std::min(pixels, (part + 1) * pixels_per_part); ++i) {
+      if (receivers.primitive[i] == no_primitive) continue;
+      const glm::dvec3 p = receivers.position[i], normal = receivers.normal[i];
+      if (!one_direction && !frame.reaches(p)) continue;
+      const double cosine = glm::dot(normal, one_direction ? only_direction : frame.direction_to_light(p));
+      if (!(cosine > 0)) continue;
+      truth.facing[i] = 1;
+      found.facing.push_back(static_cast<uint32_t>(i));
+      const LightCells::Answer answer = reader && cosine >= LightCells::least_cosine
+                                            ? reader->at(in_light(p), receivers.primitive[i])
+                                            : LightCells::Answer::unknown;
+      if (answer == LightCells::Answer::unknown)
+        found.unknown.push_back(static_cast<uint32_t>(i));
+      else
+        truth.lit[i] = answer == LightCells::Answer::lit;
+    }
+  });
+  Facing all;
+  for (const Facing& part : parts) {
+    all.facing.insert(all.facing.end(), part.facing.begin(), part.facing.end());
+    all.unknown.insert(all.unknown.end(), part.unknown.begin(), part.unknown.end());
+  }
+  return all;
+}
+
+}  // namespace
+
 const ReceiverImage& Tracer::on_first(const ReceiverImage& receivers, std::optional<ReceiverImage>& made) const {
   const Adjacency& adjacency = traced_->adjacency;
   if (!adjacency.any_copies()) return receivers;
@@ -23,7 +74,8 @@ const ReceiverImage& Tracer::on_first(const ReceiverImage& receivers, std::optio
   return *made;
 }
 
-Tracer::Tracer(const Scene& scene) try : traced_(std::make_unique<TracedScene>(scene)) {
+Tracer::Tracer(const Scene& scene, bool use_cells) try
+    : traced_(std::make_unique<TracedScene>(scene)), use_cells_(use_cells) {
 } catch (const std::bad_alloc&) {
   throw Error(ErrorKind::device,
               "the ray tracer's tables for " + std::to_string(scene.triangles.size()) +
@@ -52,47 +104,46 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
   const ShadowStart start(traced_->scene, receivers, frame);
   ReceiverTruth truth{Image<uint8_t>(width, height), Image<uint8_t>(width, height), Image<uint8_t>(width, height), {}};
 
-  std::vector<uint32_t> facing;
-  for (size_t i = 0; i < receivers.primitive.size(); ++i) {
-    if (receivers.primitive[i] == no_primitive) continue;
-    const glm::dvec3 p = receivers.position[i];
-    truth.facing[i] = frame.reaches(p) && glm::dot(glm::dvec3(receivers.normal[i]), frame.direction_to_light(p)) > 0;
-    if (truth.facing[i]) facing.push_back(static_cast<uint32_t>(i));
-  }
+  const std::shared_ptr<LightSide> light = traced_->lit_by(frame);
+  LightCells* const cells = use_cells_ ? light->cells(receivers) : nullptr;
+  const Facing found = find_facing(receivers, frame, cells, truth);
 
   // The verdict of each receiver at P and at four places beside it, at the distance of the float error.
-  const double error = traced_->lit_by(frame)->view().ray_error_m();
+  const double error = light->view().ray_error_m();
   const glm::dvec2 places[5] = {{0, 0}, {error, 0}, {-error, 0}, {0, error}, {0, -error}};
-  for_each_packet(facing.size(), [&](size_t first, int n) {
+  for_each_packet(found.unknown.size(), [&](size_t first, int n) {
     uint32_t dark[5];
     for (int place = 0; place < 5; ++place) {
       ShadowRay rays[packet_size];
-      for (int i = 0; i < n; ++i)
-        rays[i] = place == 0 ? start.whole(facing[first + i]) : start.beside(facing[first + i], places[place]);
+      for (int i = 0; i < n; ++i) {
+        const uint32_t pixel = found.unknown[first + static_cast<size_t>(i)];
+        rays[i] = place == 0 ? start.whole(pixel) : start.beside(pixel, places[place]);
+      }
       dark[place] = traced_->embree.occluded(n, rays);
     }
     const uint32_t any = dark[0] | dark[1] | dark[2] | dark[3] | dark[4],
                    all = dark[0] & dark[1] & dark[2] & dark[3] & dark[4];
     for (int i = 0; i < n; ++i) {
-      truth.lit[facing[first + i]] = !(dark[0] >> i & 1);
-      truth.ambiguous[facing[first + i]] = (any ^ all) >> i & 1;
+      const uint32_t pixel = found.unknown[first + static_cast<size_t>(i)];
+      truth.lit[pixel] = !(dark[0] >> i & 1);
+      truth.ambiguous[pixel] = (any ^ all) >> i & 1;
     }
   });
 
   watch.emplace(soft_stage, traced_->device);
   if (has_size(soft.light)) {
-    truth.soft =
-        sample_light(traced_->scene, traced_->embree, receivers, facing, frame, soft.light, soft.standard_error);
+    truth.soft = sample_light(traced_->scene, traced_->embree, receivers, found.facing, frame, soft.light,
+                              soft.standard_error, cells);
   } else {
-    truth.soft = Image<float>(width, height, 0);
-    for (uint32_t i : facing) truth.soft[i] = truth.lit[i];
+    truth.soft = Image<float>(width, height);
+    std::copy(truth.lit.pixels.begin(), truth.lit.pixels.end(), truth.soft.pixels.begin());
   }
   return truth;
 }
 
 LookupTracer Tracer::lookup(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,
                             const MapSettings& map, const Bias& bias, double offset_unit) const {
-  return LookupTracer(*traced_, receivers, truth, frame, map, bias, offset_unit);
+  return LookupTracer(*traced_, receivers, truth, frame, map, bias, offset_unit, use_cells_);
 }
 
 PlacementTracer Tracer::placements(const ReceiverImage& receivers, const ReceiverTruth& truth, const LightFrame& frame,

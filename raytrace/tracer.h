@@ -37,7 +37,8 @@ struct SoftTruth {
 
 class Tracer {
  public:
-  explicit Tracer(const Scene& scene);
+  // use_cells: false asks rays for everything that cells could answer (raytrace/light_cells.h). The answers are the same.
+  explicit Tracer(const Scene& scene, bool use_cells = true);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
@@ -75,6 +76,7 @@ class Tracer {
   // differ.
   const ReceiverImage& on_first(const ReceiverImage& receivers, std::optional<ReceiverImage>& made) const;
   std::unique_ptr<TracedScene> traced_;
+  bool use_cells_;
 };
 
 }  // namespace noonmark::raytrace

@@ -285,7 +285,7 @@ TEST(HardTruthLaws, EmptyAndOneTriangleScenesAndNoReceivers) {
   StageTime hard, soft;
   const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {}, &hard, &soft);
   for (size_t i = 0; i < 100; ++i) EXPECT_TRUE(truth.facing[i] && truth.lit[i] && truth.soft[i] == 1);
-  EXPECT_EQ(hard.rays, 500u);
+  EXPECT_LE(hard.rays, 500u);  // five for each receiver that the cells do not answer
   EXPECT_EQ(soft.rays, 0u);
 
   const ReceiverImage background = receivers_at(one, {}, {0, 1, 0}, true);

@@ -1,0 +1,204 @@
+// Cells of the light's plane in which R1 is known without a ray. Every answer is the one that the program's own rays
+// give, with certainty; where that cannot be proved, the answer is `unknown`, and the rays are cast.
+//
+//   LightCells cells(adjacency, view, embree.near_distance(), 1024);  // built once for a light
+//   LightCells::Reader reader(cells);                                // one for each thread
+//   LightCells::Answer a = reader.at(frame.to_light(P), primitive);  // of a receiver that is not grazing
+//
+// A square of the light's plane is *good* if one surface F lies before everything else in it. The receivers on F are
+// lit there, all others are dark. A square that is not good is divided into four, down to `finest` on a side.
+// Squares are made when a receiver is first looked up in them. What a square says follows from the scene, the light and
+// the square alone, so answers and ray counts do not depend on the order of the questions, nor on threads.
+//
+// ---- Why a good square answers as the rays do
+//
+// Let e be LightView::ray_error_m, the most that a float ray passes beside its exact place, and `near` be
+// EmbreeScene::near_distance(), below which is_occluder() decides in double. All statements are about the square
+// widened by reach_m = e + Silhouettes::reach_of = 3 e. A receiver's five rays lie at most e beside P, and each is
+// off by at most e: they lie at most 2 e beside P, so the widened square holds all that they can meet.
+// The triangles of the widened square are listed without gaps. Copies are not among them, because no ray meets them.
+//   1. F covers the widened square. It is one triangle that covers it, or a sheet: a triangle together with all
+//      triangles that follow over the edges at which the surface goes on (each_beyond(), the rule of the silhouettes).
+//      All these edges go on, wherever they touch the widened square, so the sheet has no border in it.
+//   2. F covers each place only once: of two triangles of the sheet, an edge of one separates their shadows on the
+//      light's plane. This excludes sheets that wind around a point and lie above themselves.
+//   3. Everything else lies deeper than F by more than gap_m = 4 near.
+//   4. The receiver is not grazing: N.L >= least_cosine = 1/16. Its five rays start beside its own plane, by the rounding
+//      of P along the ray (ShadowStart::beside(): at most 2^-23 * 2 |P| / (1/16) < near / 64) and by e times the slope
+//      of the plane (16 e < near / 4, because e < 2^-20 of the largest coordinate and near is 2^-12 of it).
+// A receiver on F is lit: what lies deeper lies behind the start of all its rays. Other triangles of F are met only
+// beyond the edges of its own triangle. If F is more than one triangle, P must lie in its own triangle and more than
+// reach_m from its edges. So each ray can meet its own triangle only, which is no occluder.
+// A receiver that is not on F is dark: each ray meets F, at a distance of more than gap_m - near > near and of more than
+// twice its own plane's. There is_occluder() is true, whatever the triangle. Edges that go on have bitwise equal ends,
+// and Embree's robust test lets no ray pass between such triangles.
+// All five rays agree, so the receiver is not ambiguous.
+//
+// If F is a sheet, whether a receiver is on it is read off its depth: F ends before split_m, everything else lies behind
+// it, each by 2 near.
+//
+// ---- Why the rays to all of a sun meet the same
+//
+// A ray from P to a place of the disc is, s metres nearer to the light, at most s tangent beside P. A square is *out of
+// reach* if a ray is nearer to the light than all that is in the square before it comes there. If all squares are either
+// good or out of reach, and P's own square is good:
+//   - F is the first surface at each place of a good square, so it is one continuous surface over neighbouring good
+//     squares. Where its slope times tangent is at most 1/2, s metres of a ray bring it at least s / 2 further from F.
+//   - A ray from a receiver on F never meets F again: it leaves its own triangle at least reach_m beside P, and is then at
+//     least reach_m / (2 tangent) before F; a float ray, e beside it, is nearer to F by at most e / (2 tangent). Where it
+//     enters a square out of reach, it lies before everything there and, at the border, before F. So each receiver that
+//     is lit sees the whole disc.
+//   - A ray from a receiver behind F ends before everything. On its way F is continuous until it is before F, so it meets
+//     F, at a distance of at least 2 / 3 of gap_m > near. So each dark receiver sees nothing of the disc.
+//   - No ray starts below the receiver's own horizon, because N.L is greater than tangent.
+//
+// Only parallel rays have cells so far.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "raytrace/adjacency.h"
+#include "raytrace/light_view.h"
+
+namespace noonmark {
+
+class LightCells {
+ public:
+  static constexpr double least_cosine = 1.0 / 16;
+  // Squares take at most so much memory. When it is used up, no square is divided any more.
+  static constexpr size_t most_bytes = size_t{192} << 20;
+
+  // near_m: EmbreeScene::near_distance(). finest: about the number of the finest squares along a side. adjacency must
+  // outlive it.
+  LightCells(const Adjacency& adjacency, const LightView& view, double near_m, int finest);
+  // What is worth its time for so many receivers.
+  static int finest_for(const ReceiverImage& receivers);
+  int finest() const { return finest_; }
+  ~LightCells();
+  LightCells(const LightCells&) = delete;
+  LightCells& operator=(const LightCells&) = delete;
+
+  enum class Answer : uint8_t { unknown, lit, dark };
+  class Reader;
+
+ private:
+  enum class Kind : uint8_t { mixed, nothing, triangle, sheet };
+  struct Four;
+  struct Cell {
+    Kind kind = Kind::mixed;
+    uint8_t divisions = 0;          // how many times it can be divided
+    uint32_t front = no_primitive;  // Kind::triangle: F
+    double split_m = 0;             // Kind::sheet
+    double nearest_m =
+        std::numeric_limits<double>::infinity();  // no triangle in the widened square is nearer to the light
+    double slope = 0;                             // good squares: how much deeper F becomes for a metre, at most
+    std::atomic<Four*> four{nullptr};
+    std::vector<uint32_t> triangles;  // that touch the widened square; empty if it is not divided any further
+  };
+  struct Square {
+    glm::dvec2 middle;
+    double half;  // of its side; widened
+  };
+  // A triangle as the light sees it.
+  struct Outline {
+    glm::dvec2 corner[3];
+    glm::dvec2 low, high;
+    double sign;  // of its orientation
+    // Twice the area of the triangle of an edge and a place; positive if the place lies on the edge's inner side.
+    double inside(int edge, glm::dvec2 place) const {
+      const glm::dvec2 from = corner[edge], way = corner[(edge + 1) % 3] - from, to = place - from;
+      return sign * (way.x * to.y - way.y * to.x);
+    }
+    // How much that differs at most within a square.
+    double spread(int edge, double half) const {
+      const glm::dvec2 way = corner[(edge + 1) % 3] - corner[edge];
+      return half * (std::abs(way.x) + std::abs(way.y));
+    }
+  };
+  // What a triangle is within a square.
+  struct Part {
+    Outline outline;
+    double least, most;    // depth
+    double at_middle = 0;  // of its plane
+    glm::dvec2 gradient{0};
+    bool flat = true;     // the plane is not edge-on
+    bool covers = false;  // all of the square
+  };
+
+  // Places in units of the finest squares.
+  glm::dvec2 place(glm::dvec2 light) const { return (light - low_) * fine_per_m_; }
+  Square square_at(uint32_t x, uint32_t y, int divisions) const;
+  Outline outline(uint32_t triangle) const;
+  static bool touches(const Outline& triangle, const Square& square);
+  static bool edge_touches(const Outline& triangle, int edge, const Square& square);
+  static bool apart(const Outline& a, const Outline& b);
+  void list_base();
+  Cell* base_cell(uint32_t x, uint32_t y);
+  Four* divide(Cell& cell, uint32_t x, uint32_t y);  // x, y: of a finest square in it
+  void judge(Cell& cell, const Square& square) const;
+  bool judge_triangle(Cell& cell, const std::vector<Part>& parts, const Square& square) const;
+  bool judge_sheet(Cell& cell, const std::vector<Part>& parts, const Square& square) const;
+  // Whether the cell is out of reach of the disc as `at` sees it, or good, or divided into such cells.
+  bool disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent);
+  bool well_inside(uint32_t triangle, glm::dvec2 at) const;
+  void free_below(Cell& cell);
+
+  int finest_;
+  const Adjacency& adjacency_;
+  LightView view_;
+  double reach_m_, gap_m_;
+  uint32_t triangles_ = 0;                                      // without copies
+  double nearest_m_ = std::numeric_limits<double>::infinity();  // of the scene
+  glm::dvec2 low_{0};
+  double fine_per_m_ = 0;
+  uint32_t base_size_ = 0;                // undivided squares on a side
+  int divisions_ = 0;                     // of an undivided square
+  uint32_t fine_size_ = 0;                // finest squares on a side
+  std::vector<uint32_t> begin_, listed_;  // the triangles of the undivided squares
+  std::vector<std::atomic<Cell*>> base_;
+  std::atomic<size_t> bytes_{0};
+  std::mutex locks_[64];
+};
+
+struct LightCells::Four {
+  Cell cell[4];
+};
+
+// Remembers the square of the last question, because neighbouring pixels mostly lie in one square.
+class LightCells::Reader {
+ public:
+  explicit Reader(LightCells& cells) : cells_(cells) {}
+
+  // at: P in the light's frame. primitive: its triangle, and no copy. Its N.L is at least least_cosine.
+  Answer at(glm::dvec3 at, uint32_t primitive) {
+    const glm::dvec2 fine = cells_.place(glm::dvec2(at));
+    const double size = cells_.fine_size_;
+    if (!(fine.x >= 0 && fine.y >= 0 && fine.x < size && fine.y < size)) return Answer::unknown;
+    const auto x = static_cast<uint32_t>(static_cast<int32_t>(fine.x)),
+               y = static_cast<uint32_t>(static_cast<int32_t>(fine.y));
+    if (((x ^ x_) | (y ^ y_)) >> shift_) find(x, y);
+    if (cell_->kind == Kind::triangle) return cell_->front == primitive ? Answer::lit : Answer::dark;
+    if (cell_->kind != Kind::sheet) return Answer::unknown;
+    if (at.z > cell_->split_m) return Answer::dark;
+    return cells_.well_inside(primitive, glm::dvec2(at)) ? Answer::lit : Answer::unknown;
+  }
+
+  // The same for all rays to a disc of directions, whose radius is `tangent`: lit if no such ray meets an occluder, dark
+  // if all do. The receiver's N.L is at least least_cosine + tangent.
+  Answer disc_at(glm::dvec3 at, uint32_t primitive, double tangent);
+
+ private:
+  void find(uint32_t x, uint32_t y);
+
+  LightCells& cells_;
+  const Cell* cell_ = nullptr;
+  uint32_t x_ = ~0u, y_ = ~0u;  // a finest square in it
+  int shift_ = 0;               // its side is 2^shift finest squares
+};
+
+}  // namespace noonmark

@@ -1,0 +1,248 @@
+// What the truth costs, beside the rays that it cannot do without. ctest does not run it; it is built with
+// -DNOONMARK_BENCHMARKS=ON.
+//
+//   benchmark_cells [--r1] [rounds] [scene ...]       a scene: cube-room, hills, or the path of a glTF file
+//
+// Every row has a floor: the bare rays, one robust ray in packets of 16 for each receiver (R1), or for each distinct
+// place of its taps, without any decision about what they meet. Program and floor run in turns within one process; the
+// figures are medians of the process's CPU time.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <functional>
+#include <memory>
+#include <numbers>
+
+#include "raytrace/light_view.h"
+#include "raytrace/packets.h"
+#include "scenes/camera_fit.h"
+#include "scenes/camera_frame.h"
+#include "tests/raytrace/fixture.h"
+
+namespace noonmark::raytrace {
+namespace {
+
+constexpr int width = 1280, height = 720, map_resolution = 1024;
+
+// A bumpy ground under 25 spheres: 130,736 triangles.
+Scene hills() {
+  constexpr double pi = std::numbers::pi;
+  Scene scene;
+  add_surface(scene, "ground", 180, 180, false, [](double s, double t) {
+    const double x = 20 * s - 10, z = 10 - 20 * t;
+    return glm::dvec3(x, 0.25 * std::sin(1.7 * x) * std::cos(2.1 * z) + 0.05 * std::sin(9 * x + 3 * z), z);
+  });
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j)
+      add_surface(scene, "sphere", 52, 26, true, [=](double s, double t) {
+        const double phi = 2 * pi * s, up = pi * (t - 0.5);
+        return glm::dvec3(-7 + 3.5 * i, 1.0 + 0.3 * ((i * 7 + j * 3) % 4), -7 + 3.5 * j) +
+               0.9 * glm::dvec3(std::cos(up) * std::cos(phi), std::sin(up), -std::cos(up) * std::sin(phi));
+      });
+  scene.camera = {.eye_m = {9, 9, 14}, .target_m = {0, 0, 0}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 60};
+  scene.light.position_m = {6, 12, 4};
+  return scene;
+}
+
+ReceiverImage seen_by_camera(const Scene& scene, const EmbreeScene& embree) {
+  const CameraFrame camera = make_camera_frame(scene.camera, width, height);
+  Image<uint32_t> primitives(width, height, no_primitive);
+  for_each_packet(primitives.size(), [&](size_t first, int n) {
+    LightRay rays[packet_size];
+    for (int i = 0; i < n; ++i) {
+      const int pixel = static_cast<int>(first) + i;
+      const Ray ray = camera.pixel_ray(pixel % width, pixel / width, width, height);
+      rays[i] = {glm::vec3(ray.origin), glm::vec3(glm::normalize(ray.direction))};
+    }
+    embree.first_hits(n, rays, &primitives.pixels[first]);
+  });
+  return resolve_receivers(scene, scene.camera, primitives);
+}
+
+double cpu_ms() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
+}
+
+// Each job's median over the rounds; the first round warms up.
+std::vector<double> medians(int rounds, const std::vector<std::function<void()>>& jobs) {
+  std::vector<std::vector<double>> times(jobs.size());
+  for (int round = -1; round < rounds; ++round)
+    for (size_t j = 0; j < jobs.size(); ++j) {
+      const double before = cpu_ms();
+      jobs[j]();
+      if (round >= 0) times[j].push_back(cpu_ms() - before);
+    }
+  std::vector<double> result;
+  for (std::vector<double>& t : times) {
+    std::nth_element(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(t.size() / 2), t.end());
+    result.push_back(t[t.size() / 2]);
+  }
+  return result;
+}
+
+struct Bare {
+  glm::vec3 origin, direction;
+};
+
+class Bench {
+ public:
+  Bench(const std::string& name, int rounds)
+      : rounds_(rounds),
+        scene_(name == "hills" ? hills() : test::builtin(name)),
+        frame_(test::frame_of(scene_, map_resolution)),
+        embree_(device_, scene_),
+        tracer_(std::make_unique<Tracer>(scene_)),
+        receivers_(seen_by_camera(scene_, embree_)),
+        bare_(rtcNewScene(device_.get())) {
+    rtcSetSceneFlags(bare_, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    const auto fill = [&](RTCBufferType type, RTCFormat format, const auto& items) {
+      std::copy(items.begin(), items.end(),
+                static_cast<typename std::decay_t<decltype(items)>::value_type*>(
+                    rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(items[0]), items.size())));
+    };
+    fill(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, scene_.positions);
+    fill(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, scene_.triangles);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(bare_, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(bare_);
+    truth_ = tracer_->receiver_truth(receivers_, frame_, {});
+    for (size_t i = 0; i < truth_.facing.size(); ++i)
+      if (truth_.facing[i]) facing_.push_back(static_cast<uint32_t>(i));
+    fmt::print("{}: {} triangles, {} facing receivers of {} x {} pixels\n", name, scene_.triangles.size(),
+               facing_.size(), width, height);
+  }
+  ~Bench() { rtcReleaseScene(bare_); }
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+
+  void hard_truth() {
+    std::vector<Bare> rays;
+    for (uint32_t i : facing_)
+      rays.push_back({receivers_.position[i], frame_.light().way_to_centre(frame_, receivers_.position[i]).direction});
+    StageTime kept, first;
+    const auto judge = [&](StageTime& stage) {
+      stage = {};
+      truth_ = tracer_->receiver_truth(receivers_, frame_, {}, &stage);
+    };
+    const LightFrame other = test::frame_of(test::builtin("plane"), 1);
+    const std::vector<double> ms = medians(rounds_, {
+                                                        [&] { cast(rays); },
+                                                        [&] { judge(kept); },
+                                                        [&] { tracer_->receiver_truth({}, other, {}); },  // forgets
+                                                        [&] { judge(first); },
+                                                    });
+    row("R1 and its certainty", ms[1], ms[0], kept.rays, facing_.size());
+    row("R1, first use of the light", ms[3], ms[0], first.rays, facing_.size());
+  }
+
+  void soft_truth() {
+    StageTime hard, soft;
+    const SoftTruth sun = test::sun(0.53, 0.01);
+    const std::vector<double> ms =
+        medians(std::max(1, rounds_ / 3), {
+                                              [&] { tracer_->receiver_truth(receivers_, frame_, {}); },
+                                              [&] {
+                                                soft = {};
+                                                truth_ = tracer_->receiver_truth(receivers_, frame_, sun, &hard, &soft);
+                                              },
+                                          });
+    size_t partial = 0;
+    for (uint32_t i : facing_) partial += truth_.soft[i] > 0 && truth_.soft[i] < 1;
+    fmt::print("  {:<28} {:9.1f} ms CPU besides R1, {:6.2f} rays for each receiver; {:.2f} % lie in a penumbra\n",
+               "R0 of a sun of 0.53 degrees", ms[1] - ms[0], static_cast<double>(soft.rays) / count(),
+               100 * static_cast<double>(partial) / count());
+  }
+
+  void taps(const char* name, const FilterSettings& filter) {
+    const LookupProbe probe = test::probe_of(receivers_, frame_, filter);
+    std::vector<Bare> rays;
+    const auto add = [&](glm::dvec3 place) {
+      const LightRay ray = view_.ray(place);
+      rays.push_back({ray.origin, ray.direction});
+    };
+    std::vector<uint8_t> seen(size_t{1} << 26);
+    for (uint32_t i : facing_)
+      for (int tap = 0; tap < probe.taps(); ++tap) {
+        if (const glm::ivec2 t = probe.texel(i, tap) + 2048; t.x >= 0 && t.y >= 0 && t.x < 8192 && t.y < 8192) {
+          uint8_t& before = seen[static_cast<size_t>(t.y) * 8192 + static_cast<size_t>(t.x)];
+          if (!before) add(view_.texel_place(t - 2048));
+          before = 1;
+        }
+        if (const glm::dvec3 offset = probe.offset(i, tap); offset != glm::dvec3(0))
+          add(view_.normal_place(frame_.tap_place(frame_.to_light(receivers_.position[i]), offset)));
+      }
+    LookupTruth truth;
+    const std::vector<double> ms = medians(
+        rounds_, {[&] { cast(rays); }, [&] { truth = tracer_->lookup_truth(receivers_, truth_, probe, frame_, {}); }});
+    row(name, ms[1], ms[0], truth.texel_stage.rays + truth.tap_stage.rays, rays.size());
+  }
+
+ private:
+  double count() const { return static_cast<double>(facing_.size()); }
+
+  // rate: of the program, as a fraction of the floor's.
+  void row(const char* what, double ms, double floor, uint64_t cast, size_t bare) const {
+    fmt::print(
+        "  {:<28} {:9.1f} ms CPU, floor {:8.1f}: {:6.2f} x the floor, rate {:.3f}; {:.3f} rays for each bare ray\n",
+        what, ms, floor, ms / floor, floor / ms, static_cast<double>(cast) / static_cast<double>(bare));
+    std::fflush(stdout);
+  }
+
+  void cast(const std::vector<Bare>& rays) const {
+    for_each_packet(rays.size(), [&](size_t first, int n) {
+      alignas(64) RTCRay16 packet;
+      alignas(64) int valid[packet_size];
+      for (int i = 0; i < packet_size; ++i) {
+        valid[i] = i < n ? -1 : 0;
+        const Bare& ray = rays[first + static_cast<size_t>(i < n ? i : 0)];
+        packet.org_x[i] = ray.origin.x, packet.org_y[i] = ray.origin.y, packet.org_z[i] = ray.origin.z;
+        packet.dir_x[i] = ray.direction.x, packet.dir_y[i] = ray.direction.y, packet.dir_z[i] = ray.direction.z;
+        packet.tnear[i] = 1e-3f, packet.tfar[i] = std::numeric_limits<float>::infinity();
+        packet.time[i] = 0, packet.mask[i] = ~0u, packet.id[i] = static_cast<unsigned>(i), packet.flags[i] = 0;
+      }
+      embree::Context context;
+      embree::occluded16(valid, bare_, context, packet);
+    });
+  }
+
+  int rounds_;
+  Scene scene_;
+  LightFrame frame_;
+  EmbreeDevice device_;
+  EmbreeScene embree_;
+  LightView view_{scene_, frame_};
+  std::unique_ptr<Tracer> tracer_;
+  ReceiverImage receivers_;
+  ReceiverTruth truth_;
+  std::vector<uint32_t> facing_;
+  RTCScene bare_;
+};
+
+void measure(const std::string& name, int rounds, bool only_r1) {
+  Bench bench(name, rounds);
+  bench.hard_truth();
+  if (only_r1) return;
+  bench.taps("taps: no filter", {});
+  bench.taps("taps: box 3 x 3", test::box(3));
+  bench.taps("taps: box 7 x 7", test::box(7));
+  bench.soft_truth();
+}
+
+}  // namespace
+}  // namespace noonmark::raytrace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  const bool only_r1 = std::erase(arguments, "--r1") > 0;
+  const int rounds = arguments.empty() ? 5 : std::max(1, std::atoi(arguments[0].c_str()));
+  if (!arguments.empty()) arguments.erase(arguments.begin());
+  if (arguments.empty()) arguments = {"cube-room", "hills"};
+  for (const std::string& scene : arguments) noonmark::raytrace::measure(scene, rounds, only_r1);
+}
