@@ -210,17 +210,23 @@ inline Tap tap_of(const LookupProbe& probe, uint8_t bits, const MapSettings& map
   return result;
 }
 
-// The same with what the probe and the truth of the taps say of it. map_depth: the map that it reads (the exact map, or
-// the GPU's as its sampler returns it).
-inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSettings& map, const Image<float>& map_depth,
-                  size_t i, int tap) {
-  const glm::ivec2 size(map_depth.width, map_depth.height);
+// What the probe says that it reads. map_depth: the map that it reads (the exact map, or the GPU's as its sampler returns
+// it).
+inline TapRead tap_read(const LookupProbe& probe, const MapSettings& map, const Image<float>& map_depth, size_t i,
+                        int tap) {
   TapRead read;
   read.texel = probe.texel(i, tap);
-  const glm::ivec2 at = wrapped(read.texel, size, map.wrap);
+  const glm::ivec2 at = wrapped(read.texel, {map_depth.width, map_depth.height}, map.wrap);
   if (at.x >= 0) read.depth = map_depth.at(at.x, at.y);
   if (probe.cube_resolution == 0) read.position = probe.map_texels[i];
-  return tap_of(probe, taps.bits(i, tap), map, size, i, tap, read);
+  return read;
+}
+
+// The same with what the probe and the truth of the taps say of it.
+inline Tap tap_of(const LookupProbe& probe, const TapTruth& taps, const MapSettings& map, const Image<float>& map_depth,
+                  size_t i, int tap) {
+  return tap_of(probe, taps.bits(i, tap), map, {map_depth.width, map_depth.height}, i, tap,
+                tap_read(probe, map, map_depth, i, tap));
 }
 
 // The cause of a tap whose verdict at R4 is `lit`.
