@@ -39,6 +39,7 @@ constexpr double per_kept_triangle = 150;  // the second tree for the rays, with
 constexpr double per_listed_part_byte = 3.5;
 // All placements of the map's grid: where each placement looks up, the points of the lattice that are held at a time with
 // their tiles, and the sums by cause, placement and bias of each thread and of the whole.
+// Placements that form no lattice are measured one by one, beside the point itself: a probe, an exact map and taps each.
 constexpr double per_placed_pixel = 8, per_lattice_triangle = 260, per_placement = 10 * 8 * 512.0 * 12;
 constexpr double lattice_points = 9e6 * 28;
 constexpr double per_grid_cell = 8;  // the grid that lists a shadow's edges, for each face of the map
@@ -85,10 +86,15 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   const double outside = per_outside_texel * std::min(taps, input.outside_texels);
   const double beside = strip < all_taps ? curve + outside : std::max(curve, outside);
   const double side = s.map.placements;
-  const double placements = side > 1 ? lattice_points + pixels * per_placed_pixel * side + side * side * per_placement +
-                                           per_lattice_triangle * static_cast<double>(input.scene.triangles) +
-                                           texels * per_texel  // the worst placement is rendered too
-                                     : 0;
+  double placements = 0;
+  if (side > 1) {
+    placements = side * side * per_placement + texels * per_texel;  // the worst placement is rendered too
+    if (kind_of_light(input.light).placements_form_lattice())
+      placements += lattice_points + pixels * per_placed_pixel * side +
+                    per_lattice_triangle * static_cast<double>(input.scene.triangles);
+    else
+      placements += strip + pixels * per_pixel + per_asked_texel * std::min(taps, texels);
+  }
   return {{
       {"the placements of the map's grid", "lower map.placements", placements},
       {"the program itself", "use a machine with more memory, or raise its limit", program},

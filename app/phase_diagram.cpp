@@ -185,10 +185,12 @@ std::string technique_text(const Settings& settings) {
 Settings phase_settings(const Settings& given, const Scene& scene) {
   Settings settings = given;
   const LightKind light = effective_light(scene, settings).kind;
-  if (!kind_of_light(light).grid_can_shift())
-    throw Error(ErrorKind::usage,
-                "a phase diagram needs a map whose grid of texels can be shifted; a point light's cube has no such "
-                "shift, so set light.kind to directional or spot");
+  if (!kind_of_light(light).placements_form_lattice())
+    throw Error(
+        ErrorKind::usage,
+        "a phase diagram needs a map whose grid of texels can be shifted, so that one set of rays answers for all "
+        "placements; the placements of a point light's cube are turns, which share no texel, so set light.kind "
+        "to directional or spot");
   const Bias bias(settings.bias);
   const BiasPart* constant = &bias_part("constant");
   const bool others = std::any_of(bias.compared().begin(), bias.compared().end(),
@@ -238,7 +240,7 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
     const LookupProbe probe = renderer.probe(frame, settings, gl::ProbeTaps::none);
     raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, frame, settings.map,
                                                 Bias(settings.bias), polygon_offset_unit(renderer, settings));
-    PlacementStage stage(renderer, tracer, probe, view, truth, point, &bias_part("constant"), edges);
+    LatticeStage stage(renderer, tracer, probe, view, truth, point, &bias_part("constant"), edges);
     double blurred = 0;
     for (const PixelRange& strip : strips_of(settings, frame.kind, most_strip_bytes)) {
       const TapTruth taps = rays.trace_places(probe, strip);

@@ -23,37 +23,43 @@ std::vector<Image<glm::vec2>> positions_of(gl::Renderer& renderer, const Placeme
 
 }  // namespace
 
-PlacementStage::PlacementStage(gl::Renderer& renderer, const raytrace::Tracer& tracer, const LookupProbe& probe,
-                               const ViewStage& view, const TruthStage& truth, const PointSetup& point,
-                               const BiasPart* part, std::vector<float> edges)
-    : placements_(point.settings.map.placements),
-      frame_(point.frame),
+std::unique_ptr<PlacementStage> make_placement_stage(const PlacementInput& in, const BiasPart* part,
+                                                     std::vector<float> edges) {
+  if (in.point.frame.light().placements_form_lattice())
+    return std::make_unique<LatticeStage>(in.renderer, in.tracer, in.probe, in.view, in.truth, in.point, part,
+                                          std::move(edges));
+  return std::make_unique<TurnStage>(in, part, std::move(edges));
+}
+
+LatticeStage::LatticeStage(gl::Renderer& renderer, const raytrace::Tracer& tracer, const LookupProbe& probe,
+                           const ViewStage& view, const TruthStage& truth, const PointSetup& point,
+                           const BiasPart* part, std::vector<float> edges)
+    : PlacementStage(point.frame,
+                     PlacementCounts(Placements(point.settings.map.placements), probe, part, std::move(edges))),
       truth_(truth.receivers),
       map_(point.settings.map),
       bias_(point.settings.bias),
-      probe_(placements_, probe, positions_of(renderer, placements_, probe, point)),
-      rays_(tracer.placements(view.receivers, truth.receivers, point.frame, placements_, point.settings.map,
-                              Bias(point.settings.bias), polygon_offset_unit(renderer, point.settings))),
-      counts_(placements_, probe, part, std::move(edges)) {}
+      probe_(counts_.placements(), probe, positions_of(renderer, counts_.placements(), probe, point)),
+      rays_(tracer.placements(view.receivers, truth.receivers, point.frame, counts_.placements(), point.settings.map,
+                              Bias(point.settings.bias), polygon_offset_unit(renderer, point.settings))) {}
 
 template <class Visit>
-void PlacementStage::in_parts(PixelRange strip, size_t points, const Visit& visit) const {
+void LatticeStage::in_parts(PixelRange strip, size_t points, const Visit& visit) const {
   const size_t pixels = std::max<size_t>(1, most_points / (points * static_cast<size_t>(probe_.probe().taps())));
   for (size_t first = strip.first; first < strip.end; first += pixels)
     visit(PixelRange{first, std::min(strip.end, first + pixels)});
 }
 
-void PlacementStage::add(const TapTruth& known, PixelRange strip) {
+void LatticeStage::add(const TapTruth& known, PixelRange strip) {
   const PlacementEvidence evidence{truth_, probe_.probe(), known, map_, bias_, frame_.map_size()};
-  in_parts(strip, static_cast<size_t>(placements_.count()), [&](PixelRange part) {
+  in_parts(strip, static_cast<size_t>(counts_.placements().count()), [&](PixelRange part) {
     rays_.trace(probe_, part, &time_);
     // The same partition on any machine, so that the sums of weights are too.
     struct Body {
-      const PlacementStage& stage;
+      const LatticeStage& stage;
       const PlacementEvidence& evidence;
       PlacementCounts counts;
-      Body(const PlacementStage& s, const PlacementEvidence& e)
-          : stage(s), evidence(e), counts(s.counts_.empty_copy()) {}
+      Body(const LatticeStage& s, const PlacementEvidence& e) : stage(s), evidence(e), counts(s.counts_.empty_copy()) {}
       Body(Body& other, tbb::split) : Body(other.stage, other.evidence) {}
       void operator()(const tbb::blocked_range<size_t>& range) {
         PlacedTaps taps;
@@ -73,7 +79,7 @@ void PlacementStage::add(const TapTruth& known, PixelRange strip) {
   });
 }
 
-void PlacementStage::compare(const LookupEvidence& evidence, int placement, PixelRange strip) {
+void LatticeStage::compare(const LookupEvidence& evidence, int placement, PixelRange strip) {
   in_parts(strip, 1, [&](PixelRange part) {
     rays_.trace(probe_, part, &time_, placement);
     disagreements_ += tbb::parallel_reduce(
@@ -91,6 +97,56 @@ void PlacementStage::compare(const LookupEvidence& evidence, int placement, Pixe
         },
         std::plus<>());
   });
+}
+
+TurnStage::TurnStage(const PlacementInput& input, const BiasPart* part, std::vector<float> edges)
+    : PlacementStage(input.point.frame, PlacementCounts(Placements(input.point.settings.map.placements), input.probe,
+                                                        part, std::move(edges))),
+      in_(input),
+      first_(counts_.empty_copy_of_one()) {}
+
+void TurnStage::add(const LookupEvidence& evidence, PixelRange strip) { count(evidence, strip, first_); }
+
+void TurnStage::finish() {
+  if (first_.receivers() == 0) return;  // nothing can be judged
+  counts_.put(0, first_);
+  for (int placement = 1; placement < counts_.placements().count(); ++placement) {
+    const LightFrame turned = frame(placement);
+    const PointSetup point{in_.point.settings, turned};
+    LookupStage lookup = in_.stages.prepare_lookup(in_.renderer, in_.tracer, in_.view, in_.truth, point);
+    PlacementCounts one = counts_.empty_copy_of_one();
+    each_strip_of(in_.renderer, lookup, in_.truth, point,
+                  [&](const LookupEvidence& evidence, PixelRange strip) { count(evidence, strip, one); });
+    counts_.put(placement, one);
+    for (const StageTime& stage : {lookup.texel_stage, lookup.tap_stage}) {
+      time_.milliseconds += stage.milliseconds;
+      time_.rays += stage.rays;
+    }
+  }
+}
+
+void TurnStage::compare(const LookupEvidence& evidence, int placement, PixelRange strip) {
+  if (!again_ || compared_ != placement) again_.emplace(counts_.empty_copy_of_one());
+  compared_ = placement;
+  count(evidence, strip, *again_);
+}
+
+void TurnStage::count(const LookupEvidence& evidence, PixelRange strip, PlacementCounts& one) const {
+  struct Body {
+    const LookupEvidence& evidence;
+    PlacementCounts counts;
+    Body(const LookupEvidence& e, const PlacementCounts& like) : evidence(e), counts(like.empty_copy()) {}
+    Body(Body& other, tbb::split) : Body(other.evidence, other.counts) {}
+    void operator()(const tbb::blocked_range<size_t>& range) {
+      for (size_t i = range.begin(); i != range.end(); ++i)
+        if (evidence.truth.facing[i]) counts.add(evidence, i);
+    }
+    void join(const Body& other) { counts.add(other.counts); }
+  } body(evidence, one);
+  // The same partition on any machine, so that the sums of weights are too.
+  tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<size_t>(strip.first, strip.end, std::max<size_t>(1, strip.size() / 16)), body);
+  one.add(body.counts);
 }
 
 }  // namespace noonmark

@@ -53,6 +53,16 @@ std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, siz
   return strips;
 }
 
+void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const PointSetup& point,
+                   const EachStrip& each_strip) {
+  const ShownStage nothing;
+  const LookupEvidence evidence = evidence_of(lookup, truth, nothing, point.settings);
+  for (const PixelRange& strip : lookup.strips) {
+    if (lookup.rays) bring_taps(renderer, lookup, point, strip);
+    each_strip(evidence, strip);
+  }
+}
+
 double polygon_offset_unit(gl::Renderer& renderer, const Settings& settings) {
   return Bias(settings.bias).polygon_offset() ? renderer.polygon_offset_unit(settings.map.format) : 0;
 }

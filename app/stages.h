@@ -85,6 +85,10 @@ using EachStrip = std::function<void(const LookupEvidence&, PixelRange)>;
 // Whole rows of the picture: as many as have room for their taps in this many bytes, at least one.
 std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t strip_bytes);
 
+// Traces the taps of a lookup strip by strip. The evidence has no pictures of OpenGL: its r4 and r5 are empty.
+void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const PointSetup& point,
+                   const EachStrip& each_strip);
+
 // gl::Renderer::polygon_offset_unit, or 0 if the bias has no polygon offset.
 double polygon_offset_unit(gl::Renderer& renderer, const Settings& settings);
 

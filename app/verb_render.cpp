@@ -16,6 +16,7 @@
 #include "scenes/library.h"
 #include "scenes/text.h"
 #include "technique/bias.h"
+#include "technique/placements.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {
@@ -50,8 +51,10 @@ void print_placements(const Measurement& m) {
     fmt::print("  {:<32}{:>11.5f}%{:>11.5f}%{:>11.5f}%\n", name, 100 * metrics.at(name + "_mean"),
                100 * metrics.at(name + "_worst"), 100 * metrics.at(name + "_p95"));
   }
-  fmt::print("  the worst is {:+g}, {:+g} texels from this point; OpenGL shows {:.5f}% error there\n",
-             metrics.at("worst_shift_u_texels"), metrics.at("worst_shift_v_texels"),
+  std::vector<double> worst;
+  for (const PlacementFact& fact : m.frame.light().placement_facts(m.frame, Placements(side), 0))
+    worst.push_back(metrics.at(fmt::format("worst_{}", fact.name)));
+  fmt::print("  the worst is {}; OpenGL shows {:.5f}% error there\n", m.frame.light().placement_text(worst),
              100 * metrics.at("error_worst_shown"));
 }
 

@@ -202,12 +202,12 @@ AvailableMemory Workbench::memory_of_program(bool pictures) const {
   return noonmark::memory_of_program(impl_->space_at_start, room_to_start(pictures));
 }
 
-// Adds the metrics over all placements. OpenGL renders the worst placement too: the lattice is compared with it tap by
-// tap, and what it shows there is a metric of its own.
+// Adds the metrics over all placements. OpenGL renders the worst placement too: the counts are compared with it, and what
+// it shows there is a metric of its own.
 void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen,
                                      const TruthStage& traced, const PointSetup& point) {
-  record.metrics.merge(placement_metrics(placements.counts()));
   const int worst = worst_placement(placements.counts());
+  record.metrics.merge(placement_metrics(placements.counts(), placements.facts(worst)));
   const LightFrame frame = placements.frame(worst);
   const PointSetup moved{point.settings, frame};
   const SceneStage& loaded = load(point.settings);
@@ -281,18 +281,16 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   // Only for a curve that is not known yet.
   const BiasScale scale =
       unknown ? bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit) : BiasScale();
-  std::optional<PlacementStage> placements;
+  std::unique_ptr<PlacementStage> placements;
   EachStrip each_strip;
   if (settings.map.placements > 1) {
-    placements.emplace(
-        b.renderer, *loaded.tracer, lookup.probe, view, truth, point, unknown,
+    placements = make_placement_stage(
+        {*b.stages, b.renderer, *loaded.tracer, lookup.probe, view, truth, point}, unknown,
         unknown ? placement_edges(biases_of(*curve_options), scale.depth_per_unit) : std::vector<float>());
-    each_strip = [&](const LookupEvidence& evidence, PixelRange strip) {
-      placements->add(evidence.taps, strip);
-      placements->compare(evidence, 0, strip);
-    };
+    each_strip = [&](const LookupEvidence& evidence, PixelRange strip) { placements->add(evidence, strip); };
   }
   Climbed climbed = b.stages->climb_strips(b.renderer, map, lookup, view, truth, shown, point, unknown, each_strip);
+  if (placements) placements->finish();
   if (on_top) add_rung(climbed.ladder, std::move(*on_top));
   Measurement m{{},           settings,  std::move(climbed.ladder), frame, view.camera, scene, view.receivers,
                 lookup.probe, map.depth, lookup.exact_depth};

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "gl/bias_text.h"
-#include "technique/light_kind.h"
 
 namespace noonmark::gl {
 
@@ -13,13 +12,15 @@ std::string uniform(const FilterRead& read) { return fmt::format("filter_{}", re
 
 }  // namespace
 
-ShaderSlots receiver_slots(ProgramCache& programs, LightKind light, const Bias& bias) {
+ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, const Bias& bias) {
   const std::string bias_name = bias_text_name(bias);
   programs.define(bias_name, bias_text(bias));
-  return {{"light", fmt::format("shaders/light/{}.glsl", kind_of_light(light).name())}, {"bias", bias_name}};
+  return {{"light", fmt::format("shaders/light/{}.glsl", frame.light().name())},
+          {"cube", frame.turned() ? "shaders/map/cube_turned.glsl" : "shaders/map/cube_along_world.glsl"},
+          {"bias", bias_name}};
 }
 
-ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bias, const Filter& filter) {
+ShaderSlots lookup_slots(ProgramCache& programs, const LightFrame& frame, const Bias& bias, const Filter& filter) {
   const std::string name(filter.name);
   std::string text;
   for (const FilterRead& read : filter.reads)
@@ -32,7 +33,7 @@ ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bi
         name);
   text += fmt::format("#include \"shaders/filter/{}.glsl\"\n", filter.shader);
 
-  ShaderSlots slots = receiver_slots(programs, light, bias);
+  ShaderSlots slots = receiver_slots(programs, frame, bias);
   slots["filter"] = "filter " + name;
   programs.define(slots["filter"], text);
   return slots;

@@ -4,13 +4,14 @@
 #include "gl/program.h"
 #include "technique/bias.h"
 #include "technique/filters.h"
+#include "technique/light_frame.h"
 #include "technique/settings.h"
 
 namespace noonmark::gl {
 
-// The slots of a program that includes shaders/receiver.glsl: <light>, and <bias> (gl/bias_text.h), whose text it
-// defines in `programs`.
-ShaderSlots receiver_slots(ProgramCache& programs, LightKind light, const Bias& bias);
+// The slots of a program that includes shaders/receiver.glsl: <light>; <cube>, which only a cube map reads, so that a map
+// that is not turned has no rotation in its shader; and <bias> (gl/bias_text.h), whose text it defines in `programs`.
+ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, const Bias& bias);
 
 // The slots of a program that looks up the map. They are those of receiver_slots() and <filter>, a text that it defines in
 // `programs`: the uniforms of the filter's parameters (technique/filters.h), and the filter's file, which defines
@@ -18,7 +19,7 @@ ShaderSlots receiver_slots(ProgramCache& programs, LightKind light, const Bias& 
 //   float all_lit()                           its greatest value
 // If a formula gives the weights of the filter's taps, the text has before that file
 //   float filter_weight(int texel, float s)   the weight of texel 0 ... filter_size along one axis
-ShaderSlots lookup_slots(ProgramCache& programs, LightKind light, const Bias& bias, const Filter& filter);
+ShaderSlots lookup_slots(ProgramCache& programs, const LightFrame& frame, const Bias& bias, const Filter& filter);
 
 void set_filter_uniforms(Program& program, const Filter& filter, const FilterSettings& settings);
 

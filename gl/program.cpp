@@ -72,6 +72,9 @@ void Program::set_if_used(const char* uniform, int value) {
 void Program::set_if_used(const char* uniform, glm::vec3 value) {
   glProgramUniform3fv(id(), glGetUniformLocation(id(), uniform), 1, &value.x);
 }
+void Program::set_if_used(const char* uniform, const glm::mat3& value) {
+  glProgramUniformMatrix3fv(object_.id(), glGetUniformLocation(object_.id(), uniform), 1, GL_FALSE, &value[0][0]);
+}
 void Program::set_if_used(const char* uniform, const glm::mat4& value) {
   glProgramUniformMatrix4fv(id(), glGetUniformLocation(id(), uniform), 1, GL_FALSE, &value[0][0]);
 }

@@ -37,6 +37,7 @@ class Program {
   void set_if_used(const char* uniform, float value);
   void set_if_used(const char* uniform, int value);
   void set_if_used(const char* uniform, glm::vec3 value);
+  void set_if_used(const char* uniform, const glm::mat3& value);
   void set_if_used(const char* uniform, const glm::mat4& value);
 
  private:

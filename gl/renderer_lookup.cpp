@@ -51,8 +51,8 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
   const glm::vec3 light_position(frame.origin_m);
   const auto set = [&](const char* name, double value) { program.set_if_used(name, static_cast<float>(value)); };
   // The uniforms of the light, for shaders/light/view.glsl and the files beside it. Texel size and bias unit are those
-  // at one metre along the axis, in the light's frame.
-  const glm::dvec3 one_metre(0, 0, 1);
+  // at one metre along the axis of the light or of the cube's face, in the light's frame.
+  const glm::dvec3 one_metre = frame.tile(0).forward;
   program.set_if_used("light_position", light_position);
   set("light_texel_m", frame.texel_m(one_metre));
   program.set_if_used("bias_unit", static_cast<int>(settings.bias.unit));
@@ -70,6 +70,7 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
     program.set_if_used("light_right", glm::vec3(frame.right));
     program.set_if_used("light_up", glm::vec3(frame.up));
   }
+  if (frame.turned()) program.set_if_used("cube_axes", glm::mat3(frame.cube_axes));
   set_bias_uniforms(program, Bias(settings.bias));
   // The uniforms and images of the receivers.
   program.set_if_used("eye_m", eye_m);
@@ -104,7 +105,7 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
                             frame.tiles, frame.resolution, map.impl_->cube ? 6 : 1, map.resolution()));
   const TapPattern pattern = tap_pattern(settings.filter);
   const Filter& filter = find_filter(settings.filter.kind);
-  const ShaderSlots slots = lookup_slots(r.programs, frame.kind, Bias(settings.bias), filter);
+  const ShaderSlots slots = lookup_slots(r.programs, frame, Bias(settings.bias), filter);
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/lookup.frag"}, slots);
   r.set_receiver_uniforms(program, frame, settings);
   r.set_pattern(program, pattern);
@@ -121,7 +122,8 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
   const int width = r.position_image.width, height = r.position_image.height;
   r.require(r.lit, GL_R32F, width, height);
   r.draw_into({r.lit.texture.id()}, 0, width, height);
-  const std::string key = fmt::format("lookup {} {} {}", slots.at("light"), slots.at("bias"), settings.filter.kind);
+  const std::string key =
+      fmt::format("lookup {} {} {} {}", slots.at("light"), slots.at("cube"), slots.at("bias"), settings.filter.kind);
   r.run(key, time_ms, [&] { r.draw_screen(program); });
   r.detach(1);
   glBindTextureUnit(2, 0);

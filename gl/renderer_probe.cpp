@@ -41,7 +41,7 @@ LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings, P
   r.check_resolution(frame.resolution, cube);
   const Bias bias(settings.bias);
   Program& program =
-      r.programs.get({"shaders/screen.vert", "shaders/probe.frag"}, receiver_slots(r.programs, frame.kind, bias));
+      r.programs.get({"shaders/screen.vert", "shaders/probe.frag"}, receiver_slots(r.programs, frame, bias));
   r.set_receiver_uniforms(program, frame, settings);
   const int width = r.position_image.width, height = r.position_image.height;
   r.require(r.probe_scalars, GL_RGBA32F, width, height);
@@ -103,7 +103,7 @@ std::vector<uint32_t> Renderer::Impl::cube_texels(const LookupProbe& probe, cons
     cube_index_resolution = frame.resolution;
   }
   Program& program = programs.get({"shaders/screen.vert", "shaders/probe_cube.frag"},
-                                  receiver_slots(programs, frame.kind, Bias(settings.bias)));
+                                  receiver_slots(programs, frame, Bias(settings.bias)));
   set_receiver_uniforms(program, frame, settings);
   set_pattern(program, probe.pattern);
   program.set("tap_begin", tap_begin);

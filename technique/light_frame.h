@@ -41,6 +41,10 @@ struct LightFrame {
   double tan_half_fov = 1;     // spot: tangent of half the map's angle; point: 1
   double cos_half_cone = -1;   // spot: cosine of half the light's cone
   glm::dvec2 shift_texels{0};  // spot: map.shift_*_texels
+  // Point: the turn of the map's cube as a rotation vector, and the cube's axes as columns, in the light's frame. The
+  // frame itself does not turn: places and rays stay the same, only the tiles move over them.
+  glm::dvec3 turn_deg{0};
+  glm::dmat3 cube_axes{1};
   double near_m = 0;
   double far_m = 1;
   int resolution = 1;  // texels on the side of a tile
@@ -50,6 +54,10 @@ struct LightFrame {
   MapShape map_shape() const { return light().map_shape(); }
   // True if the size of a texel and the step of depth are the same everywhere in the map.
   bool uniform() const { return tiles == 1 && tile(0).orthographic; }
+  // True if the map is a cube whose faces are not square to the world's axes.
+  bool turned() const { return turn_deg != glm::dvec3(0); }
+  // A point or direction of the light's frame along the axes of the cube.
+  glm::dvec3 in_cube(glm::dvec3 light) const { return turned() ? light * cube_axes : light; }
 
   // The map's tiles stand one above the other in its image.
   MapTile tile(int index) const { return light().tile(*this, index); }
@@ -101,8 +109,8 @@ struct LightFrame {
   double depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const;
 };
 
-// The axes of a cube face in the world, as OpenGL defines them: s points right, t points up, forward is the direction
-// of view.
+// The axes of a cube face along the cube's own axes, as OpenGL defines them: s points right, t points up, forward is the
+// direction of view.
 struct CubeFace {
   glm::dvec3 right, up, forward;
 };

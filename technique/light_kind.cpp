@@ -1,11 +1,14 @@
 #include "technique/light_kind.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "scenes/camera_frame.h"
 #include "technique/light_frame.h"
+#include "technique/placements.h"
 
 namespace noonmark {
 
@@ -23,6 +26,20 @@ const KindOfLight& kind_of_light(LightKind kind) { return *kinds_of_light()[stat
 void KindOfLight::texel_axes(const LightFrame& frame, glm::dvec3, glm::dvec3& right, glm::dvec3& up) const {
   right = frame.right;
   up = frame.up;
+}
+
+void KindOfLight::place_grid(LightFrame& frame, const Placements& placements, int placement) const {
+  shift_grid(frame, placements.shift_texels(placement));
+}
+
+std::vector<PlacementFact> KindOfLight::placement_facts(const LightFrame&, const Placements& placements,
+                                                        int placement) const {
+  const glm::dvec2 shift = placements.shift_texels(placement);
+  return {{"shift_u_texels", shift.x}, {"shift_v_texels", shift.y}};
+}
+
+std::string KindOfLight::placement_text(std::span<const double> values) const {
+  return fmt::format("{:+g}, {:+g} texels from this point", values[0], values[1]);
 }
 
 glm::dvec3 KindOfLight::direction_to_light(const LightFrame& frame, glm::dvec3 world) const {

@@ -19,6 +19,7 @@
 namespace noonmark {
 
 struct LightFrame;
+class Placements;
 
 // The shape of a map: a lookup reads a flat map by texels, and a cube map by a direction.
 enum class MapShape { flat, cube };
@@ -34,6 +35,12 @@ struct WayToLight {
 struct LightDisc {
   LightShape shape = LightShape::sphere;
   double radius = 0;  // KindOfLight::disc_radius
+};
+
+// A number that says which placement of the map's grid a measurement is of: {"shift_u_texels", 0.25}.
+struct PlacementFact {
+  std::string_view name;
+  double value = 0;
 };
 
 // A value that describes a light in point.json.
@@ -69,13 +76,22 @@ class KindOfLight {
   virtual MapTile tile(const LightFrame& frame, int index) const = 0;
   // The tile that a lookup reads at a point in the light's frame.
   virtual int tile_of(const LightFrame& /*frame*/, glm::dvec3 /*light*/) const { return 0; }
-  // Whether the grid of texels can be shifted as a whole. The grid of a cube cannot.
-  virtual bool grid_can_shift() const { return true; }
+  // Whether the placements of the grid (technique/placements.h) are shifts of it, so that their texels form one lattice.
+  // The grid of a cube has no shift: its placements are turns of the cube.
+  virtual bool placements_form_lattice() const { return true; }
   // Shifts the grid by a part of a texel.
   virtual void shift_grid(LightFrame& frame, glm::dvec2 texels) const = 0;
+  // Moves the map from placement 0, where the settings place it, to another placement.
+  virtual void place_grid(LightFrame& frame, const Placements& placements, int placement) const;
+  // Which placement this is, in numbers for a user, who can set it. placed: the frame after place_grid().
+  virtual std::vector<PlacementFact> placement_facts(const LightFrame& placed, const Placements& placements,
+                                                     int placement) const;
+  // The same as the end of the sentence "the worst is ...". values: in the order of the facts.
+  virtual std::string placement_text(std::span<const double> values) const;
   // Keeps the grid in its place when the caller has made the resolution `times` as large.
   virtual void refine_grid(LightFrame& /*frame*/, int /*times*/) const {}
-  // The axes of the texels in the world, at a point in the light's frame. For the faces of a cube they have no sign.
+  // The axes of the texels in the world, at a point in the light's frame. For the faces of a cube they have no sign:
+  // they are two of the cube's own axes.
   virtual void texel_axes(const LightFrame& frame, glm::dvec3 light, glm::dvec3& right, glm::dvec3& up) const;
 
   // ---- rays and places (technique/light_frame.h says what a place is)

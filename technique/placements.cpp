@@ -6,7 +6,7 @@ namespace noonmark {
 
 LightFrame Placements::frame(const LightFrame& map, int placement) const {
   LightFrame moved = map;
-  moved.light().shift_grid(moved, shift_texels(placement));
+  moved.light().place_grid(moved, *this, placement);
   return moved;
 }
 

@@ -1,9 +1,14 @@
 // The placements of a map's grid of texels. The same map can lie anywhere within one texel: the error of a lookup
-// depends on that, although nobody chooses it. S x S placements shift the grid by whole multiples of 1/S texel along
-// each axis. They are a stratified sample of all placements, because a shift by one texel gives the same grid.
+// depends on that, although nobody chooses it. How placements differ is for the kind of light to say
+// (KindOfLight::place_grid).
 //
-// The texel centres of all placements form one finer grid, the *lattice*: S points along each side of a texel. So one
-// set of light-side rays, through the points of the lattice, answers for every placement.
+// Of a flat map, S x S placements shift the grid by whole multiples of 1/S texel along each axis. They are a stratified
+// sample of all placements, because a shift by one texel gives the same grid. The texel centres of all placements form
+// one finer grid, the *lattice*: S points along each side of a texel. So one set of light-side rays, through the points
+// of the lattice, answers for every placement.
+//
+// Of a cube map, S x S placements are turns of the cube about the light, a stratified sample of all rotations
+// (technique/lights/point.cpp). Two turns share no texel centre, so there is no lattice, and each is measured by itself.
 //
 //   const Placements placements(settings.map.placements);
 //   LightFrame moved = placements.frame(frame, 9);           // the map of placement 9

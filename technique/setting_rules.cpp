@@ -35,7 +35,7 @@ std::string near_beyond_far(std::string_view group, std::optional<double> near_m
 
 std::string shifted_cube(std::string_view setting, double texels, std::optional<LightKind> light) {
   if (texels == 0 || !light || kind_of_light(*light).map_shape() == MapShape::flat) return "";
-  return fmt::format("{} needs a flat map; move the point light instead", setting);
+  return fmt::format("{} needs a flat map; turn the cube with map.turn_deg instead", setting);
 }
 
 }  // namespace
@@ -141,12 +141,11 @@ std::string cube_shifted_along_v(const Settings& s, std::optional<LightKind> lig
   return shifted_cube("map.shift_v_texels", s.map.shift_v_texels, light);
 }
 
-std::string placements_of_cube(const Settings& s, std::optional<LightKind> light) {
-  if (s.map.placements == 1 || !light || kind_of_light(*light).grid_can_shift()) return "";
-  return fmt::format(
-      "map.placements = {} needs a light whose grid of texels can be shifted; a point light's cube has "
-      "no such shift, so leave it at 1",
-      s.map.placements);
+// The length of a rotation vector is its angle. It is infinite where the squares of the components overflow.
+std::string turn_beyond_a_circle(const Settings& s, std::optional<LightKind>) {
+  if (!s.map.turn_deg || glm::length(*s.map.turn_deg) <= 360) return "";
+  return fmt::format("map.turn_deg turns by {:.6g} degrees, the length of its vector; it can be at most 360",
+                     glm::length(*s.map.turn_deg));
 }
 
 std::string snapped_perspective(const Settings& s, std::optional<LightKind> light) {

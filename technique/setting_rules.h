@@ -73,7 +73,7 @@ std::string filter_of_another_map(const Settings&, std::optional<LightKind>);
 std::string plane_on_cube_or_blended(const Settings&, std::optional<LightKind>);
 std::string cube_shifted_along_u(const Settings&, std::optional<LightKind>);
 std::string cube_shifted_along_v(const Settings&, std::optional<LightKind>);
-std::string placements_of_cube(const Settings&, std::optional<LightKind>);
+std::string turn_beyond_a_circle(const Settings&, std::optional<LightKind>);
 std::string snapped_perspective(const Settings&, std::optional<LightKind>);
 
 }  // namespace setting_rules

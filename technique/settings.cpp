@@ -248,11 +248,20 @@ std::vector<Setting> make_table() {
       real("map.shift_v_texels", "texels", -1, 1, "Moves the map with its texel grid up, as the light sees it.",
            MEMBER(map.shift_v_texels))
           .refused(cube_shifted_along_v),
-      integer("map.placements", "", 1, Placements::most,
-              "S: measures at S x S placements of the texel grid, shifted by 1/S texel from one to the next, and gives "
-              "mean, worst and 95th percentile over them. Placement 0 is the map as the other settings place it.",
-              MEMBER(map.placements))
-          .refused(placements_of_cube)
+      point("map.turn_deg", "deg",
+            "point: rotates the cube of the map about the light, and nothing else. The vector is the rotation's axis "
+            "times "
+            "its angle, of at most 360; auto: the cube's faces are square to the world's axes.",
+            MEMBER(map.turn_deg))
+          .idle(on_flat_map)
+          .refused(turn_beyond_a_circle),
+      integer(
+          "map.placements", "", 1, Placements::most,
+          "S: measures at S x S placements of the texel grid, and gives mean, worst and 95th percentile over them. "
+          "Placement 0 is the map as the other settings place it. A flat map is shifted by 1/S texel from one to the "
+          "next, and one set of rays answers for all. A point light's cube is turned, a sample of all rotations, and "
+          "each turn takes its own rays.",
+          MEMBER(map.placements))
           .only_read_by({Stage::ladder}),
       real("map.near_m", "m", -1e9, 1e9,
            "Near plane, measured from the light's position along its axis (point light: along the axis of each face); "

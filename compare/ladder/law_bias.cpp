@@ -36,7 +36,7 @@ double need_of(std::span<const glm::vec3> offsets, glm::dvec2 g, double carried 
 }
 
 // The least distance of the plane n.x = h (h > 0) along the directions of a square on a cube's face.
-double least_distance(glm::dvec3 n, double h, const CubeFace& face, glm::dvec2 low, glm::dvec2 high) {
+double least_distance(glm::dvec3 n, double h, const MapTile& face, glm::dvec2 low, glm::dvec2 high) {
   double least = infinity;
   const auto along = [&](glm::dvec3 c) {
     const double ahead = glm::dot(n, c);
@@ -105,7 +105,7 @@ double AcneLaw::cube_need(size_t i, glm::dvec3 position, glm::dvec3 normal) cons
   double need = 0;
   for (int t = 0; t < probe_.taps(); ++t) {
     const glm::dvec3 place = frame_.tap_place(p, glm::dvec3(probe_.offset(i, t)));
-    const CubeFace& face = cube_face(cube_face_of(place));
+    const MapTile face = frame_.tile_at(place);
     const glm::dvec2 at =
         glm::dvec2(glm::dot(place, face.right), glm::dot(place, face.up)) / glm::dot(place, face.forward);
     // The centres of a face's texels end half a texel before its edge.

@@ -1,5 +1,7 @@
 #include "compare/ladder/placement_counts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -8,7 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "compare/ladder/tap_threshold.h"
+#include "compare/ladder/receiver_taps.h"
 
 namespace noonmark {
 namespace {
@@ -124,7 +126,7 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
   for (size_t j = 0; j < side; ++j)
     for (size_t i = 0; i < side; ++i) {
       const size_t placement = j * side + i;
-      double wrong_weight = 0, aliasing = 0;
+      OfReceiver receiver;
       for (int t = 0; t < tap_count; ++t) {
         const uint8_t base = e.taps.bits(pixel, t);
         const size_t at = static_cast<size_t>(t) * side;
@@ -145,34 +147,63 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
         read.depth = stored_depth(read.depth, e.map.format);
         const Tap shown = e.map.format == DepthFormat::d32f ? exact : tap_of(probe, bits, e.map, size, pixel, t, read);
 
-        // At the point's own bias.
-        const bool lit = exact.lit(bias);
-        if (const Cause cause = tap_cause(exact, lit); cause != Cause::none) {
-          own_[kind_of(cause, !lit)][placement] += exact.weight;
-          if (cause == Cause::aliasing_dark) aliasing -= exact.weight;
-          if (cause == Cause::aliasing_light) aliasing += exact.weight;
-        }
-        if (shown.lit(bias) != truth) {
-          own_[truth ? error_dark : error_light][placement] += exact.weight;
-          wrong_weight += exact.weight;
-        }
-
-        // At every edge, as BiasCounts books it.
-        if (!threshold) continue;
-        const float needed = (*threshold)(exact);
-        const bool right = exact.moved_sure ? exact.moved_lit : truth;
-        if (!right || needed > 0) {
-          const Cause cause = exact.moved_sure ? tap_cause(exact, !right) : Cause::undecided;
-          cell(kind_of(cause, right), static_cast<int>(placement), bins_.of(needed)) += exact.weight;
-          if (cause == Cause::acne) acne_free_from_ = std::max(acne_free_from_, needed);
-        }
-        const float shown_at = e.map.format == DepthFormat::d32f ? needed : (*threshold)(shown);
-        if (!truth || shown_at > 0)
-          cell(truth ? error_dark : error_light, static_cast<int>(placement), bins_.of(shown_at)) += exact.weight;
+        book(placement, truth, bias, threshold, exact, shown, e.map.format != DepthFormat::d32f, receiver);
       }
-      if (wrong_weight > 0) ++wrong_receivers_[placement];
-      aliasing_squares_[placement] += aliasing / whole_ * (aliasing / whole_);
+      book(placement, receiver);
     }
+}
+
+void PlacementCounts::add(const LookupEvidence& e, size_t pixel) {
+  if (count_ != 1) throw std::logic_error("the evidence of one placement is added to the counts of one");
+  if (e.truth.ambiguous[pixel]) return;
+  ++receivers_;
+  const bool truth = e.truth.lit[pixel] != 0, rounded = e.map.format != DepthFormat::d32f;
+  const float bias = e.bias.at(e.probe, pixel);
+  std::optional<TapThreshold> threshold;
+  if (varied_) threshold.emplace(e.probe, e.bias, *varied_, pixel);
+  OfReceiver receiver;
+  ReceiverTaps taps;
+  taps.read(e, pixel);
+  for (size_t t = 0; t < taps.size(); ++t) {
+    const Tap& exact = taps[t];
+    if (exact.weight == 0) continue;
+    const Tap shown = rounded ? taps.at_depth(stored_depth(exact.depth, e.map.format), e.map.format, t) : exact;
+    book(0, truth, bias, threshold, exact, shown, rounded, receiver);
+  }
+  book(0, receiver);
+}
+
+void PlacementCounts::book(size_t placement, bool truth, float bias, const std::optional<TapThreshold>& threshold,
+                           const Tap& exact, const Tap& shown, bool rounded, OfReceiver& receiver) {
+  // At the point's own bias.
+  const bool lit = exact.lit(bias);
+  if (const Cause cause = tap_cause(exact, lit); cause != Cause::none) {
+    own_[kind_of(cause, !lit)][placement] += exact.weight;
+    if (cause == Cause::aliasing_dark) receiver.aliasing -= exact.weight;
+    if (cause == Cause::aliasing_light) receiver.aliasing += exact.weight;
+  }
+  if (shown.lit(bias) != truth) {
+    own_[truth ? error_dark : error_light][placement] += exact.weight;
+    receiver.wrong_weight += exact.weight;
+  }
+
+  // At every edge, as BiasCounts books it.
+  if (!threshold) return;
+  const float needed = (*threshold)(exact);
+  const bool right = exact.moved_sure ? exact.moved_lit : truth;
+  if (!right || needed > 0) {
+    const Cause cause = exact.moved_sure ? tap_cause(exact, !right) : Cause::undecided;
+    cell(kind_of(cause, right), static_cast<int>(placement), bins_.of(needed)) += exact.weight;
+    if (cause == Cause::acne) acne_free_from_ = std::max(acne_free_from_, needed);
+  }
+  const float shown_at = rounded ? (*threshold)(shown) : needed;
+  if (!truth || shown_at > 0)
+    cell(truth ? error_dark : error_light, static_cast<int>(placement), bins_.of(shown_at)) += exact.weight;
+}
+
+void PlacementCounts::book(size_t placement, const OfReceiver& receiver) {
+  if (receiver.wrong_weight > 0) ++wrong_receivers_[placement];
+  aliasing_squares_[placement] += receiver.aliasing / whole_ * (receiver.aliasing / whole_);
 }
 
 void PlacementCounts::add(const PlacementCounts& other) {
@@ -185,6 +216,27 @@ void PlacementCounts::add(const PlacementCounts& other) {
   for (size_t kind = 0; kind < own_.size(); ++kind) sum(own_[kind], other.own_[kind]);
   sum(wrong_receivers_, other.wrong_receivers_);
   sum(aliasing_squares_, other.aliasing_squares_);
+}
+
+void PlacementCounts::put(int placement, const PlacementCounts& one) {
+  receivers_ = one.receivers_;  // the same at every placement
+  acne_free_from_ = std::max(acne_free_from_, one.acne_free_from_);
+  const auto p = static_cast<size_t>(placement);
+  const size_t row = edges().size() + 1;
+  if (varied_)
+    for (size_t kind = 0; kind < kinds; ++kind)
+      std::copy_n(one.histogram_.begin() + static_cast<std::ptrdiff_t>(kind * row), row,
+                  histogram_.begin() + static_cast<std::ptrdiff_t>((kind * count_ + p) * row));
+  for (size_t kind = 0; kind < own_.size(); ++kind) own_[kind][p] = one.own_[kind][0];
+  wrong_receivers_[p] = one.wrong_receivers_[0];
+  aliasing_squares_[p] = one.aliasing_squares_[0];
+}
+
+uint64_t PlacementCounts::disagreements(int placement, const PlacementCounts& one) const {
+  double taps = 0;
+  for (size_t kind = 0; kind < own_.size(); ++kind)
+    taps += std::abs(own_[kind][static_cast<size_t>(placement)] - one.own_[kind][0]);
+  return static_cast<uint64_t>(std::ceil(taps));
 }
 
 // A tap that should be lit is wrong while the amount is below its threshold, and a tap that should be dark from its
@@ -253,7 +305,7 @@ int worst_placement(const PlacementCounts& counts) {
   return static_cast<int>(std::max_element(error.begin(), error.end()) - error.begin());
 }
 
-std::map<std::string, double> placement_metrics(const PlacementCounts& counts) {
+std::map<std::string, double> placement_metrics(const PlacementCounts& counts, std::span<const PlacementFact> worst) {
   std::map<std::string, double> metrics;
   const auto shares = counts.shares();
   for (const auto& [name, values] : shares) {
@@ -265,9 +317,7 @@ std::map<std::string, double> placement_metrics(const PlacementCounts& counts) {
     // The nearest rank.
     metrics[name + "_p95"] = sorted[static_cast<size_t>(std::ceil(0.95 * static_cast<double>(sorted.size()))) - 1];
   }
-  const glm::dvec2 shift = counts.placements().shift_texels(worst_placement(counts));
-  metrics["worst_shift_u_texels"] = shift.x;
-  metrics["worst_shift_v_texels"] = shift.y;
+  for (const PlacementFact& fact : worst) metrics[fmt::format("worst_{}", fact.name)] = fact.value;
   return metrics;
 }
 

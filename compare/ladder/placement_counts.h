@@ -5,6 +5,12 @@
 //   std::map<std::string, double> metrics = placement_metrics(counts);   // at the point's own bias
 //   counts.caused(Cause::acne, 9, 3);                // taps of placement 9, at the amount edges()[3]
 //
+// Placements that share no lattice are counted one by one:
+//
+//   PlacementCounts one = counts.empty_copy_of_one();
+//   one.add(evidence_of_placement_9, pixel);         // for each facing receiver
+//   counts.put(9, one);
+//
 // The causes are those of the ladder (compare/ladder/ladder.h). The depth that a tap reads is the exact map's; for the
 // error it is rounded to the map's format, as OpenGL stores it. So at R4 every number is the ladder's own, and the error
 // is that of R5 but for the rasteriser and the sampler's rounding of weights.
@@ -15,10 +21,13 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "compare/ladder/ladder.h"
+#include "compare/ladder/tap_threshold.h"
 #include "compare/store/records.h"
 #include "technique/placements.h"
 
@@ -57,13 +66,20 @@ class PlacementCounts {
   PlacementCounts(const Placements& placements, const LookupProbe& probe, const BiasPart* varied,
                   std::vector<float> edges);
 
-  // The same without anything counted.
+  // The same without anything counted; and the same for a single placement.
   PlacementCounts empty_copy() const { return {placements_, varied_, bins_, whole_}; }
+  PlacementCounts empty_copy_of_one() const { return {Placements(1), varied_, bins_, whole_}; }
 
   // Adds a facing receiver. box: V and depths around it. Receivers whose truth is ambiguous are not counted.
   void add(const PlacementEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box);
+  // Of a single placement: adds a facing receiver, from what was measured at that placement by itself.
+  void add(const LookupEvidence& evidence, size_t pixel);
   // Adds what other counts have counted, of the same probe, part and edges.
   void add(const PlacementCounts& other);
+  // Takes over the counts of a single placement, of the same part and edges.
+  void put(int placement, const PlacementCounts& one);
+  // The number of taps, kind by kind, in which a placement differs from counts of a single one, at the point's own bias.
+  uint64_t disagreements(int placement, const PlacementCounts& one) const;
 
   const Placements& placements() const { return placements_; }
   uint64_t receivers() const { return receivers_; }
@@ -95,6 +111,14 @@ class PlacementCounts {
     error_light,
     kinds
   };
+  // What the taps of one receiver sum up to, at one placement.
+  struct OfReceiver {
+    double wrong_weight = 0, aliasing = 0;
+  };
+  // Books a tap. threshold: empty if no part is varied. shown: the tap with the depth as the map's format stores it.
+  void book(size_t placement, bool truth, float bias, const std::optional<TapThreshold>& threshold, const Tap& exact,
+            const Tap& shown, bool rounded, OfReceiver& receiver);
+  void book(size_t placement, const OfReceiver& receiver);
   static Kind kind_of(Cause cause, bool darkens);
   static bool darkens(Kind kind);
   double& cell(Kind kind, int placement, size_t bin) {
@@ -123,9 +147,10 @@ uint64_t disagreements(const LookupEvidence& evidence, size_t pixel, const Place
 // The placement with the largest error at the point's own bias; the first of several.
 int worst_placement(const PlacementCounts& counts);
 
-// Mean, worst, best and 95th percentile over the placements of every metric of shares(), and the shift of the placement
-// with the largest error. Names: "acne_mean", "acne_worst", "acne_best", "acne_p95", "worst_shift_u_texels".
-std::map<std::string, double> placement_metrics(const PlacementCounts& counts);
+// Mean, worst, best and 95th percentile over the placements of every metric of shares(), and which placement has the
+// largest error (KindOfLight::placement_facts). Names: "acne_mean", "acne_worst", "acne_best", "acne_p95",
+// "worst_shift_u_texels".
+std::map<std::string, double> placement_metrics(const PlacementCounts& counts, std::span<const PlacementFact> worst);
 
 // Adds bands and the window at every placement to a curve over the same part.
 void add_bands(BiasCurve& curve, const PlacementCounts& counts, double depth_per_unit);

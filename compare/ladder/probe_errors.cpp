@@ -47,7 +47,7 @@ ProbeCheck::ProbeCheck(const LookupEvidence& evidence, const ReceiverImage& rece
 // P and the sum of the offsets on it. Each offset is a rounded amount in metres times a direction that the formula
 // computes. The amount depends on the texel's size at P. That size is a constant (directional), or a constant times the
 // product of the rounded axis with rounded differences (spot), or a constant times the largest of those differences
-// (point).
+// (point; along the axes of a turned cube, each of these is such a product too).
 ProbeCheck::Place ProbeCheck::looked_up(size_t i) const {
   const glm::dvec3 at(receivers_.position[i]), normal(receivers_.normal[i]);
   Place place{at, {}, glm::dvec3(0)};
@@ -55,6 +55,10 @@ ProbeCheck::Place ProbeCheck::looked_up(size_t i) const {
     double amount = 2 * u;
     if (frame_.map_shape() == MapShape::cube) amount = 4 * u;
     const glm::dvec3 light = frame_.to_light(at);
+    if (frame_.turned()) {
+      const glm::dvec3 error = error_in_cube(glm::dvec3(0), light);
+      amount = 3 * u + std::max({error.x, error.y, error.z}) / frame_.tile_at(light).along(light);
+    }
     if (frame_.tile_at(light).depth == TileDepth::perspective) {
       amount = 3 * u + 5 * u * sum_of(glm::abs((at - frame_.origin_m) * frame_.forward)) / std::abs(light.z);
     }
@@ -80,6 +84,35 @@ double ProbeCheck::direction_error() const {
   return frame_.light().rays().have_one_direction() ? 2 * u : u + length_of_difference + division + u;
 }
 
+// The error of a vector from the light along the cube's axes. error: of its components along the light's axes, without the
+// rounding of the vector itself, which is a difference (u). Along a turned cube each component is a sum of three products
+// with a rounded axis: u of the axis, u of the product, 2 u of the sums.
+glm::dvec3 ProbeCheck::error_in_cube(glm::dvec3 error, glm::dvec3 vector) const {
+  const glm::dvec3 size = glm::abs(vector);
+  if (!frame_.turned()) return error + size * u;
+  const glm::dvec3 summed = error + size * (5 * u);
+  glm::dvec3 turned;
+  for (int axis = 0; axis < 3; ++axis) turned[axis] = glm::dot(glm::abs(frame_.cube_axes[axis]), summed);
+  return turned;
+}
+
+// Where two faces of a turned cube meet, the shader's rounded components may choose the other face than the frame in
+// double. Then the texels have its axes. (Without a turn the components are rounded differences, which keep their order.)
+void ProbeCheck::allow_other_face(glm::dvec3 light, in_bounds::Surface& surface) const {
+  const glm::dvec3 size = glm::abs(frame_.in_cube(light)), error = error_in_cube(glm::dvec3(0), light);
+  const double largest = std::max({size.x, size.y, size.z}), unsure = 2 * std::max({error.x, error.y, error.z});
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(size[axis] >= largest - unsure)) continue;
+    glm::dvec3 right, up;
+    frame_.light().texel_axes(frame_, frame_.cube_axes[axis], right, up);
+    const auto widen = [](Bounded& bound, double other) {
+      bound.error = std::max(bound.error, std::abs(other - bound.value) + u * std::abs(other));
+    };
+    widen(surface.texel_right.x, right.x), widen(surface.texel_right.y, right.y), widen(surface.texel_right.z, right.z);
+    widen(surface.texel_up.x, up.x), widen(surface.texel_up.y, up.y), widen(surface.texel_up.z, up.z);
+  }
+}
+
 // The inputs of the formulas of the moving parts, with their float errors.
 in_bounds::Surface ProbeCheck::bounded_surface(glm::dvec3 position, glm::dvec3 normal) const {
   const in_double::Surface exact = surface_at(frame_, position, normal);
@@ -92,6 +125,7 @@ in_bounds::Surface ProbeCheck::bounded_surface(glm::dvec3 position, glm::dvec3 n
   surface.to_light = off_by(exact.to_light, direction_error());
   surface.texel_right = off_by(exact.texel_right, u);
   surface.texel_up = off_by(exact.texel_up, u);
+  if (frame_.turned()) allow_other_face(frame_.to_light(position), surface);
   surface.n_dot_l = bounded::dot(surface.normal, surface.to_light);
   surface.tan_theta = Bounded(exact.tan_theta, std::numeric_limits<double>::infinity());
   return surface;
@@ -189,21 +223,24 @@ void ProbeCheck::compare_cube(size_t i, const Place& place, ProbeErrors& found) 
   // Far is rounded, and the division is rounded.
   raise_error(found.excess, reference / (moved + expected * (length_of_difference + u + division)));
 
-  const glm::dvec3 error = place.error + glm::abs(place.light) * u;
-  const glm::dvec3 a = glm::abs(place.light);
+  const glm::dvec3 error = error_in_cube(place.error, place.light);
+  const glm::dvec3 a = glm::abs(frame_.in_cube(place.light));
   const int major = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+  // Where two faces of a turned cube meet, the largest component may be another one; all have errors of one size.
+  const double axis_error = frame_.turned() ? std::max({error.x, error.y, error.z}) : error[major];
   const double unit = frame_.depth_per_bias_unit(e_.bias.unit(), place.light);
-  const double unit_error = e_.bias.unit() == BiasUnit::texel ? 2 * u + error[major] / a[major] : u;
+  const double unit_error = e_.bias.unit() == BiasUnit::texel ? 2 * u + axis_error / a[major] : u;
   raise_error(found.excess, std::abs(probe.bias_unit[i] - unit) / (unit * unit_error));
 
   for (int t = 0; t < probe.taps(); ++t) {
-    const glm::dvec3 way = place.light + glm::dvec3(probe.offset(i, t));
-    const glm::dvec3 way_error = error + glm::abs(way) * u;
+    const glm::dvec3 from_light = place.light + glm::dvec3(probe.offset(i, t));
+    const glm::dvec3 way = frame_.in_cube(from_light);
+    const glm::dvec3 way_error = error_in_cube(place.error + glm::abs(place.light) * u, from_light);
     // The texel is compared with the exact direction in the face that the sampler chose, even if the exact direction
     // lies just beyond that face's edge.
     const glm::ivec2 texel = probe.texel(i, t);
-    const MapTile& face = tiles_[static_cast<size_t>(probe.tile(i, t))];
-    const glm::dvec2 in_face(texel - face.corner);
+    const CubeFace& face = cube_face(probe.tile(i, t));
+    const glm::dvec2 in_face(texel - tiles_[static_cast<size_t>(probe.tile(i, t))].corner);
     const double ahead = glm::dot(way, face.forward), ahead_error = glm::dot(way_error, glm::abs(face.forward));
     for (int axis = 0; axis < 2; ++axis) {
       const glm::dvec3& side = axis == 0 ? face.right : face.up;

@@ -30,6 +30,8 @@ class ProbeCheck {
   struct Place;  // the place looked up of receiver i, and its largest float error
   Place looked_up(size_t i) const;
   double direction_error() const;  // relative error of the shader's direction to the light
+  glm::dvec3 error_in_cube(glm::dvec3 error, glm::dvec3 vector) const;
+  void allow_other_face(glm::dvec3 light, in_bounds::Surface& surface) const;
   in_bounds::Surface bounded_surface(glm::dvec3 position, glm::dvec3 normal) const;
   glm::dvec4 clip_of(const Place& place) const;
   glm::dvec4 row_errors(const Place& place) const;

@@ -49,10 +49,12 @@ class ReceiverTaps {
   // A tap as it reads the exact map.
   const Tap& operator[](size_t t) const { return taps_[t]; }
   // The same tap as it reads another map of that size.
-  Tap on(const Image<float>& map, DepthFormat format, size_t t) const {
+  Tap on(const Image<float>& map, DepthFormat format, size_t t) const { return at_depth(depth_in(map, t), format, t); }
+  // The same tap if it reads this depth.
+  Tap at_depth(float depth, DepthFormat format, size_t t) const {
     Tap tap = taps_[t];
     if (!asks_) return tap;
-    tap.depth = depth_in(map, t);
+    tap.depth = depth;
     tap.always_lit = lit_beyond_far_ || compares_clamped(blended_, format, tap.depth);
     return tap;
   }

@@ -161,13 +161,19 @@ constexpr Metric over_placements[] = {
     {"error_worst_shown", "fraction",
      "Mean |R5 - R1| at the placement of the texel grid with the largest error, as OpenGL renders it.", true, true},
     {"worst_shift_u_texels", "texels",
-     "The shift of that placement along the rows of texels, from the map of the settings. Add it to "
+     "Of a flat map: the shift of that placement along the rows of texels, from the map of the settings. Add it to "
      "map.shift_u_texels to render it.",
      false, true},
     {"worst_shift_v_texels", "texels", "The same along the columns.", false, true},
+    {"worst_turn_x_deg", "deg",
+     "Of a point light's cube: the first component of map.turn_deg of that placement. Set the three of them to render "
+     "it.",
+     false, true},
+    {"worst_turn_y_deg", "deg", "The second component.", false, true},
+    {"worst_turn_z_deg", "deg", "The third component.", false, true},
     {"placement_disagreements", "count",
-     "Number of taps at which the truth of all placements differs from the ladder's own, at the two placements that "
-     "are rendered too. Above 0 it is a defect.",
+     "Number of taps at which the truth of all placements differs from the ladder's own, at the placements that are "
+     "rendered too. Above 0 it is a defect.",
      false, true},
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "compare/store/metrics.h"
 #include "scenes/builtin.h"
 #include "tests/support/measured.h"
 
@@ -135,6 +136,55 @@ TEST(Acceptance, ALookupMovedBehindTheLightIsCoverage) {
     EXPECT_EQ(metric(m, "contract"), 0);
     EXPECT_LE(metric(m, "rounding_excess"), 1);
   }
+}
+
+// The turn of a cube is one of the map alone. At every turn the renderer keeps its contract and the steps add up. By 45
+// degrees the edges of the cube lie on planes of symmetry of the room, where rounding chooses the face.
+TEST(Acceptance, ATurnedCubeIsSound) {
+  Workbench bench(gl::DebugMode::fatal);
+  std::mt19937 random(24);
+  std::uniform_real_distribution<double> degrees(-180, 180);
+  const std::vector<std::vector<Assignment>> of_cubes = {
+      {},
+      {{"filter.kind", "cube_disk"}, {"bias.normal_offset_axes", "1.5"}, {"bias.unit", "texel"}},
+      {{"filter.kind", "cube_grid"}, {"bias.normal_offset_lateral", "2"}, {"map.cube_pass", "six_passes"}},
+      {{"bias.caster_normal_offset", "1"}, {"map.cull", "back"}, {"map.format", "32f"}, {"map.near_m", "4"}},
+      {{"bias.normal_offset_axes", "1"}, {"bias.polygon_factor", "2"}, {"map.depth_clamp", "true"}},
+  };
+  std::vector<double> lit;
+  for (const std::vector<Assignment>& technique : of_cubes)
+    for (int k = 0; k < 4; ++k) {
+      Settings settings = with({{"map.resolution", "200"}, {"bias.constant", "0.002"}}, small("point-room", 120, 68));
+      settings = with(technique, settings);
+      settings.map.turn_deg = glm::dvec3(0, 45, 0);
+      if (k > 0) settings.map.turn_deg = glm::dvec3(degrees(random), degrees(random), degrees(random));
+      const Measurement m = bench.measure(settings, std::nullopt);
+      SCOPED_TRACE(find_setting("map.turn_deg").get(settings));
+      EXPECT_GT(metric(m, "counted"), 1000);
+      EXPECT_EQ(metric(m, "contract"), 0);
+      EXPECT_LE(metric(m, "rounding_excess"), 1);
+      EXPECT_LE(metric(m, "residual"), rounding_of_steps);
+      EXPECT_LE(metric(m, "tap_residual"), rounding_of_steps);
+      EXPECT_LE(metric(m, "precision"), 0.002);
+      EXPECT_LE(metric(m, "address_error_texels"), 0.01);
+      lit.push_back(metric(m, "lit"));
+    }
+  EXPECT_EQ(lit, std::vector<double>(lit.size(), lit.front()));
+}
+
+TEST(Acceptance, ATurnByNothingChangesNothing) {
+  Workbench bench(gl::DebugMode::fatal), other(gl::DebugMode::fatal);
+  const Settings settings =
+      with({{"filter.kind", "cube_disk"}, {"bias.normal_offset_axes", "1"}, {"bias.slope", "0.001"}},
+           small("point-room", 120, 68));
+  const Measurement still = bench.measure(settings, std::nullopt);
+  const Measurement turned = other.measure(with({{"map.turn_deg", "0,0,0"}}, settings), std::nullopt);
+  for (const auto& [name, value] : still.record.metrics)
+    if (find_metric(name).unit != "ms") {
+      EXPECT_EQ(metric(turned, name), value) << name;
+    }
+  EXPECT_EQ(turned.ladder.shown().pixels, still.ladder.shown().pixels);
+  EXPECT_EQ(turned.stored_map.pixels, still.stored_map.pixels);
 }
 
 // A map of a million kilometres that is moved by one texel, and a picture of a few centimetres: here the rounding of

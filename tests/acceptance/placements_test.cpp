@@ -1,4 +1,4 @@
-// All placements of the map's grid at once: every number equals that of measuring each placement by itself.
+// All placements of the map's grid: every number equals that of measuring each placement by itself.
 #include "technique/placements.h"
 
 #include <gtest/gtest.h>
@@ -28,6 +28,20 @@ std::vector<Case> cases() {
   };
   for (const BuiltinScene& scene : builtin_scenes())
     if (scene.name != "point-room") all.push_back({named(std::string(scene.name)), std::string(scene.name), {}});
+  // Turns of a cube.
+  const Assignment lamp{"light.kind", "point"};
+  all.push_back({"point_room", "point-room", {}, 2});
+  all.push_back({"point_room_disk", "point-room", {{"filter.kind", "cube_disk"}, {"map.format", "16"}}, 2});
+  all.push_back({"point_room_grid",
+                 "point-room",
+                 {{"filter.kind", "cube_grid"}, {"view.width_px", "80"}, {"view.height_px", "45"}},
+                 2});
+  all.push_back({"point_room_turned", "point-room", {{"map.turn_deg", "20,-30,50"}, {"bias.slope", "0.01"}}, 2});
+  all.push_back({"point_room_axes", "point-room", {{"bias.normal_offset_axes", "1.2"}, {"map.cull", "back"}}, 2});
+  all.push_back({"point_room_casters", "point-room", {{"bias.caster_offset", "1.2"}, {"map.near_m", "3"}}, 2});
+  all.push_back({"point_room_in_texels", "point-room", {{"bias.unit", "texel"}, {"bias.constant", "0.5"}}, 2});
+  all.push_back({"lamp_in_cube_room", "cube-room", {lamp, {"light.position_m", "0.3,4,0.2"}}, 2});
+  all.push_back({"lamp_at_fence", "fence", {lamp, {"light.position_m", "1,4,2"}}, 2});
   for (const char* name : {"FlightHelmet", "Lantern"}) all.push_back({name, model(name), {}});
   const std::vector<std::pair<std::string, std::vector<Assignment>>> techniques = {
       {"box", {{"filter.kind", "box"}}},
@@ -87,24 +101,49 @@ TEST_P(EveryPlacement, HasTheNumbersOfMeasuringItByItself) {
   std::vector<Assignment> common = {{"map.resolution", "220"}, {"map.format", "32f"}, {"bias.constant", "0.002"}};
   common.insert(common.end(), c.set.begin(), c.set.end());
   const Settings settings = with(common, small(c.scene, 160, 90));
-  const CurveOptions options{0.02, 0.02, {}};
   Workbench bench(gl::DebugMode::fatal);
+  const LightFrame placement_0 = make_light_frame(bench.scene(settings.scene), settings);
+  const bool turns = placement_0.map_shape() == MapShape::cube;
+  // A turn changes the texel's width at the median receiver, and so the curve's biases, if they are in texels.
+  const bool same_biases = !turns || settings.bias.unit != BiasUnit::texel;
+  const auto options = same_biases ? std::optional(CurveOptions{0.02, 0.02, {}}) : std::nullopt;
 
   Settings all = settings;
   all.map.placements = c.side;
   const Measurement together = bench.measure(all, options);
   const std::map<std::string, double> metrics = together.record.metrics;
   const std::optional<BiasCurve> bands = together.record.curve;
+  const std::vector<float> map_0 = together.exact_map.pixels;  // the next measurement replaces it
   EXPECT_EQ(metrics.at("placement_disagreements"), 0);
 
   const Placements placements(c.side);
+  glm::dvec3 worst_turn(0);
+  int worst_met = 0;
+  if (turns)
+    worst_turn = {metrics.at("worst_turn_x_deg"), metrics.at("worst_turn_y_deg"), metrics.at("worst_turn_z_deg")};
   std::vector<BiasCurve> curves;
   std::map<std::string, std::vector<double>> of_each;
   for (int p = 0; p < placements.count(); ++p) {
     Settings one = settings;
-    one.map.shift_u_texels += placements.shift_texels(p).x;
-    one.map.shift_v_texels += placements.shift_texels(p).y;
+    if (turns) {
+      one.map.turn_deg = placements.frame(placement_0, p).turn_deg;
+    } else {
+      one.map.shift_u_texels += placements.shift_texels(p).x;
+      one.map.shift_v_texels += placements.shift_texels(p).y;
+    }
     const Measurement m = bench.measure(one, options);
+    if (turns) {  // the turn is the map's alone
+      for (const char* name : {"receivers", "facing", "counted", "ambiguous", "lit", "filter", "light_size"})
+        EXPECT_EQ(m.record.metrics.at(name), metrics.at(name)) << name;
+      EXPECT_EQ(m.ladder.truth().pixels, together.ladder.truth().pixels);
+      if (p > 0) {
+        EXPECT_NE(m.exact_map.pixels, map_0) << "another map";
+      }
+      if (const glm::dvec3 t = *one.map.turn_deg; t == worst_turn) {
+        EXPECT_EQ(m.record.metrics.at("error"), metrics.at("error_worst_shown"));
+        ++worst_met;
+      }
+    }
     if (m.record.curve) curves.push_back(*m.record.curve);
     for (const char* name : {"undecided", "acne", "peter_panning", "aliasing", "aliasing_dark", "aliasing_light",
                              "aliasing_rms", "coverage", "coverage_dark", "coverage_light"})
@@ -121,6 +160,10 @@ TEST_P(EveryPlacement, HasTheNumbersOfMeasuringItByItself) {
     EXPECT_NEAR(metrics.at(name + "_mean"), mean, allowed) << name;
     EXPECT_NEAR(metrics.at(name + "_worst"), *std::max_element(values.begin(), values.end()), allowed) << name;
   }
+
+  EXPECT_EQ(worst_met, turns ? 1 : 0);
+  EXPECT_EQ(metrics.contains("worst_turn_x_deg"), turns);
+  EXPECT_EQ(metrics.contains("worst_shift_u_texels"), !turns);
 
   ASSERT_EQ(bands.has_value(), !curves.empty());
   if (!bands) return;

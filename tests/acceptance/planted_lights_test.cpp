@@ -30,6 +30,7 @@ Image<float> faces_swapped(const Image<float>& map, int face, int other) {
 
 const char* const point = "shaders/light/point.glsl";
 const char* const cube = "shaders/map/cube.glsl";
+const char* const turned = "shaders/map/cube_turned.glsl";
 
 std::vector<Planted> defects() {
   std::vector<Planted> all;
@@ -127,6 +128,17 @@ std::vector<Planted> defects() {
   all.push_back({"MapOfTheLightElsewhere",
                  point_room(),
                  {.drawn_map = [](LightFrame& frame, MapSettings&) { frame.origin_m += glm::dvec3(0.25, 0, 0); }},
+                 {{"precision", 1e-3, 0.1}, {"map_error_quanta", 2, 1000}},
+                 {"contract", "rounding_excess"}});
+  // The lookup turns the direction back instead of forth; then the map is drawn without the turn.
+  all.push_back({"CubeTurnedTheOtherWay",
+                 point_room({{"map.turn_deg", "20,-35,50"}}),
+                 {.shaders = patched(turned, "return vec3(x, y, z);", "return cube_axes * from_light;")},
+                 {{"address_error_texels", 1e-3, 100}, {"rounding_excess", 1, 1000}},
+                 {"contract"}});
+  all.push_back({"CubeDrawnWithoutTheTurn",
+                 point_room({{"map.turn_deg", "20,-35,50"}}),
+                 {.drawn_map = [](LightFrame& frame, MapSettings&) { frame.cube_axes = glm::dmat3(1); }},
                  {{"precision", 1e-3, 0.1}, {"map_error_quanta", 2, 1000}},
                  {"contract", "rounding_excess"}});
   // The lookup reads only 27 of 64 taps.

@@ -154,7 +154,8 @@ std::string any_value(const Setting& row, Choices& choices) {
     case ValueType::choice:
       return std::string(row.choices[static_cast<size_t>(choices.below(static_cast<int>(row.choices.size())))]);
     case ValueType::point: {
-      const glm::dvec3 p = any_point(choices, choices.below(8) == 0 ? 1000 : 8);
+      const double reach = row.unit == "deg" ? 200 : 8;
+      const glm::dvec3 p = any_point(choices, choices.below(8) == 0 ? 1000 : reach);
       return fmt::format("{},{},{}", p.x, p.y, p.z);
     }
     case ValueType::real:

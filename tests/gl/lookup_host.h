@@ -116,6 +116,8 @@ inline Settings random_settings(std::mt19937& random, LightKind kind) {
   s.filter["offset_m"] = 0.02 + 0.2 * unit(random);
   s.filter["disk"] = one_of(random, {0, 1});
   s.filter["radius_m"] = 0.01 + 0.1 * unit(random);
+  if (kind == LightKind::point && random() % 2)
+    s.map.turn_deg = glm::dvec3(unit(random), unit(random), unit(random)) * 200.0 - 100.0;
   do {
     s.bias.reference = std::string(tap_references()[random() % tap_references().size()].name);
     s.filter.kind = std::string(filters()[random() % filters().size()].name);

@@ -185,7 +185,8 @@ TEST_F(GlProbeTest, GradientIsThePlanes) {
 TEST_F(GlProbeTest, CubeTapsFallWhereTheFrameSays) {
   std::mt19937 random(64);
   for (const std::string filter : {"none", "cube_grid", "cube_disk"})
-    for (const int disk : {0, 1}) {
+    for (const int disk : {0, 1, 2}) {
+      const bool turned = disk == 2;
       const Scene scene = random_scene(random, LightKind::point);
       // 64 taps of 320 x 240 pixels are read back in two strips.
       const bool large = filter == "cube_grid" && disk == 0;
@@ -193,7 +194,8 @@ TEST_F(GlProbeTest, CubeTapsFallWhereTheFrameSays) {
       Settings settings;
       settings.map.resolution = 100;
       settings.filter.kind = filter;
-      settings.filter["disk"] = disk;
+      settings.filter["disk"] = disk % 2;
+      if (turned) settings.map.turn_deg = glm::dvec3(30, -100, 12);
       const LightFrame frame = make_light_frame(scene, settings);
       const LookupProbe probe = renderer.probe(frame, settings);
       size_t taps = 0, elsewhere = 0, moved = 0;

@@ -100,8 +100,9 @@ TEST(LookupParts, EveryLightBiasAndFilterBuilds) {
           ++refused;
           continue;
         }
-        const ShaderSlots slots =
-            lookup_slots(programs, static_cast<LightKind>(l), Bias(bias), find_filter(settings.filter.kind));
+        LightFrame frame;
+        frame.kind = static_cast<LightKind>(l);
+        const ShaderSlots slots = lookup_slots(programs, frame, Bias(bias), find_filter(settings.filter.kind));
         const ShaderStages stages{"shaders/screen.vert", "shaders/lookup.frag"};
         const Program& first = programs.get(stages, slots);
         EXPECT_EQ(&first, &programs.get(stages, slots)) << "built once";

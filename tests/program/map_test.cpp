@@ -91,6 +91,29 @@ TEST_F(Map, RenderPrintsWhatHoldsOverAllPlacements) {
   EXPECT_FALSE(says("placements")) << output_;
 }
 
+// The same of a point light: the turn of the worst placement as it is printed and stored.
+TEST_F(Map, RenderNamesTheWorstTurnOfACube) {
+  const auto render = [&](const std::string& name, const std::string& value) {
+    EXPECT_EQ(run({"render", "--set", "scene.name=point-room", "--set", "view.width_px=96", "--set",
+                   "view.height_px=54", "--set", "map.resolution=128", "--set", name + "=" + value, "--out", "out"}),
+              0)
+        << output_;
+    return nlohmann::json::parse(text("out/point.json"));
+  };
+  const nlohmann::json all = render("map.placements", "2").at("metrics");
+  const auto turn = [&](const char* axis) {
+    return fmt::format("{}", all.at(fmt::format("worst_turn_{}_deg", axis)).get<double>());
+  };
+  const std::string worst = turn("x") + "," + turn("y") + "," + turn("z");
+  EXPECT_TRUE(says("over 4 placements of the grid")) << output_;
+  EXPECT_TRUE(says("the worst is map.turn_deg=" + worst + "; OpenGL shows")) << output_;
+  EXPECT_FALSE(all.contains("worst_shift_u_texels"));
+  const nlohmann::json one = render("map.turn_deg", worst);
+  EXPECT_EQ(one.at("metrics").at("error"), all.at("error_worst_shown"));
+  EXPECT_EQ(one.at("light").at("turn_deg")[0], all.at("worst_turn_x_deg"));
+  EXPECT_EQ(one.at("light").at("cube_y").size(), 3u);
+}
+
 TEST_F(Map, SaysWhatItCannotDraw) {
   EXPECT_EQ(map("point-room"), 2);
   EXPECT_TRUE(says("light.kind")) << output_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
 namespace noonmark::test {
@@ -27,6 +28,13 @@ bool may_be_one_plane(const Piece& a, const Piece& b, double moved_m) {
     });
   };
   return holds(a, b) && holds(b, a);
+}
+
+// The rotation of a point light's cube, from the vector of map.turn_deg alone, by a quaternion.
+glm::dmat3 turn_of(const LightFrame& frame) {
+  const double angle_deg = glm::length(frame.turn_deg);
+  return angle_deg == 0 ? glm::dmat3(1)
+                        : glm::mat3_cast(glm::angleAxis(glm::radians(angle_deg), frame.turn_deg / angle_deg));
 }
 
 // The row of OpenGL's table 8.19 for a direction: the face, s_c, t_c and m_a.
@@ -90,7 +98,7 @@ LightRay ClosedForm::ray_of_texel(glm::ivec2 texel) const {
   }
   const double s = 2 * (texel.x + 0.5) / n - 1, t = 2 * (texel.y % frame_.resolution + 0.5) / n - 1;
   const glm::dvec3 ways[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
-  return rays_.through(ways[texel.y / frame_.resolution]);
+  return rays_.through(turn_of(frame_) * ways[texel.y / frame_.resolution]);
 }
 
 glm::dvec2 ClosedForm::texels_of(const LightRay& ray) const {
@@ -100,7 +108,7 @@ glm::dvec2 ClosedForm::texels_of(const LightRay& ray) const {
     const glm::dvec2 side = glm::dvec2(glm::dot(at, frame_.right), glm::dot(at, frame_.up)) / half_width_m(1);
     return (side + 1.0) * (n / 2) - frame_.shift_texels;
   }
-  const CubeAddress at = cube_address(ray.way);
+  const CubeAddress at = cube_address(glm::inverse(turn_of(frame_)) * ray.way);
   return {(at.s / at.m + 1) * n / 2, (at.t / at.m + 1) * n / 2 + at.face * n};
 }
 
@@ -115,7 +123,8 @@ double ClosedForm::window_depth(double depth) const {
 }
 
 double ClosedForm::near_depth(const LightRay& ray) const {
-  return frame_.kind == LightKind::point ? frame_.near_m / cube_address(ray.way).m : frame_.near_m;
+  return frame_.kind == LightKind::point ? frame_.near_m / cube_address(glm::inverse(turn_of(frame_)) * ray.way).m
+                                         : frame_.near_m;
 }
 
 bool ClosedForm::facing(glm::dvec3 p, glm::dvec3 n) const {

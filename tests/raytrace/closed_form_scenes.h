@@ -271,6 +271,9 @@ inline Settings settings_of(const SceneSpec& spec) {
   s.map.resolution = spec.resolution;
   s.map.extent_scale = spec.light == LightKind::spot ? 0.01 * spec.extent_percent : 1;
   s.filter = (spec.light == LightKind::point ? cube : flat)[spec.filter];
+  // Every second cube is turned, by an angle that no other number of the scene depends on.
+  if (spec.light == LightKind::point && spec.resolution % 2 == 1)
+    s.map.turn_deg = glm::dvec3(spec.resolution % 7 - 3, spec.resolution % 11 - 5, spec.resolution % 13 - 6) * 15.5;
   return s;
 }
 

@@ -40,6 +40,7 @@ LightFrame random_frame(std::mt19937& random, LightKind kind) {
     settings.map.shift_u_texels = random_in(random, -1, 1);
     settings.map.shift_v_texels = random_in(random, -1, 1);
   }
+  if (kind == LightKind::point && random() % 4 != 0) settings.map.turn_deg = random_point(random, 200);
   return make_light_frame(scene, settings);
 }
 
@@ -121,11 +122,11 @@ TEST_P(Kinds, MatrixAgreesWithPlacesAndDepths) {
     const LightFrame f = random_frame(random, GetParam());
     const glm::dvec3 world = lit_point(random, f), light = f.to_light(world);
     const glm::dvec2 texels = f.map_texels(f.place(light));
-    const int face = f.kind == LightKind::point ? cube_face_of(light) : 0;
+    const int face = f.tile_of(light);
     const glm::dvec4 clip = f.clip_from_world(face) * glm::dvec4(world, 1);
     // The matrix of a point light's face has the depth along the axis of the face. The matrix of a spot light has the
     // depth that the map stores.
-    const double along = f.kind == LightKind::point ? glm::dot(light, cube_face(face).forward) : light.z;
+    const double along = f.kind == LightKind::point ? glm::dot(light, f.tile(face).forward) : light.z;
     EXPECT_NEAR(clip.w, along, rounding);
     EXPECT_NEAR((clip.z / clip.w + 1) / 2, f.far_m * (along - f.near_m) / (along * (f.far_m - f.near_m)),
                 1e-10);  // differences of numbers that are larger by up to far / near
@@ -167,8 +168,8 @@ TEST_P(Kinds, TexelsAreAsWideAsTheirRaysAreApart) {
     const LightFrame f = random_frame(random, GetParam());
     if (f.resolution < 2) continue;
     const glm::dvec3 p = f.to_light(lit_point(random, f));
-    const int face = f.kind == LightKind::point ? cube_face_of(p) : 0;
-    const glm::dvec3 axis = f.kind == LightKind::point ? cube_face(face).forward : glm::dvec3(0, 0, 1);
+    const int face = f.tile_of(p);
+    const glm::dvec3 axis = f.tile(face).forward;
     const auto on_plane = [&](glm::ivec2 texel) {
       const glm::dvec3 way = f.texel_place(texel);
       return way * (glm::dot(p, axis) / glm::dot(way, axis));

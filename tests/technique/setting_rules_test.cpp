@@ -74,6 +74,10 @@ TEST(ValidateFor, RefusesWhatTheLightsMapCannotDo) {
     EXPECT_EQ(refused(kind, with({{"map.shift_u_texels", "0.5"}}), "map.shift_u_texels"), cube);
     EXPECT_EQ(refused(kind, with({{"map.shift_v_texels", "0.5"}}), "map.shift_v_texels"), cube);
     EXPECT_EQ(refused(kind, with({{"map.snap", "true"}}), "map.snap"), kind != LightKind::directional);
+    EXPECT_FALSE(refused(kind, with({{"map.placements", "4"}}), ""));
+    EXPECT_FALSE(refused(kind, with({{"map.turn_deg", "0,-360,0"}}), ""));
+    EXPECT_TRUE(refused(kind, with({{"map.turn_deg", "255,-255,0"}}), "map.turn_deg"));
+    EXPECT_TRUE(refused(kind, with({{"map.turn_deg", "1e200,0,0"}}), "map.turn_deg"));
   }
 }
 
@@ -102,6 +106,8 @@ TEST(Settings, ThoseThatChangeNothingAreNamed) {
   EXPECT_EQ(idle(LightKind::directional, {{"map.cube_pass", "six_passes"}, {"light.shape", "disc"}}),
             "light.shape on a directional light;map.cube_pass on a directional light;");
   EXPECT_EQ(idle(LightKind::spot, {{"map.cube_pass", "six_passes"}}), "map.cube_pass on a spot light;");
+  EXPECT_EQ(idle(LightKind::spot, {{"map.turn_deg", "0,10,0"}}), "map.turn_deg on a spot light;");
+  EXPECT_EQ(idle(LightKind::point, {{"map.turn_deg", "0,10,0"}}), "");
   EXPECT_EQ(idle(LightKind::point, {{"map.wrap", "repeat"}}), "map.wrap on a point light;");
   EXPECT_EQ(idle(LightKind::point, {{"light.target_m", "1,2,3"}}), "light.target_m on a point light;");
   EXPECT_EQ(idle(LightKind::spot, {{"light.target_m", "1,2,3"}}), "");

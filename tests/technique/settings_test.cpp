@@ -88,7 +88,8 @@ TEST(SettingsTable, HasARowForEveryMember) {
   [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10] = s.scene;
   [[maybe_unused]] const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9] = s.view;
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7] = s.light;
-  [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17] = s.map;
+  [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18] =
+      s.map;
   [[maybe_unused]] const auto& [g1] = s.truth;
   // Unit, reference and plane_cap, and every parameter of a part.
   const int bias = 3 + static_cast<int>(bias_parameters().size());
@@ -97,7 +98,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
   EXPECT_EQ(
       rows,
       (std::map<std::string, int>{
-          {"scene", 10}, {"view", 9}, {"light", 7}, {"map", 17}, {"bias", bias}, {"filter", filter}, {"truth", 1}}));
+          {"scene", 10}, {"view", 9}, {"light", 7}, {"map", 18}, {"bias", bias}, {"filter", filter}, {"truth", 1}}));
 }
 
 TEST(SettingsTable, TakesItsOwnTextsBack) {

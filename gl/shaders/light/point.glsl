@@ -2,7 +2,11 @@
 #include "shaders/light/view.glsl"
 #include "shaders/map/cube.glsl"
 
-float major_axis(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
+// Metres along the axis of the cube's face.
+float major_axis(vec3 from_light) {
+  vec3 v = in_cube(from_light);
+  return max(max(abs(v.x), abs(v.y)), abs(v.z));
+}
 
 LightView seen_by_light(vec3 place_m) {
   precise vec3 from_light = place_m - light_position;
@@ -16,7 +20,8 @@ vec3 to_light(vec3 place_m) {
 }
 
 float texel_m_at(vec3 place_m) {
-  precise float size_m = light_texel_m * major_axis(place_m - light_position);
+  precise vec3 way = place_m - light_position;
+  precise float size_m = light_texel_m * major_axis(way);
   return size_m;
 }
 
@@ -25,15 +30,17 @@ float bias_unit_at(LightView view) {
   return bias_unit == 2 ? per_texel : light_bias_unit;
 }
 
-// The two axes of the world that are perpendicular to the face's own axis (OpenGL 4.5 core, table 8.19).
+// The two axes of the cube that are perpendicular to the face's own axis (OpenGL 4.5 core, table 8.19).
 vec3 texel_right_at(vec3 place_m) {
-  vec3 a = abs(place_m - light_position);
-  return a.x >= a.y && a.x >= a.z ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0);
+  precise vec3 way = place_m - light_position;
+  vec3 a = abs(in_cube(way));
+  return cube_axis(a.x >= a.y && a.x >= a.z ? 2 : 0);
 }
 vec3 texel_up_at(vec3 place_m) {
-  vec3 a = abs(place_m - light_position);
+  precise vec3 way = place_m - light_position;
+  vec3 a = abs(in_cube(way));
   bool y_is_major = !(a.x >= a.y && a.x >= a.z) && a.y >= a.z;
-  return y_is_major ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0);
+  return cube_axis(y_is_major ? 2 : 1);
 }
 
 vec2 plane_gradient(vec3 normal, LightView view) { return vec2(0.0); }  // a cube map has none

@@ -371,7 +371,7 @@ TEST(WorstPixel, IsTheFirstOfTheLargestErrors) {
 
 TEST(MetricsTable, NamesWhatIsMeasured) {
   const std::set<std::string> times = {"map_ms", "lookup_ms", "shadow_ms"};  // the workbench measures these
-  const std::set<std::string_view> units = {"fraction", "m", "m2", "depth", "texels", "pixels", "count", "ms", ""};
+  const std::set<std::string_view> units = {"fraction", "m", "m2", "depth", "texels", "pixels", "deg", "count", "ms", ""};
   std::set<std::string> names;
   for (const Metric& metric : metrics_table()) {
     if (!metric.of_placements) {  // tests/acceptance/placements_test.cpp measures the others
