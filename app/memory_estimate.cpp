@@ -33,6 +33,8 @@ constexpr double per_asked_texel = 16;     // for each texel that a tap reads: i
 constexpr double per_outside_texel = 32;   // texels beside the map: two lists of 16 bytes while they are made
 constexpr double per_open_edge = 240;      // as a shadow's edge: the edge, its pieces, the cells that list it [220]
 constexpr double per_closed_edge = 70;     // a third of them may be such edges too, if the light sees a fold
+// Certified squares of the light's plane (raytrace/light_cells.h), which are made where receivers lie: under 192 MiB.
+constexpr double per_cell_pixel = 40, most_cells = 202e6;  // [11, FlightHelmet at 1280 x 720]
 constexpr double per_kept_triangle = 150;  // the second tree for the rays, without the culled faces
 // Per byte of the scene's parts. point.json lists each part in up to 135 bytes and its name; the part itself has 40
 // bytes, and those of a long name.
@@ -74,6 +76,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   if (Bias(s.bias).moves_casters())
     scene += scene_bytes(input.scene) + per_kept_triangle * static_cast<double>(input.scene.triangles);
 
+  if (kind_of_light(input.light).rays().have_one_direction()) scene += std::min(per_cell_pixel * pixels, most_cells);
   if (input.pictures) scene += per_listed_part_byte * static_cast<double>(input.scene.part_bytes);
 
   double curve = 0;
