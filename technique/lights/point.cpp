@@ -28,7 +28,7 @@ void turn_cube(LightFrame& frame, glm::dvec3 turn_deg) {
 }
 
 // The turns of the placements in whole steps of a thousandth of a degree, so that their text is short and is the turn
-// itself. At 1024 texels to a face that is a hundredth of a texel at most.
+// itself. At 1024 texels to a face the rounding is about a hundredth of a texel.
 constexpr double turn_steps_per_deg = 1000;
 
 glm::dquat rotation_of(glm::dvec3 turn_deg) {

@@ -1,12 +1,10 @@
-// The turns of a point light's cube: the axes of its faces, and the turns that are its placements.
+// The cube of a point light's map, turned about the light: its axes, its tiles, and the turns of the placements.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
+#include <optional>
 
-#include "scenes/scene.h"
 #include "technique/light_frame.h"
 #include "technique/placements.h"
 
