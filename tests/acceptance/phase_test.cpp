@@ -65,16 +65,16 @@ TEST(PhaseDiagram, AcneOfAPlaneIsTheTailOfItsSlopeOverTheTexel) {
   }
 }
 
-// Where acne ends: at the steepest lit receiver's k w |g|_1, for every texel size.
+// Where acne ends: at the steepest lit receiver's k w |g|_1. The camera sees little but the steepest faces, so that many
+// of their receivers lie beside a texel's corner. experiments/laws.toml has 20 texel sizes.
 TEST(PhaseDiagram, AcneOfCubeRoomEndsWhereLaw1Says) {
-  const PhaseDiagram d =
-      phase_of(with({{"map.format", "32f"}}, small("cube-room", 640, 360)),
-               {.rows = 20, .coarsest = 256, .finest = 4096, .placements = 8, .biases_per_octave = 2});
-  ASSERT_EQ(d.rows.size(), 20u);
+  const PhaseDiagram d = phase_of(
+      with({{"map.format", "32f"}, {"view.target_m", "-1,0,2"}, {"view.fov_deg", "7"}}, small("cube-room", 240, 135)),
+      {.rows = 5, .coarsest = 256, .finest = 4096, .placements = 8, .biases_per_octave = 2});
+  ASSERT_EQ(d.rows.size(), 5u);
   for (const PhaseRow& row : d.rows) {
     EXPECT_LE(row.last_acne_m, d.law_steepest * row.texel_m * 1.0001) << row.resolution;
-    // None of the receivers of the steepest face need lie just where the texel's corner is at any of the 64 placements.
-    EXPECT_GE(row.last_acne_m, d.law_steepest * row.texel_m * 0.99) << row.resolution;
+    EXPECT_GE(row.last_acne_m, d.law_steepest * row.texel_m * 0.995) << row.resolution;
   }
 }
 
