@@ -1,5 +1,6 @@
 #include "technique/filters/patterns.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace noonmark {
@@ -11,6 +12,10 @@ std::vector<glm::vec3> square_of_taps(int side, float step) {
     for (int x = 0; x < side; ++x)
       offsets.emplace_back((static_cast<float>(x) - middle) * step, (static_cast<float>(y) - middle) * step, 0);
   return offsets;
+}
+
+int rotations(const FilterSettings& settings, int taps) {
+  return settings["rotate"] != 0 ? std::min(64, most_listed_taps / taps) : 1;
 }
 
 TapPattern linear_fetches(int fetches, double sigma) {

@@ -8,6 +8,9 @@ namespace noonmark {
 // is a float, so that the offsets are bit for bit the shader's own products.
 std::vector<glm::vec3> square_of_taps(int side, float step_texels);
 
+// The rotations of a pattern of so many taps: 64, or as many as the shader's table can hold. One if filter.rotate is off.
+int rotations(const FilterSettings& settings, int taps);
+
 // `fetches` x `fetches` linear fetches with a spacing of one texel. The weight of a fetch at the distance x is exp(-x^2
 // / (2 sigma^2)).
 TapPattern linear_fetches(int fetches, double sigma_texels);

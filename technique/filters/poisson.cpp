@@ -39,7 +39,7 @@ const std::array<glm::dvec2, 16>& poisson_disk() {
 TapPattern poisson_taps(const FilterSettings& f) {
   TapPattern pattern;
   pattern.taps = 16;
-  pattern.variants = f["rotate"] != 0 ? 64 : 1;
+  pattern.variants = rotations(f, pattern.taps);
   for (int v = 0; v < pattern.variants; ++v) {
     const double angle = 2 * std::numbers::pi * v / pattern.variants;
     const double c = std::cos(angle) * f["radius_texels"], s = std::sin(angle) * f["radius_texels"];

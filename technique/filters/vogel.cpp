@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,7 +9,7 @@ namespace noonmark {
 TapPattern vogel_taps(const FilterSettings& f) {
   TapPattern pattern;
   pattern.taps = f.whole("taps");
-  pattern.variants = f["rotate"] != 0 ? std::min(64, most_listed_taps / pattern.taps) : 1;
+  pattern.variants = rotations(f, pattern.taps);
   const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
   for (int v = 0; v < pattern.variants; ++v)
     for (int i = 0; i < pattern.taps; ++i) {

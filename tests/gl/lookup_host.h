@@ -108,13 +108,18 @@ inline Settings random_settings(std::mt19937& random, LightKind kind) {
   for (const BiasPart& part : bias_parts())
     if (part.formula.way && random() % 8 == 0) s.bias[part.name] = 3 * unit(random);
   if (random() % 2) s.bias.plane_cap = 0.01 * unit(random);
+  // Every parameter within its range, and those whose range is too wide for a small map again.
+  for (const FilterParameter* p : filter_parameters()) {
+    const bool real = p->type == ValueType::real;
+    const double low = p->choices.empty() ? p->min : 0;
+    const double high = p->type == ValueType::flag ? 1 : p->choices.empty() ? p->max : double(p->choices.size() - 1);
+    s.filter[p->name()] = real ? low + (high - low) * unit(random) : low + std::floor((high - low + 1) * unit(random));
+  }
   s.filter["size"] = one_of(random, {1, 3, 3, 5, 5, 7, 31});
   s.filter["step_texels"] = one_of(random, {0.5, 1.0, 1.7, 3.0});
   s.filter["sigma_texels"] = one_of(random, {0.5, 1.0, 4.0});
   s.filter["radius_texels"] = 0.5 + 5 * unit(random);
-  s.filter["rotate"] = one_of(random, {0, 1});
   s.filter["offset_m"] = 0.02 + 0.2 * unit(random);
-  s.filter["disk"] = one_of(random, {0, 1});
   s.filter["radius_m"] = 0.01 + 0.1 * unit(random);
   if (kind == LightKind::point && random() % 2)
     s.map.turn_deg = glm::dvec3(unit(random), unit(random), unit(random)) * 200.0 - 100.0;

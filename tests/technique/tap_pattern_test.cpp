@@ -118,6 +118,27 @@ TEST(TapPattern, VogelsTapsFillADiskEvenly) {
   }
 }
 
+// At the ends of every parameter's range, alone and with the rotation.
+TEST(TapPattern, FitsIntoTheShadersTable) {
+  for (const Filter& row : filters())
+    for (const FilterRead& read : row.reads)
+      for (const bool rotate : {false, true}) {
+        const FilterParameter& p = *read.parameter;
+        const double last = p.type == ValueType::flag ? 1 : p.choices.empty() ? p.max : double(p.choices.size() - 1);
+        for (const double value : {p.min, last}) {
+          FilterSettings settings(std::string(row.name), {{p.name(), value}});
+          if (rotate) settings["rotate"] = 1;
+          if (read.why_refused && !read.why_refused(settings).empty()) continue;
+          const TapPattern pattern = tap_pattern(settings);
+          EXPECT_GT(pattern.taps, 0) << row.name << ", " << p.name() << " = " << value;
+          if (!pattern.bilinear()) {
+            EXPECT_LE(pattern.offsets.size(), static_cast<size_t>(most_listed_taps))
+                << row.name << ", " << p.name() << " = " << value;
+          }
+        }
+      }
+}
+
 TEST(TapPattern, WeightsSumToOneWhereverPLies) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0, 1);
