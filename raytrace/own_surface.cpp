@@ -181,9 +181,10 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   v.sure &= sure;
   return v;
 }
-template OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint&, glm::dvec3, uint32_t, const Silhouettes&) const;
-template OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint&, glm::dvec3, uint32_t,
-                                                const Silhouettes::Nearby&) const;
+template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes>(const SurfacePoint&, glm::dvec3, uint32_t,
+                                                             const Silhouettes&) const;
+template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes::Nearby>(const SurfacePoint&, glm::dvec3, uint32_t,
+                                                                     const Silhouettes::Nearby&) const;
 
 bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const {
   if (hit == no_primitive || hit == p.primitive) return true;
