@@ -267,7 +267,9 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const LightFrame frame = make_light_frame(scene, settings);
   const PointSetup point{settings, frame};
 
-  const auto [view, truth] = b.look(loaded, point);
+  const Impl::Looked looked = b.look(loaded, point);
+  const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
+  const TruthStage& truth = looked.truth;
   const MapStage& map = b.map.get(settings_key(settings, {Stage::scene, Stage::map}),
                                   [&] { return b.stages->draw_map(b.renderer, scene, point); });
   LookupStage& lookup = b.lookup.get(lookup_key_of(settings), [&] {
