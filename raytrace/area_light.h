@@ -20,7 +20,8 @@ bool has_size(const Light& light);
 // - The part of the light below the receiver's own horizon is not seen. A receiver inside the sphere sees all of it.
 // - Deterministic: the samples of a pixel depend only on its index.
 // - Pixels that are not in `facing` are 0.
-// - Where cells (may be null) prove that all rays agree, the result is the same 0 or 1, without rays.
+// - cells may be null. Where they prove that every ray would have the same verdict, no ray is cast. The result is the
+//   0 or 1 that the rays would give.
 Image<float> sample_light(const Scene& scene, const EmbreeScene& embree, const ReceiverImage& receivers,
                           const std::vector<uint32_t>& facing, const LightFrame& frame, const Light& light,
                           double standard_error, LightCells* cells);

@@ -71,7 +71,7 @@ class FreeOfSilhouettes {
   const LightView& view_;
   const Silhouettes& silhouettes_;
   const LookupProbe& probe_;
-  glm::vec3 low_{0}, high_{0};  // of the offsets, and of no offset
+  glm::vec3 low_{0}, high_{0};  // the least and the largest offset of a tap in each axis; 0 is between them
   bool applies_;
 };
 

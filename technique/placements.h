@@ -1,5 +1,5 @@
 // The placements of a map's grid of texels. The same map can lie anywhere within one texel: the error of a lookup
-// depends on that, although nobody chooses it. How placements differ is for the kind of light to say
+// depends on that, although nobody chooses it. Each kind of light defines how its placements differ
 // (KindOfLight::place_grid).
 //
 // Of a flat map, S x S placements shift the grid by whole multiples of 1/S texel along each axis. They are a stratified

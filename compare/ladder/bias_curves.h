@@ -54,6 +54,8 @@ class BiasCounts {
   // Counts the whole picture.
   BiasCounts(const LookupEvidence& evidence, const Image<float>& stored_map, const BiasPart& varied);
 
+  class Adding;
+
   const BiasPart& varied() const { return *varied_; }
   bool blended() const { return blended_; }  // whether a sampler blends the taps
   uint64_t receivers() const { return receivers_; }
@@ -102,32 +104,31 @@ class BiasCounts {
   double whole_ = 1;
   float stored_acne_free_from_ = 0;
   std::array<ThresholdSums, lists> sums_;
+};
 
+// Adds a strip, as a judge of read_taps (compare/ladder/receiver_taps.h).
+class BiasCounts::Adding {
  public:
-  // Adds a strip, as a judge of read_taps (compare/ladder/receiver_taps.h).
-  class Adding {
-   public:
-    struct Thresholds {
-      std::vector<float> at;
-      std::vector<double> weights;  // empty if each weighs 1
-    };
-    struct Part {
-      std::array<Thresholds, BiasCounts::lists> lists;
-      uint64_t receivers = 0;
-      float stored_acne = 0;  // the largest threshold
-    };
-    Adding(BiasCounts& counts, const LookupEvidence& evidence, const Image<float>& stored_map)
-        : counts_(counts), e_(evidence), stored_map_(stored_map) {}
-    void receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
-    void join(Part& part);
-    void end_batch();
-
-   private:
-    BiasCounts& counts_;
-    const LookupEvidence& e_;
-    const Image<float>& stored_map_;
-    std::array<Thresholds, BiasCounts::lists> all_;  // of the batch
+  struct Thresholds {
+    std::vector<float> at;
+    std::vector<double> weights;  // empty if each weighs 1
   };
+  struct Part {
+    std::array<Thresholds, BiasCounts::lists> lists;
+    uint64_t receivers = 0;
+    float stored_acne = 0;  // the largest threshold
+  };
+  Adding(BiasCounts& counts, const LookupEvidence& evidence, const Image<float>& stored_map)
+      : counts_(counts), e_(evidence), stored_map_(stored_map) {}
+  void receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
+  void join(Part& part);
+  void end_batch();
+
+ private:
+  BiasCounts& counts_;
+  const LookupEvidence& e_;
+  const Image<float>& stored_map_;
+  std::array<Thresholds, BiasCounts::lists> all_;  // of the batch
 };
 
 // The size of one unit of the curve in the other units, at the place that BiasCurve::m_per_depth names.
