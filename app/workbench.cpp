@@ -61,7 +61,8 @@ std::string curve_key_of(const Settings& settings, const BiasPart& varied, const
 }
 
 void add_cost(PointRecord& record, const FrameCost& cost) {
-  record.metrics.insert({{"traffic_bytes", static_cast<double>(cost.traffic_bytes)},
+  record.metrics.insert({{"texel_work", static_cast<double>(cost.texel_work)},
+                         {"traffic_bytes", static_cast<double>(cost.traffic_bytes)},
                          {"map_bytes", static_cast<double>(cost.map_bytes)},
                          {"map_texels", static_cast<double>(cost.map_texels)},
                          {"map_triangles", static_cast<double>(cost.map_triangles)},

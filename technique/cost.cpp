@@ -97,6 +97,7 @@ FrameCost frame_cost(const Settings& settings, int tiles, int64_t receivers, int
   cost.map_bytes = cost.map_texels * texel;
   cost.map_triangles = tiles * triangles;
   cost.lookup = lookup_cost(settings);
+  cost.texel_work = cost.map_texels + receivers * cost.lookup.fetches;
   cost.traffic_bytes = cost.map_bytes + receivers * cost.lookup.texels * texel;
   return cost;
 }

@@ -2,7 +2,7 @@
 // cost, on every GPU and in every run. They say nothing about caches, and nothing about time.
 //
 //   FrameCost cost = frame_cost(settings, tiles, facing_receivers, triangles);
-//   if (cost.traffic_bytes < other.traffic_bytes) ...
+//   if (cost.texel_work < other.texel_work) ...
 #pragma once
 #include <cstdint>
 
@@ -27,6 +27,9 @@ struct FrameCost {
   int64_t map_bytes = 0;      // their memory
   int64_t map_triangles = 0;  // that the rasteriser gets: those of the scene, once for each tile
   LookupCost lookup;          // of each receiver
+  // The texels of the map, each written once, and the texture instructions of all receivers: what the two fixed-function
+  // units of a GPU do for a shadow. Neighbours share texels in a cache, so instructions are counted and not bytes.
+  int64_t texel_work = 0;
   int64_t traffic_bytes = 0;  // map_bytes written once, and the texels that the lookups of all receivers read
 };
 

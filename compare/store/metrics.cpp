@@ -152,10 +152,13 @@ constexpr Metric measured_once[] = {
      "Root mean square difference over the receivers of two shaded frames (Blinn-Phong clay, linear light, 1 is "
      "white): one with the map's shadow (R5), one with the true shadow (R1).",
      true},
+    {"texel_work", "count",
+     "Cost of the technique, the same on every machine: the texels of the map, each written once, and the texture "
+     "instructions of the lookups of all facing receivers.",
+     true},
     {"traffic_bytes", "bytes",
-     "Cost of the technique, the same on every machine: the bytes of the map, each written once, and of the texels "
-     "that "
-     "the lookups of the facing receivers read, without a cache.",
+     "The same in bytes: those of the map, each written once, and of the texels that the lookups read, without a "
+     "cache.",
      true},
     {"map_bytes", "bytes", "Memory of the shadow map. A depth of 24 bits takes 4 bytes.", true},
     {"map_texels", "count", "Number of texels of the shadow map, of a cube on all six faces.", true},

@@ -148,7 +148,7 @@ struct RunInfo {
   std::map<std::string, std::string> libraries;  // name -> version
   std::vector<std::string> swept;                // names of the swept settings, outermost first
   std::vector<std::string> over;                 // those of them that are conditions (compare/judge/choices.h)
-  std::string cost = "traffic_bytes";            // the metric by which answers are ranked
+  std::string cost = "texel_work";            // the metric by which answers are ranked
   std::string accuracy = "error_soft";           // the metric that answers make small
   std::vector<std::string> plot;                 // metrics the experiment asks to plot
   std::string scene_name;

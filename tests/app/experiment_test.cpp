@@ -167,7 +167,7 @@ TEST(Experiment, TheAnswerNamesItsMetrics) {
   const Experiment e = parse("[answer]\ncost = \"map_bytes\"\naccuracy = \"error\"\n");
   EXPECT_EQ(e.cost, "map_bytes");
   EXPECT_EQ(e.accuracy, "error");
-  EXPECT_EQ(parse("").cost, "traffic_bytes");
+  EXPECT_EQ(parse("").cost, "texel_work");
 }
 
 TEST(Experiment, OverridesReplaceTheValueAndItsSweep) {

@@ -77,6 +77,7 @@ TEST(Cost, AddsTheMapAndTheLookups) {
   EXPECT_EQ(flat.map_texels, 1 << 20);
   EXPECT_EQ(flat.map_bytes, 4 << 20);
   EXPECT_EQ(flat.map_triangles, 50);
+  EXPECT_EQ(flat.texel_work, (1 << 20) + 1000 * 9);
   EXPECT_EQ(flat.traffic_bytes, (4 << 20) + 1000 * 9 * 4);
   s.map.format = DepthFormat::d16;
   const FrameCost cube = frame_cost(s, 6, 1000, 50);

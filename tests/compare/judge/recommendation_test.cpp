@@ -22,7 +22,7 @@ PointRecord point_with(int64_t id, double cost, std::optional<double> low, std::
   point.id = id;
   point.settings = {
       {"bias.constant", "0.25"}, {"bias.unit", "depth"}, {"map.resolution", fmt::format("{}", 256 << id)}};
-  point.metrics = {{"error", 0.5}, {"error_soft", 0.5}, {"light_size", 0}, {"acne", 0.5}, {"traffic_bytes", cost}};
+  point.metrics = {{"error", 0.5}, {"error_soft", 0.5}, {"light_size", 0}, {"acne", 0.5}, {"texel_work", cost}};
   BiasCurve curve;
   curve.parameter = "bias.constant";
   curve.made = "one pass";
@@ -123,9 +123,9 @@ TEST(Recommend, WhatIsNotFiniteNeverHolds) {
   for (double bad : {nan, infinity, -infinity}) {
     Results results;
     results.points = {point_with(0, 1, 0.25, 0.75), point_with(1, 2, 0.25, 0.75)};
-    results.points[0].metrics["traffic_bytes"] = bad;
+    results.points[0].metrics["texel_work"] = bad;
     EXPECT_EQ(id_of(recommend(results)), 1);
-    results.points[0].metrics["traffic_bytes"] = 1;
+    results.points[0].metrics["texel_work"] = 1;
     results.points[0].curve->error.assign(5, bad);
     EXPECT_EQ(id_of(recommend(results)), 1);
     results.points[0].curve->error = results.points[1].curve->error;

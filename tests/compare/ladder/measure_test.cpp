@@ -384,7 +384,7 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
     EXPECT_EQ(&find_metric(metric.name), &metric);
   }
   std::set<std::string> measured = times;
-  for (const char* name : {"shaded_rmse", "clipped", "culled", "scene_behind", "traffic_bytes", "map_bytes",
+  for (const char* name : {"shaded_rmse", "clipped", "culled", "scene_behind", "texel_work", "traffic_bytes", "map_bytes",
                            "map_texels", "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations"})
     measured.insert(name);  // likewise
   const Picture picture(1, 1);

@@ -95,7 +95,7 @@ PointRecord sample_point(int64_t id, int resolution, double extent_m, bool box) 
        {"map_ms", 1.1 + 2.4e-6 * resolution * resolution},
        {"lookup_ms", box ? 21.4 : 6.1}};
   m["shadow_ms"] = m["map_ms"] + m["lookup_ms"];
-  m["traffic_bytes"] = 1e6 * m["shadow_ms"];
+  m["texel_work"] = 1e6 * m["shadow_ms"];
   point.times = {{"map_ms", m["map_ms"]}, {"lookup_ms", m["lookup_ms"]}, {"truth_ms", 310.5}, {"rays", 4.1e6}};
   point.worst = {512, 300, 1, "acne"};
   return point;
