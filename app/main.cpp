@@ -202,6 +202,49 @@ int run(int argc, char** argv) {
   map->footer(exit_codes);
   with_out(map, "Folder for the files (default: out/map-<name of the scene>)");
 
+  RecommendOptions recommending;
+  CLI::App* recommend = app.add_subcommand(
+      "recommend",
+      "Search the cheapest settings that hold the bounds in every view and at every placement of the grid");
+  recommend
+      ->add_option(
+          "what", scene,
+          "A built-in scene, the path of a .gltf or .glb file, or an experiment whose [over] gives the conditions")
+      ->required()
+      ->check(not_empty);
+  recommend
+      ->add_option("--set", arguments.sets, "Fix a setting: name=value (noonmark settings lists them). May be repeated")
+      ->expected(1)
+      ->take_all()
+      ->type_name("NAME=VALUE");
+  const auto limit_of = [&](std::optional<double>& to, const char* name, const char* help) {
+    recommend->add_option(name, to, help)->check(fraction)->type_name("FRACTION");
+  };
+  limit_of(recommending.acne, "--acne", "The most acne, as a fraction of the counted receivers (default: 0.001)");
+  limit_of(recommending.peter_panning, "--peter-panning", "The most Peter Panning (default: 0.001)");
+  limit_of(
+      recommending.error, "--error",
+      "The most error (default: what pays: the least product of cost and error). The cheapest settings are sought");
+  recommend
+      ->add_option(
+          "--budget", recommending.budget,
+          "The most texels written and texture instructions a frame (the metric texel_work). The most accurate "
+          "settings are sought")
+      ->check(CLI::PositiveNumber)
+      ->type_name("NUMBER");
+  recommend
+      ->add_option("--views", recommending.views,
+                   "Of a scene: its own view, and up to 4 turned about the camera's target (default: 5 views)")
+      ->check(whole_number(1, 5, "from 1 to 5"));
+  recommend->add_flag("--json", recommending.json, "Print everything that was found as JSON");
+  recommend->add_flag("--quiet", recommending.quiet, "Print no progress");
+  recommend
+      ->add_option("--threads", arguments.threads,
+                   "Number of threads (default: one for each core); no result depends on it")
+      ->check(whole_number(1, 1024, "from 1 to 1024"));
+  recommend->footer(exit_codes);
+  with_out(recommend, "Folder for the files (default: out/recommend-<name>)");
+
   CLI::App* report = app.add_subcommand("report", "Write report.html and results.csv again from stored results");
   report->add_option("folder", folder, "The results' folder")->required()->check(not_empty);
 
@@ -221,11 +264,12 @@ int run(int argc, char** argv) {
     if (argc > 1) refuse_unknown(argv[1], verbs);
     app.parse(argc, argv);
     std::optional<ThreadLimit> limit;
-    if (*run || *check || *render || *map) limit.emplace(arguments.threads);
+    if (*run || *check || *render || *map || *recommend) limit.emplace(arguments.threads);
     if (*run) return verb_run(experiment, arguments, dry_run);
     if (*check) return verb_check(paths, arguments);
     if (*render) return verb_render(experiment, point, picture, arguments);
     if (*map) return verb_map(scene, phase, arguments);
+    if (*recommend) return verb_recommend(scene, recommending, arguments);
     if (*report) return verb_report(folder);
     if (*scenes) return verb_scenes();
     if (*settings) return verb_settings();

@@ -1,5 +1,6 @@
 // The verbs of the command line. Each has its own file and returns the exit code. Errors are thrown.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,14 @@ int verb_render(const std::string& experiment, long point, const std::string& pi
                 const ExperimentArguments& arguments);
 // The phase diagram of a scene: a built-in one, or a file.
 int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentArguments arguments);
+// The settings to recommend for an experiment's conditions (*.toml), or for a scene: a built-in one, or a file.
+struct RecommendOptions {
+  std::optional<double> acne, peter_panning;  // bounds; empty: the experiment's
+  std::optional<double> error, budget;        // AdviceRequest
+  int views = 5;                              // of a scene; 1: its own only
+  bool json = false, quiet = false;
+};
+int verb_recommend(const std::string& what, const RecommendOptions& options, ExperimentArguments arguments);
 int verb_report(const std::string& folder);
 int verb_scenes();
 int verb_settings();

@@ -1,0 +1,77 @@
+// Searches for the settings to recommend: the least technique that holds the bounds under all conditions and at every
+// placement of the map's grid.
+//
+//   const Advice advice = search(bench, request, [](const std::string& step) { print(step); });
+//   for (const std::string& line : advice_text(advice)) print(line);          // app/recommend_text.h
+//
+// The search:
+// 1. Screening, under the first condition and at one placement: each technique, from the least, at doubling
+//    resolutions. Settings that fail here fail for good, because the window at every placement lies within it. Dearer
+//    resolutions are not tried where they cannot win: errors fall at most as the texel's width (law 5).
+// 2. The settings that hold, from the best, are measured under all conditions at 8 x 8 placements. The first that holds
+//    there is verified.
+// 3. Verification: OpenGL renders it at 64 other placements, and each must keep the bounds. Otherwise the next is taken.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/workbench.h"
+#include "compare/judge/recommendation.h"
+#include "compare/ladder/bias_curves.h"
+
+namespace noonmark {
+
+// A kind of bias, from the least to the most complicated.
+struct BiasLevel {
+  std::string name;  // "one constant bias"
+  std::function<void(Settings&)> apply;
+};
+
+struct AdviceRequest {
+  std::vector<Settings> conditions;  // of full size; the first is searched on. They differ in conditions only
+  std::vector<BiasLevel> levels;     // empty: the bias as the conditions give it
+  std::vector<FilterSettings> filters;
+  std::vector<int> resolutions;  // ascending
+  CurveOptions curve;            // the bounds
+  std::string accuracy = "error_soft";
+  std::optional<double> error;   // the most of `accuracy`
+  std::optional<double> budget;  // the most texel_work
+  int width_px = 320;            // of the pictures that are searched on
+};
+
+// The choices that the program has by itself.
+std::vector<BiasLevel> bias_levels();
+std::vector<FilterSettings> filters_to_try(LightKind light);
+
+// Settings that were measured.
+struct Tried {
+  Settings settings;  // of full size, with the bias that was chosen
+  std::string level;
+  double cost = 0;                   // texel_work at full size
+  double error = 0;                  // accuracy, largest over the conditions that were measured
+  std::optional<BiasChoice> bias;    // empty: no usable bias
+  std::string why_not;               // why it is not the answer; empty for the answer
+  std::optional<PointRecord> worst;  // where it failed, or the worst condition of the answer
+};
+
+struct Advice {
+  std::optional<Tried> answer;
+  std::vector<Tried> tried;  // all others, by cost
+  // Of the answer.
+  size_t conditions = 0;
+  int placements = 0, verified = 0;                                 // searched (each condition); rendered afresh
+  double worst_acne = 0, worst_peter_panning = 0, worst_error = 0;  // over the placements that were rendered
+  double shadowed = 0;  // share of the counted receivers that are dark in truth: the error without a shadow map
+  AdviceRequest request;
+};
+
+// say: progress, one line. Throws Error.
+Advice search(Workbench& bench, const AdviceRequest& request, const std::function<void(const std::string&)>& say);
+
+// Views from which the same place is seen: the settings' own, and turned about the camera's target by -30, -15, 15 and
+// 30 degrees.
+std::vector<Settings> turned_views(const Settings& settings, const Scene& scene);
+
+}  // namespace noonmark

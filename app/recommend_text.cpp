@@ -1,0 +1,228 @@
+#include "app/recommend_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/experiment.h"
+#include "compare/report/findings.h"
+#include "compare/store/quantities.h"
+
+namespace noonmark {
+namespace {
+
+std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
+
+std::string filter_text(const FilterSettings& filter) {
+  if (filter.kind == "none") return "no filter";
+  if (filter.kind == "castano") return fmt::format("the filter castano {0} x {0}", filter.whole("size"));
+  return fmt::format("the filter {}", filter.kind);
+}
+
+std::string settings_text(const Tried& tried) {
+  std::string text =
+      fmt::format("a map of {0} x {0} texels, {1}", tried.settings.map.resolution, filter_text(tried.settings.filter));
+  if (tried.settings.bias.reference != "own_depth")
+    text += fmt::format(", bias.reference = {}", tried.settings.bias.reference);
+  if (tried.settings.map.cull != MapSettings().cull)
+    text += fmt::format(", map.cull = {}", find_setting("map.cull").get(tried.settings));
+  if (tried.bias) text += fmt::format(", and {} = {:g} {}", tried.bias->parameter, tried.bias->value, tried.bias->unit);
+  return text;
+}
+
+std::string causes_text(const PointRecord& point) {
+  const PointRecord* only[] = {&point};
+  const std::vector<CauseShare> shares = cause_shares(only);
+  std::string text;
+  for (size_t i = 0; i < std::min<size_t>(shares.size(), 2); ++i) {
+    std::string name = shares[i].name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += fmt::format("{}{} ({:.0f}%)", i ? ", then " : "", name, 100 * shares[i].share);
+  }
+  return text;
+}
+
+std::string bounds_text(const CurveOptions& bounds) {
+  return fmt::format("acne within {} and Peter Panning within {}", percent(bounds.acne_bound),
+                     percent(bounds.peter_panning_bound));
+}
+
+// The dearest of the settings that cost less than the answer.
+const Tried* next_cheaper(const Advice& advice) {
+  const Tried* found = nullptr;
+  for (const Tried& tried : advice.tried)
+    if (tried.cost < advice.answer->cost) found = &tried;
+  return found;
+}
+
+// What would have to change, from what was tried.
+std::vector<std::string> nothing_works(const Advice& advice) {
+  std::vector<std::string> lines;
+  lines.push_back(
+      fmt::format("Nothing that was tried keeps {}{} under all conditions.", bounds_text(advice.request.curve),
+                  advice.request.error ? fmt::format(" and the error within {}", percent(*advice.request.error)) : ""));
+  if (advice.tried.empty()) return lines;
+  // The one that came nearest: of those with a window the least error, otherwise the finest texels.
+  const auto nearest = std::min_element(advice.tried.begin(), advice.tried.end(), [](const Tried& a, const Tried& b) {
+    if (a.bias.has_value() != b.bias.has_value()) return a.bias.has_value();
+    return a.bias ? a.error < b.error : a.settings.map.resolution > b.settings.map.resolution;
+  });
+  lines.push_back(fmt::format("Nearest came {}: {}.", settings_text(*nearest), nearest->why_not));
+  if (nearest->worst && nearest->worst->worst.x >= 0)
+    lines.push_back(fmt::format("Its worst pixel is x = {}, y = {} (row 0 on top, of {} x {}), by {}.",
+                                nearest->worst->worst.x, nearest->worst->worst.y,
+                                setting_of(*nearest->worst, "view.width_px"),
+                                setting_of(*nearest->worst, "view.height_px"), nearest->worst->worst.cause));
+  lines.push_back(
+      "What would have to change: finer texels (a higher resolution or a smaller extent), larger bounds, or a "
+      "mesh whose parts are closed and stand further apart than the bias that its slopes need.");
+  return lines;
+}
+
+// For each level of the bias below the answer's: why it does not do.
+std::vector<std::string> lesser_levels(const Advice& advice) {
+  std::vector<std::string> lines;
+  for (const BiasLevel& level : advice.request.levels) {
+    if (level.name == advice.answer->level) break;
+    int finest = 0;
+    bool any_window = false;
+    for (const Tried& tried : advice.tried) {
+      if (tried.level != level.name) continue;
+      finest = std::max(finest, tried.settings.map.resolution);
+      any_window = any_window || tried.bias;
+    }
+    if (finest && !any_window)
+      lines.push_back(fmt::format("With {} nothing up to {} texels keeps both bounds.", level.name, finest));
+    else if (finest)
+      for (const Tried& tried : advice.tried)
+        if (tried.level == level.name && tried.bias) {
+          lines.push_back(fmt::format("With {} the first that keeps both bounds is {}, but {}.", level.name,
+                                      settings_text(tried), tried.why_not));
+          break;
+        }
+  }
+  return lines;
+}
+
+// The value of a setting as TOML.
+std::string toml_value(const Setting& row, const std::string& text) {
+  const bool bare =
+      text != "auto" && (row.type == ValueType::integer || row.type == ValueType::real || row.type == ValueType::flag);
+  if (bare) return text;
+  if (row.type == ValueType::point && text != "auto") return "[" + text + "]";
+  return nlohmann::json(text).dump();  // a JSON string is a TOML basic string
+}
+
+}  // namespace
+
+std::vector<std::string> advice_text(const Advice& advice) {
+  if (!advice.answer) return nothing_works(advice);
+  const Tried& answer = *advice.answer;
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("Set {}.", settings_text(answer)));
+  if (answer.bias)
+    lines.push_back(fmt::format(
+        "{} keeps {} from {:.3g} to {:.3g} {} in all {} view{} and at all {} placements of the map's grid that were "
+        "searched{}.",
+        answer.bias->parameter, bounds_text(advice.request.curve), answer.bias->window.low, answer.bias->window.high,
+        answer.bias->unit, advice.conditions, advice.conditions == 1 ? "" : "s", advice.placements,
+        answer.bias->narrow
+            ? "; that is narrow, so a small change of the scene can break it"
+            : fmt::format("; the bias keeps at least {:.0f}% from both ends", 100 * (bias_margin - 1))));
+  lines.push_back(fmt::format(
+      "Verified: OpenGL rendered it at {} other placements; the worst of them has {} acne, {} Peter Panning and {} "
+      "error.",
+      advice.verified, percent(advice.worst_acne), percent(advice.worst_peter_panning), percent(advice.worst_error)));
+  if (answer.worst) {
+    const std::string causes = causes_text(*answer.worst);
+    lines.push_back(fmt::format("The error that is left ({}) is {}{}.", advice.request.accuracy, percent(answer.error),
+                                causes.empty() ? "" : ", most of it " + causes));
+  }
+  lines.push_back(fmt::format("Without a shadow map the error would be {}.", percent(advice.shadowed)));
+  lines.push_back(
+      fmt::format("It costs {:.3g} million texels written and texture instructions a frame.", answer.cost / 1e6));
+  if (const Tried* cheaper = next_cheaper(advice))
+    lines.push_back(fmt::format("The next cheaper is {} ({:.3g} million): {}.", settings_text(*cheaper),
+                                cheaper->cost / 1e6, cheaper->why_not));
+  else
+    lines.push_back("Nothing cheaper was tried.");
+  for (std::string& line : lesser_levels(advice)) lines.push_back(std::move(line));
+  return lines;
+}
+
+std::string advice_experiment(const Advice& advice, const std::string& folder) {
+  const Tried& answer = *advice.answer;
+  std::vector<std::map<std::string, std::string>> conditions;
+  for (const Settings& condition : advice.request.conditions) conditions.push_back(settings_map(condition));
+  const auto is_condition = [&](const std::string& name) {
+    return std::any_of(conditions.begin(), conditions.end(),
+                       [&](const auto& other) { return other.at(name) != conditions.front().at(name); });
+  };
+  Settings settings = answer.settings;
+  settings.map.placements = advice.placements ? static_cast<int>(std::lround(std::sqrt(advice.placements))) : 1;
+  std::string scene = settings.scene.name;
+  if (std::error_code none; std::filesystem::is_regular_file(scene, none))
+    scene = std::filesystem::proximate(scene, folder);
+  std::string text = fmt::format("# Written by noonmark recommend. noonmark check judges it.\n\n[scene]\nname = {}\n",
+                                 nlohmann::json(scene).dump());
+  std::string over, group = "scene";
+  for (const Setting& row : settings_table()) {
+    const std::string name(row.name), value = row.get(settings);
+    const size_t dot = name.find('.');
+    if (is_condition(name)) {
+      std::vector<std::string> values;
+      for (const auto& condition : conditions)
+        if (const std::string one = toml_value(row, condition.at(name));
+            std::find(values.begin(), values.end(), one) == values.end())
+          values.push_back(one);
+      over += fmt::format("{} = [{}]\n", name, fmt::join(values, ", "));
+    } else if (name != "scene.name" && value != row.get(Settings())) {
+      if (name.substr(0, dot) != group) text += fmt::format("\n[{}]\n", group = name.substr(0, dot));
+      text += fmt::format("{} = {}\n", name.substr(dot + 1), toml_value(row, value));
+    }
+  }
+  if (!over.empty()) text += "\n[over]\n" + over;
+  text += fmt::format("\n[curve]\nacne_bound = {}\npeter_panning_bound = {}\n", advice.request.curve.acne_bound,
+                      advice.request.curve.peter_panning_bound);
+  for (const auto& [metric, max] : {std::pair("acne", advice.request.curve.acne_bound),
+                                    std::pair("peter_panning", advice.request.curve.peter_panning_bound)})
+    text += fmt::format("\n[[bound]]\nmetric = \"{}\"\nmax = {}\n", metric, max);
+  if (advice.request.error)
+    text += fmt::format("\n[[bound]]\nmetric = \"{}\"\nmax = {}\n", advice.request.accuracy, *advice.request.error);
+  return text;
+}
+
+std::string advice_json(const Advice& advice) {
+  using nlohmann::json;
+  const auto of = [](const Tried& tried) {
+    json one{{"settings", settings_map(tried.settings)}, {"bias_kind", tried.level}, {"texel_work", tried.cost}};
+    if (tried.bias) {
+      one["error"] = tried.error;
+      one["bias"] = {{"parameter", tried.bias->parameter}, {"unit", tried.bias->unit},
+                     {"value", tried.bias->value},         {"from", tried.bias->window.low},
+                     {"to", tried.bias->window.high},      {"narrow", tried.bias->narrow}};
+    }
+    if (!tried.why_not.empty()) one["why_not"] = tried.why_not;
+    return one;
+  };
+  json all;
+  all["text"] = advice_text(advice);
+  all["accuracy"] = advice.request.accuracy;
+  all["answer"] = advice.answer ? of(*advice.answer) : json();
+  if (advice.answer)
+    all["verified"] = {{"conditions", advice.conditions},
+                       {"searched_placements", advice.placements},
+                       {"rendered_placements", advice.verified},
+                       {"worst_acne", advice.worst_acne},
+                       {"worst_peter_panning", advice.worst_peter_panning},
+                       {"worst_error", advice.worst_error}};
+  all["tried"] = json::array();
+  for (const Tried& tried : advice.tried) all["tried"].push_back(of(tried));
+  return all.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace noonmark

@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/experiment_arguments.h"
+#include "app/image_file.h"
+#include "app/pictures.h"
+#include "app/recommend_text.h"
+#include "app/results_folder.h"
+#include "app/verbs.h"
+#include "scenes/error.h"
+#include "scenes/file.h"
+#include "scenes/library.h"
+#include "scenes/text.h"
+#include "technique/light_frame.h"
+
+namespace noonmark {
+namespace {
+
+// The points of the conditions alone: each choice of the sweep has its first value.
+std::vector<Settings> conditions_of(Experiment experiment) {
+  std::erase_if(experiment.swept, [](const Swept& swept) { return !swept.condition; });
+  return points(experiment);
+}
+
+bool is_experiment(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
+
+// Whether the user said what the bias is.
+bool gives_bias(const Experiment& experiment) {
+  return std::any_of(experiment.locations.begin(), experiment.locations.end(),
+                     [](const auto& given) { return given.first.starts_with("bias.") && given.first != "bias.unit"; });
+}
+
+}  // namespace
+
+int verb_recommend(const std::string& what, const RecommendOptions& options, ExperimentArguments arguments) {
+  if (!is_experiment(what)) arguments.sets.push_back("scene.name=" + what);
+  const Experiment experiment = experiment_from(is_experiment(what) ? what : "", arguments);
+  if (!experiment.parts.empty())
+    throw Error(ErrorKind::usage,
+                fmt::format("{} has parts; recommend answers for one experiment, so give a file without "
+                            "parts",
+                            what));
+  const std::string out =
+      arguments.out.empty() ? "out/recommend-" + std::filesystem::path(what).stem().string() : arguments.out;
+  require_room_to_start(true);
+  Workbench bench(gl::DebugMode::log);
+  require_image_files();
+  AdviceRequest request;
+  request.conditions = conditions_of(experiment);
+  const Settings first = request.conditions.front();
+  const Scene& scene = bench.scene(first.scene);
+  if (!is_experiment(what) && options.views > 1) {
+    request.conditions = turned_views(first, scene);
+    request.conditions.resize(std::min(request.conditions.size(), static_cast<size_t>(options.views)));
+  }
+  const LightKind light = make_light_frame(scene, request.conditions.front()).kind;
+  if (!gives_bias(experiment)) request.levels = bias_levels();
+  request.filters = filters_to_try(light);
+  for (int resolution = 256; resolution <= 8192; resolution *= 2) request.resolutions.push_back(resolution);
+  request.curve = experiment.curve;
+  if (options.acne) request.curve.acne_bound = *options.acne;
+  if (options.peter_panning) request.curve.peter_panning_bound = *options.peter_panning;
+  request.accuracy = experiment.accuracy;
+  request.error = options.error;
+  request.budget = options.budget;
+
+  make_output_folder(out);
+  clear_abandoned_files(out);
+  const Advice advice = search(bench, request, [&](const std::string& step) {
+    if (!options.quiet) fmt::print(stderr, "{}\n", step);
+  });
+  for (const char* file : {"/recommended.toml", "/recommended.json"}) std::filesystem::remove(out + file);
+  write_file_atomically(out + "/recommended.json", advice_json(advice));
+  if (options.json)
+    fmt::print("{}", advice_json(advice));
+  else
+    for (const std::string& line : advice_text(advice)) fmt::print("{}\n", line);
+  if (!advice.answer) return 1;
+  write_file_atomically(out + "/recommended.toml", advice_experiment(advice, out));
+  const Measurement shown = bench.measure(advice.answer->settings, std::nullopt);
+  write_pictures(shown, out, ".", "recommended");
+  if (!options.json) {
+    if (const std::string note = notes_line(bench.scene(first.scene)); !note.empty()) fmt::print("note: {}\n", note);
+    fmt::print(
+        "\n{0}/recommended.toml (check it: noonmark check {0}/recommended.toml), {0}/recommended.json and "
+        "{0}/recommended-*.png are written\n",
+        printable(out));
+  }
+  return 0;
+}
+
+}  // namespace noonmark
