@@ -17,6 +17,7 @@
 #include "technique/cost.h"
 #include "technique/light_frame.h"
 #include "technique/setting_rules.h"
+#include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {
@@ -70,22 +71,24 @@ class Search {
     Advice advice;
     advice.request = request_;
     for (size_t level = 0; level < std::max<size_t>(1, request_.levels.size()); ++level) screen_level(level);
-    std::vector<Candidate*> order;
-    for (Candidate& candidate : candidates_)
-      if (candidate.tried.why_not.empty()) order.push_back(&candidate);
-    std::stable_sort(order.begin(), order.end(), [&](auto* a, auto* b) { return rank(*a) < rank(*b); });
-    for (Candidate* candidate : order) {
-      if (advice.answer) {
-        candidate->tried.why_not = why_worse(candidate->tried, *advice.answer);
-        continue;
-      }
-      confirm(*candidate, advice);
-      if (candidate->tried.why_not.empty() && !too_wrong(candidate->tried)) advice.answer = candidate->tried;
+    for (std::optional<size_t> best = best_open(); best && !advice.answer; best = best_open()) {
+      candidates_[*best].confirmed = true;
+      confirm(candidates_[*best], advice);
+      if (candidates_[*best].tried.why_not.empty())
+        advice.answer = candidates_[*best].tried;
+      else
+        screen_finer(candidates_[*best]);
     }
-    for (const Candidate& candidate : candidates_)
-      if (!candidate.tried.why_not.empty()) advice.tried.push_back(candidate.tried);
+    for (Candidate& candidate : candidates_) {
+      Tried& tried = candidate.tried;
+      if (advice.answer && tried.why_not.empty() && !candidate.confirmed)
+        tried.why_not = why_worse(tried, *advice.answer);
+      if (!tried.why_not.empty()) advice.tried.push_back(tried);
+    }
     std::stable_sort(advice.tried.begin(), advice.tried.end(),
                      [](const Tried& a, const Tried& b) { return a.cost < b.cost; });
+    if (!request_.levels.empty() && (!advice.answer || advice.answer->level != request_.levels.front().name))
+      advice.least_resolution = least_resolution();
     advice.conditions = request_.conditions.size();
     advice.shadowed = shadowed_;
     return advice;
@@ -95,11 +98,62 @@ class Search {
   struct Candidate {
     Tried tried;
     size_t level = 0;
+    bool confirmed = false;  // or refuted
   };
 
+  // The best candidate that holds as far as is known and is not confirmed yet.
+  std::optional<size_t> best_open() const {
+    std::optional<size_t> best;
+    for (size_t i = 0; i < candidates_.size(); ++i) {
+      const Candidate& one = candidates_[i];
+      if (one.confirmed || !one.tried.why_not.empty() || too_wrong(one.tried)) continue;
+      if (!best || rank(one) < rank(candidates_[*best])) best = i;
+    }
+    return best;
+  }
+
+  // A resolution that does not hold everywhere was perhaps the last that was screened.
+  void screen_finer(const Candidate& failed) {
+    const Tried tried = failed.tried;
+    const size_t level = failed.level;
+    const bool known = std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& other) {
+      return other.level == level && same(other.tried.settings.filter, tried.settings.filter) &&
+             other.tried.settings.map.resolution > tried.settings.map.resolution;
+    });
+    const auto finer =
+        std::upper_bound(request_.resolutions.begin(), request_.resolutions.end(), tried.settings.map.resolution);
+    if (known || finer == request_.resolutions.end()) return;
+    Candidate made;
+    made.level = level;
+    made.tried.level = tried.level;
+    made.tried.settings = of_choice(request_.conditions.front(), level, tried.settings.filter, *finer);
+    if (screen(made.tried, 0)) candidates_.push_back(std::move(made));
+  }
+
+  // The least resolution from which on one constant bias keeps the bounds at every placement, under the first condition,
+  // without a filter; the finest that the diagram has, negative, if none does. Empty where a diagram has no meaning.
+  std::optional<int> least_resolution() {
+    try {
+      const Settings settings = small(of_choice(request_.conditions.front(), 0, {"none", {}}, 1024), request_.width_px);
+      PhaseOptions options;
+      options.rows = 17, options.coarsest = 1024, options.finest = 16384;
+      options.acne_bound = request_.curve.acne_bound;
+      options.peter_panning_bound = request_.curve.peter_panning_bound;
+      say_("which resolution would be enough for one constant bias");
+      const PhaseDiagram diagram = bench_.phase(phase_settings(settings, bench_.scene(settings.scene)), options);
+      int least = -diagram.rows.back().resolution;
+      for (auto row = diagram.rows.rbegin(); row != diagram.rows.rend() && !diagram.usable(*row).empty(); ++row)
+        least = row->resolution;
+      return least;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::usage) throw;
+      return std::nullopt;
+    }
+  }
+
   Settings of_choice(Settings settings, size_t level, const FilterSettings& filter, int resolution) const {
-    if (!request_.levels.empty()) request_.levels[level].apply(settings);
     settings.filter = filter;
+    if (!request_.levels.empty()) request_.levels[level].apply(settings);
     settings.map.resolution = resolution;
     return settings;
   }
@@ -143,8 +197,9 @@ class Search {
       double best = std::numeric_limits<double>::infinity();
       for (size_t i = first; i < candidates_.size(); ++i)
         if (candidates_[i].tried.why_not.empty()) best = std::min(best, rank(candidates_[i]));
-      // The filters come in the order of their reach. Once more blur is worse, still more is worse too.
-      if (best > best_before) break;
+      // The filters come in the order of their reach. Once more blur is worse, still more is worse too; and a kernel that
+      // reaches further needs more bias, so where one has no window, the next has none.
+      if (best > best_before || !std::isfinite(best)) break;
       best_before = best;
     }
   }
@@ -278,7 +333,9 @@ class Search {
                 request_.width_px);
       there.map.placements = searched_placements;
       PointRecord record = bench_.measure(there, request_.curve).record;
-      if (!nothing_judged(record)) points.push_back(std::move(record));
+      if (nothing_judged(record)) continue;
+      points.push_back(std::move(record));
+      if (points.back().curve && !usable_window(*points.back().curve)) break;  // that is enough to know
     }
     judge(tried, std::move(points));
     if (!tried.why_not.empty()) return;
@@ -346,6 +403,7 @@ class Search {
 }  // namespace
 
 std::vector<BiasLevel> bias_levels() {
+  constexpr double least_bias = 1e-6;  // m: a part that is 0 does not act, and then no curve varies it
   const auto none = [](Settings& settings) {
     settings.bias = {};
     for (const BiasParameter& parameter : bias_parameters())
@@ -356,7 +414,14 @@ std::vector<BiasLevel> bias_levels() {
           {"a bias by the slope's tangent",
            [none](Settings& settings) {
              none(settings);
-             settings.bias["tan"] = 1e-3;  // the part that the curve varies
+             settings.bias["tan"] = least_bias;  // the part that the curve varies
+           }},
+          // Law 35: k texels along the normal's components on the texel's axes are exactly enough on a plane.
+          {"a normal offset of the filter's reach and a constant bias",
+           [none](Settings& settings) {
+             none(settings);
+             settings.bias["normal_offset_axes"] = tap_pattern(settings.filter).reach_texels();
+             settings.bias["constant"] = least_bias;
            }},
           {"the plane at the texel's centre and a constant bias",
            [none](Settings& settings) {

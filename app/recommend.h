@@ -64,6 +64,9 @@ struct Advice {
   int placements = 0, verified = 0;                                 // searched (each condition); rendered afresh
   double worst_acne = 0, worst_peter_panning = 0, worst_error = 0;  // over the placements that were rendered
   double shadowed = 0;  // share of the counted receivers that are dark in truth: the error without a shadow map
+  // If one constant bias is not the answer: the least resolution at which it would keep the bounds, under the first
+  // condition and without a filter; negative: none up to that. Empty: not known.
+  std::optional<int> least_resolution;
   AdviceRequest request;
 };
 

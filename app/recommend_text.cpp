@@ -28,6 +28,8 @@ std::string settings_text(const Tried& tried) {
       fmt::format("a map of {0} x {0} texels, {1}", tried.settings.map.resolution, filter_text(tried.settings.filter));
   if (tried.settings.bias.reference != "own_depth")
     text += fmt::format(", bias.reference = {}", tried.settings.bias.reference);
+  if (const double offset = tried.settings.bias["normal_offset_axes"]; offset > 0)
+    text += fmt::format(", bias.normal_offset_axes = {:g} texels", offset);
   if (tried.settings.map.cull != MapSettings().cull)
     text += fmt::format(", map.cull = {}", find_setting("map.cull").get(tried.settings));
   if (tried.bias) text += fmt::format(", and {} = {:g} {}", tried.bias->parameter, tried.bias->value, tried.bias->unit);
@@ -81,6 +83,16 @@ std::vector<std::string> nothing_works(const Advice& advice) {
       "What would have to change: finer texels (a higher resolution or a smaller extent), larger bounds, or a "
       "mesh whose parts are closed and stand further apart than the bias that its slopes need.");
   return lines;
+}
+
+std::string constant_text(int least_resolution) {
+  return least_resolution > 0
+             ? fmt::format(
+                   "One constant bias and no filter would keep both bounds from some {} texels on, in the first view.",
+                   least_resolution)
+             : fmt::format(
+                   "One constant bias and no filter keep both bounds at no resolution up to {}, in the first view.",
+                   -least_resolution);
 }
 
 // For each level of the bias below the answer's: why it does not do.
@@ -150,6 +162,7 @@ std::vector<std::string> advice_text(const Advice& advice) {
                                 cheaper->cost / 1e6, cheaper->why_not));
   else
     lines.push_back("Nothing cheaper was tried.");
+  if (advice.least_resolution) lines.push_back(constant_text(*advice.least_resolution));
   for (std::string& line : lesser_levels(advice)) lines.push_back(std::move(line));
   return lines;
 }
