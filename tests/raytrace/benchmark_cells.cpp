@@ -11,41 +11,19 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
-#include <functional>
 #include <memory>
-#include <numbers>
 
 #include "raytrace/light_view.h"
 #include "raytrace/packets.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "tests/raytrace/fixture.h"
+#include "tests/support/benchmark.h"
 
 namespace noonmark::raytrace {
 namespace {
 
 constexpr int width = 1280, height = 720, map_resolution = 1024;
-
-// A bumpy ground under 25 spheres: 130,736 triangles.
-Scene hills() {
-  constexpr double pi = std::numbers::pi;
-  Scene scene;
-  add_surface(scene, "ground", 180, 180, false, [](double s, double t) {
-    const double x = 20 * s - 10, z = 10 - 20 * t;
-    return glm::dvec3(x, 0.25 * std::sin(1.7 * x) * std::cos(2.1 * z) + 0.05 * std::sin(9 * x + 3 * z), z);
-  });
-  for (int i = 0; i < 5; ++i)
-    for (int j = 0; j < 5; ++j)
-      add_surface(scene, "sphere", 52, 26, true, [=](double s, double t) {
-        const double phi = 2 * pi * s, up = pi * (t - 0.5);
-        return glm::dvec3(-7 + 3.5 * i, 1.0 + 0.3 * ((i * 7 + j * 3) % 4), -7 + 3.5 * j) +
-               0.9 * glm::dvec3(std::cos(up) * std::cos(phi), std::sin(up), -std::cos(up) * std::sin(phi));
-      });
-  scene.camera = {.eye_m = {9, 9, 14}, .target_m = {0, 0, 0}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 60};
-  scene.light.position_m = {6, 12, 4};
-  return scene;
-}
 
 ReceiverImage seen_by_camera(const Scene& scene, const EmbreeScene& embree) {
   const CameraFrame camera = make_camera_frame(scene.camera, width, height);
@@ -62,38 +40,19 @@ ReceiverImage seen_by_camera(const Scene& scene, const EmbreeScene& embree) {
   return resolve_receivers(scene, scene.camera, primitives);
 }
 
-double cpu_ms() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
-
-// Each job's median over the rounds; the first round warms up.
-std::vector<double> medians(int rounds, const std::vector<std::function<void()>>& jobs) {
-  std::vector<std::vector<double>> times(jobs.size());
-  for (int round = -1; round < rounds; ++round)
-    for (size_t j = 0; j < jobs.size(); ++j) {
-      const double before = cpu_ms();
-      jobs[j]();
-      if (round >= 0) times[j].push_back(cpu_ms() - before);
-    }
-  std::vector<double> result;
-  for (std::vector<double>& t : times) {
-    std::nth_element(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(t.size() / 2), t.end());
-    result.push_back(t[t.size() / 2]);
-  }
-  return result;
-}
-
 struct Bare {
   glm::vec3 origin, direction;
 };
+
+std::vector<double> medians(int rounds, const std::vector<std::function<void()>>& jobs) {
+  return test::medians(test::run_in_turns(rounds, jobs));
+}
 
 class Bench {
  public:
   Bench(const std::string& name, int rounds)
       : rounds_(rounds),
-        scene_(name == "hills" ? hills() : test::builtin(name)),
+        scene_(name == "hills" ? test::hills() : test::builtin(name)),
         frame_(test::frame_of(scene_, map_resolution)),
         embree_(device_, scene_),
         tracer_(std::make_unique<Tracer>(scene_)),
