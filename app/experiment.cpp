@@ -109,13 +109,28 @@ const Experiment& part_of_point(const Experiment& experiment, int64_t id) {
   return experiment;
 }
 
-std::vector<std::string> swept_names(const Experiment& experiment) {
+namespace {
+
+// The names of the swept settings that are wanted, of all parts, each once.
+template <class Wanted>
+std::vector<std::string> names_of(const Experiment& experiment, const Wanted& wanted) {
   std::vector<std::string> names;
-  for (const Swept& swept : experiment.swept) names.push_back(swept.name);
+  for (const Swept& swept : experiment.swept)
+    if (wanted(swept)) names.push_back(swept.name);
   for (const Experiment& part : experiment.parts)
-    for (const std::string& name : swept_names(part))
+    for (const std::string& name : names_of(part, wanted))
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   return names;
+}
+
+}  // namespace
+
+std::vector<std::string> swept_names(const Experiment& experiment) {
+  return names_of(experiment, [](const Swept&) { return true; });
+}
+
+std::vector<std::string> condition_names(const Experiment& experiment) {
+  return names_of(experiment, [](const Swept& swept) { return swept.condition; });
 }
 
 int64_t point_count(const Experiment& experiment) {

@@ -27,6 +27,7 @@ namespace noonmark {
 struct Swept {
   std::string name;
   std::vector<std::string> values;  // canonical texts, in the file's order, all different
+  bool condition = false;           // of [over]: not a choice of the user
 };
 
 // The phase diagram that an experiment, or a part of it, asks for (app/sweep_phase.h).
@@ -43,8 +44,9 @@ struct Experiment {
   std::string path;  // as given
   std::string title;
   Settings base;             // the fixed settings
-  std::vector<Swept> swept;  // outermost first
+  std::vector<Swept> swept;  // outermost first; conditions come before choices
   std::vector<std::string> plot;
+  std::string cost = RunInfo().cost, accuracy = RunInfo().accuracy;  // of [answer]
   std::vector<Bound> bounds;
   std::vector<std::pair<std::string, std::string>> let;  // definitions for the laws
   std::vector<Law> laws;
@@ -80,6 +82,9 @@ const Experiment& part_of_point(const Experiment& experiment, int64_t id);
 
 // The names of all swept settings of all parts, each once.
 std::vector<std::string> swept_names(const Experiment& experiment);
+
+// Those of them that are conditions.
+std::vector<std::string> condition_names(const Experiment& experiment);
 
 // The number of points. 1 without a sweep.
 int64_t point_count(const Experiment& experiment);

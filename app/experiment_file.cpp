@@ -42,6 +42,10 @@ class Reader : private SettingsReader {
         fix("scene.name", *item.node);
       else if (item.key == "sweep")
         sweep_ = &table(*item.node, "[sweep]");
+      else if (item.key == "over")
+        over_ = &table(*item.node, "[over]");
+      else if (!in_part_ && item.key == "answer")
+        read_answer(table(*item.node, "[answer]"));
       else if (item.key == "curve")
         read_curve(table(*item.node, "[curve]"));
       else if (item.key == "phase")
@@ -60,18 +64,16 @@ class Reader : private SettingsReader {
     }
     if (in_part_ && experiment_.part.empty()) fail(root, "a [[part]] needs a name");
     if (parts_) {
-      for (const toml::node* inside : {static_cast<const toml::node*>(sweep_), bounds_, laws_})
-        if (inside) fail(*inside, "in a file with parts, sweep, bounds and laws must stand inside a [[part]]");
+      for (const toml::node* inside :
+           {static_cast<const toml::node*>(sweep_), static_cast<const toml::node*>(over_), bounds_, laws_})
+        if (inside) fail(*inside, "in a file with parts, sweep, over, bounds and laws must stand inside a [[part]]");
       experiment_.sweep_location = location_text(parts_->source());
       read_parts(*parts_);
       points(experiment_);
       return std::move(experiment_);
     }
     // These are read last, because they depend on the fixed settings, which may stand anywhere in the file.
-    if (sweep_) {
-      experiment_.sweep_location = location_text(sweep_->source());
-      read_sweep(*sweep_);
-    }
+    read_sweeps();
     if (bounds_) read_bounds(*bounds_);
     if (laws_) read_laws(*laws_);
     if (!in_part_) points(experiment_);
@@ -81,10 +83,10 @@ class Reader : private SettingsReader {
  private:
   std::vector<std::string_view> root_keys() const {
     std::vector<std::string_view> names = groups();
-    for (std::string_view key : {"sweep", "curve", "phase", "let", "bound", "law"}) names.push_back(key);
+    for (std::string_view key : {"sweep", "over", "curve", "phase", "let", "bound", "law"}) names.push_back(key);
     if (in_part_) names.push_back("name");
     if (!in_part_)
-      for (std::string_view key : {"title", "pictures", "plot", "part"}) names.push_back(key);
+      for (std::string_view key : {"title", "pictures", "plot", "answer", "part"}) names.push_back(key);
     return names;
   }
 
@@ -117,26 +119,34 @@ class Reader : private SettingsReader {
     experiment_.locations[name] = location_text(value.source());
   }
 
-  // ---- [sweep]
+  // ---- [sweep] [over]
 
-  void read_sweep(const toml::table& table) {
-    read_settings(table, "", [this](const auto&... value) { sweep(value...); });
+  void read_sweeps() {
+    for (const toml::table* table : {over_, sweep_}) {
+      if (!table) continue;
+      experiment_.sweep_location = location_text(table->source());
+      read_settings(*table, "", [this, table](const std::string& name, const toml::node& value) {
+        sweep(name, value, table == over_);
+      });
+    }
     std::stable_sort(sweep_order_.begin(), sweep_order_.end());
     std::vector<Swept> ordered;
-    for (const auto& [line, column, index] : sweep_order_) ordered.push_back(std::move(experiment_.swept[index]));
+    for (const auto& [is_choice, line, column, index] : sweep_order_)
+      ordered.push_back(std::move(experiment_.swept[index]));
     experiment_.swept = std::move(ordered);
   }
 
-  void sweep(const std::string& name, const toml::node& value) {
+  void sweep(const std::string& name, const toml::node& value, bool condition) {
     const Setting& row = find_setting(name);
-    Swept swept{name, {}};
+    Swept swept{name, {}, condition};
     std::set<std::string> seen;
     const auto add = [&](const toml::node& node, const std::string& text) {
       if (!seen.insert(text).second) fail(node, fmt::format("{} = {} is swept twice; drop one of the two", name, text));
       swept.values.push_back(text);
     };
     for (const Swept& other : experiment_.swept)
-      if (other.name == name) fail(value, fmt::format("{} is swept twice; keep one of the two lists", name));
+      if (other.name == name)
+        fail(value, fmt::format("{} is swept twice; keep one of the two lists ([over] or [sweep])", name));
     if (given_.contains(name)) fail(value, fmt::format("{} is both fixed and swept; drop one of the two", name));
 
     if (const toml::table* range_table = value.as_table()) {
@@ -145,16 +155,17 @@ class Reader : private SettingsReader {
       for (double v : range(*range_table, name)) add(value, at(value.source(), [&] { return range_text(row, v); }));
     } else {
       if (!value.is_array())
-        fail(value, fmt::format("[sweep] {} must be a list or a range; fixed values go into their own table", name));
+        fail(value, fmt::format("[{}] {} must be a list or a range; fixed values go into their own table",
+                                condition ? "over" : "sweep", name));
       for (const toml::node* node : list(value, name)) add(*node, canonical(row, *node));
     }
     give(name, value);
     const toml::source_position place = value.source().begin;
-    sweep_order_.emplace_back(place.line, place.column, experiment_.swept.size());
+    sweep_order_.emplace_back(!condition, place.line, place.column, experiment_.swept.size());
     experiment_.swept.push_back(std::move(swept));
   }
 
-  // ---- [plot] [curve] [phase]
+  // ---- [plot] [answer] [curve] [phase]
 
   void read_plot(const toml::table& table) {
     for (const Item& item : items(table)) {
@@ -166,6 +177,22 @@ class Reader : private SettingsReader {
           fail(*node, fmt::format("plot.metrics names '{}' twice", name));
         experiment_.plot.push_back(name);
       }
+    }
+  }
+
+  void read_answer(const toml::table& table) {
+    const auto metric = [this](const toml::node& node, const std::string& name) {
+      const std::string text = string(node, name);
+      at(node.source(), [&] { find_metric(text); });
+      return text;
+    };
+    for (const Item& item : items(table)) {
+      if (item.key == "cost")
+        experiment_.cost = metric(*item.node, "answer.cost");
+      else if (item.key == "accuracy")
+        experiment_.accuracy = metric(*item.node, "answer.accuracy");
+      else
+        unknown(item, "key", {"cost", "accuracy"}, "answer.");
     }
   }
 
@@ -372,9 +399,11 @@ class Reader : private SettingsReader {
   std::set<std::string> given_;  // the settings that this part of the file gives
   const toml::node* parts_ = nullptr;
   const toml::node* laws_ = nullptr;
-  const toml::table* sweep_ = nullptr;
+  const toml::table *sweep_ = nullptr, *over_ = nullptr;
   const toml::node* bounds_ = nullptr;
-  std::vector<std::tuple<uint32_t, uint32_t, size_t>> sweep_order_;  // line, column, index into experiment_.swept
+  // Whether it is a choice, line, column, index into experiment_.swept. Conditions come first, because scene, view and
+  // light are the most costly to change from point to point.
+  std::vector<std::tuple<bool, uint32_t, uint32_t, size_t>> sweep_order_;
   std::map<std::string, std::vector<std::string>>* where_ = nullptr;
 };
 

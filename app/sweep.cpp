@@ -109,6 +109,9 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
   for (const LibraryVersion& library : build_facts().libraries)
     info.libraries[std::string(library.name)] = library.version;
   info.swept = swept_names(experiment);
+  info.over = condition_names(experiment);
+  info.cost = experiment.cost;
+  info.accuracy = experiment.accuracy;
   info.plot = experiment.plot;
   info.scene_name = scene.name;
   info.triangles = scene.triangles.size();
@@ -188,8 +191,10 @@ ResultStore open_store(const ResultsFolder& folder, const std::string& fingerpri
 void judge(const Experiment& experiment, Results& results) {
   const auto reproduce = [&](const PointRecord& point) { return reproduce_command(experiment, point); };
   const auto judge_part = [&](const Experiment& part, std::span<const PointRecord> points) {
-    for (BoundResult& bound : evaluate_bounds(points, part.bounds, reproduce))
+    for (BoundResult& bound : evaluate_bounds(points, part.bounds, reproduce)) {
+      bound.part = part.part;
       results.bounds.push_back(std::move(bound));
+    }
     for (LawResult& law : evaluate_laws(points, part.laws, reproduce)) {
       law.part = part.part;
       results.laws.push_back(std::move(law));

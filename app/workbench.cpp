@@ -16,6 +16,7 @@
 #include "scenes/address_space.h"
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"
+#include "technique/cost.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {
@@ -59,6 +60,17 @@ std::string curve_key_of(const Settings& settings, const BiasPart& varied, const
                      fmt::join(options.bias_depth, " "));
 }
 
+void add_cost(PointRecord& record, const FrameCost& cost) {
+  record.metrics.insert({{"texel_work", static_cast<double>(cost.texel_work)},
+                         {"traffic_bytes", static_cast<double>(cost.traffic_bytes)},
+                         {"map_bytes", static_cast<double>(cost.map_bytes)},
+                         {"map_texels", static_cast<double>(cost.map_texels)},
+                         {"map_triangles", static_cast<double>(cost.map_triangles)},
+                         {"lookup_fetches", static_cast<double>(cost.lookup.fetches)},
+                         {"lookup_texels", static_cast<double>(cost.lookup.texels)},
+                         {"lookup_operations", static_cast<double>(cost.lookup.operations)}});
+}
+
 void add_time(PointRecord& record, const std::string& stage, const StageTime& time) {
   record.times[stage + "_ms"] = time.milliseconds;
   record.times[stage + "_rays"] = static_cast<double>(time.rays);
@@ -79,6 +91,8 @@ PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, cons
   record.metrics.insert(soundness.begin(), soundness.end());
   record.metrics.insert(view.metrics.begin(), view.metrics.end());
   record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
+  add_cost(record, frame_cost(m.settings, m.frame.tiles, static_cast<int64_t>(record.metrics["facing"]),
+                              static_cast<int64_t>(m.scene.triangles.size())));
   record.metrics["map_ms"] = map.time_ms;
   record.metrics["lookup_ms"] = shown.time_ms;
   record.metrics["shadow_ms"] = map.time_ms + shown.time_ms;

@@ -14,6 +14,10 @@ namespace noonmark::in_double {
 namespace noonmark::in_bounds {
 #include "bias_formulas.inc"
 }
+namespace noonmark::in_counts {
+#include "bias_formulas.inc"
+#include "reference_formulas.inc"
+}  // namespace noonmark::in_counts
 #undef precise
 
 namespace noonmark {
@@ -29,9 +33,9 @@ constexpr std::string_view law_35 =
 constexpr double most_units = 1e6;
 
 #define FACTOR(name) \
-  { in_float::name##_factor, nullptr, nullptr }
+  { .factor = in_float::name##_factor, .counted_factor = in_counts::name##_factor }
 #define WAY(name) \
-  { nullptr, in_double::name##_way, in_bounds::name##_way }
+  { .way = in_double::name##_way, .bounded_way = in_bounds::name##_way, .counted_way = in_counts::name##_way }
 
 constexpr BiasPart parts[] = {
     {.name = "constant",
@@ -155,17 +159,20 @@ constexpr TapReference references[] = {
     {.name = "own_depth",
      .help = "the receiver's own depth",
      .law = "law 1: needs k·w·A·tan θ",
-     .depth = in_float::own_depth},
+     .depth = in_float::own_depth,
+     .counted_depth = in_counts::own_depth},
     {.name = "receiver_plane",
      .help = "the depth of the receiver's plane at the tap",
      .law = "needs w/2·A·tan θ with any filter; over creases the plane is carried too far, up to bias.plane_cap",
      .depth = in_float::receiver_plane,
+     .counted_depth = in_counts::receiver_plane,
      .plane = true,
      .reads_cap = true},
     {.name = "texel_plane",
      .help = "the depth of the receiver's plane at the centre of the tap's texel",
      .law = "needs the rounding alone on planes, with any filter; over creases as receiver_plane",
      .depth = in_float::texel_plane,
+     .counted_depth = in_counts::texel_plane,
      .plane = true,
      .at_texel = true},
 };

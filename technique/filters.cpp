@@ -21,6 +21,16 @@ using glm::abs, glm::clamp;
 
 }  // namespace filter_formulas
 
+namespace counted_filters {
+
+#define precise
+using real = Counted;
+using namespace counting;
+#include "filter_formulas.inc"
+#undef precise
+
+}  // namespace counted_filters
+
 namespace {
 
 // The parameters.
@@ -150,7 +160,8 @@ std::vector<Filter> make_filters() {
        .taps = weighted<filter_formulas::castano_weight>,
        .reads = {{&size, not_3_5_7}},
        .blended = true,
-       .own_weights = true},
+       .own_weights = true,
+       .counted_weight = counted_filters::castano_weight},
       {.name = "tent",
        .help = "a tent whose base is N texels wide, integrated over each texel, N = 3, 5 or 7, in 4, 9 or 16 fetches",
        .law = "k = (N + 1) / 2; blur N/6 + (3N − 1)/(6N²) texels along them",
@@ -158,7 +169,8 @@ std::vector<Filter> make_filters() {
        .taps = weighted<filter_formulas::tent_weight>,
        .reads = {{&size, not_3_5_7}},
        .blended = true,
-       .own_weights = true},
+       .own_weights = true,
+       .counted_weight = counted_filters::tent_weight},
       {.name = "vogel",
        .help = "mean of filter.taps nearest taps along a spiral in a disk",
        .law = "k from the tap furthest up the slope",

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "technique/counted.h"
 #include "technique/settings.h"
 #include "technique/tap_pattern.h"
 
@@ -52,6 +53,7 @@ struct Filter {
   std::vector<FilterRead> reads = {};
   bool blended = false;      // a comparison sampler blends the taps: one reference for all texels of a fetch
   bool own_weights = false;  // the file <name>.glsl gives the weights of the blend: <name>_weight
+  Counted (*counted_weight)(int texel, Counted s, int size) = nullptr;  // the same with counters, for the cost
 
   // Null if the filter does not read the parameter.
   const FilterRead* read(const FilterParameter& parameter) const;

@@ -1,12 +1,14 @@
-// The formulas on the host. Those of technique/bias/*.glsl are compiled three times: in float, with the shader's
-// arithmetic (the host is built without contraction); in double, for the truth; and with error bounds
-// (technique/bounded.h), for the contract check. Those of technique/reference/*.glsl are compiled in float. The files
-// use only words that GLSL and C++ share: vec2, vec3, dot, abs, min, max, clamp, sqrt. `real` is the type of a number,
-// `precise` is GLSL's keyword, and a constant is written real(1).
+// The formulas on the host. Those of technique/bias/*.glsl are compiled four times: in float, with the shader's
+// arithmetic (the host is built without contraction); in double, for the truth; with error bounds
+// (technique/bounded.h), for the contract check; and with counters (technique/counted.h), for the cost. Those of
+// technique/reference/*.glsl are compiled in float and with counters. The files use only words that GLSL and C++ share:
+// vec2, vec3, dot, abs, min, max, clamp, sqrt. `real` is the type of a number, `precise` is GLSL's keyword, and a
+// constant is written real(1).
 #pragma once
 #include <glm/glm.hpp>
 
 #include "technique/bounded.h"
+#include "technique/counted.h"
 
 #define precise
 namespace noonmark::in_float {
@@ -29,4 +31,10 @@ using real = Bounded;
 using namespace bounded;
 #include "technique/surface.glsl"
 }  // namespace noonmark::in_bounds
+
+namespace noonmark::in_counts {
+using real = Counted;
+using namespace counting;
+#include "technique/surface.glsl"
+}  // namespace noonmark::in_counts
 #undef precise

@@ -21,6 +21,12 @@ double TapPattern::weight(int tap, glm::dvec2 fraction) const {
   return along(tap % side, fraction.x) * along(tap / side, fraction.y);
 }
 
+int TapPattern::fetches() const {
+  if (!bilinear()) return taps;
+  const int along = axis_weight ? blended_side / 2 : static_cast<int>(kernel.size());
+  return along * along;
+}
+
 double TapPattern::reach_texels() const {
   float reach = 0;
   for (const glm::vec3& o : offsets) reach = std::max({reach, std::abs(o.x), std::abs(o.y)});

@@ -39,6 +39,9 @@ struct TapPattern {
   // right.
   double weight(int tap, glm::dvec2 fraction) const;
 
+  // Texture instructions for one receiver: one for each tap, or one for each 2 x 2 texels that a sampler blends.
+  int fetches() const;
+
   // The greatest distance, in texels along either axis of a flat map, between P and the centre of a tap's texel. It is
   // the k of law 1.
   double reach_texels() const;

@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "compare/judge/bounds.h"
+#include "compare/judge/curve_reading.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
 #include "compare/report/findings.h"
 #include "compare/report/laws.h"
+#include "compare/report/recommendation_box.h"
 #include "compare/report/rules.h"
 #include "compare/report/sections.h"
 #include "compare/report/text.h"
@@ -115,15 +117,6 @@ std::string window_items(const Results& results) {
   return out + why;
 }
 
-std::string cause_sentence(std::span<const PointRecord* const> points) {
-  std::string out;
-  const std::vector<CauseShare> shares = cause_shares(points);
-  for (size_t i = 0; i < std::min<size_t>(shares.size(), 3); ++i)
-    out += fmt::format("{}<span class=\"cause\">{}{} ({:.0f}{}%)</span>", i ? ", " : "", swatch(shares[i].name),
-                       html(metric_label(shares[i].name)), 100 * shares[i].share, "\u202f");
-  return out;
-}
-
 std::string health_items(const Results& results) {
   std::string out;
   constexpr size_t most_listed = 5;
@@ -157,66 +150,6 @@ std::string health_items(const Results& results) {
   for (const std::string& note : results.info.scene_notes)
     out += item("note", fmt::format("About the scene {}.", html(note)));
   return out;
-}
-
-std::string recommendation_box(const Results& results) {
-  if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
-    return fmt::format(
-        "<div class=\"recommend broken\"><h3>What to set</h3><p><b>Nothing was measured</b>: {}. This gives no "
-        "information about the method.</p></div>\n",
-        html(poor_view_note(results.points)));
-  const Recommendation found = recommend(results);
-  if (found.outcome == Recommendation::Outcome::no_criterion)
-    return "<div class=\"recommend none\"><h3>What to set</h3><p>There is no criterion for good enough: set a bound, "
-           "or have a bias curve measured.</p></div>\n";
-  if (found.outcome == Recommendation::Outcome::none_holds)
-    return "<div class=\"recommend broken\"><h3>What to set</h3><p><b>None of the swept settings is good enough.</b> "
-           "No point has a usable "
-           "bias window and meets every bound that applies to it. Sweep a higher resolution, a smaller extent or "
-           "another bias, or "
-           "loosen a bound.</p></div>\n";
-  const PointRecord& point = *found.point;
-  std::string rows;
-  for (const std::string& name : results.info.swept)
-    rows += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", html(name),
-                        html(settings_phrase(point, {name}).substr(setting_label(name).size() + 1)));
-  std::string more;
-  if (found.bias) {
-    const BiasCurve& curve = *point.curve;
-    const double low = *curve.window_min_depth, high = *curve.window_max_depth;
-    rows += fmt::format("<div class=\"key\"><dt>{}</dt><dd>{}</dd></div>\n", html(curve.parameter),
-                        bias_phrase(found.bias->depth, curve));
-    rows += fmt::format("<div><dt>usable from</dt><dd>{}</dd></div>\n<div><dt>to</dt><dd>{}</dd></div>\n",
-                        bias_phrase(low, curve), bias_phrase(high, curve));
-    if (low == high) more = " Its window is a single value, so a small change of the scene can break it.";
-    if (low > 0 && high > low) more = fmt::format(" Its window is a factor {} wide.", number(high / low));
-  }
-  const PointRecord* only[] = {&point};
-  const std::string causes = cause_sentence(only);
-  const Recommendation accurate = recommend_accurate(results);
-  std::string other;
-  if (accurate.point != found.point)
-    other = fmt::format(
-        "<p>The most accurate point that is good enough: {}{}, for <b>{}</b> with <b>{}</b> error (<a "
-        "href=\"#p{}\">point {}</a>).</p>\n",
-        html(settings_phrase(*accurate.point, results.info.swept)),
-        accurate.bias ? ", " + html(accurate.point->curve->parameter) + " " +
-                            bias_phrase(accurate.bias->depth, *accurate.point->curve)
-                      : "",
-        quantity(accurate.cost_ms, "ms"), quantity(accurate.error, "fraction"), accurate.point->id, accurate.point->id);
-  return fmt::format(
-      "<div class=\"recommend held\"><h3>What to set</h3><p>The cheapest point that is good enough costs <b>{}</b> and "
-      "shows <b>{}</b> error.{}</p>\n"
-      "<dl>{}</dl>\n{}{}<p class=\"small\">The cheapest is <a href=\"#p{}\">point {}</a>. It has the lowest time of "
-      "shadow map and lookup together among the "
-      "points where {}. Times within {:.0f} % count as equal; among those it has the least error.</p></div>\n",
-      quantity(found.cost_ms, "ms"), quantity(found.error, "fraction"), more, rows,
-      causes.empty() ? "" : fmt::format("<p>Largest causes there, with the bias as rendered: {}.</p>\n", causes), other,
-      point.id, point.id,
-      !found.bias              ? "every bound holds"
-      : results.bounds.empty() ? "the bias window is not empty"
-                               : "the bias window is not empty and every bound holds at that bias",
-      100 * cost_tolerance);
 }
 
 std::string bounds_table(const Results& results) {

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "compare/judge/curve_reading.h"
+#include "compare/judge/recommendation.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/findings.h"
 #include "compare/report/laws.h"
@@ -96,6 +98,9 @@ json chart_data(const Results& results, const ShownPoints& shown) {
   for (const CauseColor& cause : causes_of(results.points))
     data["causes"].push_back({{"name", cause.name}, {"label", cause.label}});
   data["plot"] = results.info.plot;
+  data["over"] = results.info.over;
+  data["cost"] = results.info.cost;
+  data["accuracy"] = results.info.accuracy;
 
   const size_t entries = curve_entries(shown.results);
   data["points"] = json::array();
@@ -114,7 +119,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
   for (const PhaseDiagram& diagram : results.phases)
     if (diagram.refused.empty()) data["phases"].push_back(phase_data(diagram));
   const Recommendation recommendation = recommend(results);
-  data["recommended"] = recommendation.point ? json(recommendation.point->id) : json();
+  data["recommended"] = recommendation.choice.points.empty() ? json() : json(recommendation.choice.first().id);
   for (const char* which : {"error", "best_error"}) {
     data["pareto"][which] = json::array();
     for (size_t i : front_of(results, which)) data["pareto"][which].push_back(results.points[i].id);

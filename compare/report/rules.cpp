@@ -226,13 +226,6 @@ void move_limits(std::vector<Condition>& rule, const std::vector<const Axis*>& a
 
 }  // namespace
 
-std::optional<double> number_of(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 std::string rule_value(const PointRecord& point, const std::string& setting) {
   if (setting != texel_size) return setting_of(point, setting);
   // Nine digits, so that two ways of rounding extent / resolution give one size.

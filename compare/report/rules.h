@@ -50,6 +50,5 @@ std::string rule_value(const PointRecord& point, const std::string& setting);
 // The distinct values of a setting over the points, sorted as numbers if all are numbers, otherwise in order of
 // appearance.
 std::vector<std::string> values_of(const Results& results, const std::string& setting);
-std::optional<double> number_of(const std::string& text);
 
 }  // namespace noonmark

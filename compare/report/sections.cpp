@@ -241,12 +241,13 @@ std::string budget_section(const Results& results, const ShownPoints& shown) {
 
 std::string cost_section(const Results& results, const ShownPoints& shown) {
   const std::vector<size_t> front = front_of(results, "error");
+  const Metric& cost = find_metric(results.info.cost);
   std::string out = "<section id=\"cost\"><h2>Speed against accuracy</h2>\n";
-  if (front.empty()) return out + "<p>No point has both a finite time and a finite error.</p></section>\n";
-  out += "<p>These points are on the Pareto front: no other point is both faster and more accurate.</p>\n";
+  if (front.empty()) return out + "<p>No point has both a finite cost and a finite error.</p></section>\n";
+  out += "<p>These points are on the Pareto front: no other point is both cheaper and more accurate.</p>\n";
   out += shown.note;
   if (results.points.size() > 1)
-    out += chart_place("cost", "Error against the time of shadow map and lookup. The line is the Pareto front.");
+    out += chart_place("cost", "Error against cost. The line is the Pareto front.");
   std::string rows;
   std::unordered_set<int64_t> has_row;  // in "Every point", where the point's link leads
   for (const PointRecord& point : shown.results.points) has_row.insert(point.id);
@@ -256,7 +257,7 @@ std::string cost_section(const Results& results, const ShownPoints& shown) {
     if (!has_row.contains(point.id)) continue;
     ++count;
     rows += fmt::format("<tr>{}<td>{}</td><td>{}</td><td>{}</td></tr>\n", swept_cells(results, point),
-                        number(metric_of(point, "shadow_ms")), cell(metric_of(point, "error"), "fraction"),
+                        cell(metric_of(point, results.info.cost), cost.unit), cell(metric_of(point, "error"), "fraction"),
                         point.curve ? cell(point.curve->best_error, "fraction") : "–");
   }
   out += folded(
@@ -265,7 +266,8 @@ std::string cost_section(const Results& results, const ShownPoints& shown) {
           : fmt::format("{} of the {} points of the Pareto front, with the bias as rendered", count, front.size()),
       count,
       "<div class=\"scroll\"><table class=\"numbers\"><thead><tr>" + swept_head(results) +
-          "<th>Shadow <small>ms</small></th><th>Error <small>%</small></th><th>Error at best bias "
+          fmt::format("<th>{} <small>{}</small></th>", html(metric_label(cost.name)), head_unit(cost.unit)) +
+          "<th>Error <small>%</small></th><th>Error at best bias "
           "<small>%</small></th></tr></thead><tbody>\n" +
           rows + "</tbody></table></div>\n");
   return out + "</section>\n";

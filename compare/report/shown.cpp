@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "compare/judge/recommendation.h"
 #include "compare/report/findings.h"
 #include "compare/report/rules.h"
 #include "compare/report/text.h"
@@ -27,7 +28,7 @@ std::vector<size_t> spoken_of(const Results& results) {
   };
   if (results.points.front().part.empty()) {
     for (const Recommendation& found : {recommend(results), recommend_accurate(results)})
-      if (found.point) add(found.point->id);
+      for (const PointRecord* point : found.choice.points) add(point->id);
   }
   for (const BoundResult& bound : results.bounds) add(bound.point);
   for (const LawResult& law : results.laws)
@@ -93,9 +94,9 @@ std::vector<size_t> smaller_grid(const Results& results, std::string& said) {
 std::vector<size_t> front_of(const Results& results, std::string_view which) {
   std::vector<std::pair<double, double>> plane;
   for (const PointRecord& point : results.points)
-    plane.emplace_back(metric_of(point, "shadow_ms"), which == "error" ? metric_of(point, "error")
-                                                      : point.curve    ? point.curve->best_error
-                                                                       : std::nan(""));
+    plane.emplace_back(metric_of(point, results.info.cost), which == "error" ? metric_of(point, "error")
+                                                            : point.curve    ? point.curve->best_error
+                                                                             : std::nan(""));
   return pareto_front(plane);
 }
 

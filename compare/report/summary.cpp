@@ -128,13 +128,14 @@ std::string best_table(const Results& results) {
     if (std::isfinite(quantity(point, "error").value_or(std::numeric_limits<double>::infinity())))
       order.push_back(&point);
   if (order.empty()) return "\nNo point has an error that could be measured.\n";
-  // Sorted by error, then by time. Points that could not be measured come last.
+  // Sorted by error, then by cost. Points that could not be measured come last.
   const auto key = [](const PointRecord* point, std::string_view name) {
     const double value = quantity(*point, name).value_or(std::numeric_limits<double>::infinity());
     return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
   };
   std::stable_sort(order.begin(), order.end(), [&](const PointRecord* a, const PointRecord* b) {
-    return std::pair(key(a, "error"), key(a, "shadow_ms")) < std::pair(key(b, "error"), key(b, "shadow_ms"));
+    return std::pair(key(a, "error"), key(a, results.info.cost)) <
+           std::pair(key(b, "error"), key(b, results.info.cost));
   });
   order.resize(std::min(order.size(), best_count));
 
@@ -142,7 +143,8 @@ std::string best_table(const Results& results) {
       order.size() == 1 ? "\n## The point\n\n" : "\n## Best settings: the least error at the bias that was set\n\n";
   std::vector<std::string> heading;
   for (const std::string& name : results.info.swept) heading.push_back(markdown(name));
-  for (const char* name : {"error", "acne", "Peter Panning", "aliasing", "ms"}) heading.emplace_back(name);
+  for (const char* name : {"error", "acne", "Peter Panning", "aliasing"}) heading.emplace_back(name);
+  heading.push_back(markdown(results.info.cost));
   const std::string parameter = markdown(curve_parameter(results));
   heading.push_back(fmt::format("usable {} (depth)", parameter));
   heading.push_back(fmt::format("best {} (depth)", parameter));
@@ -154,7 +156,8 @@ std::string best_table(const Results& results) {
       const auto setting = point->settings.find(name);
       cells.push_back(markdown(setting == point->settings.end() ? "–" : setting->second));
     }
-    for (const char* name : {"error", "acne", "peter_panning", "aliasing", "shadow_ms"})
+    for (const std::string& name : {std::string("error"), std::string("acne"), std::string("peter_panning"),
+                                    std::string("aliasing"), results.info.cost})
       cells.push_back(short_number(quantity(*point, name)));
     const std::optional<double> min = quantity(*point, "window_min_depth"), max = quantity(*point, "window_max_depth");
     cells.push_back(min && max     ? fmt::format("{} … {}", short_number(min), short_number(max))

@@ -114,13 +114,14 @@ std::string number(double value) {
 
 std::string_view head_unit(std::string_view unit) {
   if (unit == "fraction") return "%";
+  if (unit == "bytes") return "MB";
   return unit == "count" ? "" : unit;
 }
 
 std::string cell(double value, std::string_view unit) {
   if (!std::isfinite(value)) return "not finite";
   if (unit == "count") return grouped(value);
-  return number(unit == "fraction" ? 100 * value : value);
+  return number(unit == "fraction" ? 100 * value : unit == "bytes" ? 1e-6 * value : value);
 }
 
 std::string quantity(double value, std::string_view unit) {

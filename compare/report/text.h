@@ -18,7 +18,8 @@ std::string base64(std::string_view bytes);
 
 // Three significant digits: "0.0123", "12.3", "1234", "12 345", "1.2×10⁻⁷"; "not finite".
 std::string number(double value);
-// A number with its unit, as in a sentence: fractions in percent ("0.42 %"), counts as whole numbers.
+// A number with its unit, as in a sentence: fractions in percent ("0.42 %"), bytes in MB (10⁶), counts as whole
+// numbers.
 std::string quantity(double value, std::string_view unit);
 // The number without its unit, and the unit for a table's head ("%", "ms", "").
 std::string cell(double value, std::string_view unit);

@@ -152,6 +152,31 @@ constexpr Metric measured_once[] = {
      "Root mean square difference over the receivers of two shaded frames (Blinn-Phong clay, linear light, 1 is "
      "white): one with the map's shadow (R5), one with the true shadow (R1).",
      true},
+    {"texel_work", "count",
+     "Cost of the technique, the same on every machine: the texels of the map, each written once, and the texture "
+     "instructions of the lookups of all facing receivers.",
+     true},
+    {"traffic_bytes", "bytes",
+     "The same in bytes: those of the map, each written once, and of the texels that the lookups read, without a "
+     "cache.",
+     true},
+    {"map_bytes", "bytes", "Memory of the shadow map. A depth of 24 bits takes 4 bytes.", true},
+    {"map_texels", "count", "Number of texels of the shadow map, of a cube on all six faces.", true},
+    {"map_triangles", "count",
+     "Number of triangles that the rasteriser gets for the shadow map: those of the scene, once for each face of a "
+     "cube.",
+     true},
+    {"lookup_fetches", "count", "Number of texture instructions that the lookup of one receiver needs.", true},
+    {"lookup_texels", "count",
+     "Number of texels that these read: one each, or four where a comparison sampler blends. Neighbours may read the "
+     "same ones.",
+     true},
+    {"lookup_operations", "count",
+     "Number of operations (sum, product, division, root, minimum, maximum, comparison) that the lookup of one "
+     "receiver "
+     "needs for bias, references, weights and their sum. Its place in the map and the addresses of the taps are not "
+     "counted.",
+     true},
     {"map_ms", "ms", "Time of the shadow map pass.", true},
     {"lookup_ms", "ms", "Time of the lookup pass over the picture.", true},
     {"shadow_ms", "ms", "Time of the shadow map pass and the lookup pass together: the cost of the technique.", true},

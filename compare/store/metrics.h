@@ -8,7 +8,8 @@ namespace noonmark {
 
 struct Metric {
   std::string_view name;
-  std::string_view unit;       // "fraction", "m", "depth", "texels", "pixels", "deg", "count", "ms"; "": a plain number
+  std::string_view
+      unit;  // "fraction", "m", "depth", "texels", "pixels", "deg", "count", "bytes", "ms"; "": a plain number
   std::string_view help;       // one sentence
   bool plotted;                // whether a chart over the sweep makes sense
   bool of_placements = false;  // measured only with map.placements above 1

@@ -64,6 +64,9 @@ double metric_of(const PointRecord& point, const std::string& name);
 // The setting's canonical text, or empty.
 std::string setting_of(const PointRecord& point, const std::string& name);
 
+// The number that a setting's text is. Empty if it is not one, or not finite.
+std::optional<double> number_of(const std::string& text);
+
 // Whether no pixel could be judged, so that the point gives no information about the method. False for a record without
 // the number of counted receivers.
 bool nothing_judged(const PointRecord& point);

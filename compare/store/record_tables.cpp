@@ -109,7 +109,7 @@ const Table<ImageRecord>& images_table() {
 const Table<BoundResult>& bounds_table() {
   using B = BoundResult;
   static const Table<B> table("bounds", {"i"},
-                              {column("metric", &B::metric), column("max", &B::max), column("min", &B::min),
+                              {column("part", &B::part), column("metric", &B::metric), column("max", &B::max), column("min", &B::min),
                                where_column, column("join_by", &B::join), column("placement", &B::placement),
                                column("held", &B::held), column("found", &B::found), column("point", &B::point),
                                column("points", &B::points), column("reproduce", &B::reproduce)});

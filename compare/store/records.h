@@ -101,16 +101,17 @@ struct PointRecord : PointPictures {
 // A bound and its result (compare/judge/bounds.h).
 struct BoundResult {
   std::string metric;
-  std::optional<double> max, min;
-  std::map<std::string, std::vector<std::string>> where;  // setting name -> the canonical texts that match
-  std::string join;                                       // "worst", "mean", "median"
+  std::optional<double> max{}, min{};
+  std::map<std::string, std::vector<std::string>> where{};  // setting name -> the canonical texts that match
+  std::string join{};                                       // "worst", "mean", "median"
   bool held = false;
-  double found = 0;       // the joined value; not finite if any value was not
-  int64_t point = -1;     // the worst point
-  int points = 0;         // the number of points it was checked on; 0 breaks the bound
-  std::string reproduce;  // the command that renders the worst point
+  double found = 0;         // the joined value; not finite if any value was not
+  int64_t point = -1;       // the worst point
+  int points = 0;           // the number of points it was checked on; 0 breaks the bound
+  std::string reproduce{};  // the command that renders the worst point
   // "worst", "first": which placement of the map's grid was judged; empty: the points have one placement each
   std::string placement{};
+  std::string part{};  // the experiment's part; empty if it has no parts
 };
 
 enum class LawRelation { equal, at_most, at_least };
@@ -146,6 +147,9 @@ struct RunInfo {
   std::string embree_version, embree_isa;
   std::map<std::string, std::string> libraries;  // name -> version
   std::vector<std::string> swept;                // names of the swept settings, outermost first
+  std::vector<std::string> over;                 // those of them that are conditions (compare/judge/choices.h)
+  std::string cost = "texel_work";            // the metric by which answers are ranked
+  std::string accuracy = "error_soft";           // the metric that answers make small
   std::vector<std::string> plot;                 // metrics the experiment asks to plot
   std::string scene_name;
   uint64_t triangles = 0;

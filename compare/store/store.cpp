@@ -31,13 +31,22 @@ using sqlite::Transaction;
 
 // The text members of RunInfo, with their keys in the table `info`.
 constexpr std::pair<std::string_view, std::string RunInfo::*> info_texts[] = {
-    {"experiment", &RunInfo::experiment},   {"title", &RunInfo::title},
-    {"command", &RunInfo::command},         {"commit", &RunInfo::commit},
-    {"version", &RunInfo::version},         {"started", &RunInfo::started},
-    {"host_cpu", &RunInfo::host_cpu},       {"gl_vendor", &RunInfo::gl_vendor},
-    {"gl_renderer", &RunInfo::gl_renderer}, {"gl_version", &RunInfo::gl_version},
-    {"gl_timer", &RunInfo::gl_timer},       {"embree_version", &RunInfo::embree_version},
-    {"embree_isa", &RunInfo::embree_isa},   {"scene_name", &RunInfo::scene_name},
+    {"experiment", &RunInfo::experiment},
+    {"title", &RunInfo::title},
+    {"command", &RunInfo::command},
+    {"commit", &RunInfo::commit},
+    {"version", &RunInfo::version},
+    {"started", &RunInfo::started},
+    {"host_cpu", &RunInfo::host_cpu},
+    {"gl_vendor", &RunInfo::gl_vendor},
+    {"gl_renderer", &RunInfo::gl_renderer},
+    {"gl_version", &RunInfo::gl_version},
+    {"gl_timer", &RunInfo::gl_timer},
+    {"embree_version", &RunInfo::embree_version},
+    {"embree_isa", &RunInfo::embree_isa},
+    {"scene_name", &RunInfo::scene_name},
+    {"cost", &RunInfo::cost},
+    {"accuracy", &RunInfo::accuracy},
 };
 constexpr std::string_view library_prefix = "library.";
 
@@ -103,6 +112,7 @@ void load_info(Database& db, Results& results) {
       if (key == name) info.*member = value;
     if (key.starts_with(library_prefix)) info.libraries[key.substr(library_prefix.size())] = value;
     if (key == "swept") info.swept = nlohmann::json::parse(value).get<std::vector<std::string>>();
+    if (key == "over") info.over = nlohmann::json::parse(value).get<std::vector<std::string>>();
     if (key == "plot") info.plot = nlohmann::json::parse(value).get<std::vector<std::string>>();
     if (key == "scene_notes") info.scene_notes = nlohmann::json::parse(value).get<std::vector<std::string>>();
     if (key == "triangles") info.triangles = std::stoull(value);
@@ -340,6 +350,7 @@ void ResultStore::set_info(const RunInfo& info, int64_t planned_points) {
   for (const auto& [name, member] : info_texts) insert.run(name, info.*member);
   for (const auto& [name, version] : info.libraries) insert.run(std::string(library_prefix) + name, version);
   insert.run("swept", json_text(info.swept));
+  insert.run("over", json_text(info.over));
   insert.run("plot", json_text(info.plot));
   insert.run("triangles", std::to_string(info.triangles));
   insert.run("scene_notes", json_text(info.scene_notes));

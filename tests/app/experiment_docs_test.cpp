@@ -118,8 +118,9 @@ TEST(ExperimentDocuments, EveryKeyChoiceAndFunctionIsNamed) {
   };
   const std::string bound = "[[bound]]\nmetric = \"acne\"\nmax = 1\n";
   const std::string law = "[[law]]\nname = \"x\"\nmeasured = \"acne\"\nequals = 0\n";
-  keys("The keys of the file", "", 17);
+  keys("The keys of the file", "", 19);
   keys("Sweeps", "[sweep.map.extent_m]\n", 4);
+  keys("The answer", "[answer]\n", 2);
   keys("Charts and bias curves", "[plot]\n", 1);
   keys("Charts and bias curves", "[curve]\n", 4);
   keys("The phase diagram", "[phase]\n", 6);

@@ -151,6 +151,25 @@ TEST(Experiment, ScenePathsStartAtTheFilesFolder) {
             (Texts{"plane", "folder/b.glb"}));
 }
 
+// Conditions change slowest, wherever the file gives them, and are told from choices.
+TEST(Experiment, ConditionsComeBeforeChoices) {
+  const Experiment e = parse(
+      "[sweep]\nmap.resolution = [512, 1024]\nfilter.kind = [\"none\", \"box\"]\n"
+      "[over]\nview.fov_deg = [40, 60]\nlight.cone_deg = [20, 30, 40]\n");
+  EXPECT_EQ(swept_names(e),
+            (std::vector<std::string>{"view.fov_deg", "light.cone_deg", "map.resolution", "filter.kind"}));
+  EXPECT_EQ(condition_names(e), (std::vector<std::string>{"view.fov_deg", "light.cone_deg"}));
+  EXPECT_EQ(point_count(e), 24);
+  EXPECT_EQ(swept_text(e, 1), "view.fov_deg = 40, light.cone_deg = 20, map.resolution = 512, filter.kind = box");
+}
+
+TEST(Experiment, TheAnswerNamesItsMetrics) {
+  const Experiment e = parse("[answer]\ncost = \"map_bytes\"\naccuracy = \"error\"\n");
+  EXPECT_EQ(e.cost, "map_bytes");
+  EXPECT_EQ(e.accuracy, "error");
+  EXPECT_EQ(parse("").cost, "texel_work");
+}
+
 TEST(Experiment, OverridesReplaceTheValueAndItsSweep) {
   Experiment e = parse("[sweep]\nmap.resolution = [512, 1024]\nmap.cull = [\"none\", \"back\"]\n");
   apply_override(e, "map.resolution=2048");
@@ -306,6 +325,10 @@ TEST(Experiment, EveryMistakeNamesItsPlaceAndWhatWasMeant) {
       {"[map]\nnear_m = 5\nfar_m = 1", "2:10", "not less than map.far_m"},
       {"[filter]\nkind = \"box\"\n[sweep]\nfilter.size = [3, 4]", "4:15", "point 1 (filter.size = 4)"},
       {"[sweep]\nmap.resolution = []", "2:18", "empty list"},
+      {"[over]\nview.fov_deg = 40", "2:16", "[over] view.fov_deg must be a list"},
+      {"[over]\nview.fov_deg = [40]\n[sweep]\nview.fov_deg = [50]", "4:16", "view.fov_deg is swept twice"},
+      {"[answer]\ncost = \"shadow_mss\"", "2:8", "did you mean 'shadow_ms'?"},
+      {"[answer]\nspeed = \"error\"", "2:1", "speed"},
       {"[sweep]\nmap.resolution = 512", "2:18", "must be a list or a range"},
       {"[sweep]\nmap.resolution = [512, 1024, 512]", "2:30", "map.resolution = 512 is swept twice"},
       {"[sweep]\nmap.extent_m = [20, 20.0]", "2:21", "swept twice"},

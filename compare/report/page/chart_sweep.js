@@ -203,11 +203,11 @@ function costChart() {
     var left = 64, right = 16, w = width - left - right, height = width < 520 ? 280 : 380;
     var rows = [];
     data.points.filter(apart.kept).forEach(function(p) {
-      var ms = p.metrics.shadow_ms, v = kit.value(p, measure), look = apart.of(p);
-      if (kit.finite(ms) && kit.finite(v))
+      var cost = p.metrics[data.cost], v = kit.value(p, measure), look = apart.of(p);
+      if (kit.finite(cost) && kit.finite(v))
         rows.push({
           id: p.id,
-          x: ms,
+          x: cost * (kit.measureUnit(data.cost) === 'bytes' ? 1e-6 : 1),
           v: v,
           colour: look.colour,
           shape: look.shape,
@@ -264,7 +264,7 @@ function costChart() {
             scale: 'x',
             values: logX ? kit.logTicks(low / 1.1, high * 1.1) : undefined,
             labelOverlap: true,
-            title: 'shadow map and lookup (ms)',
+            title: kit.measureLabel(data.cost) + ' (' + (kit.measureUnit(data.cost) === 'bytes' ? 'MB' : kit.measureUnit(data.cost)) + ')',
             encode: {labels: {update: {text: {signal: kit.axisLabel('')}}}}
           }
         ],

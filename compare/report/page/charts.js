@@ -49,6 +49,7 @@ function digits(v) {
 function shown(v, unit) {
   return !finite(v)       ? 'not finite' :
       unit === 'fraction' ? digits(100 * v) + thin + '%' :
+      unit === 'bytes'    ? digits(1e-6 * v) + thin + 'MB' :
                             digits(v) + (unit && unit !== 'count' ? thin + unit : '');
 }
 function value(point, measure) {
@@ -193,9 +194,9 @@ function chart(id, build) {
 }
 function pointTip(event, d, measure) {
   var p = byId[d.id], rows = [[measureLabel(measure), shown(value(p, measure), measureUnit(measure))]];
-  ['error', 'acne', 'peter_panning', 'aliasing_dark', 'aliasing_light', 'shadow_ms'].forEach(function(m) {
+  ['error', 'acne', 'peter_panning', 'aliasing_dark', 'aliasing_light', data.cost].forEach(function(m) {
     if (m !== measure && m in p.metrics)
-      rows.push([measureLabel(m), shown(p.metrics[m], measureUnit(m)), m === 'error' || m === 'shadow_ms' ? '' : m]);
+      rows.push([measureLabel(m), shown(p.metrics[m], measureUnit(m)), m === 'error' || m === data.cost ? '' : m]);
   });
   showTip(event, rows, 'Point ' + p.id + (p.phrase ? ': ' + p.phrase : ''));
 }

@@ -371,7 +371,8 @@ TEST(WorstPixel, IsTheFirstOfTheLargestErrors) {
 
 TEST(MetricsTable, NamesWhatIsMeasured) {
   const std::set<std::string> times = {"map_ms", "lookup_ms", "shadow_ms"};  // the workbench measures these
-  const std::set<std::string_view> units = {"fraction", "m", "m2", "depth", "texels", "pixels", "deg", "count", "ms", ""};
+  const std::set<std::string_view> units = {"fraction", "m",     "m2",    "depth", "texels", "pixels",
+                                            "deg",      "count", "bytes", "ms",    ""};
   std::set<std::string> names;
   for (const Metric& metric : metrics_table()) {
     if (!metric.of_placements) {  // tests/acceptance/placements_test.cpp measures the others
@@ -383,7 +384,9 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
     EXPECT_EQ(&find_metric(metric.name), &metric);
   }
   std::set<std::string> measured = times;
-  for (const char* name : {"shaded_rmse", "clipped", "culled", "scene_behind"}) measured.insert(name);  // likewise
+  for (const char* name : {"shaded_rmse", "clipped", "culled", "scene_behind", "texel_work", "traffic_bytes", "map_bytes",
+                           "map_texels", "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations"})
+    measured.insert(name);  // likewise
   const Picture picture(1, 1);
   for (const auto& [name, value] : picture.metrics()) measured.insert(name);
   const Scene nothing;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/judge/recommendation.h"
 #include "compare/report/findings.h"
 #include "compare/report/report.h"
 #include "compare/report/rules.h"
@@ -237,8 +238,8 @@ TEST(LargeReport, OfTenThousandPointsStaysUnderTenMegabytes) {
   EXPECT_NE(page.find("results.csv"), std::string::npos);
   EXPECT_NE(page.find("<tr id=\"p4711\""), std::string::npos);
   const Recommendation found = recommend(results);
-  if (found.point) {
-    EXPECT_NE(page.find(fmt::format("<tr id=\"p{}\"", found.point->id)), std::string::npos);
+  if (found.outcome == Recommendation::Outcome::found) {
+    EXPECT_NE(page.find(fmt::format("<tr id=\"p{}\"", found.choice.first().id)), std::string::npos);
   }
   expect_links_to_lead_somewhere(page);
 
@@ -273,9 +274,9 @@ TEST(LargeReport, KeepsWholeLinesOfAChart) {
   EXPECT_EQ(line.count("53.75"), 1u);
   EXPECT_LE(shown.results.points.size(), report::max_even_points + report::max_marked_points);
   for (const Recommendation& found : {recommend(results), recommend_accurate(results)})
-    if (found.point) {
+    if (found.outcome == Recommendation::Outcome::found) {
       EXPECT_TRUE(std::any_of(shown.results.points.begin(), shown.results.points.end(),
-                              [&](const PointRecord& point) { return point.id == found.point->id; }));
+                              [&](const PointRecord& point) { return point.id == found.choice.first().id; }));
     }
 }
 

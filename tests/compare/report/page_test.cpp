@@ -98,7 +98,7 @@ TEST_F(Page, ChartsHaveTheirMarks) {
   EXPECT_GE(marks("chart-cost", "symbol"), 31);
   for (const char* chart : {"chart-sweep-1", "chart-sweep-2", "chart-cost"})
     EXPECT_GE(marks(chart, "zero"), 1) << chart << ": an error of 0 needs a mark of its own on a logarithmic axis";
-  EXPECT_EQ(marks("chart-bias", "line"), 5) << "the error and the causes that are not 0";
+  EXPECT_EQ(marks("chart-bias", "line"), 6) << "the error and the causes that are not 0";
   EXPECT_EQ(marks("chart-bias", "area"), 0);
   const json& bias = saw_["bias"];
   EXPECT_EQ(bias["stacked"]["area"], 5) << "there must be a layer for each cause";
@@ -166,7 +166,7 @@ class BandsPage : public Browser {
 
 TEST_F(BandsPage, TheBiasChartDrawsTheBandsOfAllPlacements) {
   EXPECT_EQ(marks("chart-bias", "area"), 4) << "a band for the error, acne, Peter Panning and aliasing";
-  EXPECT_EQ(marks("chart-bias", "line"), 5 + 4) << "and the mean of each";
+  EXPECT_EQ(marks("chart-bias", "line"), 6 + 4) << "and the mean of each";
   const json& bias = saw_["bias"];
   EXPECT_NE(bias["facts"].get<std::string>().find("At every one of 64 placements of the grid from "), std::string::npos)
       << bias["facts"];

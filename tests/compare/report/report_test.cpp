@@ -189,7 +189,7 @@ TEST(Report, NumbersAreThereWithoutJavaScript) {
   }
   for (const Metric& metric : metrics_table()) EXPECT_NE(body.find(report::html(metric.help)), std::string::npos);
   for (const std::string text : {"noonmark run experiments/cube-room.toml", "896dc68", "llvmpipe", "software times",
-                                 "glFinish", "AVX2", "What to set", "cheapest point", "one pass", "All 2 bounds hold"})
+                                 "glFinish", "AVX2", "What to set", "cheapest setting", "one pass", "All 2 bounds hold"})
     EXPECT_NE(body.find(text), std::string::npos) << text;
 }
 

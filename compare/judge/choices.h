@@ -1,0 +1,47 @@
+// A sweep has choices, which a user makes (resolution, filter, bias ...), and conditions, which a user does not make
+// (views, lights, frames, placements of the grid): RunInfo::over. An answer is about a choice, over all its conditions.
+//
+//   for (const Choice& choice : choices_of(results)) print(joined(choice, "error").worst);
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/store/records.h"
+
+namespace noonmark {
+
+// The points that have the same part and the same settings, except for the conditions: one point for each condition.
+struct Choice {
+  std::vector<const PointRecord*> points;  // in order of id
+  const PointRecord& first() const { return *points.front(); }
+};
+
+// In the order of their first points. They point into the results.
+std::vector<Choice> choices_of(const Results& results);
+
+// The choices that share scene, view, light and size of the picture, except for the conditions, so that their numbers
+// can be compared. In order.
+std::vector<std::vector<Choice>> comparable_choices(const Results& results);
+
+// Numbers of a choice, one for each condition, joined: NaN if one of them is not finite.
+struct Joined {
+  double worst = 0, mean = 0, p95 = 0;  // worst: the largest
+  const PointRecord* at = nullptr;      // the condition that is worst
+};
+Joined joined(const Choice& choice, const std::string& metric);
+
+// The same at a bias, in units of the parameter that the curves vary (bias.unit); without one, as rendered.
+Joined joined_at(const Choice& choice, const std::string& metric, std::optional<double> bias);
+
+// The biases that are usable under every condition, in units of the parameter. Empty if there is none, or if a point has
+// no curve.
+struct BiasWindow {
+  double low = 0, high = 0;
+};
+std::optional<BiasWindow> joined_window(const Choice& choice);
+
+// Whether every point has a curve of the same parameter, in the same unit.
+bool has_curves(const Choice& choice);
+
+}  // namespace noonmark

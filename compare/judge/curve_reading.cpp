@@ -1,0 +1,82 @@
+#include "compare/judge/curve_reading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "compare/store/curve_fields.h"
+#include "compare/store/quantities.h"
+
+namespace noonmark {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+const std::vector<double>* series_of(const BiasCurve& curve, const std::string& metric) {
+  for (const CurveSeries& series : curve_series())
+    if (series.name == metric && series.name != "bias_depth" && !(curve.*series.values).empty())
+      return &(curve.*series.values);
+  return nullptr;
+}
+
+double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  if (x.empty() || y.size() != x.size()) return not_a_number;
+  const size_t after = static_cast<size_t>(std::upper_bound(x.begin(), x.end(), at) - x.begin());
+  if (after == 0) return y.front();
+  if (after == x.size()) return y.back();
+  const double t = (at - x[after - 1]) / (x[after] - x[after - 1]);
+  // t = 0 is handled apart, so that a neighbour that is not finite does not spoil an exact entry.
+  return t == 0 ? y[after - 1] : y[after - 1] + t * (y[after] - y[after - 1]);
+}
+
+}  // namespace
+
+std::optional<double> curve_value(const BiasCurve& curve, const std::string& metric, double bias_depth) {
+  if (metric == "aliasing")
+    return interpolate(curve.bias_depth, curve.aliasing_dark, bias_depth) +
+           interpolate(curve.bias_depth, curve.aliasing_light, bias_depth);
+  const std::vector<double>* series = series_of(curve, metric);
+  if (!series) return std::nullopt;
+  return interpolate(curve.bias_depth, *series, bias_depth);
+}
+
+double parameter_per_depth(const PointRecord& point) {
+  const std::string unit = setting_of(point, "bias.unit");
+  if (!point.curve) return not_a_number;
+  if (unit == "depth") return 1;
+  if (unit == "m") return point.curve->m_per_depth;
+  if (unit == "texel") return point.curve->texels_per_depth;
+  return not_a_number;
+}
+
+std::optional<double> bias_as_set(const PointRecord& point) {
+  if (!point.curve) return std::nullopt;
+  const std::optional<double> value = number_of(setting_of(point, point.curve->parameter));
+  const double per_depth = parameter_per_depth(point);
+  if (!value || std::isnan(per_depth)) return std::nullopt;
+  return *value / per_depth;
+}
+
+std::optional<DepthWindow> usable_window(const BiasCurve& curve) {
+  const bool placed = curve.placements > 1;
+  const auto& low = placed ? curve.window_min_worst_depth : curve.window_min_depth;
+  const auto& high = placed ? curve.window_max_worst_depth : curve.window_max_depth;
+  if (!low || !high) return std::nullopt;
+  return DepthWindow{*low, *high};
+}
+
+double metric_at(const PointRecord& point, const std::string& metric, std::optional<double> bias_depth) {
+  const std::string worst = metric + "_worst";
+  if (bias_depth && point.curve) {
+    const bool no_size = metric == "error_soft" && metric_of(point, "light_size") == 0;
+    for (const std::string& name :
+         {worst, metric, std::string(no_size ? "error_worst" : ""), std::string(no_size ? "error" : "")})
+      if (const auto value = name.empty() ? std::nullopt : curve_value(*point.curve, name, *bias_depth)) return *value;
+  }
+  if (has_placements(point) && point.metrics.contains(worst))
+    return std::max(metric_of(point, worst), metric_of(point, metric));
+  return metric_of(point, metric);
+}
+
+}  // namespace noonmark

@@ -1,0 +1,69 @@
+// Which of the measured choices to set: the cheapest one that is good enough under all conditions.
+//
+//   const Recommendation found = recommend(results, {});
+//   if (found.outcome == Recommendation::Outcome::found) print(found.choice.first().settings, found.bias->value);
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/judge/choices.h"
+#include "compare/store/records.h"
+
+namespace noonmark {
+
+// The bias keeps this factor of distance from either end of the usable window, if the window is wide enough. At its ends
+// acne and Peter Panning begin in steps, and a driver that rounds otherwise would break them.
+inline constexpr double bias_margin = 1.05;
+// Biases whose error is at most this factor of the least count as equally accurate (BiasCurve::flat_min_depth uses the
+// same). Of these the one is taken that is furthest from both ends of the window.
+inline constexpr double flat_error = 1.1;
+
+// A bias for the parameter that the choice's curves vary, in bias.unit.
+struct BiasChoice {
+  std::string parameter, unit;
+  double value = 0;     // a short decimal
+  BiasWindow window;    // usable under every condition
+  bool narrow = false;  // the window is too narrow for bias_margin; the value is in its middle half
+};
+
+struct Recommendation {
+  enum class Outcome {
+    found,
+    none_holds,    // there are criteria, and no choice meets them
+    no_criterion,  // neither a bound nor a curve: no criterion for good enough
+    incomplete,    // conditions of some choices are not measured yet
+  } outcome = Outcome::no_criterion;
+  // The others: only if found.
+  Choice choice;
+  double cost = 0;                 // largest over the conditions, in the unit of RunInfo::cost
+  Joined error;                    // RunInfo::accuracy, at `bias`, or as rendered if there is no bias
+  std::optional<BiasChoice> bias;  // the choice has curves
+};
+
+// Costs in ms within this fraction of the cheapest count as equal, because a second run could order them differently.
+// Costs that do not depend on the machine are compared exactly.
+inline constexpr double time_tolerance = 0.1;
+
+// The choices that are good enough, each at its best bias, in order. A choice is good enough if every bound that applies
+// to it holds under every condition and, if it has curves, the joined window is not empty. Bounds on values of the curve
+// are checked at the bias that would be set, other bounds as rendered. The bias is within the window and its margin, as
+// far from its ends as possible without losing accuracy (flat_error; the error is the largest over the conditions), and
+// rounded to few digits inside of it. A value that is not finite, also
+// a cost or an error, is never good enough.
+std::vector<Recommendation> good_choices(const Results& results);
+
+// Of these the one of least cost; among equal costs the one of least error, then the first.
+Recommendation recommend(const Results& results);
+// The one of least error; among equal errors the one of least cost.
+Recommendation recommend_accurate(const Results& results);
+
+// Whether one point meets a bound's limits, in the way that the bound takes placements. Metrics of the curve are read at
+// the bias (window depth), if it is given.
+bool meets(const PointRecord& point, const BoundResult& bound, std::optional<double> bias_depth = std::nullopt);
+
+// The number with the fewest significant digits that lies in [low, high] and differs from `value` by at most 5%. `value`
+// lies in [low, high]; it is returned itself if nothing shorter does.
+double short_decimal(double value, double low, double high);
+
+}  // namespace noonmark

@@ -1,0 +1,140 @@
+#include "compare/report/recommendation_box.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compare/judge/curve_reading.h"
+#include "compare/judge/poor_view.h"
+#include "compare/judge/recommendation.h"
+#include "compare/report/findings.h"
+#include "compare/report/sections.h"
+#include "compare/report/text.h"
+#include "compare/store/quantities.h"
+
+namespace noonmark::report {
+namespace {
+
+// The swept settings that are not conditions.
+std::vector<std::string> choice_names(const Results& results) {
+  std::vector<std::string> names;
+  for (const std::string& name : results.info.swept)
+    if (std::find(results.info.over.begin(), results.info.over.end(), name) == results.info.over.end())
+      names.push_back(name);
+  return names;
+}
+
+// A bias in the unit that a user sets and, if all curves share one scale, in the others.
+std::string bias_of(const Recommendation& found, double value) {
+  const PointRecord& first = found.choice.first();
+  return found.choice.points.size() == 1 ? bias_phrase(value / parameter_per_depth(first), *first.curve)
+                                         : quantity(value, found.bias->unit == "texel" ? "texels" : found.bias->unit);
+}
+
+std::string point_links(const Choice& choice) {
+  constexpr size_t most = 4;
+  std::string out = choice.points.size() == 1 ? "point " : "points ";
+  for (size_t i = 0; i < std::min(most, choice.points.size()); ++i)
+    out += fmt::format("{}<a href=\"#p{}\">{}</a>", i ? ", " : "", choice.points[i]->id, choice.points[i]->id);
+  return out + (choice.points.size() > most ? " …" : "");
+}
+
+std::string conditions_text(const Results& results, const Choice& choice) {
+  if (results.info.over.empty()) return "";
+  std::string names;
+  for (const std::string& name : results.info.over) names += (names.empty() ? "" : ", ") + setting_label(name);
+  return fmt::format(" under all {} conditions ({})", choice.points.size(), html(names));
+}
+
+// "a cost of 4.2 MB and an error of 0.1 %"
+std::string cost_and_error(const Recommendation& found, const Results& results) {
+  std::string over;
+  if (found.choice.points.size() > 1)
+    over = fmt::format(" (mean {}, 95th percentile {}; worst at <a href=\"#p{}\">point {}</a>)",
+                       quantity(found.error.mean, find_metric(results.info.accuracy).unit),
+                       quantity(found.error.p95, find_metric(results.info.accuracy).unit), found.error.at->id,
+                       found.error.at->id);
+  return fmt::format("a cost of <b>{}</b> and an error of <b>{}</b>{}",
+                     quantity(found.cost, find_metric(results.info.cost).unit),
+                     quantity(found.error.worst, find_metric(results.info.accuracy).unit), over);
+}
+
+}  // namespace
+
+std::string cause_sentence(std::span<const PointRecord* const> points) {
+  std::string out;
+  const std::vector<CauseShare> shares = cause_shares(points);
+  for (size_t i = 0; i < std::min<size_t>(shares.size(), 3); ++i)
+    out += fmt::format("{}<span class=\"cause\">{}{} ({:.0f}{}%)</span>", i ? ", " : "", swatch(shares[i].name),
+                       html(metric_label(shares[i].name)), 100 * shares[i].share, "\u202f");
+  return out;
+}
+
+std::string recommendation_box(const Results& results) {
+  if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
+    return fmt::format(
+        "<div class=\"recommend broken\"><h3>What to set</h3><p><b>Nothing was measured</b>: {}. This gives no "
+        "information about the method.</p></div>\n",
+        html(poor_view_note(results.points)));
+  const Recommendation found = recommend(results);
+  using Outcome = Recommendation::Outcome;
+  if (found.outcome == Outcome::no_criterion)
+    return "<div class=\"recommend none\"><h3>What to set</h3><p>There is no criterion for good enough: set a bound, "
+           "or have a bias curve measured.</p></div>\n";
+  if (found.outcome == Outcome::incomplete)
+    return "<div class=\"recommend none\"><h3>What to set</h3><p>Not all conditions are measured yet, so no setting is "
+           "known to hold under all of them. The same command continues the sweep.</p></div>\n";
+  if (found.outcome == Outcome::none_holds)
+    return fmt::format(
+        "<div class=\"recommend broken\"><h3>What to set</h3><p><b>None of the swept settings is good enough{}.</b> "
+        "None has a usable bias window and meets every bound that applies to it. Sweep a higher resolution, a smaller "
+        "extent or another part of the bias, or loosen a bound.</p></div>\n",
+        results.info.over.empty() ? "" : " under all conditions");
+  const std::vector<std::string> chosen = choice_names(results);
+  std::string rows;
+  for (const std::string& name : chosen)
+    rows += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", html(name),
+                        html(settings_phrase(found.choice.first(), {name}).substr(setting_label(name).size() + 1)));
+  std::string more;
+  if (found.bias) {
+    const auto& [parameter, unit, value, window, narrow] = *found.bias;
+    rows += fmt::format("<div class=\"key\"><dt>{}</dt><dd>{}</dd></div>\n", html(parameter), bias_of(found, value));
+    rows += fmt::format("<div><dt>usable from</dt><dd>{}</dd></div>\n<div><dt>to</dt><dd>{}</dd></div>\n",
+                        bias_of(found, window.low), bias_of(found, window.high));
+    if (narrow)
+      more = fmt::format(
+          " Its window is narrower than a margin of {:.0f}\u202f% to both ends, so a small change of the "
+          "scene can break it.",
+          100 * (bias_margin - 1));
+    else if (window.low > 0)
+      more = fmt::format(" Its window is a factor {} wide; the bias keeps {:.0f}\u202f% from its ends.",
+                         number(window.high / window.low), 100 * (bias_margin - 1));
+  }
+  const std::string causes = cause_sentence(found.choice.points);
+  const Recommendation accurate = recommend_accurate(results);
+  std::string other;
+  if (&accurate.choice.first() != &found.choice.first())
+    other = fmt::format(
+        "<p>The most accurate setting that is good enough: {}{}, for {} ({}).</p>\n",
+        html(settings_phrase(accurate.choice.first(), chosen)),
+        accurate.bias ? fmt::format(", {} {}", html(accurate.bias->parameter), bias_of(accurate, accurate.bias->value))
+                      : "",
+        cost_and_error(accurate, results), point_links(accurate.choice));
+  return fmt::format(
+      "<div class=\"recommend held\"><h3>What to set</h3><p>The cheapest setting that is good enough{} has {}.{}</p>\n"
+      "<dl>{}</dl>\n{}{}<p class=\"small\">It is {}: the least <i>{}</i> among the settings of which {}; among equal "
+      "costs "
+      "the least <i>{}</i>.{}</p></div>\n",
+      conditions_text(results, found.choice), cost_and_error(found, results), more, rows,
+      causes.empty() ? "" : fmt::format("<p>Largest causes there, with the bias as rendered: {}.</p>\n", causes), other,
+      point_links(found.choice), html(metric_label(results.info.cost)),
+      !found.bias              ? "every bound holds"
+      : results.bounds.empty() ? "the bias window is not empty"
+                               : "the bias window is not empty and every bound holds at that bias",
+      html(metric_label(results.info.accuracy)),
+      find_metric(results.info.cost).unit == "ms"
+          ? fmt::format(" Times within {:.0f}\u202f% count as equal.", 100 * time_tolerance)
+          : " This cost is the same on every machine and in every run.");
+}
+
+}  // namespace noonmark::report

@@ -1,0 +1,15 @@
+// "What to set": the recommendation as the first words of the report.
+#pragma once
+#include <span>
+#include <string>
+
+#include "compare/store/records.h"
+
+namespace noonmark::report {
+
+std::string recommendation_box(const Results& results);
+
+// The three largest causes of error over the points, with their colours: "Acne (60 %), Aliasing (30 %)".
+std::string cause_sentence(std::span<const PointRecord* const> points);
+
+}  // namespace noonmark::report

@@ -1,0 +1,105 @@
+#include "technique/cost.h"
+
+#include "technique/bias.h"
+#include "technique/filters.h"
+#include "technique/tap_pattern.h"
+
+namespace noonmark {
+namespace {
+
+using namespace counting;
+using in_counts::Surface;
+using in_counts::TapPlace;
+
+struct Counter {
+  int operations = 0;
+  Counted number() { return Counted::input(&operations); }
+  vec2 two() { return {number(), number()}; }
+  vec3 three() { return {number(), number(), number()}; }
+  Surface surface() { return {three(), three(), three(), three(), number(), number()}; }
+  TapPlace place() { return {number(), two(), two(), number()}; }
+};
+
+// The sum of the parts that act on the compared depth, each times its amount and held between its floor and its cap.
+int compared_operations(const Bias& bias) {
+  Counter counter;
+  Counted sum(0.0);
+  for (const ActivePart& active : bias.compared()) {
+    Counted value = counter.number() * active.part->formula.counted_factor(counter.surface());
+    if (!active.part->floor_help.empty()) value = max(value, Counted(0.0));
+    if (!active.part->cap_help.empty()) value = min(value, Counted(0.0));
+    sum = &active == bias.compared().data() ? value : sum + value;
+  }
+  return counter.operations;
+}
+
+int moving_operations(const Bias& bias) {
+  Counter counter;
+  for (const ActivePart& active : bias.moving()) {
+    const vec3 moved = counter.number() * active.part->formula.counted_way(counter.surface());
+    counter.three() + moved;
+  }
+  return counter.operations;
+}
+
+int reference_operations(const TapReference& reference) {
+  Counter counter;
+  reference.counted_depth(counter.place());
+  return counter.operations;
+}
+
+// Of a filter that gives the weights of its texels, as gl/shaders/filter/fetches.glsl computes them.
+int weight_operations(const Filter& filter, int size) {
+  Counter counter;
+  const auto weight = [&](int texel) { return filter.counted_weight(texel, counter.number(), size); };
+  for (int y = 0; y <= size; y += 2) {
+    const Counted below = weight(y), above = weight(y + 1);
+    for (int x = 0; x <= size; x += 2) {
+      const Counted left = weight(x), right = weight(x + 1);
+      const Counted across = left + right, up = below + above;  // written twice there; a compiler makes each once
+      across * up;
+      right / across;
+      above / up;
+    }
+  }
+  return counter.operations;
+}
+
+}  // namespace
+
+LookupCost lookup_cost(const Settings& settings) {
+  const Filter& filter = find_filter(settings.filter.kind);
+  const TapPattern pattern = tap_pattern(settings.filter);
+  const Bias bias(settings.bias);
+  const int fetches = pattern.fetches();
+  LookupCost cost{fetches, pattern.bilinear() ? 4 * fetches : fetches, 0};
+  cost.operations = compared_operations(bias) + moving_operations(bias);
+  const int subtractions = bias.compared().empty() ? 0 : 1;
+  if (pattern.bilinear()) {
+    // One biased depth for all fetches; the sampler compares. The product and the sum of each fetch, and of weights that
+    // the shader makes itself also their sum and the division by it.
+    cost.operations += subtractions + 2 * fetches;
+    if (filter.own_weights) cost.operations += weight_operations(filter, settings.filter.whole("size")) + fetches + 1;
+  } else {
+    // Each tap: its reference, minus the bias, compared, and counted if there are several.
+    const int tap = reference_operations(bias.reference()) + subtractions + 1;
+    cost.operations += fetches * tap + (fetches > 1 ? fetches : 0);
+  }
+  return cost;
+}
+
+int bytes_per_texel(DepthFormat format) { return format == DepthFormat::d16 ? 2 : 4; }
+
+FrameCost frame_cost(const Settings& settings, int tiles, int64_t receivers, int64_t triangles) {
+  FrameCost cost;
+  const int64_t side = settings.map.resolution, texel = bytes_per_texel(settings.map.format);
+  cost.map_texels = tiles * side * side;
+  cost.map_bytes = cost.map_texels * texel;
+  cost.map_triangles = tiles * triangles;
+  cost.lookup = lookup_cost(settings);
+  cost.texel_work = cost.map_texels + receivers * cost.lookup.fetches;
+  cost.traffic_bytes = cost.map_bytes + receivers * cost.lookup.texels * texel;
+  return cost;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,57 @@
+// A number that counts the operations it goes through. With it the formulas that GLSL and C++ share are asked what they
+// cost (technique/cost.h), so no count is written by hand.
+//
+//   int operations = 0;
+//   Counted n = Counted::input(&operations);
+//   Counted product = n * n;    // operations is 1
+//
+// An addition, a product, a division, a root, a minimum and a maximum count 1 each. A change of sign and an absolute
+// value count nothing, because a GPU does them with the operand of another operation. An operation on constants alone
+// counts nothing, because a compiler does it.
+#pragma once
+
+namespace noonmark {
+
+struct Counted {
+  int* count = nullptr;  // null: a constant
+  constexpr Counted() = default;
+  constexpr explicit Counted(double /*constant*/) {}
+  static constexpr Counted input(int* counter) {
+    Counted made;
+    made.count = counter;
+    return made;
+  }
+};
+
+namespace counting {
+
+inline Counted done(Counted a, Counted b) {
+  int* const count = a.count ? a.count : b.count;
+  if (count) ++*count;
+  return Counted::input(count);
+}
+inline Counted operator-(Counted a) { return a; }
+inline Counted operator+(Counted a, Counted b) { return done(a, b); }
+inline Counted operator-(Counted a, Counted b) { return done(a, b); }
+inline Counted operator*(Counted a, Counted b) { return done(a, b); }
+inline Counted operator/(Counted a, Counted b) { return done(a, b); }
+inline Counted abs(Counted a) { return a; }
+inline int abs(int a) { return a < 0 ? -a : a; }
+inline Counted min(Counted a, Counted b) { return done(a, b); }
+inline Counted max(Counted a, Counted b) { return done(a, b); }
+inline Counted clamp(Counted a, Counted low, Counted high) { return min(max(a, low), high); }
+inline Counted sqrt(Counted a) { return done(a, a); }
+
+struct vec2 {
+  Counted x, y;
+};
+struct vec3 {
+  Counted x, y, z;
+};
+inline vec3 operator+(const vec3& a, const vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline vec3 operator-(const vec3& a, const vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline vec3 operator*(Counted s, const vec3& v) { return {s * v.x, s * v.y, s * v.z}; }
+inline Counted dot(const vec3& a, const vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+}  // namespace counting
+}  // namespace noonmark

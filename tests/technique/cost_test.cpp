@@ -1,0 +1,106 @@
+// The cost of a frame, compared with counts made by hand from the formulas and the shaders.
+#include "technique/cost.h"
+
+#include <gtest/gtest.h>
+
+#include "technique/bias_parts.h"
+#include "technique/filters.h"
+
+namespace noonmark {
+namespace {
+
+Settings with(const FilterSettings& filter) {
+  Settings settings;
+  settings.filter = filter;
+  settings.bias["constant"] = 0;
+  return settings;
+}
+
+TEST(Cost, CountsTextureInstructions) {
+  const auto fetches = [](const FilterSettings& filter) { return lookup_cost(with(filter)).fetches; };
+  const auto texels = [](const FilterSettings& filter) { return lookup_cost(with(filter)).texels; };
+  EXPECT_EQ(fetches({"none", {}}), 1);
+  EXPECT_EQ(fetches({"box", {{"size", 5}}}), 25);
+  EXPECT_EQ(texels({"box", {{"size", 5}}}), 25);
+  EXPECT_EQ(fetches({"hardware", {}}), 1);  // one instruction that reads four texels
+  EXPECT_EQ(texels({"hardware", {}}), 4);
+  EXPECT_EQ(fetches({"gaussian", {{"size", 3}}}), 9);
+  EXPECT_EQ(texels({"gaussian", {{"size", 3}}}), 36);
+  for (const char* kind : {"castano", "tent"}) {  // "in 4, 9 or 16 fetches"
+    EXPECT_EQ(fetches({kind, {{"size", 3}}}), 4) << kind;
+    EXPECT_EQ(fetches({kind, {{"size", 5}}}), 9) << kind;
+    EXPECT_EQ(fetches({kind, {{"size", 7}}}), 16) << kind;
+  }
+  EXPECT_EQ(fetches({"poisson", {}}), 16);
+  EXPECT_EQ(fetches({"vogel", {{"taps", 5}}}), 5);
+}
+
+TEST(Cost, CountsTheOperationsOfTheFormulas) {
+  const auto operations = [](const Settings& settings) { return lookup_cost(settings).operations; };
+  Settings s = with({"none", {}});
+  EXPECT_EQ(operations(s), 1);  // the comparison
+  s.bias["constant"] = 0.1;
+  EXPECT_EQ(operations(s), 3);  // amount * 1, reference - bias, the comparison
+  s.bias["slope"] = 0.1;
+  EXPECT_EQ(operations(s), 7);  // and 1 - N.L, its product, its floor, the sum
+  s = with({"none", {}});
+  s.bias["normal_offset"] = 1;
+  EXPECT_EQ(operations(s), 7);  // amount * N, P + that, the comparison
+  s.bias["normal_offset_axes"] = 1;
+  EXPECT_EQ(operations(s),
+            7 + 5 + 5 + 1 + 3 + 3 + 3);  // two dots, their sum, times N, times the amount, the sum with P
+  s = with({"box", {{"size", 3}}});
+  EXPECT_EQ(operations(s), 9 * 2);  // compared and counted
+  s.bias.reference = "texel_plane";
+  EXPECT_EQ(operations(s), 9 * (2 + 4));  // two products, two sums
+  s.bias.reference = "receiver_plane";
+  EXPECT_EQ(operations(s), 9 * (2 + 6));  // and its cap, from both sides
+  s = with({"gaussian", {{"size", 3}}});
+  EXPECT_EQ(operations(s), 9 * 2);  // the weights are constants: weight * fetch, and the sum
+}
+
+// castano_weight(texel, s, size): 1 - s is one operation; a weight of two kernel taps is here * (1 - s) + before * s,
+// divided: five operations. The kernel's values are constants.
+TEST(Cost, CountsTheWeightsOfAFilterThatMakesThem) {
+  const int fetches = 4, along = 4;  // a kernel of 3: 2 fetches of 2 texels along each axis
+  const int weight = 5;
+  const int weights = weight * (along + 2 * along);  // per row of fetches: two, and two for each of its fetches
+  const int blends = 5 * fetches;                    // two sums, their product, two divisions
+  EXPECT_EQ(lookup_cost(with({"castano", {{"size", 3}}})).operations, weights + blends + 3 * fetches + 1);
+}
+
+TEST(Cost, AddsTheMapAndTheLookups) {
+  Settings s = with({"box", {{"size", 3}}});
+  s.map.resolution = 1024;
+  s.map.format = DepthFormat::d24;
+  const FrameCost flat = frame_cost(s, 1, 1000, 50);
+  EXPECT_EQ(flat.map_texels, 1 << 20);
+  EXPECT_EQ(flat.map_bytes, 4 << 20);
+  EXPECT_EQ(flat.map_triangles, 50);
+  EXPECT_EQ(flat.texel_work, (1 << 20) + 1000 * 9);
+  EXPECT_EQ(flat.traffic_bytes, (4 << 20) + 1000 * 9 * 4);
+  s.map.format = DepthFormat::d16;
+  const FrameCost cube = frame_cost(s, 6, 1000, 50);
+  EXPECT_EQ(cube.map_bytes, 6 * (2 << 20));
+  EXPECT_EQ(cube.map_triangles, 300);
+  EXPECT_EQ(cube.traffic_bytes, 6 * (2 << 20) + 1000 * 9 * 2);
+  s.map.resolution = 16384;  // beyond 32 bits
+  EXPECT_EQ(frame_cost(s, 6, 0, 0).map_bytes, int64_t{6} * 2 * 16384 * 16384);
+}
+
+// A row without its counters would cost nothing, or crash.
+TEST(Cost, EveryRowHasItsCounters) {
+  for (const BiasPart& part : bias_parts()) {
+    const bool polygon_offset = !part.formula.factor && !part.formula.way;
+    EXPECT_EQ(!part.formula.counted_factor, !part.formula.factor) << part.name;
+    EXPECT_EQ(!part.formula.counted_way, !part.formula.way || polygon_offset) << part.name;
+  }
+  for (const TapReference& reference : tap_references()) EXPECT_TRUE(reference.counted_depth) << reference.name;
+  for (const Filter& filter : filters()) {
+    EXPECT_EQ(filter.counted_weight != nullptr, filter.own_weights) << filter.name;
+    EXPECT_GE(lookup_cost(with({std::string(filter.name), {}})).fetches, 1) << filter.name;
+  }
+}
+
+}  // namespace
+}  // namespace noonmark
