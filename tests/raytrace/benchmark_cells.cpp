@@ -14,9 +14,9 @@
 #include <memory>
 
 #include "raytrace/light_view.h"
-#include "raytrace/packets.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
+#include "tests/raytrace/bare_rays.h"
 #include "tests/raytrace/fixture.h"
 #include "tests/support/benchmark.h"
 
@@ -40,9 +40,7 @@ ReceiverImage seen_by_camera(const Scene& scene, const EmbreeScene& embree) {
   return resolve_receivers(scene, scene.camera, primitives);
 }
 
-struct Bare {
-  glm::vec3 origin, direction;
-};
+using Bare = BareRays::Ray;
 
 std::vector<double> medians(int rounds, const std::vector<std::function<void()>>& jobs) {
   return test::medians(test::run_in_turns(rounds, jobs));
@@ -57,30 +55,13 @@ class Bench {
         embree_(device_, scene_),
         tracer_(std::make_unique<Tracer>(scene_)),
         receivers_(seen_by_camera(scene_, embree_)),
-        bare_(rtcNewScene(device_.get())) {
-    rtcSetSceneFlags(bare_, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    const auto fill = [&](RTCBufferType type, RTCFormat format, const auto& items) {
-      std::copy(items.begin(), items.end(),
-                static_cast<typename std::decay_t<decltype(items)>::value_type*>(
-                    rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(items[0]), items.size())));
-    };
-    fill(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, scene_.positions);
-    fill(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, scene_.triangles);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(bare_, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(bare_);
+        bare_(device_, scene_) {
     truth_ = tracer_->receiver_truth(receivers_, frame_, {});
     for (size_t i = 0; i < truth_.facing.size(); ++i)
       if (truth_.facing[i]) facing_.push_back(static_cast<uint32_t>(i));
     fmt::print("{}: {} triangles, {} facing receivers of {} x {} pixels\n", name, scene_.triangles.size(),
                facing_.size(), width, height);
   }
-  ~Bench() { rtcReleaseScene(bare_); }
-  Bench(const Bench&) = delete;
-  Bench& operator=(const Bench&) = delete;
-
   void hard_truth() {
     std::vector<Bare> rays;
     for (uint32_t i : facing_)
@@ -154,22 +135,7 @@ class Bench {
     std::fflush(stdout);
   }
 
-  void cast(const std::vector<Bare>& rays) const {
-    for_each_packet(rays.size(), [&](size_t first, int n) {
-      alignas(64) RTCRay16 packet;
-      alignas(64) int valid[packet_size];
-      for (int i = 0; i < packet_size; ++i) {
-        valid[i] = i < n ? -1 : 0;
-        const Bare& ray = rays[first + static_cast<size_t>(i < n ? i : 0)];
-        packet.org_x[i] = ray.origin.x, packet.org_y[i] = ray.origin.y, packet.org_z[i] = ray.origin.z;
-        packet.dir_x[i] = ray.direction.x, packet.dir_y[i] = ray.direction.y, packet.dir_z[i] = ray.direction.z;
-        packet.tnear[i] = 1e-3f, packet.tfar[i] = std::numeric_limits<float>::infinity();
-        packet.time[i] = 0, packet.mask[i] = ~0u, packet.id[i] = static_cast<unsigned>(i), packet.flags[i] = 0;
-      }
-      embree::Context context;
-      embree::occluded16(valid, bare_, context, packet);
-    });
-  }
+  void cast(const std::vector<Bare>& rays) const { bare_.cast(rays); }
 
   int rounds_;
   Scene scene_;
@@ -181,7 +147,7 @@ class Bench {
   ReceiverImage receivers_;
   ReceiverTruth truth_;
   std::vector<uint32_t> facing_;
-  RTCScene bare_;
+  BareRays bare_;
 };
 
 void measure(const std::string& name, int rounds, bool only_r1) {
