@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "compare/store/metrics.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
 #include "technique/setting_rules.h"
@@ -124,6 +125,25 @@ std::vector<std::string> names_of(const Experiment& experiment, const Wanted& wa
 }
 
 }  // namespace
+
+std::string time_asked_for(const Experiment& experiment) {
+  std::vector<std::string> names = experiment.plot;
+  names.push_back(experiment.cost);
+  names.push_back(experiment.accuracy);
+  for (const Bound& bound : experiment.bounds) names.push_back(bound.metric);
+  for (const Law& law : experiment.laws)
+    for (const std::string& name : metric_names(law)) names.push_back(name);
+  for (const Experiment& part : experiment.parts) names.push_back(time_asked_for(part));
+
+  for (const std::string& name : names)
+    for (const Metric& row : metrics_table())
+      if (row.name == name && row.unit == "ms") return name;
+  return "";
+}
+
+bool times_measured(const Experiment& experiment) {
+  return experiment.times.value_or(!time_asked_for(experiment).empty());
+}
 
 std::vector<std::string> swept_names(const Experiment& experiment) {
   return names_of(experiment, [](const Swept&) { return true; });
@@ -261,7 +281,7 @@ std::string fingerprint(const Experiment& experiment, std::span<const std::pair<
   for (const auto& [name, value] : more) text += fmt::format("{} = {}\n", name, value);
   if (experiment.parts.empty()) text += points_text(experiment);
   for (const Experiment& part : experiment.parts) text += in_part(part.part, points_text(part));
-  return text + fmt::format("pictures = {}\n", experiment.pictures);
+  return text + fmt::format("times = {}\npictures = {}\n", times_measured(experiment), experiment.pictures);
 }
 
 }  // namespace noonmark

@@ -53,6 +53,7 @@ struct Experiment {
   bool curve_enabled = true;
   CurveOptions curve;
   PhaseRequest phase;
+  std::optional<bool> times;            // the key `times`; empty: as time_asked_for() says
   std::string pictures = "first";       // which points get pictures: first | all | none | worst | extremes
   std::vector<std::string> overridden;  // settings given by apply_override, in order
   std::vector<std::string> chosen;      // parts given by choose_parts
@@ -79,6 +80,13 @@ void choose_parts(Experiment& experiment, const std::vector<std::string>& names)
 
 // The part that holds point `id`, or the experiment itself if it has no parts.
 const Experiment& part_of_point(const Experiment& experiment, int64_t id);
+
+// The first metric that is a time (unit "ms") among those that the experiment plots, bounds, counts as cost or reads in
+// a law, in its parts too. Empty if it asks for none.
+std::string time_asked_for(const Experiment& experiment);
+
+// Whether the points' map and lookup are timed. All points of an experiment are, or none.
+bool times_measured(const Experiment& experiment);
 
 // The names of all swept settings of all parts, each once.
 std::vector<std::string> swept_names(const Experiment& experiment);

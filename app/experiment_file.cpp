@@ -34,6 +34,8 @@ class Reader : private SettingsReader {
         experiment_.title = string(*item.node, "title");
       else if (!in_part_ && item.key == "pictures")
         experiment_.pictures = one_of(*item.node, "pictures", {"first", "all", "none", "worst", "extremes"});
+      else if (!in_part_ && item.key == "times")
+        times_ = item.node;
       else if (!in_part_ && item.key == "plot")
         read_plot(table(*item.node, "[plot]"));
       else if (!in_part_ && item.key == "part")
@@ -69,6 +71,7 @@ class Reader : private SettingsReader {
         if (inside) fail(*inside, "in a file with parts, sweep, over, bounds and laws must stand inside a [[part]]");
       experiment_.sweep_location = location_text(parts_->source());
       read_parts(*parts_);
+      if (times_) read_times(*times_);
       points(experiment_);
       return std::move(experiment_);
     }
@@ -76,6 +79,7 @@ class Reader : private SettingsReader {
     read_sweeps();
     if (bounds_) read_bounds(*bounds_);
     if (laws_) read_laws(*laws_);
+    if (times_) read_times(*times_);
     if (!in_part_) points(experiment_);
     return std::move(experiment_);
   }
@@ -86,7 +90,7 @@ class Reader : private SettingsReader {
     for (std::string_view key : {"sweep", "over", "curve", "phase", "let", "bound", "law"}) names.push_back(key);
     if (in_part_) names.push_back("name");
     if (!in_part_)
-      for (std::string_view key : {"title", "pictures", "plot", "answer", "part"}) names.push_back(key);
+      for (std::string_view key : {"title", "pictures", "times", "plot", "answer", "part"}) names.push_back(key);
     return names;
   }
 
@@ -163,6 +167,13 @@ class Reader : private SettingsReader {
     const toml::source_position place = value.source().begin;
     sweep_order_.emplace_back(!condition, place.line, place.column, experiment_.swept.size());
     experiment_.swept.push_back(std::move(swept));
+  }
+
+  // Read last, because it depends on what the file asks for.
+  void read_times(const toml::node& node) {
+    experiment_.times = boolean(node, "times");
+    if (const std::string asked = time_asked_for(experiment_); !asked.empty() && !*experiment_.times)
+      fail(node, fmt::format("times = false, but the experiment asks for {}", asked));
   }
 
   // ---- [plot] [answer] [curve] [phase]
@@ -397,6 +408,7 @@ class Reader : private SettingsReader {
   Experiment experiment_;
   bool in_part_ = false;
   std::set<std::string> given_;  // the settings that this part of the file gives
+  const toml::node* times_ = nullptr;
   const toml::node* parts_ = nullptr;
   const toml::node* laws_ = nullptr;
   const toml::table *sweep_ = nullptr, *over_ = nullptr;

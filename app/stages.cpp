@@ -13,9 +13,14 @@
 namespace noonmark {
 namespace {
 
-// The time of a pass: the median of three, so that one interruption has no effect.
+// Runs a pass. Its time, if it is asked for, is the median of three, so that one interruption has no effect. pass(ms):
+// ms receives the time, or is null.
 template <class Pass>
-double median_time(const Pass& pass) {
+std::optional<double> run_pass(bool timed, const Pass& pass) {
+  if (!timed) {
+    pass(nullptr);
+    return {};
+  }
   std::array<double, 3> times;
   for (double& time : times) pass(&time);
   std::sort(times.begin(), times.end());
@@ -111,8 +116,8 @@ MapStage Pipeline::draw_map(gl::Renderer& renderer, const Scene& scene, const Po
   std::vector<glm::vec3> casters;
   if (const Bias bias(point.settings.bias); bias.moves_casters()) casters = caster_positions(scene, point.frame, bias);
   std::optional<gl::ShadowMap> map;
-  const double time =
-      median_time([&](double* ms) { map.emplace(renderer.render_map(point.frame, point.settings, ms, casters)); });
+  const std::optional<double> time = run_pass(
+      point.timed, [&](double* ms) { map.emplace(renderer.render_map(point.frame, point.settings, ms, casters)); });
   Image<float> depth = renderer.read_map(*map);
   return {std::move(*map), std::move(depth), time};
 }
@@ -151,7 +156,7 @@ Image<float> Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map,
 ShownStage Pipeline::show(gl::Renderer& renderer, const MapStage& map, const LookupStage& lookup,
                           const TruthStage& truth, const PointSetup& point) {
   ShownStage shown;
-  shown.time_ms = median_time([&](double* ms) { shown.r5 = look_up(renderer, map.map, point, ms); });
+  shown.time_ms = run_pass(point.timed, [&](double* ms) { shown.r5 = look_up(renderer, map.map, point, ms); });
   shown.r4 = look_up(renderer, lookup.exact_map, point, nullptr);
   shown.ties = tie_map(evidence_of(lookup, truth, shown, point.settings));
   shown.tie_lookup =

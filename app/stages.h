@@ -29,6 +29,8 @@ namespace noonmark {
 struct PointSetup {
   const Settings& settings;
   const LightFrame& frame;  // make_light_frame(), or a placement of it (technique/placements.h)
+  // Whether map and lookup are timed. Without it each is drawn once, with it three times or more.
+  bool timed = false;
 };
 
 struct SceneStage {
@@ -51,8 +53,8 @@ struct TruthStage {
 
 struct MapStage {
   gl::ShadowMap map;
-  Image<float> depth;  // as the lookup's sampler returns it
-  double time_ms = 0;  // the median of three
+  Image<float> depth;             // as the lookup's sampler returns it
+  std::optional<double> time_ms;  // the median of three, if it is asked for
 };
 
 // The lookup's inputs and their truth. The truth of the taps covers one strip of the picture at a time. If all taps fit
@@ -71,7 +73,7 @@ struct LookupStage {
 // What OpenGL shows: the technique on its own map, on the exact map and on the tie map.
 struct ShownStage {
   Image<float> r5, r4, ties, tie_lookup;
-  double time_ms = 0;  // the lookup in its own map, median of three
+  std::optional<double> time_ms;  // of the lookup in its own map: the median of three, if it is asked for
 };
 
 struct Climbed {

@@ -274,6 +274,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       require_room_for(bench, plan);
       undrawn.push_back(&plan);
     }
+  const bool timed = times_measured(experiment);
   SweepOutcome outcome;
   {
     const StopOnSignal guard;
@@ -295,7 +296,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       const Experiment& part = part_of_point(experiment, id);
       scenes.require_unchanged(bench, planned[static_cast<size_t>(id)]);
       Measurement m = bench.measure(planned[static_cast<size_t>(id)],
-                                    part.curve_enabled ? std::optional(part.curve) : std::nullopt);
+                                    part.curve_enabled ? std::optional(part.curve) : std::nullopt, {}, timed);
       m.record.id = id;
       m.record.part = part.part;
       notes.add(part.part, idle_settings(m.frame.kind, m.settings));
@@ -325,7 +326,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       const Settings& settings = planned[static_cast<size_t>(id)];
       room.require_room_for(static_cast<size_t>(id));
       scenes.require_unchanged(bench, settings);
-      store.set_pictures(id, keep_pictures(bench.measure(settings, std::nullopt), id, folder.path()));
+      store.set_pictures(id, keep_pictures(bench.measure(settings, std::nullopt, {}, timed), id, folder.path()));
       changed = true;
     }
     if (changed) outcome.results = store.load();
@@ -388,7 +389,7 @@ void print_plan(const Experiment& experiment) {
     small.map.extent_scale *= nudge;  // so that nothing is reused from the point before
     const auto start = std::chrono::steady_clock::now();
     const Experiment& part = part_of_point(experiment, 0);
-    bench.measure(small, part.curve_enabled ? std::optional(part.curve) : std::nullopt);
+    bench.measure(small, part.curve_enabled ? std::optional(part.curve) : std::nullopt, {}, times_measured(experiment));
     return std::pair(taps(small), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   };
   seconds(4, 1);  // loads the scene and compiles the shaders

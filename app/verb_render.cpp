@@ -138,7 +138,8 @@ int verb_render(const std::string& path, long point, const std::string& picture,
     memory.shares.push_back({"the given picture", "measure a smaller picture (view.width_px, view.height_px)",
                              per_given_pixel * static_cast<double>(given->picture.size())});
   require_memory(memory, bench.memory_of_program(true), "this point");
-  const Measurement m = bench.measure(settings, curve ? std::optional(part.curve) : std::nullopt, std::move(given));
+  const Measurement m =
+      bench.measure(settings, curve ? std::optional(part.curve) : std::nullopt, std::move(given), true);
   write_pictures(m, out, ".", "point");
   write_images(m, out, ".", "");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));

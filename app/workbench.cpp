@@ -93,9 +93,11 @@ PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, cons
   record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
   add_cost(record, frame_cost(m.settings, m.frame.tiles, static_cast<int64_t>(record.metrics["facing"]),
                               static_cast<int64_t>(m.scene.triangles.size())));
-  record.metrics["map_ms"] = map.time_ms;
-  record.metrics["lookup_ms"] = shown.time_ms;
-  record.metrics["shadow_ms"] = map.time_ms + shown.time_ms;
+  if (map.time_ms && shown.time_ms) {
+    record.metrics["map_ms"] = *map.time_ms;
+    record.metrics["lookup_ms"] = *shown.time_ms;
+    record.metrics["shadow_ms"] = *map.time_ms + *shown.time_ms;
+  }
   add_time(record, "hard_truth", truth.hard);
   add_time(record, "soft_truth", truth.soft);
   add_time(record, "texel", lookup.texel_stage);
@@ -273,18 +275,18 @@ std::vector<PhasePlace> Workbench::places(const Settings& picture, std::span<con
 }
 
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
-                               std::optional<RungOnTop> on_top) {
+                               std::optional<RungOnTop> on_top, bool timed) {
   validate(settings);
   Impl& b = *impl_;
   const SceneStage& loaded = b.load(settings);
   const Scene& scene = *loaded.scene;
   const LightFrame frame = make_light_frame(scene, settings);
-  const PointSetup point{settings, frame};
+  const PointSetup point{settings, frame, timed};
 
   const Impl::Looked looked = b.look(loaded, point);
   const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
   const TruthStage& truth = looked.truth;
-  const MapStage& map = b.map.get(settings_key(settings, {Stage::scene, Stage::map}),
+  const MapStage& map = b.map.get(settings_key(settings, {Stage::scene, Stage::map}) + (timed ? " timed" : ""),
                                   [&] { return b.stages->draw_map(b.renderer, scene, point); });
   LookupStage& lookup = b.lookup.get(lookup_key_of(settings), [&] {
     return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, point);

@@ -42,10 +42,11 @@ class Workbench {
                      std::unique_ptr<Pipeline> stages = std::make_unique<Pipeline>());
   ~Workbench();
 
-  // on_top: a picture that is judged in place of R5. curve: no curve if it is empty, if no part of the bias can have
+  // timed: whether map and lookup are timed; if not, the record has no metric that is a time. on_top: a picture that is
+  // judged in place of R5. curve: no curve if it is empty, if no part of the bias can have
   // one (curve_part), or if there is a picture on top, because no bias changes that. Throws Error.
   Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
-                      std::optional<RungOnTop> on_top = {});
+                      std::optional<RungOnTop> on_top = {}, bool timed = false);
 
   // The phase diagram of the scene under these settings (phase_settings()). Throws Error.
   PhaseDiagram phase(const Settings& settings, const PhaseOptions& options);

@@ -64,12 +64,16 @@ ShadowMap Renderer::upload_map(const Image<float>& depth, const MapSettings& set
                 fmt::format("upload_map: the image is {} x {}, the settings ask for {} face(s) of {} "
                             "texels",
                             side, depth.height, faces, settings.resolution));
-  // OpenGL may clamp values outside this range; then the map would not be the uploaded one.
-  const auto outside =
-      std::find_if(depth.pixels.begin(), depth.pixels.end(), [](float d) { return !(d >= 0 && d <= 1); });
-  if (outside != depth.pixels.end())
-    throw Error(ErrorKind::defect, fmt::format("upload_map: depth {} at texel index {} is outside [0,1]", *outside,
-                                               outside - depth.pixels.begin()));
+  // OpenGL may clamp values outside this range; then the map would not be the uploaded one. The place of such a value is
+  // looked for only if there is one: a search that stops is several times slower than a count.
+  const auto outside = [](float d) { return !((d >= 0) & (d <= 1)); };
+  int outsiders = 0;
+  for (const float d : depth.pixels) outsiders |= outside(d);
+  if (outsiders) {
+    const auto first = std::find_if(depth.pixels.begin(), depth.pixels.end(), outside);
+    throw Error(ErrorKind::defect, fmt::format("upload_map: depth {} at texel index {} is outside [0,1]", *first,
+                                               first - depth.pixels.begin()));
+  }
   Texture texture = r.make_map_texture(GL_DEPTH_COMPONENT32F, side, cube, settings.wrap);
   if (cube)
     glTextureSubImage3D(texture.id(), 0, 0, 0, 0, side, side, 6, GL_DEPTH_COMPONENT, GL_FLOAT, depth.pixels.data());

@@ -82,6 +82,18 @@ class Reader {
   double predicted(const PointRecord& point) const { return value(predicted_, point); }
   double slack(const PointRecord& point) const { return value(slack_, point); }
 
+  // Of all formulas, each as often as it stands there.
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    const auto add = [&](const Formula& formula) {
+      all.insert(all.end(), formula.names().begin(), formula.names().end());
+    };
+    for (const Formula* formula : {&measured_, &predicted_, &slack_}) add(*formula);
+    for (const auto& [name, definition] : definitions_) add(definition);
+    for (const Figure& figure : figures_) add(figure.formula);
+    return all;
+  }
+
   // The figures marked `against:` are computed for `other`, all others for `point`.
   std::string found(const PointRecord& point, const PointRecord& other) const {
     std::string text = end_of_sentence_;
@@ -283,6 +295,15 @@ std::vector<std::string> curve_names(const Law& law) {
       for (const CurveQuantity& row : curve_quantities())
         if (row.name == name) names.push_back(name);
   }
+  return names;
+}
+
+std::vector<std::string> metric_names(const Law& law) {
+  std::vector<std::string> names = Reader(law).names();
+  std::erase_if(names, [](const std::string& name) {
+    const auto table = metrics_table();
+    return std::none_of(table.begin(), table.end(), [&](const Metric& row) { return row.name == name; });
+  });
   return names;
 }
 

@@ -50,6 +50,9 @@ void check_law(const Law& law);
 // The quantities of the bias curve that the law's sides read.
 std::vector<std::string> curve_names(const Law& law);
 
+// The metrics that any of the law's formulas reads, its definitions and the figures of its sentence included.
+std::vector<std::string> metric_names(const Law& law);
+
 // Returns one result for each law, in order. points: the points that the laws are about. reproduce returns the command
 // that renders one point. Throws as check_law does.
 std::vector<LawResult> evaluate_laws(std::span<const PointRecord> points, std::span<const Law> laws,

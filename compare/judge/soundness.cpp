@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -86,21 +87,27 @@ void SoundnessCheck::join(const Part& part) {
 SoundnessCheck::MapFound SoundnessCheck::compare_maps() const {
   const SoundnessInput& in = in_;
   const Image<float>& exact = in.evidence.exact_map;
-  Image<uint8_t> asked(exact.width, exact.height);
+  // One bit for each texel: a map has many more texels than a small picture asks for. They are read in their order in the
+  // map, because which format could have stored them all depends on it.
+  std::vector<uint64_t> asked((exact.size() + 63) / 64);
   for (size_t i = 0; i < in.evidence.truth.facing.size(); ++i) {
     if (!in.evidence.truth.facing[i]) continue;
     const glm::ivec2 texel = in.evidence.probe.middle_texel(i);
-    if (inside_map(texel, {exact.width, exact.height})) asked.at(texel.x, texel.y) = 1;
+    if (!inside_map(texel, {exact.width, exact.height})) continue;
+    const size_t at = static_cast<size_t>(texel.y) * static_cast<size_t>(exact.width) + static_cast<size_t>(texel.x);
+    asked[at / 64] |= uint64_t{1} << at % 64;
   }
   std::vector<double> errors;
   MapFound found;
-  for (size_t i = 0; i < asked.size(); ++i) {
-    if (!asked[i]) continue;
+  const auto compare = [&](size_t i) {
     const double error = std::abs(static_cast<double>(in.stored_map[i]) - exact[i]);
     errors.push_back(std::isnan(error) ? infinity : error / quantum(in.evidence.map.format, exact[i]));
     if (found.bits == 16 && !held_by(16, in.stored_map[i])) found.bits = 24;
     if (found.bits == 24 && !held_by(24, in.stored_map[i])) found.bits = 32;
-  }
+  };
+  for (size_t word = 0; word < asked.size(); ++word)
+    for (uint64_t left = asked[word]; left != 0; left &= left - 1)
+      compare(64 * word + static_cast<size_t>(std::countr_zero(left)));
   if (errors.empty()) return found;  // no texel of the map was read
   const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
   std::nth_element(errors.begin(), middle, errors.end());

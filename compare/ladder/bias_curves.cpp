@@ -1,10 +1,8 @@
 #include "compare/ladder/bias_curves.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -16,83 +14,11 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// Empties `from`, because with many taps these lists are gigabytes and memory has no room for two copies.
-template <class T>
-void append(std::vector<T>& to, std::vector<T>& from) {
-  if (to.empty()) to.swap(from);
-  to.insert(to.end(), from.begin(), from.end());
-  std::vector<T>().swap(from);
-}
-
-// Sorts floats that are at least 0, by their bits from the lowest digit to the highest (radix sort). Their order is that
-// of their bits.
-void sort_by_bits(std::vector<float>& values) {
-  constexpr int digit_bits = 11;
-  constexpr uint32_t digits = 1u << digit_bits;
-  if (values.size() < digits) {
-    std::sort(values.begin(), values.end());
-    return;
-  }
-  std::vector<float> other(values.size());
-  for (int shift = 0; shift < 32; shift += digit_bits) {
-    const auto digit = [shift](float x) { return (std::bit_cast<uint32_t>(x) >> shift) % digits; };
-    std::array<size_t, digits + 1> begin{};
-    for (float x : values) ++begin[digit(x) + 1];
-    for (size_t d = 0; d < digits; ++d) begin[d + 1] += begin[d];
-    for (float x : values) other[begin[digit(x)]++] = x;
-    values.swap(other);
-  }
-}
-
 double share_of(double part, double whole) {
   return whole == 0 ? std::numeric_limits<double>::quiet_NaN() : part / whole;
 }
 
 }  // namespace
-
-void ThresholdSums::add(std::vector<float>& thresholds, std::vector<double>& weights) {
-  if (thresholds.empty()) return;
-  ThresholdSums batch;
-  const auto count = [&](float at, double sum) {
-    if (batch.at_.empty() || batch.at_.back() != at) {
-      batch.at_.push_back(at);
-      batch.up_to_.push_back(sum);
-    }
-    batch.up_to_.back() = sum;
-  };
-  if (weights.empty()) {
-    sort_by_bits(thresholds);
-    for (size_t i = 0; i < thresholds.size(); ++i) count(thresholds[i], static_cast<double>(i + 1));
-  } else {
-    // Sorted by weight too, so that sums do not depend on the order in which the threads added them.
-    std::vector<std::pair<float, double>> pairs(thresholds.size());
-    for (size_t i = 0; i < pairs.size(); ++i) pairs[i] = {thresholds[i], weights[i]};
-    tbb::parallel_sort(pairs);
-    double sum = 0;
-    for (const auto& [at, weight] : pairs) count(at, sum += weight);
-  }
-  std::vector<float>().swap(thresholds);
-  std::vector<double>().swap(weights);
-  if (at_.empty()) {
-    *this = std::move(batch);
-    return;
-  }
-  ThresholdSums both;
-  both.at_.reserve(at_.size() + batch.at_.size());
-  both.up_to_.reserve(both.at_.capacity());
-  for (size_t i = 0, j = 0; i < size() || j < batch.size();) {
-    const float next = std::min(i < size() ? at_[i] : infinity, j < batch.size() ? batch[j] : infinity);
-    if (i < size() && at_[i] == next) ++i;
-    if (j < batch.size() && batch[j] == next) ++j;
-    both.at_.push_back(next);
-    both.up_to_.push_back(before(i) + batch.before(j));
-  }
-  *this = std::move(both);
-}
-
-double ThresholdSums::up_to(float x) const {
-  return before(static_cast<size_t>(std::upper_bound(at_.begin(), at_.end(), x) - at_.begin()));
-}
 
 BiasCounts::BiasCounts(const LookupProbe& probe, const BiasPart& varied)
     : varied_(&varied), blended_(probe.pattern.bilinear()), taps_(probe.taps()), whole_(whole_weight(probe)) {}
@@ -110,56 +36,67 @@ void BiasCounts::add(const LookupEvidence& e, const Image<float>& stored_map, Pi
 void BiasCounts::Adding::receiver(size_t i, const ReceiverTaps& taps, Part& part) const {
   if (e_.truth.ambiguous[i]) return;
   const bool blended = counts_.blended_, should_be_lit = e_.truth.lit[i] != 0;
-  const TapThreshold threshold(e_.probe, e_.bias, *counts_.varied_, i);
-  const auto list = [&](Thresholds& to, float at, double weight) {
-    to.at.push_back(at);
-    if (blended) to.weights.push_back(weight);
+  std::optional<TapThreshold> threshold;  // made for the first tap that needs it
+  const auto list = [&](List to, float at, double weight) {
+    if (blended)
+      part.lists.weighted[to].emplace_back(at, weight);
+    else
+      part.lists.whole[to].push(at);
   };
   ++part.receivers;
   float least = infinity, most = 0;
   for (size_t t = 0; t < taps.size(); ++t) {
     const Tap& exact = taps[t];
     if (exact.weight == 0) continue;  // P lies exactly on a texel's centre: the sampler reads no other texel
-    const float at_r4 = threshold(exact);
+    const Tap stored = taps.on(stored_map_, e_.map.format, t);
     // A tap is wrong on one side of its threshold only: if it should be lit, it is wrong while it is dark, and the
     // reverse. It should have the verdict D (compare/ladder/ladder.h), or the receiver's own truth if D is unsure.
     const bool right = exact.moved_sure ? exact.moved_lit : should_be_lit;
+    // Many taps should be lit and are lit without a bias. Both thresholds are 0, and such a tap is never wrong.
+    if (right && should_be_lit && exact.lit(0) && stored.lit(0)) continue;
+    if (!threshold) threshold.emplace(e_.probe, e_.bias, *counts_.varied_, i);
+    const float at_r4 = (*threshold)(exact);
     if (!right || at_r4 > 0) {
       const Cause cause = exact.moved_sure ? tap_cause(exact, !right) : Cause::undecided;
       const List undecided = right ? undecided_dark : undecided_light;
-      list(part.lists[cause == Cause::undecided ? undecided : of_cause(cause)], at_r4, exact.weight);
+      list(cause == Cause::undecided ? undecided : of_cause(cause), at_r4, exact.weight);
     }
-    const Tap stored = taps.on(stored_map_, e_.map.format, t);
     const float at_r5 =
-        stored.depth == exact.depth && stored.always_lit == exact.always_lit ? at_r4 : threshold(stored);
+        stored.depth == exact.depth && stored.always_lit == exact.always_lit ? at_r4 : (*threshold)(stored);
     const bool sure = exact.moved_sure && exact.texel_sure;
     if (exact.covered && sure && exact.moved_lit && exact.texel_lit)
       part.stored_acne = std::max(part.stored_acne, at_r5);
     least = std::min(least, at_r5);
     most = std::max(most, at_r5);
     if (!should_be_lit)
-      list(part.lists[error_light], at_r5, exact.weight);
+      list(error_light, at_r5, exact.weight);
     else if (at_r5 > 0)
-      list(part.lists[error_dark], at_r5, exact.weight);
+      list(error_dark, at_r5, exact.weight);
   }
   if (taps.size() == 1) return;  // wrong taps are wrong receivers
   if (!should_be_lit)
-    part.lists[wrong_light].at.push_back(least);
+    part.lists.whole[wrong_light].push(least);
   else if (most > 0)
-    part.lists[wrong_dark].at.push_back(most);
+    part.lists.whole[wrong_dark].push(most);
 }
 
 void BiasCounts::Adding::join(Part& part) {
   counts_.receivers_ += part.receivers;
   counts_.stored_acne_free_from_ = std::max(counts_.stored_acne_free_from_, part.stored_acne);
   for (size_t l = 0; l < lists; ++l) {
-    append(all_[l].at, part.lists[l].at);
-    append(all_[l].weights, part.lists[l].weights);
+    all_.whole[l].take(part.lists.whole[l]);
+    auto &to = all_.weighted[l], &from = part.lists.weighted[l];
+    if (to.empty()) to.swap(from);
+    to.insert(to.end(), from.begin(), from.end());
+    ThresholdSums::Weighted().swap(from);  // these lists are large: no room for two copies
   }
 }
 
 void BiasCounts::Adding::end_batch() {
-  tbb::parallel_for(size_t{0}, size_t{lists}, [&](size_t l) { counts_.sums_[l].add(all_[l].at, all_[l].weights); });
+  tbb::parallel_for(size_t{0}, size_t{lists}, [&](size_t l) {
+    counts_.sums_[l].add(all_.whole[l]);
+    counts_.sums_[l].add(all_.weighted[l]);
+  });
 }
 
 double BiasCounts::caused(Cause cause, float x) const {
@@ -199,7 +136,8 @@ float BiasCounts::peter_panning_free_to(double share) const {
 }
 
 BiasCounts::Best BiasCounts::best(float most) const {
-  // The error is constant from each breakpoint to the next; 0 starts the first stretch.
+  // The error is constant from each breakpoint to the next; 0 starts the first stretch, and `most` ends the last.
+  const auto end_before = [&](float next) { return next == infinity ? most : std::nextafter(next, -infinity); };
   const auto for_each_stretch = [&](const auto& visit) {
     size_t d = 0, l = 0;
     float x = 0;
@@ -209,27 +147,29 @@ BiasCounts::Best BiasCounts::best(float most) const {
       const float next = std::min(d < sums_[error_dark].size() ? sums_[error_dark][d] : infinity,
                                   l < sums_[error_light].size() ? sums_[error_light][l] : infinity);
       last = next > most || next == infinity;
-      visit(x, last ? most : std::nextafter(next, -infinity),
+      visit(x, last ? infinity : next,
             sums_[error_dark].total() - sums_[error_dark].before(d) + sums_[error_light].before(l));
       x = next;
     }
   };
   Best best;
   uint64_t stretches = 0;
-  for_each_stretch([&](float from, float to, double wrong) {
-    if (stretches++ == 0 || wrong < best.wrong_taps) best = {from, to, wrong, from, to, 0};
+  for_each_stretch([&](float from, float next, double wrong) {
+    if (stretches++ > 0 && !(wrong < best.wrong_taps)) return;
+    const float to = end_before(next);
+    best = {from, to, wrong, from, to, 0};
   });
   best.breakpoints = stretches - 1;
   const double limit = 1.1 * best.wrong_taps;
   float flat_from = 0;  // start of the unbroken run of flat stretches up to this one
   bool flat = false;    // whether this stretch is flat
-  for_each_stretch([&](float from, float to, double wrong) {
+  for_each_stretch([&](float from, float next, double wrong) {
     if (!flat) flat_from = from;
     if (from <= best.from) {
       flat = wrong <= limit;
       if (from == best.from) best.flat_from = flat_from;
     } else if (flat = flat && wrong <= limit; flat) {
-      best.flat_to = to;
+      best.flat_to = end_before(next);
     }
   });
   return best;

@@ -18,30 +18,12 @@
 #include <vector>
 
 #include "compare/ladder/ladder.h"
+#include "compare/ladder/threshold_sums.h"
 #include "compare/store/records.h"
 #include "scenes/receivers.h"
 #include "technique/light_frame.h"
 
 namespace noonmark {
-
-// Weights of thresholds, summed in ascending order. Each different threshold is stored once.
-class ThresholdSums {
- public:
-  // weights: one for each threshold, or empty if each weighs 1. This empties both lists.
-  void add(std::vector<float>& thresholds, std::vector<double>& weights);
-
-  double above(float x) const { return total() - up_to(x); }
-  double up_to(float x) const;
-  double total() const { return before(size()); }
-
-  size_t size() const { return at_.size(); }
-  float operator[](size_t i) const { return at_[i]; }
-  double before(size_t i) const { return i == 0 ? 0 : up_to_[i - 1]; }  // the sum of the first i
-
- private:
-  std::vector<float> at_;      // ascending
-  std::vector<double> up_to_;  // [i]: the sum of all thresholds that are at most at_[i]
-};
 
 class BiasCounts {
  public:
@@ -109,12 +91,12 @@ class BiasCounts {
 // Adds a strip, as a judge of read_taps (compare/ladder/receiver_taps.h).
 class BiasCounts::Adding {
  public:
-  struct Thresholds {
-    std::vector<float> at;
-    std::vector<double> weights;  // empty if each weighs 1
+  struct Lists {
+    std::array<ThresholdList, BiasCounts::lists> whole;  // thresholds that weigh 1
+    std::array<ThresholdSums::Weighted, BiasCounts::lists> weighted;
   };
   struct Part {
-    std::array<Thresholds, BiasCounts::lists> lists;
+    Lists lists;
     uint64_t receivers = 0;
     float stored_acne = 0;  // the largest threshold
   };
@@ -128,7 +110,7 @@ class BiasCounts::Adding {
   BiasCounts& counts_;
   const LookupEvidence& e_;
   const Image<float>& stored_map_;
-  std::array<Thresholds, BiasCounts::lists> all_;  // of the batch
+  Lists all_;  // of the batch
 };
 
 // The size of one unit of the curve in the other units, at the place that BiasCurve::m_per_depth names.

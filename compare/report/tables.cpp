@@ -190,14 +190,16 @@ std::string making_section(const Results& results) {
            joined({info.scene_name, fmt::format("{} triangles", cell(static_cast<double>(info.triangles), "count"))}));
   out += pair("Processor", info.host_cpu);
   out += pair("OpenGL", joined({info.gl_renderer, info.gl_vendor, info.gl_version}));
-  out += pair("Times from", info.gl_timer);
+  const bool timed = std::any_of(results.points.begin(), results.points.end(),
+                                 [](const PointRecord& point) { return point.metrics.contains("shadow_ms"); });
+  out += pair("Times from", timed ? info.gl_timer : "not measured; set times = true in the experiment");
   out += pair("Embree", joined({info.embree_version, info.embree_isa}));
   std::string libraries;
   for (const auto& [name, version] : info.libraries)
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
   out += pair("Libraries", libraries) + "</dl>\n";
   for (const char* software : {"llvmpipe", "softpipe", "swrast", "SwiftShader"})
-    if (info.gl_renderer.find(software) != std::string::npos)
+    if (timed && info.gl_renderer.find(software) != std::string::npos)
       out += fmt::format(
           "<p class=\"note\">{} renders on the processor: its times are <b>software times</b>. They order settings "
           "roughly as a GPU would, but they do not predict a GPU's milliseconds.</p>\n",

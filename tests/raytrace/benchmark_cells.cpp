@@ -11,41 +11,19 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
-#include <functional>
 #include <memory>
-#include <numbers>
 
 #include "raytrace/light_view.h"
-#include "raytrace/packets.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
+#include "tests/raytrace/bare_rays.h"
 #include "tests/raytrace/fixture.h"
+#include "tests/support/benchmark.h"
 
 namespace noonmark::raytrace {
 namespace {
 
 constexpr int width = 1280, height = 720, map_resolution = 1024;
-
-// A bumpy ground under 25 spheres: 130,736 triangles.
-Scene hills() {
-  constexpr double pi = std::numbers::pi;
-  Scene scene;
-  add_surface(scene, "ground", 180, 180, false, [](double s, double t) {
-    const double x = 20 * s - 10, z = 10 - 20 * t;
-    return glm::dvec3(x, 0.25 * std::sin(1.7 * x) * std::cos(2.1 * z) + 0.05 * std::sin(9 * x + 3 * z), z);
-  });
-  for (int i = 0; i < 5; ++i)
-    for (int j = 0; j < 5; ++j)
-      add_surface(scene, "sphere", 52, 26, true, [=](double s, double t) {
-        const double phi = 2 * pi * s, up = pi * (t - 0.5);
-        return glm::dvec3(-7 + 3.5 * i, 1.0 + 0.3 * ((i * 7 + j * 3) % 4), -7 + 3.5 * j) +
-               0.9 * glm::dvec3(std::cos(up) * std::cos(phi), std::sin(up), -std::cos(up) * std::sin(phi));
-      });
-  scene.camera = {.eye_m = {9, 9, 14}, .target_m = {0, 0, 0}, .fov_y_deg = 45, .near_m = 0.1, .far_m = 60};
-  scene.light.position_m = {6, 12, 4};
-  return scene;
-}
 
 ReceiverImage seen_by_camera(const Scene& scene, const EmbreeScene& embree) {
   const CameraFrame camera = make_camera_frame(scene.camera, width, height);
@@ -62,66 +40,28 @@ ReceiverImage seen_by_camera(const Scene& scene, const EmbreeScene& embree) {
   return resolve_receivers(scene, scene.camera, primitives);
 }
 
-double cpu_ms() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
+using Bare = BareRays::Ray;
 
-// Each job's median over the rounds; the first round warms up.
 std::vector<double> medians(int rounds, const std::vector<std::function<void()>>& jobs) {
-  std::vector<std::vector<double>> times(jobs.size());
-  for (int round = -1; round < rounds; ++round)
-    for (size_t j = 0; j < jobs.size(); ++j) {
-      const double before = cpu_ms();
-      jobs[j]();
-      if (round >= 0) times[j].push_back(cpu_ms() - before);
-    }
-  std::vector<double> result;
-  for (std::vector<double>& t : times) {
-    std::nth_element(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(t.size() / 2), t.end());
-    result.push_back(t[t.size() / 2]);
-  }
-  return result;
+  return test::medians(test::run_in_turns(rounds, jobs));
 }
-
-struct Bare {
-  glm::vec3 origin, direction;
-};
 
 class Bench {
  public:
   Bench(const std::string& name, int rounds)
       : rounds_(rounds),
-        scene_(name == "hills" ? hills() : test::builtin(name)),
+        scene_(name == "hills" ? test::hills() : test::builtin(name)),
         frame_(test::frame_of(scene_, map_resolution)),
         embree_(device_, scene_),
         tracer_(std::make_unique<Tracer>(scene_)),
         receivers_(seen_by_camera(scene_, embree_)),
-        bare_(rtcNewScene(device_.get())) {
-    rtcSetSceneFlags(bare_, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    const auto fill = [&](RTCBufferType type, RTCFormat format, const auto& items) {
-      std::copy(items.begin(), items.end(),
-                static_cast<typename std::decay_t<decltype(items)>::value_type*>(
-                    rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(items[0]), items.size())));
-    };
-    fill(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, scene_.positions);
-    fill(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, scene_.triangles);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(bare_, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(bare_);
+        bare_(device_, scene_) {
     truth_ = tracer_->receiver_truth(receivers_, frame_, {});
     for (size_t i = 0; i < truth_.facing.size(); ++i)
       if (truth_.facing[i]) facing_.push_back(static_cast<uint32_t>(i));
     fmt::print("{}: {} triangles, {} facing receivers of {} x {} pixels\n", name, scene_.triangles.size(),
                facing_.size(), width, height);
   }
-  ~Bench() { rtcReleaseScene(bare_); }
-  Bench(const Bench&) = delete;
-  Bench& operator=(const Bench&) = delete;
-
   void hard_truth() {
     std::vector<Bare> rays;
     for (uint32_t i : facing_)
@@ -195,22 +135,7 @@ class Bench {
     std::fflush(stdout);
   }
 
-  void cast(const std::vector<Bare>& rays) const {
-    for_each_packet(rays.size(), [&](size_t first, int n) {
-      alignas(64) RTCRay16 packet;
-      alignas(64) int valid[packet_size];
-      for (int i = 0; i < packet_size; ++i) {
-        valid[i] = i < n ? -1 : 0;
-        const Bare& ray = rays[first + static_cast<size_t>(i < n ? i : 0)];
-        packet.org_x[i] = ray.origin.x, packet.org_y[i] = ray.origin.y, packet.org_z[i] = ray.origin.z;
-        packet.dir_x[i] = ray.direction.x, packet.dir_y[i] = ray.direction.y, packet.dir_z[i] = ray.direction.z;
-        packet.tnear[i] = 1e-3f, packet.tfar[i] = std::numeric_limits<float>::infinity();
-        packet.time[i] = 0, packet.mask[i] = ~0u, packet.id[i] = static_cast<unsigned>(i), packet.flags[i] = 0;
-      }
-      embree::Context context;
-      embree::occluded16(valid, bare_, context, packet);
-    });
-  }
+  void cast(const std::vector<Bare>& rays) const { bare_.cast(rays); }
 
   int rounds_;
   Scene scene_;
@@ -222,7 +147,7 @@ class Bench {
   ReceiverImage receivers_;
   ReceiverTruth truth_;
   std::vector<uint32_t> facing_;
-  RTCScene bare_;
+  BareRays bare_;
 };
 
 void measure(const std::string& name, int rounds, bool only_r1) {

@@ -1,0 +1,51 @@
+// Whether the points of an experiment are timed: the key `times`, and what asks for a time without it.
+#include <gtest/gtest.h>
+
+#include "app/experiment.h"
+#include "app/experiment_file.h"
+#include "scenes/error.h"
+
+namespace noonmark {
+namespace {
+
+Experiment parse(const std::string& toml) { return parse_experiment(toml, "x.toml"); }
+
+TEST(ExperimentTimes, AreNotMeasuredIfNothingAsks) {
+  const Experiment experiment = parse("[plot]\nmetrics = [\"error\"]\n[[bound]]\nmetric = \"acne\"\nmax = 1");
+  EXPECT_EQ(time_asked_for(experiment), "");
+  EXPECT_FALSE(times_measured(experiment));
+}
+
+TEST(ExperimentTimes, AreAskedForByEachPlaceThatNamesAMetric) {
+  const char* const law = "[[law]]\nname = \"a\"\nequals = \"0\"\n";
+  for (const std::string& text :
+       {std::string("[plot]\nmetrics = [\"error\", \"map_ms\"]"), std::string("[answer]\ncost = \"map_ms\""),
+        std::string("[answer]\naccuracy = \"map_ms\""), std::string("[[bound]]\nmetric = \"map_ms\"\nmax = 1"),
+        law + std::string("measured = \"2 * map_ms\""), law + std::string("measured = \"0\"\nslack = \"map_ms\""),
+        law + std::string("measured = \"0\"\nfound = \"It takes {map_ms} ms.\""),
+        "[let]\nt = \"map_ms + 1\"\n" + (law + std::string("measured = \"t\"")),
+        std::string("[[part]]\nname = \"p\"\n[[part.bound]]\nmetric = \"map_ms\"\nmax = 1")}) {
+    const Experiment experiment = parse(text);
+    EXPECT_EQ(time_asked_for(experiment), "map_ms") << text;
+    EXPECT_TRUE(times_measured(experiment)) << text;
+  }
+}
+
+TEST(ExperimentTimes, FollowTheKey) {
+  EXPECT_TRUE(times_measured(parse("times = true")));
+  EXPECT_FALSE(times_measured(parse("times = false")));
+  EXPECT_NE(fingerprint(parse("times = true"), {}), fingerprint(parse(""), {})) << "the points have other metrics";
+  EXPECT_EQ(fingerprint(parse("times = false"), {}), fingerprint(parse(""), {}));
+}
+
+TEST(ExperimentTimes, CannotBeAskedForAndOff) {
+  try {
+    parse("times = false\n[plot]\nmetrics = [\"shadow_ms\"]");
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()), "x.toml:1:9: times = false, but the experiment asks for shadow_ms");
+  }
+}
+
+}  // namespace
+}  // namespace noonmark
