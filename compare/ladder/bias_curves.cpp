@@ -44,6 +44,7 @@ void BiasCounts::Adding::receiver(size_t i, const ReceiverTaps& taps, Part& part
       part.lists.whole[to].push(at);
   };
   ++part.receivers;
+  if (e_.truth.soft[i] != static_cast<float>(e_.truth.lit[i])) soft_receiver(i, taps, part);
   float least = infinity, most = 0;
   for (size_t t = 0; t < taps.size(); ++t) {
     const Tap& exact = taps[t];
@@ -80,8 +81,29 @@ void BiasCounts::Adding::receiver(size_t i, const ReceiverTaps& taps, Part& part
     part.lists.whole[wrong_dark].push(most);
 }
 
+// In the penumbra the error against R0 falls and rises again as tap after tap turns lit: in the order of the thresholds
+// each one adds the change that it makes.
+void BiasCounts::Adding::soft_receiver(size_t i, const ReceiverTaps& taps, Part& part) const {
+  const double soft = static_cast<double>(e_.truth.soft[i]) * counts_.whole_;
+  const double hard = e_.truth.lit[i] * counts_.whole_;
+  const auto softer_by = [&](double lit) { return std::abs(lit - soft) - std::abs(lit - hard); };
+  const TapThreshold threshold(e_.probe, e_.bias, *counts_.varied_, i);
+  ThresholdSums::Weighted steps;
+  for (size_t t = 0; t < taps.size(); ++t)
+    if (taps[t].weight != 0)
+      steps.emplace_back(threshold(taps.on(stored_map_, e_.map.format, t)), counts_.blended_ ? taps[t].weight : 1.0);
+  std::sort(steps.begin(), steps.end());
+  double lit = 0;
+  part.softer_before += softer_by(0);
+  for (const auto& [at, weight] : steps) {
+    part.lists.weighted[softer].emplace_back(at, softer_by(lit + weight) - softer_by(lit));
+    lit += weight;
+  }
+}
+
 void BiasCounts::Adding::join(Part& part) {
   counts_.receivers_ += part.receivers;
+  counts_.softer_before_ += part.softer_before;
   counts_.stored_acne_free_from_ = std::max(counts_.stored_acne_free_from_, part.stored_acne);
   for (size_t l = 0; l < lists; ++l) {
     all_.whole[l].take(part.lists.whole[l]);
@@ -219,6 +241,7 @@ BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const Curv
     const float x = static_cast<float>(bias / scale.depth_per_unit);
     const auto share = [&](Cause cause) { return share_of(counts.caused(cause, x), counts.taps()); };
     curve.error.push_back(share_of(counts.wrong_taps(x), counts.taps()));
+    curve.error_soft.push_back(share_of(counts.softly_wrong_taps(x), counts.taps()));
     curve.wrong.push_back(
         share_of(static_cast<double>(counts.wrong_receivers(x)), static_cast<double>(counts.receivers())));
     curve.acne.push_back(share(Cause::acne));

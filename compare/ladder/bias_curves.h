@@ -47,6 +47,8 @@ class BiasCounts {
 
   // The taps of R5 that differ from R1. This number divided by taps() is the mean |R5 - R1|.
   double wrong_taps(float x) const { return sums_[error_dark].above(x) + sums_[error_light].up_to(x); }
+  // The same against R0, in the unit of taps(): divided by it, the mean |R5 - R0|.
+  double softly_wrong_taps(float x) const { return wrong_taps(x) + softer_before_ + sums_[softer].up_to(x); }
   // The receivers with R5 != R1.
   uint64_t wrong_receivers(float x) const {
     if (taps_ == 1) return static_cast<uint64_t>(wrong_taps(x));
@@ -74,8 +76,18 @@ class BiasCounts {
 
  private:
   // Taps that should be lit are wrong below their threshold. Taps that should be dark are wrong from their threshold
-  // on. wrong_*: of receivers; empty if each has one tap, because then the lists of errors say the same.
-  enum List : size_t { error_dark, error_light, wrong_dark, wrong_light, undecided_dark, undecided_light, first_cause };
+  // on. wrong_*: of receivers; empty if each has one tap, because then the lists of errors say the same. softer: what
+  // |R5 - R0| - |R5 - R1| gains as taps of receivers in the penumbra turn lit, each weight with its sign.
+  enum List : size_t {
+    error_dark,
+    error_light,
+    wrong_dark,
+    wrong_light,
+    undecided_dark,
+    undecided_light,
+    softer,
+    first_cause
+  };
   static constexpr size_t lists = first_cause + cause_count;
   static List of_cause(Cause cause) { return static_cast<List>(first_cause + static_cast<size_t>(cause)); }
 
@@ -85,6 +97,7 @@ class BiasCounts {
   int taps_ = 1;  // of a receiver
   double whole_ = 1;
   float stored_acne_free_from_ = 0;
+  double softer_before_ = 0;  // |R5 - R0| - |R5 - R1| while all these taps are dark
   std::array<ThresholdSums, lists> sums_;
 };
 
@@ -99,10 +112,12 @@ class BiasCounts::Adding {
     Lists lists;
     uint64_t receivers = 0;
     float stored_acne = 0;  // the largest threshold
+    double softer_before = 0;
   };
   Adding(BiasCounts& counts, const LookupEvidence& evidence, const Image<float>& stored_map)
       : counts_(counts), e_(evidence), stored_map_(stored_map) {}
   void receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
+  void soft_receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
   void join(Part& part);
   void end_batch();
 

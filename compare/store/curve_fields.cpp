@@ -49,6 +49,7 @@ constexpr CurveWidth widths[] = {
 constexpr CurveSeries series[] = {
     {"bias_depth", &BiasCurve::bias_depth},
     {"error", &BiasCurve::error},
+    {"error_soft", &BiasCurve::error_soft},
     {"wrong", &BiasCurve::wrong},
     {"acne", &BiasCurve::acne},
     {"peter_panning", &BiasCurve::peter_panning},

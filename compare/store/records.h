@@ -27,6 +27,7 @@ struct BiasCurve {
   std::string made;       // "one pass": exact, from thresholds; or "one pass, except for the sampler's weights"
   std::vector<double> bias_depth;  // ascending, window depth; the first is 0
   std::vector<double> error;       // mean |R5 - R1|
+  std::vector<double> error_soft;  // mean |R5 - R0|
   std::vector<double> wrong;       // share of receivers with R5 != R1
   std::vector<double> acne, peter_panning, aliasing_dark, aliasing_light, coverage;  // at R4, booked tap by tap
   double m_per_depth = 1;       // metres = this times depth; directional: far - near
