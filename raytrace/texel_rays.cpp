@@ -24,17 +24,6 @@ glm::ivec2 texel_of(uint64_t key) {
   return {back(key & 0xffffffffu), back(key >> 32)};
 }
 
-void first_hits(const EmbreeScene& embree, const LightView& view, size_t count, const auto& texel_at,
-                const auto& store) {
-  for_each_packet(count, [&](size_t first, int n) {
-    glm::dvec3 places[packet_size];
-    uint32_t hits[packet_size];
-    for (int i = 0; i < n; ++i) places[i] = view.texel_place(texel_at(first + i));
-    view.first_hits(embree, n, places, hits);
-    for (int i = 0; i < n; ++i) store(first + i, hits[i]);
-  });
-}
-
 }  // namespace
 
 TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, Wrap wrap)
@@ -76,6 +65,22 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
   outside_keys_.erase(std::unique(outside_keys_.begin(), outside_keys_.end()), outside_keys_.end());
 }
 
+// Calls store(i, hit) for the first hit of each texel.
+void TexelRays::first_hits(size_t count, const auto& texel_at, const auto& store) {
+  for_each_packet(count, [&](size_t first, int n) {
+    glm::dvec3 places[packet_size];
+    uint32_t hits[packet_size];
+    bool clipped = false;
+    for (int i = 0; i < n; ++i) places[i] = view_->texel_place(texel_at(first + i));
+    view_->first_hits(*embree_, n, places, hits);
+    for (int i = 0; i < n; ++i) {
+      clipped |= view_->clipped(hits[i], places[i]);
+      store(first + i, hits[i]);
+    }
+    if (clipped) std::atomic_ref(any_clipped_).store(true, std::memory_order_relaxed);
+  });
+}
+
 void TexelRays::trace() {
   for (int y = 0; y < wanted_.height; ++y)
     for (int x = 0; x < wanted_.width; ++x)
@@ -83,12 +88,12 @@ void TexelRays::trace() {
   inside_ = Image<uint32_t>(wanted_.width, wanted_.height, no_primitive);
   wanted_ = {};
   first_hits(
-      *embree_, *view_, inside_texels_.size(), [&](size_t i) { return inside_texels_[i]; },
+      inside_texels_.size(), [&](size_t i) { return inside_texels_[i]; },
       [&](size_t i, uint32_t hit) { inside_.at(inside_texels_[i].x, inside_texels_[i].y) = hit; });
 
   outside_.resize(outside_keys_.size());
   first_hits(
-      *embree_, *view_, outside_keys_.size(), [&](size_t i) { return texel_of(outside_keys_[i]); },
+      outside_keys_.size(), [&](size_t i) { return texel_of(outside_keys_[i]); },
       [&](size_t i, uint32_t hit) {
         outside_[i] = {outside_keys_[i], hit};
       });

@@ -32,11 +32,14 @@ class TexelRays {
   uint32_t hit(glm::ivec2 texel) const {
     return inside_map(texel, {inside_.width, inside_.height}) ? inside_.at(texel.x, texel.y) : outside_hit(texel);
   }
+  // After trace(): whether the map's near plane clips the first hit of any texel that was asked for.
+  bool any_clipped() const { return any_clipped_; }
   // The texels inside the map that were asked for.
   const std::vector<glm::ivec2>& inside_texels() const { return inside_texels_; }
 
  private:
   uint32_t outside_hit(glm::ivec2 texel) const;
+  void first_hits(size_t count, const auto& texel_at, const auto& store);
 
   const EmbreeScene* embree_;
   const LightView* view_;
@@ -44,6 +47,7 @@ class TexelRays {
   Image<uint8_t> wanted_;               // until trace()
   std::vector<uint64_t> outside_keys_;  // until trace(); sorted, each once
   Image<uint32_t> inside_;
+  bool any_clipped_ = false;
   std::vector<glm::ivec2> inside_texels_;
   std::vector<std::pair<uint64_t, uint32_t>> outside_;  // (texel key, hit), sorted
 };
