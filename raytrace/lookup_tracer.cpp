@@ -157,7 +157,7 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
     std::fill_n(bits, taps, certain);
     for (int tap = 0; tap < taps && may_clip; ++tap) {
       const glm::ivec2 texel = probe.texel(pixel, tap);
-      if (view.clipped(l.texels.hit(texel), view.texel_place(texel))) bits[tap] |= tap_near_clipped;
+      if (l.texels.clipped(texel)) bits[tap] |= tap_near_clipped;
     }
   };
   constexpr size_t pixels_per_part = 4096;
@@ -233,7 +233,7 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
         const uint32_t hit = l.texels.hit(texel);
         const glm::dvec3 centre = view.texel_place(texel);
         const OwnSurface::Verdict at_texel = lit_at(k, centre, hit);
-        const bool texel_lit = at_texel.lit, clipped = may_clip && view.clipped(hit, centre);
+        const bool texel_lit = at_texel.lit, clipped = may_clip && l.texels.clipped(texel);
         bits = static_cast<uint8_t>(bits | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
                                     (at_texel.sure ? 0 : tap_texel_unsure));
         if (moved_lit != texel_lit && !behind[k]) {
