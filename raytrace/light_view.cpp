@@ -29,7 +29,6 @@ LightView::LightView(const Scene& scene, const LightFrame& frame)
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
-  nearest_m_ = low.z;
   const double size = glm::length(high - low);
   ray_error_m_ = 0x1p-24 * (std::sqrt(3.0) * largest_coordinate(scene) + 4 * size);
   // A margin for the rounding of the start, so that nothing is behind it.

@@ -109,8 +109,8 @@ class LightView {
     return only_tile_ ? only_tile_->near_depth(x) : frame_.tile_at(x).near_depth(x);
   }
 
-  // Parallel rays: no point of the scene is nearer to the light, in metres along the light.
-  double nearest_m() const { return nearest_m_; }
+  // Whether this first hit at x, or no_primitive, lies before the map's near plane.
+  bool clipped(uint32_t hit, glm::dvec3 x) const { return hit != no_primitive && hit_depth(hit, x) < near_depth(x); }
 
   // No point of the triangle has less depth.
   double nearest_m(uint32_t triangle) const { return planes_[triangle].low; }
@@ -148,7 +148,6 @@ class LightView {
   bool in_a_face_ = false;  // the light stands in the plane of a triangle
   glm::dvec3 start_{0};     // directional: where the ray through (0, 0) starts, in the world
   double ray_error_m_ = 0;
-  double nearest_m_ = 0;
 };
 
 }  // namespace noonmark

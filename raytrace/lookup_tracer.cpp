@@ -1,6 +1,7 @@
 #include "raytrace/lookup_tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "raytrace/drawn_map.h"
@@ -33,12 +34,13 @@ Image<float> exact_map_of(const DrawnMap& drawn, const LightView& view, const Te
   return map;
 }
 
-// Receivers that are lit and have no silhouette among their taps. Their surface is lit at all of these places, for sure
-// (OwnSurface::lit_at() without a crossing), so no ray is needed at a tap's exact place. Only where one table of offsets
-// serves all receivers of parallel rays; then the corners of the table are those of the rectangle around the taps.
-class FreeOfSilhouettes {
+// The silhouettes among the taps of a receiver. A receiver that is lit and has none is lit at all of these places, for
+// sure (OwnSurface::lit_at() without a crossing), so no ray is needed at a tap's exact place. For the others they are
+// listed once, not searched for at each tap. Only where one table of offsets serves all receivers of parallel rays; then
+// the corners of the table are those of the rectangle around the taps.
+class AmongTaps {
  public:
-  FreeOfSilhouettes(const LightView& view, const Silhouettes& silhouettes, const LookupProbe& probe, const Bias& bias)
+  AmongTaps(const LightView& view, const Silhouettes& silhouettes, const LookupProbe& probe, const Bias& bias)
       : view_(view), silhouettes_(silhouettes), probe_(probe) {
     applies_ = view.rays().have_one_direction() && probe.pattern.variants == 1 && !probe.pattern.scaled_by_view &&
                probe.cube_resolution == 0 && !bias.moves_lookup();
@@ -48,9 +50,22 @@ class FreeOfSilhouettes {
     }
   }
 
-  // p: the receiver in the light's frame, lit.
-  bool holds(size_t pixel, glm::dvec3 p) const {
-    if (!applies_) return false;
+  bool applies() const { return applies_; }
+
+  // p: the receiver in the light's frame. nearby: its memory is used again.
+  bool none(size_t pixel, glm::dvec3 p, Silhouettes::Nearby& nearby) const {
+    const std::array<glm::dvec3, 5> places = around(pixel, p);
+    if (silhouettes_.none_among(places)) return true;
+    silhouettes_.list_nearby(places, nearby);
+    return nearby.none();
+  }
+  void list(size_t pixel, glm::dvec3 p, Silhouettes::Nearby& nearby) const {
+    silhouettes_.list_nearby(around(pixel, p), nearby);
+  }
+
+ private:
+  // Places whose rectangle holds the receiver's, those of its taps, and the centres of their texels.
+  std::array<glm::dvec3, 5> around(size_t pixel, glm::dvec3 p) const {
     const LightFrame& frame = view_.frame();
     glm::ivec2 low, high;
     const glm::vec2 at = probe_.map_texels[pixel];
@@ -61,13 +76,10 @@ class FreeOfSilhouettes {
       low = LookupProbe::floored(at + glm::vec2(low_));
       high = LookupProbe::floored(at + glm::vec2(high_));
     }
-    const glm::dvec3 places[] = {frame.place(p), frame.tap_place(p, glm::dvec3(low_)),
-                                 frame.tap_place(p, glm::dvec3(high_)), view_.texel_place(low),
-                                 view_.texel_place(high)};
-    return silhouettes_.none_among(places);
+    return {frame.place(p), frame.tap_place(p, glm::dvec3(low_)), frame.tap_place(p, glm::dvec3(high_)),
+            view_.texel_place(low), view_.texel_place(high)};
   }
 
- private:
   const LightView& view_;
   const Silhouettes& silhouettes_;
   const LookupProbe& probe_;
@@ -136,28 +148,27 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
   TapTruth result{taps, {}, strip.first};
   result.taps.assign(strip.size() * static_cast<size_t>(taps), 0);
 
-  const FreeOfSilhouettes free_of_silhouettes(view, l.light->silhouettes(), probe, l.bias);
+  const AmongTaps among_taps(view, l.light->silhouettes(), probe, l.bias);
+  const bool listed = l.use_cells && among_taps.applies();
   const auto certain = static_cast<uint8_t>(tap_exact_lit | (edge_distance_texels ? tap_texel_lit : 0));
-  const bool may_clip = edge_distance_texels && !l.map.depth_clamp && view.nearest_m() < frame.near_m;
+  const bool may_clip = edge_distance_texels && !l.map.depth_clamp && l.texels.any_clipped();
   const auto answer = [&](size_t pixel) {
     uint8_t* bits = &result.taps[(pixel - strip.first) * static_cast<size_t>(taps)];
     std::fill_n(bits, taps, certain);
     for (int tap = 0; tap < taps && may_clip; ++tap) {
       const glm::ivec2 texel = probe.texel(pixel, tap);
-      const uint32_t hit = l.texels.hit(texel);
-      if (hit != no_primitive && view.nearest_m(hit) < frame.near_m && surface.clipped(hit, view.texel_place(texel)))
-        bits[tap] |= tap_near_clipped;
+      if (l.texels.clipped(texel)) bits[tap] |= tap_near_clipped;
     }
   };
   constexpr size_t pixels_per_part = 4096;
   std::vector<std::vector<size_t>> parts((strip.size() + pixels_per_part - 1) / pixels_per_part);
   tbb::parallel_for(size_t{0}, parts.size(), [&](size_t part) {
     const size_t from = strip.first + part * pixels_per_part, to = std::min(strip.end, from + pixels_per_part);
+    Silhouettes::Nearby nearby;
     for (size_t pixel = from; pixel < to; ++pixel) {
       if (!l.truth.facing[pixel]) continue;
       if (edge_distance_texels) (*edge_distance_texels)[pixel] = 0;
-      if (l.truth.lit[pixel] && l.use_cells &&
-          free_of_silhouettes.holds(pixel, frame.to_light(l.receivers.position[pixel])))
+      if (l.truth.lit[pixel] && listed && among_taps.none(pixel, frame.to_light(l.receivers.position[pixel]), nearby))
         answer(pixel);
       else
         parts[part].push_back(pixel);
@@ -170,6 +181,7 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
     SurfacePoint points[packet_size];
     glm::dvec3 at[packet_size];         // P in the light's frame
     glm::dvec3 looked_up[packet_size];  // P' there; P unless a part moves the lookup
+    thread_local Silhouettes::Nearby nearby[packet_size];
     const size_t* const pixels = &asked[begin];
     for (int k = 0; k < active; ++k) {
       const glm::dvec3 p = l.receivers.position[pixels[k]], normal = l.receivers.normal[pixels[k]];
@@ -177,7 +189,11 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
       points[k] =
           surface.point(at[k], l.traced.adjacency.first(l.receivers.primitive[pixels[k]]), l.truth.lit[pixels[k]] != 0);
       looked_up[k] = frame.to_light(l.bias.looked_up(frame, p, normal));
+      if (listed) among_taps.list(pixels[k], at[k], nearby[k]);
     }
+    const auto lit_at = [&](int k, glm::dvec3 x, uint32_t hit) {
+      return listed ? surface.lit_at(points[k], x, hit, nearby[k]) : surface.lit_at(points[k], x, hit);
+    };
     for (int tap = 0; tap < taps; ++tap) {
       glm::dvec3 offsets[packet_size];
       if (one_for_all)
@@ -190,7 +206,7 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
         uint32_t hits[packet_size];
         for (int k = 0; k < active; ++k) x[k] = view.normal_place(frame.tap_place(from[k], offsets[k]));
         view.first_hits(l.traced.embree, active, x, hits);
-        for (int k = 0; k < active; ++k) verdicts[k] = surface.lit_at(points[k], x[k], hits[k]);
+        for (int k = 0; k < active; ++k) verdicts[k] = lit_at(k, x[k], hits[k]);
       };
       if (std::all_of(offsets, offsets + active, [](glm::dvec3 o) { return o == glm::dvec3(0); }))
         for (int k = 0; k < active; ++k) exact[k] = {points[k].lit, true};  // V(P, P) is R1
@@ -216,8 +232,8 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
         const glm::ivec2 texel = probe.texel(pixel, tap);
         const uint32_t hit = l.texels.hit(texel);
         const glm::dvec3 centre = view.texel_place(texel);
-        const OwnSurface::Verdict at_texel = surface.lit_at(points[k], centre, hit);
-        const bool texel_lit = at_texel.lit, clipped = !l.map.depth_clamp && surface.clipped(hit, centre);
+        const OwnSurface::Verdict at_texel = lit_at(k, centre, hit);
+        const bool texel_lit = at_texel.lit, clipped = may_clip && l.texels.clipped(texel);
         bits = static_cast<uint8_t>(bits | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
                                     (at_texel.sure ? 0 : tap_texel_unsure));
         if (moved_lit != texel_lit && !behind[k]) {

@@ -112,10 +112,6 @@ uint32_t OwnSurface::first_hit(glm::dvec3 x) const {
   return hit;
 }
 
-bool OwnSurface::clipped(uint32_t hit, glm::dvec3 x) const {
-  return hit != no_primitive && view_.hit_depth(hit, x) < view_.near_depth(x);
-}
-
 bool OwnSurface::covers(uint32_t triangle, glm::dvec3 x) const {
   if (triangle == no_primitive) return false;
   double least = 0, most = 0;
@@ -165,19 +161,20 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   // rounding decides whether the ray through x meets the surface that ends there. The ray that was cast may then meet
   // another surface than the one that is first in double, and the map holds the depth of what the ray has met.
   bool sure = !p.on_silhouette;
+  SheetAt own(*this, p, x);
   const bool tie = beside && silhouettes.near(x, rounding_share * beside_m());
   const auto exact = [&] {
     const uint32_t first = exact_first(x);
-    sure &= clipped(first, x) == clipped(hit, x);
+    sure &= view_.clipped(first, x) == view_.clipped(hit, x);
     return first;
   };
   if (p.lit && crossed.empty()) {  // no jump: lit, whatever the first hit is
     if (beside) exact();
-    return {true, sure && (!tie || may_be_lit(p, x, hit))};
+    return {true, sure && (!tie || may_be_lit(p, x, hit, own))};
   }
-  const uint32_t first = beside || may_be_lit(p, x, hit) ? exact() : hit;
-  Verdict v = verdict(p, x, first, crossed);
-  if (tie && hit != first) sure &= verdict(p, x, hit, crossed).lit == v.lit;
+  const uint32_t first = beside || may_be_lit(p, x, hit, own) ? exact() : hit;
+  Verdict v = verdict(p, x, first, own, crossed);
+  if (tie && hit != first) sure &= verdict(p, x, hit, own, crossed).lit == v.lit;
   v.sure &= sure;
   return v;
 }
@@ -186,30 +183,30 @@ template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes>(const SurfacePoint&
 template OwnSurface::Verdict OwnSurface::lit_at<Silhouettes::Nearby>(const SurfacePoint&, glm::dvec3, uint32_t,
                                                                      const Silhouettes::Nearby&) const;
 
-bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const {
+bool OwnSurface::may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own) const {
   if (hit == no_primitive || hit == p.primitive) return true;
-  const Sheet sheet = walk(p, x);
+  const Sheet& sheet = *own;
   if (sheet.triangle == hit) return true;
   const double error = depth_error(hit, sheet.triangle == no_primitive ? p.primitive : sheet.triangle, x);
   return view_.hit_depth(hit, x) >= sheet.depth_m - error;
 }
 
-OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
+OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& at_x,
                                         const std::vector<Silhouettes::Crossing>& crossed) const {
   if (hit == no_primitive || hit == p.primitive) return {true, true};
-  const Sheet sheet = walk(p, x);
+  const Sheet& sheet = *at_x;
   if (sheet.triangle == hit) return {true, true};
   // If the rounding of P has put it beside its surface or onto its edge, the way from P may cross an edge that the way
   // from the exact P does not cross, or the reverse. Then it may leave the sheet at another place.
   const bool on_edge = !crossed.empty() && crossed.front().t * length_m(p, x) <= rounding_share * beside_m();
-  const bool on_surface = !on_edge && walk(p, p.at).triangle != no_primitive;
+  const auto on_surface = [&] { return !on_edge && walk(p, p.at).triangle != no_primitive; };
   const double behind = sheet.depth_m - view_.hit_depth(hit, x);
-  if (behind <= rounding_of_sheet(p, x, sheet, hit)) return {true, on_surface || sheet.triangle != no_primitive};
+  if (behind <= rounding_of_sheet(p, x, sheet, hit)) return {true, sheet.triangle != no_primitive || on_surface()};
   const uint32_t own = sheet.triangle == no_primitive ? p.primitive : sheet.triangle;
   if (may_be_one_plane(view_.scene(), hit, own)) return {true, true};
-  if (!p.lit) return {false, on_surface || sheet.triangle != no_primitive};
+  if (!p.lit) return {false, sheet.triangle != no_primitive || on_surface()};
   Verdict v = continuous(p, x, hit, crossed);
-  v.sure &= on_surface || (v.lit && (on_edge || goes_on_at(p)));
+  v.sure = v.sure && (on_surface() || (v.lit && (on_edge || goes_on_at(p))));
   return v;
 }
 
@@ -230,7 +227,8 @@ double OwnSurface::edge_distance_texels(const SurfacePoint& p, glm::dvec3 from, 
     const glm::dvec3 x = view_.normal_place(from + middle * (to - from));
     const std::vector<Silhouettes::Crossing> crossed =
         p.lit ? silhouettes_.crossings(p.at, x) : std::vector<Silhouettes::Crossing>();
-    (verdict(p, x, first_hit(x), crossed).lit == lit_from ? same : other) = middle;
+    SheetAt own(*this, p, x);
+    (verdict(p, x, first_hit(x), own, crossed).lit == lit_from ? same : other) = middle;
   }
   // A normal place is a point of the light's frame at depth 1, or of its plane.
   return other * glm::length(to - from) / view_.frame().texel_m(from);

@@ -14,6 +14,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "raytrace/adjacency.h"
 #include "raytrace/embree_scene.h"
@@ -58,9 +59,6 @@ class OwnSurface {
   // Whether the light ray through x passes through the triangle, in double.
   bool covers(uint32_t triangle, glm::dvec3 x) const;
 
-  // Whether the first hit at x lies before the map's near plane.
-  bool clipped(uint32_t hit, glm::dvec3 x) const;
-
   // The triangle that the exact ray through x meets first, or no_primitive: of all triangles that the float ray meets,
   // and of those that end so near to x that it may have missed them, the first one that covers x in double.
   uint32_t exact_first(glm::dvec3 x) const;
@@ -77,8 +75,24 @@ class OwnSurface {
   Verdict lit_at(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, const Edges& silhouettes) const;
   uint32_t first_hit(glm::dvec3 x) const;
 
-  // The verdict for this first hit. crossed: the silhouettes between P and x.
-  Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit,
+  // S at x, walked to when it is first asked for: several steps of a verdict need it.
+  class SheetAt {
+   public:
+    SheetAt(const OwnSurface& surface, const SurfacePoint& p, glm::dvec3 x) : surface_(surface), p_(p), x_(x) {}
+    const Sheet& operator*() {
+      if (!sheet_) sheet_ = surface_.walk(p_, x_);
+      return *sheet_;
+    }
+
+   private:
+    const OwnSurface& surface_;
+    const SurfacePoint& p_;
+    glm::dvec3 x_;
+    std::optional<Sheet> sheet_;
+  };
+
+  // The verdict for this first hit. own: of P at x. crossed: the silhouettes between P and x.
+  Verdict verdict(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own,
                   const std::vector<Silhouettes::Crossing>& crossed) const;
   // The ray that was cast may lie on the other side of a silhouette than the exact ray only if the silhouette is nearer
   // to x than this.
@@ -97,7 +111,7 @@ class OwnSurface {
   // Whether a surface continues at P, which is lit, if the rounding of P has put it beside its triangle.
   bool goes_on_at(const SurfacePoint& p) const;
   // Whether this hit is P's own sheet, or behind it, within the error of the ray.
-  bool may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit) const;
+  bool may_be_lit(const SurfacePoint& p, glm::dvec3 x, uint32_t hit, SheetAt& own) const;
   double length_m(const SurfacePoint& p, glm::dvec3 x) const;  // of the way, across the light's rays at P
   double rounding_of_sheet(const SurfacePoint& p, glm::dvec3 x, const Sheet& sheet, uint32_t hit) const;
   // The largest difference between two computed depths of the same point. A ray that misses x by its float error may

@@ -12,6 +12,7 @@ constexpr int least_cells = 256, most_cells = 2048;  // on a side: from 0.25 to 
 // Many long edges that lie on one another would be listed in hundreds of cells each. So the grid is made coarser, down
 // to this many cells on a side, until its lists are at most so long.
 constexpr int coarsest_cells = 16;
+constexpr size_t most_searched = 4;  // of the edges nearby; a cell of the grid lists fewer than a longer list
 constexpr size_t listed_per_piece = 16, listed_besides = size_t{1} << 20;
 
 bool goes_on(const Adjacency& adjacency, const LightView& view, uint32_t triangle, int edge) {
@@ -181,7 +182,7 @@ void Silhouettes::list_nearby(std::span<const glm::dvec3> places, Nearby& nearby
 }
 
 bool Silhouettes::Nearby::near(glm::dvec3 x, double within_m) const {
-  if (!listed_) return all_->near(x, within_m);
+  if (!listed_ || edges_.size() > most_searched) return all_->near(x, within_m);
   return std::any_of(edges_.begin(), edges_.end(), [&](uint32_t index) {
     const Edge& edge = all_->edges_[index];
     return all_->view_.rays().distance2_across(x, edge.a, edge.b) <= within_m * within_m;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 
 #include "raytrace/packets.h"
 
@@ -24,21 +25,12 @@ glm::ivec2 texel_of(uint64_t key) {
   return {back(key & 0xffffffffu), back(key >> 32)};
 }
 
-void first_hits(const EmbreeScene& embree, const LightView& view, size_t count, const auto& texel_at,
-                const auto& store) {
-  for_each_packet(count, [&](size_t first, int n) {
-    glm::dvec3 places[packet_size];
-    uint32_t hits[packet_size];
-    for (int i = 0; i < n; ++i) places[i] = view.texel_place(texel_at(first + i));
-    view.first_hits(embree, n, places, hits);
-    for (int i = 0; i < n; ++i) store(first + i, hits[i]);
-  });
-}
-
 }  // namespace
 
 TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, Wrap wrap)
-    : embree_(&embree), view_(&view), wrap_(wrap), wanted_(view.frame().map_size().x, view.frame().map_size().y, 0) {}
+    : embree_(&embree), view_(&view), wrap_(wrap), wanted_(view.frame().map_size().x, view.frame().map_size().y, 0) {
+  assert(view.scene().triangles.size() < no_primitive >> 1);
+}
 
 void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, PixelRange pixels) {
   const glm::ivec2 size(wanted_.width, wanted_.height);
@@ -76,30 +68,48 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
   outside_keys_.erase(std::unique(outside_keys_.begin(), outside_keys_.end()), outside_keys_.end());
 }
 
+// Calls store(i, FirstHit) for each texel.
+void TexelRays::first_hits(size_t count, const auto& texel_at, const auto& store) {
+  for_each_packet(count, [&](size_t first, int n) {
+    glm::dvec3 places[packet_size];
+    uint32_t hits[packet_size];
+    bool clipped = false;
+    for (int i = 0; i < n; ++i) places[i] = view_->texel_place(texel_at(first + i));
+    view_->first_hits(*embree_, n, places, hits);
+    for (int i = 0; i < n; ++i) {
+      const bool before_near = view_->clipped(hits[i], places[i]);
+      clipped |= before_near;
+      store(first + i, FirstHit(hits[i], before_near));
+    }
+    if (clipped) std::atomic_ref(any_clipped_).store(true, std::memory_order_relaxed);
+  });
+}
+
 void TexelRays::trace() {
   for (int y = 0; y < wanted_.height; ++y)
     for (int x = 0; x < wanted_.width; ++x)
       if (wanted_.at(x, y)) inside_texels_.push_back({x, y});
-  inside_ = Image<uint32_t>(wanted_.width, wanted_.height, no_primitive);
+  inside_ = Image<FirstHit>(wanted_.width, wanted_.height);
   wanted_ = {};
   first_hits(
-      *embree_, *view_, inside_texels_.size(), [&](size_t i) { return inside_texels_[i]; },
-      [&](size_t i, uint32_t hit) { inside_.at(inside_texels_[i].x, inside_texels_[i].y) = hit; });
+      inside_texels_.size(), [&](size_t i) { return inside_texels_[i]; },
+      [&](size_t i, FirstHit hit) { inside_.at(inside_texels_[i].x, inside_texels_[i].y) = hit; });
 
   outside_.resize(outside_keys_.size());
   first_hits(
-      *embree_, *view_, outside_keys_.size(), [&](size_t i) { return texel_of(outside_keys_[i]); },
-      [&](size_t i, uint32_t hit) {
+      outside_keys_.size(), [&](size_t i) { return texel_of(outside_keys_[i]); },
+      [&](size_t i, FirstHit hit) {
         outside_[i] = {outside_keys_[i], hit};
       });
   std::vector<uint64_t>().swap(outside_keys_);
 }
 
-uint32_t TexelRays::outside_hit(glm::ivec2 texel) const {
+const TexelRays::FirstHit& TexelRays::outside_hit(glm::ivec2 texel) const {
+  static const FirstHit not_asked_for;
   const uint64_t key = texel_key(texel);
   const auto found = std::lower_bound(outside_.begin(), outside_.end(), key,
                                       [](const auto& entry, uint64_t wanted) { return entry.first < wanted; });
-  return found != outside_.end() && found->first == key ? found->second : no_primitive;
+  return found != outside_.end() && found->first == key ? found->second : not_asked_for;
 }
 
 }  // namespace noonmark

@@ -1,5 +1,6 @@
 #include "raytrace/vertex_rounding.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -48,10 +49,13 @@ double plane_rounding_m(const Scene& scene, uint32_t triangle, glm::dvec3 place)
 }
 
 bool may_be_one_plane(const Scene& scene, uint32_t a, uint32_t b) {
-  const Triangle s(scene, a), t(scene, b);
+  // Most pairs differ at the first corner. Then the plane of b is not needed.
+  const Triangle s(scene, a);
+  const glm::uvec3 corners = scene.triangles[b];
   for (int i = 0; i < 3; ++i)
-    if (!s.holds(t.corner[i]) || !t.holds(s.corner[i])) return false;
-  return true;
+    if (!s.holds(scene.positions[corners[i]])) return false;
+  const Triangle t(scene, b);
+  return std::all_of(s.corner.begin(), s.corner.end(), [&](glm::dvec3 corner) { return t.holds(corner); });
 }
 
 }  // namespace noonmark

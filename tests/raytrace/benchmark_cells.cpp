@@ -1,7 +1,7 @@
 // What the truth costs, beside the rays that it cannot do without. ctest does not run it; it is built with
 // -DNOONMARK_BENCHMARKS=ON.
 //
-//   benchmark_cells [--r1] [rounds] [scene ...]       a scene: cube-room, hills, or the path of a glTF file
+//   benchmark_cells [--help] [--r1] [rounds] [scene ...]     a scene: a built-in one, hills, or the path of a glTF file
 //
 // Every row has a floor: the bare rays, one robust ray in packets of 16 for each receiver (R1), or for each distinct
 // place of its taps, without any decision about what they meet. Program and floor run in turns within one process; the
@@ -165,6 +165,15 @@ void measure(const std::string& name, int rounds, bool only_r1) {
 
 int main(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (std::erase(arguments, "--help") + std::erase(arguments, "-h") > 0) {
+    fmt::print(
+        "usage: benchmark_cells [--r1] [rounds] [scene ...]\n"
+        "  --r1    only R1 and its certainty\n"
+        "  rounds  the figures are medians of so many rounds; 5\n"
+        "  scene   hills, a built-in scene, or the path of a glTF file; cube-room hills\n"
+        "Prints CPU time beside that of bare rays.\n");
+    return 0;
+  }
   const bool only_r1 = std::erase(arguments, "--r1") > 0;
   const int rounds = arguments.empty() ? 5 : std::max(1, std::atoi(arguments[0].c_str()));
   if (!arguments.empty()) arguments.erase(arguments.begin());
