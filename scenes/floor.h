@@ -18,4 +18,9 @@ inline constexpr double floor_side_diagonals = 4;
 // would not hold the floor, is taken away. A scene without triangles gets no floor.
 void add_floor_under(Scene& scene);
 
+// Whether the scene has a floor of its own: the triangles that face up (+Y) and lie in the lowest tenth of the scene's
+// box cover at least half of the box's area, seen from above. A tenth, because a ground need not be flat; half, because
+// a pedestal that carries a model is no ground for its shadow.
+bool has_ground(const Scene& scene);
+
 }  // namespace noonmark
