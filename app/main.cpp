@@ -86,6 +86,19 @@ int say(const CLI::App& app, const CLI::Error& result) {
   std::_Exit(static_cast<int>(ErrorKind::device));
 }
 
+// Without arguments: what to do first. It is an error, because nothing was asked for.
+int first_steps() {
+  std::fputs(
+      "noonmark: no verb is given. First steps with a model of your own:\n"
+      "  noonmark init MODEL.glb        writes MODEL.toml, a first experiment (noonmark inspect MODEL.glb shows the "
+      "model)\n"
+      "  noonmark run MODEL.toml        measures it\n"
+      "  open out/MODEL/report.html     shows what is wrong with the shadows, and which bias is usable\n"
+      "noonmark --help lists all verbs.\n",
+      stderr);
+  return static_cast<int>(ErrorKind::usage);
+}
+
 // Needed because CLI11 would first report a missing verb.
 void refuse_unknown(const std::string& first, const std::vector<std::string_view>& verbs) {
   const std::vector<std::string_view> options = {"--help", "--version"};
@@ -113,12 +126,15 @@ int run(int argc, char** argv) {
   std::vector<std::string> paths;
   bool dry_run = false;
   long point = -1;
-  const auto with_choices = [&](CLI::App* verb) {
+  const auto with_set = [&](CLI::App* verb) {
     verb->add_option("--set", arguments.sets,
                      "Override a setting: name=value (noonmark settings lists them). May be repeated")
         ->expected(1)
         ->take_all()
         ->type_name("NAME=VALUE");
+  };
+  const auto with_choices = [&](CLI::App* verb) {
+    with_set(verb);
     verb->add_option(
             "--part", arguments.parts,
             "Measure only the part of the experiment with this name; points are counted from 0. May be repeated")
@@ -176,11 +192,7 @@ int run(int argc, char** argv) {
   map->add_option("scene", scene, "A built-in scene, or the path of a .gltf or .glb file")
       ->required()
       ->check(not_empty);
-  map->add_option("--set", arguments.sets,
-                  "Override a setting: name=value (noonmark settings lists them). May be repeated")
-      ->expected(1)
-      ->take_all()
-      ->type_name("NAME=VALUE");
+  with_set(map);
   const auto share = [](double& to, const char* name, const char* what, CLI::App* verb) {
     verb->add_option(name, to, what)->check(fraction)->type_name("FRACTION");
   };
@@ -212,11 +224,7 @@ int run(int argc, char** argv) {
           "A built-in scene, the path of a .gltf or .glb file, or an experiment whose [over] gives the conditions")
       ->required()
       ->check(not_empty);
-  recommend
-      ->add_option("--set", arguments.sets, "Fix a setting: name=value (noonmark settings lists them). May be repeated")
-      ->expected(1)
-      ->take_all()
-      ->type_name("NAME=VALUE");
+  with_set(recommend);
   const auto limit_of = [&](std::optional<double>& to, const char* name, const char* help) {
     recommend->add_option(name, to, help)->check(fraction)->type_name("FRACTION");
   };
@@ -245,6 +253,26 @@ int run(int argc, char** argv) {
   recommend->footer(exit_codes);
   with_out(recommend, "Folder for the files (default: out/recommend-<name>)");
 
+  std::string model;
+  bool as_json = false;
+  const auto with_model = [&](CLI::App* verb) {
+    verb->add_option("model", model, "The path of a .gltf or .glb file")->required()->check(not_empty);
+    verb->footer(exit_codes);
+  };
+  CLI::App* init = app.add_subcommand("init", "Write a first experiment for a model of your own, ready to run");
+  with_model(init);
+  init->add_option("--out", arguments.out, "The experiment's file (default: <name of the model>.toml in this folder)")
+      ->check(not_empty)
+      ->type_name("FILE");
+  init->add_flag("--overwrite", arguments.overwrite, "Replace the file if it is there already");
+
+  CLI::App* inspect = app.add_subcommand(
+      "inspect", "Say what a model holds, how large it is and what is not modelled, and draw it with its shadow");
+  with_model(inspect);
+  inspect->add_flag("--json", as_json, "Print the same as JSON");
+  with_set(inspect);
+  with_out(inspect, "Folder for the picture (default: out/inspect-<name of the model>)");
+
   CLI::App* report = app.add_subcommand("report", "Write report.html and results.csv again from stored results");
   report->add_option("folder", folder, "The results' folder")->required()->check(not_empty);
 
@@ -261,15 +289,18 @@ int run(int argc, char** argv) {
     retract_verdicts(meant_folders(words, verbs), failure, arguments.command);
   };
   try {
-    if (argc > 1) refuse_unknown(argv[1], verbs);
+    if (argc < 2) return first_steps();
+    refuse_unknown(argv[1], verbs);
     app.parse(argc, argv);
     std::optional<ThreadLimit> limit;
-    if (*run || *check || *render || *map || *recommend) limit.emplace(arguments.threads);
+    if (*run || *check || *render || *map || *recommend || *inspect) limit.emplace(arguments.threads);
     if (*run) return verb_run(experiment, arguments, dry_run);
     if (*check) return verb_check(paths, arguments);
     if (*render) return verb_render(experiment, point, picture, arguments);
     if (*map) return verb_map(scene, phase, arguments);
     if (*recommend) return verb_recommend(scene, recommending, arguments);
+    if (*init) return verb_init(model, arguments);
+    if (*inspect) return verb_inspect(model, as_json, arguments);
     if (*report) return verb_report(folder);
     if (*scenes) return verb_scenes();
     if (*settings) return verb_settings();

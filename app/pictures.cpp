@@ -85,6 +85,11 @@ Image<Color> greys(const Measurement& m, const Image<float>& frame) {
 
 }  // namespace
 
+Image<Color> lit_picture(const Measurement& m) {
+  const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
+  return greys(m, shaded_frame(m.receivers, m.frame, camera, m.ladder.truth()));
+}
+
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
                                           const std::string& stem) {
   std::vector<PictureRecord> records;

@@ -12,4 +12,7 @@ namespace noonmark {
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
                                           const std::string& stem);
 
+// Grey clay with the true shadow (R1): the picture "shaded-truth" alone.
+Image<Color> lit_picture(const Measurement& m);
+
 }  // namespace noonmark

@@ -26,6 +26,11 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
 // only. picture: a file that is judged in place of R5, or empty.
 int verb_render(const std::string& experiment, long point, const std::string& picture,
                 const ExperimentArguments& arguments);
+// Says what a glTF model holds and writes a picture of it. json: as JSON. --out is the folder of the picture.
+int verb_inspect(const std::string& model, bool json, ExperimentArguments arguments);
+// Writes a first experiment for a glTF model. --out is the file (default: <name of the model>.toml in the working
+// folder). A file that is there stays, unless arguments.overwrite.
+int verb_init(const std::string& model, const ExperimentArguments& arguments);
 // The phase diagram of a scene: a built-in one, or a file.
 int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentArguments arguments);
 // The settings to recommend for an experiment's conditions (*.toml), or for a scene: a built-in one, or a file.

@@ -46,6 +46,12 @@ class Remembered {
   std::optional<T> value_;
 };
 
+// The settings that the map depends on. Only a map that is fitted to the view reads the camera.
+std::string map_key_of(const Settings& settings) {
+  const std::string key = settings_key(settings, {Stage::scene, Stage::map});
+  return settings.map.fit == MapFit::view ? key + settings_key(settings, {Stage::view}) : key;
+}
+
 // The settings that the probe and the truth of the taps depend on. A polygon offset is in units of the map's format.
 std::string lookup_key_of(const Settings& settings) {
   const std::string key = settings_key(settings, {Stage::scene, Stage::view, Stage::lookup});
@@ -286,7 +292,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const Impl::Looked looked = b.look(loaded, point);
   const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
   const TruthStage& truth = looked.truth;
-  const MapStage& map = b.map.get(settings_key(settings, {Stage::scene, Stage::map}) + (timed ? " timed" : ""),
+  const MapStage& map = b.map.get(map_key_of(settings) + (timed ? " timed" : ""),
                                   [&] { return b.stages->draw_map(b.renderer, scene, point); });
   LookupStage& lookup = b.lookup.get(lookup_key_of(settings), [&] {
     return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, point);

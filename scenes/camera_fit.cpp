@@ -9,6 +9,7 @@
 
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"
+#include "scenes/view_clip.h"
 
 namespace noonmark {
 namespace {
@@ -25,52 +26,27 @@ struct Depths {
   double farthest = 0;
 };
 
-// The smallest z of the part of a triangle between the sides; infinite if there is none (Sutherland and Hodgman 1974).
-// Corners in the camera's axes, z along the view.
-double least_depth_between(const std::array<glm::dvec4, 5>& sides, const std::array<glm::dvec3, 3>& corners) {
-  constexpr size_t most = 3 + 5;  // each plane adds at most one corner
-  std::array<glm::dvec3, most> polygon, kept;
-  size_t count = 3;
-  std::copy(corners.begin(), corners.end(), polygon.begin());
-  for (const glm::dvec4& side : sides) {
-    const auto inside_by = [&](const glm::dvec3& p) { return glm::dot(glm::dvec3(side), p) + side.w; };
-    size_t left = 0;
-    for (size_t i = 0; i < count; ++i) {
-      const glm::dvec3 &p = polygon[i], &q = polygon[(i + 1) % count];
-      const double from = inside_by(p), to = inside_by(q);
-      if (from >= 0) kept[left++] = p;
-      if ((from >= 0) != (to >= 0)) kept[left++] = p + (q - p) * (from / (from - to));
-    }
-    std::copy_n(kept.begin(), left, polygon.begin());
-    count = left;
-  }
+// The smallest z of the part of a triangle between the planes; infinite if there is none. Corners in the camera's axes,
+// z along the view.
+double least_depth_between(const std::array<glm::dvec4, 5>& planes, const std::array<glm::dvec3, 3>& corners) {
+  const Clipped<5> part = clipped(planes, corners);
   double least = std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < count; ++i) least = std::min(least, polygon[i].z);
+  for (size_t i = 0; i < part.count; ++i) least = std::min(least, part.corners[i].z);
   return least;
 }
 
 Depths depths_in_view(const Scene& scene, const CameraFrame& frame) {
-  const bool perspective = frame.camera.projection == Projection::perspective;
-  const double wide = (1 + margin) * frame.half_width, high = (1 + margin) * frame.half_height;
-  // Each plane's function is not negative inside. The last is the eye's own plane.
-  const double spread = perspective ? 1 : 0, width = perspective ? 0 : wide, height = perspective ? 0 : high;
-  const std::array<glm::dvec4, 5> sides = {{{1, 0, spread * wide, width},
-                                            {-1, 0, spread * wide, width},
-                                            {0, 1, spread * high, height},
-                                            {0, -1, spread * high, height},
-                                            {0, 0, 1, 0}}};
+  const std::array<glm::dvec4, 4> sides = side_planes(frame, margin);
+  const std::array<glm::dvec4, 5> planes = {sides[0], sides[1], sides[2], sides[3],
+                                            glm::dvec4(0, 0, 1, 0)};  // the eye's
   Depths depths;
   for (const glm::uvec3& t : scene.triangles) {
     std::array<glm::dvec3, 3> corners;
-    for (int i = 0; i < 3; ++i) {
-      const glm::dvec3 way = glm::dvec3(scene.positions[t[i]]) - frame.eye_m;
-      corners[static_cast<size_t>(i)] = {glm::dot(way, frame.right), glm::dot(way, frame.up),
-                                         glm::dot(way, frame.forward)};
-    }
+    for (int i = 0; i < 3; ++i) corners[static_cast<size_t>(i)] = frame.in_axes(glm::dvec3(scene.positions[t[i]]));
     const auto [near_m, far_m] = std::minmax({corners[0].z, corners[1].z, corners[2].z});
     depths.farthest = std::max(depths.farthest, far_m);
     if (far_m > 0 && near_m < depths.nearest)
-      depths.nearest = std::min(depths.nearest, least_depth_between(sides, corners));
+      depths.nearest = std::min(depths.nearest, least_depth_between(planes, corners));
   }
   return depths;
 }

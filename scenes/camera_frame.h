@@ -16,6 +16,13 @@ struct CameraFrame {
   double half_width = 1, half_height = 1;  // perspective: tangents; orthographic: metres
   Camera camera;
 
+  // A point of the world along right, up and forward, from the eye; and back.
+  glm::dvec3 in_axes(glm::dvec3 world) const {
+    const glm::dvec3 way = world - eye_m;
+    return {glm::dot(way, right), glm::dot(way, up), glm::dot(way, forward)};
+  }
+  glm::dvec3 to_world(glm::dvec3 axes) const { return eye_m + axes.x * right + axes.y * up + axes.z * forward; }
+
   // Through the centre of pixel (x, y) of a picture of the size given to make_camera_frame; row 0 on top.
   Ray pixel_ray(int x, int y, int width, int height) const;
   glm::dmat4 clip_from_world() const;  // of a camera with near and far

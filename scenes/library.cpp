@@ -8,6 +8,7 @@
 
 #include "scenes/builtin.h"
 #include "scenes/error.h"
+#include "scenes/floor.h"
 #include "scenes/gltf/gltf.h"
 #include "scenes/memory.h"
 #include "scenes/remesh.h"
@@ -64,6 +65,7 @@ std::string notes_line(const Scene& scene) {
 
 Scene make_scene(const SceneSettings& settings) {
   Scene scene = scene_as_built(settings);
+  if (settings.floor) add_floor_under(scene);
   if (settings.mesh != MeshForm::as_built) require_room(settings, scene);
   return remeshed(std::move(scene), settings.mesh, {settings.turn_deg, settings.move_m.value_or(glm::dvec3(0))});
 }

@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "technique/setting_rules.h"
+#include "technique/sun.h"
+#include "technique/view_fit.h"
 
 namespace noonmark {
 
@@ -92,12 +94,28 @@ MapVolume fit_map(const Scene& scene, const Light& light) {
   return kind.fit(scene, kind.axes(light));
 }
 
+namespace {
+
+// From the light's target to its position: as far as the scene's light stands from its target, in the direction of the
+// sun. A setting that is empty leaves that angle of the scene's light.
+glm::dvec3 way_to_sun(const Light& scenes, const LightSettings& settings) {
+  const glm::dvec3 way = scenes.position_m - scenes.target_m;
+  const double distance = glm::length(way);
+  const SunPlace old = distance > 0 ? place_of_sun(way) : SunPlace();
+  const glm::dvec3 direction = direction_to_sun(
+      {settings.azimuth_deg.value_or(old.azimuth_deg), settings.elevation_deg.value_or(old.elevation_deg)});
+  return direction * (distance > 0 ? distance : 1);
+}
+
+}  // namespace
+
 Light effective_light(const Scene& scene, const Settings& settings) {
   Light light = scene.light;
   const LightSettings& s = settings.light;
   if (s.kind != LightChoice::automatic) light.kind = static_cast<LightKind>(static_cast<int>(s.kind) - 1);
   if (s.position_m) light.position_m = *s.position_m;
   if (s.target_m) light.target_m = *s.target_m;
+  if (s.azimuth_deg || s.elevation_deg) light.position_m = light.target_m + way_to_sun(scene.light, s);
   if (s.angular_diameter_deg) light.angular_diameter_deg = *s.angular_diameter_deg;
   if (s.radius_m) light.radius_m = *s.radius_m;
   if (s.cone_deg) light.cone_deg = *s.cone_deg;
@@ -110,11 +128,14 @@ LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
   validate(settings, light.kind);
   // The scene's own map volume fits only the scene's own light.
   const KindOfLight& kind = kind_of_light(light.kind);
-  const bool moved = settings.light.position_m || (settings.light.target_m && kind.is_aimed());
+  const LightSettings& set = settings.light;
+  const bool moved = set.position_m || (set.target_m && kind.is_aimed()) || set.azimuth_deg || set.elevation_deg;
   const bool scenes_own = scene.map && light.kind == scene.light.kind && !moved && settings.map.fit == MapFit::scene;
-  const MapVolume volume = scenes_own ? *scene.map : fit_map(scene, light);
-
   LightFrame frame = kind.axes(light);
+  const std::optional<ViewFit> in_view =
+      settings.map.fit == MapFit::view ? fit_to_view(scene, settings.view, frame) : std::nullopt;
+  const MapVolume volume = in_view ? in_view->volume : scenes_own ? *scene.map : fit_map(scene, light);
+  if (in_view) frame.origin_m += in_view->middle_m.x * frame.right + in_view->middle_m.y * frame.up;
   frame.near_m = settings.map.near_m.value_or(volume.near_m);
   frame.far_m = settings.map.far_m.value_or(volume.far_m);
   frame.resolution = settings.map.resolution;

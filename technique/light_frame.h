@@ -28,7 +28,8 @@ inline constexpr double least_cosine = 1e-6;
 struct LightFrame {
   LightKind kind = LightKind::directional;
   // Spot and point: the light's position. It is exactly a float, because every ray starts there. Directional: the point
-  // where u, v and z are 0. It is the light's position moved by map.shift_*_texels and map.snap.
+  // where u, v and z are 0. It is the light's position moved, in its plane, to the middle of the map (map.fit = view) and
+  // by map.shift_*_texels and map.snap.
   glm::dvec3 origin_m{0};
   // Unit vectors. For a point light they are the axes of the world.
   glm::dvec3 right{1, 0, 0};

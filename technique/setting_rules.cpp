@@ -33,6 +33,17 @@ std::string near_beyond_far(std::string_view group, std::optional<double> near_m
   return fmt::format("{0}.near_m = {1} is not less than {0}.far_m = {2}", group, *near_m, *far_m);
 }
 
+// A sun's direction, set by `setting`, against the kind of the light and against the other way to set a direction.
+std::string sun_and(const Settings& s, std::optional<LightKind> light, std::string_view setting) {
+  if (light && !kind_of_light(*light).rays().have_one_direction())
+    return fmt::format(
+        "{} is the direction of a directional light, and this one is a {} light; set light.kind = "
+        "directional, or leave {} out",
+        setting, kind_of_light(*light).name(), setting);
+  if (!s.light.position_m) return "";
+  return fmt::format("{} and light.position_m both set the light's direction; leave one of them out", setting);
+}
+
 std::string shifted_cube(std::string_view setting, double texels, std::optional<LightKind> light) {
   if (texels == 0 || !light || kind_of_light(*light).map_shape() == MapShape::flat) return "";
   return fmt::format("{} needs a flat map; turn the cube with map.turn_deg instead", setting);
@@ -81,6 +92,7 @@ std::string on_flat_map(const Settings&, LightKind light) {
 std::string where_map_is_given(const Settings& s, LightKind light) {
   if (!s.map.near_m || !s.map.far_m) return "";
   if (!kind_of_light(light).rays().have_one_direction()) return "with both map.near_m and map.far_m";
+  if (s.map.fit == MapFit::view) return "";  // it also places the map's middle
   return s.map.extent_m ? "with map.extent_m, map.near_m and map.far_m" : "";
 }
 // A light has a size only if the settings give it one: neither the built-in scenes nor glTF have lights with a size.
@@ -103,6 +115,18 @@ std::string map_near_beyond_far(const Settings& s, std::optional<LightKind>) {
 }
 std::string view_near_beyond_far(const Settings& s, std::optional<LightKind>) {
   return near_beyond_far("view", s.view.near_m, s.view.far_m);
+}
+
+std::string sun_of_azimuth(const Settings& s, std::optional<LightKind> light) {
+  return s.light.azimuth_deg ? sun_and(s, light, "light.azimuth_deg") : "";
+}
+std::string sun_of_elevation(const Settings& s, std::optional<LightKind> light) {
+  return s.light.elevation_deg ? sun_and(s, light, "light.elevation_deg") : "";
+}
+std::string view_fit_without_parallel_rays(const Settings& s, std::optional<LightKind> light) {
+  if (s.map.fit != MapFit::view || !light || kind_of_light(*light).rays().have_one_direction()) return "";
+  return fmt::format("map.fit = view needs a directional light, and this one is a {} light; take map.fit = tight",
+                     kind_of_light(*light).name());
 }
 
 std::string no_direction_up(const Settings& s, std::optional<LightKind>) {

@@ -68,6 +68,9 @@ std::string without_capped_plane(const Settings&, LightKind);
 // The conflict as a whole message; empty if there is none. light: as for validate().
 std::string map_near_beyond_far(const Settings&, std::optional<LightKind>);
 std::string view_near_beyond_far(const Settings&, std::optional<LightKind>);
+std::string sun_of_azimuth(const Settings&, std::optional<LightKind>);
+std::string sun_of_elevation(const Settings&, std::optional<LightKind>);
+std::string view_fit_without_parallel_rays(const Settings&, std::optional<LightKind>);
 std::string no_direction_up(const Settings&, std::optional<LightKind>);
 std::string filter_of_another_map(const Settings&, std::optional<LightKind>);
 std::string plane_on_cube_or_blended(const Settings&, std::optional<LightKind>);

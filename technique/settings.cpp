@@ -161,6 +161,12 @@ std::vector<Setting> make_table() {
            MEMBER(scene.turn_deg)),
       point("scene.move_m", "m", "Moves the scene with its camera and light, after the rotation; auto: no move.",
             MEMBER(scene.move_m)),
+      flag("scene.floor",
+           "Adds a horizontal square under the scene, for a model that has nothing to cast its shadow on. It touches "
+           "the scene's lowest point, its middle is below the middle of the scene's box, and its side is 4 times the "
+           "box's diagonal. Up is +Y, before scene.turn_deg. Camera and light stay those of the scene without it; a "
+           "scene's own map volume is replaced by a fit.",
+           MEMBER(scene.floor)),
       real("scene.time_s", "s", 0, 1e6,
            "The time at which a glTF file's animation poses the scene. Before its first key and after its last key the "
            "scene stands still; auto: at rest, without the animation.",
@@ -200,6 +206,17 @@ std::vector<Setting> make_table() {
             "The point that the light points at, which is the middle of its map; auto: the scene's.",
             MEMBER(light.target_m))
           .idle(where_light_has_no_target),
+      real("light.azimuth_deg", "deg", -360, 360,
+           "directional: the side on which the sun stands: 0 above +Z, 90 above +X, 180 above -Z (a rotation about +Y, "
+           "which is up; a glTF model's front faces +Z). It replaces the direction of the scene's light; auto: as the "
+           "scene's light.",
+           MEMBER(light.azimuth_deg))
+          .refused(sun_of_azimuth),
+      real("light.elevation_deg", "deg", -90, 90,
+           "directional: the sun's angle above the horizon, the plane of X and Z; 90: overhead, along +Y. It replaces "
+           "the direction of the scene's light; auto: as the scene's light.",
+           MEMBER(light.elevation_deg))
+          .refused(sun_of_elevation),
       real("light.angular_diameter_deg", "deg", 0, 90,
            "directional: angular diameter of the sun, for R0 (the real sun: 0.53); 0: no size; auto: the scene's.",
            MEMBER(light.angular_diameter_deg))
@@ -222,11 +239,14 @@ std::vector<Setting> make_table() {
               MEMBER(map.resolution)),
       choice("map.format", {"16", "24", "32f"}, "Depth format of the shadow map.", MEMBER(map.format))
           .only_read_by({Stage::map}),
-      choice("map.fit", {"scene", "tight"},
+      choice("map.fit", {"scene", "tight", "view"},
              "Where extent, near and far come from if they are auto. scene: from the scene, or fitted tightly if the "
-             "scene has none or the light is not the scene's; tight: always fitted tightly around the scene.",
+             "scene has none or the light is not the scene's; tight: always fitted tightly around the scene; view "
+             "(directional): fitted to the part of the scene in the picture's frustum, and near also to what can cast "
+             "a shadow on it.",
              MEMBER(map.fit))
-          .idle(where_map_is_given),
+          .idle(where_map_is_given)
+          .refused(view_fit_without_parallel_rays),
       real("map.extent_m", "m", 1e-6, 1e9,
            "directional: whole width of the area that the map covers; auto: by map.fit.", MEMBER(map.extent_m))
           .idle(without_parallel_rays),

@@ -26,7 +26,7 @@ namespace noonmark {
 enum class DepthFormat { d16, d24, d32f };
 enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
 enum class CulledFaces { none, back, front };
-enum class MapFit { scene, tight };
+enum class MapFit { scene, tight, view };
 enum class CubePass { layered, six_passes };
 enum class BiasUnit { depth, m, texel };
 enum class LightChoice { automatic, directional, spot, point };
@@ -35,6 +35,9 @@ struct LightSettings {  // automatic and empty: as the scene's light
   LightChoice kind = LightChoice::automatic;
   std::optional<glm::dvec3> position_m;
   std::optional<glm::dvec3> target_m;
+  // directional: where the sun stands, seen from the scene (technique/sun.h); empty: as the rest says
+  std::optional<double> azimuth_deg;
+  std::optional<double> elevation_deg;
   std::optional<double> angular_diameter_deg;
   std::optional<double> radius_m;
   LightShape shape = LightShape::sphere;
@@ -44,7 +47,7 @@ struct LightSettings {  // automatic and empty: as the scene's light
 struct MapSettings {
   int resolution = 1024;  // texels on a side
   DepthFormat format = DepthFormat::d24;
-  MapFit fit = MapFit::scene;      // the source of empty extent, near and far: the scene's own values, or a tight fit
+  MapFit fit = MapFit::scene;      // the source of empty extent, near and far: the scene's own values, or a fit
   std::optional<double> extent_m;  // directional: whole width; empty: from `fit`
   double extent_scale = 1;         // multiplies the extent, from whichever source it is
   std::optional<double> fov_deg;   // spot: whole angle of the map; empty: the light's cone

@@ -66,6 +66,8 @@ _noonmark() {
   elif [[ $previous == --set ]]; then
     mapfile -t choices < <(_noonmark_settings "$program" | awk '{ sub(/=.*/, "="); print }')
     compopt -o nospace 2>/dev/null
+  elif [[ $previous == --out && $verb == init ]]; then
+    mapfile -t files < <(_noonmark_files "$word" '[tT][oO][mM][lL]')
   elif [[ $previous == --out ]]; then
     mapfile -t files < <(compgen -d -- "$word")
   elif [[ $previous == --picture ]]; then
@@ -80,6 +82,8 @@ _noonmark() {
     mapfile -t files < <(_noonmark_files "$word" '[tT][oO][mM][lL]')
   elif [[ $verb == map ]]; then
     mapfile -t choices < <(_noonmark_scenes "$program")
+    mapfile -t files < <(_noonmark_files "$word" '[gG][lL][tT][fF]' '[gG][lL][bB]')
+  elif [[ $verb == init || $verb == inspect ]]; then
     mapfile -t files < <(_noonmark_files "$word" '[gG][lL][tT][fF]' '[gG][lL][bB]')
   elif [[ $verb == report ]]; then
     mapfile -t files < <(compgen -d -- "$word")

@@ -8,6 +8,8 @@
 
 #include "scenes/gltf/animation.h"
 #include "scenes/gltf/buffers.h"
+#include "scenes/gltf/contents.h"
+#include "scenes/gltf/count_contents.h"
 #include "scenes/gltf/document.h"
 #include "scenes/gltf/error.h"
 #include "scenes/gltf/mesh.h"
@@ -18,7 +20,7 @@
 
 namespace noonmark {
 
-Scene load_gltf(const std::string& path, const Pose& pose) {
+Model load_model(const std::string& path, const Pose& pose) {
   try {
     std::optional<size_t> animation;
     if (pose.time_s) animation = static_cast<size_t>(pose.animation);
@@ -40,13 +42,19 @@ Scene load_gltf(const std::string& path, const Pose& pose) {
                    "export meshes of triangles, in the default scene and with an area");
     }
     gltf::note_contents(document, placement.nodes, scene.notes);
+    ModelContents contents = gltf::count_contents(document);
     const std::optional<Camera> camera = gltf::find_camera(document, placement.nodes, scene);
     scene.camera = camera ? *camera : fit_camera(scene);
-    scene.light = gltf::find_light(document, placement.nodes, scene).value_or(fit_light(scene));
-    return scene;
+    const std::optional<Light> light = gltf::find_light(document, placement.nodes, scene);
+    scene.light = light ? *light : fit_light(scene);
+    contents.gives_camera = camera.has_value();
+    contents.gives_light = light.has_value();
+    return {std::move(scene), contents};
   } catch (const std::bad_alloc&) {
     gltf::refuse(path, "", "does not fit into memory", "simplify it, or use a machine with more");
   }
 }
+
+Scene load_gltf(const std::string& path, const Pose& pose) { return load_model(path, pose).scene; }
 
 }  // namespace noonmark

@@ -39,9 +39,7 @@ class Directional final : public KindOfLight {
       near_m = std::min(near_m, p.z);
       far_m = std::max(far_m, p.z);
     }
-    const double depth = std::max(far_m - near_m, reach * lights::map_margin);
-    return {2 * reach * (1 + lights::map_margin), near_m - depth * lights::map_margin,
-            far_m + depth * lights::map_margin};
+    return lights::with_margin(reach, near_m, far_m);
   }
 
   void lay_map(LightFrame& frame, const Light&, const MapVolume& volume, const MapSettings& map) const override {

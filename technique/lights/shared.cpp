@@ -42,6 +42,11 @@ glm::dvec3 way_of(const Light& light) {
   return glm::normalize(way);
 }
 
+MapVolume with_margin(double reach, double near_m, double far_m) {
+  const double depth = std::max(far_m - near_m, reach * map_margin);
+  return {2 * reach * (1 + map_margin), near_m - depth * map_margin, far_m + depth * map_margin};
+}
+
 // The near plane of a perspective map cannot be 0, so the fit never puts it nearer than a thousandth of far. Geometry
 // before it is clipped, and the cause `coverage` shows this.
 MapVolume fit_central(const Scene& scene, const LightFrame& frame, bool (*behind)(const glm::dvec3 (&corners)[3])) {

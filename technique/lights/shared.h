@@ -13,6 +13,9 @@ inline constexpr double map_margin = 0x1p-10;
 // The direction from the light to its target. Throws SettingConflict if the light's position is its target.
 glm::dvec3 way_of(const Light& light);
 
+// The volume of a directional light's map whose square reaches this far from its middle, with the margin.
+MapVolume with_margin(double reach, double near_m, double far_m);
+
 // The near and far planes for the part of the scene that the light can reach. behind(corners) is true if the triangle
 // is behind the light.
 MapVolume fit_central(const Scene& scene, const LightFrame& frame, bool (*behind)(const glm::dvec3 (&corners)[3]));

@@ -255,6 +255,8 @@ RC_GTEST_PROP(ExperimentProperty, PointsAreTheProductOfTheLists, ()) {
       if (row.name == "view.far_m" && text != "auto") text = std::to_string(i + 1);
       // A reference by a plane is only legal with a filter that the sampler does not blend.
       if (row.name == "bias.reference") text = "own_depth";
+      // A sun's direction is illegal beside a position of the light.
+      if (row.name == "light.azimuth_deg" || row.name == "light.elevation_deg") text = "auto";
       // The floor must not exceed the cap.
       if (row.name == "bias.tan_floor") text = std::to_string(0.001 * (i + 1));
       if (row.name == "bias.tan_cap" && text != "auto") text = std::to_string(0.1 * (i + 1));

@@ -43,7 +43,7 @@ has() {
   bad=1
 }
 
-expect 'check doctor map render report run scenes settings' ''
+expect 'check doctor init inspect map render report run scenes settings' ''
 expect 'render report run' r
 expect '--help --version' -
 expect '--dry-run --help --out --overwrite --part --set --threads' run --

@@ -1,0 +1,39 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "app/experiment_arguments.h"
+#include "app/model_report.h"
+#include "app/pictures.h"
+#include "app/results_folder.h"
+#include "app/verbs.h"
+#include "app/workbench.h"
+#include "scenes/text.h"
+
+namespace noonmark {
+
+int verb_inspect(const std::string& model, bool json, ExperimentArguments arguments) {
+  // A picture that is quick to make. A finer map changes nothing in it, because its shadow is the truth.
+  arguments.sets.insert(arguments.sets.begin(), {"view.width_px=960", "view.height_px=540"});
+  arguments.sets.push_back("scene.name=" + model);
+  const Settings settings = points(experiment_from("", arguments)).at(0);
+  const ModelReport report = inspect_model(settings);
+  const std::string out =
+      arguments.out.empty() ? "out/inspect-" + std::filesystem::path(model).stem().string() : arguments.out;
+  require_room_to_start(true);
+  Workbench bench(gl::DebugMode::log);
+  require_memory(bench.memory(settings, false, false), bench.memory_of_program(true), "this picture");
+  const Measurement m = bench.measure(settings, std::nullopt);
+  make_output_folder(out);
+  const std::string picture = out + "/view.png";
+  write_png(picture, lit_picture(m));
+  if (json) {
+    fmt::print("{}", report_json(report, picture));
+    return 0;
+  }
+  fmt::print("{}", report_text(report));
+  fmt::print("\n{} shows it with its true shadow. Next: noonmark init {}\n", printable(picture), shell_quoted(model));
+  return 0;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,57 @@
+#include "scenes/floor.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "scenes/shapes.h"
+
+namespace noonmark {
+
+namespace {
+
+struct Box {
+  glm::dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;
+};
+
+// Of the vertices that triangles use.
+Box box_of_triangles(const Scene& scene) {
+  Box box;
+  for (const glm::uvec3& triangle : scene.triangles)
+    for (int corner = 0; corner < 3; ++corner) {
+      const glm::dvec3 p(scene.positions[triangle[corner]]);
+      box.low = glm::min(box.low, p);
+      box.high = glm::max(box.high, p);
+    }
+  return box;
+}
+
+}  // namespace
+
+void add_floor_under(Scene& scene) {
+  if (scene.triangles.empty()) return;
+  const Box box = box_of_triangles(scene);
+  const double side = floor_side_diagonals * glm::length(box.high - box.low);
+  const glm::dvec3 middle = 0.5 * (box.low + box.high);
+  const glm::dvec3 corner(middle.x - 0.5 * side, box.low.y, middle.z - 0.5 * side);
+  add_quad(scene, "floor", corner, {0, 0, side}, {side, 0, 0});
+  if (!scene.single_sided.empty()) scene.single_sided.resize(scene.triangles.size(), false);
+  scene.map.reset();
+}
+
+bool has_ground(const Scene& scene) {
+  constexpr double lowest_part = 0.1, least_cover = 0.5;
+  if (scene.triangles.empty()) return false;
+  const Box box = box_of_triangles(scene);
+  const glm::dvec3 size = box.high - box.low;
+  // What float coordinates of this size cannot tell apart: a level surface that was rotated is not exactly level.
+  const double rounding = 0x1p-20 * glm::length(glm::max(glm::abs(box.low), glm::abs(box.high)));
+  const double below = box.low.y + std::max(lowest_part * size.y, rounding);
+  double covered = 0;
+  for (const glm::uvec3& t : scene.triangles) {
+    const glm::dvec3 a(scene.positions[t.x]), b(scene.positions[t.y]), c(scene.positions[t.z]);
+    if (std::max({a.y, b.y, c.y}) <= below) covered += std::max(0.5 * glm::cross(b - a, c - a).y, 0.0);
+  }
+  return covered > 0 && covered >= least_cover * size.x * size.z;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,46 @@
+// map.fit = view as it is measured: no receiver of the picture has a coverage error.
+#include <gtest/gtest.h>
+
+#include "scenes/builtin.h"
+#include "tests/support/measured.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+TEST(ViewFitMeasured, NoReceiverHasACoverageError) {
+  Workbench bench(gl::DebugMode::fatal);
+  for (const BuiltinScene& builtin : builtin_scenes()) {
+    const std::string name(builtin.name);
+    Settings settings = small(name, 240, 136);
+    const Scene& scene = bench.scene(settings.scene);
+    if (scene.light.kind != LightKind::directional) continue;
+    settings.map.fit = MapFit::view;
+    // The scene's own camera, and one that sees a part of the scene only.
+    const glm::dvec3 eye = scene.camera.eye_m, target = scene.camera.target_m;
+    for (double nearer : {0.0, 0.6}) {
+      settings.view.eye_m = eye + nearer * (target - eye);
+      const Measurement m = bench.measure(settings, std::nullopt);
+      EXPECT_EQ(metric(m, "coverage"), 0) << name;
+      EXPECT_EQ(metric(m, "outside"), 0) << name;
+    }
+  }
+}
+
+// The map is kept from point to point while its settings stay: of this fit, the camera is one of them.
+TEST(ViewFitMeasured, AnotherCameraGetsAnotherMap) {
+  Settings near = small("cube-room", 160, 90);
+  near.map.fit = MapFit::view;
+  near.map.resolution = 64;
+  Settings far = near;
+  near.view.eye_m = glm::dvec3(1, 2, 2);
+  far.view.eye_m = glm::dvec3(4, 8, 9);
+  Workbench shared(gl::DebugMode::fatal), fresh(gl::DebugMode::fatal);
+  shared.measure(far, std::nullopt);
+  const auto again = shared.measure(near, std::nullopt).record.metrics,
+             alone = fresh.measure(near, std::nullopt).record.metrics;
+  for (const char* name : {"error", "acne", "residual", "tap_residual", "precision"})
+    EXPECT_EQ(again.at(name), alone.at(name)) << name;
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance

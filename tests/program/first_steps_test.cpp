@@ -1,0 +1,144 @@
+// The first steps with a model of one's own: inspect, init, and the program without arguments.
+#include <nlohmann/json.hpp>
+
+#include "app/experiment.h"
+#include "app/experiment_file.h"
+#include "app/first_experiment.h"
+#include "scenes/shapes.h"
+#include "tests/program/fixture.h"
+#include "tests/scenes/gltf/files.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+using nlohmann::json;
+
+class FirstSteps : public Program {};
+
+// A square that stands upright: it has no ground.
+json standing() { return test::square(); }
+// The same lying on its back, which faces up.
+json lying() {
+  json model = test::square();
+  model["nodes"][0]["rotation"] = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
+  return model;
+}
+
+TEST_F(FirstSteps, TheProgramWithoutArgumentsNamesThreeCommands) {
+  EXPECT_EQ(run({}), 2);
+  EXPECT_TRUE(says("noonmark init MODEL.glb") && says("noonmark run MODEL.toml") && says("report.html")) << output_;
+}
+
+TEST_F(FirstSteps, AnInitializedExperimentRunsAtOnce) {
+  fs::create_directories(folder_ / "models/a \"b\"");
+  write("models/a \"b\"/square.gltf", standing().dump());
+  ASSERT_EQ(run({"init", "models/a \"b\"/square.gltf", "--out", "exp/first.toml"}), 0) << output_;
+  EXPECT_TRUE(says("noonmark run exp/first.toml")) << output_;
+  ASSERT_EQ(run({"run", "exp/first.toml", "--out", "out", "--set", "view.width_px=64", "--set", "view.height_px=36"}),
+            0)
+      << output_;
+  EXPECT_TRUE(says("12 points measured")) << output_;
+  EXPECT_FALSE(says("has no effect")) << "it sets something in vain: " << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "out/report.html"));
+}
+
+TEST_F(FirstSteps, AnExperimentThatIsThereStaysUnlessAskedFor) {
+  write("square.gltf", standing().dump());
+  write("square.toml", "mine");
+  EXPECT_EQ(run({"init", "square.gltf"}), 2);
+  EXPECT_TRUE(says("square.toml is there already") && says("--overwrite")) << output_;
+  EXPECT_EQ(text("square.toml"), "mine");
+  EXPECT_EQ(run({"init", "square.gltf", "--overwrite"}), 0) << output_;
+  EXPECT_NE(text("square.toml"), "mine");
+}
+
+TEST_F(FirstSteps, AModelWithAGroundGetsNoFloorAndOneWithALightNoSun) {
+  write("standing.gltf", standing().dump());
+  json lit = lying();
+  lit["extensionsUsed"] = {"KHR_lights_punctual"};
+  lit["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  lit["nodes"].push_back({{"translation", {0, 3, 0}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  lit["scenes"][0]["nodes"] = {0, 1};
+  write("lit.gltf", lit.dump());
+  ASSERT_EQ(run({"init", "standing.gltf"}), 0) << output_;
+  ASSERT_EQ(run({"init", "lit.gltf"}), 0) << output_;
+  const Experiment first = load_experiment((folder_ / "standing.toml").string());
+  EXPECT_TRUE(first.base.scene.floor);
+  EXPECT_TRUE(first.base.light.elevation_deg && first.base.light.azimuth_deg);
+  EXPECT_EQ(first.base.map.fit, MapFit::view);
+  EXPECT_TRUE(first.phase.enabled);
+  EXPECT_EQ(first.bounds.size(), 2u);
+  const Experiment second = load_experiment((folder_ / "lit.toml").string());
+  EXPECT_FALSE(second.base.scene.floor);
+  EXPECT_FALSE(second.base.light.elevation_deg || second.base.light.azimuth_deg);
+  EXPECT_EQ(second.base.map.fit, MapFit::scene) << "a point light has no fit to the view";
+  EXPECT_FALSE(second.phase.enabled) << "nor a phase diagram";
+}
+
+TEST_F(FirstSteps, AClosedRoomGetsALightInside) {
+  Model room;
+  add_box(room.scene, "room", {-2, 0, -2}, {2, 3, 2});
+  for (glm::uvec3& t : room.scene.triangles) std::swap(t.y, t.z);
+  room.scene.single_sided.assign(room.scene.triangles.size(), true);
+  const std::string first = first_experiment(room, "room.glb");
+  EXPECT_NE(first.find("kind = \"point\""), std::string::npos) << first;
+  EXPECT_NE(first.find("position_m = [0, 1.5, 0]"), std::string::npos) << first;
+  EXPECT_NE(first.find("floor = false"), std::string::npos) << first;
+}
+
+TEST_F(FirstSteps, InspectSaysWhatAModelHolds) {
+  json model = standing();
+  model["materials"] = {{{"alphaMode", "BLEND"}, {"doubleSided", true}}, {{"name", "plain"}}};
+  model["meshes"][0]["primitives"][0]["material"] = 0;
+  model["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}};
+  model["nodes"][0]["translation"] = {100, 0, 0};
+  write("square.gltf", model.dump());
+  ASSERT_EQ(run({"inspect", "square.gltf"}), 0) << output_;
+  EXPECT_TRUE(says("1 mesh, 1 primitive, 1 node, 2 triangles")) << output_;
+  EXPECT_TRUE(says("2 (1 opaque, 1 blended, 1 double-sided)")) << output_;
+  EXPECT_TRUE(says("open: 4 edges of one triangle only")) << output_;
+  EXPECT_TRUE(says("1 material with alphaMode BLEND taken as opaque")) << output_;
+  EXPECT_TRUE(fs::exists(folder_ / "out/inspect-square/view.png"));
+  ASSERT_EQ(run({"inspect", "square.gltf", "--json", "--set", "scene.mesh=doubled", "--out", "here"}), 0) << output_;
+  const json facts = json::parse(output_.substr(output_.find('{')));
+  EXPECT_EQ(facts["triangles"], 4);
+  EXPECT_EQ(facts["doubled_triangles"], 2);
+  EXPECT_EQ(facts["open_edges"], 4);
+  EXPECT_EQ(facts["closed"], false);
+  EXPECT_EQ(facts["cameras"], 1);
+  EXPECT_EQ(facts["gives_camera"], false) << "no node has it";
+  EXPECT_EQ(facts["farthest_coordinate_m"], 101);
+  EXPECT_EQ(facts["float_step_m"], 0x1p-17) << "of floats from 64 to 128";
+  EXPECT_EQ(facts["shortest_edge_m"], 1);
+  EXPECT_NEAR(facts["texel_m"]["1024"].get<double>(), 4 * facts["texel_m"]["4096"].get<double>(), 1e-12);
+  EXPECT_EQ(facts["picture"], "here/view.png");
+  EXPECT_TRUE(fs::exists(folder_ / "here/view.png"));
+}
+
+TEST_F(FirstSteps, WhatIsNoModelIsOneClearError) {
+  write("broken.glb", "glTF");
+  json empty = standing();
+  empty["meshes"][0]["primitives"][0]["mode"] = 1;  // lines
+  write("lines.gltf", empty.dump());
+  fs::create_directories(folder_ / "folder.glb");
+  fs::create_directories(folder_ / "folder");
+  const std::pair<const char*, int> mistakes[] = {{"absent.glb", 3},
+                                                  {"broken.glb", 3},
+                                                  {"lines.gltf", 3},
+                                                  {"folder.glb", 3},
+                                                  {"folder", 2},
+                                                  {"cube-room", 2},
+                                                  {"", 2}};
+  for (const char* verb : {"init", "inspect"})
+    for (const auto& [model, code] : mistakes) {
+      EXPECT_EQ(run({verb, model}), code) << verb << " " << model << ": " << output_;
+      EXPECT_TRUE(says(*model ? model : "empty")) << output_;
+      EXPECT_FALSE(fs::exists(folder_ / "out") || fs::exists(folder_ / "broken.toml")) << verb << " " << model;
+    }
+  write("square.gltf", standing().dump());
+  EXPECT_EQ(run({"init", "square.gltf", "--out", "folder"}), 2);
+  EXPECT_TRUE(says("folder is a folder")) << output_;
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance
