@@ -4,6 +4,8 @@
 // to it; a point light stores the distance divided by near + far.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "app/engines/engine.h"
 
 namespace noonmark {
@@ -51,6 +53,9 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
       fmt::format("light.shadowMinZ = {};", number(place.frame.near_m)),
       fmt::format("light.shadowMaxZ = {};", number(place.frame.far_m)),
       fmt::format("shadowGenerator.forceBackFacesOnly = {};", cull == CulledFaces::front)};
+  lines.push_back(fmt::format("light.position = new BABYLON.Vector3({});", numbers(place.frame.origin_m)));
+  if (place.kind() != LightKind::point)
+    lines.push_back(fmt::format("light.direction = new BABYLON.Vector3({});", numbers(place.frame.forward)));
   if (place.kind() == LightKind::directional)
     lines.push_back(fmt::format("light.shadowFrustumSize = {};", number(place.frame.extent_m)));
   if (place.kind() == LightKind::spot)
@@ -62,6 +67,9 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
 std::vector<std::string> limits(const AdvicePlace& place) {
   std::vector<std::string> said = {
       "The format of the map is chosen by the engine: a half float colour without PCF, a depth texture with it."};
+  if (place.kind() != LightKind::point)
+    said.push_back(
+        "The light's position and direction are those of a right-handed scene (scene.useRightHandedSystem).");
   if (place.settings.map.cull != CulledFaces::front)
     said.push_back("map.cull: shadowGenerator can only force back faces; otherwise each material's own culling holds.");
   if (place.kind() == LightKind::point)
@@ -82,7 +90,7 @@ Engine babylon_js() {
       filter,
       map_lines,
       limits,
-      {"map.cull"}};
+      {"map.cull", "map.fov_deg"}};
 }
 
 }  // namespace noonmark

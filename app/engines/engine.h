@@ -100,6 +100,7 @@ std::vector<EngineField> opengl_fields();
 
 // The number with 6 significant digits, as the engines' languages read it.
 std::string number(double value);
+std::string numbers(glm::dvec3 values);  // "1, 2, 3"
 std::string place_name(BiasTarget target);
 // The filter whose reach is nearest to the recommended one. None may be the same: then `same` is false.
 EngineFilter nearest_reach(const AdvicePlace& place, std::vector<EngineFilter> offered);

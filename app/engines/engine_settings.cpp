@@ -168,14 +168,16 @@ double AdvicePlace::perspective_slope(double near_m, double far_m) const {
 
 std::string number(double value) { return fmt::format("{:.6g}", value == 0 ? 0.0 : value); }  // -0 is written as 0
 
+std::string numbers(glm::dvec3 v) { return fmt::format("{}, {}, {}", number(v.x), number(v.y), number(v.z)); }
+
 std::string place_name(BiasTarget target) {
   switch (target) {
     case BiasTarget::compared_depth:
-      return "receiver: the compared depth";
+      return "the receiver's compared depth";
     case BiasTarget::place_looked_up:
-      return "receiver: the place looked up";
+      return "the place looked up";
     case BiasTarget::caster:
-      return "caster";
+      return "the caster";
   }
   throw std::logic_error("a bias without a place");
 }

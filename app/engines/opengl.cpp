@@ -1,16 +1,14 @@
 // Plain OpenGL. Its only bias is glPolygonOffset; everything else is the application's shader. So the lines are the
 // formulas of the parts, with the amounts in window depth or in metres.
-//
-// Names in the lines: N and L are unit vectors of the world from the receiver, N.L is clamped to 0 ... 1; `depth` is the
-// receiver's window depth, `position` the place in the world that is looked up or, in the map's vertex shader, the
-// vertex; `u` and `v` are the texel's axes in the world.
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
+#include <numbers>
+#include <stdexcept>
 
 #include "app/engines/engine.h"
 #include "app/engines/unexpressed.h"
+#include "technique/filters.h"
 
 namespace noonmark {
 namespace {
@@ -33,6 +31,16 @@ constexpr PartText texts[] = {
     {"caster_normal_offset_turned", "position -= {} * (1.0 - dot(N, L)) * N;"},
 };
 
+constexpr std::string_view names_line =
+    "// N, L: unit vectors from the receiver, N outward, L to the light, dot(N, L) > 0; depth: the receiver's window "
+    "depth; position: in the world, of the receiver or of the map's vertex; u, v: axes of a texel in the world";
+
+// The factor of a polygon offset, times a texel's metres, that gives at least this part on every plane. It gives
+// max(|cos phi|, |sin phi|) of its factor, which is at least 1 / sqrt(2), and half of A at every azimuth or more.
+double least_polygon_factor(const AdvisedPart& part) {
+  return (part.form == BiasForm::axes ? 2 : std::numbers::sqrt2) * part.amount;
+}
+
 std::string part_line(const AdvisedPart& part, const AdvicePlace& place) {
   const bool compared = part.part->acts_on == BiasTarget::compared_depth;
   const double unit = compared ? place.depth_slope : 1;
@@ -54,8 +62,10 @@ std::string part_line(const AdvisedPart& part, const AdvicePlace& place) {
 
 std::string polygon_line(const AdvicePlace& place) {
   const BiasSettings& bias = place.settings.bias;
-  return fmt::format("glEnable(GL_POLYGON_OFFSET_FILL); glPolygonOffset({}, {});  // while the map is drawn",
-                     number(bias["polygon_factor"]), number(bias["polygon_units"]));
+  return fmt::format(
+      "glEnable(GL_POLYGON_OFFSET_FILL); glPolygonOffset({}, {});  // while the map is drawn: bias.polygon_factor, "
+      "bias.polygon_units",
+      number(bias["polygon_factor"]), number(bias["polygon_units"]));
 }
 
 std::string format_name(DepthFormat format) {
@@ -86,59 +96,81 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
   return lines;
 }
 
+bool is_polygon_offset(const AdvisedPart& part) {
+  return part.form == BiasForm::polygon_factor || part.form == BiasForm::polygon_resolution;
+}
+
+std::string sampler_line(const FilterSettings& filter) {
+  const bool blended = find_filter(filter.kind).blended;
+  return fmt::format(
+      "glTexParameteri(target, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE); "
+      "glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_{0}); "
+      "glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_{0});  // filter.kind = {1}",
+      blended ? "LINEAR" : "NEAREST", filter.kind);
+}
+
 std::vector<std::string> shader_limits(const AdvicePlace& place, const std::vector<AdvisedPart>& parts) {
   std::vector<std::string> said;
   for (const AdvisedPart& part : parts) {
-    if (part.form == BiasForm::polygon_factor || part.form == BiasForm::polygon_resolution) continue;
+    if (is_polygon_offset(part)) continue;
     std::string text = fmt::format("OpenGL has no state for bias.{}: the shader must compute it.", part.part->name);
     if (part.form == BiasForm::tangent || part.form == BiasForm::axes)
       text +=
           fmt::format(" glPolygonOffset({}, 0) gives at least as much on every plane, but acts on the caster (law 35).",
-                      number(std::sqrt(2.0) * part.amount / place.texel_m));
+                      number(least_polygon_factor(part) / place.texel_m));
     said.push_back(text);
   }
-  if (tap_reference(place.settings.bias.reference).plane)
+  return said;
+}
+
+std::vector<std::string> reference_limits(const AdvicePlace& place) {
+  const BiasSettings& bias = place.settings.bias;
+  if (!tap_reference(bias.reference).plane) return {};
+  std::string text = fmt::format(
+      "OpenGL has no state for bias.reference = {}: the shader must add the slope of the receiver's plane, in depth "
+      "for "
+      "each texel, times the way to the tap to the depth of each tap.",
+      bias.reference);
+  if (bias.plane_cap)
+    text += fmt::format(" bias.plane_cap = {} {} limits what it adds.", number(*bias.plane_cap),
+                        find_setting("bias.unit").get(place.settings));
+  return {text};
+}
+
+std::vector<std::string> filter_limits(const AdvicePlace& place) {
+  std::vector<std::string> said;
+  if (!filter_is(place, "none") && !filter_is(place, "hardware"))
     said.push_back(fmt::format(
-        "OpenGL has no state for bias.reference = {0}: the shader must add {1} to the depth of each tap.{2}",
-        place.settings.bias.reference, "dot(gradient of the receiver's plane, way to the tap)",
-        place.settings.bias.plane_cap
-            ? fmt::format(" bias.plane_cap = {} {} limits what it adds.", number(*place.settings.bias.plane_cap),
-                          find_setting("bias.unit").get(place.settings))
-            : ""));
+        "OpenGL has no state for filter.kind = {}: the shader must place its taps, which reach k = {} texels. The "
+        "sampler alone gives one fetch, of k = 1 if it is linear.",
+        place.settings.filter.kind, number(place.reach_texels)));
+  if (place.kind() == LightKind::point)
+    said.emplace_back(
+        "For a point light the map's fragment shader must write the distance divided by far to gl_FragDepth, and the "
+        "lookup must compare the same. A polygon offset has no effect on such a map.");
   return said;
 }
 
 }  // namespace
 
-EngineAdvice opengl_advice(const AdvicePlace& given, const std::vector<AdvisedPart>& parts) {
-  AdvicePlace place = given;
+EngineAdvice opengl_advice(const AdvicePlace& place, const std::vector<AdvisedPart>& parts) {
   EngineAdvice advice{"OpenGL",
                       "3.3 and later",
                       map_lines(place),
                       {},
                       "The OpenGL Graphics System, a Specification, version 4.6, section 14.6.5 (depth offset)"};
-  const bool hardware = filter_is(place, "hardware"), none = filter_is(place, "none");
-  place.filter = {{}, "one linear fetch of a comparison sampler", 1, hardware || none};
-  advice.lines.push_back(fmt::format(
-      "glTexParameteri(target, GL_TEXTURE_COMPARE_MODE, {}); glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_{}); "
-      "// filter.kind = {}",
-      none ? "GL_NONE" : "GL_COMPARE_REF_TO_TEXTURE", none ? "NEAREST" : "LINEAR", place.settings.filter.kind));
-  bool polygon_offset = false;
+  advice.lines.push_back(sampler_line(place.settings.filter));
+  bool polygon_offset = false, shader = false;
   for (const AdvisedPart& part : parts) {
-    const bool polygon = part.form == BiasForm::polygon_factor || part.form == BiasForm::polygon_resolution;
+    const bool polygon = is_polygon_offset(part);
+    if (!polygon && !shader) advice.lines.emplace_back(names_line);
     if (!polygon) advice.lines.push_back(part_line(part, place));
-    polygon_offset |= polygon;
+    (polygon ? polygon_offset : shader) = true;
   }
-  advice.lines.push_back(polygon_offset ? polygon_line(place) + " bias.polygon_factor, bias.polygon_units"
-                                        : "glDisable(GL_POLYGON_OFFSET_FILL);");
-  std::vector<std::string> cube;
-  if (place.kind() == LightKind::point)
-    cube = {
-        "OpenGL has no sampler for a kernel of a cube map: the shader must place each tap and compare the distance "
-        "divided by far, which the map's fragment shader writes to gl_FragDepth. A polygon offset has no effect "
-        "on such a map."};
-  for (const std::vector<std::string>& said : {shader_limits(place, parts), unexpressed_filter(place),
-                                               unexpressed_map(place, {"map.cull"}), unexpressed_distance(place), cube})
+  advice.lines.push_back(polygon_offset ? polygon_line(place) : "glDisable(GL_POLYGON_OFFSET_FILL);");
+  for (const std::vector<std::string>& said :
+       {shader_limits(place, parts), reference_limits(place), filter_limits(place),
+        unexpressed_map(place, {"map.cull", "map.fov_deg"}), unexpressed_distance(place)})
     advice.cannot.insert(advice.cannot.end(), said.begin(), said.end());
   return advice;
 }

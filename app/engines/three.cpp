@@ -2,6 +2,7 @@
 // towards the light. The normal bias moves the receiver's vertex along its normal, in metres at every distance.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/engines/engine.h"
@@ -46,6 +47,10 @@ std::vector<std::string> map_lines(const AdvicePlace& place) {
                                                      : map.cull == CulledFaces::back ? "FrontSide"
                                                                                      : "BackSide")};
   const std::string half = number(place.frame.extent_m / 2);
+  lines.push_back(fmt::format("light.position.set({});", numbers(place.frame.origin_m)));
+  if (place.kind() != LightKind::point)
+    lines.push_back(fmt::format("light.target.position.set({});",
+                                numbers(place.frame.origin_m + place.frame.far_m * place.frame.forward)));
   if (place.kind() == LightKind::directional) {
     lines.push_back(fmt::format("light.shadow.camera.left = -{0}; light.shadow.camera.right = {0};", half));
     lines.push_back(fmt::format("light.shadow.camera.bottom = -{0}; light.shadow.camera.top = {0};", half));
@@ -82,7 +87,7 @@ Engine three_js() {
           filter,
           map_lines,
           limits,
-          {"map.cull"}};
+          {"map.cull", "map.fov_deg"}};
 }
 
 }  // namespace noonmark

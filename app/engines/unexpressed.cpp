@@ -30,9 +30,9 @@ std::string instead(double depth_m, const std::vector<EngineKnob>& knobs, const 
 
 std::string of_the_field(const AdvisedPart& part, const EngineKnob& knob) {
   return fmt::format(
-      "bias.{} acts on the {}, {} on the {}: on planes both give the same depth along the light, but shadows move "
-      "sideways only where the place looked up or the caster's normal moves, and thin occluders can be passed only by "
-      "a moved caster.",
+      "bias.{} acts on {}, {} on {}. On planes both give the same depth along the light. Near edges they differ: an "
+      "offset along the normal moves a shadow's outline, and a moved caster can let light pass at the foot of a thin "
+      "wall.",
       part.part->name, place_name(part.part->acts_on), knob.field, place_name(knob.target));
 }
 
@@ -76,18 +76,19 @@ std::vector<std::string> unexpressed_reference(const std::vector<EngineKnob>& kn
 
 std::vector<std::string> unexpressed_filter(const AdvicePlace& place) {
   if (place.filter.same) return {};
-  return {fmt::format(
-      "filter.kind = {} reaches k = {} texels. The nearest filter here is {}, which reaches {} texels. Law 1 needs a "
-      "bias in proportion to k{}.",
-      place.settings.filter.kind, number(place.reach_texels), place.filter.what, number(place.filter.reach_texels),
-      place.filter.reach_texels > place.reach_texels ? ", so acne can appear that was not measured; increase the bias"
-                                                     : "")};
+  std::string said = fmt::format(
+      "filter.kind = {} reaches k = {} texels. The nearest filter here is {}, which reaches {} texels.",
+      place.settings.filter.kind, number(place.reach_texels), place.filter.what, number(place.filter.reach_texels));
+  if (place.filter.reach_texels > place.reach_texels)
+    said += fmt::format(" Law 1 needs a bias in proportion to k: multiply the bias by {}, or acne can appear.",
+                        number(place.filter.reach_texels / place.reach_texels));
+  return {said};
 }
 
 std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::vector<std::string_view>& expressed) {
-  constexpr std::string_view rows[] = {
-      "map.snap",           "map.shift_u_texels", "map.shift_v_texels", "map.wrap",       "map.cull",
-      "map.lit_beyond_far", "map.depth_clamp",    "map.turn_deg",       "light.radius_m", "light.angular_diameter_deg"};
+  constexpr std::string_view rows[] = {"map.snap",    "map.shift_u_texels", "map.shift_v_texels",        "map.wrap",
+                                       "map.cull",    "map.lit_beyond_far", "map.depth_clamp",           "map.turn_deg",
+                                       "map.fov_deg", "light.radius_m",     "light.angular_diameter_deg"};
   const Settings defaults;
   std::vector<std::string> said;
   for (std::string_view name : rows) {

@@ -207,6 +207,25 @@ TEST(Engines, OpenGlGivesTheBiasBack) {
   EXPECT_EQ(typed(got, "glPolygonOffset("), 2);
 }
 
+// Plain OpenGL blends texels only for filters that are made of such fetches.
+TEST(Engines, OpenGlSamplesAsTheFilterReads) {
+  Settings s = simple();
+  s.filter = FilterSettings("gaussian", {{"size", 3}});
+  EXPECT_NE(joined(advice(s, "OpenGL").lines).find("GL_LINEAR"), std::string::npos);
+  for (const char* nearest : {"none", "poisson", "box"}) {
+    s.filter = FilterSettings(nearest, {});
+    EXPECT_EQ(joined(advice(s, "OpenGL").lines).find("GL_LINEAR"), std::string::npos) << nearest;
+  }
+}
+
+// A filter that reaches further needs the greater bias of law 1: k 1 of hardware against 2 of Castano's 3 x 3.
+TEST(Engines, AWiderFilterNeedsAGreaterBias) {
+  Settings s = simple();
+  s.filter = FilterSettings("hardware", {});
+  EXPECT_NE(joined(advice(s, "Filament").cannot).find("multiply the bias by 2,"), std::string::npos);
+  EXPECT_EQ(joined(advice(s, "Bevy").cannot).find("filter.kind"), std::string::npos) << "it has this filter";
+}
+
 // A part on the other side, or in another form with the same law, is typed too: on a plane it gains the same depth.
 TEST(Engines, APartOfTheSameLawIsTypedAndSaid) {
   Settings s = simple();
