@@ -26,6 +26,9 @@ enum class BiasForm {
   polygon_resolution  // 1, for each least step of the map's format
 };
 
+// Throws std::logic_error if the part has no form yet.
+BiasForm form_of(const BiasPart& part);
+
 // The depth that one metre of the form gains at this slope along a texel axis (A = 1); for polygon_factor one texel,
 // and for polygon_resolution one step. theta_rad: 0 to less than pi / 2.
 double gain(BiasForm form, double theta_rad);

@@ -73,19 +73,19 @@ std::vector<AdvisedPart> advised_parts(const AdvicePlace& place) {
   if (bias.unit == BiasUnit::texel) unit_m = place.texel_m;
   if (bias.unit == BiasUnit::depth) unit_m = 1 / place.depth_slope;
   std::vector<AdvisedPart> parts;
-  for (const FormOfPart& row : forms) {
-    const BiasPart& part = bias_part(row.part);
+  for (const BiasPart& part : bias_parts()) {
+    const BiasForm form = form_of(part);
     const std::string name(part.name);
     const bool bounded = !part.floor_help.empty();
     if (bias[name] == 0 && !(bounded && bias[name + "_floor"] != 0)) continue;
     double metres = 1;
     if (part.unit == "bias.unit") metres = unit_m;
     if (part.unit == "texels") metres = place.texel_m;
-    AdvisedPart advised{&part, row.form, bias[name] * metres, bias[name], 0, std::numeric_limits<double>::infinity()};
+    AdvisedPart advised{&part, form, bias[name] * metres, bias[name], 0, std::numeric_limits<double>::infinity()};
     if (bounded) advised.floor = bias[name + "_floor"] * metres;
     if (!part.cap_help.empty()) advised.cap = bias[name + "_cap"] * metres;
-    if (row.form == BiasForm::polygon_factor) advised.step_m = place.texel_m;
-    if (row.form == BiasForm::polygon_resolution)
+    if (form == BiasForm::polygon_factor) advised.step_m = place.texel_m;
+    if (form == BiasForm::polygon_resolution)
       advised.step_m = format_step(place.settings.map.format) / place.depth_slope;
     parts.push_back(advised);
   }
@@ -129,6 +129,12 @@ EngineAdvice advice_of(const Engine& engine, AdvicePlace place, const std::vecto
 }
 
 }  // namespace
+
+BiasForm form_of(const BiasPart& part) {
+  for (const FormOfPart& row : forms)
+    if (row.part == part.name) return row.form;
+  throw std::logic_error("a part of a bias without its form");
+}
 
 double gain(BiasForm form, double theta_rad) {
   const double c = std::cos(theta_rad), s = std::sin(theta_rad), t = std::tan(theta_rad);
