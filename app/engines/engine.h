@@ -72,7 +72,7 @@ struct AdvicePlace {
 
 // A number of an engine that is a part of the bias.
 struct EngineKnob {
-  std::string field;  // "light.shadow.bias"
+  std::string field;  // "LightShadow.bias"
   std::string line;   // what to type, with {} for the number
   BiasForm form;
   BiasTarget target;

@@ -70,7 +70,7 @@ std::vector<std::string> limits(const AdvicePlace& place) {
 
 Engine filament() {
   return {"Filament",
-          "1.6x, before pull request 9734",
+          "until 2026, before pull request 9734",
           "filament include/filament/LightManager.h, src/ShadowMapManager.cpp, src/ShadowMap.cpp and "
           "shaders/src/surface_shadowing.glsl",
           "//",

@@ -18,10 +18,10 @@ double depth_slope(const AdvicePlace& place) {
 }
 
 std::vector<EngineKnob> knobs(LightKind) {
-  return {{"light.shadow.bias", "light.shadow.bias = {};", BiasForm::constant, BiasTarget::compared_depth,
+  return {{"LightShadow.bias", "light.shadow.bias = {};", BiasForm::constant, BiasTarget::compared_depth,
            "window depth, added to the receiver's: negative towards the light",
            [](double metres, const AdvicePlace& place) { return -metres * depth_slope(place); }},
-          {"light.shadow.normalBias", "light.shadow.normalBias = {};", BiasForm::normal, BiasTarget::place_looked_up,
+          {"LightShadow.normalBias", "light.shadow.normalBias = {};", BiasForm::normal, BiasTarget::place_looked_up,
            "m along the normal", [](double metres, const AdvicePlace&) { return metres; }}};
 }
 
