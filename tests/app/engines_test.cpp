@@ -1,0 +1,364 @@
+// Recommended settings as numbers for other engines. Each round trip types a number into the engine's own formula,
+// written here from the engine's documents and not from the program, and expects the recommended bias back.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "app/engines/engine.h"
+#include "app/engines/engine_settings.h"
+#include "scenes/file.h"
+#include "scenes/library.h"
+#include "technique/filters.h"
+#include "technique/setting_rules.h"
+#include "technique/tap_pattern.h"
+
+namespace noonmark {
+namespace {
+
+// Numbers are written with 6 significant digits, so each is at most 5e-6 of itself off; formulas here multiply at most
+// two of them.
+constexpr double written = 1.1e-5;
+
+struct Case {
+  Settings settings;
+  Scene scene;
+  LightFrame frame;
+};
+
+// A map whose numbers are easy to follow: 16 m wide, 512 texels of 1/32 m, depths from 2 m to 42 m.
+Settings simple(LightChoice kind = LightChoice::directional) {
+  Settings s;
+  s.scene.name = "plane";
+  s.light.kind = kind;
+  s.light.position_m = glm::dvec3(0, 20, 0.5);
+  s.light.target_m = glm::dvec3(0, 0, 0.5);
+  s.light.cone_deg = 60;
+  s.view.target_m = glm::dvec3(0, 10, 0.5);  // 10 m from the light on its axis
+  s.map.resolution = 512;
+  s.map.near_m = 2;
+  s.map.far_m = 42;
+  if (kind == LightChoice::directional) s.map.extent_m = 16;
+  return s;
+}
+
+Case make(const Settings& settings) {
+  Case c{settings, make_scene(settings.scene), {}};
+  c.scene.light = effective_light(c.scene, settings);
+  c.frame = make_light_frame(c.scene, settings);
+  return c;
+}
+
+EngineAdvice advice(const Settings& settings, const std::string& engine) {
+  const Case c = make(settings);
+  for (EngineAdvice& one : engine_advice(c.settings, c.frame, c.scene))
+    if (one.engine == engine) return one;
+  ADD_FAILURE() << "no engine " << engine;
+  return {};
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string all;
+  for (const std::string& line : lines) all += line + "\n";
+  return all;
+}
+
+// The number that follows this text in the lines; NaN if there is none.
+double typed(const EngineAdvice& advice, const std::string& before) {
+  const std::string all = joined(advice.lines);
+  const size_t at = all.find(before);
+  if (at == std::string::npos) {
+    ADD_FAILURE() << "'" << before << "' is not in\n" << all;
+    return std::nan("");
+  }
+  return std::stod(all.substr(at + before.size()));
+}
+
+void expect_written(double value, double expected) { EXPECT_NEAR(value, expected, written * std::abs(expected)); }
+
+constexpr double texel_m = 16.0 / 512;
+
+Settings constant_m(double metres, LightChoice kind = LightChoice::directional) {
+  Settings s = simple(kind);
+  s.bias.unit = BiasUnit::m;
+  s.bias["constant"] = metres;
+  return s;
+}
+
+// three.js: the receiver's window depth becomes depth + bias; a metre is 1 / (far - near) of an orthographic map.
+TEST(Engines, ThreeGivesTheBiasBack) {
+  Settings s = constant_m(0.06);
+  s.bias["normal_offset"] = 1.5;
+  const EngineAdvice got = advice(s, "three.js");
+  expect_written(-typed(got, "shadow.bias = ") * (42 - 2), 0.06);
+  expect_written(typed(got, "shadow.normalBias = "), 1.5 * texel_m);
+  expect_written(typed(got, "camera.right = "), 8);
+}
+
+// The window depth d(z) = far (z - near) / (z (far - near)) of a perspective map, and its derivative.
+TEST(Engines, ThreeTakesTheDepthOfASpotLightAsItIs) {
+  Settings s = simple(LightChoice::spot);
+  s.bias["constant"] = 0.0007;
+  expect_written(typed(advice(s, "three.js"), "shadow.bias = "), -0.0007);
+  s = constant_m(0.03, LightChoice::spot);
+  expect_written(-typed(advice(s, "three.js"), "shadow.bias = ") * (10.0 * 10 * 40) / (42 * 2), 0.03);
+  s = constant_m(0.03, LightChoice::point);
+  expect_written(-typed(advice(s, "three.js"), "shadow.bias = ") * (10.0 * 10 * 40) / (42 * 2), 0.03);
+}
+
+// Babylon.js: the caster's clip depth, 2 for the whole map in WebGL, becomes z + bias w; without PCF the stored share of
+// near to far becomes depth + bias, and a point light's distance / (near + far) too.
+TEST(Engines, BabylonGivesTheBiasBack) {
+  Settings s = constant_m(0.06);
+  s.bias["caster_normal_offset_sin"] = 1.5;
+  EngineAdvice got = advice(s, "Babylon.js");
+  expect_written(typed(got, ".bias = ") * 40, 0.06);  // filter none
+  expect_written(typed(got, ".normalBias = "), 1.5 * texel_m);
+  s.filter = FilterSettings("castano", {{"size", 5}});
+  got = advice(s, "Babylon.js");
+  EXPECT_NE(joined(got.lines).find("QUALITY_HIGH"), std::string::npos);
+  expect_written(typed(got, ".bias = ") / 2 * 40, 0.06);
+  expect_written(typed(advice(constant_m(0.06, LightChoice::point), "Babylon.js"), ".bias = ") * (42 + 2), 0.06);
+  expect_written(typed(advice(constant_m(0.06, LightChoice::spot), "Babylon.js"), ".bias = ") * (42 - 2), 0.06);
+}
+
+// Godot: bias / 100 * range * blur * quality radius, with a range of the cascade's diameter and 20 m; a spot light's
+// clip depth (near 0.025 m) times range / distance.
+TEST(Engines, GodotGivesTheBiasBack) {
+  Settings s = constant_m(0.06);
+  EngineAdvice got = advice(s, "Godot");
+  expect_written(typed(got, "shadow_bias = ") / 100 * (16 + 20) * typed(got, "shadow_blur = ") * 1, 0.06);
+  s.filter = FilterSettings("box", {{"size", 5}});
+  got = advice(s, "Godot");
+  EXPECT_NE(joined(got.lines).find("soft_shadow_filter_quality\", 2)"), std::string::npos);
+  expect_written(typed(got, "shadow_bias = ") / 100 * (16 + 20) * typed(got, "shadow_blur = ") * 2, 0.06);
+  expect_written(1 + 2 * typed(got, "shadow_blur = ") * std::sqrt(3.5 / 4), 2.5);  // the reach of a box of 5 x 5
+
+  s = constant_m(0.06, LightChoice::spot);
+  s.bias["normal_offset_turned"] = 1.5;
+  got = advice(s, "Godot");
+  const double shift = typed(got, "shadow_bias = ") / 100 * (42.0 / 10) / 10;  // of z / w, at 10 m
+  expect_written(shift * (10.0 * 10 * (42 - 0.025)) / (42 * 0.025), 0.06);
+  const double spot_texel_m = 2 * 10 * std::tan(std::numbers::pi / 6) / 512;
+  expect_written(typed(got, "shadow_normal_bias = ") * 10 / 512 * 10, 1.5 * spot_texel_m);
+  expect_written(typed(advice(constant_m(0.06, LightChoice::point), "Godot"), "shadow_bias = "), 0.06);
+}
+
+// Bevy: metres towards the light; sqrt(2) texels along the normal, of a spot light 2 tan(outer) / size of the distance.
+TEST(Engines, BevyGivesTheBiasBack) {
+  Settings s = constant_m(0.06);
+  s.bias["normal_offset"] = 1.5;
+  EngineAdvice got = advice(s, "Bevy");
+  expect_written(typed(got, "shadow_depth_bias: "), 0.06);
+  expect_written(typed(got, "shadow_normal_bias: ") * std::numbers::sqrt2, 1.5);
+  s.light.kind = LightChoice::spot;
+  s.map.extent_m.reset();
+  got = advice(s, "Bevy");
+  expect_written(typed(got, "shadow_normal_bias: ") * std::numbers::sqrt2, 1.5);
+  expect_written(typed(got, "outer_angle: "), std::numbers::pi / 6);
+}
+
+// Filament: metres away from the light; half texels of extent / (size - 2) times the sine of the slope.
+TEST(Engines, FilamentGivesTheBiasBack) {
+  Settings s = constant_m(0.06);
+  s.bias["normal_offset_sin"] = 1.5;
+  s.bias["polygon_factor"] = 2;
+  s.bias["polygon_units"] = 3;
+  const EngineAdvice got = advice(s, "Filament");
+  expect_written(typed(got, "constantBias = "), 0.06);
+  expect_written(0.5 * typed(got, "normalBias = ") * 16 / 510, 1.5 * texel_m);
+  EXPECT_EQ(typed(got, "polygonOffsetSlope = "), 2);
+  EXPECT_EQ(typed(got, "polygonOffsetConstant = "), 3);
+}
+
+// URP: texels times 1, 1.5, 2.5 or 3.5 by the soft shadows; a spot light's unit is tan(half) * range / size.
+TEST(Engines, UrpGivesTheBiasBack) {
+  Settings s = constant_m(0);
+  s.bias["caster_offset"] = 2;
+  s.bias["caster_normal_offset_turned"] = 1.5;
+  EngineAdvice got = advice(s, "Unity URP");
+  EXPECT_EQ(typed(got, "Depth: "), 2);
+  EXPECT_EQ(typed(got, "Normal: "), 1.5);
+  s.filter = FilterSettings("tent", {{"size", 5}});
+  got = advice(s, "Unity URP");
+  expect_written(typed(got, "Depth: ") * 2.5, 2);
+  s.filter = FilterSettings("tent", {{"size", 7}});
+  expect_written(typed(advice(s, "Unity URP"), "Normal: ") * 3.5, 1.5);
+  got = advice(constant_m(0.06, LightChoice::spot), "Unity URP");
+  expect_written(typed(got, "Depth: ") * std::tan(std::numbers::pi / 6) * 42 / 512, 0.06);
+}
+
+// OpenGL: the formulas of the parts, with amounts in window depth or metres.
+TEST(Engines, OpenGlGivesTheBiasBack) {
+  Settings s = constant_m(0.06);
+  s.bias["tan"] = 0.02;
+  s.bias["tan_cap"] = 0.5;
+  s.bias["normal_offset_axes"] = 1.5;
+  s.bias["polygon_factor"] = 2;
+  s.bias["polygon_units"] = 3;
+  const EngineAdvice got = advice(s, "OpenGL");
+  expect_written(typed(got, "depth -= ") * 40, 0.06);
+  expect_written(typed(got, "depth -= min(") * 40, 0.02);
+  expect_written(typed(got, "/ dot(N, L), ") * 40, 0.5);
+  expect_written(typed(got, "position += "), 1.5 * texel_m);
+  EXPECT_EQ(typed(got, "glPolygonOffset("), 2);
+}
+
+// The form of each part against the part's own formula. A plane's point that moves by v along a direction is v.N / N.L
+// deeper or less deep than the plane at its new place.
+TEST(Engines, FormsGainWhatTheirPartsGain) {
+  for (double theta : {0.1, 0.8, 1.3})
+    for (const BiasPart& part : bias_parts()) {
+      if (!part.formula.factor && !part.formula.way) continue;  // OpenGL's own
+      double gained = 0;
+      if (part.formula.factor) {
+        in_float::Surface at{};
+        at.n_dot_l = static_cast<float>(std::cos(theta));
+        at.tan_theta = static_cast<float>(std::tan(theta));
+        gained = static_cast<double>(part.formula.factor(at));
+      } else {
+        in_double::Surface at{};
+        at.normal = {std::sin(theta), 0, std::cos(theta)};
+        at.to_light = {0, 0, 1};
+        at.texel_right = {1, 0, 0};
+        at.texel_up = {0, 1, 0};
+        at.n_dot_l = std::cos(theta);
+        const double away = glm::dot(part.formula.way(at), at.normal) / at.n_dot_l;
+        gained = part.acts_on == BiasTarget::caster ? -away : away;
+      }
+      // Factors are computed in float. 1 - cos(0.1) loses the most: half a step of 1 (2^-25) of 0.005.
+      EXPECT_NEAR(gain(form_of(part), theta), gained, 1e-5 * gained) << part.name << " at " << theta;
+    }
+}
+
+// Plain OpenGL blends texels only for filters that are made of such fetches.
+TEST(Engines, OpenGlSamplesAsTheFilterReads) {
+  Settings s = simple();
+  s.filter = FilterSettings("gaussian", {{"size", 3}});
+  EXPECT_NE(joined(advice(s, "OpenGL").lines).find("GL_LINEAR"), std::string::npos);
+  for (const char* nearest : {"none", "poisson", "box"}) {
+    s.filter = FilterSettings(nearest, {});
+    EXPECT_EQ(joined(advice(s, "OpenGL").lines).find("GL_LINEAR"), std::string::npos) << nearest;
+  }
+}
+
+// A filter that reaches further needs the greater bias of law 1: k 1 of hardware against 2 of Castano's 3 x 3.
+TEST(Engines, AWiderFilterNeedsAGreaterBias) {
+  Settings s = simple();
+  s.filter = FilterSettings("hardware", {});
+  EXPECT_NE(joined(advice(s, "Filament").cannot).find("multiply the bias by 2,"), std::string::npos);
+  EXPECT_EQ(joined(advice(s, "Bevy").cannot).find("filter.kind"), std::string::npos) << "it has this filter";
+}
+
+// A part on the other side, or in another form with the same law, is typed too: on a plane it gains the same depth.
+TEST(Engines, APartOfTheSameLawIsTypedAndSaid) {
+  Settings s = simple();
+  s.bias.unit = BiasUnit::texel;
+  s.bias["tan"] = 1.5;  // b tan(theta) as an offset b sin(theta) along the normal
+  const EngineAdvice got = advice(s, "Filament");
+  expect_written(0.5 * typed(got, "normalBias = ") * 16 / 510, 1.5 * texel_m);
+  EXPECT_NE(joined(got.cannot).find("bias.tan acts on"), std::string::npos);
+}
+
+// The number to add instead: at 45 degrees, (1 - c) b of the slope part equals d / c of a plain normal offset.
+TEST(Engines, APartWithoutAFieldHasAnEqualAt45Degrees) {
+  Settings s = constant_m(0);
+  s.bias["slope"] = 0.1;
+  const std::string said = joined(advice(s, "three.js").cannot);
+  const size_t at = said.find("add ");
+  ASSERT_NE(at, std::string::npos) << said;
+  const double c = std::numbers::sqrt2 / 2;
+  expect_written(std::stod(said.substr(at + 4)) / c, 0.1 * (1 - c));
+}
+
+// Whether the text names it, not as the beginning of a longer name.
+bool names(const std::string& text, const std::string& name) {
+  for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    const char after = at + name.size() < text.size() ? text[at + name.size()] : ' ';
+    if (!std::isalnum(static_cast<unsigned char>(after)) && after != '_') return true;
+  }
+  return false;
+}
+
+void expect_said_by_each(const Settings& settings, const std::string& what) {
+  const Case c = make(settings);
+  for (const EngineAdvice& one : engine_advice(c.settings, c.frame, c.scene))
+    EXPECT_TRUE(names(joined(one.cannot), what)) << one.engine << " does not say " << what;
+}
+
+TEST(Engines, EachSaysWhatItCannotExpress) {
+  Settings s = simple();
+  s.bias["tan"] = 0.001;
+  expect_said_by_each(s, "bias.tan");
+  s = simple();
+  s.bias.reference = "texel_plane";
+  expect_said_by_each(s, "bias.reference = texel_plane");
+  s = simple();
+  s.filter = FilterSettings("poisson", {});
+  expect_said_by_each(s, "filter.kind = poisson");
+  expect_said_by_each(simple(LightChoice::point), "point light");
+  s = simple();
+  s.map.depth_clamp = true;
+  expect_said_by_each(s, "map.depth_clamp");
+}
+
+void make_legal(Settings& s) {
+  const LightKind kind = effective_light(make_scene(s.scene), s).kind;
+  try {
+    validate(s, kind);
+  } catch (const SettingConflict&) {
+    s.bias.reference = "own_depth";
+  }
+  try {
+    validate(s, kind);
+  } catch (const SettingConflict&) {
+    s.filter.kind = "none";
+  }
+  validate(s, kind);
+}
+
+RC_GTEST_PROP(Engines, NothingIsDropped, ()) {
+  Settings s = simple(*rc::gen::element(LightChoice::directional, LightChoice::spot, LightChoice::point));
+  s.bias.unit = *rc::gen::element(BiasUnit::depth, BiasUnit::m, BiasUnit::texel);
+  s.map.resolution = *rc::gen::element(1, 2, 256, 1024);
+  s.bias.reference = *rc::gen::element<std::string>("own_depth", "receiver_plane", "texel_plane");
+  const size_t filter = *rc::gen::inRange<size_t>(0, filters().size());
+  s.filter.kind = filters()[filter].name;
+  std::vector<std::string> expected;
+  for (const BiasParameter& parameter : bias_parameters()) {
+    if (*rc::gen::inRange(0, 3) != 0) continue;
+    const bool cap = parameter.role == BiasParameter::Role::cap;  // above each floor
+    if (cap && s.bias[parameter.part->name] == 0) continue;       // limits nothing
+    s.bias[parameter.name] = (*rc::gen::inRange(1, 1000) + (cap ? 1000 : 0)) / 1000.0;
+    expected.push_back(parameter.setting);
+  }
+  make_legal(s);
+  if (s.bias.reference != "own_depth") expected.push_back("bias.reference = " + s.bias.reference);
+  expected.push_back("filter.kind = " + s.filter.kind);
+  const Case c = make(s);
+  for (const EngineAdvice& one : engine_advice(c.settings, c.frame, c.scene)) {
+    const std::string text = joined(one.lines) + joined(one.cannot);
+    for (const std::string& name : expected)
+      if (!names(text, name)) RC_FAIL(one.engine + " drops " + name + "\n" + text);
+    RC_ASSERT(text.find("nan") == std::string::npos);
+    for (const char* infinite : {"= inf", "= -inf", "{}", ": inf"}) RC_ASSERT(text.find(infinite) == std::string::npos);
+    RC_ASSERT(!one.lines.empty() && !one.version.empty() && !one.source.empty());
+  }
+}
+
+// docs/engines.md holds one row of its table for each field, and no other.
+TEST(Engines, TheDocumentListsEachField) {
+  const std::string document = read_file(NOONMARK_SOURCE_DIR "/docs/engines.md", uint64_t{1} << 20);
+  std::string table = "| engine, version | light | field | unit | acts on | source |\n|---|---|---|---|---|---|\n";
+  for (const EngineField& row : engine_fields())
+    table += "| " + row.engine + " " + row.version + " | " + row.light + " | `" + row.field + "` | " + row.unit +
+             " | " + row.place + " | " + row.source + " |\n";
+  EXPECT_NE(document.find(table + "\n"), std::string::npos) << "docs/engines.md must hold this table:\n" << table;
+}
+
+}  // namespace
+}  // namespace noonmark
