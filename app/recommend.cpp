@@ -12,12 +12,10 @@
 #include "app/experiment.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/store/quantities.h"
-#include "scenes/camera_fit.h"
 #include "scenes/error.h"
 #include "technique/cost.h"
 #include "technique/light_frame.h"
 #include "technique/setting_rules.h"
-#include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {
@@ -401,60 +399,6 @@ class Search {
 };
 
 }  // namespace
-
-std::vector<BiasLevel> bias_levels() {
-  constexpr double least_bias = 1e-6;  // m: a part that is 0 does not act, and then no curve varies it
-  const auto none = [](Settings& settings) {
-    settings.bias = {};
-    for (const BiasParameter& parameter : bias_parameters())
-      if (parameter.role == BiasParameter::Role::amount) settings.bias[parameter.name] = 0;
-    settings.bias.unit = BiasUnit::m;
-  };
-  return {{"one constant bias", none},
-          {"a bias by the slope's tangent",
-           [none](Settings& settings) {
-             none(settings);
-             settings.bias["tan"] = least_bias;  // the part that the curve varies
-           }},
-          // Law 35: k texels along the normal's components on the texel's axes are exactly enough on a plane.
-          {"a normal offset of the filter's reach and a constant bias",
-           [none](Settings& settings) {
-             none(settings);
-             settings.bias["normal_offset_axes"] = tap_pattern(settings.filter).reach_texels();
-             settings.bias["constant"] = least_bias;
-           }},
-          {"the plane at the texel's centre and a constant bias",
-           [none](Settings& settings) {
-             none(settings);
-             settings.bias.reference = "texel_plane";
-           }},
-          {"front faces culled and a constant bias", [none](Settings& settings) {
-             none(settings);
-             find_setting("map.cull").set(settings, "front");
-           }}};
-}
-
-std::vector<FilterSettings> filters_to_try(LightKind light) {
-  if (kind_of_light(light).map_shape() == MapShape::cube) return {{"none", {}}, {"cube_disk", {}}};
-  return {{"none", {}},
-          {"hardware", {}},
-          {"castano", {{"size", 3}}},
-          {"castano", {{"size", 5}}},
-          {"castano", {{"size", 7}}}};
-}
-
-std::vector<Settings> turned_views(const Settings& settings, const Scene& scene) {
-  const Camera camera = effective_camera(scene, settings.view);
-  std::vector<Settings> views;
-  for (double turn_deg : {0.0, -30.0, -15.0, 15.0, 30.0}) {
-    Settings view = settings;
-    const glm::dquat turn = glm::angleAxis(turn_deg * std::numbers::pi / 180, glm::normalize(camera.up));
-    view.view.eye_m = camera.target_m + turn * (camera.eye_m - camera.target_m);
-    view.view.target_m = camera.target_m;
-    views.push_back(view);
-  }
-  return views;
-}
 
 Advice search(Workbench& bench, const AdviceRequest& request, const std::function<void(const std::string&)>& say) {
   return Search(bench, request, say).run();

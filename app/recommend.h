@@ -17,17 +17,12 @@
 #include <string>
 #include <vector>
 
+#include "app/recommend_space.h"
 #include "app/workbench.h"
 #include "compare/judge/recommendation.h"
 #include "compare/ladder/bias_curves.h"
 
 namespace noonmark {
-
-// A kind of bias, from the least to the most complicated.
-struct BiasLevel {
-  std::string name;  // "one constant bias"
-  std::function<void(Settings&)> apply;
-};
 
 struct AdviceRequest {
   std::vector<Settings> conditions;  // of full size; the first is searched on. They differ in conditions only
@@ -40,10 +35,6 @@ struct AdviceRequest {
   std::optional<double> budget;  // the most texel_work
   int width_px = 320;            // of the pictures that are searched on
 };
-
-// The choices that the program has by itself.
-std::vector<BiasLevel> bias_levels();
-std::vector<FilterSettings> filters_to_try(LightKind light);
 
 // Settings that were measured.
 struct Tried {
@@ -72,9 +63,5 @@ struct Advice {
 
 // say: progress, one line. Throws Error.
 Advice search(Workbench& bench, const AdviceRequest& request, const std::function<void(const std::string&)>& say);
-
-// Views from which the same place is seen: the settings' own, and turned about the camera's target by -30, -15, 15 and
-// 30 degrees.
-std::vector<Settings> turned_views(const Settings& settings, const Scene& scene);
 
 }  // namespace noonmark

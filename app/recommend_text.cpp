@@ -209,7 +209,18 @@ std::string advice_experiment(const Advice& advice, const std::string& folder) {
   return text;
 }
 
-std::string advice_json(const Advice& advice) {
+std::string advice_engines(const std::vector<EngineAdvice>& engines) {
+  std::string text = "The recommended settings in other engines. Written by noonmark recommend.\n";
+  for (const EngineAdvice& engine : engines) {
+    text += fmt::format("\n{} ({})\n", engine.engine, engine.version);
+    for (const std::string& line : engine.lines) text += fmt::format("    {}\n", line);
+    for (const std::string& sentence : engine.cannot) text += fmt::format("  - {}\n", sentence);
+    text += fmt::format("  Source: {}\n", engine.source);
+  }
+  return text;
+}
+
+std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& engines) {
   using nlohmann::json;
   const auto of = [](const Tried& tried) {
     json one{{"settings", settings_map(tried.settings)}, {"bias_kind", tried.level}, {"texel_work", tried.cost}};
@@ -233,6 +244,13 @@ std::string advice_json(const Advice& advice) {
                        {"worst_acne", advice.worst_acne},
                        {"worst_peter_panning", advice.worst_peter_panning},
                        {"worst_error", advice.worst_error}};
+  all["engines"] = json::array();
+  for (const EngineAdvice& engine : engines)
+    all["engines"].push_back({{"engine", engine.engine},
+                              {"version", engine.version},
+                              {"lines", engine.lines},
+                              {"cannot", engine.cannot},
+                              {"source", engine.source}});
   all["tried"] = json::array();
   for (const Tried& tried : advice.tried) all["tried"].push_back(of(tried));
   return all.dump(2, ' ', false, json::error_handler_t::replace) + "\n";

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "app/engines/engine_settings.h"
 #include "app/recommend.h"
 
 namespace noonmark {
@@ -14,7 +15,10 @@ std::vector<std::string> advice_text(const Advice& advice);
 // There must be an answer. folder: where the file will stand; the path of a scene's file is relative to it.
 std::string advice_experiment(const Advice& advice, const std::string& folder);
 
-// Everything that was found, one object.
-std::string advice_json(const Advice& advice);
+// What to type into other engines, and what each cannot express. There must be an answer.
+std::string advice_engines(const std::vector<EngineAdvice>& engines);
+
+// Everything that was found, one object. engines: empty without an answer.
+std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& engines);
 
 }  // namespace noonmark

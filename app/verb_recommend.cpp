@@ -71,20 +71,34 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
   const Advice advice = search(bench, request, [&](const std::string& step) {
     if (!options.quiet) fmt::print(stderr, "{}\n", step);
   });
-  for (const char* file : {"/recommended.toml", "/recommended.json"}) std::filesystem::remove(out + file);
-  write_file_atomically(out + "/recommended.json", advice_json(advice));
+  for (const char* file : {"/recommended.toml", "/recommended.json", "/engines.txt"})
+    std::filesystem::remove(out + file);
+  std::vector<EngineAdvice> engines;
+  if (advice.answer) {
+    const Settings& settings = advice.answer->settings;
+    const Scene& loaded = bench.scene(settings.scene);
+    engines = engine_advice(settings, make_light_frame(loaded, settings), loaded);
+  }
+  write_file_atomically(out + "/recommended.json", advice_json(advice, engines));
   if (options.json)
-    fmt::print("{}", advice_json(advice));
+    fmt::print("{}", advice_json(advice, engines));
   else
     for (const std::string& line : advice_text(advice)) fmt::print("{}\n", line);
   if (!advice.answer) return 1;
   write_file_atomically(out + "/recommended.toml", advice_experiment(advice, out));
+  write_file_atomically(out + "/engines.txt", advice_engines(engines));
   const Measurement shown = bench.measure(advice.answer->settings, std::nullopt);
   write_pictures(shown, out, ".", "recommended");
   if (!options.json) {
+    fmt::print("\nWhat to type (what each engine cannot express is in {}/engines.txt):\n", printable(out));
+    for (const EngineAdvice& engine : engines) {
+      fmt::print("  {} ({})\n", engine.engine, engine.version);
+      for (const std::string& line : engine.lines) fmt::print("    {}\n", line);
+    }
     if (const std::string note = notes_line(bench.scene(first.scene)); !note.empty()) fmt::print("note: {}\n", note);
     fmt::print(
-        "\n{0}/recommended.toml (check it: noonmark check {0}/recommended.toml), {0}/recommended.json and "
+        "\n{0}/recommended.toml (check it: noonmark check {0}/recommended.toml), {0}/recommended.json, {0}/engines.txt "
+        "and "
         "{0}/recommended-*.png are written\n",
         printable(out));
   }

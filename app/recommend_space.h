@@ -1,0 +1,28 @@
+// What a recommendation chooses from, where the user says nothing: kinds of bias, filters, and the views in which the
+// answer must hold.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scenes/scene.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+
+// A kind of bias, from the least to the most complicated.
+struct BiasLevel {
+  std::string name;  // "one constant bias"
+  std::function<void(Settings&)> apply;
+};
+
+std::vector<BiasLevel> bias_levels();
+
+// In the order of their reach.
+std::vector<FilterSettings> filters_to_try(LightKind light);
+
+// Views from which the same place is seen: the settings' own, and turned about the camera's target by -30, -15, 15 and
+// 30 degrees.
+std::vector<Settings> turned_views(const Settings& settings, const Scene& scene);
+
+}  // namespace noonmark
