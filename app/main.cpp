@@ -242,7 +242,7 @@ int run(int argc, char** argv) {
       ->type_name("NUMBER");
   recommend
       ->add_option("--views", recommending.views,
-                   "Of a scene: its own view, and up to 4 turned about the camera's target (default: 5 views)")
+                   "Of a scene: its own view, and up to 4 turned ones (default: 5 views)")
       ->check(whole_number(1, 5, "from 1 to 5"));
   recommend->add_flag("--json", recommending.json, "Print everything that was found as JSON");
   recommend->add_flag("--quiet", recommending.quiet, "Print no progress");

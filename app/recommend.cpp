@@ -56,14 +56,18 @@ std::string why_no_window(const PointRecord& point, const CurveOptions& bounds) 
   };
   for (size_t i = 1; i < acne.size(); ++i)
     if (excess(i) < excess(best)) best = i;
-  return fmt::format("no bias keeps both bounds: the best of them leaves {:.3g}% acne and {:.3g}% Peter Panning",
-                     100 * acne[best], 100 * panning[best]);
+  return fmt::format(
+      "no bias keeps both within {:.0f}% of their bounds: the best leaves {:.3g}% acne and {:.3g}% Peter Panning",
+      100 * searched_share, 100 * acne[best], 100 * panning[best]);
 }
 
 class Search {
  public:
   Search(Workbench& bench, const AdviceRequest& request, const std::function<void(const std::string&)>& say)
-      : bench_(bench), request_(request), say_(say) {}
+      : bench_(bench), request_(request), say_(say), searched_(request.curve) {
+    searched_.acne_bound *= searched_share;
+    searched_.peter_panning_bound *= searched_share;
+  }
 
   Advice run() {
     Advice advice;
@@ -79,15 +83,14 @@ class Search {
     }
     for (Candidate& candidate : candidates_) {
       Tried& tried = candidate.tried;
-      if (advice.answer && tried.why_not.empty() && !candidate.confirmed)
-        tried.why_not = why_worse(tried, *advice.answer);
+      if (tried.why_not.empty() && !candidate.confirmed)
+        tried.why_not = why_worse(tried, advice.answer ? *advice.answer : tried);
       if (!tried.why_not.empty()) advice.tried.push_back(tried);
     }
     std::stable_sort(advice.tried.begin(), advice.tried.end(),
                      [](const Tried& a, const Tried& b) { return a.cost < b.cost; });
     if (!request_.levels.empty() && (!advice.answer || advice.answer->level != request_.levels.front().name))
       advice.least_resolution = least_resolution();
-    advice.conditions = request_.conditions.size();
     advice.shadowed = shadowed_;
     return advice;
   }
@@ -235,7 +238,7 @@ class Search {
     Settings settings = small(tried.settings, request_.width_px);
     try {
       require_memory(bench_.memory(settings, true, false), bench_.memory_of_program(false), "the search");
-      PointRecord record = bench_.measure(settings, request_.curve).record;
+      PointRecord record = bench_.measure(settings, searched_).record;
       if (nothing_judged(record))
         throw Error(ErrorKind::usage, "nothing of the scene that faces the light is in view; choose another view");
       measured_ = true;
@@ -267,7 +270,7 @@ class Search {
     const auto failing = std::find_if(results.points.begin(), results.points.end(),
                                       [](const PointRecord& p) { return p.curve && !usable_window(*p.curve); });
     if (failing != results.points.end()) {
-      tried.why_not = why_no_window(*failing, request_.curve);
+      tried.why_not = why_no_window(*failing, searched_);
       tried.worst = *failing;
       return;
     }
@@ -330,13 +333,18 @@ class Search {
           small(of_choice(condition, candidate.level, tried.settings.filter, tried.settings.map.resolution),
                 request_.width_px);
       there.map.placements = searched_placements;
-      PointRecord record = bench_.measure(there, request_.curve).record;
-      if (nothing_judged(record)) continue;
+      PointRecord record = bench_.measure(there, searched_).record;
+      if (nothing_judged(record)) {
+        say_("a view in which nothing can be judged is left out");
+        continue;
+      }
       points.push_back(std::move(record));
       if (points.back().curve && !usable_window(*points.back().curve)) break;  // that is enough to know
     }
+    const size_t seen = points.size();
     judge(tried, std::move(points));
     if (!tried.why_not.empty()) return;
+    advice.conditions = seen;
     if (too_wrong(tried)) {
       tried.why_not = why_worse(tried, tried);
       return;
@@ -393,6 +401,7 @@ class Search {
   Workbench& bench_;
   const AdviceRequest& request_;
   const std::function<void(const std::string&)>& say_;
+  CurveOptions searched_;  // the bounds while searching
   std::vector<Candidate> candidates_;
   bool measured_ = false;  // whether any settings were
   double shadowed_ = 0;

@@ -11,6 +11,8 @@
 // 2. The settings that hold, from the best, are measured under all conditions at 8 x 8 placements. The first that holds
 //    there is verified.
 // 3. Verification: OpenGL renders it at 64 other placements, and each must keep the bounds. Otherwise the next is taken.
+// Screening and confirmation ask for searched_share of the bounds, because other views than the searched ones are a
+// little worse.
 #pragma once
 #include <functional>
 #include <optional>
@@ -23,6 +25,8 @@
 #include "compare/ladder/bias_curves.h"
 
 namespace noonmark {
+
+inline constexpr double searched_share = 0.5;
 
 struct AdviceRequest {
   std::vector<Settings> conditions;  // of full size; the first is searched on. They differ in conditions only

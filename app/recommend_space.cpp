@@ -1,6 +1,7 @@
 #include "app/recommend_space.h"
 
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <numbers>
 
 #include "scenes/camera_fit.h"
@@ -53,12 +54,16 @@ std::vector<FilterSettings> filters_to_try(LightKind light) {
 
 std::vector<Settings> turned_views(const Settings& settings, const Scene& scene) {
   const Camera camera = effective_camera(scene, settings.view);
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+  for (const glm::vec3& p : scene.positions) low = glm::min(low, glm::dvec3(p)), high = glm::max(high, glm::dvec3(p));
+  const glm::bvec3 above = glm::greaterThan(camera.eye_m, low), below = glm::lessThan(camera.eye_m, high);
+  const bool inside = glm::all(above) && glm::all(below);
   std::vector<Settings> views;
   for (double turn_deg : {0.0, -30.0, -15.0, 15.0, 30.0}) {
     Settings view = settings;
     const glm::dquat turn = glm::angleAxis(turn_deg * std::numbers::pi / 180, glm::normalize(camera.up));
-    view.view.eye_m = camera.target_m + turn * (camera.eye_m - camera.target_m);
-    view.view.target_m = camera.target_m;
+    view.view.eye_m = inside ? camera.eye_m : camera.target_m + turn * (camera.eye_m - camera.target_m);
+    view.view.target_m = inside ? camera.eye_m + turn * (camera.target_m - camera.eye_m) : camera.target_m;
     views.push_back(view);
   }
   return views;

@@ -21,8 +21,8 @@ std::vector<BiasLevel> bias_levels();
 // In the order of their reach.
 std::vector<FilterSettings> filters_to_try(LightKind light);
 
-// Views from which the same place is seen: the settings' own, and turned about the camera's target by -30, -15, 15 and
-// 30 degrees.
+// The settings' own view, and views turned by -30, -15, 15 and 30 degrees: about the camera's target, or in place if the
+// camera is inside the box of the scene, because it could leave a room.
 std::vector<Settings> turned_views(const Settings& settings, const Scene& scene);
 
 }  // namespace noonmark

@@ -48,9 +48,9 @@ std::string causes_text(const PointRecord& point) {
   return text;
 }
 
-std::string bounds_text(const CurveOptions& bounds) {
-  return fmt::format("acne within {} and Peter Panning within {}", percent(bounds.acne_bound),
-                     percent(bounds.peter_panning_bound));
+std::string bounds_text(const CurveOptions& bounds, double share = 1) {
+  return fmt::format("acne within {} and Peter Panning within {}", percent(share * bounds.acne_bound),
+                     percent(share * bounds.peter_panning_bound));
 }
 
 // The dearest of the settings that cost less than the answer.
@@ -139,12 +139,13 @@ std::vector<std::string> advice_text(const Advice& advice) {
   if (answer.bias)
     lines.push_back(fmt::format(
         "{} keeps {} from {:.3g} to {:.3g} {} in all {} view{} and at all {} placements of the map's grid that were "
-        "searched{}.",
-        answer.bias->parameter, bounds_text(advice.request.curve), answer.bias->window.low, answer.bias->window.high,
-        answer.bias->unit, advice.conditions, advice.conditions == 1 ? "" : "s", advice.placements,
-        answer.bias->narrow
-            ? "; that is narrow, so a small change of the scene can break it"
-            : fmt::format("; the bias keeps at least {:.0f}% from both ends", 100 * (bias_margin - 1))));
+        "searched{}. That is {:.0f}% of the bounds, because views that were not searched may be a little worse.",
+        answer.bias->parameter, bounds_text(advice.request.curve, searched_share), answer.bias->window.low,
+        answer.bias->window.high, answer.bias->unit, advice.conditions, advice.conditions == 1 ? "" : "s",
+        advice.placements,
+        answer.bias->narrow ? "; that is narrow, so a small change of the scene can break it"
+                            : fmt::format("; the bias keeps at least {:.0f}% from both ends", 100 * (bias_margin - 1)),
+        100 * searched_share));
   lines.push_back(fmt::format(
       "Verified: OpenGL rendered it at {} other placements; the worst of them has {} acne, {} Peter Panning and {} "
       "error.",

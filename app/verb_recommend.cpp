@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <set>
 
 #include "app/experiment_arguments.h"
 #include "app/image_file.h"
@@ -14,6 +16,7 @@
 #include "scenes/library.h"
 #include "scenes/text.h"
 #include "technique/light_frame.h"
+#include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {
@@ -26,10 +29,30 @@ std::vector<Settings> conditions_of(Experiment experiment) {
 
 bool is_experiment(const std::string& path) { return std::filesystem::path(path).extension() == ".toml"; }
 
-// Whether the user said what the bias is.
-bool gives_bias(const Experiment& experiment) {
+// Whether the user said what a setting with this beginning is, fixed or swept. The unit of the bias is none of it.
+bool gives(const Experiment& experiment, std::string_view begin) {
   return std::any_of(experiment.locations.begin(), experiment.locations.end(),
-                     [](const auto& given) { return given.first.starts_with("bias.") && given.first != "bias.unit"; });
+                     [&](const auto& given) { return given.first.starts_with(begin) && given.first != "bias.unit"; });
+}
+
+// What the experiment fixes or sweeps of resolution and filter is what may be recommended.
+void take_choices(AdviceRequest& request, const Experiment& experiment) {
+  std::map<std::string, FilterSettings> filters;
+  std::set<int> resolutions;
+  for (const Settings& point : points(experiment)) {
+    std::string key;
+    for (const Setting& row : settings_table())
+      if (row.name.starts_with("filter.")) key += row.get(point) + '\n';
+    filters.emplace(key, point.filter);
+    resolutions.insert(point.map.resolution);
+  }
+  if (gives(experiment, "map.resolution")) request.resolutions.assign(resolutions.begin(), resolutions.end());
+  if (!gives(experiment, "filter.")) return;
+  request.filters.clear();
+  for (const auto& [key, filter] : filters) request.filters.push_back(filter);
+  const auto reach = [](const FilterSettings& filter) { return tap_pattern(filter).reach_texels(); };
+  std::stable_sort(request.filters.begin(), request.filters.end(),
+                   [&](const auto& a, const auto& b) { return reach(a) < reach(b); });
 }
 
 }  // namespace
@@ -56,9 +79,10 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
     request.conditions.resize(std::min(request.conditions.size(), static_cast<size_t>(options.views)));
   }
   const LightKind light = make_light_frame(scene, request.conditions.front()).kind;
-  if (!gives_bias(experiment)) request.levels = bias_levels();
+  if (!gives(experiment, "bias.")) request.levels = bias_levels();
   request.filters = filters_to_try(light);
   for (int resolution = 256; resolution <= 8192; resolution *= 2) request.resolutions.push_back(resolution);
+  take_choices(request, experiment);
   request.curve = experiment.curve;
   if (options.acne) request.curve.acne_bound = *options.acne;
   if (options.peter_panning) request.curve.peter_panning_bound = *options.peter_panning;

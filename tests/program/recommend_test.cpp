@@ -1,0 +1,102 @@
+// noonmark recommend: what it recommends holds where it was not searched, and it says so where nothing does.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/program/fixture.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+using nlohmann::json;
+
+class Recommend : public Program {
+ protected:
+  int recommend(const std::string& what, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"recommend",          what,    "--quiet", "--set", "view.width_px=240", "--set",
+                                      "view.height_px=135", "--out", "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  }
+  json found() { return json::parse(text("out/recommended.json")); }
+  std::string setting(const char* name) { return found()["answer"]["settings"][name]; }
+  double bias() { return found()["answer"]["bias"]["value"]; }
+};
+
+// The file is judged again at other placements of the grid and in views between those that were searched.
+TEST_F(Recommend, WhatItWritesPassesWhereItWasNotSearched) {
+  ASSERT_EQ(recommend("cube-room"), 0) << output_;
+  EXPECT_TRUE(says("Verified: OpenGL rendered it at 64 other placements")) << output_;
+  EXPECT_TRUE(says("What to type")) << output_;
+  const json first = found();
+  EXPECT_EQ(first["verified"]["conditions"], 5);
+  const double low = first["answer"]["bias"]["from"], high = first["answer"]["bias"]["to"];
+  EXPECT_GE(bias(), 1.05 * low);
+  EXPECT_LE(bias(), high / 1.05);
+  std::string experiment = text("out/recommended.toml");
+  const size_t eyes = experiment.find("view.eye_m"), end = experiment.find('\n', eyes);
+  ASSERT_NE(eyes, std::string::npos) << experiment;
+  experiment.replace(eyes, end - eyes, "view.eye_m = [[-2.9, 2.8, 5.6], [0.6, 2.8, 6.9]]");
+  write("between.toml", experiment);
+  EXPECT_EQ(run({"check", "between.toml", "--set", "map.shift_u_texels=0.29", "--set", "map.shift_v_texels=0.41"}), 0)
+      << output_;
+  // The answer does not depend on what the machine does besides.
+  ASSERT_EQ(recommend("cube-room", {"--threads", "1"}), 0) << output_;
+  EXPECT_EQ(found(), first);
+}
+
+// A wide sun has soft shadows, which a filter comes nearer to. Under a sun without a size blur is an error.
+TEST_F(Recommend, AFilterOnlyWhereTheLightHasASize) {
+  ASSERT_EQ(recommend("cube-room", {"--views", "1", "--set", "light.angular_diameter_deg=0"}), 0) << output_;
+  EXPECT_EQ(setting("filter.kind"), "none");
+  ASSERT_EQ(recommend("cube-room", {"--views", "1", "--set", "light.angular_diameter_deg=4"}), 0) << output_;
+  EXPECT_NE(setting("filter.kind"), "none");
+}
+
+TEST_F(Recommend, HoldsAnErrorWithTheLeastWorkAndABudgetWithTheLeastError) {
+  ASSERT_EQ(recommend("cube-room", {"--views", "1", "--error", "0.002"}), 0) << output_;
+  EXPECT_LE(found()["answer"]["error"], 0.002);
+  const double work = found()["answer"]["texel_work"];
+  for (const json& other : found()["tried"])
+    if (other.contains("error") && other["texel_work"] < work && other["bias_kind"] == found()["answer"]["bias_kind"]) {
+      EXPECT_GT(other["error"], 0.002) << other.dump(1);
+    }
+  ASSERT_EQ(recommend("cube-room", {"--views", "1", "--budget", "500000"}), 0) << output_;
+  EXPECT_LE(found()["answer"]["texel_work"], 500000);
+}
+
+TEST_F(Recommend, NothingWorksIsAnAnswerWithAReason) {
+  ASSERT_EQ(recommend("cube-room", {"--views", "1"}), 0) << output_;
+  ASSERT_EQ(recommend("cube-room", {"--views", "1", "--error", "0"}), 1) << output_;
+  EXPECT_TRUE(says("Nothing that was tried keeps")) << output_;
+  EXPECT_TRUE(says("What would have to change")) << output_;
+  EXPECT_TRUE(found()["answer"].is_null());
+  for (const char* stale : {"out/recommended.toml", "out/engines.txt"})
+    EXPECT_FALSE(std::filesystem::exists(folder_ / stale)) << stale << " of the run before must not stay";
+}
+
+// The conditions and the bias of an experiment are kept; its choices are searched.
+TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
+  write("mine.toml",
+        "scene = \"plate\"\n[bias]\nunit = \"texel\"\ntan = 0.5\n[over]\nview.fov_deg = [30, 40]\n"
+        "[sweep]\nmap.resolution = [64, 128]\n");
+  ASSERT_EQ(recommend("mine.toml"), 0) << output_;
+  EXPECT_EQ(found()["answer"]["bias"]["parameter"], "bias.tan");
+  EXPECT_EQ(found()["verified"]["conditions"], 2);
+  EXPECT_EQ(run({"check", "out/recommended.toml"}), 0) << output_;
+}
+
+TEST_F(Recommend, RefusesWhatItCannotAnswer) {
+  write("parts.toml", "[[part]]\nname = \"a\"\n");
+  EXPECT_EQ(recommend("parts.toml"), 2);
+  EXPECT_TRUE(says("parts")) << output_;
+  EXPECT_EQ(recommend("no-such-scene"), 2) << output_;
+  EXPECT_EQ(recommend("cube-room", {"--error", "2"}), 2) << output_;
+  EXPECT_EQ(recommend("cube-room", {"--set", "view.target_m=0,100,0", "--set", "view.eye_m=0,90,0"}), 2) << output_;
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance
