@@ -15,20 +15,11 @@
 namespace noonmark::report {
 namespace {
 
-// The swept settings that are not conditions.
-std::vector<std::string> choice_names(const Results& results) {
-  std::vector<std::string> names;
-  for (const std::string& name : results.info.swept)
-    if (std::find(results.info.over.begin(), results.info.over.end(), name) == results.info.over.end())
-      names.push_back(name);
-  return names;
-}
-
 // A bias in the unit that a user sets and, if all curves share one scale, in the others.
 std::string bias_of(const Recommendation& found, double value) {
   const PointRecord& first = found.choice.first();
   return found.choice.points.size() == 1 ? bias_phrase(value / parameter_per_depth(first), *first.curve)
-                                         : quantity(value, found.bias->unit == "texel" ? "texels" : found.bias->unit);
+                                         : bias_in_unit(value, found.bias->unit);
 }
 
 std::string point_links(const Choice& choice) {
@@ -90,7 +81,7 @@ std::string recommendation_box(const Results& results) {
         "None has a usable bias window and meets every bound that applies to it. Sweep a higher resolution, a smaller "
         "extent or another part of the bias, or loosen a bound.</p></div>\n",
         results.info.over.empty() ? "" : " under all conditions");
-  const std::vector<std::string> chosen = choice_names(results);
+  const std::vector<std::string> chosen = choice_settings(results.info);
   std::string rows;
   for (const std::string& name : chosen)
     rows += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", html(name),

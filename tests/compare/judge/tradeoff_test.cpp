@@ -50,11 +50,12 @@ TEST(Tradeoff, StandsAtTheBiasThatWouldBeRecommended) {
 
 TEST(Tradeoff, SpansTheErrorOverTheWindow) {
   Results results;
-  results.points = {point_with(0, 1, 0.25, 0.875)};  // the curve gives 0.25, 0.125 at its least, and 0.375
+  results.points = {point_with(0, 1, 0.25, 1.0)};
+  results.points[0].curve->error = {0.5, 0.25, 0.125, 0.45, 0.375};  // least and largest are between the ends
   const ComparedChoice one = compared(results);
   const Span span = *span_over_window(one, "error");
   EXPECT_EQ(span.least, 0.125);
-  EXPECT_EQ(span.largest, 0.375);
+  EXPECT_EQ(span.largest, 0.45);
   EXPECT_FALSE(span_over_window(one, "aliasing_rms")) << "the curve does not give it at any bias";
 }
 
