@@ -136,6 +136,8 @@ std::string sweep_section(const Results& results, const ShownPoints& shown) {
   if (!swept("map.resolution")) out += "<p class=\"small\">Resolution was not swept.</p>\n";
   if (!swept("map.extent_m") && !swept("map.extent_scale"))
     out += "<p class=\"small\">The frustum's extent was not swept.</p>\n";
+  out +=
+      "<p class=\"small\">The tables are of the error against the hard truth (R1). The charts offer the others.</p>\n";
   out += shown.note;
   size_t charts = 0;
   for (const std::string& name : results.info.swept) {
