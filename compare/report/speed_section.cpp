@@ -76,24 +76,24 @@ std::string good_text(const ComparedGroup& group, const Plane& plane) {
   return out;
 }
 
-// Names the front; `front` goes from the cheapest to the most accurate.
+// Names the front, which goes from the cheapest to the most accurate. What good_text() named is not named again.
 std::string front_text(const ComparedGroup& group, const std::vector<size_t>& front, const Plane& plane) {
   if (front.empty()) return " No choice that counts has both a finite cost and a finite error.";
   const auto place = [&](size_t i) {
     return std::make_pair(value_of(group.choices[i], plane.cost).worst, value_of(group.choices[i], plane.error).worst);
   };
-  const size_t first = front.front(), last = front.back();
-  if (place(first) == place(last)) {
+  const auto said = [&](size_t i, const std::optional<size_t>& named, const char* as) {
+    return named && place(*named) == place(i) ? std::string(as) : plane.with_numbers(group.choices[i]);
+  };
+  const std::string first = said(front.front(), group.recommended, "the recommended one");
+  if (place(front.front()) == place(front.back())) {
     const size_t equal = front.size() - 1;
-    return fmt::format(" No choice is cheaper than {}, and none is more accurate{}.",
-                       plane.with_numbers(group.choices[first]),
+    return fmt::format(" No choice is cheaper than {}, and none is more accurate{}.", first,
                        equal ? fmt::format("; {} more cost the same and are as accurate", equal) : "");
   }
   return fmt::format(
-      " Who wants less error than {} has, must pay more: the Pareto front has {} and ends with {}. Of a choice on the "
-      "front no other is both cheaper and more accurate.",
-      plane.with_numbers(group.choices[first]), counted(front.size(), "choice"),
-      plane.with_numbers(group.choices[last]));
+      " The Pareto front has {}, from {} to {}: no other choice is both cheaper and more accurate than one of these.",
+      counted(front.size(), "choice"), first, said(front.back(), group.accurate, "the most accurate one"));
 }
 
 std::string span_cell(const ComparedChoice& one, const std::string& error, std::string_view unit) {

@@ -166,11 +166,19 @@ function entryOf(id) {
     return e.points.indexOf(id) >= 0;
   })[0];
 }
-function tell(rows, missing) {
-  var g = group(), front = kit.speed.frontOf(rows), chosen = entryOf(state.id) || g.entries.filter(function(e) {
+// The choice that is described: the selected one, otherwise the recommended one.
+function described() {
+  return entryOf(state.id) || group().entries.filter(function(e) {
     return e.recommended;
-  })[0],
-      text = [];
+  })[0];
+}
+// The picture first, because it takes width from the plot.
+function redraw() {
+  picture(described());
+  self.draw();
+}
+function tell(rows, missing) {
+  var g = group(), front = kit.speed.frontOf(rows), chosen = described(), text = [];
   if (g.entries.length < g.choices)
     text.push(g.entries.length + ' of ' + g.choices + ' choices are drawn; the front is of these.');
   if (missing) text.push(missing + ' not finite, left out.');
@@ -192,7 +200,6 @@ function tell(rows, missing) {
   notes.textContent = text.join(' ');
   words.textContent = '';
   if (chosen) words.append.apply(words, (chosen.recommended ? ['Recommended: '] : []).concat(describe(chosen)));
-  picture(chosen);
 }
 // The picture that the page has of one of the choice's points.
 function picture(entry) {
@@ -254,7 +261,7 @@ function controls() {
       if (key === 'group') state.property = 0;
       if (key === 'group') controls();
       legend();
-      self.draw();
+      redraw();
     }));
   }
   function named(m) {
@@ -276,11 +283,12 @@ function controls() {
 }
 controls();
 legend();
+picture(described());
 
 page.onSelect.push(function(id) {
   var entry = entryOf(id);
   state.id = entry ? entry.id : null;
-  self.draw();
+  redraw();
 });
 // The arrow keys go from mark to mark, from left to right.
 self.plot.tabIndex = 0;
