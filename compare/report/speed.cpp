@@ -109,6 +109,7 @@ json metric_data(const ComparedChoice& one, const std::string& metric) {
 
 struct Axes {
   std::vector<std::string> costs, errors;
+  std::string error_first;  // error_shown_first()
 };
 
 json entry_data(const ComparedChoice& one, const Axes& axes, const ChoiceNames& names) {
@@ -132,7 +133,7 @@ json group_data(const ComparedGroup& group, const Results& results, const Axes& 
         {{"label", property.setting.empty() ? "part" : setting_label(property.setting)}, {"values", property.values}});
   for (size_t i = 0; i < group.choices.size(); ++i) {
     const ComparedChoice& one = group.choices[i];
-    const PointRecord* const point = point_on_page(one, error_shown_first(results), shown_ids);
+    const PointRecord* const point = point_on_page(one, axes.error_first, shown_ids);
     if (!point) continue;
     json entry = entry_data(one, axes, names);
     entry["id"] = point->id;
@@ -228,7 +229,7 @@ json speed_data(const Results& results, const ShownPoints& shown) {
   data["group"] = 0;
   const ChoiceNames names(results);
   const GroupNames group_names(results, shown.groups);
-  const Axes axes{costs_of(results), errors_of(results)};
+  const Axes axes{costs_of(results), errors_of(results), error_shown_first(results)};
   std::unordered_set<int64_t> shown_ids;
   for (const PointRecord& point : shown.results.points) shown_ids.insert(point.id);
   for (size_t i = 0; i < shown.groups.size(); ++i) {
