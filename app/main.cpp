@@ -90,10 +90,9 @@ int say(const CLI::App& app, const CLI::Error& result) {
 int first_steps() {
   std::fputs(
       "noonmark: no verb is given. First steps with a model of your own:\n"
-      "  noonmark init MODEL.glb        writes MODEL.toml, a first experiment (noonmark inspect MODEL.glb shows the "
-      "model)\n"
-      "  noonmark run MODEL.toml        measures it\n"
-      "  open out/MODEL/report.html     shows what is wrong with the shadows, and which bias is usable\n"
+      "  noonmark init MODEL.glb            writes MODEL.toml, a first experiment (inspect MODEL.glb shows the model)\n"
+      "  noonmark recommend MODEL.toml      searches the settings to use, and writes them for other engines too\n"
+      "  noonmark check out/recommend-MODEL/recommended.toml   judges them; the report shows every wrong pixel\n"
       "noonmark --help lists all verbs.\n",
       stderr);
   return static_cast<int>(ErrorKind::usage);
@@ -242,7 +241,7 @@ int run(int argc, char** argv) {
       ->type_name("NUMBER");
   recommend
       ->add_option("--views", recommending.views,
-                   "Of a scene: its own view, and up to 4 turned ones (default: 5 views)")
+                   "Without an [over]: the view that is given, and up to 4 turned ones (default: 5 views)")
       ->check(whole_number(1, 5, "from 1 to 5"));
   recommend->add_flag("--json", recommending.json, "Print everything that was found as JSON");
   recommend->add_flag("--quiet", recommending.quiet, "Print no progress");

@@ -74,7 +74,7 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
   request.conditions = conditions_of(experiment);
   const Settings first = request.conditions.front();
   const Scene& scene = bench.scene(first.scene);
-  if (!is_experiment(what) && options.views > 1) {
+  if (request.conditions.size() == 1 && options.views > 1) {
     request.conditions = turned_views(first, scene);
     request.conditions.resize(std::min(request.conditions.size(), static_cast<size_t>(options.views)));
   }

@@ -16,14 +16,6 @@ bool is_condition(const Results& results, const std::string& name) {
   return std::find(results.info.over.begin(), results.info.over.end(), name) != results.info.over.end();
 }
 
-// Whether numbers of points with different values of the setting cannot be compared.
-bool decides_what_is_seen(const std::string& name) {
-  for (const Setting& row : settings_table())
-    if (row.name == name)
-      return row.read_by.has(Stage::scene) || row.read_by.has(Stage::view) || row.read_by.has(Stage::truth);
-  return true;  // of another version
-}
-
 // Groups the items by key(item), in order of appearance.
 template <class Item, class Key>
 std::vector<std::vector<Item>> grouped(const std::vector<Item>& items, const Key& key) {
@@ -38,6 +30,20 @@ std::vector<std::vector<Item>> grouped(const std::vector<Item>& items, const Key
 }
 
 }  // namespace
+
+bool decides_what_is_seen(const std::string& name) {
+  for (const Setting& row : settings_table())
+    if (row.name == name)
+      return row.read_by.has(Stage::scene) || row.read_by.has(Stage::view) || row.read_by.has(Stage::truth);
+  return true;
+}
+
+std::vector<std::string> choice_settings(const RunInfo& info) {
+  std::vector<std::string> names;
+  for (const std::string& name : info.swept)
+    if (std::find(info.over.begin(), info.over.end(), name) == info.over.end()) names.push_back(name);
+  return names;
+}
 
 std::vector<Choice> choices_of(const Results& results) {
   std::vector<const PointRecord*> points;

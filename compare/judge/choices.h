@@ -17,8 +17,15 @@ struct Choice {
   const PointRecord& first() const { return *points.front(); }
 };
 
+// The swept settings that are choices: RunInfo::swept without RunInfo::over.
+std::vector<std::string> choice_settings(const RunInfo& info);
+
 // In the order of their first points. They point into the results.
 std::vector<Choice> choices_of(const Results& results);
+
+// Whether numbers of points with different values of the setting cannot be compared: it decides the scene, the view or the
+// truth. So does a setting that this version does not know.
+bool decides_what_is_seen(const std::string& name);
 
 // The choices that share scene, view, light and size of the picture, except for the conditions, so that their numbers
 // can be compared. In order.

@@ -30,6 +30,15 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   return t == 0 ? y[after - 1] : y[after - 1] + t * (y[after] - y[after - 1]);
 }
 
+// The metric from the point's curve. Empty if the curve has no series of it.
+std::optional<double> value_of_curve(const PointRecord& point, const std::string& metric, double bias_depth) {
+  const bool no_size = metric == "error_soft" && metric_of(point, "light_size") == 0;
+  for (const std::string& name :
+       {metric + "_worst", metric, std::string(no_size ? "error_worst" : ""), std::string(no_size ? "error" : "")})
+    if (const auto value = name.empty() ? std::nullopt : curve_value(*point.curve, name, bias_depth)) return *value;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> curve_value(const BiasCurve& curve, const std::string& metric, double bias_depth) {
@@ -66,14 +75,14 @@ std::optional<DepthWindow> usable_window(const BiasCurve& curve) {
   return DepthWindow{*low, *high};
 }
 
+bool has_curve_of(const PointRecord& point, const std::string& metric) {
+  return point.curve && value_of_curve(point, metric, 0);
+}
+
 double metric_at(const PointRecord& point, const std::string& metric, std::optional<double> bias_depth) {
+  if (bias_depth && point.curve)
+    if (const std::optional<double> value = value_of_curve(point, metric, *bias_depth)) return *value;
   const std::string worst = metric + "_worst";
-  if (bias_depth && point.curve) {
-    const bool no_size = metric == "error_soft" && metric_of(point, "light_size") == 0;
-    for (const std::string& name :
-         {worst, metric, std::string(no_size ? "error_worst" : ""), std::string(no_size ? "error" : "")})
-      if (const auto value = name.empty() ? std::nullopt : curve_value(*point.curve, name, *bias_depth)) return *value;
-  }
   if (has_placements(point) && point.metrics.contains(worst))
     return std::max(metric_of(point, worst), metric_of(point, metric));
   return metric_of(point, metric);

@@ -29,6 +29,9 @@ struct DepthWindow {
 };
 std::optional<DepthWindow> usable_window(const BiasCurve& curve);
 
+// Whether the curve gives the metric at any bias. If not, metric_at gives it as rendered.
+bool has_curve_of(const PointRecord& point, const std::string& metric);
+
 // A metric of the point as it would be with this bias; without a bias, or if the curve has no series of it, as it was
 // rendered. With placements it is the worst of them if that is known. NaN if the point does not have it. A light without
 // a size has the same error against its size as against its centre.

@@ -32,70 +32,6 @@ bool meets_all(const Choice& choice, const std::vector<BoundResult>& bounds, std
   });
 }
 
-// The biases at which a curve of the choice has an entry or its best bias, in units of the parameter, within low ... high,
-// and the two ends.
-std::vector<double> candidates(const Choice& choice, double low, double high) {
-  std::vector<double> all{low, high};
-  for (const PointRecord* point : choice.points) {
-    const double per_depth = parameter_per_depth(*point);
-    all.push_back(std::clamp(point->curve->best_bias_depth * per_depth, low, high));
-    for (double depth : point->curve->bias_depth)
-      if (const double bias = depth * per_depth; bias > low && bias < high) all.push_back(bias);
-  }
-  return all;
-}
-
-std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& results) {
-  const std::optional<BiasWindow> window = joined_window(choice);
-  if (!window) return std::nullopt;
-  double low = window->low * bias_margin, high = window->high / bias_margin;
-  const bool narrow = low > high;
-  if (narrow) {  // as far from both ends as possible, and half of that way is left to shorten the number
-    const double middle = std::sqrt(window->low * window->high);
-    low = std::sqrt(window->low * middle), high = std::sqrt(middle * window->high);
-  }
-  struct Candidate {
-    double bias, error;
-  };
-  std::vector<Candidate> allowed;
-  double least = std::numeric_limits<double>::infinity();
-  for (double bias : candidates(choice, low, high)) {
-    const double error = joined_at(choice, results.info.accuracy, bias).worst;
-    if (!std::isfinite(error) || !meets_all(choice, results.bounds, bias)) continue;
-    allowed.push_back({bias, error});
-    least = std::min(least, error);
-  }
-  if (allowed.empty()) return std::nullopt;
-  // The factor by which the scene may change before the bias is no longer usable.
-  const auto distance = [&](double bias) {
-    return std::min(window->low > 0 ? bias / window->low : std::numeric_limits<double>::infinity(),
-                    bias > 0 ? window->high / bias : std::numeric_limits<double>::infinity());
-  };
-  std::optional<double> best;
-  for (const auto& [bias, error] : allowed)
-    if (error <= flat_error * least && (!best || distance(bias) > distance(*best))) best = bias;
-  double value = short_decimal(*best, low, high);
-  if (value != *best && !meets_all(choice, results.bounds, value)) value = *best;
-  const PointRecord& first = choice.first();
-  return BiasChoice{first.curve->parameter, setting_of(first, "bias.unit"), value, *window, narrow};
-}
-
-// Empty if the choice is not good enough.
-std::optional<Recommendation> judged(const Choice& choice, const Results& results) {
-  Recommendation candidate{Outcome::found, choice, joined(choice, results.info.cost).worst, {}, {}};
-  std::optional<double> bias;
-  if (has_curves(choice)) {
-    candidate.bias = choose_bias(choice, results);
-    if (!candidate.bias) return std::nullopt;
-    bias = candidate.bias->value;
-  } else if (!meets_all(choice, results.bounds, std::nullopt)) {
-    return std::nullopt;
-  }
-  candidate.error = joined_at(choice, results.info.accuracy, bias);
-  if (!std::isfinite(candidate.cost) || !std::isfinite(candidate.error.worst)) return std::nullopt;
-  return candidate;
-}
-
 bool has_criterion(const Choice& choice, const Results& results) {
   return std::any_of(choice.points.begin(), choice.points.end(), [&](const PointRecord* point) {
     return point->curve || std::any_of(results.bounds.begin(), results.bounds.end(),
@@ -105,23 +41,27 @@ bool has_criterion(const Choice& choice, const Results& results) {
 
 // better(a, b): whether a is preferred to b. Among equals the first is kept.
 template <class Better>
-Recommendation best_by(const Results& results, const Better& better) {
-  Recommendation best;
-  if (!results.info.over.empty() && static_cast<int64_t>(results.points.size()) < results.planned_points) {
-    best.outcome = Outcome::incomplete;
-    return best;
+const Recommendation* best_by(const std::vector<Recommendation>& good, const Better& better) {
+  const Recommendation* best = nullptr;
+  for (const Recommendation& other : good)
+    if (!best || better(other, *best)) best = &other;
+  return best;
+}
+
+// What pick(good choices) finds, or why nothing can be recommended.
+template <class Pick>
+Recommendation answered(const Results& results, const Pick& pick) {
+  Recommendation none;
+  if (is_incomplete(results)) {
+    none.outcome = Outcome::incomplete;
+    return none;
   }
   const std::vector<Recommendation> good = good_choices(results);
-  if (good.empty()) {
-    const std::vector<Choice> all = choices_of(results);
-    if (std::any_of(all.begin(), all.end(), [&](const Choice& choice) { return has_criterion(choice, results); }))
-      best.outcome = Outcome::none_holds;
-    return best;
-  }
-  best = good.front();
-  for (const Recommendation& other : good)
-    if (better(other, best)) best = other;
-  return best;
+  if (const Recommendation* found = pick(good)) return *found;
+  const std::vector<Choice> all = choices_of(results);
+  if (std::any_of(all.begin(), all.end(), [&](const Choice& choice) { return has_criterion(choice, results); }))
+    none.outcome = Outcome::none_holds;
+  return none;
 }
 
 }  // namespace
@@ -143,30 +83,104 @@ bool meets(const PointRecord& point, const BoundResult& bound, std::optional<dou
          (!bound.min || one >= *bound.min);
 }
 
+std::vector<double> curve_biases(const Choice& choice, double low, double high) {
+  std::vector<double> all{low, high};
+  for (const PointRecord* point : choice.points) {
+    const double per_depth = parameter_per_depth(*point);
+    all.push_back(std::clamp(point->curve->best_bias_depth * per_depth, low, high));
+    for (double depth : point->curve->bias_depth)
+      if (const double bias = depth * per_depth; bias > low && bias < high) all.push_back(bias);
+  }
+  return all;
+}
+
+std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& results,
+                                      const std::vector<BoundResult>& bounds) {
+  const std::optional<BiasWindow> window = joined_window(choice);
+  if (!window) return std::nullopt;
+  double low = window->low * bias_margin, high = window->high / bias_margin;
+  const bool narrow = low > high;
+  if (narrow) {  // as far from both ends as possible, and half of that way is left to shorten the number
+    const double middle = std::sqrt(window->low * window->high);
+    low = std::sqrt(window->low * middle), high = std::sqrt(middle * window->high);
+  }
+  struct Candidate {
+    double bias, error;
+  };
+  std::vector<Candidate> allowed;
+  double least = std::numeric_limits<double>::infinity();
+  for (double bias : curve_biases(choice, low, high)) {
+    const double error = joined_at(choice, results.info.accuracy, bias).worst;
+    if (!std::isfinite(error) || !meets_all(choice, bounds, bias)) continue;
+    allowed.push_back({bias, error});
+    least = std::min(least, error);
+  }
+  if (allowed.empty()) return std::nullopt;
+  // The factor by which the scene may change before the bias is no longer usable.
+  const auto distance = [&](double bias) {
+    return std::min(window->low > 0 ? bias / window->low : std::numeric_limits<double>::infinity(),
+                    bias > 0 ? window->high / bias : std::numeric_limits<double>::infinity());
+  };
+  std::optional<double> best;
+  for (const auto& [bias, error] : allowed)
+    if (error <= flat_error * least && (!best || distance(bias) > distance(*best))) best = bias;
+  double value = short_decimal(*best, low, high);
+  if (value != *best && !meets_all(choice, bounds, value)) value = *best;
+  const PointRecord& first = choice.first();
+  return BiasChoice{first.curve->parameter, setting_of(first, "bias.unit"), value, *window, narrow};
+}
+
+std::optional<Recommendation> good_choice(const Choice& choice, const Results& results) {
+  if (!has_criterion(choice, results)) return std::nullopt;
+  Recommendation candidate{Outcome::found, choice, joined(choice, results.info.cost).worst, {}, {}};
+  std::optional<double> bias;
+  if (has_curves(choice)) {
+    candidate.bias = choose_bias(choice, results, results.bounds);
+    if (!candidate.bias) return std::nullopt;
+    bias = candidate.bias->value;
+  } else if (!meets_all(choice, results.bounds, std::nullopt)) {
+    return std::nullopt;
+  }
+  candidate.error = joined_at(choice, results.info.accuracy, bias);
+  if (!std::isfinite(candidate.cost) || !std::isfinite(candidate.error.worst)) return std::nullopt;
+  return candidate;
+}
+
 std::vector<Recommendation> good_choices(const Results& results) {
   std::vector<Recommendation> good;
   for (const Choice& choice : choices_of(results))
-    if (has_criterion(choice, results))
-      if (std::optional<Recommendation> candidate = judged(choice, results)) good.push_back(std::move(*candidate));
+    if (std::optional<Recommendation> candidate = good_choice(choice, results)) good.push_back(std::move(*candidate));
   return good;
 }
 
-Recommendation recommend(const Results& results) {
-  const Recommendation cheapest = best_by(results, [](const auto& a, const auto& b) { return a.cost < b.cost; });
-  if (cheapest.outcome != Outcome::found) return cheapest;
-  const bool is_time = find_metric(results.info.cost).unit == "ms";
-  const double alike = (is_time ? 1 + time_tolerance : 1) * cheapest.cost;
-  return best_by(results, [&](const auto& a, const auto& b) {
+bool is_incomplete(const Results& results) {
+  return !results.info.over.empty() && static_cast<int64_t>(results.points.size()) < results.planned_points;
+}
+
+const Recommendation* cheapest(const std::vector<Recommendation>& good, const std::string& cost) {
+  const Recommendation* least = best_by(good, [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  if (!least) return nullptr;
+  const bool is_time = find_metric(cost).unit == "ms";
+  const double alike = (is_time ? 1 + time_tolerance : 1) * least->cost;
+  return best_by(good, [&](const auto& a, const auto& b) {
     const bool a_alike = a.cost <= alike, b_alike = b.cost <= alike;
     if (a_alike != b_alike) return a_alike;
     return a_alike ? a.error.worst < b.error.worst : a.cost < b.cost;
   });
 }
 
-Recommendation recommend_accurate(const Results& results) {
-  return best_by(results, [](const auto& a, const auto& b) {
+const Recommendation* most_accurate(const std::vector<Recommendation>& good) {
+  return best_by(good, [](const auto& a, const auto& b) {
     return std::make_pair(a.error.worst, a.cost) < std::make_pair(b.error.worst, b.cost);
   });
+}
+
+Recommendation recommend(const Results& results) {
+  return answered(results, [&](const auto& good) { return cheapest(good, results.info.cost); });
+}
+
+Recommendation recommend_accurate(const Results& results) {
+  return answered(results, [](const auto& good) { return most_accurate(good); });
 }
 
 }  // namespace noonmark

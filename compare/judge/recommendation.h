@@ -45,15 +45,36 @@ struct Recommendation {
 // Costs that do not depend on the machine are compared exactly.
 inline constexpr double time_tolerance = 0.1;
 
-// The choices that are good enough, each at its best bias, in order. A choice is good enough if every bound that applies
+// The bias for a choice with curves: within its joined window and the margin, as far from the ends as possible without
+// losing accuracy (flat_error; the error is RunInfo::accuracy, the largest over the conditions), and rounded to few digits
+// inside of it. At that bias every one of `bounds` holds that applies to the choice. Empty if the window is empty, or if
+// no bias in it meets the bounds.
+std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& results,
+                                      const std::vector<BoundResult>& bounds);
+
+// The biases at which a curve of the choice has an entry or its best bias, in bias.unit, within low ... high, and the
+// two ends. Every point must have a curve.
+std::vector<double> curve_biases(const Choice& choice, double low, double high);
+
+// The choice at its best bias, or nothing if it is not good enough or there is no criterion for it. A choice is good
+// enough if every bound that applies
 // to it holds under every condition and, if it has curves, the joined window is not empty. Bounds on values of the curve
-// are checked at the bias that would be set, other bounds as rendered. The bias is within the window and its margin, as
-// far from its ends as possible without losing accuracy (flat_error; the error is the largest over the conditions), and
-// rounded to few digits inside of it. A value that is not finite, also
-// a cost or an error, is never good enough.
+// are checked at the bias that would be set (choose_bias), other bounds as rendered. A value that is not finite, also a
+// cost or an error, is never good enough.
+std::optional<Recommendation> good_choice(const Choice& choice, const Results& results);
+
+// All choices that are good enough, in order.
 std::vector<Recommendation> good_choices(const Results& results);
 
-// Of these the one of least cost; among equal costs the one of least error, then the first.
+// Whether the points of some choices are not measured yet under every condition, so that nothing can be recommended.
+bool is_incomplete(const Results& results);
+
+// Of choices that are good enough the one of least cost, and the one of least error (as recommend and
+// recommend_accurate). cost: RunInfo::cost. Null if there is none.
+const Recommendation* cheapest(const std::vector<Recommendation>& good, const std::string& cost);
+const Recommendation* most_accurate(const std::vector<Recommendation>& good);
+
+// Of the good choices the one of least cost; among equal costs the one of least error, then the first.
 Recommendation recommend(const Results& results);
 // The one of least error; among equal errors the one of least cost.
 Recommendation recommend_accurate(const Results& results);

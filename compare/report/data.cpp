@@ -9,10 +9,10 @@
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
 #include "compare/report/cause_colors.h"
-#include "compare/report/findings.h"
 #include "compare/report/laws.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/rules.h"
+#include "compare/report/speed.h"
 #include "compare/report/text.h"
 #include "compare/store/curve_fields.h"
 #include "compare/store/metrics.h"
@@ -91,7 +91,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
   data["metrics"] = json::array();
   for (const Metric& metric : metrics_of(results.points))
     data["metrics"].push_back({{"name", metric.name},
-                               {"label", metric_label(metric.name)},
+                               {"label", error_label(metric.name)},
                                {"unit", metric.unit},
                                {"plotted", metric.plotted}});
   data["causes"] = json::array();
@@ -120,10 +120,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
     if (diagram.refused.empty()) data["phases"].push_back(phase_data(diagram));
   const Recommendation recommendation = recommend(results);
   data["recommended"] = recommendation.choice.points.empty() ? json() : json(recommendation.choice.first().id);
-  for (const char* which : {"error", "best_error"}) {
-    data["pareto"][which] = json::array();
-    for (size_t i : front_of(results, which)) data["pareto"][which].push_back(results.points[i].id);
-  }
+  data["speed"] = speed_data(results, shown);
   return data;
 }
 

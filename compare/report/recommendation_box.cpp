@@ -15,20 +15,11 @@
 namespace noonmark::report {
 namespace {
 
-// The swept settings that are not conditions.
-std::vector<std::string> choice_names(const Results& results) {
-  std::vector<std::string> names;
-  for (const std::string& name : results.info.swept)
-    if (std::find(results.info.over.begin(), results.info.over.end(), name) == results.info.over.end())
-      names.push_back(name);
-  return names;
-}
-
 // A bias in the unit that a user sets and, if all curves share one scale, in the others.
 std::string bias_of(const Recommendation& found, double value) {
   const PointRecord& first = found.choice.first();
   return found.choice.points.size() == 1 ? bias_phrase(value / parameter_per_depth(first), *first.curve)
-                                         : quantity(value, found.bias->unit == "texel" ? "texels" : found.bias->unit);
+                                         : bias_in_unit(value, found.bias->unit);
 }
 
 std::string point_links(const Choice& choice) {
@@ -54,9 +45,10 @@ std::string cost_and_error(const Recommendation& found, const Results& results) 
                        quantity(found.error.mean, find_metric(results.info.accuracy).unit),
                        quantity(found.error.p95, find_metric(results.info.accuracy).unit), found.error.at->id,
                        found.error.at->id);
-  return fmt::format("a cost of <b>{}</b> and an error of <b>{}</b>{}",
+  return fmt::format("a cost of <b>{}</b> and an error of <b>{}</b> (<i>{}</i>){}",
                      quantity(found.cost, find_metric(results.info.cost).unit),
-                     quantity(found.error.worst, find_metric(results.info.accuracy).unit), over);
+                     quantity(found.error.worst, find_metric(results.info.accuracy).unit),
+                     html(error_label(results.info.accuracy)), over);
 }
 
 }  // namespace
@@ -90,7 +82,7 @@ std::string recommendation_box(const Results& results) {
         "None has a usable bias window and meets every bound that applies to it. Sweep a higher resolution, a smaller "
         "extent or another part of the bias, or loosen a bound.</p></div>\n",
         results.info.over.empty() ? "" : " under all conditions");
-  const std::vector<std::string> chosen = choice_names(results);
+  const std::vector<std::string> chosen = choice_settings(results.info);
   std::string rows;
   for (const std::string& name : chosen)
     rows += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", html(name),
@@ -124,14 +116,15 @@ std::string recommendation_box(const Results& results) {
       "<div class=\"recommend held\"><h3>What to set</h3><p>The cheapest setting that is good enough{} has {}.{}</p>\n"
       "<dl>{}</dl>\n{}{}<p class=\"small\">It is {}: the least <i>{}</i> among the settings of which {}; among equal "
       "costs "
-      "the least <i>{}</i>.{}</p></div>\n",
+      "the least <i>{}</i>.{} <a href=\"#cost\">Speed against accuracy</a> compares by other costs and "
+      "errors.</p></div>\n",
       conditions_text(results, found.choice), cost_and_error(found, results), more, rows,
       causes.empty() ? "" : fmt::format("<p>Largest causes there, with the bias as rendered: {}.</p>\n", causes), other,
       point_links(found.choice), html(metric_label(results.info.cost)),
       !found.bias              ? "every bound holds"
       : results.bounds.empty() ? "the bias window is not empty"
                                : "the bias window is not empty and every bound holds at that bias",
-      html(metric_label(results.info.accuracy)),
+      html(error_label(results.info.accuracy)),
       find_metric(results.info.cost).unit == "ms"
           ? fmt::format(" Times within {:.0f}\u202f% count as equal.", 100 * time_tolerance)
           : " This cost is the same on every machine and in every run.");

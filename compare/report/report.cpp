@@ -13,6 +13,7 @@
 #include "compare/report/phase_section.h"
 #include "compare/report/sections.h"
 #include "compare/report/shown.h"
+#include "compare/report/speed_section.h"
 #include "compare/report/tables.h"
 #include "compare/report/text.h"
 
@@ -47,7 +48,7 @@ struct Section {
   const char* id;
   const char* label;  // in the page's head
   std::string (*html)(const Results&, const ShownPoints&, const ReadFile&);
-  bool compares;  // compares points with each other, which has no meaning across parts
+  bool compares;  // compares all points with each other, which has no meaning across parts
 };
 template <std::string (*make)(const Results&)>
 std::string plain(const Results& results, const ShownPoints&, const ReadFile&) {
@@ -66,7 +67,7 @@ constexpr Section all_sections[] = {
     {"bias", "Bias", by_point<report::bias_section>, true},
     {"sweep", "Resolution", by_point<report::sweep_section>, true},
     {"budget", "Causes", by_point<report::budget_section>, true},
-    {"cost", "Speed", by_point<report::cost_section>, true},
+    {"cost", "Speed", by_point<report::speed_section>, false},
     {"pictures", "Pictures", pictures, false},
     {"points", "Points", by_point<report::points_section>, false},
     {"meaning", "Meaning", plain<report::meaning_section>, false},
@@ -106,7 +107,8 @@ std::string render_report(const Results& results,
                             .sections = sections,
                             .data = report::chart_data(results, shown),
                             .causes = causes,
-                            .scripts = {"charts", "chart_bias", "chart_sweep", "chart_laws", "chart_phase", "page"},
+                            .scripts = {"charts", "chart_bias", "chart_sweep", "speed_marks", "chart_speed",
+                                        "chart_laws", "chart_phase", "page"},
                             .version = results.info.version});
 }
 

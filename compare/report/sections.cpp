@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
@@ -137,6 +136,8 @@ std::string sweep_section(const Results& results, const ShownPoints& shown) {
   if (!swept("map.resolution")) out += "<p class=\"small\">Resolution was not swept.</p>\n";
   if (!swept("map.extent_m") && !swept("map.extent_scale"))
     out += "<p class=\"small\">The frustum's extent was not swept.</p>\n";
+  out +=
+      "<p class=\"small\">The tables are of the error against the hard truth (R1). The charts offer the others.</p>\n";
   out += shown.note;
   size_t charts = 0;
   for (const std::string& name : results.info.swept) {
@@ -237,40 +238,6 @@ std::string budget_section(const Results& results, const ShownPoints& shown) {
       "<input type=\"radio\" name=\"budget\" id=\"budget-share\"><label for=\"budget-share\">By share</label>\n<div "
       "class=\"rows\">\n{}</div></div></section>\n",
       judged_rung(results.points.front()), shown.note, legend, results.points.size() > open_rows ? " many" : "", rows);
-}
-
-std::string cost_section(const Results& results, const ShownPoints& shown) {
-  const std::vector<size_t> front = front_of(results, "error");
-  const Metric& cost = find_metric(results.info.cost);
-  std::string out = "<section id=\"cost\"><h2>Speed against accuracy</h2>\n";
-  if (front.empty()) return out + "<p>No point has both a finite cost and a finite error.</p></section>\n";
-  out += "<p>These points are on the Pareto front: no other point is both cheaper and more accurate.</p>\n";
-  out += shown.note;
-  if (results.points.size() > 1)
-    out += chart_place("cost", "Error against cost. The line is the Pareto front.");
-  std::string rows;
-  std::unordered_set<int64_t> has_row;  // in "Every point", where the point's link leads
-  for (const PointRecord& point : shown.results.points) has_row.insert(point.id);
-  size_t count = 0;
-  for (size_t i : front) {
-    const PointRecord& point = results.points[i];
-    if (!has_row.contains(point.id)) continue;
-    ++count;
-    rows += fmt::format("<tr>{}<td>{}</td><td>{}</td><td>{}</td></tr>\n", swept_cells(results, point),
-                        cell(metric_of(point, results.info.cost), cost.unit), cell(metric_of(point, "error"), "fraction"),
-                        point.curve ? cell(point.curve->best_error, "fraction") : "–");
-  }
-  out += folded(
-      count == front.size()
-          ? "The Pareto front, with the bias as rendered"
-          : fmt::format("{} of the {} points of the Pareto front, with the bias as rendered", count, front.size()),
-      count,
-      "<div class=\"scroll\"><table class=\"numbers\"><thead><tr>" + swept_head(results) +
-          fmt::format("<th>{} <small>{}</small></th>", html(metric_label(cost.name)), head_unit(cost.unit)) +
-          "<th>Error <small>%</small></th><th>Error at best bias "
-          "<small>%</small></th></tr></thead><tbody>\n" +
-          rows + "</tbody></table></div>\n");
-  return out + "</section>\n";
 }
 
 }  // namespace noonmark::report

@@ -13,7 +13,6 @@ std::string bias_section(const Results& results, const ShownPoints& shown);
 // Error against resolution, extent and other swept numbers.
 std::string sweep_section(const Results& results, const ShownPoints& shown);
 std::string budget_section(const Results& results, const ShownPoints& shown);  // bars by cause
-std::string cost_section(const Results& results, const ShownPoints& shown);    // speed against accuracy
 
 // The figure that charts.js fills. It is hidden without JavaScript; the table below it has the same numbers.
 std::string chart_place(const std::string& name, const std::string& caption);

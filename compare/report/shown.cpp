@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "compare/judge/recommendation.h"
-#include "compare/report/findings.h"
 #include "compare/report/rules.h"
+#include "compare/report/speed.h"
 #include "compare/report/text.h"
 #include "compare/store/quantities.h"
 
@@ -19,7 +19,7 @@ namespace noonmark::report {
 namespace {
 
 // Indices of the points that the page speaks of, the most important first.
-std::vector<size_t> spoken_of(const Results& results) {
+std::vector<size_t> spoken_of(const Results& results, const std::vector<ComparedGroup>& groups) {
   std::vector<size_t> out;
   std::map<int64_t, size_t> place;
   for (size_t i = 0; i < results.points.size(); ++i) place.emplace(results.points[i].id, i);
@@ -40,8 +40,14 @@ std::vector<size_t> spoken_of(const Results& results) {
   const auto worst = std::max_element(results.points.begin(), results.points.end(),
                                       [&](const auto& a, const auto& b) { return error_of(a) < error_of(b); });
   add(worst->id);
-  for (const char* which : {"error", "best_error"})
-    for (size_t i : front_of(results, which)) out.push_back(i);
+  const std::string error = error_shown_first(results);
+  for (const ComparedGroup& group : groups) {
+    std::vector<size_t> named = front_of(group, results.info.cost, error);
+    for (const std::optional<size_t>& one : {group.recommended, group.accurate})
+      if (one) named.push_back(*one);
+    for (size_t i : named)
+      if (const PointRecord* at = value_of(group.choices[i], error).at) add(at->id);
+  }
   for (size_t i = 0; i < results.points.size(); ++i)
     if (!results.points[i].pictures.empty()) out.push_back(i);
   return out;
@@ -91,18 +97,10 @@ std::vector<size_t> smaller_grid(const Results& results, std::string& said) {
 
 }  // namespace
 
-std::vector<size_t> front_of(const Results& results, std::string_view which) {
-  std::vector<std::pair<double, double>> plane;
-  for (const PointRecord& point : results.points)
-    plane.emplace_back(metric_of(point, results.info.cost), which == "error" ? metric_of(point, "error")
-                                                            : point.curve    ? point.curve->best_error
-                                                                             : std::nan(""));
-  return pareto_front(plane);
-}
-
 ShownPoints shown_points(const Results& results) {
   const size_t count = results.points.size();
-  if (count <= most_whole_points) return {results, ""};
+  std::vector<ComparedGroup> groups = compared_groups(results);
+  if (count <= most_whole_points) return {results, "", std::move(groups)};
   std::string said;
   std::vector<size_t> even = smaller_grid(results, said);
   if (even.empty()) {
@@ -111,7 +109,7 @@ ShownPoints shown_points(const Results& results) {
   }
   std::set<size_t> chosen(even.begin(), even.end());
   const size_t from_the_grid = chosen.size();
-  for (size_t i : spoken_of(results)) {
+  for (size_t i : spoken_of(results, groups)) {
     if (chosen.size() == from_the_grid + max_marked_points) break;
     chosen.insert(i);
   }
@@ -121,11 +119,13 @@ ShownPoints shown_points(const Results& results) {
   out.planned_points = results.planned_points;
   out.bounds = results.bounds;
   out.laws = results.laws;
+  shown.groups = std::move(groups);
   for (size_t i : chosen) out.points.push_back(results.points[i]);
   shown.note = fmt::format(
       "<p class=\"note thinned\">Shown here: <b>{} of {} points</b>, so that the page opens quickly: {}, and the "
       "points "
-      "that this page names. Verdicts, findings, means and the Pareto front are of all points. All points are in "
+      "that this page names. Verdicts, findings, means and the Pareto front in the table are of all points. All points "
+      "are in "
       "<code>results.csv</code> and <code>results.sqlite</code> beside this page.</p>\n",
       chosen.size(), count, said.empty() ? "evenly chosen points of the sweep" : said);
   return shown;

@@ -7,7 +7,9 @@
 //   html += shown.note;                                        // empty if every point is shown
 #pragma once
 #include <string>
+#include <vector>
 
+#include "compare/judge/tradeoff.h"
 #include "compare/store/records.h"
 
 namespace noonmark::report {
@@ -23,6 +25,8 @@ inline constexpr size_t max_marked_points = 150;
 struct ShownPoints {
   Results results;   // the same results with the shown points only, in the same order
   std::string note;  // HTML: how many of how many, how they were chosen, and where all points are
+  // All choices, also those that are not shown. They refer to the points that were given to shown_points().
+  std::vector<ComparedGroup> groups;
 };
 
 // A large sweep is thinned to a smaller grid: of the settings with the most values, some values are kept, evenly spaced
@@ -30,8 +34,5 @@ struct ShownPoints {
 // ones, the worst one, those of bounds and laws, the Pareto front, the first ones with pictures) are shown as well. If
 // the points are no grid (parts, an interrupted sweep), every n-th point is shown.
 ShownPoints shown_points(const Results& results);
-
-// The Pareto front of speed and accuracy, as indices of points. which: "error" or "best_error".
-std::vector<size_t> front_of(const Results& results, std::string_view which);
 
 }  // namespace noonmark::report

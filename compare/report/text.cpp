@@ -179,6 +179,10 @@ std::string bias_phrase(double depth, const BiasCurve& curve) {
                      number(depth * curve.m_per_depth), number(depth * curve.texels_per_depth));
 }
 
+std::string bias_in_unit(double value, const std::string& unit) {
+  return quantity(value, unit == "texel" ? "texels" : unit);
+}
+
 std::string metric_label(std::string_view name) {
   if (name == "peter_panning") return "Peter Panning";
   std::string label(name);
@@ -188,6 +192,14 @@ std::string metric_label(std::string_view name) {
   std::replace(label.begin(), label.end(), '_', ' ');
   if (!label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
   return label;
+}
+
+std::string error_label(std::string_view name) {
+  if (name == "error") return "Error against the hard truth";
+  if (name == "error_soft") return "Error against the light's size";
+  if (name == "aliasing_rms") return "Aliasing, root mean square";
+  if (name == "shaded_rmse") return "Shaded frame, root mean square error";
+  return metric_label(name);
 }
 
 }  // namespace noonmark::report

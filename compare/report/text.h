@@ -35,7 +35,11 @@ std::string settings_phrase(const PointRecord& point, const std::vector<std::str
 std::string rule_phrase(const Rule& rule);
 // "0.0021 depth = 0.0137 m = 0.7 texels"
 std::string bias_phrase(double depth, const BiasCurve& curve);
+// "0.7 texels". unit: the text of bias.unit.
+std::string bias_in_unit(double value, const std::string& unit);
 // "peter_panning" -> "Peter Panning". Other names get spaces for underscores and a capital first letter.
 std::string metric_label(std::string_view name);
+// As metric_label, but an error says what it is measured against: "Error against the light's size".
+std::string error_label(std::string_view name);
 
 }  // namespace noonmark::report

@@ -11,7 +11,8 @@ var state = {unit: 'depth', view: 'lines', id: null};
 var banded = ['error', 'acne', 'peter_panning', 'aliasing'];
 var series = ['acne', 'peter_panning', 'aliasing_dark', 'aliasing_light', 'coverage'];
 if (!curved.length) return;
-state.id = data.recommended !== null && kit.byId[data.recommended].curve ? data.recommended : curved[0].id;
+var recommended = kit.byId[data.recommended];
+state.id = recommended && recommended.curve ? recommended.id : curved[0].id;
 
 function factor(curve) {
   return state.unit === 'm' ? curve.m_per_depth : state.unit === 'texels' ? curve.texels_per_depth : 1;

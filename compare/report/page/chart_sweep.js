@@ -1,4 +1,4 @@
-// Error against each swept number, and speed against accuracy.
+// Error against each swept number.
 (function() {
 'use strict';
 var page = window.noonmarkPage, kit = page.kit, data = page.data;
@@ -12,8 +12,8 @@ function sweepChart(swept, index) {
   var others = data.swept.filter(function(s) {
     return s !== swept;
   }),
-      apart = kit.tellApart(others, false);
-  var measure = 'error';
+      apart = kit.tellApart(others);
+  var measure = data.speed.error;
   var self = kit.chart('sweep-' + index, function(width) {
     var unit = kit.measureUnit(measure), left = 64, right = 16, w = width - left - right,
         height = width < 520 ? 260 : 320, missing = 0;
@@ -166,8 +166,7 @@ function sweepChart(swept, index) {
           kit.measureScale(floor, height)
         ],
         axes: [
-          kit.measureAxis(floor, measure),
-          {
+          kit.measureAxis(floor, measure), {
             orient: 'bottom',
             scale: 'x',
             values: xs,
@@ -196,161 +195,4 @@ var index = 0;
 data.swept.forEach(function(s) {
   if (s.numeric && s.values.length > 1) sweepChart(s, ++index);
 });
-
-function costChart() {
-  var apart = kit.tellApart(data.swept, true), measure = 'error';
-  var self = kit.chart('cost', function(width) {
-    var left = 64, right = 16, w = width - left - right, height = width < 520 ? 280 : 380;
-    var rows = [];
-    data.points.filter(apart.kept).forEach(function(p) {
-      var cost = p.metrics[data.cost], v = kit.value(p, measure), look = apart.of(p);
-      if (kit.finite(cost) && kit.finite(v))
-        rows.push({
-          id: p.id,
-          x: cost * (kit.measureUnit(data.cost) === 'bytes' ? 1e-6 : 1),
-          v: v,
-          colour: look.colour,
-          shape: look.shape,
-          hollow: look.hollow,
-          front: data.pareto[measure].indexOf(p.id) >= 0,
-          best: p.id === data.recommended
-        });
-    });
-    var floor = kit.logFloor(rows.map(function(r) {
-      return r.v;
-    }));
-    self.plot.textContent = '';
-    if (!rows.length || !floor) {
-      self.plot.append(kit.make('p', {class: 'small'}, 'There is nothing to draw.'));
-      return null;
-    }
-    rows.forEach(function(r) {
-      r.y = r.v > 0 ? r.v : floor.zero;
-    });
-    var xs = rows.map(function(r) {
-      return r.x;
-    }),
-        low = Math.min.apply(null, xs), high = Math.max.apply(null, xs), logX = low > 0;
-    var front = data.pareto[measure]
-                    .map(function(id) {
-                      return rows.filter(function(r) {
-                        return r.id === id;
-                      })[0];
-                    })
-                    .filter(Boolean);
-    var edge = front.length ? front.concat([{x: high * 1.1, y: front[front.length - 1].y}]) : [];
-    return {
-      measure: measure,
-      spec: {
-        width: w,
-        height: height,
-        padding: {left: left, right: right, top: 8, bottom: 46},
-        autosize: 'none',
-        data: [{name: 'rows', values: rows}, {name: 'edge', values: edge}],
-        scales: [
-          {
-            name: 'x',
-            type: logX ? 'log' : 'linear',
-            zero: false,
-            domain: logX ? [low / 1.1, high * 1.1] : [0, high * 1.05 || 1],
-            range: [0, w]
-          },
-          kit.measureScale(floor, height)
-        ],
-        axes: [
-          kit.measureAxis(floor, measure),
-          {
-            orient: 'bottom',
-            scale: 'x',
-            values: logX ? kit.logTicks(low / 1.1, high * 1.1) : undefined,
-            labelOverlap: true,
-            title: kit.measureLabel(data.cost) + ' (' + (kit.measureUnit(data.cost) === 'bytes' ? 'MB' : kit.measureUnit(data.cost)) + ')',
-            encode: {labels: {update: {text: {signal: kit.axisLabel('')}}}}
-          }
-        ],
-        marks: [
-          {
-            type: 'line',
-            from: {data: 'edge'},
-            clip: true,
-            interactive: false,
-            encode: {
-              enter: {
-                x: {scale: 'x', field: 'x'},
-                y: {scale: 'y', field: 'y'},
-                interpolate: {value: 'step-after'},
-                stroke: {value: 'var(--ink)'},
-                strokeWidth: {value: 1.4},
-                strokeOpacity: {value: 0.55}
-              }
-            }
-          },
-          {
-            type: 'symbol',
-            from: {data: 'rows'},
-            encode: {
-              enter: {
-                x: {scale: 'x', field: 'x'},
-                y: {scale: 'y', field: 'y'},
-                shape: {field: 'shape'},
-                fill: {signal: 'datum.hollow ? \'var(--card)\' : datum.colour'},
-                opacity: {signal: 'datum.front || datum.best ? 1 : 0.6'},
-                stroke: {field: 'colour'},
-                strokeWidth: {value: 1.9}
-              },
-              update: {size: {signal: 'datum.front ? 105 : 55'}},
-              hover: {size: {value: 150}}
-            }
-          },
-          {
-            type: 'symbol',
-            from: {data: 'rows'},
-            interactive: false,
-            encode: {
-              enter: {
-                x: {scale: 'x', field: 'x'},
-                y: {scale: 'y', field: 'y'},
-                size: {signal: 'datum.best ? 330 : 0'},
-                fill: {value: 'transparent'},
-                stroke: {value: 'var(--good)'},
-                strokeWidth: {value: 2}
-              }
-            }
-          },
-          {
-            type: 'text',
-            from: {data: 'rows'},
-            interactive: false,
-            encode: {
-              enter: {
-                x: {scale: 'x', field: 'x'},
-                y: {scale: 'y', field: 'y'},
-                dy: {value: -16},
-                align: {value: 'center'},
-                text: {signal: 'datum.best ? \'recommended\' : \'\''},
-                fill: {value: 'var(--good)'},
-                fontWeight: {value: 600}
-              }
-            }
-          }
-        ].concat(kit.zeroLabel(floor))
-      }
-    };
-  });
-  if (!self) return;
-  var both = kit.measures().filter(function(m) {
-    return m === 'error' || m === 'best_error';
-  });
-  self.controls.append(kit.segments(
-      both.map(function(m) {
-        return [m, m === 'error' ? 'Bias as rendered' : 'Best bias'];
-      }),
-      measure, function(m) {
-        measure = m;
-        self.draw();
-      }));
-  apart.filters(self);
-  apart.legend(self.legend);
-}
-costChart();
 })();

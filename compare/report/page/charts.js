@@ -67,10 +67,11 @@ function unique(list) {
     return list.indexOf(v) === i;
   });
 }
-// The quantities that can be drawn against a sweep: the error, the error at the best bias, the metrics that the
+// The quantities that can be drawn against a sweep: the errors, the error at the best bias, the metrics that the
 // experiment asks to plot, then the others.
 function measures() {
-  var list = ['error'].concat(
+  var list = [data.speed.error].concat(
+      data.speed.errors,
       data.points.some(function(p) {
         return p.curve;
       }) ?
@@ -177,7 +178,7 @@ function chart(id, build) {
       view.addEventListener('mousemove', function(event, item) {
         var d = item && item.datum;
         if (d && d.id !== undefined)
-          pointTip(event, d, built.measure);
+          built.tip ? built.tip(event, d) : pointTip(event, d, built.measure);
         else if (!built.hover)
           hideTip();
         plot.style.cursor = d && d.id !== undefined ? 'pointer' : '';
@@ -237,8 +238,8 @@ function segments(options, chosen, changed) {
   return box;
 }
 
-// ---- how swept settings are distinguished: the first by colour, the second by shape (for lines also by dashes), the
-// third, for points only, by hollow signs. A picker chooses the values of any further settings.
+// ---- how swept settings are distinguished by the lines of a chart: the first by colour, the second by dashes and the
+// shape of the points. A picker chooses the values of any further settings.
 var categorical =
     ['peter_panning', 'acne', 'coverage_light', 'precision', 'aliasing_dark', 'aliasing_light', 'coverage_dark'];
 var dashes = [[1, 0], [7, 4], [2, 3], [9, 3, 2, 3], [12, 4], [1, 2]],
@@ -251,7 +252,7 @@ var shapePaths = {
   cross: 'M11.3 0h3.4v3.3h3.3v3.4h-3.3v3.3h-3.4v-3.3h-3.3v-3.4h3.3z',
   'triangle-down': 'M13 10l5-9h-10z'
 };
-function tellApart(names, points) {
+function tellApart(names) {
   // Numbers get the ordered colours, choices get the shapes.
   var several = names
                     .filter(function(s) {
@@ -260,8 +261,7 @@ function tellApart(names, points) {
                     .sort(function(a, b) {
                       return b.numeric - a.numeric;
                     });
-  var first = several[0], second = several[1], third = points ? several[2] : undefined,
-      rest = several.slice(points ? 3 : 2), chosen = {};
+  var first = several[0], second = several[1], rest = several.slice(2), chosen = {};
   function colour(s, v) {
     var i = s.values.indexOf(v), n = s.values.length;
     return s.numeric ? 'var(--q' + Math.round(i * 6 / (n - 1)) + ')' :
@@ -270,16 +270,13 @@ function tellApart(names, points) {
   function index(s, p) {
     return s ? s.values.indexOf(p.settings[s.name]) : 0;
   }
-  function key(c, dash, shape, hollow) {
+  function key(c, dash, shape) {
     var e = make('span');
-    e.innerHTML = '<svg viewBox="0 0 26 10" aria-hidden="true">' +
-        (points ? '' :
-                  '<line x1="0" x2="26" y1="5" y2="5" stroke="' + c + '" stroke-width="2" stroke-dasharray="' +
-                 dash.join(' ') + '"/>') +
-        (points || shape !== 'circle' ?
-             '<path d="' + shapePaths[shape] + '" fill="' + (hollow ? 'none' : c) + '" stroke="' + c +
-                 '" stroke-width="1.4"' + (points ? '' : ' transform="translate(5.2 2) scale(.6)"') + '/>' :
-             '') +
+    e.innerHTML = '<svg viewBox="0 0 26 10" aria-hidden="true"><line x1="0" x2="26" y1="5" y2="5" stroke="' + c +
+        '" stroke-width="2" stroke-dasharray="' + dash.join(' ') + '"/>' +
+        (shape !== 'circle' ? '<path d="' + shapePaths[shape] + '" fill="' + c + '" stroke="' + c +
+                 '" stroke-width="1.4" transform="translate(5.2 2) scale(.6)"/>' :
+                              '') +
         '</svg>';
     return e;
   }
@@ -290,7 +287,6 @@ function tellApart(names, points) {
         colour: first ? colour(first, p.settings[first.name]) : 'var(--ink)',
         dash: dashes[j % dashes.length],
         shape: shapes[j % shapes.length],
-        hollow: index(third, p) > 0,
         line: names
                   .map(function(s) {
                     return p.settings[s.name];
@@ -317,14 +313,13 @@ function tellApart(names, points) {
     },
     legend: function(box) {
       box.textContent = '';
-      [first, second, third].forEach(function(s, k) {
+      [first, second].forEach(function(s, k) {
         if (!s) return;
         box.append(
             make('span', {class: 'title'}, s.label + (s.unit && s.unit !== 'bias.unit' ? ' (' + s.unit + ')' : '')));
         s.values.forEach(function(v, i) {
           var e = k === 0 ? key(colour(s, v), [1, 0], 'circle') :
-                            key('var(--soft)', k === 1 ? dashes[i % dashes.length] : [1, 0],
-                                k === 1 ? shapes[i % shapes.length] : 'circle', k === 2 && i > 0);
+                            key('var(--soft)', dashes[i % dashes.length], shapes[i % shapes.length]);
           e.append(v);
           box.append(e);
         });

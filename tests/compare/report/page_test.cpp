@@ -15,6 +15,7 @@
 
 #include "compare/report/phase.h"
 #include "compare/report/report.h"
+#include "compare/report/speed.h"
 #include "scenes/file.h"
 #include "tests/compare/report/sample.h"
 #include "tests/support/sample_results.h"
@@ -95,8 +96,7 @@ TEST_F(Page, ChartsHaveTheirMarks) {
     EXPECT_EQ(marks(sweep, "symbol"), 31) << sweep;
     EXPECT_GE(marks(sweep, "line"), 8) << sweep << ": there must be a line for each of the other settings, and a guide";
   }
-  EXPECT_GE(marks("chart-cost", "symbol"), 31);
-  for (const char* chart : {"chart-sweep-1", "chart-sweep-2", "chart-cost"})
+  for (const char* chart : {"chart-sweep-1", "chart-sweep-2"})
     EXPECT_GE(marks(chart, "zero"), 1) << chart << ": an error of 0 needs a mark of its own on a logarithmic axis";
   EXPECT_EQ(marks("chart-bias", "line"), 6) << "the error and the causes that are not 0";
   EXPECT_EQ(marks("chart-bias", "area"), 0);
@@ -171,6 +171,72 @@ TEST_F(BandsPage, TheBiasChartDrawsTheBandsOfAllPlacements) {
   EXPECT_NE(bias["facts"].get<std::string>().find("At every one of 64 placements of the grid from "), std::string::npos)
       << bias["facts"];
   EXPECT_NE(bias["tip"].get<std::string>().find("Over 64 placements"), std::string::npos) << bias["tip"];
+}
+
+// Two groups of choices. One choice has no curve and no error, one has no usable window.
+class SpeedPage : public Browser {
+ protected:
+  void SetUp() override {
+    Results results = sample_results();
+    for (size_t i = 28; i < 32; ++i) results.points[i].settings["scene.name"] = "plane";
+    results.points[0].curve.reset();
+    results.points[0].metrics["error"] = 0;
+    results.points[0].metrics["map_ms"] = 100;  // the most, so that others are on the front of map_ms too
+    for (auto end : {&BiasCurve::window_min_depth, &BiasCurve::window_max_depth})
+      (*results.points[18].curve).*end = std::nullopt;
+    results.info.swept.push_back("scene.name");
+    for (size_t i = 0; i < 32; ++i)
+      has_window_ += i > 0 && i < 28 && results.points[i].curve->window_min_depth.has_value();
+    for (PointRecord& point : results.points) point.metrics["traffic_bytes"] = 1e6;  // all marks side by side
+    const ComparedGroup group = compared_groups(results).at(0);
+    const report::ChoiceNames names(results);
+    for (size_t i : report::front_of(group, "map_ms", "error"))
+      front_ += (front_.empty() ? "" : "; ") + names.of(group.choices[i].choice);
+    open(render_report(results, sample_picture), "speed_probe.js");
+  }
+  int has_window_ = 0;
+  std::string front_;  // from cheap to accurate, if the cost is map_ms
+};
+
+TEST_F(SpeedPage, DrawsEachChoiceAtItsBestBias) {
+  const json& first = saw_["first"];
+  EXPECT_EQ(first["choices"], 28);
+  EXPECT_EQ(first["bars"], has_window_) << "a bar for each usable window";
+  EXPECT_EQ(first["crosses"], 27 - has_window_) << "a cross for each empty window";
+  EXPECT_EQ(first["rings"], 1);
+  EXPECT_EQ(first["labels"], 1);
+  EXPECT_EQ(first["zeros"], 1) << "an error of 0 needs a mark of its own on a logarithmic axis";
+  EXPECT_EQ(first["titles"], json({"Error against the hard truth", "Traffic bytes (MB)"}));
+  EXPECT_EQ(first["shapes"], 3) << "two filters and the cross";
+  EXPECT_TRUE(saw_["apart"]) << "marks of equal cost must stand side by side";
+  EXPECT_EQ(saw_["words"].get<std::string>().find("Recommended: "), 0u) << saw_["words"];
+  for (const char* text : {"at no usable bias", "Largest cause", "filter", "box", "recommended"})
+    EXPECT_NE(saw_["legend"].get<std::string>().find(text), std::string::npos) << text;
+  EXPECT_TRUE(saw_["width"]);
+}
+
+TEST_F(SpeedPage, LetsTheReaderChooseAxesGroupAndShape) {
+  EXPECT_EQ(saw_["options"], (json{{"compare", 2}, {"cost", 4}, {"error", 2}, {"shape", 3}}));
+  const json& soft = saw_["soft"];
+  EXPECT_EQ(soft["titles"][0], "Error against the light's size");
+  EXPECT_EQ(soft["bars"], 0) << "the light has a size, so the curve does not give this error";
+  EXPECT_NE(saw_["soft_note"].get<std::string>().find("as rendered"), std::string::npos) << saw_["soft_note"];
+  EXPECT_EQ(saw_["map_ms"]["titles"][1], "Map (ms)");
+  EXPECT_NE(saw_["map_ms_note"].get<std::string>().find("from the cheapest: " + front_ + "."), std::string::npos)
+      << "the page's front must be that of front_of(): " << front_ << "\n"
+      << saw_["map_ms_note"];
+  EXPECT_EQ(saw_["by_resolution"]["choices"], 28);
+  EXPECT_EQ(saw_["by_resolution"]["shapes"], 5) << "four extents and the cross";
+  EXPECT_EQ(saw_["other"]["choices"], 4);
+}
+
+TEST_F(SpeedPage, SelectsWithClicksAndKeys) {
+  EXPECT_EQ(saw_["clicked"], json({18}));
+  EXPECT_EQ(saw_["chosen_rings"], 1);
+  EXPECT_EQ(saw_["picture"], 1) << "point 18 has pictures";
+  EXPECT_NE(saw_["tip"].get<std::string>().find("no bias is good enough"), std::string::npos) << saw_["tip"];
+  EXPECT_NE(saw_["clicked_words"].get<std::string>().find("no bias is good enough"), std::string::npos);
+  EXPECT_EQ(saw_["by_key"], json({saw_["next"]}));
 }
 
 class PhasePage : public Browser {

@@ -1,0 +1,128 @@
+#include "compare/judge/tradeoff.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/judge/curve_reading.h"
+#include "compare/store/quantities.h"
+
+namespace noonmark {
+namespace {
+
+using Window = ComparedChoice::Window;
+
+// Of an empty window: the least bias of least error, among the entries of the curves.
+double least_wrong_bias(const Choice& choice, const std::string& metric) {
+  double largest = 0;
+  for (const PointRecord* point : choice.points)
+    for (double depth : point->curve->bias_depth) largest = std::max(largest, depth * parameter_per_depth(*point));
+  double best = 0, least = std::numeric_limits<double>::infinity();
+  for (double bias : curve_biases(choice, 0, largest)) {
+    const double error = joined_at(choice, metric, bias).worst;  // NaN is never less
+    if (error < least || (error == least && bias < best)) best = bias, least = error;
+  }
+  return best;
+}
+
+// The bias for a choice whose window is not empty, but which is not good enough.
+double bias_without_bounds(const Choice& choice, const Results& results, const BiasWindow& window) {
+  if (const std::optional<BiasChoice> chosen = choose_bias(choice, results, {})) return chosen->value;
+  return std::sqrt(window.low * window.high);  // no error of the curve is finite
+}
+
+bool was_rendered_in_window(const Choice& choice) {
+  return std::all_of(choice.points.begin(), choice.points.end(), [](const PointRecord* point) {
+    const std::optional<double> set = bias_as_set(*point);
+    const std::optional<DepthWindow> window = usable_window(*point->curve);
+    return set && window && *set >= window->low && *set <= window->high;
+  });
+}
+
+// Where the recommendation stands among the choices of a group.
+std::optional<size_t> place_of(const Recommendation* found, const std::vector<ComparedChoice>& choices) {
+  for (size_t i = 0; found && i < choices.size(); ++i)
+    if (&choices[i].choice.first() == &found->choice.first()) return i;
+  return std::nullopt;
+}
+
+}  // namespace
+
+ComparedChoice at_best_bias(const Choice& choice, const Results& results) {
+  ComparedChoice one;
+  one.choice = choice, one.usable = joined_window(choice), one.good = good_choice(choice, results);
+  if (!has_curves(choice)) return one;
+  one.window = one.usable ? Window::usable : Window::empty;
+  one.bias = one.good     ? one.good->bias->value
+             : one.usable ? bias_without_bounds(choice, results, *one.usable)
+                          : least_wrong_bias(choice, results.info.accuracy);
+  return one;
+}
+
+std::vector<ComparedGroup> compared_groups(const Results& results) {
+  std::vector<ComparedGroup> groups;
+  for (const std::vector<Choice>& choices : comparable_choices(results)) {
+    ComparedGroup group;
+    std::vector<Recommendation> good;
+    for (const Choice& choice : choices) {
+      group.choices.push_back(at_best_bias(choice, results));
+      if (group.choices.back().good) good.push_back(*group.choices.back().good);
+    }
+    if (!is_incomplete(results)) {
+      group.recommended = place_of(cheapest(good, results.info.cost), group.choices);
+      group.accurate = place_of(most_accurate(good), group.choices);
+    }
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+Joined value_of(const ComparedChoice& one, const std::string& metric) {
+  return joined_at(one.choice, metric, one.bias);
+}
+
+bool follows_bias(const ComparedChoice& one, const std::string& metric) {
+  return one.window != Window::no_curve &&
+         std::all_of(one.choice.points.begin(), one.choice.points.end(),
+                     [&](const PointRecord* point) { return has_curve_of(*point, metric); });
+}
+
+bool counts_by(const ComparedChoice& one, const std::string& metric) {
+  switch (one.window) {
+    case Window::no_curve:
+      return true;
+    case Window::empty:
+      return false;
+    case Window::usable:
+      break;
+  }
+  return follows_bias(one, metric) || was_rendered_in_window(one.choice);
+}
+
+std::optional<Span> span_over_window(const ComparedChoice& one, const std::string& metric) {
+  if (!one.usable || !follows_bias(one, metric)) return std::nullopt;
+  Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::vector<double> biases = curve_biases(one.choice, one.usable->low, one.usable->high);
+  biases.push_back(*one.bias);  // so that the value itself lies within the span
+  for (double bias : biases) {
+    const double value = joined_at(one.choice, metric, bias).worst;
+    if (!std::isfinite(value)) return std::nullopt;
+    span = {std::min(span.least, value), std::max(span.largest, value)};
+  }
+  return span;
+}
+
+std::string dominating_cause(const ComparedChoice& one) {
+  std::vector<std::string> names{"acne",   "peter_panning", "aliasing",  "coverage",
+                                 "filter", "displacement",  "precision", "undecided"};
+  for (const PointRecord* point : one.choice.points)
+    for (const RungCause& cause : point->causes)
+      if (std::find(names.begin(), names.end(), cause.name) == names.end()) names.push_back(cause.name);
+  std::string largest;
+  double share = 0;
+  for (const std::string& name : names)
+    if (const double mean = value_of(one, name).mean; mean > share) largest = name, share = mean;
+  return largest;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,64 @@
+// Cost against error: every choice at its best bias, so that none looks good by a lucky one.
+//
+//   for (const ComparedGroup& group : compared_groups(results))
+//     for (const ComparedChoice& one : group.choices) draw(value_of(one, "map_bytes").worst, value_of(one, "error").worst);
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/judge/choices.h"
+#include "compare/judge/recommendation.h"
+#include "compare/store/records.h"
+
+namespace noonmark {
+
+struct ComparedChoice {
+  enum class Window {
+    usable,
+    empty,     // no bias is usable under every condition
+    no_curve,  // some point has no curve, so the choice stands as it was rendered
+  };
+  Choice choice;
+  Window window = Window::no_curve;
+  // In bias.unit. Window usable: that of good_choice(); if no bias of the window meets the bounds, that of choose_bias()
+  // without bounds. Window empty: that of the least error (RunInfo::accuracy), of several the least bias. No curve: none.
+  std::optional<double> bias;
+  std::optional<BiasWindow> usable;    // the joined window
+  std::optional<Recommendation> good;  // the choice is good enough
+};
+ComparedChoice at_best_bias(const Choice& choice, const Results& results);
+
+// Choices that can be compared (comparable_choices). The indices are empty if no choice is good enough, or if the sweep
+// is incomplete (is_incomplete).
+struct ComparedGroup {
+  std::vector<ComparedChoice> choices;
+  std::optional<size_t> recommended;  // cheapest() of those that are good enough
+  std::optional<size_t> accurate;     // most_accurate() of them
+};
+std::vector<ComparedGroup> compared_groups(const Results& results);
+
+// A metric at the bias of the choice, joined over its conditions. If it does not follow the bias: as rendered.
+Joined value_of(const ComparedChoice& one, const std::string& metric);
+
+// Whether the curve of every point gives the metric at any bias.
+bool follows_bias(const ComparedChoice& one, const std::string& metric);
+
+// Whether the metric's value says something about a usable bias, so that the choice can be better than others by it. It
+// does not if the window is empty, nor if the value is as rendered and a point was rendered with a bias outside its
+// window. A choice without curves has no window that could deny it.
+bool counts_by(const ComparedChoice& one, const std::string& metric);
+
+// The least and the largest value over the usable window, of the largest over the conditions. Of one condition both are
+// exact for the stored curve, because it is linear between its entries; of several the least is that over all entries.
+// Empty without a window, if the metric does not follow the bias, or if a value is not finite.
+struct Span {
+  double least = 0, largest = 0;
+};
+std::optional<Span> span_over_window(const ComparedChoice& one, const std::string& metric);
+
+// The cause with the largest mean over the conditions, at the bias of the choice; causes that do not follow the bias as
+// rendered. Dark and light aliasing, and dark and light coverage, count together. Empty if no cause is above 0.
+std::string dominating_cause(const ComparedChoice& one);
+
+}  // namespace noonmark

@@ -1,0 +1,308 @@
+// Cost against error: one mark for each choice at its best bias, a bar over its usable window, and the Pareto front.
+(function() {
+'use strict';
+var page = window.noonmarkPage, kit = page.kit, data = page.data, speed = data.speed;
+var shapes = kit.speed.shapes;
+if (!speed.groups.length || !speed.costs.length || !speed.errors.length) return;
+var state = {group: speed.group, cost: speed.costs[0], error: speed.error, property: 0, id: null};
+
+function group() {
+  return speed.groups[state.group];
+}
+function isBytes() {
+  return kit.measureUnit(state.cost) === 'bytes';
+}
+function windowText(entry) {
+  return entry.window === 'empty' ? 'none: no bias is good enough' :
+      entry.window === 'no_curve' ? 'no bias curve' :
+                                    entry.bias.from + ' … ' + entry.bias.to;
+}
+
+// The drawn choices of the group, with x and y in the units of the axes.
+function rowsOf(entries) {
+  var property = group().properties[state.property];
+  return entries
+      .map(function(entry) {
+        var of = entry.errors[state.error], value = property ? entry.is[state.property] : 0;
+        return {
+          id: entry.id,
+          entry: entry,
+          x: entry.costs[state.cost][0] * (isBytes() ? 1e-6 : 1),
+          v: of.v[0],
+          ok: kit.finite(entry.costs[state.cost][0]) && kit.finite(of.v[0]),
+          counts: of.counts,
+          span: of.span && kit.finite(of.span[0]) && kit.finite(of.span[1]) ? of.span : null,
+          // Blur by design is hollow, so that it does not depend on the grey alone.
+          fill: entry.cause === 'filter' ? 'var(--card)' :
+              entry.cause                ? 'var(--c-' + entry.cause + ')' :
+                                           'var(--grid)',
+          shape: !of.counts         ? kit.speed.cross :
+              value < shapes.length ? shapes[value] :
+                                      kit.speed.disc,
+          number: of.counts && value >= shapes.length ? String(value + 1) : ''
+        };
+      })
+      .filter(function(r) {
+        return r.ok;
+      });
+}
+
+function tip(event, row) {
+  var e = row.entry, of = e.errors[state.error], cost = e.costs[state.cost], many = e.conditions > 1;
+  function both(v, measure) {
+    var unit = kit.measureUnit(measure);
+    return kit.shown(v[0], unit) + (many ? ' (mean ' + kit.shown(v[1], unit) + ')' : '');
+  }
+  var unit = kit.measureUnit(state.error), rows = [
+    [kit.measureLabel(state.cost), both(cost, state.cost)], [kit.measureLabel(state.error), both(of.v, state.error)]
+  ];
+  if (row.span)
+    rows.push(['over the usable window', kit.shown(of.span[0], unit) + ' … ' + kit.shown(of.span[1], unit)]);
+  if (e.window !== 'no_curve')
+    rows.push([of.at_bias ? 'at ' + e.bias.parameter : 'best ' + e.bias.parameter, e.bias.value]);
+  rows.push(['usable window', windowText(e)]);
+  if (!of.at_bias) rows.push(['this error', 'with the bias as rendered']);
+  if (e.cause) rows.push(['largest cause', kit.causeLabel[e.cause] || e.cause, e.cause]);
+  rows.push(['good enough', e.good ? 'yes' : e.window === 'no_curve' ? 'no, or no criterion' : 'no']);
+  if (many) rows.push(['conditions', String(e.conditions)]);
+  kit.showTip(event, rows, e.name);
+}
+
+var shownRows = [];
+var self = kit.chart('cost', function(width) {
+  var left = 64, right = 12, w = width - left - right, height = width < 520 ? 300 : 420;
+  var entries = group().entries, rows = rowsOf(entries), all = [];
+  shownRows = rows;
+  rows.forEach(function(r) {
+    all = all.concat([r.v], r.span || []);
+  });
+  var floor = kit.logFloor(all);
+  tell(rows, entries.length - rows.length);
+  self.plot.textContent = '';
+  if (!rows.length || !floor) {
+    self.plot.append(kit.make(
+        'p', {class: 'small'}, rows.length ? 'The value is 0 at every choice.' : 'No choice has finite values.'));
+    return null;
+  }
+  function height_of(v) {
+    return v > 0 ? v : floor.zero;
+  }
+  var x = kit.speed.spread(rows, w);
+  rows.forEach(function(r) {
+    r.y = height_of(r.v);
+    if (r.span) r.bottom = height_of(r.span[0]), r.top = height_of(r.span[1]);
+  });
+  var front = kit.speed.frontOf(rows), last = front[front.length - 1];
+  function only(test) {
+    return rows.filter(test);
+  }
+  return {
+    tip: tip,
+    spec: {
+      width: w,
+      height: height,
+      padding: {left: left, right: right, top: 10, bottom: 46},
+      autosize: 'none',
+      data: [
+        {name: 'rows', values: rows}, {
+          name: 'spans',
+          values: only(function(r) {
+            return r.span;
+          })
+        },
+        {name: 'front', values: last ? front.concat([{px: w, y: last.y}]) : []}, {
+          name: 'best',
+          values: only(function(r) {
+            return r.entry.recommended;
+          })
+        },
+        {
+          name: 'chosen',
+          values: only(function(r) {
+            return r.id === state.id;
+          })
+        }
+      ],
+      scales: [x, kit.measureScale(floor, height)],
+      axes: [
+        kit.measureAxis(floor, state.error), {
+          orient: 'bottom',
+          scale: 'x',
+          values: x.type === 'log' ? kit.logTicks(x.domain[0], x.domain[1]) : undefined,
+          labelOverlap: true,
+          title: kit.measureLabel(state.cost) + ' (' +
+              (isBytes()                                   ? 'MB' :
+                   kit.measureUnit(state.cost) === 'count' ? 'number' :
+                                                             kit.measureUnit(state.cost)) +
+              ')',
+          encode: {labels: {update: {text: {signal: kit.axisLabel('')}}}}
+        }
+      ],
+      marks: kit.speed.marksOf(w, floor)
+    }
+  };
+});
+if (!self) return;
+
+// ---- around the chart: what it says in words, its legend, the picture of a choice
+var words = kit.make('p', {class: 'facts', 'aria-live': 'polite'}), side = kit.make('figure', {class: 'beside'}),
+    notes = kit.make('p', {class: 'small'});
+self.plot.after(words);
+self.plot.before(notes);
+self.plot.before(side);
+
+function describe(entry) {
+  var of = entry.errors[state.error];
+  return [
+    kit.make('b', {}, entry.name),
+    ': ' + kit.shown(entry.costs[state.cost][0], kit.measureUnit(state.cost)) + ', ' +
+        kit.measureLabel(state.error).toLowerCase() + ' ' + kit.shown(of.v[0], kit.measureUnit(state.error)) +
+        (of.at_bias ? ' at ' + entry.bias.parameter + ' ' + entry.bias.value : ' as rendered') +
+        '; usable window: ' + windowText(entry) + '.'
+  ];
+}
+function entryOf(id) {
+  return group().entries.filter(function(e) {
+    return e.points.indexOf(id) >= 0;
+  })[0];
+}
+// The choice that is described: the selected one, otherwise the recommended one.
+function described() {
+  return entryOf(state.id) || group().entries.filter(function(e) {
+    return e.recommended;
+  })[0];
+}
+// The picture first, because it takes width from the plot.
+function redraw() {
+  picture(described());
+  self.draw();
+}
+function tell(rows, missing) {
+  var g = group(), front = kit.speed.frontOf(rows), chosen = described(), text = [];
+  if (g.entries.length < g.choices)
+    text.push(g.entries.length + ' of ' + g.choices + ' choices are drawn; the front is of these.');
+  if (missing) text.push(missing + ' not finite, left out.');
+  var rendered = rows.filter(function(r) {
+    return r.entry.window !== 'no_curve' && !r.entry.errors[state.error].at_bias;
+  });
+  if (rendered.length)
+    text.push(
+        'This error has no bias curve, so it is that of the bias as rendered. Choices rendered outside their usable window are crosses.');
+  if (front.length)
+    text.push(
+        'On the front, from the cheapest: ' +
+        front.slice(0, 5)
+            .map(function(r) {
+              return r.entry.name;
+            })
+            .join('; ') +
+        (front.length > 5 ? ' … (' + front.length + ')' : '') + '.');
+  notes.textContent = text.join(' ');
+  words.textContent = '';
+  if (chosen) words.append.apply(words, (chosen.recommended ? ['Recommended: '] : []).concat(describe(chosen)));
+}
+// The picture that the page has of one of the choice's points.
+function picture(entry) {
+  side.textContent = '';
+  var found = null;
+  ((entry && entry.points) || []).some(function(id) {
+    return ['shaded', 'classes', 'map', 'truth'].some(function(name) {
+      found = document.querySelector('.pictures[data-point="' + id + '"] figure[data-name="' + name + '"] img');
+      return found;
+    });
+  });
+  if (found) side.append(kit.make('img', {src: found.src, alt: found.alt}), kit.make('figcaption', {}, found.alt));
+}
+
+function symbol(inner, text) {
+  var e = kit.make('span');
+  e.innerHTML = '<svg viewBox="0 0 26 12" aria-hidden="true">' + inner + '</svg>';
+  e.append(text);
+  self.legend.append(e);
+}
+function path(d, fill, stroke) {
+  return '<path d="' + d + '" transform="translate(13 6) scale(5)" fill="' + fill + '" stroke="' + stroke +
+      '" stroke-width=".22"/>';
+}
+function legend() {
+  self.legend.textContent = '';
+  var g = group(), property = g.properties[state.property], causes = {};
+  g.entries.forEach(function(e) {
+    if (e.cause) causes[e.cause] = true;
+  });
+  self.legend.append(kit.make('span', {class: 'title'}, 'Largest cause'));
+  Object.keys(causes).forEach(function(c) {
+    symbol(
+        path(shapes[0], c === 'filter' ? 'var(--card)' : 'var(--c-' + c + ')', 'var(--ink)'), kit.causeLabel[c] || c);
+  });
+  if (property) {
+    self.legend.append(kit.make('span', {class: 'title'}, property.label));
+    property.values.forEach(function(v, i) {
+      if (i < shapes.length)
+        symbol(path(shapes[i], 'var(--soft)', 'none'), v);
+      else
+        symbol(
+            '<text x="13" y="9.5" text-anchor="middle" font-size="10" font-weight="700" fill="var(--ink)">' + (i + 1) +
+                '</text>',
+            v);
+    });
+  }
+  symbol(path(kit.speed.cross, 'none', 'var(--bad)'), 'at no usable bias');
+  symbol('<line x1="13" x2="13" y1="0" y2="12" stroke="var(--soft)" stroke-width="1.6"/>', 'over the usable window');
+  symbol('<circle cx="13" cy="6" r="5" fill="none" stroke="var(--good)" stroke-width="1.8"/>', 'recommended');
+}
+
+function controls() {
+  self.controls.textContent = '';
+  function add(label, options, chosen, key, number) {
+    if (options.length < 2) return;
+    self.controls.append(kit.picker(label, options, chosen, function(v) {
+      state[key] = number ? +v : v;
+      if (key === 'group') state.property = 0;
+      if (key === 'group') controls();
+      legend();
+      redraw();
+    }));
+  }
+  function named(m) {
+    return [m, kit.measureLabel(m)];
+  }
+  function numbered(list, text) {
+    return list.map(function(one, i) {
+      return [i, text(one)];
+    });
+  }
+  add('Compare', numbered(speed.groups, function(g) {
+        return g.name + ' (' + g.choices + ')';
+      }), state.group, 'group', true);
+  add('Cost', speed.costs.map(named), state.cost, 'cost');
+  add('Error', speed.errors.map(named), state.error, 'error');
+  add('Shape', numbered(group().properties, function(p) {
+        return p.label;
+      }), state.property, 'property', true);
+}
+controls();
+legend();
+picture(described());
+
+page.onSelect.push(function(id) {
+  var entry = entryOf(id);
+  state.id = entry ? entry.id : null;
+  redraw();
+});
+// The arrow keys go from mark to mark, from left to right.
+self.plot.tabIndex = 0;
+self.plot.addEventListener('keydown', function(event) {
+  var way = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
+  if (!way || !shownRows.length) return;
+  var order = shownRows.slice().sort(function(a, b) {
+    return a.px - b.px;
+  }),
+      at = order.findIndex(function(r) {
+        return state.id === null ? r.entry.recommended : r.id === state.id;
+      });
+  page.select(order[Math.min(order.length - 1, Math.max(0, at + way))].id);
+  event.preventDefault();
+  event.stopPropagation();
+});
+})();

@@ -1,0 +1,177 @@
+// What the chart of cost against error is drawn from: shapes, the front, places side by side, and Vega's marks.
+(function() {
+'use strict';
+var kit = window.noonmarkPage.kit;
+
+// Shapes that can be told apart at this size; values beyond the last get a number. Paths in the units of Vega's symbols:
+// from -1 to 1.
+var shapes = [
+  'M0.8 0A0.8 0.8 0 1 1 -0.8 0A0.8 0.8 0 1 1 0.8 0Z', 'M-0.72 -0.72H0.72V0.72H-0.72Z', 'M0 -0.95L0.95 0.75H-0.95Z',
+  'M0 -1.05L0.8 0L0 1.05L-0.8 0Z', 'M0 0.95L0.95 -0.75H-0.95Z',
+  'M-0.32 -0.95H0.32V-0.32H0.95V0.32H0.32V0.95H-0.32V0.32H-0.95V-0.32H-0.32Z', 'M-0.75 -0.95L0.95 0L-0.75 0.95Z',
+  'M0 -1.1L0.3 -0.36L1.05 -0.34L0.47 0.15L0.65 0.9L0 0.48L-0.65 0.9L-0.47 0.15L-1.05 -0.34L-0.3 -0.36Z',
+  'M-0.85 -0.9H0.85L-0.85 0.9H0.85Z', 'M0.75 -0.95L-0.95 0L0.75 0.95Z'
+];
+var cross = 'M-0.8 -0.8L0.8 0.8M-0.8 0.8L0.8 -0.8', disc = 'M1 0A1 1 0 1 1 -1 0A1 1 0 1 1 1 0Z';
+
+// The Pareto front, as pareto_front() in compare/report/findings.h: ascending in cost, equal ones are all kept.
+function frontOf(rows) {
+  var front = [];
+  rows.filter(function(r) {
+        return r.counts;
+      })
+      .sort(function(a, b) {
+        return a.x - b.x || a.v - b.v;
+      })
+      .forEach(function(r) {
+        var last = front[front.length - 1];
+        if (!last || r.v < last.v || (r.v === last.v && r.x === last.x)) front.push(r);
+      });
+  return front;
+}
+
+// Marks of equal cost would hide each other, so they stand side by side, the most accurate on the left, at most half-way
+// to the next cost. Returns the scale of x; each row gets its place `px`.
+function spread(rows, w) {
+  var columns = [], step = 14;
+  rows.slice()
+      .sort(function(a, b) {
+        return a.x - b.x || a.v - b.v;
+      })
+      .forEach(function(r) {
+        var last = columns[columns.length - 1];
+        if (last && last.x === r.x)
+          last.rows.push(r);
+        else
+          columns.push({x: r.x, rows: [r]});
+      });
+  var low = columns[0].x, high = columns[columns.length - 1].x, log = low > 0, same = low === high;
+  function room(column) {
+    return Math.min(0.2 * w, 10 + step * column.rows.length / 2);
+  }
+  var from = same ? 0 : room(columns[0]), to = same ? w : w - room(columns[columns.length - 1]);
+  var domain = !same ? [low, high] : log ? [low / 2, high * 2] : [low - 1, high + 1];
+  function place(x) {
+    var t = log ? Math.log(x / domain[0]) / Math.log(domain[1] / domain[0]) : (x - domain[0]) / (domain[1] - domain[0]);
+    return from + t * (to - from);
+  }
+  columns.forEach(function(column, i) {
+    column.px = place(column.x);
+    var left = i ? (column.px - place(columns[i - 1].x)) / 2 : column.px,
+        right = i + 1 < columns.length ? (place(columns[i + 1].x) - column.px) / 2 : w - column.px;
+    var n = column.rows.length, apart = Math.min(step, 2 * (Math.min(left, right) - 2) / n);
+    column.rows.forEach(function(r, k) {
+      r.px = column.px + Math.max(0, apart) * (k - (n - 1) / 2);
+    });
+  });
+  return {name: 'x', type: log ? 'log' : 'linear', zero: false, nice: false, domain: domain, range: [from, to]};
+}
+
+function markAt(size, more) {
+  var enter = {x: {field: 'px'}, y: {scale: 'y', field: 'y'}, size: size};
+  Object.keys(more).forEach(function(k) {
+    enter[k] = more[k];
+  });
+  return enter;
+}
+
+function marksOf(w, floor) {
+  var label = {
+    x: {signal: 'clamp(datum.px, 46, ' + (w - 46) + ')'},
+    y: {scale: 'y', field: 'y'},
+    dy: {value: 22},
+    align: {value: 'center'},
+    text: {value: 'recommended'},
+    fill: {value: 'var(--good)'},
+    fontWeight: {value: 600}
+  };
+  function ring(source, colour) {
+    return {
+      type: 'symbol',
+      name: source + '-ring',
+      from: {data: source},
+      interactive: false,
+      encode: {
+        enter: markAt({value: 360}, {fill: {value: 'transparent'}, stroke: {value: colour}, strokeWidth: {value: 2}})
+      }
+    };
+  }
+  return [
+    {
+      type: 'rule',
+      name: 'span-bars',
+      from: {data: 'spans'},
+      interactive: false,
+      encode: {
+        enter: {
+          x: {field: 'px'},
+          y: {scale: 'y', field: 'top'},
+          y2: {scale: 'y', field: 'bottom'},
+          stroke: {value: 'var(--soft)'},
+          strokeOpacity: {value: 0.55},
+          strokeWidth: {value: 1.6}
+        }
+      }
+    },
+    {
+      type: 'line',
+      name: 'front-line',
+      from: {data: 'front'},
+      interactive: false,
+      encode: {
+        enter: {
+          x: {field: 'px'},
+          y: {scale: 'y', field: 'y'},
+          interpolate: {value: 'step-after'},
+          stroke: {value: 'var(--ink)'},
+          strokeWidth: {value: 1.5},
+          strokeOpacity: {value: 0.6}
+        }
+      }
+    },
+    {
+      type: 'symbol',
+      name: 'choice-marks',
+      from: {data: 'rows'},
+      encode: {
+        enter: markAt({value: 110}, {
+          shape: {field: 'shape'},
+          fill: {signal: 'datum.counts ? datum.fill : \'transparent\''},
+          stroke: {signal: 'datum.counts ? \'var(--ink)\' : \'var(--bad)\''},
+          strokeWidth: {signal: 'datum.counts ? 1.1 : 2'}
+        }),
+        update: {size: {value: 110}},
+        hover: {size: {value: 190}}
+      }
+    },
+    {
+      type: 'text',
+      from: {data: 'rows'},
+      interactive: false,
+      encode: {
+        enter: {
+          x: {field: 'px'},
+          y: {scale: 'y', field: 'y'},
+          align: {value: 'center'},
+          baseline: {value: 'middle'},
+          fontSize: {value: 8.5},
+          fontWeight: {value: 700},
+          text: {field: 'number'},
+          fill: {value: 'var(--ink)'}
+        }
+      }
+    },
+    ring('best', 'var(--good)'), ring('chosen', 'var(--accent)'),
+    {type: 'text', from: {data: 'best'}, interactive: false, encode: {enter: label}}
+  ].concat(kit.zeroLabel(floor));
+}
+
+kit.speed = {
+  shapes: shapes,
+  cross: cross,
+  disc: disc,
+  frontOf: frontOf,
+  spread: spread,
+  marksOf: marksOf
+};
+})();

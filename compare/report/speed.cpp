@@ -1,0 +1,245 @@
+#include "compare/report/speed.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "compare/judge/curve_reading.h"
+#include "compare/report/findings.h"
+#include "compare/report/text.h"
+#include "compare/store/quantities.h"
+#include "technique/settings.h"
+
+namespace noonmark::report {
+namespace {
+
+using nlohmann::json;
+using Window = ComparedChoice::Window;
+
+constexpr std::array cost_metrics{"traffic_bytes", "map_bytes",         "map_texels", "map_triangles", "lookup_fetches",
+                                  "lookup_texels", "lookup_operations", "map_ms",     "lookup_ms",     "shadow_ms"};
+constexpr std::array error_metrics{"error_soft", "error", "aliasing_rms", "shaded_rmse"};
+
+template <size_t count>
+std::vector<std::string> measured(const Results& results, const std::string& first,
+                                  const std::array<const char*, count>& others) {
+  std::vector<std::string> names{first};
+  for (const char* name : others)
+    if (name != first) names.emplace_back(name);
+  std::erase_if(names, [&](const std::string& name) {
+    return std::none_of(results.points.begin(), results.points.end(),
+                        [&](const PointRecord& point) { return std::isfinite(metric_of(point, name)); });
+  });
+  return names;
+}
+
+json or_null(double value) { return std::isfinite(value) ? json(value) : json(); }
+
+// A property by which the choices of a group can be told apart: the filter, the part, or a swept setting.
+struct Property {
+  std::string setting;  // empty: the part
+  std::vector<std::string> values;
+};
+
+const std::string& value_of_property(const Property& property, const Choice& choice) {
+  const PointRecord& point = choice.first();
+  if (property.setting.empty()) return point.part;
+  static const std::string none;
+  const auto found = point.settings.find(property.setting);
+  return found == point.settings.end() ? none : found->second;
+}
+
+// Those with several values, what is told apart first in front: the filter, the part, then the swept settings.
+std::vector<Property> properties_of(const ComparedGroup& group, const Results& results) {
+  std::vector<std::string> settings{"filter.kind", ""};
+  for (const std::string& name : choice_settings(results.info))
+    if (name != "filter.kind") settings.push_back(name);
+  std::vector<Property> properties;
+  for (const std::string& setting : settings) {
+    Property property{setting, {}};
+    std::set<std::string> known;
+    for (const ComparedChoice& one : group.choices)
+      if (const std::string& value = value_of_property(property, one.choice); known.insert(value).second)
+        property.values.push_back(value);
+    if (property.values.size() < 2) continue;
+    if (std::all_of(property.values.begin(), property.values.end(), [](const auto& v) { return number_of(v); }))
+      std::sort(property.values.begin(), property.values.end(),
+                [](const auto& a, const auto& b) { return *number_of(a) < *number_of(b); });
+    properties.push_back(std::move(property));
+  }
+  return properties;
+}
+
+const char* text_of(Window window) {
+  switch (window) {
+    case Window::usable:
+      return "usable";
+    case Window::empty:
+      return "empty";
+    case Window::no_curve:
+      break;
+  }
+  return "no_curve";
+}
+
+json bias_data(const ComparedChoice& one) {
+  if (!one.bias) return json();
+  const PointRecord& first = one.choice.first();
+  const std::string unit = setting_of(first, "bias.unit");
+  json out{{"parameter", first.curve->parameter}, {"value", bias_in_unit(*one.bias, unit)}};
+  if (one.usable) out["from"] = bias_in_unit(one.usable->low, unit), out["to"] = bias_in_unit(one.usable->high, unit);
+  return out;
+}
+
+// The value of a metric: [largest over the conditions, mean], whether it counts for the front, whether it is at the
+// bias, and its span.
+json metric_data(const ComparedChoice& one, const std::string& metric) {
+  const Joined value = value_of(one, metric);
+  json out{{"v", {or_null(value.worst), or_null(value.mean)}},
+           {"counts", counts_by(one, metric)},
+           {"at_bias", follows_bias(one, metric)}};
+  if (const std::optional<Span> span = span_over_window(one, metric))
+    out["span"] = {or_null(span->least), or_null(span->largest)};
+  return out;
+}
+
+struct Axes {
+  std::vector<std::string> costs, errors;
+  std::string error_first;  // error_shown_first()
+};
+
+json entry_data(const ComparedChoice& one, const Axes& axes, const ChoiceNames& names) {
+  json out{{"name", names.of(one.choice)},  {"conditions", one.choice.points.size()},
+           {"window", text_of(one.window)}, {"good", one.good.has_value()},
+           {"bias", bias_data(one)},        {"cause", dominating_cause(one)}};
+  for (const std::string& cost : axes.costs) {
+    const Joined value = value_of(one, cost);
+    out["costs"][cost] = {or_null(value.worst), or_null(value.mean)};
+  }
+  for (const std::string& error : axes.errors) out["errors"][error] = metric_data(one, error);
+  return out;
+}
+
+json group_data(const ComparedGroup& group, const Results& results, const Axes& axes, const ChoiceNames& names,
+                const std::unordered_set<int64_t>& shown_ids) {
+  const std::vector<Property> properties = properties_of(group, results);
+  json out{{"choices", group.choices.size()}, {"entries", json::array()}, {"properties", json::array()}};
+  for (const Property& property : properties)
+    out["properties"].push_back(
+        {{"label", property.setting.empty() ? "part" : setting_label(property.setting)}, {"values", property.values}});
+  for (size_t i = 0; i < group.choices.size(); ++i) {
+    const ComparedChoice& one = group.choices[i];
+    const PointRecord* const point = point_on_page(one, axes.error_first, shown_ids);
+    if (!point) continue;
+    json entry = entry_data(one, axes, names);
+    entry["id"] = point->id;
+    entry["points"] = json::array();
+    for (const PointRecord* condition : one.choice.points)
+      if (shown_ids.contains(condition->id)) entry["points"].push_back(condition->id);
+    entry["recommended"] = group.recommended == i;
+    entry["is"] = json::array();
+    for (const Property& property : properties) {
+      const auto at =
+          std::find(property.values.begin(), property.values.end(), value_of_property(property, one.choice));
+      entry["is"].push_back(at - property.values.begin());
+    }
+    out["entries"].push_back(std::move(entry));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> costs_of(const Results& results) { return measured(results, results.info.cost, cost_metrics); }
+
+std::vector<std::string> errors_of(const Results& results) {
+  return measured(results, results.info.accuracy, error_metrics);
+}
+
+std::string error_shown_first(const Results& results) {
+  const std::vector<std::string> errors = errors_of(results);
+  const bool measured = !errors.empty() && errors.front() == results.info.accuracy;
+  const bool has_size = std::any_of(results.points.begin(), results.points.end(),
+                                    [](const PointRecord& point) { return metric_of(point, "light_size") != 0; });
+  return measured && (has_size || results.info.accuracy != "error_soft") ? errors.front() : "error";
+}
+
+std::vector<size_t> front_of(const ComparedGroup& group, const std::string& cost, const std::string& error) {
+  std::vector<std::pair<double, double>> plane;
+  for (const ComparedChoice& one : group.choices)
+    plane.emplace_back(value_of(one, cost).worst, counts_by(one, error) ? value_of(one, error).worst : std::nan(""));
+  return pareto_front(plane);
+}
+
+size_t group_shown_first(const std::vector<ComparedGroup>& groups) {
+  const auto most = std::max_element(groups.begin(), groups.end(),
+                                     [](const auto& a, const auto& b) { return a.choices.size() < b.choices.size(); });
+  return static_cast<size_t>(most - groups.begin());
+}
+
+GroupNames::GroupNames(const Results& results, const std::vector<ComparedGroup>& groups) {
+  const auto& over = results.info.over;
+  for (const Setting& row : settings_table()) {  // in its order: the scene first
+    const std::string name(row.name);
+    if (!decides_what_is_seen(name) || std::find(over.begin(), over.end(), name) != over.end()) continue;
+    std::set<std::string> texts;
+    for (const ComparedGroup& group : groups) texts.insert(setting_of(group.choices.front().choice.first(), name));
+    if (texts.size() > 1) differing_.push_back(name);
+  }
+}
+
+std::string GroupNames::of(const ComparedGroup& group) const {
+  return settings_phrase(group.choices.front().choice.first(), differing_);
+}
+
+ChoiceNames::ChoiceNames(const Results& results) {
+  for (const std::string& name : choice_settings(results.info)) {
+    std::map<std::string, std::set<std::string>> values;  // by part
+    for (const PointRecord& point : results.points) values[point.part].insert(setting_of(point, name));
+    for (const auto& [part, texts] : values)
+      if (texts.size() > 1) differing_[part].push_back(name);
+  }
+}
+
+std::string ChoiceNames::of(const Choice& choice) const {
+  const PointRecord& point = choice.first();
+  std::string name = point.part;
+  if (const auto found = differing_.find(point.part); found != differing_.end())
+    name += (name.empty() ? "" : ", ") + settings_phrase(point, found->second);
+  return name.empty() ? fmt::format("point {}", point.id) : name;
+}
+
+const PointRecord* point_on_page(const ComparedChoice& one, const std::string& error,
+                                 const std::unordered_set<int64_t>& shown_ids) {
+  if (const PointRecord* worst = value_of(one, error).at; worst && shown_ids.contains(worst->id)) return worst;
+  for (const PointRecord* point : one.choice.points)
+    if (shown_ids.contains(point->id)) return point;
+  return nullptr;
+}
+
+json speed_data(const Results& results, const ShownPoints& shown) {
+  json data{{"costs", costs_of(results)}, {"errors", errors_of(results)}, {"error", error_shown_first(results)}};
+  data["groups"] = json::array();
+  if (shown.groups.empty()) return data;
+  const size_t first = group_shown_first(shown.groups);
+  data["group"] = 0;
+  const ChoiceNames names(results);
+  const GroupNames group_names(results, shown.groups);
+  const Axes axes{costs_of(results), errors_of(results), error_shown_first(results)};
+  std::unordered_set<int64_t> shown_ids;
+  for (const PointRecord& point : shown.results.points) shown_ids.insert(point.id);
+  for (size_t i = 0; i < shown.groups.size(); ++i) {
+    json group = group_data(shown.groups[i], results, axes, names, shown_ids);
+    if (group["entries"].empty()) continue;
+    group["name"] = group_names.of(shown.groups[i]);
+    if (i == first) data["group"] = data["groups"].size();
+    data["groups"].push_back(std::move(group));
+  }
+  return data;
+}
+
+}  // namespace noonmark::report

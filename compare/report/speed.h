@@ -1,0 +1,62 @@
+// Speed against accuracy: what the chart of cost against error, its table and its sentences are made from.
+//
+//   for (size_t i : front_of(group, "traffic_bytes", "error")) print(names.of(group.choices[i].choice));
+#pragma once
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "compare/judge/tradeoff.h"
+#include "compare/report/shown.h"
+#include "compare/store/records.h"
+
+namespace noonmark::report {
+
+// The metrics that the reader can choose for an axis: RunInfo::cost and the other costs; the errors and
+// RunInfo::accuracy. Only those that are finite at some point.
+std::vector<std::string> costs_of(const Results& results);
+std::vector<std::string> errors_of(const Results& results);
+// RunInfo::accuracy. "error" if that was not measured, and in place of "error_soft" if no light has a size, because both
+// are equal then.
+std::string error_shown_first(const Results& results);
+
+// Indices of the choices on the Pareto front, from the cheapest to the most accurate: those that count (counts_by) and
+// have no other such choice that is cheaper or equal and more accurate or equal, and one of both. Equal ones are all
+// kept. Cost and error are the largest over the conditions.
+std::vector<size_t> front_of(const ComparedGroup& group, const std::string& cost, const std::string& error);
+
+// The group with the most choices, which the page shows first. There must be a group.
+size_t group_shown_first(const std::vector<ComparedGroup>& groups);
+
+// Names groups by the settings that differ between them: "scene cube-room, light spot". Empty if there is one group.
+class GroupNames {
+ public:
+  GroupNames(const Results& results, const std::vector<ComparedGroup>& groups);
+  std::string of(const ComparedGroup& group) const;
+
+ private:
+  std::vector<std::string> differing_;
+};
+
+// Names choices by their part and by the swept settings that differ within it: "filters, filter box".
+class ChoiceNames {
+ public:
+  explicit ChoiceNames(const Results& results);
+  std::string of(const Choice& choice) const;
+
+ private:
+  std::map<std::string, std::vector<std::string>> differing_;  // by part
+};
+
+// The point that stands for a choice on the page: the condition that is worst by `error`, or another one, because only
+// shown points have a row. Null if none is shown.
+const PointRecord* point_on_page(const ComparedChoice& one, const std::string& error,
+                                 const std::unordered_set<int64_t>& shown_ids);
+
+// For page/chart_speed.js: the metrics of both axes, and each group with its choices that are shown. A value that is not
+// finite is null.
+nlohmann::json speed_data(const Results& results, const ShownPoints& shown);
+
+}  // namespace noonmark::report

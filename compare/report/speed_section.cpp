@@ -1,0 +1,175 @@
+#include "compare/report/speed_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+#include <utility>
+
+#include "compare/report/cause_colors.h"
+#include "compare/report/sections.h"
+#include "compare/report/speed.h"
+#include "compare/report/text.h"
+#include "compare/store/quantities.h"
+
+namespace noonmark::report {
+namespace {
+
+using Window = ComparedChoice::Window;
+
+constexpr size_t open_rows = 40;   // longer tables start folded
+constexpr size_t most_tables = 8;  // one for each group; a sweep of many scenes has many
+
+// What the section is about: one cost and one error, and how choices are named and linked.
+struct Plane {
+  const Results& results;
+  std::string cost, error;
+  ChoiceNames names;
+  std::unordered_set<int64_t> shown_ids;
+
+  std::string cost_text(const ComparedChoice& one) const {
+    return quantity(value_of(one, cost).worst, find_metric(cost).unit);
+  }
+  std::string error_text(const ComparedChoice& one) const {
+    return quantity(value_of(one, error).worst, find_metric(error).unit);
+  }
+  std::string link(const ComparedChoice& one) const {
+    const std::string name = html(names.of(one.choice));
+    const PointRecord* const point = point_on_page(one, error, shown_ids);
+    return point ? fmt::format("<a href=\"#p{}\">{}</a>", point->id, name) : name;
+  }
+  // "filter box (10.7 MB, 0.2 %)"
+  std::string with_numbers(const ComparedChoice& one) const {
+    return fmt::format("<b>{}</b> ({}, {})", link(one), cost_text(one), error_text(one));
+  }
+};
+
+std::string counted(size_t count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+// "Of 32 choices 18 have a usable window; 6 have none, and ...".
+std::string windows_text(const ComparedGroup& group) {
+  size_t with[3] = {};
+  for (const ComparedChoice& one : group.choices) ++with[static_cast<size_t>(one.window)];
+  const size_t usable = with[static_cast<size_t>(Window::usable)], empty = with[static_cast<size_t>(Window::empty)],
+               none = with[static_cast<size_t>(Window::no_curve)];
+  std::string out = fmt::format("Of {} {} ha{} a usable bias window", counted(group.choices.size(), "choice"), usable,
+                                usable == 1 ? "s" : "ve");
+  if (empty)
+    out += fmt::format("; {} ha{} none, so no bias makes {} good enough", empty, empty == 1 ? "s" : "ve",
+                       empty == 1 ? "it" : "them");
+  if (none)
+    out += fmt::format("; {} ha{} no bias curve and stand{} here as rendered", none, none == 1 ? "s" : "ve",
+                       none == 1 ? "s" : "");
+  return out + ".";
+}
+
+std::string good_text(const ComparedGroup& group, const Plane& plane) {
+  const auto good = std::count_if(group.choices.begin(), group.choices.end(), [](const auto& one) { return one.good; });
+  if (is_incomplete(plane.results)) return " Not all conditions are measured yet, so nothing is recommended.";
+  if (!group.recommended) return " None is good enough.";
+  std::string out = fmt::format(" Good enough {} {}; the cheapest of them is {}.", good == 1 ? "is" : "are", good,
+                                plane.with_numbers(group.choices[*group.recommended]));
+  if (group.accurate != group.recommended)
+    out += fmt::format(" The most accurate of them is {}.", plane.with_numbers(group.choices[*group.accurate]));
+  return out;
+}
+
+// Names the front, which goes from the cheapest to the most accurate. What good_text() named is not named again.
+std::string front_text(const ComparedGroup& group, const std::vector<size_t>& front, const Plane& plane) {
+  if (front.empty()) return " No choice that counts has both a finite cost and a finite error.";
+  const auto place = [&](size_t i) {
+    return std::make_pair(value_of(group.choices[i], plane.cost).worst, value_of(group.choices[i], plane.error).worst);
+  };
+  const auto said = [&](size_t i, const std::optional<size_t>& named, const char* as) {
+    return named && place(*named) == place(i) ? std::string(as) : plane.with_numbers(group.choices[i]);
+  };
+  const std::string first = said(front.front(), group.recommended, "the recommended one");
+  if (place(front.front()) == place(front.back())) {
+    const size_t equal = front.size() - 1;
+    return fmt::format(" No choice is cheaper than {}, and none is more accurate{}.", first,
+                       equal ? fmt::format("; {} more cost the same and are as accurate", equal) : "");
+  }
+  return fmt::format(
+      " The Pareto front has {}, from {} to {}: no other choice is both cheaper and more accurate than one of these.",
+      counted(front.size(), "choice"), first, said(front.back(), group.accurate, "the most accurate one"));
+}
+
+std::string span_cell(const ComparedChoice& one, const std::string& error, std::string_view unit) {
+  const std::optional<Span> span = span_over_window(one, error);
+  return span ? fmt::format("{} … {}", cell(span->least, unit), cell(span->largest, unit)) : "–";
+}
+
+std::string row(const ComparedChoice& one, const Plane& plane, bool recommended) {
+  const std::string cause = dominating_cause(one);
+  return fmt::format(
+      "<tr{}><th scope=\"row\">{}{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n",
+      recommended ? " class=\"recommended\"" : "", plane.link(one), recommended ? " <small>recommended</small>" : "",
+      cell(value_of(one, plane.cost).worst, find_metric(plane.cost).unit),
+      cell(value_of(one, plane.error).worst, find_metric(plane.error).unit),
+      span_cell(one, plane.error, find_metric(plane.error).unit),
+      one.bias ? bias_in_unit(*one.bias, setting_of(one.choice.first(), "bias.unit")) : "as rendered",
+      cause.empty() ? "–" : swatch(cause) + html(metric_label(cause)));
+}
+
+// The front of one group. Choices of which no point is shown have no row, because their links would lead nowhere.
+std::string front_table(const ComparedGroup& group, const std::vector<size_t>& front, const std::string& name,
+                        const Plane& plane, bool open) {
+  std::string rows;
+  size_t count = 0;
+  for (size_t i : front) {
+    if (!point_on_page(group.choices[i], plane.error, plane.shown_ids)) continue;
+    rows += row(group.choices[i], plane, group.recommended == i), ++count;
+  }
+  const std::string which = name.empty() ? "" : " of " + html(name);
+  return fmt::format(
+      "<details{}><summary>{}</summary>\n<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th>Choice</th>"
+      "<th>{} <small>{}</small></th><th>{} <small>{}</small></th><th>Over the usable window</th><th>Bias</th>"
+      "<th>Largest cause</th></tr></thead><tbody>\n{}</tbody></table></div>\n</details>\n",
+      open && count <= open_rows ? " open" : "",
+      count == front.size() ? fmt::format("The Pareto front{}: {}", which, counted(count, "choice"))
+                            : fmt::format("{} of the {} choices of the Pareto front{}", count, front.size(), which),
+      html(metric_label(plane.cost)), head_unit(find_metric(plane.cost).unit), html(error_label(plane.error)),
+      head_unit(find_metric(plane.error).unit), rows);
+}
+
+}  // namespace
+
+std::string speed_section(const Results& results, const ShownPoints& shown) {
+  std::string out = "<section id=\"cost\"><h2>Speed against accuracy</h2>\n";
+  const std::vector<std::string> costs = costs_of(results), errors = errors_of(results);
+  if (shown.groups.empty() || costs.empty() || errors.empty())
+    return out + "<p>No point has both a finite cost and a finite error.</p></section>\n";
+  Plane plane{results, costs.front(), error_shown_first(results), ChoiceNames(results), {}};
+  for (const PointRecord& point : shown.results.points) plane.shown_ids.insert(point.id);
+  const size_t first = group_shown_first(shown.groups);
+  const ComparedGroup& group = shown.groups[first];
+  const std::vector<size_t> front = front_of(group, plane.cost, plane.error);
+  const GroupNames names(results, shown.groups);
+  const std::string name = names.of(group);
+  if (!name.empty())
+    out += fmt::format(
+        "<p>Choices can be compared if they have the same scene, view and light: here are {}, and these words are "
+        "about "
+        "<b>{}</b>.</p>\n",
+        counted(shown.groups.size(), "group"), html(name));
+  out +=
+      "<p>" + windows_text(group) + good_text(group, plane) + front_text(group, front, plane) + "</p>\n" + shown.note;
+  out +=
+      chart_place("cost",
+                  "Each choice at its best bias. The bar is the error over its usable window. The line is the Pareto "
+                  "front. Choices of equal cost stand side by side.");
+  for (size_t i = 0; i < std::min(shown.groups.size(), most_tables); ++i) {
+    const size_t which = i == 0 ? first : i <= first ? i - 1 : i;  // the one shown first, then the others
+    const std::vector<size_t> its = which == first ? front : front_of(shown.groups[which], plane.cost, plane.error);
+    if (!its.empty())
+      out += front_table(shown.groups[which], its, names.of(shown.groups[which]), plane, which == first);
+  }
+  if (shown.groups.size() > most_tables)
+    out += fmt::format("<p class=\"small\">The other {} groups are in the chart only.</p>\n",
+                       shown.groups.size() - most_tables);
+  return out + "</section>\n";
+}
+
+}  // namespace noonmark::report
