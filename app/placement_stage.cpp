@@ -80,6 +80,7 @@ void LatticeStage::add(const TapTruth& known, PixelRange strip) {
 }
 
 void LatticeStage::compare(const LookupEvidence& evidence, int placement, PixelRange strip) {
+  const double ray_error = rays_.ray_error_depth();
   in_parts(strip, 1, [&](PixelRange part) {
     rays_.trace(probe_, part, &time_, placement);
     disagreements_ += tbb::parallel_reduce(
@@ -91,7 +92,7 @@ void LatticeStage::compare(const LookupEvidence& evidence, int placement, PixelR
             if (!truth_.facing[i]) continue;
             probe_.taps_of(i, placement, taps);
             rays_.judge(i, taps, box);
-            found += noonmark::disagreements(evidence, i, taps, box);
+            found += noonmark::disagreements(evidence, i, taps, box, ray_error);
           }
           return found;
         },

@@ -74,6 +74,14 @@ void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTim
   l.lattice->trace();
 }
 
+double PlacementTracer::ray_error_depth() const {
+  const LightView& view = impl_->view;
+  const double near = view.frame().near_m, range = view.frame().far_m - near;
+  // Of a perspective map, depth = far (z - near) / (z (far - near)), which rises the fastest at near.
+  const double depth_per_m = view.frame().uniform() ? 1 / range : view.frame().far_m / (near * range);
+  return 2 * view.ray_error_m() * depth_per_m;
+}
+
 void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& box) const {
   const Impl& l = *impl_;
   if (taps.low.x > taps.high.x) return;

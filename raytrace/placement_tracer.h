@@ -37,6 +37,9 @@ class PlacementTracer {
   // threads. box: its memory is used again.
   void judge(size_t pixel, const PlacedTaps& taps, LatticeBox& box) const;
 
+  // LightView::ray_error_m of each of two surfaces, as window depth where a metre has most of it.
+  double ray_error_depth() const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -206,5 +206,37 @@ TEST_P(EveryPlacement, HasTheNumbersOfMeasuringItByItself) {
 INSTANTIATE_TEST_SUITE_P(Cases, EveryPlacement, testing::ValuesIn(cases()),
                          [](const auto& test) { return test.param.name; });
 
+// Two sheets that cross and are nowhere further apart than a few float steps. A float ray meets either of them first, and
+// the lattice, which is computed in double, always the one that is nearer. That is no defect.
+TEST(Placements, SheetsWithinTheErrorOfARayAreNoDisagreement) {
+  struct Sheets : Pipeline {
+    SceneStage load_scene(gl::Renderer& renderer, const Settings& settings) override {
+      SceneStage loaded = Pipeline::load_scene(renderer, settings);
+      auto scene = std::make_unique<Scene>(*loaded.scene);
+      const size_t first = scene->positions.size();
+      const float apart = 6e-7f;  // metres, at the corners
+      for (const auto& [x, z] :
+           {std::pair(-3.f, -3.f), std::pair(3.f, -3.f), std::pair(3.f, 3.f), std::pair(-3.f, 3.f)})
+        for (float sign : {1.f, -1.f}) scene->positions.emplace_back(x, 1.5f + sign * (x * z > 0 ? apart : -apart), z);
+      for (uint32_t sheet : {0u, 1u}) {
+        const auto corner = [&](uint32_t i) { return static_cast<uint32_t>(first) + 2 * i + sheet; };
+        scene->triangles.emplace_back(corner(0), corner(2), corner(1));
+        scene->triangles.emplace_back(corner(0), corner(3), corner(2));
+      }
+      scene->parts.clear();
+      if (!scene->single_sided.empty()) scene->single_sided.resize(scene->triangles.size());
+      auto tracer = std::make_unique<raytrace::Tracer>(*scene);
+      renderer.load_scene(*scene);
+      const uint64_t open_edges = tracer->open_edges();
+      return {std::move(scene), "sheets", std::move(tracer), open_edges};
+    }
+  };
+  Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<Sheets>());
+  Settings settings = small("cube-room", 320, 180);
+  settings.map.placements = 4;
+  const Measurement m = bench.measure(settings, std::nullopt);
+  EXPECT_EQ(metric(m, "placement_disagreements"), 0);
+}
+
 }  // namespace
 }  // namespace noonmark::acceptance
