@@ -245,7 +245,7 @@ class Search {
       shadowed_ = std::max(shadowed_, 1 - metric_of(record, "lit"));
       tried.cost = full_cost(tried.settings, record);
       if (request_.budget && tried.cost > *request_.budget) return false;
-      // Law 5: half the texel, at least half the error. So the product of cost and error cannot fall any more.
+      // Law 5: half the texel, half the error on average. So the product of cost and error does not fall any more.
       if (!request_.error && !request_.budget && cost_before > 0 && tried.cost >= 2 * cost_before) return false;
       judge(tried, {record});
       say_(fmt::format("{}: {}", name_of(tried),
@@ -261,9 +261,10 @@ class Search {
   // Chooses the bias for the points, one for each condition, and measures the error there.
   void judge(Tried& tried, std::vector<PointRecord> points) {
     tried.bias.reset();
+    tried.worst.reset();
     tried.why_not.clear();
     Results results;
-    results.info.accuracy = "error";
+    results.info.accuracy = request_.accuracy;
     results.info.over = differing(points);
     results.planned_points = static_cast<int64_t>(points.size());
     results.points = std::move(points);
@@ -290,7 +291,7 @@ class Search {
       set_bias(there, *tried.bias);
       const PointRecord shown = bench_.measure(there, std::nullopt).record;
       const double error = metric_of(shown, request_.accuracy);
-      if (!(error <= tried.error)) tried.error = error, tried.worst = shown;
+      if (!tried.worst || !(error <= tried.error)) tried.error = error, tried.worst = shown;
     }
   }
 

@@ -7,7 +7,7 @@
 // The search:
 // 1. Screening, under the first condition and at one placement: each technique, from the least, at doubling
 //    resolutions. Settings that fail here fail for good, because the window at every placement lies within it. Dearer
-//    resolutions are not tried where they cannot win: errors fall at most as the texel's width (law 5).
+//    resolutions are not tried where they do not pay: on average errors fall as the texel's width (law 5).
 // 2. The settings that hold, from the best, are measured under all conditions at 8 x 8 placements. The first that holds
 //    there is verified.
 // 3. Verification: OpenGL renders it at 64 other placements, and each must keep the bounds. Otherwise the next is taken.

@@ -48,7 +48,10 @@ class BiasCounts {
   // The taps of R5 that differ from R1. This number divided by taps() is the mean |R5 - R1|.
   double wrong_taps(float x) const { return sums_[error_dark].above(x) + sums_[error_light].up_to(x); }
   // The same against R0, in the unit of taps(): divided by it, the mean |R5 - R0|.
-  double softly_wrong_taps(float x) const { return wrong_taps(x) + softer_before_ + sums_[softer].up_to(x); }
+  // The sum of signed steps is rounded, and an error is never below 0.
+  double softly_wrong_taps(float x) const {
+    return std::max(0.0, wrong_taps(x) + softer_before_ + sums_[softer].up_to(x));
+  }
   // The receivers with R5 != R1.
   uint64_t wrong_receivers(float x) const {
     if (taps_ == 1) return static_cast<uint64_t>(wrong_taps(x));

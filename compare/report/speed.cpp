@@ -20,8 +20,9 @@ namespace {
 using nlohmann::json;
 using Window = ComparedChoice::Window;
 
-constexpr std::array cost_metrics{"traffic_bytes", "map_bytes",         "map_texels", "map_triangles", "lookup_fetches",
-                                  "lookup_texels", "lookup_operations", "map_ms",     "lookup_ms",     "shadow_ms"};
+constexpr std::array cost_metrics{"texel_work",    "traffic_bytes",  "map_bytes",     "map_texels",
+                                  "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations",
+                                  "map_ms",        "lookup_ms",      "shadow_ms"};
 constexpr std::array error_metrics{"error_soft", "error", "aliasing_rms", "shaded_rmse"};
 
 template <size_t count>

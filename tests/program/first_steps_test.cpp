@@ -26,7 +26,8 @@ json lying() {
 
 TEST_F(FirstSteps, TheProgramWithoutArgumentsNamesThreeCommands) {
   EXPECT_EQ(run({}), 2);
-  EXPECT_TRUE(says("noonmark init MODEL.glb") && says("noonmark run MODEL.toml") && says("report.html")) << output_;
+  EXPECT_TRUE(says("noonmark init MODEL.glb") && says("noonmark recommend MODEL.toml") && says("noonmark check"))
+      << output_;
 }
 
 TEST_F(FirstSteps, AnInitializedExperimentRunsAtOnce) {

@@ -214,7 +214,7 @@ TEST_F(Program, AnswersMistakesWithOneLineAndTheDocumentedCode) {
       {{"render", "--set", "light.position_m=1,1,1", "--set", "light.target_m=1,1,1"}, 2, "light"},
       {{"render", "--set", "filter.kind=box", "--set", "filter.size=4"}, 2, "odd"},
       {{"dance"}, 2, "dance"},
-      {{}, 2, "subcommand"},
+      {{}, 2, "no verb is given"},
   };
   for (const Mistake& mistake : mistakes) {
     SCOPED_TRACE(testing::PrintToString(mistake.arguments));

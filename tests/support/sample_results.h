@@ -56,8 +56,9 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
     for (int i = 0; i < 7; ++i) {
       const double b = i * 0.1 / 7 + (i ? static_cast<double>(id) : 0);
       curve.bias_depth.push_back(b);
-      for (auto series : {&BiasCurve::error, &BiasCurve::wrong, &BiasCurve::acne, &BiasCurve::peter_panning,
-                          &BiasCurve::aliasing_dark, &BiasCurve::aliasing_light, &BiasCurve::coverage})
+      for (auto series :
+           {&BiasCurve::error, &BiasCurve::error_soft, &BiasCurve::wrong, &BiasCurve::acne, &BiasCurve::peter_panning,
+            &BiasCurve::aliasing_dark, &BiasCurve::aliasing_light, &BiasCurve::coverage})
         (curve.*series).push_back(value = std::sqrt(value + b));
     }
     curve.m_per_depth = 6.5;

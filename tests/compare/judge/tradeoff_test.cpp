@@ -18,7 +18,7 @@ PointRecord point_with(int64_t id, double cost, std::optional<double> low, std::
   point.id = id;
   point.settings = {{"bias.constant", "0.25"}, {"bias.unit", "depth"}, {"filter.size", std::to_string(3 + id)}};
   point.metrics = {{"error", 0.75},         {"error_soft", 0.75}, {"light_size", 0},
-                   {"aliasing_rms", 0.375}, {"filter", 0.05},     {"traffic_bytes", cost}};
+                   {"aliasing_rms", 0.375}, {"filter", 0.05},     {"texel_work", cost}};
   BiasCurve curve;
   curve.parameter = "bias.constant";
   curve.bias_depth = {0, 0.25, 0.5, 0.75, 1};
@@ -45,7 +45,7 @@ TEST(Tradeoff, StandsAtTheBiasThatWouldBeRecommended) {
   EXPECT_EQ(one.window, Window::usable);
   EXPECT_EQ(*one.bias, recommend(results).bias->value);
   EXPECT_EQ(value_of(one, "error").worst, recommend(results).error.worst);
-  EXPECT_EQ(value_of(one, "traffic_bytes").worst, 1);
+  EXPECT_EQ(value_of(one, "texel_work").worst, 1);
 }
 
 TEST(Tradeoff, SpansTheErrorOverTheWindow) {
@@ -122,8 +122,8 @@ TEST(Tradeoff, JoinsTheConditions) {
   const ComparedChoice& one = groups[0].choices[0];
   EXPECT_EQ(one.usable->low, 0.5);
   EXPECT_EQ(one.usable->high, 0.75);
-  EXPECT_EQ(value_of(one, "traffic_bytes").worst, 3);
-  EXPECT_EQ(value_of(one, "traffic_bytes").mean, 2);
+  EXPECT_EQ(value_of(one, "texel_work").worst, 3);
+  EXPECT_EQ(value_of(one, "texel_work").mean, 2);
   EXPECT_EQ(span_over_window(one, "error")->largest, 0.45);
   EXPECT_EQ(groups[0].recommended, 0u);
   results.planned_points = 3;

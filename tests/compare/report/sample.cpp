@@ -37,6 +37,7 @@ BiasCurve sample_curve(int resolution, double extent_m, bool box) {
     curve.aliasing_light.push_back(aliasing * 0.45);
     curve.coverage.push_back(extent_m < 10 ? 0.004 : 0);
     curve.error.push_back(acne + panning + aliasing + curve.coverage.back() + (box ? 0.0011 : 0));
+    curve.error_soft.push_back(1.1 * curve.error.back());
     curve.wrong.push_back(std::min(1.0, curve.error.back() * (box ? 2.3 : 1)));
   }
   size_t best = 0;

@@ -26,7 +26,7 @@ Results four(std::initializer_list<std::pair<double, double>> cost_and_error) {
     PointRecord point;
     point.id = static_cast<int64_t>(results.points.size());
     point.settings = {{"map.resolution", std::to_string(64 << point.id)}};
-    point.metrics = {{"traffic_bytes", cost}, {"error", error}};
+    point.metrics = {{"texel_work", cost}, {"error", error}};
     results.points.push_back(point);
   }
   return results;
@@ -37,17 +37,17 @@ TEST(Speed, TheFrontIsOfChoicesThatCount) {
   std::vector<ComparedGroup> groups = compared_groups(results);
   ASSERT_EQ(groups.size(), 1u);
   using Indices = std::vector<size_t>;
-  EXPECT_EQ(report::front_of(groups[0], "traffic_bytes", "error"), (Indices{0, 1, 2, 4}));
+  EXPECT_EQ(report::front_of(groups[0], "texel_work", "error"), (Indices{0, 1, 2, 4}));
   groups[0].choices[1].window = ComparedChoice::Window::empty;
   groups[0].choices[2].window = ComparedChoice::Window::empty;
-  EXPECT_EQ(report::front_of(groups[0], "traffic_bytes", "error"), (Indices{0, 3, 4}));
+  EXPECT_EQ(report::front_of(groups[0], "texel_work", "error"), (Indices{0, 3, 4}));
 }
 
 TEST(Speed, OffersOnlyWhatWasMeasured) {
   Results results = four({{1, 5}, {2, 3}});
   results.info.accuracy = "error_soft";
   using Names = std::vector<std::string>;
-  EXPECT_EQ(report::costs_of(results), (Names{"traffic_bytes"}));
+  EXPECT_EQ(report::costs_of(results), (Names{"texel_work"}));
   EXPECT_EQ(report::errors_of(results), (Names{"error"}));
   EXPECT_EQ(report::error_shown_first(results), "error");
   for (PointRecord& point : results.points) {
@@ -57,7 +57,7 @@ TEST(Speed, OffersOnlyWhatWasMeasured) {
     point.metrics["shadow_ms"] = std::numeric_limits<double>::quiet_NaN();
   }
   results.info.cost = "map_ms";
-  EXPECT_EQ(report::costs_of(results), (Names{"map_ms", "traffic_bytes"}));
+  EXPECT_EQ(report::costs_of(results), (Names{"map_ms", "texel_work"}));
   EXPECT_EQ(report::errors_of(results), (Names{"error_soft", "error"}));
   EXPECT_EQ(report::error_shown_first(results), "error") << "no light has a size";
   results.points[1].metrics["light_size"] = 0.25;
@@ -67,7 +67,7 @@ TEST(Speed, OffersOnlyWhatWasMeasured) {
 TEST(Speed, EveryNameIsAMetric) {
   Results results = four({{1, 1}});
   for (const Metric& metric : metrics_table()) results.points[0].metrics[std::string(metric.name)] = 1;
-  EXPECT_EQ(report::costs_of(results).size(), 10u);
+  EXPECT_EQ(report::costs_of(results).size(), 11u);
   EXPECT_EQ(report::errors_of(results).size(), 4u);
 }
 
