@@ -1,6 +1,7 @@
 #include "compare/report/junit.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -25,20 +26,21 @@ std::string timestamp(const std::string& started) {
 
 }  // namespace
 
-std::string to_junit(const Results& results) {
+std::string to_junit(const Results& results, const BaselineComparison* baseline) {
   const auto finished = static_cast<int64_t>(results.points.size());
   const bool incomplete = finished < results.planned_points;
   const auto failures =
       std::count_if(results.bounds.begin(), results.bounds.end(), [](const BoundResult& b) { return !b.held; }) +
-      std::count_if(results.laws.begin(), results.laws.end(), [](const LawResult& l) { return !l.held; });
+      std::count_if(results.laws.begin(), results.laws.end(), [](const LawResult& l) { return !l.held; }) +
+      (baseline && !baseline->held() ? 1 : 0);
   const std::string suite = results.info.title.empty() ? "noonmark" : results.info.title;
 
   std::string xml(head);
   xml += fmt::format(
       "  <testsuite name=\"{}\" package=\"noonmark\" id=\"0\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"0\" "
       "timestamp=\"{}\" hostname=\"localhost\">\n",
-      xml_text(suite), results.bounds.size() + results.laws.size() + (incomplete ? 1 : 0), failures, incomplete ? 1 : 0,
-      xml_text(timestamp(results.info.started)));
+      xml_text(suite), results.bounds.size() + results.laws.size() + (baseline ? 1 : 0) + (incomplete ? 1 : 0),
+      failures, incomplete ? 1 : 0, xml_text(timestamp(results.info.started)));
   xml += "    <properties>\n";
   const std::pair<std::string_view, const std::string&> properties[] = {
       {"experiment", results.info.experiment},   {"command", results.info.command},
@@ -71,6 +73,11 @@ std::string to_junit(const Results& results) {
         [&] {
           return law_table({&law, 1});
         });
+  if (baseline)
+    testcase(
+        "no value is worse than in the baseline", baseline->held(), "baseline",
+        [&] { return baseline_verdict(*baseline); },
+        [&] { return fmt::format("{}\n", fmt::join(baseline->worse, "\n")); });
   if (incomplete)
     xml += fmt::format(
         "    <testcase classname=\"{}\" name=\"the sweep is complete\" time=\"0\">\n      <error "

@@ -89,6 +89,16 @@ std::string laws_table(const Results& results) {
   return text;
 }
 
+std::string baseline_list(const BaselineComparison& baseline) {
+  std::string text = fmt::format("\n## Baseline\n\n{}{}.\n", baseline.held() ? "" : "**Worse.** ",
+                                 markdown(baseline_verdict(baseline)));
+  for (const auto* lines : {&baseline.worse, &baseline.better, &baseline.notes}) {
+    if (!lines->empty()) text += "\n";
+    for (const std::string& line : *lines) text += fmt::format("- {}\n", markdown(line));
+  }
+  return text;
+}
+
 std::string bounds_table(const Results& results) {
   std::string text = "\n## Bounds\n\n";
   add_heading(text, {"", "bound", "found", "points", "worst at"});
@@ -180,7 +190,7 @@ std::string best_table(const Results& results) {
 
 }  // namespace
 
-std::string to_summary(const Results& results) {
+std::string to_summary(const Results& results, const BaselineComparison* baseline) {
   const RunInfo& info = results.info;
   std::string text =
       fmt::format("# {}\n\n{}", markdown(info.title.empty() ? "Noonmark" : info.title), verdict(results));
@@ -188,6 +198,7 @@ std::string to_summary(const Results& results) {
     text += fmt::format("\nNote: {}.\n", markdown(poor));
   if (const std::string doubt = undecided_note(results.points); !doubt.empty())
     text += fmt::format("\nNote: {}.\n", markdown(doubt));
+  if (baseline) text += baseline_list(*baseline);
   if (!results.laws.empty()) text += laws_table(results);
   if (!results.bounds.empty()) text += bounds_table(results);
   // Points of different parts are not meant to be compared.
