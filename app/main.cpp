@@ -170,20 +170,16 @@ int run(int argc, char** argv) {
            "Folder for the results (default: out/<name of the experiment>); several experiments get a subfolder each");
   with_overwrite(check);
   CheckOptions checking;
-  CLI::Option* baseline =
-      check
-          ->add_option("--baseline", checking.baseline,
-                       "Compare the values that bounds and [plot] name with this file: exit code 1 if one is worse")
-          ->check(not_empty)
-          ->type_name("FILE");
   check
-      ->add_flag("--update-baseline", checking.update_baseline,
-                 "Write the values of this run to the baseline, instead of comparing with it")
-      ->needs(baseline);
+      ->add_option("--baseline", checking.baseline,
+                   "Compare the values that bounds and [plot] name with this file: exit code 1 if one is worse")
+      ->check(not_empty)
+      ->type_name("FILE");
+  check->add_flag("--update-baseline", checking.update_baseline,
+                  "Write the values of this run to the baseline, instead of comparing with it");
   check
       ->add_option("--baseline-times", checking.baseline_times,
                    "Keep and compare times too: a time may differ by this share of the time before (0.2: 20 %)")
-      ->needs(baseline)
       ->check(fraction)
       ->type_name("FRACTION");
 
@@ -256,7 +252,7 @@ int run(int argc, char** argv) {
           "--budget", recommending.budget,
           "The most texels written and texture instructions a frame (the metric texel_work). The most accurate "
           "settings are sought")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Validator(CLI::PositiveNumber).description(""))
       ->type_name("NUMBER");
   recommend
       ->add_option("--views", recommending.views,

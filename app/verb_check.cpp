@@ -95,6 +95,9 @@ void tell_the_unchecked(const std::vector<std::string>& experiments, size_t of,
 int verb_check(const std::vector<std::string>& paths, const ExperimentArguments& arguments,
                const CheckOptions& options) {
   const ExperimentList list = list_experiments(paths, arguments.out);
+  if (options.baseline.empty() && (options.update_baseline || options.baseline_times))
+    throw Error(ErrorKind::usage, fmt::format("{} needs the baseline's file: --baseline FILE",
+                                              options.update_baseline ? "--update-baseline" : "--baseline-times"));
   if (!options.baseline.empty() && list.experiments.size() + list.unreadable.size() != 1)
     throw Error(ErrorKind::usage,
                 "--baseline: a baseline belongs to one experiment; check the others by a command each");
