@@ -27,9 +27,13 @@ Baseline read_baseline(const std::string& path) {
 Baseline baseline_of(const Experiment& experiment, const SweepOutcome& outcome, bool times) {
   Baseline baseline;
   baseline.opengl = outcome.results.info.gl_renderer;
-  for (const PointRecord& point : outcome.results.points)
-    baseline.points.push_back(baseline_point(point, part_of_point(experiment, point.id).bounds, experiment.plot, times,
-                                             outcome.scenes.at(static_cast<size_t>(point.id))));
+  for (const PointRecord& point : outcome.results.points) {
+    std::vector<Bound> bounds;
+    for (const Bound& pattern : part_of_point(experiment, point.id).bounds)
+      for (Bound& bound : expanded(pattern, {&point, 1})) bounds.push_back(std::move(bound));
+    baseline.points.push_back(
+        baseline_point(point, bounds, experiment.plot, times, outcome.scenes.at(static_cast<size_t>(point.id))));
+  }
   return baseline;
 }
 

@@ -52,10 +52,11 @@ int check_one(const ListedExperiment& listed, const ExperimentArguments& argumen
     return static_cast<int>(ErrorKind::incomplete);
   }
   const Results& results = outcome.results;
-  size_t bounds_held = 0, laws_held = 0;
+  size_t bounds_held = 0, warnings = 0, laws_held = 0;
   for (const BoundResult& bound : results.bounds) {
     fmt::print("{}", describe(bound, find_point(results.points, bound.point), results.info.swept));
     bounds_held += bound.held;
+    warnings += !bound.held && bound.warns;
   }
   for (const LawResult& law : results.laws) laws_held += law.held;
   if (!results.laws.empty()) fmt::print("{}{}", results.bounds.empty() ? "" : "\n", law_table(results.laws));
@@ -64,6 +65,7 @@ int check_one(const ListedExperiment& listed, const ExperimentArguments& argumen
   std::string verdict;
   if (!results.bounds.empty())
     verdict = fmt::format("{} of {} held", bounds_held, counted(results.bounds.size(), "bound"));
+  if (warnings > 0) verdict += fmt::format(", {}", counted(warnings, "warning"));
   if (!results.laws.empty())
     verdict += fmt::format("{}{} of {} {}", verdict.empty() ? "" : ", ", laws_held, counted(results.laws.size(), "law"),
                            results.laws.size() == 1 ? "holds" : "hold");
@@ -74,7 +76,8 @@ int check_one(const ListedExperiment& listed, const ExperimentArguments& argumen
   }
   if (verdict.empty()) verdict = "nothing is promised";
   fmt::print("{}: {}; the report is {}/report.html\n", printable(path), verdict, printable(out));
-  return bounds_held == results.bounds.size() && laws_held == results.laws.size() && (!compared || compared->held())
+  return bounds_held + warnings == results.bounds.size() && laws_held == results.laws.size() &&
+                 (!compared || compared->held())
              ? 0
              : 1;
 }

@@ -7,7 +7,9 @@
 
 namespace noonmark {
 
-// One testcase per bound (results.bounds must be evaluated), with a failure if the bound is broken. If the sweep did
+// One testcase per bound (results.bounds must be evaluated), with a failure if the bound is broken. A broken bound that
+// only warns is a skipped testcase with the message: CI servers list those in a colour of their own, and hardly any
+// shows the output of a testcase that passed. If the sweep did
 // not finish, one more testcase with an error, so that an incomplete sweep never passes. The file is valid against the
 // JUnit schemas of Ant (windyroad) and Jenkins, and well-formed for any bytes in the names. baseline: one testcase
 // more, with a failure if a value is worse; null: without it.
