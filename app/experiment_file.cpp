@@ -9,9 +9,9 @@
 #include <set>
 
 #include "app/experiment.h"
+#include "app/promise_reader.h"
 #include "app/settings_reader.h"
 #include "app/toml_text.h"
-#include "compare/judge/formula.h"
 #include "compare/store/quantities.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -22,9 +22,12 @@ namespace {
 
 class Reader : private SettingsReader {
  public:
-  explicit Reader(const std::string& path) : SettingsReader(path) { experiment_.path = path; }
+  explicit Reader(const std::string& path) : SettingsReader(path), promises_(path, experiment_) {
+    experiment_.path = path;
+  }
   // Reads a part, which starts with the settings that stand outside the parts.
-  explicit Reader(const Experiment& defaults) : SettingsReader(defaults.path), experiment_(defaults), in_part_(true) {}
+  explicit Reader(const Experiment& defaults)
+      : SettingsReader(defaults.path), experiment_(defaults), promises_(defaults.path, experiment_), in_part_(true) {}
 
   Experiment read(const toml::table& root) {
     for (const Item& item : items(root)) {
@@ -53,7 +56,7 @@ class Reader : private SettingsReader {
       else if (item.key == "phase")
         read_phase(table(*item.node, "[phase]"));
       else if (item.key == "let")
-        read_let(table(*item.node, "[let]"));
+        promises_.read_let(table(*item.node, "[let]"));
       else if (item.key == "bound")
         bounds_ = item.node;
       else if (item.key == "law")
@@ -77,8 +80,8 @@ class Reader : private SettingsReader {
     }
     // These are read last, because they depend on the fixed settings, which may stand anywhere in the file.
     read_sweeps();
-    if (bounds_) read_bounds(*bounds_);
-    if (laws_) read_laws(*laws_);
+    if (bounds_) promises_.read_bounds(*bounds_);
+    if (laws_) promises_.read_laws(*laws_);
     if (times_) read_times(*times_);
     if (!in_part_) points(experiment_);
     return std::move(experiment_);
@@ -268,144 +271,8 @@ class Reader : private SettingsReader {
     if (biases.front() != 0) biases.insert(biases.begin(), 0.0);  // a curve starts without a bias
   }
 
-  // ---- [[bound]]
-
-  void read_bounds(const toml::node& node) {
-    if (!node.is_array() || !node.is_array_of_tables()) fail(node, "bounds are written as [[bound]], one for each");
-    for (const toml::node& element : *node.as_array()) read_bound(*element.as_table());
-  }
-
-  void read_bound(const toml::table& table) {
-    Bound bound;
-    for (const Item& item : items(table)) {
-      if (item.key == "metric") {
-        bound.metric = string(*item.node, "metric");
-        const QuantityInfo info = at(item.node->source(), [&] { return find_quantity(bound.metric); });
-        if (info.of_curve && !experiment_.curve_enabled)
-          fail(*item.node, fmt::format("'{}' is read off the bias curve, and curve.enabled is false", bound.metric));
-      } else if (item.key == "max")
-        bound.max = number(*item.node, "max");
-      else if (item.key == "min")
-        bound.min = number(*item.node, "min");
-      else if (item.key == "join")
-        bound.join = one_of(*item.node, "join", {"worst", "mean", "median"});
-      else if (item.key == "placement")
-        bound.placement = one_of(*item.node, "placement", {"worst", "first"});
-      else if (item.key == "where")
-        bound.where = read_conditions(*item.node, "where");
-      else
-        unknown(item, "key", {"metric", "max", "min", "join", "placement", "where"}, "bound.");
-    }
-    if (bound.metric.empty()) fail(table, "a [[bound]] needs a metric");
-    at(table.source(), [&] { check_bound(bound); });
-    experiment_.bounds.push_back(std::move(bound));
-  }
-
-  Conditions read_conditions(const toml::node& node, const std::string& name) {
-    Conditions conditions;
-    where_ = &conditions;
-    read_settings(table(node, name), "", [this](const auto&... value) { condition(value...); });
-    where_ = nullptr;
-    return conditions;
-  }
-
-  void condition(const std::string& name, const toml::node& value) {
-    const Setting& row = find_setting(name);
-    if (where_->contains(name)) fail(value, fmt::format("where names {} twice", name));
-    // A list is a list of values, except for settings that are points, where a list of numbers is one value.
-    const bool many = value.is_array() && !(row.type == ValueType::point && !value.as_array()->empty() &&
-                                            value.as_array()->front().is_number());
-    const std::vector<const toml::node*> nodes = many ? list(value, name) : std::vector<const toml::node*>{&value};
-    for (const toml::node* node : nodes) {
-      const std::string text = canonical(row, *node);
-      const std::vector<std::string> known = values_of(row);
-      if (std::find(known.begin(), known.end(), text) == known.end())
-        fail(*node, fmt::format("no point has {} = {}; it is {}", name, text, fmt::join(known, " | ")));
-      (*where_)[name].push_back(text);
-    }
-  }
-  std::vector<std::string> values_of(const Setting& row) const {
-    for (const Swept& swept : experiment_.swept)
-      if (swept.name == row.name) return swept.values;
-    return {row.get(experiment_.base)};
-  }
-
-  // ---- [let] [[law]]
-
-  // Reads a formula, or a number as a formula.
-  std::string formula(const toml::node& node, const std::string& name) const {
-    if (node.is_number()) return fmt::format("{}", number(node, name));
-    const std::string text = string(node, name);
-    at(node.source(), [&] { Formula read(text); });
-    return text;
-  }
-
-  void read_let(const toml::table& table) {
-    for (const Item& item : items(table)) {
-      for (const auto& [name, text] : experiment_.let)
-        if (name == item.key) fail(item.where, fmt::format("let defines '{}' twice", name));
-      experiment_.let.emplace_back(item.key, formula(*item.node, "let." + item.key));
-    }
-  }
-
-  void read_laws(const toml::node& node) {
-    if (!node.is_array() || !node.is_array_of_tables()) fail(node, "laws are written as [[law]], one for each");
-    for (const toml::node& element : *node.as_array()) read_law(*element.as_table());
-  }
-
-  void read_law(const toml::table& table) {
-    Law law;
-    const auto relate = [&](const Item& item, LawRelation relation) {
-      if (!law.predicted.empty()) fail(item.where, "a law has one of equals, at_most and at_least");
-      law.predicted = formula(*item.node, item.key);
-      law.relation = relation;
-    };
-    for (const Item& item : items(table)) {
-      if (item.key == "name")
-        law.name = string(*item.node, "name");
-      else if (item.key == "says")
-        law.says = string(*item.node, "says");
-      else if (item.key == "found")
-        law.found = string(*item.node, "found");
-      else if (item.key == "measured")
-        law.measured = formula(*item.node, "measured");
-      else if (item.key == "equals")
-        relate(item, LawRelation::equal);
-      else if (item.key == "at_most")
-        relate(item, LawRelation::at_most);
-      else if (item.key == "at_least")
-        relate(item, LawRelation::at_least);
-      else if (item.key == "within")
-        law.within = number(*item.node, "within");
-      else if (item.key == "slack")
-        law.slack = formula(*item.node, "slack");
-      else if (item.key == "join")
-        law.join = one_of(*item.node, "join", {"each", "mean", "slope"});
-      else if (item.key == "over")
-        law.over = string(*item.node, "over");
-      else if (item.key == "where")
-        law.where = read_conditions(*item.node, "where");
-      else if (item.key == "against")
-        law.against = read_conditions(*item.node, "against");
-      else
-        unknown(item, "key",
-                {"name", "says", "found", "measured", "equals", "at_most", "at_least", "within", "slack", "join",
-                 "over", "where", "against"},
-                "law.");
-    }
-    law.let = experiment_.let;
-    at(table.source(), [&] { check_law(law); });
-    if (!experiment_.curve_enabled)
-      for (const std::string& name : curve_names(law))
-        fail(table, fmt::format("'{}' is read off the bias curve, and curve.enabled is false", name));
-    for (const Law& other : experiment_.laws)
-      if (other.name == law.name) fail(table, fmt::format("two laws have the name '{}'", law.name));
-    if (!law.over.empty() && values_of(find_setting(law.over)).size() < 2)
-      fail(table, fmt::format("a slope over {}, which has only one value; sweep it", law.over));
-    experiment_.laws.push_back(std::move(law));
-  }
-
   Experiment experiment_;
+  PromiseReader promises_;
   bool in_part_ = false;
   std::set<std::string> given_;  // the settings that this part of the file gives
   const toml::node* times_ = nullptr;
@@ -416,7 +283,6 @@ class Reader : private SettingsReader {
   // Whether it is a choice, line, column, index into experiment_.swept. Conditions come first, because scene, view and
   // light are the most costly to change from point to point.
   std::vector<std::tuple<bool, uint32_t, uint32_t, size_t>> sweep_order_;
-  std::map<std::string, std::vector<std::string>>* where_ = nullptr;
 };
 
 }  // namespace

@@ -74,8 +74,10 @@ void SceneDigests::remember(Workbench& bench, const Settings& point) {
     notes_.push_back(note);
 }
 
+const std::string& SceneDigests::of(const Settings& point) const { return digests_.at(scene_key(point)); }
+
 void SceneDigests::require_unchanged(Workbench& bench, const Settings& point) const {
-  if (bench.scene_identity(point.scene) != digests_.at(scene_key(point)))
+  if (bench.scene_identity(point.scene) != of(point))
     throw Error(ErrorKind::file,
                 fmt::format("{}: was changed while the sweep ran, so the points would be of different scenes; "
                             "do not change it during a run, and run again",

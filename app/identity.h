@@ -22,6 +22,8 @@ class SceneDigests {
   void remember(Workbench& bench, const Settings& point);
   // Throws Error(file) if a file was edited after the start, because its points would be of different scenes.
   void require_unchanged(Workbench& bench, const Settings& point) const;
+  // Of a point whose scene was remembered.
+  const std::string& of(const Settings& point) const;
   const std::map<std::string, std::string>& all() const { return digests_; }
   // The contents of the scenes' files that are not modelled, one line for each scene (notes_line, scenes/library.h).
   const std::vector<std::string>& notes() const { return notes_; }

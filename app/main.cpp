@@ -31,7 +31,8 @@ namespace noonmark {
 namespace {
 
 constexpr const char* exit_codes =
-    "Exit codes: 0 done, all held; 1 a bound or a law is broken; otherwise what has to change:\n"
+    "Exit codes: 0 done, all held; 1 a bound or a law is broken, or a value is worse than in the baseline;\n"
+    "otherwise what has to change:\n"
     "2 the command line or the experiment (wrong usage; a point too large for memory; a results' folder that\n"
     "  cannot be used); 3 a file (a bad scene or picture, or one too large for memory; damaged results; a full disk);\n"
     "4 the machine (no usable OpenGL, ray tracer or picture library, no memory or threads left for them);\n"
@@ -167,6 +168,19 @@ int run(int argc, char** argv) {
   with_out(check,
            "Folder for the results (default: out/<name of the experiment>); several experiments get a subfolder each");
   with_overwrite(check);
+  CheckOptions checking;
+  check
+      ->add_option("--baseline", checking.baseline,
+                   "Compare the values that bounds and [plot] name with this file: exit code 1 if one is worse")
+      ->check(not_empty)
+      ->type_name("FILE");
+  check->add_flag("--update-baseline", checking.update_baseline,
+                  "Write the values of this run to the baseline, instead of comparing with it");
+  check
+      ->add_option("--baseline-times", checking.baseline_times,
+                   "Keep and compare times too: a time may differ by this share of the time before (0.2: 20 %)")
+      ->check(fraction)
+      ->type_name("FRACTION");
 
   CLI::App* render =
       app.add_subcommand("render", "Measure one point and write its pictures, its ladder and all numbers behind it");
@@ -237,7 +251,7 @@ int run(int argc, char** argv) {
           "--budget", recommending.budget,
           "The most texels written and texture instructions a frame (the metric texel_work). The most accurate "
           "settings are sought")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Validator(CLI::PositiveNumber).description(""))
       ->type_name("NUMBER");
   recommend
       ->add_option("--views", recommending.views,
@@ -294,7 +308,7 @@ int run(int argc, char** argv) {
     std::optional<ThreadLimit> limit;
     if (*run || *check || *render || *map || *recommend || *inspect) limit.emplace(arguments.threads);
     if (*run) return verb_run(experiment, arguments, dry_run);
-    if (*check) return verb_check(paths, arguments);
+    if (*check) return verb_check(paths, arguments, checking);
     if (*render) return verb_render(experiment, point, picture, arguments);
     if (*map) return verb_map(scene, phase, arguments);
     if (*recommend) return verb_recommend(scene, recommending, arguments);

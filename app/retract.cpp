@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view options_with_a_value[] = {"--set", "--part", "--threads", "--out", "--point", "--picture"};
+constexpr std::string_view options_with_a_value[] = {"--set",   "--part",    "--threads",  "--out",
+                                                     "--point", "--picture", "--baseline", "--baseline-times"};
 
 // Sorts the words as far as possible: the words that are neither options nor values of options, and every --out.
 struct Words {

@@ -309,6 +309,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     notes.print();
   }
 
+  for (const Settings& point : planned) outcome.scenes.push_back(names_file(point.scene.name) ? scenes.of(point) : "");
   outcome.results = store.load();
   if (const std::string poor = poor_view_note(outcome.results.points); !poor.empty())
     fmt::print(stderr, "note: {}\n", poor);

@@ -3,6 +3,7 @@
 //   SweepOutcome outcome = run_sweep(experiment, ResultsFolder("out/cube-room"), {.command = "noonmark run ..."});
 #pragma once
 #include <string>
+#include <vector>
 
 #include "app/experiment.h"
 #include "app/results_folder.h"
@@ -18,6 +19,8 @@ struct SweepOptions {
 struct SweepOutcome {
   Results results;
   bool interrupted = false;  // by SIGINT or SIGTERM; the finished points are stored
+  // For each planned point: the digest of the contents of its scene's file. Empty if the scene is built in.
+  std::vector<std::string> scenes;
 };
 
 // Points that do not fit into memory are refused before any point is measured. The sweep resumes where an earlier run

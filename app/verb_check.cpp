@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/baseline_file.h"
 #include "app/experiment_arguments.h"
 #include "app/experiment_list.h"
 #include "app/failure.h"
@@ -23,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int check_one(const ListedExperiment& listed, const ExperimentArguments& arguments, const EarlyFolder& folder) {
+int check_one(const ListedExperiment& listed, const ExperimentArguments& arguments, const CheckOptions& options,
+              const EarlyFolder& folder) {
   const std::string &path = listed.file, &out = listed.out;
   std::error_code none;
   if (listed.in_folder && fs::exists(path, none) && !fs::is_regular_file(path, none))
@@ -31,25 +33,30 @@ int check_one(const ListedExperiment& listed, const ExperimentArguments& argumen
                 fmt::format("{}: is not a regular file; in a folder only regular files are checked", path));
   const Experiment experiment = experiment_from(path, arguments);
   const auto promises = [](const Experiment& e) { return !e.bounds.empty() || !e.laws.empty(); };
-  if (!promises(experiment) && std::none_of(experiment.parts.begin(), experiment.parts.end(), promises))
+  if (options.baseline.empty() && !promises(experiment) &&
+      std::none_of(experiment.parts.begin(), experiment.parts.end(), promises))
     throw Error(
         ErrorKind::usage,
         fmt::format("{} has no [[bound]] and no [[law]], so there is nothing to check; add one, or use noonmark "
                     "run",
                     path));
+  const BaselineFile baseline(options, experiment);  // read before anything is measured
   const SweepOutcome outcome = run_sweep(experiment, folder.get(), {arguments.overwrite, arguments.command});
-  write_file_atomically(out + "/junit.xml", to_junit(outcome.results));
-  write_file_atomically(out + "/summary.md", to_summary(outcome.results));
+  const std::optional<BaselineComparison> compared =
+      outcome.interrupted ? std::nullopt : baseline.compare_or_update(experiment, outcome);
+  write_file_atomically(out + "/junit.xml", to_junit(outcome.results, compared ? &*compared : nullptr));
+  write_file_atomically(out + "/summary.md", to_summary(outcome.results, compared ? &*compared : nullptr));
   if (outcome.interrupted) {
     fmt::print("stopped after {} of {}; the same command continues from there\n", outcome.results.points.size(),
                counted(static_cast<size_t>(outcome.results.planned_points), "point"));
     return static_cast<int>(ErrorKind::incomplete);
   }
   const Results& results = outcome.results;
-  size_t bounds_held = 0, laws_held = 0;
+  size_t bounds_held = 0, warnings = 0, laws_held = 0;
   for (const BoundResult& bound : results.bounds) {
     fmt::print("{}", describe(bound, find_point(results.points, bound.point), results.info.swept));
     bounds_held += bound.held;
+    warnings += !bound.held && bound.warns;
   }
   for (const LawResult& law : results.laws) laws_held += law.held;
   if (!results.laws.empty()) fmt::print("{}{}", results.bounds.empty() ? "" : "\n", law_table(results.laws));
@@ -58,11 +65,21 @@ int check_one(const ListedExperiment& listed, const ExperimentArguments& argumen
   std::string verdict;
   if (!results.bounds.empty())
     verdict = fmt::format("{} of {} held", bounds_held, counted(results.bounds.size(), "bound"));
+  if (warnings > 0) verdict += fmt::format(", {}", counted(warnings, "warning"));
   if (!results.laws.empty())
     verdict += fmt::format("{}{} of {} {}", verdict.empty() ? "" : ", ", laws_held, counted(results.laws.size(), "law"),
                            results.laws.size() == 1 ? "holds" : "hold");
+  if (compared) {
+    for (const auto* lines : {&compared->worse, &compared->better, &compared->notes})
+      for (const std::string& line : *lines) fmt::print("{}\n", printable(line));
+    verdict += (verdict.empty() ? "" : ", ") + baseline_verdict(*compared);
+  }
+  if (verdict.empty()) verdict = "nothing is promised";
   fmt::print("{}: {}; the report is {}/report.html\n", printable(path), verdict, printable(out));
-  return bounds_held == results.bounds.size() && laws_held == results.laws.size() ? 0 : 1;
+  return bounds_held + warnings == results.bounds.size() && laws_held == results.laws.size() &&
+                 (!compared || compared->held())
+             ? 0
+             : 1;
 }
 
 // Printed at the end, because there may be many lines above.
@@ -78,8 +95,15 @@ void tell_the_unchecked(const std::vector<std::string>& experiments, size_t of,
 
 }  // namespace
 
-int verb_check(const std::vector<std::string>& paths, const ExperimentArguments& arguments) {
+int verb_check(const std::vector<std::string>& paths, const ExperimentArguments& arguments,
+               const CheckOptions& options) {
   const ExperimentList list = list_experiments(paths, arguments.out);
+  if (options.baseline.empty() && (options.update_baseline || options.baseline_times))
+    throw Error(ErrorKind::usage, fmt::format("{} needs the baseline's file: --baseline FILE",
+                                              options.update_baseline ? "--update-baseline" : "--baseline-times"));
+  if (!options.baseline.empty() && list.experiments.size() + list.unreadable.size() != 1)
+    throw Error(ErrorKind::usage,
+                "--baseline: a baseline belongs to one experiment; check the others by a command each");
   require_folders_of_their_own(list);
   int worst = 0;
   std::vector<std::string> unreadable, failed;
@@ -91,7 +115,7 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     EarlyFolder folder;
     folder.open(listed.out);
     try {
-      worst = std::max(worst, check_one(listed, arguments, folder));
+      worst = std::max(worst, check_one(listed, arguments, options, folder));
     } catch (...) {
       const Failure failure = current_failure();
       worst = std::max(worst, tell(failure));

@@ -20,8 +20,15 @@ struct ExperimentArguments {
 };
 
 int verb_run(const std::string& experiment, const ExperimentArguments& arguments, bool dry_run);
-// paths: experiment files, or folders, whose *.toml files are all checked. Returns 0 if every bound and law held.
-int verb_check(const std::vector<std::string>& paths, const ExperimentArguments& arguments);
+struct CheckOptions {
+  std::string baseline;                  // a file (compare/judge/baseline.h); empty: none
+  bool update_baseline = false;          // write it instead of comparing with it
+  std::optional<double> baseline_times;  // compare times too; the share by which they may differ
+};
+// paths: experiment files, or folders, whose *.toml files are all checked. Returns 0 if every bound and law held and no
+// value is worse than in the baseline.
+int verb_check(const std::vector<std::string>& paths, const ExperimentArguments& arguments,
+               const CheckOptions& options);
 // experiment: may be empty (the default settings). point: of the experiment's sweep; -1: the sweep must have one point
 // only. picture: a file that is judged in place of R5, or empty.
 int verb_render(const std::string& experiment, long point, const std::string& picture,

@@ -72,7 +72,9 @@ _noonmark() {
     mapfile -t files < <(compgen -d -- "$word")
   elif [[ $previous == --picture ]]; then
     mapfile -t files < <(_noonmark_files "$word" '[eE][xX][rR]' '[pP][nN][gG]')
-  elif [[ $previous == --part || $previous == --point || $previous == --threads || $previous == --acne ||
+  elif [[ $previous == --baseline ]]; then
+    mapfile -t files < <(_noonmark_files "$word" '[jJ][sS][oO][nN]')
+  elif [[ $previous == --part || $previous == --baseline-times || $previous == --point || $previous == --threads || $previous == --acne ||
     $previous == --peter-panning || $previous == --from || $previous == --to || $previous == --rows ||
     $previous == --placements ]]; then
     :  # a name or a number that cannot be listed

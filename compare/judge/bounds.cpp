@@ -10,7 +10,6 @@
 
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
-#include "compare/store/quantities.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
 #include "technique/settings.h"
@@ -92,6 +91,7 @@ BoundResult evaluate(std::span<const PointRecord> points, const Bound& bound) {
   result.min = bound.min;
   result.join = bound.join;
   result.where = bound.where;
+  result.warns = bound.level == "warn";
 
   const PlacedNames placed = placed_names(bound.metric);
   Values values;
@@ -132,10 +132,71 @@ std::string point_text(const PointRecord& point, std::span<const std::string> sw
   return fmt::format("point {}{}{}", point.id, parts.empty() ? "" : ": ", fmt::join(parts, ", "));
 }
 
+constexpr std::string_view wildcards = "*?";
+
+bool is_pattern(const std::string& name) { return name.find_first_of(wildcards) != std::string::npos; }
+
+// On a mismatch the last * takes one character more, so the time is at most the product of both lengths.
+bool fits(std::string_view name, std::string_view pattern) {
+  size_t at = 0, in_pattern = 0, star = std::string_view::npos, taken = 0;
+  while (at < name.size()) {
+    if (in_pattern < pattern.size() && pattern[in_pattern] == '*') {
+      star = in_pattern++;
+      taken = at;
+    } else if (in_pattern < pattern.size() && (pattern[in_pattern] == '?' || pattern[in_pattern] == name[at])) {
+      ++at;
+      ++in_pattern;
+    } else if (star != std::string_view::npos) {
+      in_pattern = star + 1;
+      at = ++taken;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', in_pattern) == std::string_view::npos;
+}
+
+// Every point with a curve has the curve's quantities, but those of all placements only if there are several.
+bool is_measured(const PointRecord& point, const QuantityInfo& info) {
+  if (!info.of_curve) return point.metrics.contains(std::string(info.name));
+  return point.curve && (has_placements(point) || info.name.find("_worst") == std::string_view::npos);
+}
+
 }  // namespace
 
+std::vector<QuantityInfo> quantities_named(const std::string& name, std::span<const PointRecord> points) {
+  if (!is_pattern(name)) return {find_quantity(name, points)};
+  std::vector<std::string_view> all;
+  const std::vector<Metric> metrics = metrics_of(points);
+  for (const Metric& row : metrics) all.push_back(row.name);
+  for (const CurveQuantity& row : curve_quantities()) all.emplace_back(row.name);
+  std::vector<QuantityInfo> found;
+  for (const std::string_view one : all)
+    if (fits(one, name)) found.push_back(find_quantity(one, points));
+  if (!found.empty()) return found;
+  std::string letters = name;
+  std::erase_if(letters, [](char c) { return wildcards.find(c) != std::string_view::npos; });
+  const std::string near = nearest_name(letters, all);
+  throw Error(ErrorKind::usage, fmt::format("no metric fits '{}'{}", name,
+                                            near.empty() ? " (noonmark settings lists them)"
+                                                         : fmt::format("; the nearest name is '{}'", near)));
+}
+
+std::vector<Bound> expanded(const Bound& bound, std::span<const PointRecord> points) {
+  if (!is_pattern(bound.metric)) return {bound};
+  std::vector<Bound> all, measured;
+  for (const QuantityInfo& info : quantities_named(bound.metric, points)) {
+    all.push_back(bound);
+    all.back().metric = info.name;
+    if (std::any_of(points.begin(), points.end(),
+                    [&](const PointRecord& point) { return matches(point, bound.where) && is_measured(point, info); }))
+      measured.push_back(all.back());
+  }
+  return measured.empty() ? all : measured;
+}
+
 void check_bound(const Bound& bound, std::span<const PointRecord> points) {
-  find_quantity(bound.metric, points);
+  quantities_named(bound.metric, points);
   if (!bound.max && !bound.min) refuse(bound, "has neither max nor min; give one of them");
   for (const std::optional<double>& limit : {bound.max, bound.min})
     if (limit && !std::isfinite(*limit)) refuse(bound, "max and min must be finite numbers");
@@ -148,6 +209,8 @@ void check_bound(const Bound& bound, std::span<const PointRecord> points) {
   }
   if (std::find(std::begin(placements), std::end(placements), bound.placement) == std::end(placements))
     refuse(bound, fmt::format("placement = '{}' is not one of worst | first", bound.placement));
+  if (bound.level != "error" && bound.level != "warn")
+    refuse(bound, fmt::format("level = '{}' is not one of error | warn", bound.level));
   try {
     check_conditions(bound.where);
   } catch (const Error& error) {
@@ -158,12 +221,17 @@ void check_bound(const Bound& bound, std::span<const PointRecord> points) {
 std::vector<BoundResult> evaluate_bounds(std::span<const PointRecord> points, std::span<const Bound> bounds,
                                          const std::function<std::string(const PointRecord&)>& reproduce) {
   std::vector<BoundResult> results;
-  for (const Bound& bound : bounds) {
-    results.push_back(evaluate(points, bound));
-    if (const PointRecord* worst = find_point(points, results.back().point))
-      results.back().reproduce = reproduce(*worst);
-  }
+  for (const Bound& pattern : bounds)
+    for (const Bound& bound : expanded(pattern, points)) {
+      results.push_back(evaluate(points, bound));
+      if (const PointRecord* worst = find_point(points, results.back().point))
+        results.back().reproduce = reproduce(*worst);
+    }
   return results;
+}
+
+std::string_view verdict_of(const BoundResult& bound) {
+  return bound.held ? "held" : bound.warns ? "warning" : "broken";
 }
 
 std::string bound_text(const BoundResult& bound) {
@@ -194,7 +262,7 @@ std::string found_text(const BoundResult& bound) {
 }
 
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept) {
-  std::string text = fmt::format("{}: {}", bound.held ? "held" : "broken", bound_text(bound));
+  std::string text = fmt::format("{}: {}", verdict_of(bound), bound_text(bound));
   if (bound.points == 0) return text + "\n  no finished point matches it; change its where, or the swept values\n";
   text += fmt::format("; found {} ({} of {} point{}{}{})\n", found_text(bound), bound.join, bound.points,
                       bound.points == 1 ? "" : "s", bound.placement.empty() ? "" : ", at ",

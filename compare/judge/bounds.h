@@ -14,12 +14,14 @@
 #include <vector>
 
 #include "compare/judge/conditions.h"
+#include "compare/store/quantities.h"
 #include "compare/store/records.h"
 
 namespace noonmark {
 
 struct Bound {
-  std::string metric;              // a metric or a quantity of the curve (quantities.h)
+  // A metric or a quantity of the curve (quantities.h), or a pattern of such names: * is any text, ? any character.
+  std::string metric;
   std::optional<double> max, min;  // inclusive; at least one
   Conditions where;                // empty: every point
   // worst: the largest value for a max, the smallest for a min. With both limits it is the value that breaks one,
@@ -29,6 +31,7 @@ struct Bound {
   // Of a point with map.placements: "worst", the placement that is worst for each limit; or "first", the map as the
   // settings place it. A quantity that is measured once for all placements is the same with both.
   std::string placement = "worst";
+  std::string level = "error";  // "warn": broken, it is a warning and does not break the verdict
 };
 
 // Throws Error(usage) for an unknown metric, setting or join (with the nearest name as a suggestion), for a value that
@@ -36,7 +39,20 @@ struct Bound {
 // there are metrics too.
 void check_bound(const Bound& bound, std::span<const PointRecord> points = {});
 
-// Returns one result for each bound, in order. reproduce returns the command that renders one point. Throws as
+// All that the name or the pattern names. points: their own causes are among them. Throws Error(usage) if it names
+// nothing, with the nearest name.
+std::vector<QuantityInfo> quantities_named(const std::string& name, std::span<const PointRecord> points = {});
+
+// A bound for each metric that the pattern names and that was measured at a point that the bound matches; if none was,
+// a bound for each metric that it names, which are then broken. A bound without a pattern stays as it is.
+std::vector<Bound> expanded(const Bound& bound, std::span<const PointRecord> points);
+
+// Whether the bound breaks the verdict. A broken bound of level "warn" does not.
+inline bool breaks(const BoundResult& bound) { return !bound.held && !bound.warns; }
+// "held", "warning", "broken"
+std::string_view verdict_of(const BoundResult& bound);
+
+// Returns one result for each bound, or for each metric of its pattern, in order. reproduce returns the command that renders one point. Throws as
 // check_bound does.
 std::vector<BoundResult> evaluate_bounds(std::span<const PointRecord> points, std::span<const Bound> bounds,
                                          const std::function<std::string(const PointRecord&)>& reproduce);

@@ -16,8 +16,9 @@ namespace {
 
 using Outcome = Recommendation::Outcome;
 
+// A bound that only warns does not decide what is good enough.
 bool speaks_of(const BoundResult& bound, const PointRecord& point) {
-  return bound.part == point.part && matches(point, bound.where);
+  return !bound.warns && bound.part == point.part && matches(point, bound.where);
 }
 
 std::optional<double> depth_at(const PointRecord& point, std::optional<double> bias) {

@@ -168,8 +168,14 @@ std::string bounds_table(const Results& results) {
     if (bound.point >= 0) found += fmt::format(" at <a href=\"#p{0}\">point {0}</a>", bound.point);
     rows += fmt::format(
         "<tr class=\"{}\"><td>{}</td><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-        bound.held ? "held" : "broken", bound.held ? "✓ holds" : "✗ broken", html(metric_label(bound.metric)), limit,
-        found, html(bound.join) + (bound.placement.empty() ? "" : fmt::format(", {}", placement_text(bound))),
+        breaks(bound) ? "broken"
+        : bound.held  ? "held"
+                      : "warning",
+        bound.held    ? "✓ holds"
+        : bound.warns ? "! warning"
+                      : "✗ broken",
+        html(metric_label(bound.metric)), limit, found,
+        html(bound.join) + (bound.placement.empty() ? "" : fmt::format(", {}", placement_text(bound))),
         where.empty() ? fmt::format("all ({})", bound.points) : fmt::format("{} ({})", where, bound.points));
     if (!bound.held && !bound.reproduce.empty())
       rows += fmt::format("<tr class=\"command\"><td></td><td colspan=\"5\">See it: <code>{}</code></td></tr>\n",
@@ -185,10 +191,13 @@ std::string bounds_table(const Results& results) {
 
 std::string verdict_line(const Results& results) {
   std::string out;
-  const auto judge = [&](const auto& list, const char* noun, const char* alone) {
+  const auto judge = [&](const auto& list, const char* noun, const char* alone, const auto& is_broken) {
     if (list.empty()) return;
-    const auto broken = std::count_if(list.begin(), list.end(), [](const auto& one) { return !one.held; });
-    const std::string text = broken             ? fmt::format("{} of {} {}s broken", broken, list.size(), noun)
+    const auto broken = std::count_if(list.begin(), list.end(), is_broken);
+    const auto kept = std::count_if(list.begin(), list.end(), [](const auto& one) { return one.held; });
+    const bool warned = !broken && kept < static_cast<std::ptrdiff_t>(list.size());
+    const std::string text = broken   ? fmt::format("{} of {} {}s broken", broken, list.size(), noun)
+                             : warned ? fmt::format("{} of {} {}s hold, the others warn", kept, list.size(), noun)
                              : list.size() == 1 ? std::string(alone)
                                                 : fmt::format("All {} {}s hold", list.size(), noun);
     out += fmt::format("{}<span class=\"pill {}\">{}</span>", out.empty() ? "" : " ", broken ? "broken" : "held", text);
@@ -197,8 +206,8 @@ std::string verdict_line(const Results& results) {
     // If the numbers are not sound, the verdicts on them have no meaning.
     out = "<span class=\"pill broken\">Not sound: the measurement contradicts itself</span>";
   } else {
-    judge(results.bounds, "bound", "The bound holds");
-    judge(results.laws, "law", "The law holds");
+    judge(results.bounds, "bound", "The bound holds", breaks);
+    judge(results.laws, "law", "The law holds", [](const LawResult& law) { return !law.held; });
   }
   if (out.empty()) out = "<span class=\"pill none\">No bounds were set</span>";
   if (static_cast<int64_t>(results.points.size()) < results.planned_points)

@@ -1,6 +1,7 @@
 #include "compare/report/junit.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -25,20 +26,21 @@ std::string timestamp(const std::string& started) {
 
 }  // namespace
 
-std::string to_junit(const Results& results) {
+std::string to_junit(const Results& results, const BaselineComparison* baseline) {
   const auto finished = static_cast<int64_t>(results.points.size());
   const bool incomplete = finished < results.planned_points;
   const auto failures =
-      std::count_if(results.bounds.begin(), results.bounds.end(), [](const BoundResult& b) { return !b.held; }) +
-      std::count_if(results.laws.begin(), results.laws.end(), [](const LawResult& l) { return !l.held; });
+      std::count_if(results.bounds.begin(), results.bounds.end(), breaks) +
+      std::count_if(results.laws.begin(), results.laws.end(), [](const LawResult& l) { return !l.held; }) +
+      (baseline && !baseline->held() ? 1 : 0);
   const std::string suite = results.info.title.empty() ? "noonmark" : results.info.title;
 
   std::string xml(head);
   xml += fmt::format(
       "  <testsuite name=\"{}\" package=\"noonmark\" id=\"0\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"0\" "
       "timestamp=\"{}\" hostname=\"localhost\">\n",
-      xml_text(suite), results.bounds.size() + results.laws.size() + (incomplete ? 1 : 0), failures, incomplete ? 1 : 0,
-      xml_text(timestamp(results.info.started)));
+      xml_text(suite), results.bounds.size() + results.laws.size() + (baseline ? 1 : 0) + (incomplete ? 1 : 0),
+      failures, incomplete ? 1 : 0, xml_text(timestamp(results.info.started)));
   xml += "    <properties>\n";
   const std::pair<std::string_view, const std::string&> properties[] = {
       {"experiment", results.info.experiment},   {"command", results.info.command},
@@ -49,28 +51,38 @@ std::string to_junit(const Results& results) {
   xml += "    </properties>\n";
 
   std::set<std::string> taken;  // CI servers identify a testcase by its name, so names must differ
-  const auto testcase = [&](const std::string& title, bool held, std::string_view type, const auto& message,
+  const auto testcase = [&](const std::string& title, bool held, bool warns, std::string_view type, const auto& message,
                             const auto& text) {
     std::string name = title;
     for (int copy = 2; !taken.insert(name).second; ++copy) name = fmt::format("{} #{}", title, copy);
     xml += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"0\"", xml_text(suite), xml_text(name));
-    xml += held ? "/>\n"
-                : fmt::format(">\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n",
-                              xml_text(message()), type, xml_text(text()));
+    if (held)
+      xml += "/>\n";
+    else if (warns)
+      xml += fmt::format(">\n      <skipped message=\"warning: {}\">{}</skipped>\n    </testcase>\n",
+                         xml_text(message()), xml_text(text()));
+    else
+      xml += fmt::format(">\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n",
+                         xml_text(message()), type, xml_text(text()));
   };
   for (const BoundResult& bound : results.bounds)
     testcase(
-        bound_text(bound), bound.held, "bound",
+        bound_text(bound), bound.held, bound.warns, "bound",
         [&] {
           return bound.points == 0 ? "no finished point matches the bound" : fmt::format("found {}", found_text(bound));
         },
         [&] { return describe(bound, find_point(results.points, bound.point), results.info.swept); });
   for (const LawResult& law : results.laws)
     testcase(
-        law.name, law.held, "law", [&] { return law_text(law); },
+        law.name, law.held, false, "law", [&] { return law_text(law); },
         [&] {
           return law_table({&law, 1});
         });
+  if (baseline)
+    testcase(
+        "no value is worse than in the baseline", baseline->held(), false, "baseline",
+        [&] { return baseline_verdict(*baseline); },
+        [&] { return fmt::format("{}\n", fmt::join(baseline->worse, "\n")); });
   if (incomplete)
     xml += fmt::format(
         "    <testcase classname=\"{}\" name=\"the sweep is complete\" time=\"0\">\n      <error "

@@ -44,15 +44,19 @@ std::string counted(size_t count, std::string_view what) {
 std::string verdict(const Results& results) {
   const auto finished = static_cast<int64_t>(results.points.size());
   std::string broken, held;
-  const auto judge = [&](const auto& list, std::string_view what) {
-    const auto count = std::count_if(list.begin(), list.end(), [](const auto& one) { return !one.held; });
+  const auto judge = [&](const auto& list, std::string_view what, const auto& is_broken) {
+    const auto count = std::count_if(list.begin(), list.end(), is_broken);
     if (count > 0)
       broken += fmt::format("{}{} of {} {}{}", broken.empty() ? "" : ", ", count, list.size(), what,
                             list.size() == 1 ? "" : "s");
-    if (!list.empty()) held += (held.empty() ? "" : " and ") + counted(list.size(), what);
+    const auto kept = std::count_if(list.begin(), list.end(), [](const auto& one) { return one.held; });
+    const bool all = kept == static_cast<std::ptrdiff_t>(list.size());  // otherwise some are warnings
+    if (!list.empty())
+      held += (held.empty() ? "" : " and ") +
+              (all ? counted(list.size(), what) : fmt::format("{} of {} {}s", kept, list.size(), what));
   };
-  judge(results.bounds, "bound");
-  judge(results.laws, "law");
+  judge(results.bounds, "bound", breaks);
+  judge(results.laws, "law", [](const LawResult& law) { return !law.held; });
   std::string text;
   if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty())
     text = fmt::format("**Not sound: {}.** Do not rely on these numbers.", text_of(unsound.front()));
@@ -65,6 +69,9 @@ std::string verdict(const Results& results) {
     text = fmt::format("**Held: {} over {} point{}.**", held, finished, finished == 1 ? "" : "s");
   else
     text = fmt::format("**Measured {} point{}.** The experiment sets no bounds.", finished, finished == 1 ? "" : "s");
+  const auto warnings = std::count_if(results.bounds.begin(), results.bounds.end(),
+                                      [](const BoundResult& bound) { return !bound.held && bound.warns; });
+  if (warnings > 0) text += fmt::format(" {} warning{}.", warnings, warnings == 1 ? "" : "s");
   if (finished < results.planned_points && !broken.empty()) text += fmt::format(" Broken so far: {}.", broken);
   return text + "\n";
 }
@@ -89,6 +96,16 @@ std::string laws_table(const Results& results) {
   return text;
 }
 
+std::string baseline_list(const BaselineComparison& baseline) {
+  std::string text = fmt::format("\n## Baseline\n\n{}{}.\n", baseline.held() ? "" : "**Worse.** ",
+                                 markdown(baseline_verdict(baseline)));
+  for (const auto* lines : {&baseline.worse, &baseline.better, &baseline.notes}) {
+    if (!lines->empty()) text += "\n";
+    for (const std::string& line : *lines) text += fmt::format("- {}\n", markdown(line));
+  }
+  return text;
+}
+
 std::string bounds_table(const Results& results) {
   std::string text = "\n## Bounds\n\n";
   add_heading(text, {"", "bound", "found", "points", "worst at"});
@@ -99,7 +116,7 @@ std::string bounds_table(const Results& results) {
         const auto setting = point->settings.find(name);
         if (setting != point->settings.end()) at.push_back(fmt::format("{} = {}", name, setting->second));
       }
-    add_row(text, {bound.held ? "held" : "**broken**", markdown(bound_text(bound)),
+    add_row(text, {breaks(bound) ? "**broken**" : std::string(verdict_of(bound)), markdown(bound_text(bound)),
                    bound.points == 0 ? "–" : short_number(bound.found), fmt::format("{}", bound.points),
                    markdown(fmt::format("{}", fmt::join(at, ", ")))});
   }
@@ -180,7 +197,7 @@ std::string best_table(const Results& results) {
 
 }  // namespace
 
-std::string to_summary(const Results& results) {
+std::string to_summary(const Results& results, const BaselineComparison* baseline) {
   const RunInfo& info = results.info;
   std::string text =
       fmt::format("# {}\n\n{}", markdown(info.title.empty() ? "Noonmark" : info.title), verdict(results));
@@ -188,6 +205,7 @@ std::string to_summary(const Results& results) {
     text += fmt::format("\nNote: {}.\n", markdown(poor));
   if (const std::string doubt = undecided_note(results.points); !doubt.empty())
     text += fmt::format("\nNote: {}.\n", markdown(doubt));
+  if (baseline) text += baseline_list(*baseline);
   if (!results.laws.empty()) text += laws_table(results);
   if (!results.bounds.empty()) text += bounds_table(results);
   // Points of different parts are not meant to be compared.

@@ -2,13 +2,14 @@
 #pragma once
 #include <string>
 
+#include "compare/judge/baseline.h"
 #include "compare/store/records.h"
 
 namespace noonmark {
 
 // First the verdict, then the bounds (broken ones with the command that reproduces them), then the points with the
-// least error and the bias that each needs.
-std::string to_summary(const Results& results);
+// least error and the bias that each needs. baseline: its comparison stands before the bounds; null: without it.
+std::string to_summary(const Results& results, const BaselineComparison* baseline = nullptr);
 
 // The reason why nothing was judged.
 std::string to_summary(const Unjudged& unjudged);

@@ -112,7 +112,8 @@ const Table<BoundResult>& bounds_table() {
                               {column("part", &B::part), column("metric", &B::metric), column("max", &B::max), column("min", &B::min),
                                where_column, column("join_by", &B::join), column("placement", &B::placement),
                                column("held", &B::held), column("found", &B::found), column("point", &B::point),
-                               column("points", &B::points), column("reproduce", &B::reproduce)});
+                               column("points", &B::points), column("reproduce", &B::reproduce),
+                               column("warns", &B::warns)});
   return table;
 }
 

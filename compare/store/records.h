@@ -113,6 +113,7 @@ struct BoundResult {
   // "worst", "first": which placement of the map's grid was judged; empty: the points have one placement each
   std::string placement{};
   std::string part{};  // the experiment's part; empty if it has no parts
+  bool warns = false;  // broken, it is a warning and does not break the verdict
 };
 
 enum class LawRelation { equal, at_most, at_least };
@@ -149,7 +150,7 @@ struct RunInfo {
   std::map<std::string, std::string> libraries;  // name -> version
   std::vector<std::string> swept;                // names of the swept settings, outermost first
   std::vector<std::string> over;                 // those of them that are conditions (compare/judge/choices.h)
-  std::string cost = "texel_work";            // the metric by which answers are ranked
+  std::string cost = "texel_work";               // the metric by which answers are ranked
   std::string accuracy = "error_soft";           // the metric that answers make small
   std::vector<std::string> plot;                 // metrics the experiment asks to plot
   std::string scene_name;

@@ -9,7 +9,7 @@ constexpr int store_application_id = 0x4e6e4d6b;
 // Counts the changes of the tables below. A store of another version is refused. A store whose schema differs for
 // another reason is refused too: it was edited, or another build has other settings or metrics in the view `points`
 // (compare/store/check.h).
-constexpr int store_version = 10;
+constexpr int store_version = 11;
 
 // The SQL that makes the tables, the view `points` and its legend `columns` in an empty database.
 std::string store_schema();

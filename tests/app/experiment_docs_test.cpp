@@ -124,7 +124,7 @@ TEST(ExperimentDocuments, EveryKeyChoiceAndFunctionIsNamed) {
   keys("Charts and bias curves", "[plot]\n", 1);
   keys("Charts and bias curves", "[curve]\n", 4);
   keys("The phase diagram", "[phase]\n", 6);
-  keys("Bounds", bound, 6);
+  keys("Bounds", bound, 7);
   keys("Laws", law, 13);
   keys("Several experiments in one file", "[[part]]\n", 14);
 

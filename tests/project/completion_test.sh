@@ -43,8 +43,8 @@ has() {
   bad=1
 }
 
-expect 'check doctor init inspect map render report run scenes settings' ''
-expect 'render report run' r
+expect 'check doctor init inspect map recommend render report run scenes settings' ''
+expect 'recommend render report run' r
 expect '--help --version' -
 expect '--dry-run --help --out --overwrite --part --set --threads' run --
 expect '--part --picture --point' render --p

@@ -367,5 +367,65 @@ TEST(Summary, OrdersByErrorAndKeepsTheTableWhole) {
   EXPECT_NE(text.find("    broken: acne <= 0.2; found 0.3"), std::string::npos) << text;
 }
 
+TEST(Bounds, AWarningDoesNotBreakTheVerdict) {
+  const std::vector<PointRecord> points = points_with({0.1});
+  Bound bound = at_most(0.01);
+  bound.level = "warn";
+  Results results;
+  results.points = points;
+  results.planned_points = 1;
+  results.bounds = evaluate_bounds(points, {&bound, 1}, [](const PointRecord&) { return "command"; });
+  ASSERT_EQ(results.bounds.size(), 1u);
+  EXPECT_FALSE(results.bounds[0].held);
+  EXPECT_FALSE(breaks(results.bounds[0]));
+  EXPECT_TRUE(describe(results.bounds[0], points.data()).starts_with("warning: acne <= 0.01"));
+  const std::string junit = to_junit(results);
+  EXPECT_NE(junit.find("failures=\"0\""), std::string::npos) << junit;
+  EXPECT_NE(junit.find("<skipped message=\"warning: found 0.1\">"), std::string::npos) << junit;
+  const std::string summary = to_summary(results);
+  EXPECT_NE(summary.find("**Held: 0 of 1 bounds over 1 point.** 1 warning."), std::string::npos) << summary;
+  EXPECT_NE(summary.find("| warning | acne"), std::string::npos) << summary;
+  bound.level = "loud";
+  EXPECT_THROW(check_bound(bound), Error);
+}
+
+TEST(Bounds, APatternNamesEachMetricThatItFits) {
+  const auto names = [](const std::string& pattern) {
+    std::vector<std::string> found;
+    for (const QuantityInfo& info : quantities_named(pattern)) found.emplace_back(info.name);
+    return found;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names("acne"), Names{"acne"});
+  EXPECT_EQ(names("aliasing_d??k"), Names{"aliasing_dark"});
+  EXPECT_EQ(names("*_ms"), (Names{"map_ms", "lookup_ms", "shadow_ms"}));
+  EXPECT_EQ(names("c*g*e"), Names{"coverage"}) << "a * may take a g";
+  EXPECT_EQ(names("*").size(), names("**").size());
+  try {
+    quantities_named("aliasng*x");
+    ADD_FAILURE() << "nothing fits";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("no metric fits 'aliasng*x'; the nearest name is 'aliasing'"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Bounds, APatternIsJudgedForEachMeasuredMetric) {
+  PointRecord point = sample_point(0);
+  point.metrics = {{"aliasing", 0.1}, {"aliasing_dark", 0.3}};
+  const auto judged = [&](const std::string& pattern) {
+    Bound bound = at_most(0.2);
+    bound.metric = pattern;
+    return evaluate_bounds({&point, 1}, {&bound, 1}, [](const PointRecord&) { return ""; });
+  };
+  const std::vector<BoundResult> results = judged("aliasing*");
+  ASSERT_EQ(results.size(), 2u) << "the others were not measured";
+  EXPECT_TRUE(results[0].metric == "aliasing" && results[0].held);
+  EXPECT_TRUE(results[1].metric == "aliasing_dark" && !results[1].held);
+  for (const BoundResult& none : judged("*_ms")) EXPECT_FALSE(none.held) << "none of them was measured";
+  EXPECT_EQ(judged("*_ms").size(), 3u);
+}
+
 }  // namespace
 }  // namespace noonmark
