@@ -169,6 +169,8 @@ int run(int argc, char** argv) {
            "Folder for the results (default: out/<name of the experiment>); several experiments get a subfolder each");
   with_overwrite(check);
   CheckOptions checking;
+  check->add_flag("--dry-run", checking.dry_run,
+                  "Only print each experiment's points, the memory that each takes, and an estimate of the time");
   check
       ->add_option("--baseline", checking.baseline,
                    "Compare the values that bounds and [plot] name with this file: exit code 1 if one is worse")

@@ -105,6 +105,14 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     throw Error(ErrorKind::usage,
                 "--baseline: a baseline belongs to one experiment; check the others by a command each");
   require_folders_of_their_own(list);
+  if (options.dry_run) {
+    for (const UnreadableFolder& one : list.unreadable) throw one.error;
+    for (const ListedExperiment& listed : list.experiments) {
+      fmt::print("{}:\n", printable(listed.file));
+      print_plan(experiment_from(listed.file, arguments));
+    }
+    return 0;
+  }
   int worst = 0;
   std::vector<std::string> unreadable, failed;
   for (const UnreadableFolder& one : list.unreadable) {

@@ -21,6 +21,7 @@ struct ExperimentArguments {
 
 int verb_run(const std::string& experiment, const ExperimentArguments& arguments, bool dry_run);
 struct CheckOptions {
+  bool dry_run = false;  // print the plan of each experiment; measure and write nothing
   std::string baseline;                  // a file (compare/judge/baseline.h); empty: none
   bool update_baseline = false;          // write it instead of comparing with it
   std::optional<double> baseline_times;  // compare times too; the share by which they may differ

@@ -50,6 +50,12 @@ TEST_F(ProgramBaseline, OtherSettingsAreNamed) {
   EXPECT_TRUE(says("missing: map.resolution = 128 is in the baseline, but was not measured")) << output_;
 }
 
+TEST_F(ProgramBaseline, ADryRunWritesNothing) {
+  EXPECT_EQ(check({"--update-baseline", "--dry-run"}), 0) << output_;
+  EXPECT_TRUE(says("x.toml:\n") && says("2 points, ")) << output_;
+  EXPECT_FALSE(fs::exists(folder_ / "out") || fs::exists(folder_ / "b.json"));
+}
+
 TEST_F(ProgramBaseline, BelongsToOneExperiment) {
   write("y.toml", one_point + held_bound);
   EXPECT_EQ(run({"check", "x.toml", "y.toml", "--baseline", "b.json"}), 2) << output_;
