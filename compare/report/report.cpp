@@ -9,6 +9,7 @@
 #include "compare/report/answer.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
+#include "compare/report/live_section.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/sections.h"
@@ -60,9 +61,13 @@ std::string by_point(const Results& results, const ShownPoints& shown, const Rea
 std::string pictures(const Results& results, const ShownPoints&, const ReadFile& read_file) {
   return report::pictures_section(results, read_file);
 }
+std::string live(const Results& results, const ShownPoints&, const ReadFile& read_file) {
+  return report::live_section(results, read_file);
+}
 constexpr Section all_sections[] = {
     {"phase", "Diagram", by_point<report::phase_section>, false},
     {"answer", "Answer", plain<report::answer_section>, false},
+    {"live", "Live", live, false},
     {"bias", "Bias", by_point<report::bias_section>, true},
     {"sweep", "Resolution", by_point<report::sweep_section>, true},
     {"budget", "Causes", by_point<report::budget_section>, true},
@@ -100,14 +105,15 @@ std::string render_report(const Results& results,
   for (const Section& section : sections_of(results)) sections += section.html(results, shown, read_file);
   std::vector<CauseColor> causes;
   for (const CauseColor& color : causes_of(results.points)) causes.push_back(color);
-  return report::fill_page({.title = title,
-                            .subtitle = subtitle(results),
-                            .navigation = navigation(results),
-                            .sections = sections,
-                            .data = report::chart_data(results, shown),
-                            .causes = causes,
-                            .scripts = {"charts", "chart_bias", "chart_sweep", "chart_laws", "chart_phase", "page"},
-                            .version = results.info.version});
+  return report::fill_page(
+      {.title = title,
+       .subtitle = subtitle(results),
+       .navigation = navigation(results),
+       .sections = sections,
+       .data = report::chart_data(results, shown),
+       .causes = causes,
+       .scripts = {"charts", "chart_bias", "chart_sweep", "chart_laws", "chart_phase", "live", "page"},
+       .version = results.info.version});
 }
 
 }  // namespace noonmark
