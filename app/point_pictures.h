@@ -20,12 +20,15 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const std
 // Writes the point's files below out/images. The record must be in the store.
 PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out);
 
+// Writes the point's live picture as out/images/p0003-live.bin.
+ImageRecord keep_live_picture(const LivePicture& picture, int64_t id, const std::string& out);
+
 // "out/images/p0003-map.png is not the file that was written", for the first file that is lost or changed; otherwise
 // empty.
 std::string why_not_as_written(const PointRecord& point, const std::string& out);
 
-// For the report: returns the bytes of the picture with this path. It must be a PNG with the digest that one of the
-// points has for it. Throws Error(file).
+// For the report: returns the bytes of the picture or the image with this path. It must have the digest that one of the
+// points has for it, and a picture must be a PNG. Throws Error(file).
 std::string read_picture(const std::string& out, const std::string& path, const std::vector<PointRecord>& points);
 
 }  // namespace noonmark

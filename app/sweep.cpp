@@ -211,6 +211,15 @@ void judge(const Experiment& experiment, Results& results) {
   }
 }
 
+// Writes all picture files of a measured point. The measurement's images are gone afterwards.
+PointPictures pictures_of(Workbench& bench, const Measurement& m, int64_t id, const std::string& out) {
+  PointPictures kept = keep_pictures(m, id, out);
+  const Settings settings = m.settings;
+  if (const std::optional<LivePicture> live = bench.live_picture(settings))
+    kept.images.push_back(keep_live_picture(*live, id, out));
+  return kept;
+}
+
 // Whether a stored point has the numbers that the sweep itself needs (require_sound, points_with_pictures).
 bool has_what_a_sweep_reads(const PointRecord& point) {
   const auto has = [&](std::string_view name) { return point.metrics.contains(std::string(name)); };
@@ -301,7 +310,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       m.record.part = part.part;
       notes.add(part.part, idle_settings(m.frame.kind, m.settings));
       if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0))
-        static_cast<PointPictures&>(m.record) = keep_pictures(m, id, folder.path());
+        static_cast<PointPictures&>(m.record) = pictures_of(bench, m, id, folder.path());
       store.add(m.record);
       progress.finished(++done, name_of_point(experiment, id));
       outcome.interrupted = stop_asked && (done < total || !undrawn.empty());
@@ -327,7 +336,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       const Settings& settings = planned[static_cast<size_t>(id)];
       room.require_room_for(static_cast<size_t>(id));
       scenes.require_unchanged(bench, settings);
-      store.set_pictures(id, keep_pictures(bench.measure(settings, std::nullopt, {}, timed), id, folder.path()));
+      store.set_pictures(id, pictures_of(bench, bench.measure(settings, std::nullopt, {}, timed), id, folder.path()));
       changed = true;
     }
     if (changed) outcome.results = store.load();

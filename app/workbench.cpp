@@ -22,6 +22,9 @@
 namespace noonmark {
 namespace {
 
+// Of the file of a live picture. The page holds it as base64, with a third more bytes, and shall stay below 4 MB.
+constexpr size_t most_live_bytes = 2'000'000;
+
 // One value and the settings from which it was computed. The points of a sweep come in an order in which neighbours
 // share most settings, so it is enough to remember the last value.
 template <class T>
@@ -163,6 +166,8 @@ struct Workbench::Impl {
   void add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen, const TruthStage& traced,
                       const PointSetup& point);
 
+  LivePicture draw_live(const SceneStage& loaded, const Settings& settings);
+
   gl::Renderer renderer;
   std::unique_ptr<Pipeline> stages;
   AvailableMemory space_at_start;
@@ -278,6 +283,48 @@ std::vector<PhasePlace> Workbench::places(const Settings& picture, std::span<con
     places.push_back({known->second.texel_m, known->second.bias_m * point.bias["constant"]});
   }
   return places;
+}
+
+// One attempt at a live picture, of the picture's size in the settings.
+LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings& settings) {
+  const LightFrame frame = make_light_frame(*loaded.scene, settings);
+  const PointSetup point{settings, frame};
+  const ViewStage seen = stages->take_view(renderer, *loaded.scene, settings.view);
+  const TruthStage traced = stages->trace_truth(loaded, seen, point);
+  renderer.load_receivers(seen.receivers, seen.camera.eye_m);
+  const MapStage drawn = stages->draw_map(renderer, *loaded.scene, point);
+  LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, point);
+  const BiasPart& varied = *curve_part(settings.bias);
+  LivePicture picture = empty_live_picture(seen.receivers.width(), seen.receivers.height());
+  picture.taps = asked.probe.taps();
+  picture.parameter = "bias." + std::string(varied.name);
+  picture.unit = find_setting("bias.unit").get(settings);
+  picture.scale = bias_scale(frame, seen.receivers, traced.receivers, settings.bias.unit);
+  for (size_t i = 0; i < picture.flags.size(); ++i)
+    if (seen.receivers.primitive[i] != no_primitive) picture.flags[i] = live_surface;
+  each_strip_of(renderer, asked, traced, point, [&](const LookupEvidence& evidence, PixelRange strip) {
+    add_live_strip(picture, evidence, drawn.depth, settings.bias, varied, strip);
+  });
+  return picture;
+}
+
+std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
+  validate(settings);
+  if (!why_no_live_picture(settings).empty()) return std::nullopt;
+  Impl& b = *impl_;
+  const SceneStage& loaded = b.load(settings);
+  // The picture needs a map and a lookup of its own. There may be no memory for two of each.
+  b.lookup.forget();
+  b.map.forget();
+  b.receivers_on_device.clear();
+  Settings small = settings;
+  const double shrink = std::min({1.0, 320.0 / small.view.width_px, 180.0 / small.view.height_px});
+  for (double scale = shrink;; scale /= 2) {
+    small.view.width_px = std::max(1, static_cast<int>(settings.view.width_px * scale));
+    small.view.height_px = std::max(1, static_cast<int>(settings.view.height_px * scale));
+    LivePicture picture = b.draw_live(loaded, small);
+    if (live_file(picture).size() <= most_live_bytes || small.view.width_px * small.view.height_px == 1) return picture;
+  }
 }
 
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,

@@ -12,6 +12,7 @@
 
 #include "app/phase_diagram.h"
 #include "app/stages.h"
+#include "compare/ladder/live_picture.h"
 #include "compare/store/records.h"
 
 namespace noonmark {
@@ -54,6 +55,11 @@ class Workbench {
   // The places of points on a diagram that counts the receivers of `picture`: the points differ from it in texel size,
   // in bias and in settings that move no receiver. Throws Error.
   std::vector<PhasePlace> places(const Settings& picture, std::span<const Settings> points);
+
+  // The picture of these settings at every bias, for a page (compare/ladder/live_picture.h). It is measured for itself,
+  // with at most 320 x 180 pixels of the same view, and with fewer if its file would have more than 2 MB. Empty if the
+  // settings have no such picture. The images of the last measurement are gone afterwards. Throws Error.
+  std::optional<LivePicture> live_picture(const Settings& settings);
 
   // The peak memory that measure() would take. pictures: whether its pictures and EXR files are written. Throws Error.
   MemoryEstimate memory(const Settings& settings, bool curve, bool pictures);

@@ -9,6 +9,7 @@
 #include "compare/report/answer.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
+#include "compare/report/live_section.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/sections.h"
@@ -61,9 +62,13 @@ std::string by_point(const Results& results, const ShownPoints& shown, const Rea
 std::string pictures(const Results& results, const ShownPoints&, const ReadFile& read_file) {
   return report::pictures_section(results, read_file);
 }
+std::string live(const Results& results, const ShownPoints&, const ReadFile& read_file) {
+  return report::live_section(results, read_file);
+}
 constexpr Section all_sections[] = {
     {"phase", "Diagram", by_point<report::phase_section>, false},
     {"answer", "Answer", plain<report::answer_section>, false},
+    {"live", "Live", live, false},
     {"bias", "Bias", by_point<report::bias_section>, true},
     {"sweep", "Resolution", by_point<report::sweep_section>, true},
     {"budget", "Causes", by_point<report::budget_section>, true},
@@ -78,7 +83,8 @@ std::vector<Section> sections_of(const Results& results) {
   const bool parts = !results.points.empty() && !results.points.front().part.empty();
   std::vector<Section> sections;
   for (const Section& section : all_sections)
-    if ((!parts || !section.compares) && (section.id != std::string_view("phase") || !results.phases.empty()))
+    if ((!parts || !section.compares) && (section.id != std::string_view("phase") || !results.phases.empty()) &&
+        (section.id != std::string_view("live") || report::has_live_picture(results)))
       sections.push_back(section);
   return sections;
 }
@@ -108,7 +114,7 @@ std::string render_report(const Results& results,
                             .data = report::chart_data(results, shown),
                             .causes = causes,
                             .scripts = {"charts", "chart_bias", "chart_sweep", "speed_marks", "chart_speed",
-                                        "chart_laws", "chart_phase", "page"},
+                                        "chart_laws", "chart_phase", "live", "page"},
                             .version = results.info.version});
 }
 

@@ -1,0 +1,102 @@
+#include "compare/report/live_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "compare/judge/curve_reading.h"
+#include "compare/judge/recommendation.h"
+#include "compare/report/text.h"
+#include "compare/store/quantities.h"
+
+namespace noonmark::report {
+namespace {
+
+using nlohmann::json;
+
+const ImageRecord* live_image(const PointRecord& point) {
+  for (const ImageRecord& image : point.images)
+    if (image.path.ends_with("-live.bin")) return &image;
+  return nullptr;
+}
+
+const PointRecord* point_to_show(const Results& results, const Recommendation& recommendation) {
+  const PointRecord* first = nullptr;
+  for (const PointRecord& point : results.points) {
+    if (!live_image(point)) continue;
+    if (!recommendation.choice.points.empty() && recommendation.choice.first().id == point.id) return &point;
+    if (!first) first = &point;
+  }
+  return first;
+}
+
+// The marks on the slider, in window depth: the bias as set, the recommended one (of the choice, or else the best of
+// the point's own curve) and the usable window.
+json marks_of(const PointRecord& point, const Recommendation& recommendation) {
+  json marks = json::object();
+  if (const std::optional<double> set = bias_as_set(point); set && std::isfinite(*set)) marks["set"] = *set;
+  const bool chosen = recommendation.bias && recommendation.choice.first().id == point.id;
+  const double per_depth = parameter_per_depth(point);
+  if (chosen && std::isfinite(per_depth) && per_depth > 0)
+    marks["recommended"] = recommendation.bias->value / per_depth;
+  else if (point.curve && std::isfinite(point.curve->best_bias_depth))
+    marks["best"] = point.curve->best_bias_depth;
+  if (!point.curve) return marks;
+  if (const std::optional<DepthWindow> window = usable_window(*point.curve))
+    marks["window"] = json::array({window->low, window->high});
+  return marks;
+}
+
+std::string without_picture(const std::string& why) {
+  return fmt::format(
+      "<section id=\"live\"><h2>The picture at every bias</h2>\n<p class=\"small\">{} Points with pictures get a live "
+      "picture if a part of the bias has a curve and the filter is a mean of at most 255 comparisons. Run the "
+      "experiment "
+      "with <code>pictures = \"first\"</code> or another value than none.</p></section>\n",
+      why);
+}
+
+}  // namespace
+
+bool has_live_picture(const Results& results) {
+  return std::any_of(results.points.begin(), results.points.end(),
+                     [](const PointRecord& point) { return live_image(point) != nullptr; });
+}
+
+std::string live_section(const Results& results, const std::function<std::string(const std::string&)>& read_file) {
+  const Recommendation recommendation = recommend(results);
+  const PointRecord* const point = point_to_show(results, recommendation);
+  if (!point) return "";
+  std::string bytes;
+  json head;
+  try {
+    bytes = read_file(live_image(*point)->path);
+    head = json::parse(bytes.substr(0, bytes.find('\n')));
+  } catch (const std::exception& error) {
+    return without_picture(fmt::format("The live picture is not shown: {}.", html(error.what())));
+  }
+  head["marks"] = marks_of(*point, recommendation);
+  head["data"] = base64(bytes.substr(bytes.find('\n') + 1));
+  const std::string phrase = settings_phrase(*point, results.info.swept);
+  return fmt::format(
+      "<section id=\"live\"><h2>The picture at every bias</h2>\n"
+      "<p>Move the bias. Every pixel has the light and the cause that OpenGL's picture has with that bias, exactly: "
+      "the page holds the biases at which the pixel changes. Only the grey of the shading is rounded. The marks are "
+      "those of the point's full picture.</p>\n"
+      "<figure class=\"chart js-only\" id=\"live-picture\"><div class=\"controls\"></div>"
+      "<canvas width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"The picture at the chosen bias\"></canvas>"
+      "<div class=\"bias-slider\"><div class=\"bias-marks\" aria-hidden=\"true\"></div>"
+      "<input type=\"range\" aria-label=\"Bias, on a logarithmic scale\"></div>"
+      "<p class=\"facts\" aria-live=\"polite\"></p><div class=\"legend\"></div>"
+      "<figcaption>Point {2}{3}. The picture and its numbers are measured for themselves with {0} × {1} pixels of the "
+      "point's view, so they differ a little from those of the full picture.</figcaption></figure>\n"
+      "<script type=\"application/json\" id=\"live-data\">{4}</script></section>\n",
+      head.value("width", 0), head.value("height", 0), point->id, phrase.empty() ? "" : ": " + html(phrase),
+      script_json(head));
+}
+
+}  // namespace noonmark::report

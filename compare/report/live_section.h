@@ -1,0 +1,18 @@
+// The report's live picture: what OpenGL shows at every bias, with a slider. It reads the file that a point with
+// pictures has (compare/ladder/live_picture.h), and page/live.js draws it.
+#pragma once
+#include <functional>
+#include <string>
+
+#include "compare/store/records.h"
+
+namespace noonmark::report {
+
+// Whether a point has such a file; the report has the section only then.
+bool has_live_picture(const Results& results);
+
+// read_file: as in render_report. Of the points with a live picture, the first of the recommended choice is taken, or
+// else the first. If the file cannot be read, the section says why, and how to get one.
+std::string live_section(const Results& results, const std::function<std::string(const std::string& path)>& read_file);
+
+}  // namespace noonmark::report
