@@ -37,7 +37,7 @@ std::string conditions_text(const Results& results, const Choice& choice) {
   return fmt::format(" under all {} conditions ({})", choice.points.size(), html(names));
 }
 
-// "a cost of 4.2 MB and an error of 0.1 %"
+// "a cost of 4.2 MB (Map bytes) and an error of 0.1 % (Error against the light's size)"
 std::string cost_and_error(const Recommendation& found, const Results& results) {
   std::string over;
   if (found.choice.points.size() > 1)
@@ -45,8 +45,8 @@ std::string cost_and_error(const Recommendation& found, const Results& results) 
                        quantity(found.error.mean, find_metric(results.info.accuracy).unit),
                        quantity(found.error.p95, find_metric(results.info.accuracy).unit), found.error.at->id,
                        found.error.at->id);
-  return fmt::format("a cost of <b>{}</b> and an error of <b>{}</b> (<i>{}</i>){}",
-                     quantity(found.cost, find_metric(results.info.cost).unit),
+  return fmt::format("a cost of <b>{}</b> (<i>{}</i>) and an error of <b>{}</b> (<i>{}</i>){}",
+                     quantity(found.cost, find_metric(results.info.cost).unit), html(metric_label(results.info.cost)),
                      quantity(found.error.worst, find_metric(results.info.accuracy).unit),
                      html(error_label(results.info.accuracy)), over);
 }
