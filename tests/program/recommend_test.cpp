@@ -69,7 +69,8 @@ TEST_F(Recommend, HoldsAnErrorWithTheLeastWorkAndABudgetWithTheLeastError) {
 }
 
 TEST_F(Recommend, NothingWorksIsAnAnswerWithAReason) {
-  const std::vector<std::string> one = {"--views", "1", "--set", "map.resolution=256", "--set", "filter.kind=none"};
+  const std::vector<std::string> one = {
+      "--views", "1", "--set", "map.resolution=256", "--set", "filter.kind=none", "--set", "bias.constant=0.1"};
   ASSERT_EQ(recommend("cube-room", one), 0) << output_;
   EXPECT_EQ(setting("map.resolution"), "256");
   std::vector<std::string> exact = one;
