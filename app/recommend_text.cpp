@@ -86,13 +86,14 @@ std::vector<std::string> nothing_works(const Advice& advice) {
 }
 
 std::string constant_text(int least_resolution) {
-  return least_resolution > 0
-             ? fmt::format(
-                   "One constant bias and no filter would keep both bounds from some {} texels on, in the first view.",
-                   least_resolution)
-             : fmt::format(
-                   "One constant bias and no filter keep both bounds at no resolution up to {}, in the first view.",
-                   -least_resolution);
+  return least_resolution > 0 ? fmt::format(
+                                    "One constant bias and no filter would keep both bounds from some {} texels on, "
+                                    "under the first condition.",
+                                    least_resolution)
+                              : fmt::format(
+                                    "One constant bias and no filter keep both bounds at no resolution up to {}, under "
+                                    "the first condition.",
+                                    -least_resolution);
 }
 
 // For each level of the bias below the answer's: why it does not do.
@@ -138,18 +139,21 @@ std::vector<std::string> advice_text(const Advice& advice) {
   lines.push_back(fmt::format("Set {}.", settings_text(answer)));
   if (answer.bias)
     lines.push_back(fmt::format(
-        "{} keeps {} from {:.3g} to {:.3g} {} in all {} view{} and at all {} placements of the map's grid that were "
-        "searched{}. That is {:.0f}% of the bounds, because views that were not searched may be a little worse.",
+        "{} keeps {} from {:.3g} to {:.3g} {} under {} condition{} and at all {} placements of the map's grid that "
+        "were "
+        "searched{}. That is {:.0f}% of the bounds, because conditions that were not searched may be a little worse.",
         answer.bias->parameter, bounds_text(advice.request.curve, searched_share), answer.bias->window.low,
         answer.bias->window.high, answer.bias->unit, advice.conditions, advice.conditions == 1 ? "" : "s",
         advice.placements,
         answer.bias->narrow ? "; that is narrow, so a small change of the scene can break it"
                             : fmt::format("; the bias keeps at least {:.0f}% from both ends", 100 * (bias_margin - 1)),
         100 * searched_share));
-  lines.push_back(fmt::format(
-      "Verified: OpenGL rendered it at {} other placements; the worst of them has {} acne, {} Peter Panning and {} "
-      "error.",
-      advice.verified, percent(advice.worst_acne), percent(advice.worst_peter_panning), percent(advice.worst_error)));
+  lines.push_back(
+      fmt::format("Verified: OpenGL rendered it under the worst condition at {} other placements, {} pixels wide; the "
+                  "worst of them "
+                  "has {} acne, {} Peter Panning and {} error.",
+                  advice.verified, std::min(advice.request.width_px, answer.settings.view.width_px),
+                  percent(advice.worst_acne), percent(advice.worst_peter_panning), percent(advice.worst_error)));
   if (answer.worst) {
     const std::string causes = causes_text(*answer.worst);
     lines.push_back(fmt::format("The error that is left ({}) is {}{}.", advice.request.accuracy, percent(answer.error),

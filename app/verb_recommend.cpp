@@ -55,6 +55,19 @@ void take_choices(AdviceRequest& request, const Experiment& experiment) {
                    [&](const auto& a, const auto& b) { return reach(a) < reach(b); });
 }
 
+// The files of an earlier run, which another answer, or none, would make stale. Before the search, because it can fail.
+void remove_earlier_advice(const std::string& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name != "engines.txt" && !name.starts_with("recommended.") && !name.starts_with("recommended-")) continue;
+    if (std::error_code error; !std::filesystem::remove(entry.path(), error))
+      throw Error(ErrorKind::file,
+                  fmt::format("{}: an earlier recommendation cannot be removed: {}; remove it, or give "
+                              "another --out",
+                              entry.path().string(), error.message()));
+  }
+}
+
 }  // namespace
 
 int verb_recommend(const std::string& what, const RecommendOptions& options, ExperimentArguments arguments) {
@@ -92,11 +105,10 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
 
   make_output_folder(out);
   clear_abandoned_files(out);
+  remove_earlier_advice(out);
   const Advice advice = search(bench, request, [&](const std::string& step) {
     if (!options.quiet) fmt::print(stderr, "{}\n", step);
   });
-  for (const char* file : {"/recommended.toml", "/recommended.json", "/engines.txt"})
-    std::filesystem::remove(out + file);
   std::vector<EngineAdvice> engines;
   if (advice.answer) {
     const Settings& settings = advice.answer->settings;
