@@ -8,6 +8,8 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "technique/formula_vectors.h"
+
 namespace noonmark {
 
 // Relative errors of the operations (GLSL 4.50, 4.7.1). Sums and products are correctly rounded. A division is within
@@ -17,14 +19,15 @@ constexpr double float_rounding = 0x1p-24;  // u
 constexpr double float_division = 5 * float_rounding;
 constexpr double float_square_root = 4 * float_rounding + float_division;
 
+// The number and its operations stand in one namespace, where the vectors find them.
+namespace bounded {
+
 struct Bounded {
   double value = 0, error = 0;
   constexpr Bounded() = default;
   constexpr explicit Bounded(double exact) : value(exact) {}  // a value that float holds exactly, such as 1
   constexpr Bounded(double v, double e) : value(v), error(e) {}
 };
-
-namespace bounded {
 
 // The value with the error that comes from the operands, plus one rounding of the computed value.
 inline Bounded computed(double value, double error, double relative) {
@@ -51,15 +54,8 @@ inline Bounded sqrt(Bounded a) {
   return computed(root, lost, float_square_root);
 }
 
-struct vec2 {
-  Bounded x, y;
-};
-struct vec3 {
-  Bounded x, y, z;
-};
-inline vec3 operator+(const vec3& a, const vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline vec3 operator-(const vec3& a, const vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline vec3 operator*(Bounded s, const vec3& v) { return {s * v.x, s * v.y, s * v.z}; }
+using vec2 = Vector2<Bounded>;
+using vec3 = Vector3<Bounded>;
 // The order of the sums is not known, so each product may be rounded in both sums.
 inline Bounded dot(const vec3& a, const vec3& b) {
   const Bounded x = a.x * b.x, y = a.y * b.y, z = a.z * b.z;
@@ -69,4 +65,6 @@ inline Bounded dot(const vec3& a, const vec3& b) {
 }
 
 }  // namespace bounded
+
+using bounded::Bounded;
 }  // namespace noonmark

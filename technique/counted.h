@@ -9,8 +9,12 @@
 // value count nothing, because a GPU does them with the operand of another operation. An operation on constants alone
 // counts nothing, because a compiler does it.
 #pragma once
+#include "technique/formula_vectors.h"
 
 namespace noonmark {
+
+// The number and its operations stand in one namespace, where the vectors find them.
+namespace counting {
 
 struct Counted {
   int* count = nullptr;  // null: a constant
@@ -22,8 +26,6 @@ struct Counted {
     return made;
   }
 };
-
-namespace counting {
 
 inline Counted done(Counted a, Counted b) {
   int* const count = a.count ? a.count : b.count;
@@ -42,16 +44,11 @@ inline Counted max(Counted a, Counted b) { return done(a, b); }
 inline Counted clamp(Counted a, Counted low, Counted high) { return min(max(a, low), high); }
 inline Counted sqrt(Counted a) { return done(a, a); }
 
-struct vec2 {
-  Counted x, y;
-};
-struct vec3 {
-  Counted x, y, z;
-};
-inline vec3 operator+(const vec3& a, const vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline vec3 operator-(const vec3& a, const vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline vec3 operator*(Counted s, const vec3& v) { return {s * v.x, s * v.y, s * v.z}; }
+using vec2 = Vector2<Counted>;
+using vec3 = Vector3<Counted>;
 inline Counted dot(const vec3& a, const vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 }  // namespace counting
+
+using counting::Counted;
 }  // namespace noonmark
