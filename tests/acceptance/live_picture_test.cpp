@@ -12,13 +12,7 @@
 namespace noonmark::acceptance {
 namespace {
 
-struct Case {
-  const char* name;
-  const char* scene;
-  std::vector<Assignment> settings;
-};
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
-class LivePictures : public testing::TestWithParam<Case> {};
+class LivePictures : public testing::TestWithParam<SceneCase> {};
 
 const LiveAnswer& answer_at(const std::vector<LiveAnswer>& answers, float bias) {
   const auto after =
@@ -83,11 +77,11 @@ TEST_P(LivePictures, AreWhatOpenGLShowsAtEachBias) {
 
 INSTANTIATE_TEST_SUITE_P(
     , LivePictures,
-    testing::Values(Case{"one_tap", "cube-room", {{"map.resolution", "256"}}},
-                    Case{"box", "cube-room", {{"map.resolution", "256"}, {"filter.kind", "box"}}},
-                    Case{
+    testing::Values(SceneCase{"one_tap", "cube-room", {{"map.resolution", "256"}}},
+                    SceneCase{"box", "cube-room", {{"map.resolution", "256"}, {"filter.kind", "box"}}},
+                    SceneCase{
                         "slope", "sphere", {{"map.resolution", "256"}, {"bias.slope", "0.01"}, {"bias.constant", "0"}}},
-                    Case{"point", "point-room", {{"map.resolution", "128"}, {"bias.unit", "m"}}}),
+                    SceneCase{"point", "point-room", {{"map.resolution", "128"}, {"bias.unit", "m"}}}),
     testing::PrintToStringParamName());
 
 TEST(LivePicture, IsLeftOutWhereItWouldNotBeExact) {

@@ -9,13 +9,7 @@
 namespace noonmark::acceptance {
 namespace {
 
-struct Case {
-  const char* name;
-  const char* scene;
-  std::vector<Assignment> settings;
-};
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
-class Strips : public testing::TestWithParam<Case> {};
+class Strips : public testing::TestWithParam<SceneCase> {};
 
 TEST_P(Strips, ChangeNoResult) {
   Settings settings = small(GetParam().scene, 160, 100);
@@ -101,22 +95,22 @@ TEST(StripsOfAScene, AreForgottenWithIt) {
 INSTANTIATE_TEST_SUITE_P(
     Of, Strips,
     testing::Values(
-        Case{"box", "cube-room", {{"filter.kind", "box"}, {"map.resolution", "200"}, {"map.extent_scale", "0.5"}}},
-        Case{"hardware", "cube-room", {{"filter.kind", "hardware"}, {"map.resolution", "200"}}},
-        Case{"texel_planes",
-             "spot-room",
-             {{"filter.kind", "box"},
-              {"bias.reference", "texel_plane"},
-              {"bias.constant", "0.005"},
-              {"map.resolution", "200"}}},
-        Case{"moved",
-             "fence",
-             {{"filter.kind", "poisson"},
-              {"bias.constant", "0"},
-              {"bias.normal_offset", "1"},
-              {"map.resolution", "200"}}},
-        Case{"cube", "point-room", {{"map.resolution", "100"}}},
-        Case{"cube_disk", "point-room", {{"filter.kind", "cube_disk"}, {"map.resolution", "100"}}}),
+        SceneCase{"box", "cube-room", {{"filter.kind", "box"}, {"map.resolution", "200"}, {"map.extent_scale", "0.5"}}},
+        SceneCase{"hardware", "cube-room", {{"filter.kind", "hardware"}, {"map.resolution", "200"}}},
+        SceneCase{"texel_planes",
+                  "spot-room",
+                  {{"filter.kind", "box"},
+                   {"bias.reference", "texel_plane"},
+                   {"bias.constant", "0.005"},
+                   {"map.resolution", "200"}}},
+        SceneCase{"moved",
+                  "fence",
+                  {{"filter.kind", "poisson"},
+                   {"bias.constant", "0"},
+                   {"bias.normal_offset", "1"},
+                   {"map.resolution", "200"}}},
+        SceneCase{"cube", "point-room", {{"map.resolution", "100"}}},
+        SceneCase{"cube_disk", "point-room", {{"filter.kind", "cube_disk"}, {"map.resolution", "100"}}}),
     [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace

@@ -254,13 +254,8 @@ void measure(const std::string& scene, int rounds) {
 }  // namespace noonmark
 
 int main(int argc, char** argv) {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (!arguments.empty() && arguments[0] == "--help") {
-    std::fputs(noonmark::help, stdout);
-    return 0;
-  }
-  const int rounds = arguments.empty() ? 9 : std::max(1, std::atoi(arguments[0].c_str()));
-  if (!arguments.empty()) arguments.erase(arguments.begin());
-  if (arguments.empty()) arguments = {"cube-room", "hills"};
-  for (const std::string& scene : arguments) noonmark::measure(scene, rounds);
+  const auto asked =
+      noonmark::test::benchmark_arguments({argv + 1, argv + argc}, noonmark::help, 9, {"cube-room", "hills"});
+  if (!asked) return 0;
+  for (const std::string& scene : asked->what) noonmark::measure(scene, asked->rounds);
 }

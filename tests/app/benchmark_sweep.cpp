@@ -1,7 +1,7 @@
 // What a sweep costs, beside the work that no way of measuring can leave out. ctest does not run it; it is built with
 // -DNOONMARK_BENCHMARKS=ON.
 //
-//   benchmark_sweep [--help] [rounds] [experiment]
+//   benchmark_sweep [--help] [rounds] [experiment ...]
 #include <fmt/format.h>
 #include <stdlib.h>
 
@@ -25,7 +25,7 @@
 namespace noonmark {
 namespace {
 
-constexpr const char* help = R"(benchmark_sweep [--help] [rounds] [experiment]
+constexpr const char* help = R"(benchmark_sweep [--help] [rounds] [experiment ...]
 
 rounds: how often sweep and floor run, in turns (default 3). experiment: its file (default:
 experiments/cube-room.toml), with directional or spot lights.
@@ -172,11 +172,8 @@ void measure(const std::string& path, int rounds) {
 }  // namespace noonmark
 
 int main(int argc, char** argv) {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (!arguments.empty() && arguments[0] == "--help") {
-    std::fputs(noonmark::help, stdout);
-    return 0;
-  }
-  const int rounds = arguments.empty() ? 3 : std::max(1, std::atoi(arguments[0].c_str()));
-  noonmark::measure(arguments.size() > 1 ? arguments[1] : NOONMARK_SOURCE_DIR "/experiments/cube-room.toml", rounds);
+  const auto asked = noonmark::test::benchmark_arguments({argv + 1, argv + argc}, noonmark::help, 3,
+                                                         {NOONMARK_SOURCE_DIR "/experiments/cube-room.toml"});
+  if (!asked) return 0;
+  for (const std::string& experiment : asked->what) noonmark::measure(experiment, asked->rounds);
 }

@@ -164,19 +164,16 @@ void measure(const std::string& name, int rounds, bool only_r1) {
 }  // namespace noonmark::raytrace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (std::erase(arguments, "--help") + std::erase(arguments, "-h") > 0) {
-    fmt::print(
-        "usage: benchmark_cells [--r1] [rounds] [scene ...]\n"
-        "  --r1    only R1 and its certainty\n"
-        "  rounds  the figures are medians of so many rounds; 5\n"
-        "  scene   hills, a built-in scene, or the path of a glTF file; cube-room hills\n"
-        "Prints CPU time beside that of bare rays.\n");
-    return 0;
-  }
-  const bool only_r1 = std::erase(arguments, "--r1") > 0;
-  const int rounds = arguments.empty() ? 5 : std::max(1, std::atoi(arguments[0].c_str()));
-  if (!arguments.empty()) arguments.erase(arguments.begin());
-  if (arguments.empty()) arguments = {"cube-room", "hills"};
-  for (const std::string& scene : arguments) noonmark::raytrace::measure(scene, rounds, only_r1);
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const bool only_r1 = std::erase(words, "--r1") > 0;
+  const auto asked = noonmark::test::benchmark_arguments(
+      words,
+      "usage: benchmark_cells [--r1] [rounds] [scene ...]\n"
+      "  --r1    only R1 and its certainty\n"
+      "  rounds  the figures are medians of so many rounds; 5\n"
+      "  scene   hills, a built-in scene, or the path of a glTF file; cube-room hills\n"
+      "Prints CPU time beside that of bare rays.\n",
+      5, {"cube-room", "hills"});
+  if (!asked) return 0;
+  for (const std::string& scene : asked->what) noonmark::raytrace::measure(scene, asked->rounds, only_r1);
 }

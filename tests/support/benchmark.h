@@ -4,14 +4,38 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "scenes/shapes.h"
 
 namespace noonmark::test {
+
+// The words of a benchmark's command line: `[rounds] [scene or file ...]`.
+struct BenchmarkArguments {
+  int rounds = 0;
+  std::vector<std::string> what;  // scenes or files
+};
+// Empty if --help or -h was asked for; then the help is printed. rounds, what: if none are given.
+inline std::optional<BenchmarkArguments> benchmark_arguments(std::vector<std::string> words, const char* help,
+                                                             int rounds, std::vector<std::string> what) {
+  if (std::erase(words, "--help") + std::erase(words, "-h") > 0) {
+    std::fputs(help, stdout);
+    return std::nullopt;
+  }
+  if (!words.empty()) {
+    rounds = std::max(1, std::atoi(words[0].c_str()));
+    words.erase(words.begin());
+  }
+  return BenchmarkArguments{rounds, words.empty() ? std::move(what) : std::move(words)};
+}
 
 // Milliseconds of processor time that all threads of this process have used so far.
 inline double cpu_ms() {

@@ -1,6 +1,7 @@
 // Helpers of the acceptance tests: settings in one line, the paths of models, and the tolerance of sums.
 #pragma once
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,14 @@ inline Settings with(const std::vector<Assignment>& assignments, Settings settin
   for (const auto& [name, value] : assignments) find_setting(name).set(settings, value);
   return settings;
 }
+
+// A parameter of tests: a scene with a technique.
+struct SceneCase {
+  const char* name;
+  const char* scene;
+  std::vector<Assignment> settings;
+};
+inline std::ostream& operator<<(std::ostream& out, const SceneCase& c) { return out << c.name; }
 
 // The default picture is large. A test needs only enough receivers for every case.
 inline Settings small(const std::string& scene, int width = 400, int height = 240) {
