@@ -3,10 +3,6 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -255,7 +251,7 @@ RC_GTEST_PROP(ExperimentProperty, PointsAreTheProductOfTheLists, ()) {
       if (row.name == "view.far_m" && text != "auto") text = std::to_string(i + 1);
       // A reference by a plane is only legal with a filter that the sampler does not blend.
       if (row.name == "bias.reference") text = "own_depth";
-      // A sun's direction is illegal beside a position of the light.
+      // The direction of a sun cannot be combined with a position of the light.
       if (row.name == "light.azimuth_deg" || row.name == "light.elevation_deg") text = "auto";
       // The floor must not exceed the cap.
       if (row.name == "bias.tan_floor") text = std::to_string(0.001 * (i + 1));
@@ -411,49 +407,6 @@ TEST(Experiment, EveryFileInTheRepositoryIsGood) {
       ++files;
     }
   EXPECT_GT(files, 0);
-}
-
-TEST(AtomicWrite, ReplacesAFileWhole) {
-  const TemporaryFolder folder;
-  write_file_atomically(folder.file("a"), "old");
-  const std::string bytes(1 << 20, '\0');
-  write_file_atomically(folder.file("a"), bytes);
-  EXPECT_EQ(read_file(folder.file("a")), bytes);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
-}
-
-TEST(AtomicWrite, LeavesNothingWhereItCannotReplace) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directories(folder.path() / "taken" / "inside");  // the rename fails, after the write
-  EXPECT_THROW(write_file_atomically(folder.file("taken"), "bytes"), Error);
-  EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "taken" / "inside"));
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
-  EXPECT_THROW(write_file_atomically(folder.file("absent/file"), "bytes"), Error);
-}
-
-// A limit on the file size simulates a full disk: the write fails after its first part.
-TEST(AtomicWrite, KeepsTheOldFileWhenTheDiskIsFull) {
-  const TemporaryFolder folder;
-  const std::string path = folder.file("a");
-  write_file_atomically(path, "old");
-  const pid_t child = ::fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    ::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{1000, 1000};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-    try {
-      write_file_atomically(path, std::string(5000, 'x'));
-    } catch (const Error&) {
-      ::_exit(42);
-    }
-    ::_exit(0);
-  }
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 42) << "no error was thrown";
-  EXPECT_EQ(read_file(path), "old");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
 }  // namespace

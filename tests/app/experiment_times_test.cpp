@@ -1,4 +1,4 @@
-// Whether the points of an experiment are timed: the key `times`, and what asks for a time without it.
+// Times are measured if the key `times` says so, or if a plot, a bound, an answer or a law names a time.
 #include <gtest/gtest.h>
 
 #include "app/experiment.h"

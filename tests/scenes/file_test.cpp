@@ -3,11 +3,15 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/file.h>
 #include <sys/inotify.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <filesystem>
 
 #include "scenes/error.h"
 #include "tests/support/sample_results.h"
@@ -167,6 +171,49 @@ TEST_F(File, MakesFoldersAndSaysWhyNot) {
   write_file_atomically(folder.file("file"), "");
   EXPECT_THROW(make_folder(folder.file("file")), Error);
   EXPECT_THROW(make_folder(folder.file("file/below")), Error);
+}
+
+TEST(AtomicWrite, ReplacesAFileWhole) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder.file("a"), "old");
+  const std::string bytes(1 << 20, '\0');
+  write_file_atomically(folder.file("a"), bytes);
+  EXPECT_EQ(read_file(folder.file("a")), bytes);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(AtomicWrite, LeavesNothingWhereItCannotReplace) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "taken" / "inside");  // the rename fails, after the write
+  EXPECT_THROW(write_file_atomically(folder.file("taken"), "bytes"), Error);
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "taken" / "inside"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  EXPECT_THROW(write_file_atomically(folder.file("absent/file"), "bytes"), Error);
+}
+
+// A limit on the file size simulates a full disk: the write fails after its first part.
+TEST(AtomicWrite, KeepsTheOldFileWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a");
+  write_file_atomically(path, "old");
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{1000, 1000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      write_file_atomically(path, std::string(5000, 'x'));
+    } catch (const Error&) {
+      ::_exit(42);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 42) << "no error was thrown";
+  EXPECT_EQ(read_file(path), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
 }  // namespace

@@ -13,55 +13,10 @@
 #include "compare/store/metrics.h"
 #include "scenes/error.h"
 #include "scenes/receivers.h"
-#include "tests/support/bias_of.h"
+#include "tests/compare/ladder/measured_picture.h"
 
 namespace noonmark {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan_float = std::numeric_limits<float>::quiet_NaN();
-
-// A picture whose receivers all face the light, are lit and are right.
-struct Picture {
-  explicit Picture(int width, int height) {
-    ladder = empty_ladder(width, height);
-    for (Ladder::RungImage& rung : ladder.rungs) rung.lit = Image<float>(width, height, 1);
-    ladder.cause = Image<uint8_t>(width, height, 0);
-    ladder.flags = Image<uint8_t>(width, height, flag_facing);
-    ladder.doubt = Image<float>(width, height, 0);
-    receivers = {Image<glm::vec3>(width, height, glm::vec3(0, 0, -2)),
-                 Image<glm::vec3>(width, height, glm::vec3(0, 0, 1)), Image<uint32_t>(width, height, 0)};
-    edge = occluder = Image<float>(width, height, nan_float);  // must not be read for pixels that are right
-    probe.n_dot_l = probe.bias_unit = probe.tan_theta = Image<float>(width, height, 1);
-    probe.pattern.offsets = {glm::vec3(0)};
-    frame.extent_m = 5;
-    frame.resolution = 10;
-    frame.far_m = 10;
-  }
-  void rungs(int x, int y, std::array<float, 6> r) {
-    for (size_t n = 0; n < 6; ++n) ladder.rungs[n].lit.at(x, y) = r[n];
-  }
-  void step(int x, int y, Cause cause, float size) {
-    ladder[cause].at(x, y) = size;
-    ladder.cause.at(x, y) = static_cast<uint8_t>(cause);
-  }
-  std::map<std::string, double> metrics() const {
-    return measure_ladder({ladder, receivers, frame, probe, bias, edge, occluder});
-  }
-  double metric(const char* name) const { return metrics().at(name); }
-
-  Ladder ladder;
-  ReceiverImage receivers;
-  LookupProbe probe;
-  Image<float> edge, occluder;
-  LightFrame frame;                        // texels of 0.5 m
-  Bias bias = bias_of({{"constant", 1}});  // 1 of the map's 10 m: nearly every occluder is within reach
-};
-
-void attach(Picture& p, int x, int y) {
-  p.ladder.flags.at(x, y) = 0;
-  for (Ladder::RungImage& rung : p.ladder.rungs) rung.lit.at(x, y) = 0;
-}
 
 TEST(Measure, GivesSharesOfTheCountedReceivers) {
   Picture p(4, 3);
@@ -142,146 +97,6 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
   const std::map<std::string, double> found = p.metrics();
   ASSERT_EQ(found.size(), expected.size());
   for (const auto& [name, value] : expected) EXPECT_DOUBLE_EQ(found.at(name), value) << name;
-}
-
-TEST(Measure, GapIsTheLightsWayAlongTheReceiver) {
-  Picture p(3, 1);
-  // theta is 30 and 60 degrees: distances of 2 m and 1 m along the light are gaps of 1 m and 0.866 m.
-  p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
-  p.step(0, 0, Cause::peter_panning, 1);
-  p.probe.n_dot_l.at(0, 0) = std::sqrt(0.75f);
-  p.occluder.at(0, 0) = 2;
-  p.rungs(1, 0, {0, 0, 0, 0, 1, 1});
-  p.step(1, 0, Cause::peter_panning, 1);
-  p.probe.n_dot_l.at(1, 0) = 0.5f;
-  p.occluder.at(1, 0) = 1;
-  constexpr double cosine_rounding = 1e-6;  // the sine is computed from the float cosine
-  EXPECT_NEAR(p.metric("peter_panning_gap_m"), 1, cosine_rounding);
-  p.occluder.at(0, 0) = 0.5f;
-  EXPECT_NEAR(p.metric("peter_panning_gap_m"), std::sqrt(0.75), cosine_rounding);
-  p.probe.n_dot_l.at(1, 0) = 1 + 0x1p-23f;  // a cosine above 1, caused by rounding, must not give NaN
-  EXPECT_NEAR(p.metric("peter_panning_gap_m"), 0.25, cosine_rounding);
-}
-
-TEST(Measure, GapEndsWhereTheBiasCannotReach) {
-  Picture p(1, 1);
-  p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
-  p.step(0, 0, Cause::peter_panning, 1);
-  p.probe.n_dot_l.at(0, 0) = std::sqrt(0.5f);  // 45 degrees: a texel of 0.5 m adds at most 0.5 / sqrt(2) m of depth
-  p.bias = bias_of({{"constant", 0.1}});       // of the map's 10 m: 1 m
-  p.occluder.at(0, 0) = 1.3f;
-  EXPECT_NEAR(p.metric("peter_panning_gap_m"), 1.3 * std::sqrt(0.5), 1e-6);
-  p.occluder.at(0, 0) = 1.4f;  // for example a steep receiver at the edge of a distant shadow
-  EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
-}
-
-// An offset d along the normal moves the place looked up by d / cos(theta) along the light.
-TEST(Measure, GapEndsWhereTheNormalOffsetCannotReach) {
-  Picture p(1, 1);
-  p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
-  p.step(0, 0, Cause::peter_panning, 1);
-  p.probe.n_dot_l.at(0, 0) = 0.5f;  // 60 degrees: a texel of 0.5 m adds at most 0.5 / sqrt(2) m times tan(theta)
-  p.bias = bias_of({{"normal_offset", 1.5}});
-  const float reach = 0.75f / 0.5f + static_cast<float>(0.5 * std::sqrt(0.5) * std::sqrt(3.0));
-  p.occluder.at(0, 0) = reach - 0.01f;
-  EXPECT_NEAR(p.metric("peter_panning_gap_m"), (reach - 0.01) * std::sqrt(0.75), 1e-6);
-  p.occluder.at(0, 0) = reach + 0.01f;
-  EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
-}
-
-// The reach of a bias under a spot light ends where the depth on the same ray is less by the bias.
-TEST(Measure, GapUnderASpotLightEndsWhereTheDepthDoes) {
-  Picture p(1, 1);
-  p.frame = LightFrame{};
-  p.frame.kind = LightKind::spot;
-  p.frame.near_m = 0.5;
-  p.frame.far_m = 20;
-  p.frame.tan_half_fov = 0.5;
-  p.frame.resolution = 1000;
-  p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
-  p.step(0, 0, Cause::peter_panning, 1);
-  p.receivers.position[0] = {3, 0, -6};
-  const double bias = 0.02, z = 6;
-  p.bias = bias_of({{"constant", bias}});
-  // The receiver is perpendicular to its ray, so within a texel its depth hardly changes.
-  double low = p.frame.near_m, high = z;  // bisection for the depth that is less by the bias
-  while (high - low > 1e-12)
-    (p.frame.tile(0).window_depth((low + high) / 2) > p.frame.tile(0).window_depth(z) - bias ? high : low) =
-        (low + high) / 2;
-  const double reach = (z - low) * std::sqrt(45.0) / z;
-  EXPECT_NEAR(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0,
-                              p.frame.to_light(p.receivers.position[0])),
-              reach, 1e-5);  // the bias rounded to float; half a texel to the side, the plane is 1e-7 of 6.7 m nearer
-  EXPECT_GT(z * std::sqrt(45.0) / z - reach, 1) << "the case must be far from linear";
-  p.probe.n_dot_l[0] = 0.8f;
-  p.occluder[0] = static_cast<float>(reach) + 0.001f;  // a texel of 6 mm, at 37 degrees, adds 3 mm
-  EXPECT_GT(p.metric("peter_panning_gap_m"), 0);
-  p.occluder[0] = static_cast<float>(reach) + 0.004f;
-  EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
-}
-
-// Under a point light the offsets of the taps are in metres, and rays diverge. The reach includes how much farther the
-// plane is along a ray that is turned by the offset. The test computes this intersection.
-TEST(Measure, GapUnderAPointLightEndsWhereTheTapsDo) {
-  Picture p(1, 1);
-  p.frame = LightFrame{};
-  p.frame.kind = LightKind::point;
-  p.frame.far_m = 20;
-  p.frame.resolution = 1 << 14;
-  p.probe.pattern.offsets = {glm::vec3(0.3f, 0, 0.4f)};
-  p.probe.pattern.in_world = true;
-  p.bias = bias_of({{"constant", 0.01}});  // of the map's 20 m: 0.2 m
-  p.receivers.position[0] = {0, 0, -4};
-  p.probe.n_dot_l[0] = 0.6f;
-  const double theta = std::acos(0.6f), turned = theta + std::asin((0.5 + 0.5 * std::sqrt(2.0) * 8 / (1 << 14)) / 4);
-  // P = (0, 0, -4), the plane's normal is (0.8, 0, 0.6), and the ray turns to the side where the plane is farther away.
-  const double met = 4 * 0.6 / std::cos(turned);
-  EXPECT_NEAR(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0, {0, 0, -4}),
-              0.2 + met - 4, 1e-5);  // rounding of float cosines
-  p.probe.n_dot_l[0] = 0.05f;        // 87 degrees: a ray that is turned by 7 degrees misses the plane
-  EXPECT_EQ(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder}, 0, {0, 0, -4}),
-            std::numeric_limits<double>::infinity());
-}
-
-TEST(Measure, APolygonOffsetReachesAnywhere) {
-  Picture p(1, 1);
-  p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
-  p.step(0, 0, Cause::peter_panning, 1);
-  p.bias = bias_of({{"polygon_factor", 1}, {"polygon_units", 1}});
-  p.probe.n_dot_l[0] = 0.6f;
-  p.occluder[0] = 100;
-  EXPECT_NEAR(p.metric("peter_panning_gap_m"), 80, 1e-4);
-}
-
-TEST(Measure, GapIsOverReceiversInShadow) {
-  Picture p(4, 1);
-  // With a filter, Peter Panning can occur at a lit receiver beside the edge. Nothing is between it and the light.
-  p.rungs(0, 0, {1, 1, 0.5f, 0.5f, 0.75f, 0.75f});
-  p.step(0, 0, Cause::peter_panning, 0.25f);
-  p.occluder.at(0, 0) = infinity;
-  p.probe.n_dot_l.at(0, 0) = 0.5f;
-  EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
-  p.probe.n_dot_l.at(0, 0) = 1;  // 0 * infinity
-  EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
-  EXPECT_EQ(p.metric("peter_panning"), 0.0625);  // Peter Panning is still counted
-  p.rungs(1, 0, {0, 0, 0.5f, 0.5f, 0.75f, 0.75f});
-  p.step(1, 0, Cause::peter_panning, 0.25f);
-  p.occluder.at(1, 0) = 2;
-  p.probe.n_dot_l.at(1, 0) = 0;
-  EXPECT_EQ(p.metric("peter_panning_gap_m"), 2);
-  p.rungs(2, 0, {0, 0, 0, 0, 1, 1});  // ambiguous: left out
-  p.step(2, 0, Cause::peter_panning, 1);
-  p.ladder.flags.at(2, 0) |= flag_ambiguous;
-  p.occluder.at(2, 0) = 100;
-  p.probe.n_dot_l.at(2, 0) = 0;
-  p.rungs(3, 0, {0, 0, 0, 0, 0, 0});  // in shadow, which is right
-  EXPECT_EQ(p.metric("peter_panning_gap_m"), 2);
-  EXPECT_EQ(peter_panning_mask(p.ladder).pixels, (std::vector<uint8_t>{0, 1, 0, 0}));
-  // A dark receiver's distance that is not finite is a defect that must show.
-  p.occluder.at(1, 0) = infinity;
-  EXPECT_EQ(p.metric("peter_panning_gap_m"), infinity);
-  p.occluder.at(1, 0) = nan_float;
-  EXPECT_TRUE(std::isnan(p.metric("peter_panning_gap_m")));
 }
 
 TEST(Measure, EdgeDisplacementIsFromAliasedPixelsOnly) {
@@ -384,8 +199,9 @@ TEST(MetricsTable, NamesWhatIsMeasured) {
     EXPECT_EQ(&find_metric(metric.name), &metric);
   }
   std::set<std::string> measured = times;
-  for (const char* name : {"shaded_rmse", "clipped", "culled", "scene_behind", "texel_work", "traffic_bytes", "map_bytes",
-                           "map_texels", "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations"})
+  for (const char* name :
+       {"shaded_rmse", "clipped", "culled", "scene_behind", "texel_work", "traffic_bytes", "map_bytes", "map_texels",
+        "map_triangles", "lookup_fetches", "lookup_texels", "lookup_operations"})
     measured.insert(name);  // likewise
   const Picture picture(1, 1);
   for (const auto& [name, value] : picture.metrics()) measured.insert(name);
