@@ -159,7 +159,7 @@ class Search {
     return settings;
   }
 
-  // The texel work of a frame of full size, from the share of the small picture that looks up.
+  // The texel work of a picture of full size. The share of its pixels that look up is measured on the small picture.
   double full_cost(const Settings& full, const PointRecord& measured) const {
     const double pixels = number_of(setting_of(measured, "view.width_px")).value() *
                           number_of(setting_of(measured, "view.height_px")).value();

@@ -44,7 +44,7 @@ struct AdviceRequest {
 struct Tried {
   Settings settings;  // of full size, with the bias that was chosen
   std::string level;
-  double cost = 0;                   // texel_work at full size
+  double cost = 0;                   // texel_work of a picture with the size that the settings give
   double error = 0;                  // accuracy, largest over the conditions that were measured
   std::optional<BiasChoice> bias;    // empty: no usable bias
   std::string why_not;               // why it is not the answer; empty for the answer

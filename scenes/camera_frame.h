@@ -16,7 +16,7 @@ struct CameraFrame {
   double half_width = 1, half_height = 1;  // perspective: tangents; orthographic: metres
   Camera camera;
 
-  // A point of the world along right, up and forward, from the eye; and back.
+  // The coordinates of a world point in the camera's axes (right, up, forward), with the eye at 0. to_world: the inverse.
   glm::dvec3 in_axes(glm::dvec3 world) const {
     const glm::dvec3 way = world - eye_m;
     return {glm::dot(way, right), glm::dot(way, up), glm::dot(way, forward)};

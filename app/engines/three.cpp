@@ -25,8 +25,8 @@ std::vector<EngineKnob> knobs(LightKind) {
            "m along the normal", [](double metres, const AdvicePlace&) { return metres; }}};
 }
 
-// PCFShadowMap: 5 taps of a Vogel disk, rotated at each pixel, each a linear fetch of 2 x 2 texels. Its outermost tap
-// stands at sqrt(0.9) of the radius, and a linear fetch reaches one texel further.
+// PCFShadowMap: 5 taps of a Vogel disk, rotated at each pixel. Each tap is a linear fetch of 2 x 2 texels. The distance
+// of the outermost tap from the centre is sqrt(0.9) of the radius. Its fetch reads texels up to one texel further away.
 EngineFilter filter(const AdvicePlace& place) {
   if (filter_is(place, "none"))
     return {{"renderer.shadowMap.type = THREE.BasicShadowMap;"}, "one nearest tap", 0.5, true};

@@ -1,5 +1,6 @@
-// A sweep has choices, which a user makes (resolution, filter, bias ...), and conditions, which a user does not make
-// (views, lights, frames, placements of the grid): RunInfo::over. An answer is about a choice, over all its conditions.
+// A sweep varies two kinds of settings. A user selects the *choices*: resolution, filter, bias and so on. A user cannot
+// select the *conditions*: views, lights, frames (RunInfo::over lists them). A recommended choice must hold under every
+// condition.
 //
 //   for (const Choice& choice : choices_of(results)) print(joined(choice, "error").worst);
 #pragma once

@@ -41,7 +41,8 @@ struct Recommendation {
   std::optional<BiasChoice> bias;  // the choice has curves
 };
 
-// Costs in ms within this fraction of the cheapest count as equal, because a second run could order them differently.
+// Two times count as equal if they differ by at most this fraction of the shorter one. Another run could order them the
+// other way.
 // Costs that do not depend on the machine are compared exactly.
 inline constexpr double time_tolerance = 0.1;
 
