@@ -336,7 +336,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       const Settings& settings = planned[static_cast<size_t>(id)];
       room.require_room_for(static_cast<size_t>(id));
       scenes.require_unchanged(bench, settings);
-      store.set_pictures(id, pictures_of(bench, bench.measure(settings, std::nullopt, {}, timed), id, folder.path()));
+      store.set_pictures(id, pictures_of(bench, bench.measure(settings, std::nullopt), id, folder.path()));
       changed = true;
     }
     if (changed) outcome.results = store.load();
