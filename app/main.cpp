@@ -161,6 +161,17 @@ int run(int argc, char** argv) {
   with_overwrite(run);
   run->add_flag("--dry-run", dry_run, "Only print the points, the memory that each takes, and an estimate of the time");
 
+  const auto with_output = [&](CLI::App* verb, CLI::Option* dry) {
+    CLI::Option* json = verb->add_flag("--json", arguments.json,
+                                       "Print the results as JSON: verdict, bounds, laws, answer and every point");
+    verb->add_flag("--quiet", arguments.quiet, "Print no progress; notes, warnings and errors stay");
+    CLI::Option* config = verb->add_flag("--print-config", arguments.print_config,
+                                         "Only print the experiment as a file with every default written out");
+    json->excludes(dry);
+    config->excludes(dry)->excludes(json);
+  };
+  with_output(run, run->get_option("--dry-run"));
+
   CLI::App* check =
       app.add_subcommand("check", "Run experiments and judge their bounds and laws: the exit code is the verdict");
   check->add_option("experiments", paths, "TOML files, or folders of them")->required()->check(not_empty);
@@ -171,6 +182,7 @@ int run(int argc, char** argv) {
   CheckOptions checking;
   check->add_flag("--dry-run", checking.dry_run,
                   "Only print each experiment's points, the memory that each takes, and an estimate of the time");
+  with_output(check, check->get_option("--dry-run"));
   check
       ->add_option("--baseline", checking.baseline,
                    "Compare the values that bounds and [plot] name with this file: exit code 1 if one is worse")
@@ -294,6 +306,8 @@ int run(int argc, char** argv) {
   CLI::App* scenes = app.add_subcommand("scenes", "List the built-in scenes and the artefacts that each provokes");
   CLI::App* settings =
       app.add_subcommand("settings", "List every setting, metric and quantity: unit, range, default, meaning");
+  CLI::App* schema = app.add_subcommand(
+      "schema", "Print the JSON schema of the experiment file, with which editors complete and check it");
   CLI::App* doctor =
       app.add_subcommand("doctor", "Print which OpenGL, ray tracer and libraries are used, or what is missing");
 
@@ -319,6 +333,7 @@ int run(int argc, char** argv) {
     if (*report) return verb_report(folder);
     if (*scenes) return verb_scenes();
     if (*settings) return verb_settings();
+    if (*schema) return verb_schema();
     if (*doctor) return verb_doctor();
     return static_cast<int>(ErrorKind::usage);
   } catch (const CLI::Success& asked) {
