@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -212,19 +213,31 @@ class TemporaryFolder {
   std::string path_;
 };
 
-// The files of one point, without its measurement.
-double picture_time(Workbench& bench, const Settings& settings) {
+// The files of each point's pictures, without its measurement. They grow with the pixels and with the map's texels.
+std::vector<double> picture_times(Workbench& bench, const std::vector<Settings>& planned) {
   const TemporaryFolder folder;
-  if (folder.path().empty()) return 0;
-  const double files = at_full_size([&](int divisor) {
-    const Measurement m = bench.measure(small(settings, divisor), std::nullopt);
+  if (folder.path().empty()) return std::vector<double>(planned.size(), 0.0);
+  const auto write = [&](const Settings& settings) {
+    const Measurement m = bench.measure(settings, std::nullopt);
     const Clock before = now();
     keep_pictures(m, 0, folder.path());
     return now().cpu_s - before.cpu_s;
-  });
+  };
+  const auto texels = [](const Settings& s) { return std::pow(s.map.resolution, 2); };
+  const Settings& first = planned.front();
+  write(small(first, 4));  // opens the picture library
+  const double quarter = write(small(first, 4));
+  Settings other = small(first, 4);
+  other.map.resolution = first.map.resolution > 1024 ? first.map.resolution / 2 : first.map.resolution * 2;
+  const double per_texel = std::max(0.0, (write(other) - quarter) / (texels(other) - texels(first)));
+  double files = at_full_size([&](int divisor) { return divisor == 4 ? quarter : write(small(first, divisor)); });
   const Clock before = now();
-  bench.live_picture(settings);
-  return files + now().cpu_s - before.cpu_s;
+  bench.live_picture(first);
+  files += now().cpu_s - before.cpu_s;
+  std::vector<double> seconds;
+  for (const Settings& point : planned)
+    seconds.push_back(std::max(0.0, files + per_texel * (texels(point) - texels(first))));
+  return seconds;
 }
 
 double diagram_time(Workbench& bench, const PhasePlan& plan) {
@@ -273,14 +286,16 @@ TimeEstimate estimate_time(Workbench& bench, const Experiment& experiment, const
   for (double s : seconds) estimate.cpu_s += s;
   estimate.measured = calibration.measured();
   if (experiment.pictures != "none") {
-    const double files = picture_time(bench, planned.front());
-    const double mean = (estimate.cpu_s - start.cpu_s) / static_cast<double>(planned.size());
+    const std::vector<double> files = picture_times(bench, planned);
+    const auto mean_of = [](const std::vector<double>& all) {
+      return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+    };
     const auto all = static_cast<double>(planned.size());
-    if (experiment.pictures == "first") estimate.cpu_s += files;
-    if (experiment.pictures == "all") estimate.cpu_s += files * all;
+    if (experiment.pictures == "first") estimate.cpu_s += files.front();
+    if (experiment.pictures == "all") estimate.cpu_s += mean_of(files) * all;
     // Chosen by their errors after the sweep, so they are measured again.
-    if (experiment.pictures == "worst") estimate.cpu_s += files + mean;
-    if (experiment.pictures == "extremes") estimate.cpu_s += std::min(2.0, all) * (files + mean);
+    if (experiment.pictures == "worst") estimate.cpu_s += mean_of(files) + mean_of(seconds);
+    if (experiment.pictures == "extremes") estimate.cpu_s += std::min(2.0, all) * (mean_of(files) + mean_of(seconds));
   }
   // One diagram is measured; others have its time, by their pixels and rows.
   const auto size_of = [](const PhasePlan& plan) {
