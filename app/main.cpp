@@ -111,6 +111,11 @@ void refuse_unknown(const std::string& first, const std::vector<std::string_view
                           option ? " before the verb" : "", near.empty() ? "" : "; did you mean '" + near + "'?"));
 }
 
+void require_one_output(const ExperimentArguments& arguments, bool dry_run) {
+  if (arguments.json + arguments.print_config + dry_run > 1)
+    throw Error(ErrorKind::usage, "--json, --print-config and --dry-run each print something else; give one of them");
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Noonmark measures whether a shadow map is right. It renders a scene's shadows with OpenGL shadow maps\n"
@@ -151,7 +156,8 @@ int run(int argc, char** argv) {
   };
   const auto with_overwrite = [&](CLI::App* verb) {
     verb->add_flag("--overwrite", arguments.overwrite,
-                   "Measure everything anew and replace the results in the folder; without it, a killed sweep resumes");
+                   "Measure everything anew and replace the results in the folder; without it, points that are there "
+                   "already are kept");
   };
 
   CLI::App* run = app.add_subcommand("run", "Measure every point of an experiment and write its report");
@@ -161,16 +167,14 @@ int run(int argc, char** argv) {
   with_overwrite(run);
   run->add_flag("--dry-run", dry_run, "Only print the points, the memory that each takes, and an estimate of the time");
 
-  const auto with_output = [&](CLI::App* verb, CLI::Option* dry) {
-    CLI::Option* json = verb->add_flag("--json", arguments.json,
-                                       "Print the results as JSON: verdict, bounds, laws, answer and every point");
+  const auto with_output = [&](CLI::App* verb) {
+    verb->add_flag("--json", arguments.json,
+                   "Print the results as JSON: verdict, bounds, laws, answer and every point");
     verb->add_flag("--quiet", arguments.quiet, "Print no progress; notes, warnings and errors stay");
-    CLI::Option* config = verb->add_flag("--print-config", arguments.print_config,
-                                         "Only print the experiment as a file with every default written out");
-    json->excludes(dry);
-    config->excludes(dry)->excludes(json);
+    verb->add_flag("--print-config", arguments.print_config,
+                   "Only print the experiment as a file with every default written out");
   };
-  with_output(run, run->get_option("--dry-run"));
+  with_output(run);
 
   CLI::App* check =
       app.add_subcommand("check", "Run experiments and judge their bounds and laws: the exit code is the verdict");
@@ -182,7 +186,7 @@ int run(int argc, char** argv) {
   CheckOptions checking;
   check->add_flag("--dry-run", checking.dry_run,
                   "Only print each experiment's points, the memory that each takes, and an estimate of the time");
-  with_output(check, check->get_option("--dry-run"));
+  with_output(check);
   check
       ->add_option("--baseline", checking.baseline,
                    "Compare the values that bounds and [plot] name with this file: exit code 1 if one is worse")
@@ -321,6 +325,7 @@ int run(int argc, char** argv) {
     if (argc < 2) return first_steps();
     refuse_unknown(argv[1], verbs);
     app.parse(argc, argv);
+    require_one_output(arguments, dry_run || checking.dry_run);
     std::optional<ThreadLimit> limit;
     if (*run || *check || *render || *map || *recommend || *inspect) limit.emplace(arguments.threads);
     if (*run) return verb_run(experiment, arguments, dry_run);
