@@ -21,7 +21,7 @@ namespace noonmark {
 namespace {
 
 // The calibration ends soon after the first of these. Of a sweep with many kinds of points not every kind is measured then.
-constexpr double most_cpu_s = 3;
+constexpr double most_cpu_s = 4;
 constexpr int most_measured = 120;
 
 struct Clock {
@@ -88,7 +88,7 @@ class Calibration {
     for (int round = 0; round < rounds; ++round)
       for (const auto& [kind, members] : kinds) {
         const bool enough = round > 1 && now().cpu_s - start_.cpu_s > most_cpu_s;
-        const bool far_enough = now().cpu_s - start_.cpu_s > 1.5 * most_cpu_s;
+        const bool far_enough = now().cpu_s - start_.cpu_s > 2 * most_cpu_s;
         if (enough || far_enough || measured() >= most_measured) return;
         // Evenly over the members of the kind, whatever the number of rounds (the golden ratio's multiples).
         const double place = std::fmod(0.5 + round * 0.6180339887498949, 1.0);

@@ -43,7 +43,7 @@ has() {
   bad=1
 }
 
-expect 'check doctor init inspect map recommend render report run scenes settings' ''
+expect 'check doctor init inspect map recommend render report run scenes schema settings' ''
 expect 'recommend render report run' r
 expect '--help --version' -
 expect '--dry-run --help --json --out --overwrite --part --print-config --quiet --set --threads' run --
