@@ -131,8 +131,8 @@ std::string shell_quoted(const std::string& word);
 // --set. If the experiment has parts, it passes the point's number among the chosen parts.
 std::string reproduce_command(const Experiment& experiment, const PointRecord& point);
 
-// Everything that determines the points' results, for ResultStore, as text with one "name = value" per line. more: what the
-// experiment does not contain itself (app/identity.h).
+// Everything that determines the points' results, as text with one "name = value" per line: two experiments with the same
+// text have the same points. more: what the experiment does not contain itself (app/identity.h).
 std::string fingerprint(const Experiment& experiment, std::span<const std::pair<std::string, std::string>> more);
 
 }  // namespace noonmark

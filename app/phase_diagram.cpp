@@ -263,6 +263,18 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
   return diagram;
 }
 
+PhaseDiagram rejudged_phase(const PhaseDiagram& measured, const Scene& scene, const ViewStage& view,
+                            const TruthStage& truth, const Settings& given, const PhaseOptions& options) {
+  PhaseDiagram diagram = measured;
+  diagram.acne_bound = options.acne_bound;
+  diagram.peter_panning_bound = options.peter_panning_bound;
+  Settings settings = given;
+  settings.map.placements = options.placements;
+  settings.map.resolution = diagram.rows.front().resolution;
+  add_law(diagram, make_light_frame(scene, settings), view, truth, settings);
+  return diagram;
+}
+
 void describe_phase(PhaseDiagram& diagram, const Settings& settings, const Scene& scene) {
   diagram.scene = scene.name;
   diagram.light = kind_of_light(effective_light(scene, settings).kind).name();

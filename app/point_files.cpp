@@ -10,6 +10,7 @@
 
 #include "app/build_facts.h"
 #include "app/image_file.h"
+#include "app/setting_json.h"
 #include "compare/store/curve_fields.h"
 #include "compare/store/quantities.h"
 #include "compare/store/record_fields.h"
@@ -37,11 +38,6 @@ Image<float> depth_read(const Measurement& m, const Image<float>& map) {
   return values;
 }
 
-nlohmann::json number(double value) {  // JSON has no NaN and no infinity
-  if (std::isfinite(value)) return value;
-  return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
-}
-
 nlohmann::json vector_json(glm::dvec3 v) { return {v.x, v.y, v.z}; }
 
 nlohmann::json fact_json(double value) { return value; }
@@ -55,27 +51,12 @@ nlohmann::json matrix_rows(const glm::dmat4& matrix) {
   return rows;
 }
 
-// A setting in the type of its row. Text, points and auto are written as text.
-nlohmann::json setting_json(const Setting& row, const std::string& text) {
-  if (text == "auto") return text;
-  switch (row.type) {
-    case ValueType::integer:
-      return std::stoll(text);
-    case ValueType::real:
-      return std::stod(text);
-    case ValueType::flag:
-      return text == "true";
-    default:
-      return text;
-  }
-}
-
 nlohmann::json curve_json(const BiasCurve& curve) {
   nlohmann::json json;
   for (const CurveField& field : curve_fields()) json[field.name] = nullptr;  // stays null if the curve has no value
   each_field(curve, [&](std::string_view name, const auto& value) {
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
-      json[name] = number(value);
+      json[name] = number_json(value);
     else
       json[name] = value;
   });
@@ -119,11 +100,6 @@ nlohmann::ordered_json light_json(const Measurement& m) {
   return json;
 }
 
-// Paths and names may have bytes that are not UTF-8; JSON must not.
-std::string json_text(const nlohmann::ordered_json& json) {
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 // Appended as text, because scene.mesh = tiles makes each triangle a part, and a part as a JSON value takes 400 bytes
 // in memory.
 void append_parts(const std::vector<Part>& parts, size_t text_after, std::string& text) {
@@ -137,7 +113,7 @@ void append_parts(const std::vector<Part>& parts, size_t text_after, std::string
   for (const Part& part : parts) {
     fmt::format_to(std::back_inserter(text),
                    "{}    {{\n      \"name\": {},\n      \"first_primitive\": {},\n      \"primitives\": {}\n    }}",
-                   before, json_text(part.name), part.first_triangle, part.triangle_count);
+                   before, readable_json(part.name), part.first_triangle, part.triangle_count);
     before = ",\n";
   }
   text += "\n  ]";
@@ -194,15 +170,15 @@ std::string point_json(const Measurement& m, const std::string& command) {
     json["settings"][std::string(row.name)] = setting_json(row, row.get(m.settings));
   for (const Metric& metric : metrics_of({&m.record, 1})) {
     const auto found = m.record.metrics.find(std::string(metric.name));
-    if (found != m.record.metrics.end()) json["metrics"][std::string(metric.name)] = number(found->second);
+    if (found != m.record.metrics.end()) json["metrics"][std::string(metric.name)] = number_json(found->second);
   }
-  for (const auto& [name, value] : m.record.times) json["times"][name] = number(value);
+  for (const auto& [name, value] : m.record.times) json["times"][name] = number_json(value);
   for (const RecordField& field : record_fields())
     if (!field.group.empty())
       json[std::string(field.group)][std::string(field.key())] =
           with_value(field, m.record, [](const auto& value) -> nlohmann::json {
             if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
-              return number(value);
+              return number_json(value);
             else
               return value;
           });
@@ -222,7 +198,7 @@ std::string point_json(const Measurement& m, const std::string& command) {
   json["primitive"] =
       "index of the triangle, counted from 0 in the order in which the scene's parts are drawn; of a file, triangles "
       "without an area are left out before counting (scene.notes says how many); -1 where there is no surface";
-  std::string text = json_text(json);
+  std::string text = readable_json(json);
   json.clear();
   for (const Ladder::CauseImage& cause : m.ladder.causes) json["causes"].push_back(cause.name);
   if (!m.ladder.brought.empty()) {
@@ -237,7 +213,7 @@ std::string point_json(const Measurement& m, const std::string& command) {
   json["flags"] = {
       {"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);
-  const std::string rest = json_text(json);
+  const std::string rest = readable_json(json);
   text.resize(text.size() - std::string_view("\n}").size());  // the object continues
   append_parts(m.scene.parts, rest.size(), text);
   text += ',';

@@ -60,6 +60,38 @@ ImageRecord keep_live_picture(const LivePicture& picture, int64_t id, const std:
   return {path, digest_of(file)};
 }
 
+void move_pictures(const std::vector<std::pair<int64_t, PointRecord*>>& moved, const std::string& out) {
+  namespace fs = std::filesystem;
+  std::vector<std::pair<fs::path, fs::path>> from_temporary;
+  std::error_code none;
+  for (const auto& [before, point] : moved) {
+    const std::string old_stem = fmt::format("images/p{:04}-", before);
+    const std::string new_stem = fmt::format("images/p{:04}-", point->id);
+    const auto move = [&](std::string& path) {
+      if (!path.starts_with(old_stem)) return;
+      const std::string rest = path.substr(old_stem.size());
+      // Two points may change places, so every file first gets a name that no point has.
+      const fs::path temporary = fs::path(out) / fmt::format("images/moved-{}-{}", before, rest);
+      fs::rename(fs::path(out) / path, temporary, none);
+      path = new_stem + rest;
+      from_temporary.emplace_back(temporary, fs::path(out) / path);
+    };
+    for (PictureRecord& picture : point->pictures) move(picture.path);
+    for (ImageRecord& image : point->images) move(image.path);
+  }
+  for (const auto& [from, to] : from_temporary) fs::rename(from, to, none);
+}
+
+void remove_pictures(const PointPictures& pictures, const std::string& out) {
+  std::error_code none;
+  const auto remove = [&](const std::string& path) {
+    if (path.starts_with("images/p") && path.find("..") == std::string::npos)
+      std::filesystem::remove(std::filesystem::path(out) / path, none);
+  };
+  for (const PictureRecord& picture : pictures.pictures) remove(picture.path);
+  for (const ImageRecord& image : pictures.images) remove(image.path);
+}
+
 std::string why_not_as_written(const PointRecord& point, const std::string& out) {
   std::string why;
   const auto check = [&](const std::string& path, const std::string& digest) {

@@ -6,6 +6,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/workbench.h"
@@ -22,6 +23,13 @@ PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string&
 
 // Writes the point's live picture as out/images/p0003-live.bin.
 ImageRecord keep_live_picture(const LivePicture& picture, int64_t id, const std::string& out);
+
+// Gives picture files the names of their points' new ids, in the records and on the disk. Each pair: the id before, and the
+// record with its id now and the paths before. A file that is lost stays lost (why_not_as_written finds it).
+void move_pictures(const std::vector<std::pair<int64_t, PointRecord*>>& moved, const std::string& out);
+
+// Removes the files of a point that has no pictures any more.
+void remove_pictures(const PointPictures& pictures, const std::string& out);
 
 // "out/images/p0003-map.png is not the file that was written", for the first file that is lost or changed; otherwise
 // empty.

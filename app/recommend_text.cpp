@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/experiment.h"
+#include "app/toml_writer.h"
 #include "compare/report/findings.h"
 #include "compare/store/quantities.h"
 
@@ -121,15 +122,6 @@ std::vector<std::string> lesser_levels(const Advice& advice) {
   return lines;
 }
 
-// The value of a setting as TOML.
-std::string toml_value(const Setting& row, const std::string& text) {
-  const bool bare =
-      text != "auto" && (row.type == ValueType::integer || row.type == ValueType::real || row.type == ValueType::flag);
-  if (bare) return text;
-  if (row.type == ValueType::point && text != "auto") return "[" + text + "]";
-  return nlohmann::json(text).dump();  // a JSON string is a TOML basic string
-}
-
 }  // namespace
 
 std::vector<std::string> advice_text(const Advice& advice) {
@@ -186,7 +178,7 @@ std::string advice_experiment(const Advice& advice, const std::string& folder) {
   if (std::error_code none; std::filesystem::is_regular_file(scene, none))
     scene = std::filesystem::proximate(scene, folder);
   std::string text = fmt::format("# Written by noonmark recommend. noonmark check judges it.\n\n[scene]\nname = {}\n",
-                                 nlohmann::json(scene).dump());
+                                 toml_string(scene));
   std::string over, group = "scene";
   for (const Setting& row : settings_table()) {
     const std::string name(row.name), value = row.get(settings);

@@ -1,13 +1,13 @@
 #include "app/workbench.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 
 #include <thread>
 
 #include "app/experiment.h"
 #include "app/placement_stage.h"
+#include "app/stage_keys.h"
 #include "app/view_shading.h"
 #include "compare/judge/poor_view.h"
 #include "compare/ladder/law_metrics.h"
@@ -48,26 +48,6 @@ class Remembered {
   std::string key_;
   std::optional<T> value_;
 };
-
-// The settings that the map depends on. Only a map that is fitted to the view reads the camera.
-std::string map_key_of(const Settings& settings) {
-  const std::string key = settings_key(settings, {Stage::scene, Stage::map});
-  return settings.map.fit == MapFit::view ? key + settings_key(settings, {Stage::view}) : key;
-}
-
-// The settings that the probe and the truth of the taps depend on. A polygon offset is in units of the map's format.
-std::string lookup_key_of(const Settings& settings) {
-  const std::string key = settings_key(settings, {Stage::scene, Stage::view, Stage::lookup});
-  return Bias(settings.bias).polygon_offset() ? key + find_setting("map.format").get(settings) : key;
-}
-
-std::string curve_key_of(const Settings& settings, const BiasPart& varied, const CurveOptions& options) {
-  // All settings except the amount of the part that the curve varies.
-  return settings_key(settings, {Stage::scene, Stage::view, Stage::truth, Stage::map, Stage::lookup, Stage::ladder},
-                      "bias." + std::string(varied.name)) +
-         fmt::format("{} {} {} {}", varied.name, options.acne_bound, options.peter_panning_bound,
-                     fmt::join(options.bias_depth, " "));
-}
 
 void add_cost(PointRecord& record, const FrameCost& cost) {
   record.metrics.insert({{"texel_work", static_cast<double>(cost.texel_work)},
@@ -129,7 +109,7 @@ struct Workbench::Impl {
       : renderer(debug, std::move(shaders)), stages(std::move(all)) {}
 
   const SceneStage& load(const Settings& settings) {
-    const std::string key = settings_key(settings, {Stage::scene});
+    const std::string key = scene_key_of(settings);
     if (!scene.has(key)) forget_scene();
     return scene.get(key, [&] { return stages->load_scene(renderer, settings); });
   }
@@ -151,11 +131,11 @@ struct Workbench::Impl {
   // The receivers and their truth; the receivers are then on the device.
   Looked look(const SceneStage& loaded, const PointSetup& point) {
     const Settings& settings = point.settings;
-    const std::string view_key = settings_key(settings, {Stage::scene, Stage::view});
+    const std::string view_key = view_key_of(settings);
     const ViewStage& seen =
         view.get(view_key, [&] { return stages->take_view(renderer, *loaded.scene, settings.view); });
-    const TruthStage& traced = truth.get(settings_key(settings, {Stage::scene, Stage::view, Stage::truth}),
-                                         [&] { return stages->trace_truth(loaded, seen, point); });
+    const TruthStage& traced =
+        truth.get(truth_key_of(settings), [&] { return stages->trace_truth(loaded, seen, point); });
     if (receivers_on_device != view_key) {
       renderer.load_receivers(seen.receivers, seen.camera.eye_m);
       receivers_on_device = view_key;
@@ -256,11 +236,12 @@ void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placem
   add_time(record, "placement", placements.time());
 }
 
-PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& options) {
+PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured) {
   validate(settings);
   const SceneStage& loaded = impl_->load(settings);
   const LightFrame frame = make_light_frame(*loaded.scene, settings);
   const auto [view, truth] = impl_->look(loaded, {settings, frame});
+  if (measured) return rejudged_phase(*measured, *loaded.scene, view, truth, settings, options);
   return measure_phase(impl_->renderer, *loaded.tracer, *loaded.scene, view, truth, settings, options);
 }
 

@@ -49,8 +49,9 @@ class Workbench {
   Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
                       std::optional<RungOnTop> on_top = {}, bool timed = false);
 
-  // The phase diagram of the scene under these settings (phase_settings()). Throws Error.
-  PhaseDiagram phase(const Settings& settings, const PhaseOptions& options);
+  // The phase diagram of the scene under these settings (phase_settings()). measured: one with the same rows, if there is
+  // one; then only what depends on the bounds is computed. Throws Error.
+  PhaseDiagram phase(const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured = nullptr);
 
   // The places of points on a diagram that counts the receivers of `picture`: the points differ from it in texel size,
   // in bias and in settings that move no receiver. Throws Error.

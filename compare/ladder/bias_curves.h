@@ -65,6 +65,8 @@ class BiasCounts {
   // if it is never more than the share).
   float acne_free_from(double share) const;
   float peter_panning_free_to(double share) const;
+  // What the usable window is read from, for shares up to most_share.
+  WindowSteps window_steps(double depth_per_unit, double most_share) const;
   // The least x from which the stored map darkens no covered tap that is lit both at its exact place and at its texel's
   // centre. It corresponds to acne_free_from(0), which is about the exact map.
   float stored_acne_free_from() const { return stored_acne_free_from_; }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compare/store/phase_record.h"
+#include "compare/store/window_steps.h"
 
 namespace noonmark {
 
@@ -53,6 +54,7 @@ struct BiasCurve {
       peter_panning_worst, peter_panning_best, aliasing_mean, aliasing_worst, aliasing_best;
   std::optional<double> window_min_worst_depth, window_max_worst_depth;
   std::optional<double> acne_free_bias_worst_depth;  // exact, not at an edge
+  WindowSteps steps;                                 // the windows at other bounds
 };
 
 // A cause that a rung on top of R5 brought (add_rung, compare/ladder/ladder.h). Its share is the metric of its name. The
@@ -156,6 +158,7 @@ struct RunInfo {
   std::string scene_name;
   uint64_t triangles = 0;
   std::vector<std::string> scene_notes;  // one line for each note of a scene (Scene::notes)
+  std::vector<std::string> sweep_notes;  // one sentence for each swept setting that no point reads
 };
 
 struct Results {

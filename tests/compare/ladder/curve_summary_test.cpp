@@ -228,5 +228,43 @@ TEST(DefaultBiasGrid, AscendsFromNothingToTheWholeMap) {
   for (size_t i = 1; i < grid.size(); ++i) EXPECT_LT(static_cast<float>(grid[i - 1]), static_cast<float>(grid[i]));
 }
 
+// The windows at other bounds, from the steps alone, are those of another summary, and those of the counts themselves.
+TEST(Summarise, GivesTheWindowsAtOtherBounds) {
+  int windows = 0;
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    const Synthetic s = random_evidence(seed, {40, 30, 6, 3, false, static_cast<Lookup>(seed % 3)});
+    const BiasCounts counts(s.evidence(), s.stored, bias_part("constant"));
+    BiasCurve curve = summarise(counts, test_scale(), {});
+    const WindowSteps stored = curve.steps;
+    curve.steps.acne = steps_of_bytes(bytes_of_steps(stored.acne));
+    curve.steps.peter_panning = steps_of_bytes(bytes_of_steps(stored.peter_panning));
+    ASSERT_EQ(curve.steps, stored);
+    for (double acne : {0.0, 0.0003, 0.002, 0.01, 0.0499, 0.05})
+      for (double panning : {0.0, 0.001, 0.02, 0.05}) {
+        const BiasCurve anew = summarise(counts, test_scale(), {acne, panning, {}});
+        judge_window(curve, acne, panning);
+        ASSERT_EQ(curve.window_min_depth, anew.window_min_depth) << seed << " " << acne << " " << panning;
+        ASSERT_EQ(curve.window_max_depth, anew.window_max_depth) << seed << " " << acne << " " << panning;
+        const double from = counts.acne_free_from(acne), to = counts.peter_panning_free_to(panning);
+        ASSERT_EQ(curve.window_min_depth.has_value(), from <= to && from <= 1) << seed << " " << acne << " " << panning;
+        if (!curve.window_min_depth) continue;
+        ++windows;
+        ASSERT_EQ(*curve.window_min_depth, from);
+        ASSERT_EQ(*curve.window_max_depth, std::min(to, 1.0));
+      }
+  }
+  EXPECT_GT(windows, 50) << "there are hardly any windows, so the test shows little";
+  EXPECT_FALSE(WindowSteps().can_judge(0, 0));
+}
+
+TEST(Summarise, BytesOfAnotherListAreRefused) {
+  const WindowSteps::Steps steps = {{0, 5}, {0x1p-20f, 7}, {infinity, 1e15}};
+  const std::string bytes = bytes_of_steps(steps);
+  EXPECT_EQ(steps_of_bytes(bytes), steps);
+  for (size_t size = 0; size < bytes.size(); ++size) EXPECT_ANY_THROW(steps_of_bytes(bytes.substr(0, size))) << size;
+  EXPECT_ANY_THROW(steps_of_bytes(bytes + "x"));
+  EXPECT_ANY_THROW(steps_of_bytes("\xff\xff\xff\xff\xff\x01"));
+}
+
 }  // namespace
 }  // namespace noonmark
