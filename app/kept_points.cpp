@@ -33,7 +33,8 @@ bool has_asked_curve(const PointRecord& stored, const Experiment& part, const Se
           curve.steps.can_judge(options.acne_bound, options.peter_panning_bound));
 }
 
-bool has_asked_times(const PointRecord& stored, bool timed) { return stored.metrics.contains("map_ms") == timed; }
+// Times that are asked for and not there are measured after all points.
+bool has_asked_times(const PointRecord& stored, bool timed) { return timed || !stored.metrics.contains("map_ms"); }
 
 // Finds a stored point for each planned one. In three rounds, because parts may have points with the same settings: the
 // point that is where it was comes first, then one of the same part, then any.

@@ -22,9 +22,9 @@ class Progress {
     start_ += std::chrono::steady_clock::now() - begin;
   }
   void finished(int64_t done, const std::string& what);
+  void say(const std::string& what);
 
  private:
-  void say(const std::string& what);
   int64_t total_, already_;
   bool quiet_, terminal_;
   bool line_open_ = false;

@@ -1,7 +1,6 @@
 #include "app/stages.h"
 
 #include <algorithm>
-#include <array>
 
 #include "compare/ladder/receiver_taps.h"
 #include "scenes/camera_fit.h"
@@ -12,20 +11,6 @@
 
 namespace noonmark {
 namespace {
-
-// Runs a pass. Its time, if it is asked for, is the median of three, so that one interruption has no effect. pass(ms):
-// ms receives the time, or is null.
-template <class Pass>
-std::optional<double> run_pass(bool timed, const Pass& pass) {
-  if (!timed) {
-    pass(nullptr);
-    return {};
-  }
-  std::array<double, 3> times;
-  for (double& time : times) pass(&time);
-  std::sort(times.begin(), times.end());
-  return times[1];
-}
 
 double scene_behind(const Scene& scene, const Camera& camera) {
   const glm::dvec3 way = camera.target_m - camera.eye_m;
@@ -115,11 +100,9 @@ TruthStage Pipeline::trace_truth(const SceneStage& scene, const ViewStage& view,
 MapStage Pipeline::draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point) {
   std::vector<glm::vec3> casters;
   if (const Bias bias(point.settings.bias); bias.moves_casters()) casters = caster_positions(scene, point.frame, bias);
-  std::optional<gl::ShadowMap> map;
-  const std::optional<double> time = run_pass(
-      point.timed, [&](double* ms) { map.emplace(renderer.render_map(point.frame, point.settings, ms, casters)); });
-  Image<float> depth = renderer.read_map(*map);
-  return {std::move(*map), std::move(depth), time};
+  gl::ShadowMap map = renderer.render_map(point.frame, point.settings, nullptr, casters);
+  Image<float> depth = renderer.read_map(map);
+  return {std::move(map), std::move(depth)};
 }
 
 LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
@@ -149,18 +132,18 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
           .tap_stage = {}};
 }
 
-Image<float> Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point, double* ms) {
-  return renderer.lookup(map, point.frame, point.settings, ms);
+Image<float> Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point) {
+  return renderer.lookup(map, point.frame, point.settings);
 }
 
 ShownStage Pipeline::show(gl::Renderer& renderer, const MapStage& map, const LookupStage& lookup,
                           const TruthStage& truth, const PointSetup& point) {
   ShownStage shown;
-  shown.time_ms = run_pass(point.timed, [&](double* ms) { shown.r5 = look_up(renderer, map.map, point, ms); });
-  shown.r4 = look_up(renderer, lookup.exact_map, point, nullptr);
+  shown.r5 = look_up(renderer, map.map, point);
+  shown.r4 = look_up(renderer, lookup.exact_map, point);
   shown.ties = tie_map(evidence_of(lookup, truth, shown, point.settings));
   shown.tie_lookup =
-      look_up(renderer, renderer.upload_map(shown.ties, point.settings.map, point.frame.map_shape()), point, nullptr);
+      look_up(renderer, renderer.upload_map(shown.ties, point.settings.map, point.frame.map_shape()), point);
   return shown;
 }
 

@@ -29,8 +29,6 @@ namespace noonmark {
 struct PointSetup {
   const Settings& settings;
   const LightFrame& frame;  // make_light_frame(), or a placement of it (technique/placements.h)
-  // Whether map and lookup are timed. Without it each is drawn once, with it three times or more.
-  bool timed = false;
 };
 
 struct SceneStage {
@@ -53,8 +51,7 @@ struct TruthStage {
 
 struct MapStage {
   gl::ShadowMap map;
-  Image<float> depth;             // as the lookup's sampler returns it
-  std::optional<double> time_ms;  // the median of three, if it is asked for
+  Image<float> depth;  // as the lookup's sampler returns it
 };
 
 // The lookup's inputs and their truth. The truth of the taps covers one strip of the picture at a time. If all taps fit
@@ -73,7 +70,6 @@ struct LookupStage {
 // What OpenGL shows: the technique on its own map, on the exact map and on the tie map.
 struct ShownStage {
   Image<float> r5, r4, ties, tie_lookup;
-  std::optional<double> time_ms;  // of the lookup in its own map: the median of three, if it is asked for
 };
 
 struct Climbed {
@@ -109,8 +105,8 @@ class Pipeline {
   virtual MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point);
   virtual LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
                                      const TruthStage& truth, const PointSetup& point);
-  // One lookup of all receivers. show() calls it for each of its maps. ms receives its time, or is null.
-  virtual Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point, double* ms);
+  // One lookup of all receivers. show() calls it for each of its maps.
+  virtual Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point);
   virtual ShownStage show(gl::Renderer& renderer, const MapStage& map, const LookupStage& lookup,
                           const TruthStage& truth, const PointSetup& point);
   // Traces the taps strip by strip and books them. varied: the part of the bias that a curve varies, or null.

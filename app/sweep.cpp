@@ -15,6 +15,7 @@
 #include "app/identity.h"
 #include "app/image_file.h"
 #include "app/kept_points.h"
+#include "app/pass_times.h"
 #include "app/pictures.h"
 #include "app/point_pictures.h"
 #include "app/progress.h"
@@ -83,7 +84,7 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
   info.gl_vendor = device.vendor;
   info.gl_renderer = device.renderer;
   info.gl_version = device.version;
-  info.gl_timer = device.timer_queries ? "timer query" : "glFinish + steady clock";
+  info.gl_timer = gl::text_of(device.times);
   info.embree_version = tracer.version;
   info.embree_isa = tracer.isa;
   for (const LibraryVersion& library : build_facts().libraries)
@@ -192,6 +193,26 @@ bool has_what_a_sweep_reads(const PointRecord& point) {
          });
 }
 
+// Times every point, if one has no times yet: those of another day could not be compared with the others. False if a signal
+// stopped it; then nothing is stored.
+bool add_times(Workbench& bench, ResultStore& store, const std::vector<Settings>& planned, Progress& progress) {
+  const std::vector<PointRecord> points = store.load().points;
+  if (std::all_of(points.begin(), points.end(),
+                  [](const PointRecord& point) { return point.metrics.contains("shadow_ms"); }))
+    return true;
+  std::optional<std::vector<TimeMetrics>> times;
+  const auto go_on = [&](int done, int all) {
+    progress.say(fmt::format("times of map and lookup: round {} of {}", done + 1, all));
+    return stop_asked == 0;
+  };
+  progress.aside("times of map and lookup", [&] { times = time_passes(bench, planned, go_on); });
+  if (!times) return false;
+  std::map<int64_t, TimeMetrics> of_points;
+  for (size_t id = 0; id < planned.size(); ++id) of_points[static_cast<int64_t>(id)] = std::move((*times)[id]);
+  store.set_metrics(of_points);
+  return true;
+}
+
 }  // namespace
 
 std::string SweepOutcome::counts() const {
@@ -200,8 +221,12 @@ std::string SweepOutcome::counts() const {
 }
 
 std::string stopped_text(const SweepOutcome& outcome) {
-  return fmt::format("stopped after {} of {}; the same command continues from there", outcome.results.points.size(),
-                     counted(static_cast<size_t>(outcome.results.planned_points), "point"));
+  const Results& results = outcome.results;
+  const std::string points = counted(static_cast<size_t>(results.planned_points), "point");
+  if (static_cast<int64_t>(results.points.size()) == results.planned_points)
+    return fmt::format("stopped after all {}; the same command continues with what is left (times, phase diagrams)",
+                       points);
+  return fmt::format("stopped after {} of {}; the same command continues from there", results.points.size(), points);
 }
 
 void require_sound(const Results& results) {
@@ -258,7 +283,6 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       require_room_for(bench, plan);
       undrawn.push_back(&plan);
     }
-  const bool timed = times_measured(experiment);
   SweepOutcome outcome;
   outcome.kept = static_cast<int64_t>(before.size());
   {
@@ -280,7 +304,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       const Experiment& part = part_of_point(experiment, id);
       scenes.require_unchanged(bench, planned[static_cast<size_t>(id)]);
       Measurement m = bench.measure(planned[static_cast<size_t>(id)],
-                                    part.curve_enabled ? std::optional(part.curve) : std::nullopt, {}, timed);
+                                    part.curve_enabled ? std::optional(part.curve) : std::nullopt);
       m.record.id = id;
       m.record.part = part.part;
       if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0))
@@ -290,6 +314,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       progress.finished(++done, name_of_point(experiment, id));
       outcome.interrupted = stop_asked && (done < total || !undrawn.empty());
     }
+    if (times_measured(experiment) && !outcome.interrupted)
+      outcome.interrupted = !add_times(bench, store, planned, progress);
   }
 
   for (const Settings& point : planned) outcome.scenes.push_back(names_file(point.scene.name) ? scenes.of(point) : "");

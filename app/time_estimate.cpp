@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "app/pass_times.h"
 #include "app/point_pictures.h"
 #include "app/stage_keys.h"
 #include "compare/ladder/live_picture.h"
@@ -39,7 +40,7 @@ Clock now() {
 
 // What a point's time is a sum of. Those from `look` on are counted for each filter and bias reference by themselves,
 // because their taps do not cost the same.
-enum Work : size_t { point, scene, map, view, truth, soft, look, compare, curve, place, works };
+enum Work : size_t { point, scene, map, view, truth, soft, passes, look, compare, curve, place, works };
 
 // Which stages are computed anew after the point before, and how much there is to do in each.
 std::vector<double> work_of(const Settings& s, const Settings* before, const std::optional<CurveOptions>& options,
@@ -49,7 +50,7 @@ std::vector<double> work_of(const Settings& s, const Settings* before, const std
   const double pixels = static_cast<double>(s.view.width_px) * s.view.height_px, taps = tap_pattern(s.filter).taps;
   work[Work::point] = 1;
   work[Work::scene] = anew(scene_key_of);
-  if (anew(map_key_of)) work[Work::map] = std::pow(s.map.resolution, 2) * (timed ? 3 : 1);
+  if (anew(map_key_of)) work[Work::map] = std::pow(s.map.resolution, 2) * (timed ? 1 + 2 * timed_rounds : 1);
   if (anew(view_key_of)) work[Work::view] = pixels;
   if (anew(truth_key_of)) {
     work[Work::truth] = pixels;
@@ -57,6 +58,7 @@ std::vector<double> work_of(const Settings& s, const Settings* before, const std
     if (sized) work[Work::soft] = pixels;
   }
   if (anew(lookup_key_of)) work[Work::look] = pixels * taps;
+  if (timed && anew(lookup_work_of)) work[Work::passes] = pixels * taps;
   work[Work::compare] = pixels * taps;
   const BiasPart* const varied = options ? curve_part(s.bias) : nullptr;
   if (varied && anew([&](const Settings& one) { return curve_key_of(one, *varied, *options); }))
@@ -173,7 +175,8 @@ class Calibration {
     const Settings settings = small(planned_[id], divisor);
     std::vector<double> row = row_of(id, divisor, last_ ? &*last_ : nullptr);
     const Clock before = now();
-    bench_.measure(settings, options_of(id), {}, timed_);
+    bench_.measure(settings, options_of(id));
+    if (timed_) time_passes(bench_, settings);
     last_ = settings;
     rows_.push_back(std::move(row));
     times_.push_back(std::max(1e-6, now().cpu_s - before.cpu_s));

@@ -16,6 +16,7 @@
 #include "scenes/address_space.h"
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"
+#include "technique/casters.h"
 #include "technique/cost.h"
 #include "technique/setting_rules.h"
 
@@ -67,7 +68,7 @@ void add_time(PointRecord& record, const std::string& stage, const StageTime& ti
 
 // The point's numbers and times, without its curve.
 PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, const ViewStage& view,
-                      const TruthStage& truth, const MapStage& map, const LookupStage& lookup, const ShownStage& shown,
+                      const TruthStage& truth, const LookupStage& lookup,
                       const std::map<std::string, double>& soundness) {
   const Image<float> occluders = tracer.occluder_distance(m.receivers, m.frame, peter_panning_mask(m.ladder));
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
@@ -82,11 +83,6 @@ PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, cons
   record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
   add_cost(record, frame_cost(m.settings, m.frame.tiles, static_cast<int64_t>(record.metrics["facing"]),
                               static_cast<int64_t>(m.scene.triangles.size())));
-  if (map.time_ms && shown.time_ms) {
-    record.metrics["map_ms"] = *map.time_ms;
-    record.metrics["lookup_ms"] = *shown.time_ms;
-    record.metrics["shadow_ms"] = *map.time_ms + *shown.time_ms;
-  }
   add_time(record, "hard_truth", truth.hard);
   add_time(record, "soft_truth", truth.soft);
   add_time(record, "texel", lookup.texel_stage);
@@ -128,19 +124,20 @@ struct Workbench::Impl {
     const ViewStage& view;
     const TruthStage& truth;
   };
-  // The receivers and their truth; the receivers are then on the device.
-  Looked look(const SceneStage& loaded, const PointSetup& point) {
-    const Settings& settings = point.settings;
-    const std::string view_key = view_key_of(settings);
-    const ViewStage& seen =
-        view.get(view_key, [&] { return stages->take_view(renderer, *loaded.scene, settings.view); });
-    const TruthStage& traced =
-        truth.get(truth_key_of(settings), [&] { return stages->trace_truth(loaded, seen, point); });
-    if (receivers_on_device != view_key) {
+  // The receivers, which are then on the device.
+  const ViewStage& see(const SceneStage& loaded, const Settings& settings) {
+    const std::string key = view_key_of(settings);
+    const ViewStage& seen = view.get(key, [&] { return stages->take_view(renderer, *loaded.scene, settings.view); });
+    if (receivers_on_device != key) {
       renderer.load_receivers(seen.receivers, seen.camera.eye_m);
-      receivers_on_device = view_key;
+      receivers_on_device = key;
     }
-    return {seen, traced};
+    return seen;
+  }
+  // The receivers and their truth.
+  Looked look(const SceneStage& loaded, const PointSetup& point) {
+    const ViewStage& seen = see(loaded, point.settings);
+    return {seen, truth.get(truth_key_of(point.settings), [&] { return stages->trace_truth(loaded, seen, point); })};
   }
 
   void add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen, const TruthStage& traced,
@@ -308,20 +305,35 @@ std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
   }
 }
 
+PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup) {
+  validate(settings);
+  Impl& b = *impl_;
+  const SceneStage& loaded = b.load(settings);
+  const LightFrame frame = make_light_frame(*loaded.scene, settings);
+  b.see(loaded, settings);
+  b.lookup.forget();  // there may be no memory for another map
+  b.map.forget();
+  PassTimes times;
+  std::vector<glm::vec3> casters;
+  if (const Bias bias(settings.bias); bias.moves_casters()) casters = caster_positions(*loaded.scene, frame, bias);
+  const gl::ShadowMap drawn = b.renderer.render_map(frame, settings, map ? &times.map_ms.emplace() : nullptr, casters);
+  if (lookup) b.renderer.lookup(drawn, frame, settings, &times.lookup_ms.emplace());
+  return times;
+}
+
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
-                               std::optional<RungOnTop> on_top, bool timed) {
+                               std::optional<RungOnTop> on_top) {
   validate(settings);
   Impl& b = *impl_;
   const SceneStage& loaded = b.load(settings);
   const Scene& scene = *loaded.scene;
   const LightFrame frame = make_light_frame(scene, settings);
-  const PointSetup point{settings, frame, timed};
+  const PointSetup point{settings, frame};
 
   const Impl::Looked looked = b.look(loaded, point);
   const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
   const TruthStage& truth = looked.truth;
-  const MapStage& map = b.map.get(map_key_of(settings) + (timed ? " timed" : ""),
-                                  [&] { return b.stages->draw_map(b.renderer, scene, point); });
+  const MapStage& map = b.map.get(map_key_of(settings), [&] { return b.stages->draw_map(b.renderer, scene, point); });
   LookupStage& lookup = b.lookup.get(lookup_key_of(settings), [&] {
     return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, point);
   });
@@ -346,7 +358,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   if (on_top) add_rung(climbed.ladder, std::move(*on_top));
   Measurement m{{},           settings,  std::move(climbed.ladder), frame, view.camera, scene, view.receivers,
                 lookup.probe, map.depth, lookup.exact_depth};
-  m.record = record_of(m, *loaded.tracer, view, truth, map, lookup, shown, climbed.soundness);
+  m.record = record_of(m, *loaded.tracer, view, truth, lookup, climbed.soundness);
   if (varied && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
       BiasCurve curve = summarise(*climbed.counts, scale, *curve_options);

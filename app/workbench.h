@@ -31,6 +31,11 @@ struct Measurement {
   const Image<float>& exact_map;
 };
 
+// Milliseconds by gl::DeviceInfo::times. Empty: not asked for.
+struct PassTimes {
+  std::optional<double> map_ms, lookup_ms;
+};
+
 // Checks the address space that the driver, the rays and the image library need before the first point. Throws
 // Error(device) if there is not enough. Without this check a library would fail later and could not say why.
 // pictures: true if the run writes picture files.
@@ -43,11 +48,15 @@ class Workbench {
                      std::unique_ptr<Pipeline> stages = std::make_unique<Pipeline>());
   ~Workbench();
 
-  // timed: whether map and lookup are timed; if not, the record has no metric that is a time. on_top: a picture that is
-  // judged in place of R5. curve: no curve if it is empty, if no part of the bias can have
-  // one (curve_part), or if there is a picture on top, because no bias changes that. Throws Error.
+  // on_top: a picture that is judged in place of R5. curve: no curve if it is empty, if no part of the bias can have
+  // one (curve_part), or if there is a picture on top, because no bias changes that. The record has no metric that is a
+  // time: see app/pass_times.h. Throws Error.
   Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
-                      std::optional<RungOnTop> on_top = {}, bool timed = false);
+                      std::optional<RungOnTop> on_top = {});
+
+  // One sample of the time of each pass that is asked for. The images of the last measurement may be gone afterwards.
+  // Throws Error.
+  PassTimes time_passes(const Settings& settings, bool map, bool lookup);
 
   // The phase diagram of the scene under these settings (phase_settings()). measured: one with the same rows, if there is
   // one; then only what depends on the bounds is computed. Throws Error.

@@ -39,10 +39,19 @@ using ShaderReplacements = std::map<std::string, std::string>;
 // The program's own text of a GLSL file, as the start of a variant. Throws Error(usage) if there is no such file.
 std::string shader_file(const std::string& name);
 
+// Where the times of passes come from.
+enum class TimeSource {
+  timer_query,  // the GPU's own clock
+  process_cpu,  // CPU time of all threads of the process, with glFinish: a software renderer draws on these threads, and
+                // its timer queries are wrong by orders of magnitude. Other programs do not lengthen it
+  steady_clock,  // time of the wall with glFinish: a GPU without timer queries
+};
+const char* text_of(TimeSource source);  // "GPU timer queries"
+
 struct DeviceInfo {
   std::string vendor, renderer, version, egl_platform;
-  bool software = false;       // llvmpipe and other software renderers
-  bool timer_queries = false;  // true: times come from GPU timer queries; false: from glFinish and a steady clock
+  bool software = false;  // llvmpipe and other software renderers
+  TimeSource times = TimeSource::steady_clock;
   int max_map_resolution = 0;
 };
 
@@ -86,9 +95,10 @@ class Renderer {
   void load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m);
 
   // Renders the scene's depth from the light. Reads settings.map and the polygon offset of settings.bias; parts that
-  // move the casters' vertices act through `casters` alone. time_ms, if given, receives the time of the pass alone,
-  // from the device or from the clock with glFinish. casters: the scene's vertices as they are drawn
-  // (technique/casters.h); empty: the vertices of load_scene().
+  // move the casters' vertices act through `casters` alone. time_ms, if given, receives the time of the pass alone
+  // (DeviceInfo::times); the pass then runs twice, first without the clock, so that its shader is compiled, its memory is
+  // in use and the caches hold what it reads. casters: the scene's vertices as they are drawn (technique/casters.h);
+  // empty: the vertices of load_scene().
   ShadowMap render_map(const LightFrame& frame, const Settings& settings, double* time_ms = nullptr,
                        std::span<const glm::vec3> casters = {});
 
@@ -106,7 +116,7 @@ class Renderer {
   double polygon_offset_unit(DepthFormat format);
 
   // The technique's result: the visibility of every receiver, in [0, 1]. Background pixels and receivers at or behind
-  // the light have 0. For filters that compare in hardware, OpenGL clamps the biased reference to [0, 1] if the format
+  // the light have 0. time_ms: as in render_map. For filters that compare in hardware, OpenGL clamps the biased reference to [0, 1] if the format
   // of the map is fixed-point. So even with lit_beyond_far off, a receiver beyond far is lit where the map is empty.
   Image<float> lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings,
                       double* time_ms = nullptr);

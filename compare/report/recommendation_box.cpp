@@ -51,6 +51,27 @@ std::string cost_and_error(const Recommendation& found, const Results& results) 
                      html(error_label(results.info.accuracy)), over);
 }
 
+// What the noise of times means for the answer.
+std::string noise_text(const CostNoise& noise, const Results& results) {
+  if (find_metric(results.info.cost).unit != "ms") return " This cost is the same on every machine and in every run.";
+  const std::string rule = fmt::format(
+      " A time is a median with an interval that holds it with at least {:.0f}\u202f%; two differ only where these do "
+      "not overlap.",
+      100 * median_coverage);
+  if (noise.meaningless())
+    return rule + fmt::format(
+                      " <b>Here the noise makes a ranking by time meaningless</b>: the times of all {} kinds of work "
+                      "overlap with the shortest, so the answer is the most accurate of them. Time on a quiet machine, "
+                      "or rank by a cost that does not depend on it.",
+                      noise.costs);
+  if (noise.least > 1)
+    return rule + fmt::format(
+                      " The times of {} of {} kinds of work cannot be told from the shortest; the answer is the most "
+                      "accurate of these.",
+                      noise.least, noise.costs);
+  return rule + (noise.costs > 1 ? " All others are certainly longer." : "");
+}
+
 }  // namespace
 
 std::string cause_sentence(std::span<const PointRecord* const> points) {
@@ -124,10 +145,7 @@ std::string recommendation_box(const Results& results) {
       !found.bias              ? "every bound holds"
       : results.bounds.empty() ? "the bias window is not empty"
                                : "the bias window is not empty and every bound holds at that bias",
-      html(error_label(results.info.accuracy)),
-      find_metric(results.info.cost).unit == "ms"
-          ? fmt::format(" Times within {:.0f}\u202f% count as equal.", 100 * time_tolerance)
-          : " This cost is the same on every machine and in every run.");
+      html(error_label(results.info.accuracy)), noise_text(found.noise, results));
 }
 
 }  // namespace noonmark::report

@@ -147,7 +147,7 @@ struct RunInfo {
   std::string commit, version;  // of Noonmark; commit may be "unknown"
   std::string started;          // ISO 8601, UTC
   std::string host_cpu;
-  std::string gl_vendor, gl_renderer, gl_version, gl_timer;  // gl_timer: "timer query" or "glFinish + steady clock"
+  std::string gl_vendor, gl_renderer, gl_version, gl_timer;  // gl_timer: "CPU time of the process"
   std::string embree_version, embree_isa;
   std::map<std::string, std::string> libraries;  // name -> version
   std::vector<std::string> swept;                // names of the swept settings, outermost first

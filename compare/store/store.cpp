@@ -339,6 +339,18 @@ void ResultStore::set_pictures(int64_t point, const PointPictures& pictures) {
   transaction.commit();
 }
 
+void ResultStore::set_metrics(const std::map<int64_t, std::map<std::string, double>>& of_points) {
+  Transaction transaction(*db_);
+  Statement set(*db_, "INSERT OR REPLACE INTO metrics VALUES (?, ?, ?)");
+  for (const auto& [point, metrics] : of_points) {
+    if (!is_finished(*db_, point))
+      throw std::logic_error(fmt::format("metrics of point {}, which is not in the store", point));
+    for (const auto& [name, value] : metrics) set.run(point, name, value);
+    seal_point(*db_, point);
+  }
+  transaction.commit();
+}
+
 void ResultStore::set_info(const RunInfo& info, int64_t planned_points) {
   Transaction transaction(*db_);
   db_->execute(

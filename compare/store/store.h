@@ -20,6 +20,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -85,6 +86,9 @@ class ResultStore {
   // Replaces the pictures of a point in the store. Some pictures are chosen after the sweep, and some are lost and made
   // again.
   void set_pictures(int64_t point, const PointPictures& pictures);
+  // Gives points in the store more metrics, or other values of those that they have: times are measured after all points
+  // (app/pass_times.h). All in one transaction.
+  void set_metrics(const std::map<int64_t, std::map<std::string, double>>& of_points);
   // Replaces the stored facts of the run.
   void set_info(const RunInfo& info, int64_t planned_points);
   void set_bounds(const std::vector<BoundResult>& bounds);

@@ -66,11 +66,11 @@ class DefectivePipeline : public Pipeline {
   }
 
   // A map keeps the wrap mode that it was made with, so another wrap mode needs another map.
-  Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point, double* ms) override {
-    const PointSetup asked{asked_, point.frame, point.timed};
-    if (asked_.map.wrap == point.settings.map.wrap) return Pipeline::look_up(renderer, map, asked, ms);
+  Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point) override {
+    const PointSetup asked{asked_, point.frame};
+    if (asked_.map.wrap == point.settings.map.wrap) return Pipeline::look_up(renderer, map, asked);
     return Pipeline::look_up(renderer, renderer.upload_map(renderer.read_map(map), asked_.map, point.frame.map_shape()),
-                             asked, ms);
+                             asked);
   }
 
  private:

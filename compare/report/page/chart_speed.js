@@ -18,18 +18,31 @@ function windowText(entry) {
                                     entry.bias.from + ' … ' + entry.bias.to;
 }
 
-// The drawn choices of the group, with x and y in the units of the axes.
+function inUnit(cost) {
+  return cost * (isBytes() ? 1e-6 : 1);
+}
+// "4.1 ms (3.9 … 4.4)"
+function costText(cost) {
+  var unit = kit.measureUnit(state.cost);
+  return kit.shown(cost[0], unit) +
+      (cost.length > 2 ? ' (' + kit.shown(cost[2], unit) + ' … ' + kit.shown(cost[3], unit) + ')' : '');
+}
+
+// The drawn choices of the group, with x and y in the units of the axes. low and high: the interval of a measured cost.
 function rowsOf(entries) {
   var property = group().properties[state.property];
   return entries
       .map(function(entry) {
         var of = entry.errors[state.error], value = property ? entry.is[state.property] : 0;
+        var cost = entry.costs[state.cost];
         return {
           id: entry.id,
           entry: entry,
-          x: entry.costs[state.cost][0] * (isBytes() ? 1e-6 : 1),
+          x: inUnit(cost[0]),
+          low: inUnit(cost.length > 2 ? cost[2] : cost[0]),
+          high: inUnit(cost.length > 2 ? cost[3] : cost[0]),
           v: of.v[0],
-          ok: kit.finite(entry.costs[state.cost][0]) && kit.finite(of.v[0]),
+          ok: kit.finite(cost[0]) && kit.finite(of.v[0]),
           counts: of.counts,
           span: of.span && kit.finite(of.span[0]) && kit.finite(of.span[1]) ? of.span : null,
           // Blur by design is hollow, so that it does not depend on the grey alone.
@@ -54,7 +67,11 @@ function tip(event, row) {
     return kit.shown(v[0], unit) + (many ? ' (mean ' + kit.shown(v[1], unit) + ')' : '');
   }
   var unit = kit.measureUnit(state.error), rows = [
-    [kit.measureLabel(state.cost), both(cost, state.cost)], [kit.measureLabel(state.error), both(of.v, state.error)]
+    [
+      kit.measureLabel(state.cost),
+      costText(cost) + (many ? ' (mean ' + kit.shown(cost[1], kit.measureUnit(state.cost)) + ')' : '')
+    ],
+    [kit.measureLabel(state.error), both(of.v, state.error)]
   ];
   if (row.span)
     rows.push(['over the usable window', kit.shown(of.span[0], unit) + ' … ' + kit.shown(of.span[1], unit)]);
@@ -110,6 +127,12 @@ var self = kit.chart('cost', function(width) {
             return r.span;
           })
         },
+        {
+          name: 'intervals',
+          values: only(function(r) {
+            return r.high > r.low;
+          })
+        },
         {name: 'front', values: last ? front.concat([{px: w, y: last.y}]) : []}, {
           name: 'best',
           values: only(function(r) {
@@ -155,7 +178,7 @@ function describe(entry) {
   var of = entry.errors[state.error];
   return [
     kit.make('b', {}, entry.name),
-    ': ' + kit.shown(entry.costs[state.cost][0], kit.measureUnit(state.cost)) + ', ' +
+    ': ' + costText(entry.costs[state.cost]) + ', ' +
         kit.measureLabel(state.error).toLowerCase() + ' ' + kit.shown(of.v[0], kit.measureUnit(state.error)) +
         (of.at_bias ? ' at ' + entry.bias.parameter + ' ' + entry.bias.value : ' as rendered') +
         '; usable window: ' + windowText(entry) + '.'
@@ -188,6 +211,11 @@ function tell(rows, missing) {
   if (rendered.length)
     text.push(
         'This error has no bias curve, so it is that of the bias as rendered. Choices rendered outside their usable window are crosses.');
+  if (rows.some(function(r) {
+        return r.high > r.low;
+      }))
+    text.push(
+        'Each time is a median. The bar along the cost holds it with 96 %: costs whose bars overlap count as equal, for the front too.');
   if (front.length)
     text.push(
         'On the front, from the cheapest: ' +
@@ -249,6 +277,10 @@ function legend() {
   }
   symbol(path(kit.speed.cross, 'none', 'var(--bad)'), 'at no usable bias');
   symbol('<line x1="13" x2="13" y1="0" y2="12" stroke="var(--soft)" stroke-width="1.6"/>', 'over the usable window');
+  if (g.entries.some(function(e) {
+        return e.costs[state.cost].length > 2;
+      }))
+    symbol('<line x1="0" x2="26" y1="6" y2="6" stroke="var(--soft)" stroke-width="1.6"/>', 'interval of the time');
   symbol('<circle cx="13" cy="6" r="5" fill="none" stroke="var(--good)" stroke-width="1.8"/>', 'recommended');
 }
 

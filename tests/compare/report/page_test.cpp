@@ -187,7 +187,11 @@ class SpeedPage : public Browser {
     results.info.swept.push_back("scene.name");
     for (size_t i = 0; i < 32; ++i)
       has_window_ += i > 0 && i < 28 && results.points[i].curve->window_min_depth.has_value();
-    for (PointRecord& point : results.points) point.metrics["texel_work"] = 1e6;  // all marks side by side
+    for (PointRecord& point : results.points) {
+      point.metrics["texel_work"] = 1e6;  // all marks side by side
+      point.metrics["map_low_ms"] = 0.9 * point.metrics["map_ms"];
+      point.metrics["map_high_ms"] = 1.2 * point.metrics["map_ms"];
+    }
     const ComparedGroup group = compared_groups(results).at(0);
     const report::ChoiceNames names(results);
     for (size_t i : report::front_of(group, "map_ms", "error"))
@@ -221,7 +225,11 @@ TEST_F(SpeedPage, LetsTheReaderChooseAxesGroupAndShape) {
   EXPECT_EQ(soft["titles"][0], "Error against the light's size");
   EXPECT_EQ(soft["bars"], has_window_) << "the curve gives this error at every bias too";
   EXPECT_EQ(saw_["soft_note"].get<std::string>().find("as rendered"), std::string::npos) << saw_["soft_note"];
+  EXPECT_EQ(saw_["first"]["cost_bars"], 0) << "a cost that does not depend on the machine has no interval";
   EXPECT_EQ(saw_["map_ms"]["titles"][1], "Map (ms)");
+  EXPECT_EQ(saw_["map_ms"]["cost_bars"], 28) << "the interval of each time";
+  EXPECT_NE(saw_["map_ms_legend"].get<std::string>().find("interval of the time"), std::string::npos);
+  EXPECT_NE(saw_["map_ms_words"].get<std::string>().find(" … "), std::string::npos) << saw_["map_ms_words"];
   EXPECT_NE(saw_["map_ms_note"].get<std::string>().find("from the cheapest: " + front_ + "."), std::string::npos)
       << "the page's front must be that of front_of(): " << front_ << "\n"
       << saw_["map_ms_note"];

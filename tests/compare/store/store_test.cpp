@@ -311,6 +311,18 @@ TEST_F(Store, ReplacesPictures) {
   EXPECT_THROW(store.set_pictures(7, {}), std::logic_error);
 }
 
+TEST_F(Store, AddsMetricsToPoints) {
+  ResultStore store = fresh();
+  PointRecord expected = sample_point(1);
+  store.add(expected);
+  const std::map<std::string, double> more{{"map_ms", 7.5}, {"map_low_ms", 7.25}, {"acne", 0.125}};
+  store.set_metrics({{1, more}});
+  for (const auto& [name, value] : more) expected.metrics[name] = value;
+  EXPECT_TRUE(same(store.load().points.at(0), expected)) << "load() also checks the seal";
+  EXPECT_THROW(store.set_metrics({{1, {{"acne", 0.5}}}, {7, {}}}), std::logic_error);
+  EXPECT_TRUE(same(store.load().points.at(0), expected)) << "all or nothing";
+}
+
 TEST_F(Store, RefusesWhatIsNoStore) {
   write_file_atomically(path, std::string(5000, 'x'));
   EXPECT_NE(refusal().find("not a database"), std::string::npos);
