@@ -275,6 +275,9 @@ int run(int argc, char** argv) {
       ->add_option("--views", recommending.views,
                    "Without an [over]: the view that is given, and up to 4 turned ones (default: 5 views)")
       ->check(whole_number(1, 5, "from 1 to 5"));
+  recommend->add_option("--part", arguments.parts, "The part of the experiment to answer for, if it has parts")
+      ->expected(1)
+      ->type_name("NAME");
   recommend->add_flag("--json", recommending.json, "Print everything that was found as JSON");
   recommend->add_flag("--quiet", recommending.quiet, "Print no progress");
   recommend
