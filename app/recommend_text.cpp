@@ -104,6 +104,15 @@ std::string condition_text(const PointRecord& point, const AdviceRequest& reques
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
+// The cheapest of the settings that were screened and are more accurate than the answer. Null if it has an error or a budget
+// to keep, because then they are no choice.
+const Tried* next_better(const Advice& advice) {
+  if (advice.request.error || advice.request.budget) return nullptr;
+  for (const Tried& tried : advice.tried)  // by cost
+    if (tried.bias && tried.cost > advice.answer->cost && tried.error < advice.answer->error) return &tried;
+  return nullptr;
+}
+
 // What would have to change, from what was tried: one sentence for each way.
 std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
   const AdviceRequest& request = advice.request;
@@ -222,6 +231,9 @@ std::vector<std::string> advice_text(const Advice& advice) {
                                 cheaper->cost / 1e6, cheaper->why_not));
   else
     lines.push_back("Nothing cheaper was tried.");
+  if (const Tried* better = next_better(advice))
+    lines.push_back(fmt::format("More accurate, as far as it was screened, is {} ({:.3g} million): {}.",
+                                settings_text(*better), better->cost / 1e6, better->why_not));
   if (advice.least_resolution) lines.push_back(constant_text(*advice.least_resolution));
   for (std::string& line : lesser_levels(advice)) lines.push_back(std::move(line));
   return lines;
@@ -297,6 +309,14 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
   all["text"] = advice_text(advice);
   all["accuracy"] = advice.request.accuracy;
   all["answer"] = advice.answer ? of(*advice.answer) : json();
+  all["wrong_without_shadows"] = advice.shadowed;
+  if (advice.nearest) {
+    all["nearest"] = of(*advice.nearest);
+    if (advice.nearest->worst)
+      all["nearest"]["worst"] = {{"x", advice.nearest->worst->worst.x},
+                                 {"y", advice.nearest->worst->worst.y},
+                                 {"cause", advice.nearest->worst->worst.cause}};
+  }
   if (advice.answer)
     all["verified"] = {{"conditions", advice.conditions},
                        {"searched_placements", advice.placements},

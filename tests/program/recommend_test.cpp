@@ -124,6 +124,8 @@ TEST_F(Recommend, NamesThePixelTheCauseAndTheWaysOut) {
       << output_;
   EXPECT_TRUE(says("Its worst pixel is x = ")) << output_;
   EXPECT_TRUE(says("by acne.") || says("by peter_panning.")) << output_;
+  EXPECT_TRUE(says(fmt::format("y = {} (row 0", found()["nearest"]["worst"]["y"].get<int>()))) << output_;
+  EXPECT_GT(found()["wrong_without_shadows"], 0.01);
   for (const char* way :
        {"Larger bounds: from about --acne ", "Finer texels: a resolution above 64", "Another kind of bias"})
     EXPECT_TRUE(says(way)) << way << "\n" << output_;
