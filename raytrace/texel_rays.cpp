@@ -28,12 +28,12 @@ glm::ivec2 texel_of(uint64_t key) {
 }  // namespace
 
 TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, Wrap wrap)
-    : embree_(&embree), view_(&view), wrap_(wrap), wanted_(view.frame().map_size().x, view.frame().map_size().y, 0) {
+    : embree_(&embree), view_(&view), wrap_(wrap), wanted_(std::make_shared<TexelSet>(view.frame().map_size())) {
   assert(view.scene().triangles.size() < no_primitive >> 1);
 }
 
 void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, PixelRange pixels) {
-  const glm::ivec2 size(wanted_.width, wanted_.height);
+  const glm::ivec2 size = wanted_->size();
   struct Outside {
     std::vector<uint64_t> keys;
     size_t limit = outside_buffer;
@@ -47,8 +47,7 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
                         for (int tap = 0; tap < probe.taps(); ++tap) {
                           const glm::ivec2 texel = probe.texel(i, tap);
                           const glm::ivec2 read = wrapped(texel, size, wrap_);
-                          if (read.x >= 0)
-                            std::atomic_ref(wanted_.at(read.x, read.y)).store(1, std::memory_order_relaxed);
+                          if (read.x >= 0) wanted_->add(read);
                           if (!inside_map(texel, size)) outside.keys.push_back(texel_key(texel));
                         }
                         // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills
@@ -68,39 +67,64 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
   outside_keys_.erase(std::unique(outside_keys_.begin(), outside_keys_.end()), outside_keys_.end());
 }
 
-// Calls store(i, FirstHit) for each texel.
-void TexelRays::first_hits(size_t count, const auto& texel_at, const auto& store) {
-  for_each_packet(count, [&](size_t first, int n) {
+void TexelRays::first_hits(int count, const glm::dvec3* places, FirstHit* hits) {
+  uint32_t triangles[packet_size];
+  view_->first_hits(*embree_, count, places, triangles);
+  bool clipped = false;
+  for (int i = 0; i < count; ++i) {
+    const bool before_near = view_->clipped(triangles[i], places[i]);
+    clipped |= before_near;
+    hits[i] = FirstHit(triangles[i], before_near);
+  }
+  if (clipped) std::atomic_ref(any_clipped_).store(true, std::memory_order_relaxed);
+}
+
+void TexelRays::each_packet_inside(const auto& visit) const {
+  tbb::parallel_for(size_t{0}, texels_->tiles(), [&](size_t tile) {
     glm::dvec3 places[packet_size];
+    size_t first = texels_->first(tile);
+    int count = 0;
+    const auto flush = [&] {
+      if (count > 0) visit(count, first, places);
+      first += static_cast<size_t>(count);
+      count = 0;
+    };
+    for (int row = 0; row < TexelSet::side; ++row)
+      for (uint64_t bits = texels_->bits(tile, row); bits; bits &= bits - 1) {
+        places[count++] = view_->texel_place(texels_->origin(tile) + glm::ivec2(std::countr_zero(bits), row));
+        if (count == packet_size) flush();
+      }
+    flush();
+  });
+}
+
+void TexelRays::each_inside(const std::function<void(int, size_t, const glm::dvec3*, const uint32_t*)>& visit) const {
+  each_packet_inside([&](int count, size_t first, const glm::dvec3* places) {
     uint32_t hits[packet_size];
-    bool clipped = false;
-    for (int i = 0; i < n; ++i) places[i] = view_->texel_place(texel_at(first + i));
-    view_->first_hits(*embree_, n, places, hits);
-    for (int i = 0; i < n; ++i) {
-      const bool before_near = view_->clipped(hits[i], places[i]);
-      clipped |= before_near;
-      store(first + i, FirstHit(hits[i], before_near));
-    }
-    if (clipped) std::atomic_ref(any_clipped_).store(true, std::memory_order_relaxed);
+    for (int i = 0; i < count; ++i) hits[i] = inside_[first + static_cast<size_t>(i)].triangle();
+    visit(count, first, places, hits);
   });
 }
 
 void TexelRays::trace() {
-  for (int y = 0; y < wanted_.height; ++y)
-    for (int x = 0; x < wanted_.width; ++x)
-      if (wanted_.at(x, y)) inside_texels_.push_back({x, y});
-  inside_ = Image<FirstHit>(wanted_.width, wanted_.height);
-  wanted_ = {};
-  first_hits(
-      inside_texels_.size(), [&](size_t i) { return inside_texels_[i]; },
-      [&](size_t i, FirstHit hit) { inside_.at(inside_texels_[i].x, inside_texels_[i].y) = hit; });
+  wanted_->close();
+  texels_ = std::move(wanted_);
+  inside_.resize(texels_->count());
+  each_packet_inside(
+      [&](int count, size_t first, const glm::dvec3* places) { first_hits(count, places, &inside_[first]); });
 
   outside_.resize(outside_keys_.size());
-  first_hits(
-      outside_keys_.size(), [&](size_t i) { return texel_of(outside_keys_[i]); },
-      [&](size_t i, FirstHit hit) {
-        outside_[i] = {outside_keys_[i], hit};
-      });
+  for_each_packet(outside_keys_.size(), [&](size_t first, int count) {
+    glm::dvec3 places[packet_size];
+    FirstHit hits[packet_size];
+    for (int i = 0; i < count; ++i)
+      places[i] = view_->texel_place(texel_of(outside_keys_[first + static_cast<size_t>(i)]));
+    first_hits(count, places, hits);
+    for (int i = 0; i < count; ++i) {
+      const size_t at = first + static_cast<size_t>(i);
+      outside_[at] = {outside_keys_[at], hits[i]};
+    }
+  });
   std::vector<uint64_t>().swap(outside_keys_);
 }
 

@@ -6,6 +6,8 @@
 //   uint32_t triangle = texels.hit({12, 7});
 #pragma once
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "raytrace/light_view.h"
 #include "technique/evidence.h"
 #include "technique/map_address.h"
+#include "technique/texel_set.h"
 
 namespace noonmark {
 
@@ -34,8 +37,13 @@ class TexelRays {
   bool clipped(glm::ivec2 texel) const { return first_hit(texel).before_near(); }
   // After trace(): whether the map's near plane clips the first hit of any texel that was asked for.
   bool any_clipped() const { return any_clipped_; }
-  // The texels inside the map that were asked for.
-  const std::vector<glm::ivec2>& inside_texels() const { return inside_texels_; }
+
+  // After trace(): the texels inside the map that were asked for. each_inside() calls visit for up to 16 of them at a
+  // time, which have consecutive numbers from `first` on, with the places of their centres and their first hits.
+  // Several threads call it.
+  const std::shared_ptr<const TexelSet>& texels() const { return texels_; }
+  void each_inside(
+      const std::function<void(int count, size_t first, const glm::dvec3* places, const uint32_t* hits)>& visit) const;
 
  private:
   // Both in 32 bits, because the taps read it in the order of the receivers: memory is what they wait for. A scene has
@@ -51,19 +59,21 @@ class TexelRays {
     uint32_t bits_ = no_primitive << 1;
   };
   const FirstHit& first_hit(glm::ivec2 texel) const {
-    return inside_map(texel, {inside_.width, inside_.height}) ? inside_.at(texel.x, texel.y) : outside_hit(texel);
+    return inside_map(texel, texels_->size()) ? inside_[texels_->index(texel)] : outside_hit(texel);
   }
   const FirstHit& outside_hit(glm::ivec2 texel) const;
-  void first_hits(size_t count, const auto& texel_at, const auto& store);
+  // Calls visit(count, first, places) for up to 16 texels of the set at a time; `first` is the number of the first.
+  void each_packet_inside(const auto& visit) const;
+  void first_hits(int count, const glm::dvec3* places, FirstHit* hits);
 
   const EmbreeScene* embree_;
   const LightView* view_;
   Wrap wrap_;
-  Image<uint8_t> wanted_;               // until trace()
+  std::shared_ptr<TexelSet> wanted_;    // until trace()
   std::vector<uint64_t> outside_keys_;  // until trace(); sorted, each once
-  Image<FirstHit> inside_;
+  std::shared_ptr<const TexelSet> texels_;
+  std::vector<FirstHit> inside_;  // by TexelSet::index
   bool any_clipped_ = false;
-  std::vector<glm::ivec2> inside_texels_;
   std::vector<std::pair<uint64_t, FirstHit>> outside_;  // (texel key, hit), sorted
 };
 

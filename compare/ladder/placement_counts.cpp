@@ -293,8 +293,8 @@ uint64_t disagreements(const LookupEvidence& e, size_t pixel, const PlacedTaps& 
   for (int t = 0; t < e.probe.taps(); ++t) {
     const auto first = static_cast<size_t>(t * taps.side);
     const size_t n = taps.index(taps.column[first], taps.row[first]);
-    const glm::ivec2 texel = wrapped(e.probe.texel(pixel, t), {e.exact_map.width, e.exact_map.height}, e.map.wrap);
-    const float depth = texel.x < 0 ? border_depth : e.exact_map.at(texel.x, texel.y);
+    const glm::ivec2 texel = wrapped(e.probe.texel(pixel, t), e.exact_map.size(), e.map.wrap);
+    const float depth = texel.x < 0 ? border_depth : e.exact_map.at(texel);
     const uint8_t bits = e.taps.bits(pixel, t), unsure = (bits | box.bits[n]) & tap_texel_unsure;
     count += (!unsure && ((bits ^ box.bits[n]) & of_texel)) ||
              !(within_one_float(depth, box.depth[n]) ||

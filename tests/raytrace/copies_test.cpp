@@ -76,7 +76,7 @@ TEST(Copies, CostNoMoreRaysAndChangeNothing) {
       EXPECT_EQ(all.truth.ambiguous.pixels, one.truth.ambiguous.pixels);
       EXPECT_EQ(all.truth.soft.pixels, one.truth.soft.pixels);
       EXPECT_EQ(all.lookup.taps.taps, one.lookup.taps.taps);
-      EXPECT_EQ(all.lookup.exact_map.pixels, one.lookup.exact_map.pixels);
+      EXPECT_EQ(all.lookup.exact_map.depth, one.lookup.exact_map.depth);
       EXPECT_EQ(all.lookup.edge_distance_texels.pixels, one.lookup.edge_distance_texels.pixels);
       EXPECT_EQ(all.distance.pixels, one.distance.pixels);
       EXPECT_EQ(all.rays, one.rays);
