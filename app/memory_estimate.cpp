@@ -39,6 +39,8 @@ constexpr double per_closed_edge = 70;    // a third of them may be such edges t
 // Certified squares of the light's plane (raytrace/light_cells.h), which are made where receivers lie: under 192 MiB.
 constexpr double per_cell_pixel = 40, most_cells = 202e6;  // [11, FlightHelmet at 1280 x 720]
 constexpr double per_kept_triangle = 150;                  // the second tree for the rays, without the culled faces
+// As scan conversion reads it, and in lists of tiles, while the first hits of a map are found.
+constexpr double per_raster_triangle = 130;  // [112]
 // Per byte of the scene's parts. point.json lists each part in up to 135 bytes and its name; the part itself has 40
 // bytes, and those of a long name.
 constexpr double per_listed_part_byte = 3.5;
@@ -88,6 +90,8 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   if (Bias(s.bias).moves_casters())
     scene += scene_bytes(input.scene) + per_kept_triangle * static_cast<double>(input.scene.triangles);
 
+  if (kind_of_light(input.light).map_shape() == MapShape::flat)
+    scene += per_raster_triangle * static_cast<double>(input.scene.triangles);
   if (kind_of_light(input.light).rays().have_one_direction()) scene += std::min(per_cell_pixel * pixels, most_cells);
   if (input.pictures) scene += per_listed_part_byte * static_cast<double>(input.scene.part_bytes);
 

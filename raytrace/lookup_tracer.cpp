@@ -80,7 +80,7 @@ struct LookupTracer::Impl {
   std::shared_ptr<LightSide> light;
   LightView view;
   bool use_cells;
-  TexelRays texels{traced.embree, view, map.wrap};
+  TexelRays texels{traced, view, map.wrap};
 };
 
 LookupTracer::LookupTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,

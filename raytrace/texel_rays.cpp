@@ -4,9 +4,13 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
 #include <cassert>
+#include <unordered_map>
 
+#include "raytrace/lattice_raster.h"
 #include "raytrace/packets.h"
 
 namespace noonmark {
@@ -27,8 +31,8 @@ glm::ivec2 texel_of(uint64_t key) {
 
 }  // namespace
 
-TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, Wrap wrap)
-    : embree_(&embree), view_(&view), wrap_(wrap), wanted_(std::make_shared<TexelSet>(view.frame().map_size())) {
+TexelRays::TexelRays(const raytrace::TracedScene& traced, const LightView& view, Wrap wrap)
+    : traced_(&traced), view_(&view), wrap_(wrap), wanted_(std::make_shared<TexelSet>(view.frame().map_size())) {
   assert(view.scene().triangles.size() < no_primitive >> 1);
 }
 
@@ -69,7 +73,11 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
 
 void TexelRays::first_hits(int count, const glm::dvec3* places, FirstHit* hits) {
   uint32_t triangles[packet_size];
-  view_->first_hits(*embree_, count, places, triangles);
+  view_->first_hits(traced_->embree, count, places, triangles);
+  store(count, places, triangles, hits);
+}
+
+void TexelRays::store(int count, const glm::dvec3* places, const uint32_t* triangles, FirstHit* hits) {
   bool clipped = false;
   for (int i = 0; i < count; ++i) {
     const bool before_near = view_->clipped(triangles[i], places[i]);
@@ -110,22 +118,76 @@ void TexelRays::trace() {
   wanted_->close();
   texels_ = std::move(wanted_);
   inside_.resize(texels_->count());
+  outside_.resize(outside_keys_.size());
+  if (view_->frame().map_shape() == MapShape::flat)
+    trace_by_raster();
+  else
+    trace_by_rays();
+  std::vector<uint64_t>().swap(outside_keys_);
+}
+
+// A cube has no texels outside.
+void TexelRays::trace_by_rays() {
   each_packet_inside(
       [&](int count, size_t first, const glm::dvec3* places) { first_hits(count, places, &inside_[first]); });
+}
 
-  outside_.resize(outside_keys_.size());
-  for_each_packet(outside_keys_.size(), [&](size_t first, int count) {
-    glm::dvec3 places[packet_size];
-    FirstHit hits[packet_size];
-    for (int i = 0; i < count; ++i)
-      places[i] = view_->texel_place(texel_of(outside_keys_[first + static_cast<size_t>(i)]));
-    first_hits(count, places, hits);
-    for (int i = 0; i < count; ++i) {
-      const size_t at = first + static_cast<size_t>(i);
-      outside_[at] = {outside_keys_[at], hits[i]};
+void TexelRays::trace_by_raster() {
+  using raytrace::LatticeRaster;
+  static_assert(TexelSet::side == LatticeRaster::side);
+  constexpr size_t none = ~size_t{0};
+  // What is asked for of a tile, in the order of its rows: texels of the set, and texels beside the map.
+  struct Tile {
+    glm::ivec2 at{0};
+    size_t in_set = none;           // the number of the tile in the set
+    std::vector<size_t> outside{};  // indexes in outside_keys_, in their order
+  };
+  std::vector<Tile> tiles;
+  std::unordered_map<uint64_t, size_t> known;  // LatticeRaster::key
+  for (size_t n = 0; n < texels_->tiles(); ++n)
+    if (texels_->count(n) > 0) {
+      tiles.push_back({texels_->origin(n) / TexelSet::side, n});
+      known[LatticeRaster::key(tiles.back().at)] = tiles.size() - 1;
     }
+  for (size_t i = 0; i < outside_keys_.size(); ++i) {
+    const glm::ivec2 texel = texel_of(outside_keys_[i]), at(texel.x >> 6, texel.y >> 6);
+    const auto [tile, added] = known.try_emplace(LatticeRaster::key(at), tiles.size());
+    if (added) tiles.push_back({at});
+    tiles[tile->second].outside.push_back(i);
+  }
+
+  const LatticeRaster raster(*traced_, *view_);
+  std::vector<glm::ivec2> at;
+  for (const Tile& tile : tiles) at.push_back(tile.at);
+  const std::vector<std::vector<uint32_t>> candidates = raster.candidates(at);
+  tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t n) {
+    const Tile& tile = tiles[n];
+    std::array<uint64_t, TexelSet::side> inside{}, wanted;
+    if (tile.in_set != none)
+      for (int row = 0; row < TexelSet::side; ++row) inside[static_cast<size_t>(row)] = texels_->bits(tile.in_set, row);
+    wanted = inside;
+    for (const size_t i : tile.outside) {
+      const glm::ivec2 texel = texel_of(outside_keys_[i]);
+      wanted[static_cast<size_t>(texel.y & 63)] |= uint64_t{1} << (texel.x & 63);
+    }
+    uint32_t triangles[TexelSet::side * TexelSet::side];
+    size_t count = 0;
+    for (const uint64_t bits : wanted) count += static_cast<size_t>(std::popcount(bits));
+    raster.hits(tile.at, candidates[n], wanted, {triangles, count});
+    size_t hit = 0, next_inside = tile.in_set == none ? 0 : texels_->first(tile.in_set), next_outside = 0;
+    for (int row = 0; row < TexelSet::side; ++row)
+      for (uint64_t bits = wanted[static_cast<size_t>(row)]; bits; bits &= bits - 1, ++hit) {
+        const glm::dvec3 place = view_->texel_place(tile.at * TexelSet::side + glm::ivec2(std::countr_zero(bits), row));
+        FirstHit found;
+        store(1, &place, &triangles[hit], &found);
+        if (inside[static_cast<size_t>(row)] >> std::countr_zero(bits) & 1) {
+          inside_[next_inside++] = found;
+        } else {
+          const size_t i = tile.outside[next_outside++];
+          outside_[i] = {outside_keys_[i], found};
+        }
+      }
   });
-  std::vector<uint64_t>().swap(outside_keys_);
 }
 
 const TexelRays::FirstHit& TexelRays::outside_hit(glm::ivec2 texel) const {

@@ -1,6 +1,8 @@
-// First hits of the light-side rays through texel centres, for the texels that a receiver looks up and for no others.
+// First hits of the light-side rays through texel centres, for the texels that a receiver looks up and for no others. Of
+// a flat map they are found by scan conversion in double (raytrace/lattice_raster.h), as those of the lattice of all
+// placements are; of a cube by rays.
 //
-//   TexelRays texels(embree, view, Wrap::border);
+//   TexelRays texels(traced, view, Wrap::border);
 //   texels.ask(truth.facing, probe, strip);  // for each strip of the picture
 //   texels.trace();
 //   uint32_t triangle = texels.hit({12, 7});
@@ -11,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "raytrace/embree_scene.h"
 #include "raytrace/light_view.h"
+#include "raytrace/traced_scene.h"
 #include "technique/evidence.h"
 #include "technique/map_address.h"
 #include "technique/texel_set.h"
@@ -21,14 +23,14 @@ namespace noonmark {
 
 class TexelRays {
  public:
-  // embree and view must outlive it.
-  TexelRays(const EmbreeScene& embree, const LightView& view, Wrap wrap);
+  // traced and view must outlive it.
+  TexelRays(const raytrace::TracedScene& traced, const LightView& view, Wrap wrap);
 
   // Asks for the texel of every tap of those pixels' receivers with facing != 0, at its place in the unbounded grid;
   // and, where that is outside the map, for the texel that `wrap` reads in its stead.
   void ask(const Image<uint8_t>& facing, const LookupProbe& probe, PixelRange pixels);
 
-  // Traces one ray through the centre of each texel that was asked for.
+  // Finds the first hit at the centre of each texel that was asked for.
   void trace();
 
   // After trace(), of a texel that was asked for: the triangle first met through its centre, or no_primitive; and
@@ -64,9 +66,13 @@ class TexelRays {
   const FirstHit& outside_hit(glm::ivec2 texel) const;
   // Calls visit(count, first, places) for up to 16 texels of the set at a time; `first` is the number of the first.
   void each_packet_inside(const auto& visit) const;
+  void trace_by_rays();
+  void trace_by_raster();
   void first_hits(int count, const glm::dvec3* places, FirstHit* hits);
+  // triangles: the first hits at these places.
+  void store(int count, const glm::dvec3* places, const uint32_t* triangles, FirstHit* hits);
 
-  const EmbreeScene* embree_;
+  const raytrace::TracedScene* traced_;
   const LightView* view_;
   Wrap wrap_;
   std::shared_ptr<TexelSet> wanted_;    // until trace()

@@ -206,8 +206,8 @@ TEST_P(EveryPlacement, HasTheNumbersOfMeasuringItByItself) {
 INSTANTIATE_TEST_SUITE_P(Cases, EveryPlacement, testing::ValuesIn(cases()),
                          [](const auto& test) { return test.param.name; });
 
-// Two sheets that cross and are nowhere further apart than a few float steps. A float ray meets either of them first, and
-// the lattice, which is computed in double, always the one that is nearer. That is no defect.
+// Two sheets that cross and are nowhere further apart than a few float steps. A float ray meets either of them first. The
+// exact map and the lattice are both computed in double, and both have the one that is nearer.
 TEST(Placements, SheetsWithinTheErrorOfARayAreNoDisagreement) {
   struct Sheets : Pipeline {
     SceneStage load_scene(gl::Renderer& renderer, const Settings& settings) override {
