@@ -178,7 +178,7 @@ void Bench::compare_ways(const Stages& s) {
   const CurveOptions options = thousand_biases();
   const BiasScale scale = bias_scale(s.point.frame, s.view.receivers, s.truth.receivers, BiasUnit::depth);
   const CachedTaps taps = cached(s);
-  const gl::ShadowMap map = s.renderer.render_map(s.point.frame, s.point.settings);
+  const gl::ShadowMap drawn_map = s.renderer.render_map(s.point.frame, s.point.settings);
   double kept = 0;  // so that nothing is optimised away
   const LookupEvidence evidence{
       s.truth.receivers,           s.lookup.probe, s.lookup.taps, s.lookup.exact_depth, s.point.settings.map,
@@ -212,7 +212,7 @@ void Bench::compare_ways(const Stages& s) {
                     return look_up(s.renderer.render_map(s.point.frame, settings), settings);
                   });
                 },
-                [&] { at_biases(drawn, [&](const Settings& settings) { return look_up(map, settings); }); },
+                [&] { at_biases(drawn, [&](const Settings& settings) { return look_up(drawn_map, settings); }); },
                 [&] {
                   for (int k = 0; k < looped; ++k) kept += wrong_taps(taps, 1e-4f * static_cast<float>(k));
                 }});
