@@ -242,7 +242,7 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
                                                 Bias(settings.bias), polygon_offset_unit(renderer, settings));
     LatticeStage stage(renderer, tracer, probe, view, truth, point, &bias_part("constant"), edges);
     double blurred = 0;
-    for (const PixelRange& strip : strips_of(settings, frame.kind, most_strip_bytes)) {
+    for (const PixelRange& strip : strips_of(settings, frame.kind, most_kept_tap_bytes)) {
       const TapTruth taps = rays.trace_places(probe, strip);
       stage.add(taps, strip);
       blurred += filter_share(probe, taps, truth.receivers, strip);

@@ -144,7 +144,7 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
       m.frame.map_shape() == MapShape::cube
           ? "The cube map unfolded, as it looks from outside: bright is near in metres, black is empty."
           : "The shadow map itself as the light sees it: bright is near in metres, black is empty.",
-      map_picture(m.stored_map, m.frame));
+      map_picture(m.stored_rows, m.frame));
   add("frustum", std::string(m.frame.light().frustum_caption()), frustum(m, camera));
   const Image<float> truth = shaded_with(m.ladder.truth()), map = shaded_with(m.ladder.shown());
   add("shaded-truth", "Grey clay as a renderer shows it (Blinn-Phong), with the true shadow (R1).", greys(m, truth));

@@ -34,6 +34,7 @@ class Remembered {
   bool has(const std::string& key) const { return value_ && key == key_; }
 
   void forget() { value_.reset(); }
+  T* value() { return value_ ? &*value_ : nullptr; }
 
   template <class Make>
   T& get(const std::string& key, const Make& make) {
@@ -140,6 +141,19 @@ struct Workbench::Impl {
     return {seen, truth.get(truth_key_of(point.settings), [&] { return stages->trace_truth(loaded, seen, point); })};
   }
 
+  // The map of a point.
+  MapStage& drawn(const Scene& drawn_scene, const PointSetup& point) {
+    MapStage& stage =
+        map.get(map_key_of(point.settings), [&] { return stages->draw_map(renderer, drawn_scene, point); });
+    if (!stage.map) stage.map = stages->draw_map(renderer, drawn_scene, point).map;
+    return stage;
+  }
+
+  // Frees a map that was drawn again for pictures, and that has no room beside what a probe needs.
+  void free_large_map() {
+    if (MapStage* const kept = map.value()) keep_small(renderer, kept->map);
+  }
+
   void add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen, const TruthStage& traced,
                       const PointSetup& point);
 
@@ -215,11 +229,11 @@ void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placem
   const LightFrame frame = placements.frame(worst);
   const PointSetup moved{point.settings, frame};
   const SceneStage& loaded = load(point.settings);
-  const MapStage drawn = stages->draw_map(renderer, *loaded.scene, moved);
   LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, moved);
+  MapStage drawn = stages->draw_map(renderer, *loaded.scene, moved);
   const ShownStage shown = stages->show(renderer, drawn, asked, traced, moved);
   const Climbed climbed = stages->climb_strips(
-      renderer, drawn, asked, seen, traced, shown, moved, nullptr,
+      renderer, asked, seen, traced, shown, moved, nullptr,
       [&](const LookupEvidence& evidence, PixelRange strip) { placements.compare(evidence, worst, strip); });
   record.metrics["error_worst_shown"] = error_of(climbed.ladder);
   record.metrics["placement_disagreements"] = static_cast<double>(placements.disagreements());
@@ -270,8 +284,9 @@ LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings&
   const ViewStage seen = stages->take_view(renderer, *loaded.scene, settings.view);
   const TruthStage traced = stages->trace_truth(loaded, seen, point);
   renderer.load_receivers(seen.receivers, seen.camera.eye_m);
-  const MapStage drawn = stages->draw_map(renderer, *loaded.scene, point);
   LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, point);
+  const MapDepths stored =
+      renderer.read_map(*stages->draw_map(renderer, *loaded.scene, point).map, asked.exact_depth.texels);
   const BiasPart& varied = *curve_part(settings.bias);
   LivePicture picture = empty_live_picture(seen.receivers.width(), seen.receivers.height());
   picture.taps = asked.probe.taps();
@@ -281,7 +296,7 @@ LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings&
   for (size_t i = 0; i < picture.flags.size(); ++i)
     if (seen.receivers.primitive[i] != no_primitive) picture.flags[i] = live_surface;
   each_strip_of(renderer, asked, traced, point, [&](const LookupEvidence& evidence, PixelRange strip) {
-    add_live_strip(picture, evidence, drawn.depth, settings.bias, varied, strip);
+    add_live_strip(picture, evidence, stored, settings.bias, varied, strip);
   });
   return picture;
 }
@@ -333,11 +348,12 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   const Impl::Looked looked = b.look(loaded, point);
   const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
   const TruthStage& truth = looked.truth;
-  const MapStage& map = b.map.get(map_key_of(settings), [&] { return b.stages->draw_map(b.renderer, scene, point); });
+  if (!b.lookup.has(lookup_key_of(settings))) b.free_large_map();
   LookupStage& lookup = b.lookup.get(lookup_key_of(settings), [&] {
     return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, point);
   });
-  const ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, point);
+  MapStage& map = b.drawn(scene, point);
+  ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, point);
 
   const BiasPart* const varied = curve_options && !on_top ? curve_part(settings.bias) : nullptr;
   const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
@@ -353,11 +369,20 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
         unknown ? placement_edges(biases_of(*curve_options), scale.depth_per_unit) : std::vector<float>());
     each_strip = [&](const LookupEvidence& evidence, PixelRange strip) { placements->add(evidence, strip); };
   }
-  Climbed climbed = b.stages->climb_strips(b.renderer, map, lookup, view, truth, shown, point, unknown, each_strip);
+  Climbed climbed = b.stages->climb_strips(b.renderer, lookup, view, truth, shown, point, unknown, each_strip);
   if (placements) placements->finish();
   if (on_top) add_rung(climbed.ladder, std::move(*on_top));
-  Measurement m{{},           settings,  std::move(climbed.ladder), frame, view.camera, scene, view.receivers,
-                lookup.probe, map.depth, lookup.exact_depth};
+  Measurement m{{},
+                settings,
+                std::move(climbed.ladder),
+                frame,
+                view.camera,
+                scene,
+                view.receivers,
+                lookup.probe,
+                std::move(shown.stored),
+                lookup.exact_depth,
+                {}};
   m.record = record_of(m, *loaded.tracer, view, truth, lookup, climbed.soundness);
   if (varied && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
@@ -366,6 +391,9 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       return curve;
     });
   if (placements && !nothing_judged(m.record)) b.add_placements(m.record, *placements, view, truth, point);
+  m.stored_rows = [&b, &scene, frame, settings](int first_row, int count) {
+    return b.renderer.read_rows(*b.drawn(scene, {settings, frame}).map, first_row, count);
+  };
   return m;
 }
 

@@ -4,6 +4,7 @@
 //   Measurement m = bench.measure(settings, curve_options);
 //   save(m.record); write_pictures(m, ...);
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,8 +28,11 @@ struct Measurement {
   const Scene& scene;
   const ReceiverImage& receivers;
   const LookupProbe& probe;
-  const Image<float>& stored_map;  // as the lookup's sampler returns it; row 0 at the lowest v
-  const Image<float>& exact_map;
+  MapDepths stored_map;  // as the lookup's sampler returns it, at the texels that taps of facing receivers read
+  const MapDepths& exact_map;
+  // The whole stored map, by rows from the lowest v on: (first row, number of rows). It is read from the device, and a
+  // large map is drawn again for it.
+  std::function<Image<float>(int, int)> stored_rows;
 };
 
 // Milliseconds by gl::DeviceInfo::times. Empty: not asked for.

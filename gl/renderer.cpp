@@ -198,5 +198,9 @@ ShadowMap::ShadowMap(ShadowMap&&) noexcept = default;
 ShadowMap& ShadowMap::operator=(ShadowMap&&) noexcept = default;
 ShadowMap::~ShadowMap() = default;
 int ShadowMap::resolution() const { return impl_->resolution; }
+size_t ShadowMap::texels() const {
+  const auto side = static_cast<size_t>(impl_->resolution);
+  return (impl_->cube ? 6 : 1) * side * side;
+}
 
 }  // namespace noonmark::gl

@@ -11,6 +11,7 @@
 // calls must come from that thread. Throws Error(device) for drivers and shaders, with the shader's file and line.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -21,6 +22,7 @@
 #include "scenes/scene.h"
 #include "technique/evidence.h"
 #include "technique/light_frame.h"
+#include "technique/map_depths.h"
 #include "technique/settings.h"
 
 namespace noonmark::gl {
@@ -65,6 +67,7 @@ class ShadowMap {
   ShadowMap& operator=(ShadowMap&&) noexcept;
   ~ShadowMap();
   int resolution() const;
+  size_t texels() const;  // of all its faces
 
  private:
   friend class Renderer;
@@ -107,9 +110,17 @@ class Renderer {
   // shape is LightFrame::map_shape(). Throws Error(defect) if the size is not that of the shape, and for NaN and depths
   // outside [0, 1], because OpenGL may clamp them.
   ShadowMap upload_map(const Image<float>& depth, const MapSettings& settings, MapShape shape = MapShape::flat);
+  ShadowMap upload_map(const MapDepths& depths, const MapSettings& settings, MapShape shape = MapShape::flat);
 
-  // The depths that the lookup's sampler returns, bit for bit, in the layout of LightFrame::map_size().
+  // The depths that the lookup's sampler returns, bit for bit, in the layout of LightFrame::map_size(): of all texels,
+  // of those of a set, or of some rows.
   Image<float> read_map(const ShadowMap& map);
+  MapDepths read_map(const ShadowMap& map, const std::shared_ptr<const TexelSet>& texels);
+  Image<float> read_rows(const ShadowMap& map, int first_row, int count);
+
+  // Gives the memory of deleted maps back. Drivers keep a texture that was bound until the next draw, and until what
+  // was drawn with it is done.
+  void release_deleted();
 
   // One unit of glPolygonOffset on this device, in window depth. It is measured by drawing with it. For 32-bit float it
   // is NaN, because the unit depends on the depth of the primitive.
@@ -129,6 +140,10 @@ class Renderer {
   // needed for a cube only, because there the sampler chooses the texel of each tap. For a flat map every tap is known,
   // and this function does nothing.
   void probe_strip(LookupProbe& probe, const LightFrame& frame, const Settings& settings, PixelRange strip);
+
+  // Frees what the probes of a cube keep on the device: 4 bytes for each texel of the cube. The next probe makes it
+  // again.
+  void forget_cube_index();
 
  private:
   struct Impl;

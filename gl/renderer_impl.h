@@ -2,6 +2,7 @@
 // renderer_map.cpp (maps drawn as engines draw them), renderer_map_data.cpp (maps uploaded and read back),
 // renderer_lookup.cpp and renderer_probe.cpp.
 #pragma once
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -89,6 +90,8 @@ struct Renderer::Impl {
   // Throw Error(usage) if the device or its memory does not allow such a map.
   void check_resolution(int resolution, bool cube) const;
   Texture make_map_texture(GLenum format, int resolution, bool cube, Wrap wrap);
+  // A map of 32-bit floats. copy_row(y, row) writes row y of the map's image.
+  Texture upload_rows(const MapSettings& settings, bool cube, const std::function<void(int, float*)>& copy_row);
 
   // Sets the uniforms of light, bias and receiver in a program that includes shaders/receiver.glsl, and binds the
   // receivers.

@@ -23,12 +23,12 @@ double share_of(double part, double whole) {
 BiasCounts::BiasCounts(const LookupProbe& probe, const BiasPart& varied)
     : varied_(&varied), blended_(probe.pattern.bilinear()), taps_(probe.taps()), whole_(whole_weight(probe)) {}
 
-BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, const BiasPart& varied)
+BiasCounts::BiasCounts(const LookupEvidence& e, const MapDepths& stored_map, const BiasPart& varied)
     : BiasCounts(e.probe, varied) {
   add(e, stored_map, {0, e.truth.facing.size()});
 }
 
-void BiasCounts::add(const LookupEvidence& e, const Image<float>& stored_map, PixelRange strip) {
+void BiasCounts::add(const LookupEvidence& e, const MapDepths& stored_map, PixelRange strip) {
   Adding adding(*this, e, stored_map);
   read_taps(e, strip, adding);
 }

@@ -54,7 +54,7 @@ LivePicture empty_live_picture(int width, int height);
 
 // Adds the receivers of a strip. evidence: holds the strip's taps; its r4 and r5 are not read. stored_map: the GPU's map
 // as its sampler returns it. bias: the settings from which evidence.bias was made. varied: the part that varies.
-void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const Image<float>& stored_map,
+void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const MapDepths& stored_map,
                     const BiasSettings& bias, const BiasPart& varied, PixelRange strip);
 
 // The file of a live picture: one line of JSON, padded with spaces to a multiple of four bytes, then these arrays

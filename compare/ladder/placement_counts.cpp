@@ -287,18 +287,19 @@ std::map<std::string, std::vector<double>> PlacementCounts::shares() const {
 }
 
 uint64_t disagreements(const LookupEvidence& e, size_t pixel, const PlacedTaps& taps, const LatticeBox& box,
-                       double ray_error) {
+                       double ray_error, double clipped_ray_error) {
   if (!e.probe.asks(pixel)) return 0;
   uint64_t count = 0;
   for (int t = 0; t < e.probe.taps(); ++t) {
     const auto first = static_cast<size_t>(t * taps.side);
     const size_t n = taps.index(taps.column[first], taps.row[first]);
-    const glm::ivec2 texel = wrapped(e.probe.texel(pixel, t), {e.exact_map.width, e.exact_map.height}, e.map.wrap);
-    const float depth = texel.x < 0 ? border_depth : e.exact_map.at(texel.x, texel.y);
+    const glm::ivec2 texel = wrapped(e.probe.texel(pixel, t), e.exact_map.size(), e.map.wrap);
+    const float depth = texel.x < 0 ? border_depth : e.exact_map.at(texel);
     const uint8_t bits = e.taps.bits(pixel, t), unsure = (bits | box.bits[n]) & tap_texel_unsure;
+    const double allowed = bits & tap_near_clipped ? clipped_ray_error : ray_error;
     count += (!unsure && ((bits ^ box.bits[n]) & of_texel)) ||
              !(within_one_float(depth, box.depth[n]) ||
-               std::abs(static_cast<double>(depth) - static_cast<double>(box.depth[n])) <= ray_error);
+               std::abs(static_cast<double>(depth) - static_cast<double>(box.depth[n])) <= allowed);
   }
   return count;
 }

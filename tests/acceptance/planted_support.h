@@ -59,8 +59,8 @@ class DefectivePipeline : public Pipeline {
     if (defect_.drawn_bias) defect_.drawn_bias(drawn.bias);
     MapStage made = Pipeline::draw_map(renderer, drawn_scene, {drawn, frame});
     if (defect_.edited_map) {
-      made.map = renderer.upload_map(defect_.edited_map(made.depth), point.settings.map, frame.map_shape());
-      made.depth = renderer.read_map(made.map);
+      made.map.emplace(
+          renderer.upload_map(defect_.edited_map(renderer.read_map(*made.map)), point.settings.map, frame.map_shape()));
     }
     return made;
   }
