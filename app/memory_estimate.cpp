@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "compare/ladder/live_picture.h"
 #include "compare/ladder/receiver_taps.h"
 #include "scenes/error.h"
 #include "technique/tap_pattern.h"
@@ -29,13 +30,13 @@ constexpr double per_blended_tap = 56;  // with a weight of 8 each
 // joined. The total is limited to 28 million of them, because differences of float depths repeat: 52 million taps had
 // 1.6 million different ones, 885 million taps had 10.5 million.
 constexpr double per_summed_tap = 2, most_sums = 1e9;  // [1.1]
-constexpr double per_asked_texel = 16;     // for each texel that a tap reads: its address and its error [16]
-constexpr double per_outside_texel = 32;   // texels beside the map: two lists of 16 bytes while they are made
-constexpr double per_open_edge = 240;      // as a shadow's edge: the edge, its pieces, the cells that list it [220]
-constexpr double per_closed_edge = 70;     // a third of them may be such edges too, if the light sees a fold
+constexpr double per_asked_texel = 16;    // for each texel that a tap reads: its address and its error [16]
+constexpr double per_outside_texel = 32;  // texels beside the map: two lists of 16 bytes while they are made
+constexpr double per_open_edge = 240;     // as a shadow's edge: the edge, its pieces, the cells that list it [220]
+constexpr double per_closed_edge = 70;    // a third of them may be such edges too, if the light sees a fold
 // Certified squares of the light's plane (raytrace/light_cells.h), which are made where receivers lie: under 192 MiB.
 constexpr double per_cell_pixel = 40, most_cells = 202e6;  // [11, FlightHelmet at 1280 x 720]
-constexpr double per_kept_triangle = 150;  // the second tree for the rays, without the culled faces
+constexpr double per_kept_triangle = 150;                  // the second tree for the rays, without the culled faces
 // Per byte of the scene's parts. point.json lists each part in up to 135 bytes and its name; the part itself has 40
 // bytes, and those of a long name.
 constexpr double per_listed_part_byte = 3.5;
@@ -45,6 +46,9 @@ constexpr double per_listed_part_byte = 3.5;
 constexpr double per_placed_pixel = 8, per_lattice_triangle = 260, per_placement = 10 * 8 * 512.0 * 12;
 constexpr double lattice_points = 9e6 * 28;
 constexpr double per_grid_cell = 8;  // the grid that lists a shadow's edges, for each face of the map
+// The live picture, which is drawn beside the point's own images: for each of its pixels a receiver as above and an
+// answer for each threshold, which are two for each tap (compare/ladder/live_picture.h), in a list that grows by doubling.
+constexpr double per_live_answer = 2 * sizeof(LiveAnswer);
 constexpr double least_grid_cells = 256 * 256, most_grid_cells = 2048 * 2048;
 
 }  // namespace
@@ -98,7 +102,13 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
     else
       placements += strip + pixels * per_pixel + per_asked_texel * std::min(taps, texels);
   }
+  double live = 0;
+  if (input.pictures && why_no_live_picture(s).empty()) {
+    const double live_pixels = std::min<double>(pixels, most_live_width_px * most_live_height_px);
+    live = live_pixels * (per_pixel + sizeof(std::vector<LiveAnswer>) + per_live_answer * (2.0 * pattern.taps + 1));
+  }
   return {{
+      {"the live picture", "lower filter.size, or set pictures = \"none\"", live},
       {"the placements of the map's grid", "lower map.placements", placements},
       {"the program itself", "use a machine with more memory, or raise its limit", program},
       {"the scene", "use a scene with fewer triangles (scene.name, scene.mesh)", scene},
