@@ -119,11 +119,11 @@ std::string bias_section(const Results& results, const ShownPoints& shown) {
       "<th class=\"first\" colspan=\"3\">Window from</th><th class=\"first\" colspan=\"3\">Window to</th>"
       "<th class=\"first\" colspan=\"4\">Best bias</th><th class=\"first\">Within 10\u202f%<br>of the best</th>";
   if (!alike) head += "<th>Parameter</th><th>Made</th>";
-  head += "</tr>\n<tr class=\"units\"><th></th>";
-  for (size_t i = 0; i < results.info.swept.size(); ++i) head += "<th></th>";
+  head += "</tr>\n<tr class=\"units\"><td></td>";
+  for (size_t i = 0; i < results.info.swept.size(); ++i) head += "<td></td>";
   for (int i = 0; i < 3; ++i) head += "<th class=\"first\">depth</th><th>m</th><th>texels</th>";
   head += "<th>error %</th><th class=\"first\">depth</th>";
-  if (!alike) head += "<th></th><th></th>";
+  if (!alike) head += "<td></td><td></td>";
   head += "</tr></thead>";
   out += folded(shown.note.empty() ? "Every window" : "The windows of the points that are shown", count,
                 "<div class=\"scroll\"><table class=\"numbers windows\">" + head + "<tbody>\n" + rows +

@@ -46,7 +46,7 @@ function picturesOf(p) {
   var out = Array.prototype.slice.call(document.querySelectorAll('.pictures[data-point="' + p.id + '"] figure'))
                 .map(function(f) {
                   var img = f.querySelector('img');
-                  return img && {name: f.dataset.name, src: img.src, alt: img.alt};
+                  return img && {name: f.dataset.name, src: img.src, alt: img.alt, element: img};
                 })
                 .filter(Boolean);
   var live = page.live;
@@ -147,7 +147,14 @@ function stage(p) {
     mark();
   }
   function mark() {
-    var w = worstOf(p), size = w && w.live ? page.live.data : {width: a.naturalWidth, height: a.naturalHeight};
+    // The record counts pixels of the point's own pictures.
+    var own = list.filter(function(q) {
+      return q.element;
+    })[0];
+    var w = worstOf(p),
+        size = w && w.live ? page.live.data :
+        own                ? {width: own.element.naturalWidth, height: own.element.naturalHeight} :
+                             {};
     cuts.textContent = '';
     said.textContent = w ? w.text : 'No pixel is wrong by this.';
     ring.hidden = !w || !size.width;
@@ -158,7 +165,8 @@ function stage(p) {
     said.textContent = 'Worst pixel (' + w.x + ', ' + w.y + ') from the top left. ' + w.text;
     [left, right]
         .concat(list.filter(function(q) {
-          return ['truth', 'map', 'classes'].indexOf(q.name) >= 0 && q !== left && q !== right;
+          return ['truth' + follow, 'map' + follow, 'classes' + follow].indexOf(q.name) >= 0 && q !== left &&
+              q !== right;
         }))
         .slice(0, 4)
         .forEach(function(q) {

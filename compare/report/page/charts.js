@@ -177,7 +177,10 @@ function chart(id, build) {
       var built = build(Math.max(260, plot.clientWidth), self);
       if (!built) return;
       built.spec.config = config;
-      view = noonmarkVega.draw(built.spec, plot);
+      // The plot has one name, and a table beside it has its numbers; Vega's names of each group of marks are hidden.
+      var drawing = make('div', {'aria-hidden': 'true'});
+      plot.append(drawing);
+      view = noonmarkVega.draw(built.spec, drawing);
       self.view = view;
       view.addEventListener('mousemove', function(event, item) {
         var d = item && item.datum;

@@ -92,12 +92,27 @@ page.onSelect.push(function(id) {
   }
 });
 
+// What scrolls can be scrolled with the keyboard, and has the name of the heading or the summary before it.
+function scrollable() {
+  document.querySelectorAll('.scroll, .budget.many .rows').forEach(function(box) {
+    if (box.tabIndex === 0 || (box.scrollWidth <= box.clientWidth && box.scrollHeight <= box.clientHeight)) return;
+    var folded = box.closest('details'), above = (box.closest('section') || document).querySelector('h1, h2');
+    box.tabIndex = 0;
+    box.setAttribute('role', 'region');
+    box.setAttribute(
+        'aria-label',
+        'Table: ' + (folded ? folded.querySelector('summary') : above).textContent + ' ' +
+            (1 + Array.prototype.indexOf.call(document.querySelectorAll('.scroll, .rows'), box)));
+  });
+}
+
 // ---- first drawing, and again when the width changes
 function drawAll() {
   kit.drawn.forEach(function(c) {
     c.draw();
   });
   enlarge();
+  scrollable();
 }
 page.redraw = drawAll;
 drawAll();

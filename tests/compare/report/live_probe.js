@@ -1,4 +1,4 @@
-// Runs in the report's page (tests/acceptance/live_page_test.cpp): the live picture at several biases, as its pixels.
+// Runs in the report's page (tests/app/live_page_test.cpp): the live picture at several biases, as its pixels.
 (async function() {
 'use strict';
 var saw = {errors: errors, pictures: []};
