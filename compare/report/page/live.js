@@ -10,11 +10,19 @@ var packed = Uint8Array.from(atob(live.data), function(c) {
   return c.charCodeAt(0);
 });
 async function unpack() {
-  var stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
-  var bytes = new Uint8Array(await new Response(stream).arrayBuffer()), n = live.answers,
-      floats = new Uint8Array(4 * n);
-  for (var k = 0; k < 4; ++k)
-    for (var i = 0; i < n; ++i) floats[4 * i + k] = bytes[k * n + i];
+  var source = new ReadableStream({
+    start: function(to) {
+      to.enqueue(packed);
+      to.close();
+    }
+  });
+  var reader = source.pipeThrough(new DecompressionStream('deflate')).getReader(), n = live.answers;
+  var bytes = new Uint8Array(8 * n + 4 * live.width * live.height), floats = new Uint8Array(4 * n), end = 0;
+  for (var read = await reader.read(); !read.done; read = await reader.read()) {
+    bytes.set(read.value, end);
+    end += read.value.length;
+  }
+  for (var i = 0; i < 4 * n; ++i) floats[4 * (i % n) + Math.floor(i / n)] = bytes[i];
   bytes.set(floats);
   return bytes;
 }

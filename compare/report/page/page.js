@@ -106,6 +106,20 @@ function scrollable() {
   });
 }
 
+// Nothing is folded on paper.
+var unfolded = [];
+addEventListener('beforeprint', function() {
+  unfolded = Array.prototype.slice.call(document.querySelectorAll('details:not([open])'));
+  unfolded.forEach(function(d) {
+    d.open = true;
+  });
+});
+addEventListener('afterprint', function() {
+  unfolded.forEach(function(d) {
+    d.open = false;
+  });
+});
+
 // ---- first drawing, and again when the width changes
 function drawAll() {
   kit.drawn.forEach(function(c) {

@@ -50,7 +50,7 @@ class Browser : public testing::Test {
         "HOME='" + folder_.string() + "' timeout 100 '" + browser +
         "' --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --window-size=" + window +
         " "
-        "--virtual-time-budget=2000 --user-data-dir='" +
+        "--virtual-time-budget=10000 --user-data-dir='" +
         (folder_ / "profile").string() + "' --dump-dom 'file://" + file + "' 2>'" + (folder_ / "browser.txt").string() +
         "'");
     const std::string head = "<pre id=\"probe\">";

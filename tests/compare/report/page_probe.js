@@ -179,8 +179,11 @@
   await click(card.querySelectorAll('.card-head button')[2]);
   saw.card.closed = !card.open;
   await click(document.querySelector('a[href="#p18"]'));
+  // The browser's virtual time waits for a load, but not for decode().
   await Promise.all(all('.wide img', card).map(function(i) {
-    return i.decode();
+    return i.complete ? null : new Promise(function(go) {
+      i.addEventListener('load', go);
+    });
   }));
   await drawn();
   saw.card.with_pictures = card_now();

@@ -107,7 +107,7 @@ TEST_F(Page, EachPointHasACard) {
   EXPECT_EQ(zoomed["width"], "200%");
   const std::string command = pictures["command"], at_recommended = recommended["command"];
   EXPECT_EQ(command.find("noonmark render --set "), 0u) << command;
-  EXPECT_NE(command.find("--set map.resolution=1024"), std::string::npos) << command;
+  EXPECT_NE(command.find("--set map.extent_m=20"), std::string::npos) << command;
   EXPECT_EQ(command.find("--set bias.constant="), std::string::npos) << "the default bias: " << command;
   EXPECT_NE(at_recommended.find("--set bias.constant="), std::string::npos) << at_recommended;
   EXPECT_EQ(card["next"]["title"].get<std::string>().find("Point 19: "), 0u);
