@@ -167,9 +167,9 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     return 0;
   }
   // A folder of experiments gets one page about all of them. That of an earlier check is removed first.
-  const bool indexed = list.experiments.size() > 1 ||
-                       std::any_of(list.experiments.begin(), list.experiments.end(),
-                                   [](const ListedExperiment& one) { return one.in_folder; });
+  const bool indexed =
+      list.experiments.size() > 1 || std::any_of(list.experiments.begin(), list.experiments.end(),
+                                                 [](const ListedExperiment& one) { return one.in_folder; });
   const std::string index = index_folder(arguments) + "/index.html";
   std::vector<IndexEntry> entries;
   std::error_code none;
