@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "compare/ladder/live_picture.h"
 #include "compare/ladder/receiver_taps.h"
 #include "scenes/error.h"
 #include "technique/tap_pattern.h"
@@ -50,6 +51,9 @@ constexpr double per_listed_part_byte = 3.5;
 constexpr double per_placed_pixel = 8, per_lattice_triangle = 260, per_placement = 10 * 8 * 512.0 * 12;
 constexpr double lattice_points = 9e6 * 28;
 constexpr double per_grid_cell = 8;  // the grid that lists a shadow's edges, for each face of the map
+// The live picture, which is drawn beside the point's own images: for each of its pixels a receiver as above and an
+// answer for each threshold, which are two for each tap (compare/ladder/live_picture.h), in a list that grows by doubling.
+constexpr double per_live_answer = 2 * sizeof(LiveAnswer);
 constexpr double least_grid_cells = 256 * 256, most_grid_cells = 2048 * 2048;
 
 // asked: the texels that taps read.
@@ -115,7 +119,13 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
     else
       placements += strip + pixels * per_pixel;
   }
+  double live = 0;
+  if (input.pictures && why_no_live_picture(s).empty()) {
+    const double live_pixels = std::min<double>(pixels, most_live_width_px * most_live_height_px);
+    live = live_pixels * (per_pixel + sizeof(std::vector<LiveAnswer>) + per_live_answer * (2.0 * pattern.taps + 1));
+  }
   return {{
+      {"the live picture", "lower filter.size, or set pictures = \"none\"", live},
       {"the placements of the map's grid", "lower map.placements", placements},
       {"the program itself", "use a machine with more memory, or raise its limit", program},
       {"the scene", "use a scene with fewer triangles (scene.name, scene.mesh)", scene},

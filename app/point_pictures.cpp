@@ -9,6 +9,7 @@
 
 #include "app/pictures.h"
 #include "app/point_files.h"
+#include "compare/judge/recommendation.h"
 #include "scenes/digest.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -24,7 +25,8 @@ constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 
 }  // namespace
 
-std::vector<int64_t> points_with_pictures(const std::string& pictures, const std::vector<PointRecord>& points) {
+std::vector<int64_t> points_with_pictures(const std::string& pictures, const Results& results) {
+  const std::vector<PointRecord>& points = results.points;
   std::vector<int64_t> ids;
   if (points.empty() || pictures == "none") return ids;
   if (pictures == "first") return {points.front().id};
@@ -39,8 +41,14 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const std
   const auto [best, worst] =
       std::minmax_element(points.begin(), points.end(),
                           [&](const PointRecord& a, const PointRecord& b) { return badness(a) < badness(b); });
-  if (pictures == "worst" || best == worst) return {worst->id};
-  return {best->id, worst->id};
+  if (pictures == "extremes" && best != worst) ids.push_back(best->id);
+  ids.push_back(worst->id);
+  // Points of different parts have no common answer.
+  if (!points.front().part.empty()) return ids;
+  const Recommendation found = recommend(results);
+  if (found.outcome != Recommendation::Outcome::found) return ids;
+  if (const int64_t id = found.choice.first().id; std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+  return ids;
 }
 
 PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out) {

@@ -1,7 +1,7 @@
 // The pictures and images of a sweep's points: selects the points that have them, and checks that their files are the
 // ones that were written.
 //
-//   for (int64_t id : points_with_pictures(experiment.pictures, results.points))
+//   for (int64_t id : points_with_pictures(experiment.pictures, results))
 //     if (!why_not_as_written(*find_point(results.points, id), out).empty()) keep_pictures(measurement, id, out);
 #pragma once
 #include <cstdint>
@@ -15,8 +15,9 @@
 namespace noonmark {
 
 // Ids of the points, selected by the experiment's `pictures`. `worst` and `extremes` select by error and need all
-// points; an error that is not finite is the worst.
-std::vector<int64_t> points_with_pictures(const std::string& pictures, const std::vector<PointRecord>& points);
+// points; an error that is not finite is the worst. Both also select the first point of the recommended choice, because
+// the report's first screen shows it. results: with the verdicts of the bounds, which the recommendation reads.
+std::vector<int64_t> points_with_pictures(const std::string& pictures, const Results& results);
 
 // Writes the point's files below out/images. The record must be in the store.
 PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out);

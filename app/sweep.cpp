@@ -326,7 +326,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     fmt::print(stderr, "note: {}\n", doubt);
   if (!outcome.interrupted) {
     bool changed = false;
-    const std::vector<int64_t> shown = points_with_pictures(experiment.pictures, outcome.results.points);
+    judge(experiment, outcome.results);
+    const std::vector<int64_t> shown = points_with_pictures(experiment.pictures, outcome.results);
     for (const PointRecord& point : outcome.results.points) {
       if (point.pictures.empty() || std::find(shown.begin(), shown.end(), point.id) != shown.end()) continue;
       remove_pictures(point, folder.path());  // another point has them now

@@ -5,11 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/baseline_file.h"
+#include "app/build_facts.h"
 #include "app/experiment_arguments.h"
 #include "app/experiment_list.h"
 #include "app/experiment_text.h"
 #include "app/failure.h"
 #include "app/plan.h"
+#include "app/point_pictures.h"
 #include "app/results_json.h"
 #include "app/retract.h"
 #include "app/sweep.h"
@@ -17,6 +19,7 @@
 #include "compare/judge/bounds.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
+#include "compare/report/index_page.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"
 #include "scenes/error.h"
@@ -28,21 +31,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The bounds and laws, each with what was found, and the verdict in the last line.
-std::string verdict_text(const ListedExperiment& listed, const SweepOutcome& outcome,
-                         const BaselineComparison* compared) {
-  const Results& results = outcome.results;
-  std::string text;
+// "3 of 3 bounds held, 2 of 2 laws hold".
+std::string verdict_words(const Results& results, const BaselineComparison* compared) {
   size_t bounds_held = 0, warnings = 0, laws_held = 0;
   for (const BoundResult& bound : results.bounds) {
-    text += describe(bound, find_point(results.points, bound.point), results.info.swept);
     bounds_held += bound.held;
     warnings += !bound.held && bound.warns;
   }
   for (const LawResult& law : results.laws) laws_held += law.held;
-  if (!results.laws.empty()) text += (results.bounds.empty() ? "" : "\n") + law_table(results.laws);
-  for (const LawResult& law : results.laws)
-    if (!law.found.empty()) text += fmt::format("found: {}\n", law.found);
   std::string verdict;
   if (!results.bounds.empty())
     verdict = fmt::format("{} of {} held", bounds_held, counted(results.bounds.size(), "bound"));
@@ -50,14 +46,25 @@ std::string verdict_text(const ListedExperiment& listed, const SweepOutcome& out
   if (!results.laws.empty())
     verdict += fmt::format("{}{} of {} {}", verdict.empty() ? "" : ", ", laws_held, counted(results.laws.size(), "law"),
                            results.laws.size() == 1 ? "holds" : "hold");
-  if (compared) {
+  if (compared) verdict += (verdict.empty() ? "" : ", ") + baseline_verdict(*compared);
+  return verdict.empty() ? "nothing is promised" : verdict;
+}
+
+// The bounds and laws, each with what was found, and the verdict in the last line.
+std::string verdict_text(const ListedExperiment& listed, const SweepOutcome& outcome,
+                         const BaselineComparison* compared) {
+  const Results& results = outcome.results;
+  std::string text;
+  for (const BoundResult& bound : results.bounds)
+    text += describe(bound, find_point(results.points, bound.point), results.info.swept);
+  if (!results.laws.empty()) text += (results.bounds.empty() ? "" : "\n") + law_table(results.laws);
+  for (const LawResult& law : results.laws)
+    if (!law.found.empty()) text += fmt::format("found: {}\n", law.found);
+  if (compared)
     for (const auto* lines : {&compared->worse, &compared->better, &compared->notes})
       for (const std::string& line : *lines) text += printable(line) + "\n";
-    verdict += (verdict.empty() ? "" : ", ") + baseline_verdict(*compared);
-  }
-  if (verdict.empty()) verdict = "nothing is promised";
-  return text + fmt::format("{}: {}; {}; the report is {}/report.html\n", printable(listed.file), verdict,
-                            outcome.counts(), printable(listed.out));
+  return text + fmt::format("{}: {}; {}; the report is {}/report.html\n", printable(listed.file),
+                            verdict_words(results, compared), outcome.counts(), printable(listed.out));
 }
 
 // What is printed of a checked experiment: text, or JSON.
@@ -68,7 +75,7 @@ struct Checked {
 };
 
 Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arguments, const CheckOptions& options,
-                  const EarlyFolder& folder) {
+                  const EarlyFolder& folder, IndexEntry& entry) {
   const std::string &path = listed.file, &out = listed.out;
   std::error_code none;
   if (listed.in_folder && fs::exists(path, none) && !fs::is_regular_file(path, none))
@@ -83,6 +90,7 @@ Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arg
         fmt::format("{} has no [[bound]] and no [[law]], so there is nothing to check; add one, or use noonmark "
                     "run",
                     path));
+  entry.title = experiment.title;
   const BaselineFile baseline(options, experiment);  // read before anything is measured
   const SweepOutcome outcome = run_sweep(
       experiment, folder.get(),
@@ -98,6 +106,17 @@ Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arg
       std::none_of(results.bounds.begin(), results.bounds.end(), breaks) &&
       std::all_of(results.laws.begin(), results.laws.end(), [](const LawResult& law) { return law.held; }) &&
       (!compared || compared->held());
+  entry.report = "report.html";
+  entry.numbers = worst_numbers(results);
+  entry.words = outcome.interrupted ? "stopped before its end" : verdict_words(results, comparison);
+  if (!outcome.interrupted) entry.verdict = held ? IndexEntry::Verdict::held : IndexEntry::Verdict::broken;
+  if (const std::string picture = picture_of_index(results); !picture.empty()) {
+    try {
+      entry.thumbnail = read_picture(out, picture, results.points);
+    } catch (const Error&) {
+      // The report says why the picture cannot be read.
+    }
+  }
   checked.exit_code = outcome.interrupted ? static_cast<int>(ErrorKind::incomplete) : held ? 0 : 1;
   if (arguments.json)
     checked.json = results_json(outcome, {path, out, checked.exit_code, true, comparison});
@@ -105,6 +124,9 @@ Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arg
     checked.text += outcome.interrupted ? stopped_text(outcome) + "\n" : verdict_text(listed, outcome, comparison);
   return checked;
 }
+
+// The folder that holds the results' folders of all experiments: that of --out, or `out`.
+std::string index_folder(const ExperimentArguments& arguments) { return arguments.out.empty() ? "out" : arguments.out; }
 
 // Printed at the end, because there may be many lines above.
 void tell_the_unchecked(const std::vector<std::string>& experiments, size_t of,
@@ -144,6 +166,14 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     fmt::print("{}", experiment_text(experiment_from(list.experiments.front().file, arguments)));
     return 0;
   }
+  // A folder of experiments gets one page about all of them. That of an earlier check is removed first.
+  const bool indexed =
+      list.experiments.size() > 1 || std::any_of(list.experiments.begin(), list.experiments.end(),
+                                                 [](const ListedExperiment& one) { return one.in_folder; });
+  const std::string index = index_folder(arguments) + "/index.html";
+  std::vector<IndexEntry> entries;
+  std::error_code none;
+  if (indexed) fs::remove(index, none);
   int worst = 0;
   std::vector<std::string> unreadable, failed;
   std::vector<nlohmann::ordered_json> printed;
@@ -155,8 +185,10 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
   for (const ListedExperiment& listed : list.experiments) {
     EarlyFolder folder;
     folder.open(listed.out);
+    IndexEntry& entry = entries.emplace_back();
+    entry.experiment = listed.file;
     try {
-      const Checked checked = check_one(listed, arguments, options, folder);
+      const Checked checked = check_one(listed, arguments, options, folder, entry);
       worst = std::max(worst, checked.exit_code);
       if (arguments.json)
         printed.push_back(checked.json);
@@ -164,17 +196,35 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
         fmt::print("{}", checked.text);
     } catch (...) {
       const Failure failure = current_failure();
+      entry.words = failure.message;
       worst = std::max(worst, tell(failure));
       failed.push_back(listed.file);
       printed.push_back(failure_json(listed.file, failure.message, failure.exit_code));
       if (folder.is_open()) write_unjudged(listed.out, listed.file, failure, arguments.command);
     }
+    if (!entry.report.empty())
+      entry.report = fs::relative(listed.out, index_folder(arguments), none).string() + "/" + entry.report;
     if (worst == static_cast<int>(ErrorKind::incomplete)) break;  // the user asked to stop
+  }
+  if (indexed) {
+    for (const UnreadableFolder& one : list.unreadable) {
+      IndexEntry& entry = entries.emplace_back();
+      entry.experiment = one.folder;
+      entry.words = one.error.what();
+    }
+    try {
+      make_folder(index_folder(arguments));
+      write_file_atomically(index, index_page(entries, std::string(build_facts().version)));
+    } catch (...) {
+      worst = std::max(worst, tell(current_failure()));
+    }
   }
   if (arguments.json)
     fmt::print("{}", results_text(arguments.command, worst, printed));
   else if (list.experiments.size() + unreadable.size() > 1 && failed.size() + unreadable.size() > 0)
     tell_the_unchecked(failed, list.experiments.size(), unreadable);
+  if (indexed && !arguments.json && fs::exists(index, none))
+    fmt::print("{}; the index is {}\n", index_words(entries), printable(index));
   return worst;
 }
 

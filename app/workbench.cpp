@@ -311,7 +311,8 @@ std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
   b.map.forget();
   b.receivers_on_device.clear();
   Settings small = settings;
-  const double shrink = std::min({1.0, 320.0 / small.view.width_px, 180.0 / small.view.height_px});
+  const double shrink = std::min({1.0, static_cast<double>(most_live_width_px) / small.view.width_px,
+                                  static_cast<double>(most_live_height_px) / small.view.height_px});
   for (double scale = shrink;; scale /= 2) {
     small.view.width_px = std::max(1, static_cast<int>(settings.view.width_px * scale));
     small.view.height_px = std::max(1, static_cast<int>(settings.view.height_px * scale));

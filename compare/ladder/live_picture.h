@@ -24,6 +24,9 @@ namespace noonmark {
 // The most taps of a filter with a live picture, because numbers of taps are stored in a byte.
 inline constexpr int most_live_taps = 255;
 
+// The most pixels of the report's live picture; the point's view is made smaller with its proportions.
+inline constexpr int most_live_width_px = 320, most_live_height_px = 180;
+
 // Bits of LivePicture::flags: the first three are those of the pixel's receiver.
 enum LiveFlags : uint8_t { live_facing = 1, live_lit = 2, live_ambiguous = 4, live_surface = 8 };
 

@@ -83,6 +83,44 @@ std::string cause_sentence(std::span<const PointRecord* const> points) {
   return out;
 }
 
+std::string answer_sentence(const Results& results) {
+  if (results.points.empty()) return "No point was measured.";
+  if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
+    return "Nothing was measured: " + html(poor_view_note(results.points)) + ".";
+  // Points of different parts are not meant to be compared, so none of them is an answer.
+  if (!results.points.front().part.empty()) {
+    const auto kept = [](const auto& list) {
+      return std::count_if(list.begin(), list.end(), [](const auto& one) { return one.held; });
+    };
+    std::string out;
+    if (!results.laws.empty()) out = fmt::format("{} of {} laws hold", kept(results.laws), results.laws.size());
+    if (!results.bounds.empty())
+      out +=
+          fmt::format("{}{} of {} bounds hold", out.empty() ? "" : ", ", kept(results.bounds), results.bounds.size());
+    return fmt::format("{}{} points of several parts, which are compared only where they can be.",
+                       out.empty() ? "" : out + ". ", results.points.size());
+  }
+  const Recommendation found = recommend(results);
+  switch (found.outcome) {
+    case Recommendation::Outcome::no_criterion:
+      return "No bound and no bias curve says what is good enough, so no setting is recommended.";
+    case Recommendation::Outcome::incomplete:
+      return "Not all conditions are measured yet, so no setting is recommended.";
+    case Recommendation::Outcome::none_holds:
+      return "None of the swept settings is good enough.";
+    case Recommendation::Outcome::found:
+      break;
+  }
+  const std::string settings = settings_phrase(found.choice.first(), choice_settings(results.info));
+  return fmt::format("Set <a href=\"#p{}\">{}</a>{}: the cheapest setting that is good enough{}. Its error is {}.",
+                     found.choice.first().id, html(settings.empty() ? "this point" : settings),
+                     found.bias ? fmt::format(" and {} {}", html(found.bias->parameter),
+                                              html(bias_in_unit(found.bias->value, found.bias->unit)))
+                                : "",
+                     results.info.over.empty() ? "" : " under all conditions",
+                     quantity(found.error.worst, find_metric(results.info.accuracy).unit));
+}
+
 std::string recommendation_box(const Results& results) {
   if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
     return fmt::format(

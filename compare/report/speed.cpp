@@ -96,13 +96,15 @@ json bias_data(const ComparedChoice& one) {
   return out;
 }
 
-// The value of a metric: [largest over the conditions, mean], whether it counts for the front, whether it is at the
+// The value of a metric: [largest over the conditions, mean] at the choice's bias, the same with the bias as set, whether it counts for the front, whether it is at the
 // bias, and its span.
 json metric_data(const ComparedChoice& one, const std::string& metric) {
   const Joined value = value_of(one, metric);
   json out{{"v", {or_null(value.worst), or_null(value.mean)}},
            {"counts", counts_by(one, metric)},
            {"at_bias", follows_bias(one, metric)}};
+  const Joined rendered = joined(one.choice, metric);
+  out["set"] = {or_null(rendered.worst), or_null(rendered.mean)};
   if (const std::optional<Span> span = span_over_window(one, metric))
     out["span"] = {or_null(span->least), or_null(span->largest)};
   return out;

@@ -133,6 +133,24 @@ TEST_F(Estimate, GrowsWithWhatIsAskedFor) {
   EXPECT_GT(bytes(), bytes(LightKind::directional, {100, 100}, false) - 1);
 }
 
+TEST_F(Estimate, KnowsTheLivePicture) {
+  const auto live = [&] {
+    for (const MemoryShare& share : estimate(LightKind::directional, {100, 100}, true, true).shares)
+      if (share.what == std::string("the live picture")) return share.bytes;
+    return -1.0;
+  };
+  EXPECT_EQ(estimate().shares.front().bytes, 0) << "no pictures, no live picture";
+  const double one_tap = live();
+  EXPECT_GT(one_tap, 1e6);
+  settings_.view.width_px *= 2;
+  EXPECT_EQ(live(), one_tap) << "it has a size of its own";
+  settings_.filter.kind = "box";
+  settings_.filter["size"] = 15;
+  EXPECT_GT(live(), 57600 * 2 * 225 * sizeof(float)) << "a threshold on each of two maps for each of 225 taps";
+  settings_.filter["size"] = 31;
+  EXPECT_EQ(live(), 0) << "too many taps for a live picture";
+}
+
 TEST_F(Estimate, IsRefusedWithTheSettingToChange) {
   settings_.map.resolution = 16384;
   const MemoryEstimate cube = estimate(LightKind::point);

@@ -12,6 +12,17 @@ function group() {
 function isBytes() {
   return kit.measureUnit(state.cost) === 'bytes';
 }
+// The error of a choice at the bias that the reader chose for the page. As set, it counts if every shown point was
+// rendered with a usable bias.
+function errorOf(entry) {
+  var of = entry.errors[state.error];
+  if (page.bias === 'recommended' || entry.window === 'no_curve' || !of.at_bias) return of;
+  var usable = entry.window === 'usable' && entry.points.every(function(id) {
+    var c = kit.byId[id].curve;
+    return c && c.set_bias_depth >= c.window_min_depth && c.set_bias_depth <= c.window_max_depth;
+  });
+  return {v: of.set, span: of.span, counts: usable, at_bias: false};
+}
 function windowText(entry) {
   return entry.window === 'empty' ? 'none: no bias is good enough' :
       entry.window === 'no_curve' ? 'no bias curve' :
@@ -33,7 +44,7 @@ function rowsOf(entries) {
   var property = group().properties[state.property];
   return entries
       .map(function(entry) {
-        var of = entry.errors[state.error], value = property ? entry.is[state.property] : 0;
+        var of = errorOf(entry), value = property ? entry.is[state.property] : 0;
         var cost = entry.costs[state.cost];
         return {
           id: entry.id,
@@ -61,7 +72,7 @@ function rowsOf(entries) {
 }
 
 function tip(event, row) {
-  var e = row.entry, of = e.errors[state.error], cost = e.costs[state.cost], many = e.conditions > 1;
+  var e = row.entry, of = errorOf(e), cost = e.costs[state.cost], many = e.conditions > 1;
   function both(v, measure) {
     var unit = kit.measureUnit(measure);
     return kit.shown(v[0], unit) + (many ? ' (mean ' + kit.shown(v[1], unit) + ')' : '');
@@ -175,7 +186,7 @@ self.plot.before(notes);
 self.plot.before(side);
 
 function describe(entry) {
-  var of = entry.errors[state.error];
+  var of = errorOf(entry);
   return [
     kit.make('b', {}, entry.name),
     ': ' + costText(entry.costs[state.cost]) + ', ' +
@@ -206,9 +217,11 @@ function tell(rows, missing) {
     text.push(g.entries.length + ' of ' + g.choices + ' choices are drawn; the front is of these.');
   if (missing) text.push(missing + ' not finite, left out.');
   var rendered = rows.filter(function(r) {
-    return r.entry.window !== 'no_curve' && !r.entry.errors[state.error].at_bias;
+    return r.entry.window !== 'no_curve' && !errorOf(r.entry).at_bias;
   });
-  if (rendered.length)
+  if (rendered.length && page.bias === 'set')
+    text.push('Each choice is at the bias as set; those outside their usable window are crosses.');
+  else if (rendered.length)
     text.push(
         'This error has no bias curve, so it is that of the bias as rendered. Choices rendered outside their usable window are crosses.');
   if (rows.some(function(r) {
@@ -322,9 +335,13 @@ page.onSelect.push(function(id) {
   state.id = entry ? entry.id : null;
   redraw();
 });
+page.onBias.push(function() {
+  picture(described());
+});
 // The arrow keys go from mark to mark, from left to right.
 self.plot.tabIndex = 0;
 self.plot.addEventListener('keydown', function(event) {
+  if (event.key === 'Enter' && described()) page.open(described().id);
   var way = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
   if (!way || !shownRows.length) return;
   var order = shownRows.slice().sort(function(a, b) {
