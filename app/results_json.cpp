@@ -99,7 +99,9 @@ Json answer_of(const Results& results) {
                     {"value", found.bias->value},
                     {"usable_from", found.bias->window.low},
                     {"usable_to", found.bias->window.high}};
-  json["cost"] = {{"metric", results.info.cost}, {"value", number_json(found.cost)}};
+  json["cost"] = {{"metric", results.info.cost}, {"value", number_json(found.cost.middle)}};
+  if (found.cost.low < found.cost.high)  // a time
+    json["cost"]["interval"] = {number_json(found.cost.low), number_json(found.cost.high)};
   json["error"] = {{"metric", results.info.accuracy},
                    {"worst", number_json(found.error.worst)},
                    {"mean", number_json(found.error.mean)},
