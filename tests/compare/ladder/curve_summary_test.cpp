@@ -234,7 +234,7 @@ TEST(Summarise, GivesTheWindowsAtOtherBounds) {
   int windows = 0;
   for (uint64_t seed = 0; seed < 60; ++seed) {
     const Synthetic s = random_evidence(seed, {40, 30, 6, 3, false, static_cast<Lookup>(seed % 3)});
-    const BiasCounts counts(s.evidence(), s.stored, bias_part("constant"));
+    const BiasCounts counts(s.evidence(), s.stored_map(), bias_part("constant"));
     BiasCurve curve = summarise(counts, test_scale(), {});
     const WindowSteps stored = curve.steps;
     curve.steps.acne = steps_of_bytes(bytes_of_steps(stored.acne));
