@@ -54,7 +54,15 @@ class Pictures : public testing::Test {
   }
   Measurement measurement() const {
     const Camera camera{.near_m = 0.1, .far_m = 100};
-    return {{}, settings, ladder, frame, camera, scene, receivers, probe, stored, exact};
+    exact_map = MapDepths(exact);
+    // The whole map, from its lowest row on.
+    const auto rows = [this](int first, int count) {
+      Image<float> band(stored.width, count);
+      for (int y = 0; y < count; ++y)
+        for (int x = 0; x < stored.width; ++x) band.at(x, y) = stored.at(x, first + y);
+      return band;
+    };
+    return {{}, settings, ladder, frame, camera, scene, receivers, probe, MapDepths(stored), exact_map, rows};
   }
 
   TemporaryFolder folder;
@@ -65,6 +73,7 @@ class Pictures : public testing::Test {
   ReceiverImage receivers;
   LookupProbe probe;
   Image<float> stored, exact;
+  mutable MapDepths exact_map;
 };
 
 TEST_F(Pictures, LadderHoldsEveryRungAndWhatItWasMadeOf) {
