@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "app/atlas_reader.h"
 #include "app/experiment.h"
 #include "app/promise_reader.h"
 #include "app/settings_reader.h"
@@ -41,6 +42,8 @@ class Reader : private SettingsReader {
         times_ = item.node;
       else if (!in_part_ && item.key == "plot")
         read_plot(table(*item.node, "[plot]"));
+      else if (!in_part_ && item.key == "atlas")
+        check_atlas_entry(table(*item.node, "[atlas]"), path());
       else if (!in_part_ && item.key == "part")
         parts_ = item.node;
       else if (item.key == "scene" && item.node->is_string())
@@ -93,7 +96,8 @@ class Reader : private SettingsReader {
     for (std::string_view key : {"sweep", "over", "curve", "phase", "let", "bound", "law"}) names.push_back(key);
     if (in_part_) names.push_back("name");
     if (!in_part_)
-      for (std::string_view key : {"title", "pictures", "times", "plot", "answer", "part"}) names.push_back(key);
+      for (std::string_view key : {"title", "pictures", "times", "plot", "answer", "atlas", "part"})
+        names.push_back(key);
     return names;
   }
 

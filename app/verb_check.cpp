@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/atlas_page.h"
 #include "app/baseline_file.h"
 #include "app/experiment_arguments.h"
 #include "app/experiment_list.h"
@@ -25,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 int check_one(const ListedExperiment& listed, const ExperimentArguments& arguments, const CheckOptions& options,
-              const EarlyFolder& folder) {
+              const EarlyFolder& folder, AtlasPage& atlas) {
   const std::string &path = listed.file, &out = listed.out;
   std::error_code none;
   if (listed.in_folder && fs::exists(path, none) && !fs::is_regular_file(path, none))
@@ -76,6 +77,7 @@ int check_one(const ListedExperiment& listed, const ExperimentArguments& argumen
   }
   if (verdict.empty()) verdict = "nothing is promised";
   fmt::print("{}: {}; the report is {}/report.html\n", printable(path), verdict, printable(out));
+  atlas.add(path, out, results);
   return bounds_held + warnings == results.bounds.size() && laws_held == results.laws.size() &&
                  (!compared || compared->held())
              ? 0
@@ -115,6 +117,8 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
   }
   int worst = 0;
   std::vector<std::string> unreadable, failed;
+  AtlasPage atlas(arguments.out.empty() ? "out" : arguments.out);
+  atlas.retract();
   for (const UnreadableFolder& one : list.unreadable) {
     worst = std::max(worst, tell({one.error.exit_code(), printable(one.error.what())}));
     unreadable.push_back(one.folder);
@@ -123,7 +127,7 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     EarlyFolder folder;
     folder.open(listed.out);
     try {
-      worst = std::max(worst, check_one(listed, arguments, options, folder));
+      worst = std::max(worst, check_one(listed, arguments, options, folder, atlas));
     } catch (...) {
       const Failure failure = current_failure();
       worst = std::max(worst, tell(failure));
@@ -132,6 +136,7 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     }
     if (worst == static_cast<int>(ErrorKind::incomplete)) break;  // the user asked to stop
   }
+  if (worst != static_cast<int>(ErrorKind::incomplete)) atlas.write();
   if (list.experiments.size() + unreadable.size() > 1 && failed.size() + unreadable.size() > 0)
     tell_the_unchecked(failed, list.experiments.size(), unreadable);
   return worst;
