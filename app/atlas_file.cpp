@@ -1,6 +1,7 @@
 #include "app/atlas_file.h"
 
 #include "app/atlas_reader.h"
+#include "app/experiment_keys.h"
 #include "app/toml_reader.h"
 #include "compare/store/quantities.h"
 #include "scenes/file.h"
@@ -28,8 +29,7 @@ class AtlasReader : private TomlReader {
           entry.limit[limit.key] = number(*limit.node, "atlas.limit." + limit.key);
         }
       } else {
-        unknown(item, "key", {"failure", "cause", "driver", "cure", "without", "note", "thread", "answer", "limit"},
-                "atlas.");
+        unknown(item, "key", key_names("atlas"), "atlas.");
       }
       if (item.key == "cause") at(item.where, [&] { find_metric(entry.cause); });
       if (item.key == "driver") at(item.where, [&] { find_setting(entry.driver); });

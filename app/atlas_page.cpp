@@ -49,11 +49,11 @@ void AtlasPage::add(const std::string& experiment, const std::string& out, const
   rows_.push_back(std::move(row));
 }
 
-void AtlasPage::write() const {
-  if (rows_.empty()) return;
+std::string AtlasPage::write() const {
+  if (rows_.empty()) return {};
   write_file_atomically(folder_ + "/atlas.html", to_atlas_page(rows_));
   write_file_atomically(folder_ + "/atlas.md", to_atlas_table(rows_));
-  fmt::print("the atlas of {} failures is {}/atlas.html\n", rows_.size(), printable(folder_));
+  return fmt::format("the atlas of {} failures is {}/atlas.html\n", rows_.size(), printable(folder_));
 }
 
 }  // namespace noonmark

@@ -19,8 +19,8 @@ class AtlasPage {
   void retract() const;
   // Adds a row if the experiment has an [atlas] section. out: the folder of its results.
   void add(const std::string& experiment, const std::string& out, const Results& results);
-  // Writes the page if there is a row.
-  void write() const;
+  // Writes the page if there is a row. Returns the line that says where it is; empty: there is no page.
+  std::string write() const;
 
  private:
   std::string folder_;

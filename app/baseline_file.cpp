@@ -54,13 +54,15 @@ BaselineFile::BaselineFile(const CheckOptions& options, const Experiment& experi
 }
 
 std::optional<BaselineComparison> BaselineFile::compare_or_update(const Experiment& experiment,
-                                                                  const SweepOutcome& outcome) const {
+                                                                  const SweepOutcome& outcome,
+                                                                  std::string& said) const {
   if (options_.baseline.empty()) return {};
   const Baseline now = baseline_of(experiment, outcome, options_.baseline_times.has_value());
   if (!options_.update_baseline)
     return compare_with_baseline(before_, now, options_.baseline, options_.baseline_times, experiment.chosen);
   write_file_atomically(options_.baseline, baseline_text(now));
-  fmt::print("the baseline {} is written: {}\n", printable(options_.baseline), counted(now.points.size(), "point"));
+  said += fmt::format("the baseline {} is written: {}\n", printable(options_.baseline),
+                      counted(now.points.size(), "point"));
   return {};
 }
 

@@ -16,9 +16,10 @@ class BaselineFile {
   // replace the baseline of all parts.
   BaselineFile(const CheckOptions& options, const Experiment& experiment);
 
-  // Compares a finished sweep with the file. If the file is to be written, writes it atomically, prints so, and returns
-  // nothing. Throws Error(usage) as compare_with_baseline() does, Error(file).
-  std::optional<BaselineComparison> compare_or_update(const Experiment& experiment, const SweepOutcome& outcome) const;
+  // Compares a finished sweep with the file. If the file is to be written, writes it atomically, adds a line about it to `said`,
+  // and returns nothing. Throws Error(usage) as compare_with_baseline() does, Error(file).
+  std::optional<BaselineComparison> compare_or_update(const Experiment& experiment, const SweepOutcome& outcome,
+                                                      std::string& said) const;
 
  private:
   CheckOptions options_;

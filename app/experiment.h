@@ -20,6 +20,7 @@
 #include "compare/ladder/bias_curves.h"
 #include "scenes/error.h"
 #include "scenes/scene.h"
+#include "scenes/shell_words.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -122,17 +123,12 @@ auto at_point(const Experiment& experiment, int64_t id, const F& f) {
 // Every setting by its row's name, in canonical text: PointRecord::settings.
 std::map<std::string, std::string> settings_map(const Settings& settings);
 
-// A word in a form that a shell reads back as the same word. Plain words stay unchanged, other words get single quotes.
-// A word with bytes that a terminal does not show gets $'...' (bash, zsh, ksh, POSIX 2024). So printed commands can be
-// pasted.
-std::string shell_quoted(const std::string& word);
-
 // The command that renders one point of the experiment, quoted for a shell. It passes overridden and swept settings as
 // --set. If the experiment has parts, it passes the point's number among the chosen parts.
 std::string reproduce_command(const Experiment& experiment, const PointRecord& point);
 
-// Everything that determines the points' results, for ResultStore, as text with one "name = value" per line. more: what the
-// experiment does not contain itself (app/identity.h).
+// Everything that determines the points' results, as text with one "name = value" per line: two experiments with the same
+// text have the same points. more: what the experiment does not contain itself (app/identity.h).
 std::string fingerprint(const Experiment& experiment, std::span<const std::pair<std::string, std::string>> more);
 
 }  // namespace noonmark

@@ -10,6 +10,7 @@
 
 #include "app/atlas_reader.h"
 #include "app/experiment.h"
+#include "app/experiment_keys.h"
 #include "app/promise_reader.h"
 #include "app/settings_reader.h"
 #include "app/toml_text.h"
@@ -37,7 +38,7 @@ class Reader : private SettingsReader {
       else if (!in_part_ && item.key == "title")
         experiment_.title = string(*item.node, "title");
       else if (!in_part_ && item.key == "pictures")
-        experiment_.pictures = one_of(*item.node, "pictures", {"first", "all", "none", "worst", "extremes"});
+        experiment_.pictures = one_of(*item.node, "pictures", key_choices("root", "pictures"));
       else if (!in_part_ && item.key == "times")
         times_ = item.node;
       else if (!in_part_ && item.key == "plot")
@@ -93,11 +94,7 @@ class Reader : private SettingsReader {
  private:
   std::vector<std::string_view> root_keys() const {
     std::vector<std::string_view> names = groups();
-    for (std::string_view key : {"sweep", "over", "curve", "phase", "let", "bound", "law"}) names.push_back(key);
-    if (in_part_) names.push_back("name");
-    if (!in_part_)
-      for (std::string_view key : {"title", "pictures", "times", "plot", "answer", "atlas", "part"})
-        names.push_back(key);
+    for (std::string_view key : key_names("root", in_part_)) names.push_back(key);
     return names;
   }
 
@@ -187,7 +184,7 @@ class Reader : private SettingsReader {
 
   void read_plot(const toml::table& table) {
     for (const Item& item : items(table)) {
-      if (item.key != "metrics") unknown(item, "key", {"metrics"}, "plot.");
+      if (item.key != "metrics") unknown(item, "key", key_names("plot"), "plot.");
       for (const toml::node* node : list(*item.node, "plot.metrics")) {
         const std::string name = string(*node, "plot.metrics");
         at(node->source(), [&] { find_quantity(name); });
@@ -210,7 +207,7 @@ class Reader : private SettingsReader {
       else if (item.key == "accuracy")
         experiment_.accuracy = metric(*item.node, "answer.accuracy");
       else
-        unknown(item, "key", {"cost", "accuracy"}, "answer.");
+        unknown(item, "key", key_names("answer"), "answer.");
     }
   }
 
@@ -227,7 +224,7 @@ class Reader : private SettingsReader {
       else if (item.key == "bias_depth")
         read_biases(*item.node, name);
       else
-        unknown(item, "key", {"enabled", "acne_bound", "peter_panning_bound", "bias_depth"}, "curve.");
+        unknown(item, "key", key_names("curve"), "curve.");
     }
   }
   void read_phase(const toml::table& table) {
@@ -248,8 +245,7 @@ class Reader : private SettingsReader {
       else if (item.key == "width_px")
         phase.width_px = integer(*item.node, name, 1, 8192);
       else
-        unknown(item, "key", {"enabled", "acne_bound", "peter_panning_bound", "placements", "texel_sizes", "width_px"},
-                "phase.");
+        unknown(item, "key", key_names("phase"), "phase.");
     }
   }
   int integer(const toml::node& node, const std::string& name, int least, int most) const {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "app/toml_writer.h"
 #include "scenes/error.h"
 #include "scenes/fit.h"
 #include "scenes/floor.h"
@@ -12,28 +13,6 @@
 
 namespace noonmark {
 namespace {
-
-// A TOML basic string.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (size_t i = 0; i < text.size();) {
-    const size_t length = utf8_length(std::string_view(text).substr(i));
-    if (length == 0)
-      throw Error(ErrorKind::usage,
-                  fmt::format("{}: the path is not UTF-8, which an experiment file cannot hold; rename "
-                              "the model or its folder",
-                              text));
-    const auto first = static_cast<unsigned char>(text[i]);
-    if (first == '"' || first == '\\')
-      out += fmt::format("\\{}", text[i]);
-    else if (first < 0x20 || first == 0x7f)
-      out += fmt::format("\\u{:04X}", first);
-    else
-      out += text.substr(i, length);
-    i += length;
-  }
-  return out + "\"";
-}
 
 std::string light_text(const Model& model, bool room) {
   if (model.contents.gives_light)
@@ -55,7 +34,7 @@ std::string light_text(const Model& model, bool room) {
 }
 
 std::string scene_text(const Model& model, const std::string& path, bool floor) {
-  std::string text = fmt::format("[scene]\nname = {}\n", quoted(path));
+  std::string text = fmt::format("[scene]\nname = {}\n", toml_string(path));
   if (floor)
     text += "floor = true                # a square under the model: it has no ground that its shadow could fall on\n";
   else
@@ -90,7 +69,7 @@ std::string first_experiment(const Model& model, const std::string& path) {
       "# Judge the bounds at its end:  noonmark check THIS_FILE.  All settings:  noonmark settings\n\n"
       "title = {}\n"
       "pictures = \"extremes\"       # of the best and of the worst point; \"all\" writes those of every point\n\n",
-      quoted("First steps with " + std::filesystem::path(path).filename().string()));
+      toml_string("First steps with " + std::filesystem::path(path).filename().string()));
   text += scene_text(model, path, floor) + "\n";
   text += fmt::format(
       "[view]                      # the camera is {}; eye_m and target_m move it\n"

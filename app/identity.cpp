@@ -106,4 +106,10 @@ std::vector<std::pair<std::string, std::string>> identity(Workbench& bench, std:
   return facts;
 }
 
+std::string facts_text(std::span<const std::pair<std::string, std::string>> facts) {
+  std::string text;
+  for (const auto& [name, value] : facts) text += fmt::format("{} = {}\n", name, value);
+  return text;
+}
+
 }  // namespace noonmark

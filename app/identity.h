@@ -1,8 +1,8 @@
-// The facts, beside the experiment's own text, that results depend on. Together with the experiment's fingerprint()
-// (app/experiment.h) they decide whether a store can be resumed: if one line differs, no stored result is used.
+// The facts, beside the settings of a point, that its results depend on. They decide whether the points of a store can be
+// used: if one line differs, no stored result is used. Which of its points an experiment has is for app/kept_points.h.
 //
 //   SceneDigests scenes;
-//   fingerprint(experiment, identity(bench, points, tracer, scenes));
+//   ResultStore store(path, facts_text(identity(bench, points, tracer, scenes)), Existing::resume);
 //   scenes.require_unchanged(bench, settings);   // before each point
 #pragma once
 #include <map>
@@ -43,6 +43,9 @@ class SceneDigests {
 // Bounds, laws, titles and plotted metrics are not included, because every run judges and draws them anew.
 std::vector<std::pair<std::string, std::string>> identity(Workbench& bench, std::span<const Settings> points,
                                                           const raytrace::TracerInfo& tracer, SceneDigests& scenes);
+
+// The same as text, one "name = value" a line: the fingerprint of a store.
+std::string facts_text(std::span<const std::pair<std::string, std::string>> facts);
 
 std::string host_cpu();
 

@@ -3,20 +3,28 @@
 // built together, so this is not an interface for other programs.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 
 namespace noonmark {
 
+// Neither the image nor the file is ever in memory as a whole: rows come and bytes go in pieces.
 struct ImageToEncode {
   const char* path;  // its ending selects the format; no file is written
   int width, height;
   int channels;
   const char* const* channel_names;  // null: sRGB colours of 8 bits; else 32-bit floats, `channels` names
-  const void* pixels;                // row 0 on top, channels interleaved
+  void* context;                     // the first argument of the following; these throw nothing
+  // Writes `count` rows from row `first` on to `pixels`; row 0 is on top, the channels are interleaved. If it returns
+  // false, encoding ends.
+  bool (*rows)(void* context, int first, int count, void* pixels);
+  // Takes bytes of the file. If it returns false, encoding ends.
+  bool (*write)(void* context, uint64_t offset, const char* bytes, size_t count);
+  // Gets the reason if the library cannot encode the image.
+  void (*fail)(void* context, const char* why);
 };
 
-// Calls done once, with the bytes of the file (true) or with the reason why there are none (false). Throws nothing.
-using EncodeImage = void(const ImageToEncode& image, void* context,
-                         void (*done)(void* context, bool encoded, const char* bytes, size_t count));
+// Throws nothing.
+using EncodeImage = void(const ImageToEncode& image);
 
 struct GreyToDecode {
   const char* format;  // "png" or "exr"

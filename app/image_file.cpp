@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <exception>
 #include <stdexcept>
 
 #include "app/image_codec.h"
-#include "scenes/digest.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 
@@ -72,17 +72,41 @@ class Quiet {
   int kept_;
 };
 
-std::string write(const ImageToEncode& image) {
-  struct Result {
-    bool encoded = false;
-    std::string bytes;
-  } result;
-  encoder()(image, &result, [](void* context, bool encoded, const char* bytes, size_t count) {
-    *static_cast<Result*>(context) = {encoded, std::string(bytes, count)};
-  });
-  if (!result.encoded) throw Error(ErrorKind::file, fmt::format("cannot write {}: {}", image.path, result.bytes));
-  write_file_atomically(image.path, result.bytes);
-  return digest_of(result.bytes);
+// rows(first, count, pixels) writes rows of the image.
+template <class Rows>
+std::string write(ImageToEncode image, const Rows& rows) {
+  AtomicFile file(image.path);
+  struct Call {
+    AtomicFile& file;
+    const Rows& rows;
+    std::string why;
+    std::exception_ptr failure;  // of rows() or of the file; it must not pass through the library
+    bool attempt(const std::function<void()>& what) {
+      try {
+        what();
+        return true;
+      } catch (...) {
+        failure = std::current_exception();
+        return false;
+      }
+    }
+  } call{file, rows, "", {}};
+  image.context = &call;
+  image.rows = [](void* context, int first, int count, void* pixels) {
+    Call& c = *static_cast<Call*>(context);
+    return c.attempt([&] { c.rows(first, count, pixels); });
+  };
+  image.write = [](void* context, uint64_t offset, const char* bytes, size_t count) {
+    Call& c = *static_cast<Call*>(context);
+    return c.attempt([&] { c.file.write_at(offset, {bytes, count}); });
+  };
+  image.fail = [](void* context, const char* why) { static_cast<Call*>(context)->why = why; };
+  encoder()(image);
+  if (call.failure) std::rethrow_exception(call.failure);
+  if (!call.why.empty()) throw Error(ErrorKind::file, fmt::format("cannot write {}: {}", image.path, call.why));
+  std::string digest = file.digest();
+  file.keep();
+  return digest;
 }
 
 }  // namespace
@@ -117,21 +141,34 @@ Image<float> read_grey(const std::string& path, int width, int height) {
 }
 
 std::string write_png(const std::string& path, const Image<Color>& picture) {
-  return write({path.c_str(), picture.width, picture.height, 3, nullptr, picture.pixels.data()});
+  return write({path.c_str(), picture.width, picture.height, 3, nullptr, {}, {}, {}, {}},
+               [&](int first, int count, void* pixels) {
+                 std::copy_n(&picture.at(0, first), static_cast<size_t>(count) * static_cast<size_t>(picture.width),
+                             static_cast<Color*>(pixels));
+               });
+}
+
+std::string write_exr(const std::string& path, const LargeImage& image) {
+  std::vector<const char*> names;
+  for (const std::string& name : image.channels) names.push_back(name.c_str());
+  return write({path.c_str(), image.width, image.height, static_cast<int>(names.size()), names.data(), {}, {}, {}, {}},
+               [&](int first, int count, void* pixels) { image.rows(first, count, static_cast<float*>(pixels)); });
 }
 
 std::string write_exr(const std::string& path, const std::vector<Channel>& channels) {
-  const int width = channels.at(0).values.width, height = channels.at(0).values.height;
-  const size_t count = channels.size();
-  std::vector<const char*> names;
-  std::vector<float> pixels(static_cast<size_t>(width) * static_cast<size_t>(height) * count);
-  for (size_t c = 0; c < count; ++c) {
-    names.push_back(channels[c].name.c_str());
-    if (channels[c].values.width != width || channels[c].values.height != height)
+  LargeImage image{{}, channels.at(0).values.width, channels.at(0).values.height, {}};
+  for (const Channel& channel : channels) {
+    image.channels.push_back(channel.name);
+    if (channel.values.width != image.width || channel.values.height != image.height)
       throw std::logic_error("channels of one image differ in size");
-    for (size_t i = 0; i < channels[c].values.size(); ++i) pixels[i * count + c] = channels[c].values[i];
   }
-  return write({path.c_str(), width, height, static_cast<int>(count), names.data(), pixels.data()});
+  image.rows = [&](int first, int count, float* pixels) {
+    const size_t begin = static_cast<size_t>(first) * static_cast<size_t>(image.width);
+    const size_t size = static_cast<size_t>(count) * static_cast<size_t>(image.width);
+    for (size_t c = 0; c < channels.size(); ++c)
+      for (size_t i = 0; i < size; ++i) pixels[i * channels.size() + c] = channels[c].values[begin + i];
+  };
+  return write_exr(path, image);
 }
 
 }  // namespace noonmark

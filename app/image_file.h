@@ -2,6 +2,7 @@
 // another name beside its place and then renamed. Also reads grey pictures of other programs. Throws Error(file) if a
 // file cannot be written or read, Error(device) if OpenImageIO cannot be loaded.
 #pragma once
+#include <functional>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -25,6 +26,15 @@ struct Channel {
   Image<float> values;
 };
 std::string write_exr(const std::string& path, const std::vector<Channel>& channels);
+
+// The same of an image that is made row by row while it is written. rows(first, count, pixels) writes `count` rows from
+// row `first` on to `pixels`, channels interleaved.
+struct LargeImage {
+  std::vector<std::string> channels;
+  int width, height;
+  std::function<void(int first, int count, float* pixels)> rows;
+};
+std::string write_exr(const std::string& path, const LargeImage& image);
 
 // Reads a PNG or EXR file with one grey channel, or three equal ones, of this size. Row 0 is on top. Values are taken as
 // they are (linear); the whole numbers of a PNG become [0,1]. Throws Error(file) if the file is something else.

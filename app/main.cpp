@@ -111,6 +111,11 @@ void refuse_unknown(const std::string& first, const std::vector<std::string_view
                           option ? " before the verb" : "", near.empty() ? "" : "; did you mean '" + near + "'?"));
 }
 
+void require_one_output(const ExperimentArguments& arguments, bool dry_run) {
+  if (arguments.json + arguments.print_config + dry_run > 1)
+    throw Error(ErrorKind::usage, "--json, --print-config and --dry-run each print something else; give one of them");
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Noonmark measures whether a shadow map is right. It renders a scene's shadows with OpenGL shadow maps\n"
@@ -151,7 +156,8 @@ int run(int argc, char** argv) {
   };
   const auto with_overwrite = [&](CLI::App* verb) {
     verb->add_flag("--overwrite", arguments.overwrite,
-                   "Measure everything anew and replace the results in the folder; without it, a killed sweep resumes");
+                   "Measure everything anew and replace the results in the folder; without it, points that are there "
+                   "already are kept");
   };
 
   CLI::App* run = app.add_subcommand("run", "Measure every point of an experiment and write its report");
@@ -160,6 +166,15 @@ int run(int argc, char** argv) {
   with_out(run, "Folder for the results (default: out/<name of the experiment>)");
   with_overwrite(run);
   run->add_flag("--dry-run", dry_run, "Only print the points, the memory that each takes, and an estimate of the time");
+
+  const auto with_output = [&](CLI::App* verb) {
+    verb->add_flag("--json", arguments.json,
+                   "Print the results as JSON: verdict, bounds, laws, answer and every point");
+    verb->add_flag("--quiet", arguments.quiet, "Print no progress; notes, warnings and errors stay");
+    verb->add_flag("--print-config", arguments.print_config,
+                   "Only print the experiment as a file with every default written out");
+  };
+  with_output(run);
 
   CLI::App* check =
       app.add_subcommand("check", "Run experiments and judge their bounds and laws: the exit code is the verdict");
@@ -171,6 +186,7 @@ int run(int argc, char** argv) {
   CheckOptions checking;
   check->add_flag("--dry-run", checking.dry_run,
                   "Only print each experiment's points, the memory that each takes, and an estimate of the time");
+  with_output(check);
   check
       ->add_option("--baseline", checking.baseline,
                    "Compare the values that bounds and [plot] name with this file: exit code 1 if one is worse")
@@ -259,6 +275,9 @@ int run(int argc, char** argv) {
       ->add_option("--views", recommending.views,
                    "Without an [over]: the view that is given, and up to 4 turned ones (default: 5 views)")
       ->check(whole_number(1, 5, "from 1 to 5"));
+  recommend->add_option("--part", arguments.parts, "The part of the experiment to answer for, if it has parts")
+      ->expected(1)
+      ->type_name("NAME");
   recommend->add_flag("--json", recommending.json, "Print everything that was found as JSON");
   recommend->add_flag("--quiet", recommending.quiet, "Print no progress");
   recommend
@@ -294,6 +313,8 @@ int run(int argc, char** argv) {
   CLI::App* scenes = app.add_subcommand("scenes", "List the built-in scenes and the artefacts that each provokes");
   CLI::App* settings =
       app.add_subcommand("settings", "List every setting, metric and quantity: unit, range, default, meaning");
+  CLI::App* schema = app.add_subcommand(
+      "schema", "Print the JSON schema of the experiment file, with which editors complete and check it");
   CLI::App* doctor =
       app.add_subcommand("doctor", "Print which OpenGL, ray tracer and libraries are used, or what is missing");
 
@@ -307,6 +328,7 @@ int run(int argc, char** argv) {
     if (argc < 2) return first_steps();
     refuse_unknown(argv[1], verbs);
     app.parse(argc, argv);
+    require_one_output(arguments, dry_run || checking.dry_run);
     std::optional<ThreadLimit> limit;
     if (*run || *check || *render || *map || *recommend || *inspect) limit.emplace(arguments.threads);
     if (*run) return verb_run(experiment, arguments, dry_run);
@@ -319,6 +341,7 @@ int run(int argc, char** argv) {
     if (*report) return verb_report(folder);
     if (*scenes) return verb_scenes();
     if (*settings) return verb_settings();
+    if (*schema) return verb_schema();
     if (*doctor) return verb_doctor();
     return static_cast<int>(ErrorKind::usage);
   } catch (const CLI::Success& asked) {

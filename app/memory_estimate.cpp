@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "compare/ladder/live_picture.h"
 #include "compare/ladder/receiver_taps.h"
 #include "scenes/error.h"
 #include "technique/tap_pattern.h"
@@ -18,8 +19,10 @@ namespace {
 constexpr double program = 260e6;          // libraries, OpenGL's compiler, one empty picture [229e6]
 constexpr double per_pixel = 260;          // receivers, truth, probe, ladder, on both sides of OpenGL [236]
 constexpr double per_picture_pixel = 270;  // pictures, channels of the EXR files and their encoded bytes [245]
-constexpr double per_texel = 36;           // map: as drawn, as read back, exact, exact as uploaded, tie map [30]
-constexpr double per_picture_texel = 28;   // map.exr [25]
+// Of the map on the device. If it is small, the exact map, the tie map and, of a cube, the texture with which it is
+// probed are beside it; a large one is alone. The set of the texels that are asked for takes 2 bits of each.
+constexpr double per_kept_texel = 14, per_index_texel = 4, per_large_texel = 5;  // [12.6] [4] [4.3]
+constexpr double per_band_texel = 12, most_bands = 60e6;                         // a map is uploaded and read in bands
 // For each tap in the batch whose thresholds are being listed (batch_taps): a threshold of the error and one of its
 // cause, 4 bytes each, and again while they are sorted. Not every tap has both; the difference covers the growth of the
 // lists.
@@ -29,13 +32,16 @@ constexpr double per_blended_tap = 56;  // with a weight of 8 each
 // joined. The total is limited to 28 million of them, because differences of float depths repeat: 52 million taps had
 // 1.6 million different ones, 885 million taps had 10.5 million.
 constexpr double per_summed_tap = 2, most_sums = 1e9;  // [1.1]
-constexpr double per_asked_texel = 16;     // for each texel that a tap reads: its address and its error [16]
-constexpr double per_outside_texel = 32;   // texels beside the map: two lists of 16 bytes while they are made
-constexpr double per_open_edge = 240;      // as a shadow's edge: the edge, its pieces, the cells that list it [220]
-constexpr double per_closed_edge = 70;     // a third of them may be such edges too, if the light sees a fold
+// For each texel that a tap reads: its first hit, its depth in three maps and the error of one.
+constexpr double per_asked_texel = 26;    // [24]
+constexpr double per_outside_texel = 32;  // texels beside the map: two lists of 16 bytes while they are made
+constexpr double per_open_edge = 240;     // as a shadow's edge: the edge, its pieces, the cells that list it [220]
+constexpr double per_closed_edge = 70;    // a third of them may be such edges too, if the light sees a fold
 // Certified squares of the light's plane (raytrace/light_cells.h), which are made where receivers lie: under 192 MiB.
 constexpr double per_cell_pixel = 40, most_cells = 202e6;  // [11, FlightHelmet at 1280 x 720]
-constexpr double per_kept_triangle = 150;  // the second tree for the rays, without the culled faces
+constexpr double per_kept_triangle = 150;                  // the second tree for the rays, without the culled faces
+// As scan conversion reads it, and in lists of tiles, while the first hits of a map are found.
+constexpr double per_raster_triangle = 130;  // [112]
 // Per byte of the scene's parts. point.json lists each part in up to 135 bytes and its name; the part itself has 40
 // bytes, and those of a long name.
 constexpr double per_listed_part_byte = 3.5;
@@ -45,7 +51,17 @@ constexpr double per_listed_part_byte = 3.5;
 constexpr double per_placed_pixel = 8, per_lattice_triangle = 260, per_placement = 10 * 8 * 512.0 * 12;
 constexpr double lattice_points = 9e6 * 28;
 constexpr double per_grid_cell = 8;  // the grid that lists a shadow's edges, for each face of the map
+// The live picture, which is drawn beside the point's own images: for each of its pixels a receiver as above and an
+// answer for each threshold, which are two for each tap (compare/ladder/live_picture.h), in a list that grows by doubling.
+constexpr double per_live_answer = 2 * sizeof(LiveAnswer);
 constexpr double least_grid_cells = 256 * 256, most_grid_cells = 2048 * 2048;
+
+// asked: the texels that taps read.
+double map_bytes(double texels, double asked, bool cube) {
+  const bool kept = texels * sizeof(float) <= static_cast<double>(most_kept_map_bytes);
+  const double each = kept ? per_kept_texel + (cube ? per_index_texel : 0) : per_large_texel;
+  return texels * each + std::min(texels * per_band_texel, most_bands) + asked * per_asked_texel;
+}
 
 }  // namespace
 
@@ -66,6 +82,8 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   const double texels = static_cast<double>(s.map.resolution) * s.map.resolution * faces;
   const TapPattern pattern = tap_pattern(s.filter);
   const double taps = pixels * pattern.taps;
+  const double map =
+      map_bytes(texels, std::min(taps, texels), kind_of_light(input.light).map_shape() == MapShape::cube);
 
   const double edges = 3.0 * static_cast<double>(input.scene.triangles);
   const double open = std::min(edges, static_cast<double>(input.open_edges));
@@ -76,6 +94,8 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   if (Bias(s.bias).moves_casters())
     scene += scene_bytes(input.scene) + per_kept_triangle * static_cast<double>(input.scene.triangles);
 
+  if (kind_of_light(input.light).map_shape() == MapShape::flat)
+    scene += per_raster_triangle * static_cast<double>(input.scene.triangles);
   if (kind_of_light(input.light).rays().have_one_direction()) scene += std::min(per_cell_pixel * pixels, most_cells);
   if (input.pictures) scene += per_listed_part_byte * static_cast<double>(input.scene.part_bytes);
 
@@ -84,21 +104,28 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
     curve = std::min<double>(taps, batch_taps) * (pattern.bilinear() ? per_blended_tap : per_curve_tap) +
             std::min(taps * per_summed_tap, most_sums);
   const double all_taps = taps * static_cast<double>(bytes_per_tap(input.light)), row = all_taps / s.view.height_px;
-  const double strip = std::min(all_taps, std::max<double>(most_strip_bytes, row));
+  const double strip =
+      all_taps <= most_kept_tap_bytes ? all_taps : std::max<double>(most_kept_tap_bytes / strips_in_kept_taps, row);
   // The lists of texels beside the map are freed when the curve is made, except those that later strips read.
   const double outside = per_outside_texel * std::min(taps, input.outside_texels);
   const double beside = strip < all_taps ? curve + outside : std::max(curve, outside);
   const double side = s.map.placements;
   double placements = 0;
   if (side > 1) {
-    placements = side * side * per_placement + texels * per_texel;  // the worst placement is rendered too
+    placements = side * side * per_placement + map;  // the worst placement is rendered too
     if (kind_of_light(input.light).placements_form_lattice())
       placements += lattice_points + pixels * per_placed_pixel * side +
                     per_lattice_triangle * static_cast<double>(input.scene.triangles);
     else
-      placements += strip + pixels * per_pixel + per_asked_texel * std::min(taps, texels);
+      placements += strip + pixels * per_pixel;
+  }
+  double live = 0;
+  if (input.pictures && why_no_live_picture(s).empty()) {
+    const double live_pixels = std::min<double>(pixels, most_live_width_px * most_live_height_px);
+    live = live_pixels * (per_pixel + sizeof(std::vector<LiveAnswer>) + per_live_answer * (2.0 * pattern.taps + 1));
   }
   return {{
+      {"the live picture", "lower filter.size, or set pictures = \"none\"", live},
       {"the placements of the map's grid", "lower map.placements", placements},
       {"the program itself", "use a machine with more memory, or raise its limit", program},
       {"the scene", "use a scene with fewer triangles (scene.name, scene.mesh)", scene},
@@ -108,8 +135,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
        curve > outside ? "lower filter.size, view.width_px or view.height_px, or set curve.enabled = false"
                        : "lower filter.size, view.width_px or view.height_px, or widen map.extent_m",
        strip + beside},
-      {"the shadow map", "lower map.resolution",
-       texels * (per_texel + (input.pictures ? per_picture_texel : 0)) + per_asked_texel * std::min(taps, texels)},
+      {"the shadow map", "lower map.resolution", map},
   }};
 }
 

@@ -20,13 +20,18 @@
 
 namespace noonmark {
 
-// The truth of a picture's taps is traced in strips of whole rows that take at most this much, so memory does not grow
-// with the kernel.
-inline constexpr size_t most_strip_bytes = size_t{256} << 20;
+// The truth of a picture's taps is kept for the next points if it takes at most this much. Otherwise it is traced in
+// strips of whole rows that take a sixteenth of it, so that memory does not grow with the kernel.
+inline constexpr size_t most_kept_tap_bytes = size_t{256} << 20;
+inline constexpr size_t strips_in_kept_taps = 16;
 inline size_t bytes_per_tap(LightKind light) {
   return kind_of_light(light).map_shape() == MapShape::cube ? 1 + sizeof(uint32_t)
                                                             : 1;  // TapTruth; LookupProbe::cube_texel
 }
+
+// The most bytes of a map on the device that is kept for the next lookup. A larger one is drawn or uploaded again when it
+// is looked up again, so that never more than one of them takes memory.
+inline constexpr size_t most_kept_map_bytes = size_t{128} << 20;
 
 struct MemoryInput {
   const Settings& settings;

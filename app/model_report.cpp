@@ -100,7 +100,8 @@ ModelReport inspect_model(const Settings& settings) {
                 fmt::format("{} is not a model: give the path of a .gltf or .glb file", settings.scene.name));
   ModelReport report;
   report.path = settings.scene.name;
-  const Model model = load_model(settings.scene.name, {settings.scene.time_s, settings.scene.animation});
+  const Model model =
+      load_model(settings.scene.name, {settings.scene.time_s, settings.scene.animation}, settings.scene.masks);
   report.contents = model.contents;
   report.room = camera_inside(model.scene).has_value();
   report.ground = has_ground(model.scene);

@@ -242,7 +242,7 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
                                                 Bias(settings.bias), polygon_offset_unit(renderer, settings));
     LatticeStage stage(renderer, tracer, probe, view, truth, point, &bias_part("constant"), edges);
     double blurred = 0;
-    for (const PixelRange& strip : strips_of(settings, frame.kind, most_strip_bytes)) {
+    for (const PixelRange& strip : strips_of(settings, frame.kind, most_kept_tap_bytes)) {
       const TapTruth taps = rays.trace_places(probe, strip);
       stage.add(taps, strip);
       blurred += filter_share(probe, taps, truth.receivers, strip);
@@ -260,6 +260,18 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
     diagram.receivers = static_cast<double>(counts.receivers());
     if (r == 0) add_law(diagram, frame, view, truth, settings);
   }
+  return diagram;
+}
+
+PhaseDiagram rejudged_phase(const PhaseDiagram& measured, const Scene& scene, const ViewStage& view,
+                            const TruthStage& truth, const Settings& given, const PhaseOptions& options) {
+  PhaseDiagram diagram = measured;
+  diagram.acne_bound = options.acne_bound;
+  diagram.peter_panning_bound = options.peter_panning_bound;
+  Settings settings = given;
+  settings.map.placements = options.placements;
+  settings.map.resolution = diagram.rows.front().resolution;
+  add_law(diagram, make_light_frame(scene, settings), view, truth, settings);
   return diagram;
 }
 

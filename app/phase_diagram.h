@@ -24,6 +24,10 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
                            const ViewStage& view, const TruthStage& truth, const Settings& settings,
                            const PhaseOptions& options);
 
+// The same diagram at the bounds of `options`, from its rows.
+PhaseDiagram rejudged_phase(const PhaseDiagram& measured, const Scene& scene, const ViewStage& view,
+                            const TruthStage& truth, const Settings& settings, const PhaseOptions& options);
+
 // Fills in the names for the reader and the command that renders a cell.
 void describe_phase(PhaseDiagram& diagram, const Settings& settings, const Scene& scene);
 

@@ -83,7 +83,33 @@ Image<Color> greys(const Measurement& m, const Image<float>& frame) {
   return paint(m, [&](size_t i) { return grey(frame[i]); });
 }
 
+// Copies the surroundings of (x, y) to `to`, from column `left` on, and frames the pixel.
+void enlarge(const Image<Color>& from, int x, int y, Image<Color>& to, int left) {
+  constexpr Color frame{255, 255, 255}, outer{0, 0, 0};
+  constexpr int middle = crop_px / 2;
+  for (int v = 0; v < crop_px * crop_scale; ++v)
+    for (int u = 0; u < crop_px * crop_scale; ++u) {
+      const int column = x + u / crop_scale - middle, row = y + v / crop_scale - middle;
+      const bool inside = column >= 0 && row >= 0 && column < from.width && row < from.height;
+      Color color = inside ? from.at(column, row) : Color(0);
+      // Two lines around the pixel, white and black, so that they show on any colour.
+      const int near = std::max(std::abs(2 * u + 1 - crop_px * crop_scale), std::abs(2 * v + 1 - crop_px * crop_scale));
+      if (near > crop_scale && near <= crop_scale + 4) color = frame;
+      if (near > crop_scale + 4 && near <= crop_scale + 8) color = outer;
+      to.at(left + u, v) = color;
+    }
+}
+
 }  // namespace
+
+Image<Color> pixel_picture(const Measurement& m, int x, int y) {
+  constexpr int side = crop_px * crop_scale;
+  Image<Color> picture(3 * side + 2 * crop_gap, side, Color(255));
+  enlarge(shaded(m, m.ladder.truth()), x, y, picture, 0);
+  enlarge(shaded(m, m.ladder.shown()), x, y, picture, side + crop_gap);
+  enlarge(classes(m), x, y, picture, 2 * (side + crop_gap));
+  return picture;
+}
 
 Image<Color> lit_picture(const Measurement& m) {
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
@@ -118,7 +144,7 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
       m.frame.map_shape() == MapShape::cube
           ? "The cube map unfolded, as it looks from outside: bright is near in metres, black is empty."
           : "The shadow map itself as the light sees it: bright is near in metres, black is empty.",
-      map_picture(m.stored_map, m.frame));
+      map_picture(m.stored_rows, m.frame));
   add("frustum", std::string(m.frame.light().frustum_caption()), frustum(m, camera));
   const Image<float> truth = shaded_with(m.ladder.truth()), map = shaded_with(m.ladder.shown());
   add("shaded-truth", "Grey clay as a renderer shows it (Blinn-Phong), with the true shadow (R1).", greys(m, truth));

@@ -15,4 +15,9 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
 // Grey clay with the true shadow (R1): the picture "shaded-truth" alone.
 Image<Color> lit_picture(const Measurement& m);
 
+// The surroundings of one pixel, enlarged: the truth, what the map showed, and why it is wrong, beside each other. The pixel
+// is in the middle of each and framed. x, y: in the picture, row 0 on top. What lies beyond the picture's edge is black.
+inline constexpr int crop_px = 17, crop_scale = 10, crop_gap = 6;
+Image<Color> pixel_picture(const Measurement& m, int x, int y);
+
 }  // namespace noonmark

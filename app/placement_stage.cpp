@@ -80,7 +80,7 @@ void LatticeStage::add(const TapTruth& known, PixelRange strip) {
 }
 
 void LatticeStage::compare(const LookupEvidence& evidence, int placement, PixelRange strip) {
-  const double ray_error = rays_.ray_error_depth();
+  const raytrace::PlacementTracer::RayError error = rays_.ray_error();
   in_parts(strip, 1, [&](PixelRange part) {
     rays_.trace(probe_, part, &time_, placement);
     disagreements_ += tbb::parallel_reduce(
@@ -92,7 +92,7 @@ void LatticeStage::compare(const LookupEvidence& evidence, int placement, PixelR
             if (!truth_.facing[i]) continue;
             probe_.taps_of(i, placement, taps);
             rays_.judge(i, taps, box);
-            found += noonmark::disagreements(evidence, i, taps, box, ray_error);
+            found += noonmark::disagreements(evidence, i, taps, box, error.everywhere ? error.depth : 0, error.depth);
           }
           return found;
         },

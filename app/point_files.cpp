@@ -10,6 +10,7 @@
 
 #include "app/build_facts.h"
 #include "app/image_file.h"
+#include "app/setting_json.h"
 #include "compare/store/curve_fields.h"
 #include "compare/store/quantities.h"
 #include "compare/store/record_fields.h"
@@ -26,20 +27,52 @@ Image<float> channel_of(const Image<T>& source, const Get& get) {
   return values;
 }
 
-// The depth that the lookup's middle tap reads (for a box the tap at P). NaN where there is no receiver.
-Image<float> depth_read(const Measurement& m, const Image<float>& map) {
-  Image<float> values(m.receivers.width(), m.receivers.height(), std::numeric_limits<float>::quiet_NaN());
-  for (size_t i = 0; i < values.size(); ++i) {
-    if (m.receivers.primitive[i] == no_primitive) continue;
-    const glm::ivec2 read = wrapped(m.probe.middle_texel(i), {map.width, map.height}, m.settings.map.wrap);
-    values[i] = read.x < 0 ? border_depth : map.at(read.x, read.y);
+// Calls visit(i, texel) for every pixel that shows a surface, with the texel that its middle tap reads (for a box the tap
+// at P); {-1, -1} for the border.
+void each_read(const Measurement& m, const auto& visit) {
+  for (size_t i = 0; i < m.receivers.primitive.size(); ++i)
+    if (m.receivers.primitive[i] != no_primitive)
+      visit(i, wrapped(m.probe.middle_texel(i), m.frame.map_size(), m.settings.map.wrap));
+}
+
+// The stored map at these texels. Unlike m.stored_map, it has those of receivers that do not face the light too.
+MapDepths stored_where_read(const Measurement& m) {
+  const auto texels = std::make_shared<TexelSet>(m.frame.map_size());
+  each_read(m, [&](size_t, glm::ivec2 read) {
+    if (read.x >= 0) texels->add(read);
+  });
+  texels->close();
+  MapDepths map(texels, MapDepths::unknown);
+  constexpr int band = 256;  // rows
+  for (int first = 0; first < map.size().y; first += band) {
+    const Image<float> rows = m.stored_rows(first, std::min(band, map.size().y - first));
+    for (int row = 0; row < rows.height; ++row)
+      texels->each_in_row(first + row, [&](int x, size_t index) { map.depth[index] = rows.at(x, row); });
   }
+  return map;
+}
+
+// The depth that the middle tap reads. NaN where there is no receiver.
+Image<float> depth_read(const Measurement& m, const MapDepths& map) {
+  Image<float> values(m.receivers.width(), m.receivers.height(), std::numeric_limits<float>::quiet_NaN());
+  each_read(m, [&](size_t i, glm::ivec2 read) { values[i] = read.x < 0 ? border_depth : map.at(read); });
   return values;
 }
 
-nlohmann::json number(double value) {  // JSON has no NaN and no infinity
-  if (std::isfinite(value)) return value;
-  return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+// The stored and the exact map, with the highest v on top.
+LargeImage map_image(const Measurement& m) {
+  const glm::ivec2 size = m.frame.map_size();
+  return {{"depth.stored", "depth.exact"}, size.x, size.y, [&m, size](int first, int count, float* pixels) {
+            const Image<float> stored = m.stored_rows(size.y - first - count, count);
+            std::vector<float> exact(static_cast<size_t>(size.x));
+            for (int y = 0; y < count; ++y) {
+              m.exact_map.copy_row(size.y - 1 - first - y, exact.data());
+              for (int x = 0; x < size.x; ++x, pixels += 2) {
+                pixels[0] = stored.at(x, count - 1 - y);
+                pixels[1] = exact[static_cast<size_t>(x)];
+              }
+            }
+          }};
 }
 
 nlohmann::json vector_json(glm::dvec3 v) { return {v.x, v.y, v.z}; }
@@ -55,27 +88,12 @@ nlohmann::json matrix_rows(const glm::dmat4& matrix) {
   return rows;
 }
 
-// A setting in the type of its row. Text, points and auto are written as text.
-nlohmann::json setting_json(const Setting& row, const std::string& text) {
-  if (text == "auto") return text;
-  switch (row.type) {
-    case ValueType::integer:
-      return std::stoll(text);
-    case ValueType::real:
-      return std::stod(text);
-    case ValueType::flag:
-      return text == "true";
-    default:
-      return text;
-  }
-}
-
 nlohmann::json curve_json(const BiasCurve& curve) {
   nlohmann::json json;
   for (const CurveField& field : curve_fields()) json[field.name] = nullptr;  // stays null if the curve has no value
   each_field(curve, [&](std::string_view name, const auto& value) {
     if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
-      json[name] = number(value);
+      json[name] = number_json(value);
     else
       json[name] = value;
   });
@@ -119,11 +137,6 @@ nlohmann::ordered_json light_json(const Measurement& m) {
   return json;
 }
 
-// Paths and names may have bytes that are not UTF-8; JSON must not.
-std::string json_text(const nlohmann::ordered_json& json) {
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 // Appended as text, because scene.mesh = tiles makes each triangle a part, and a part as a JSON value takes 400 bytes
 // in memory.
 void append_parts(const std::vector<Part>& parts, size_t text_after, std::string& text) {
@@ -137,7 +150,7 @@ void append_parts(const std::vector<Part>& parts, size_t text_after, std::string
   for (const Part& part : parts) {
     fmt::format_to(std::back_inserter(text),
                    "{}    {{\n      \"name\": {},\n      \"first_primitive\": {},\n      \"primitives\": {}\n    }}",
-                   before, json_text(part.name), part.first_triangle, part.triangle_count);
+                   before, readable_json(part.name), part.first_triangle, part.triangle_count);
     before = ",\n";
   }
   text += "\n  ]";
@@ -148,8 +161,8 @@ void append_parts(const std::vector<Part>& parts, size_t text_after, std::string
 std::vector<ImageRecord> write_images(const Measurement& m, const std::string& folder, const std::string& relative,
                                       const std::string& prefix) {
   std::vector<ImageRecord> records;
-  const auto write = [&](const std::string& name, const std::vector<Channel>& channels) {
-    const std::string digest = write_exr(folder + "/" + prefix + name, channels);
+  const auto write = [&](const std::string& name, const auto& image) {
+    const std::string digest = write_exr(folder + "/" + prefix + name, image);
     records.push_back({relative + "/" + prefix + name, digest});
   };
   std::vector<Channel> channels;
@@ -165,20 +178,15 @@ std::vector<ImageRecord> write_images(const Measurement& m, const std::string& f
   add("primitive", channel_of(m.receivers.primitive, [](uint32_t p) { return p == no_primitive ? -1.0 : p; }));
   for (const Ladder::RungImage& rung : m.ladder.rungs) add(rung.name, rung.lit);
   add("depth.reference", m.probe.reference);
-  add("depth.stored", depth_read(m, m.stored_map));
+  add("depth.stored", depth_read(m, stored_where_read(m)));
   add("depth.exact", depth_read(m, m.exact_map));
   add("cause", channel_of(m.ladder.cause, [](uint8_t c) { return c; }));
   add("flags", channel_of(m.ladder.flags, [](uint8_t f) { return f; }));
   for (size_t c = 1; c < m.ladder.causes.size(); ++c)
     add(fmt::format("step.{}", m.ladder.causes[c].name), m.ladder.causes[c].step);
   write("ladder.exr", channels);
-
-  const auto top_first = [](const Image<float>& map) {
-    Image<float> flipped(map.width, map.height);
-    for (int y = 0; y < map.height; ++y) std::copy_n(&map.at(0, y), map.width, &flipped.at(0, map.height - 1 - y));
-    return flipped;
-  };
-  write("map.exr", {{"depth.stored", top_first(m.stored_map)}, {"depth.exact", top_first(m.exact_map)}});
+  channels.clear();
+  write("map.exr", map_image(m));
   return records;
 }
 
@@ -194,15 +202,15 @@ std::string point_json(const Measurement& m, const std::string& command) {
     json["settings"][std::string(row.name)] = setting_json(row, row.get(m.settings));
   for (const Metric& metric : metrics_of({&m.record, 1})) {
     const auto found = m.record.metrics.find(std::string(metric.name));
-    if (found != m.record.metrics.end()) json["metrics"][std::string(metric.name)] = number(found->second);
+    if (found != m.record.metrics.end()) json["metrics"][std::string(metric.name)] = number_json(found->second);
   }
-  for (const auto& [name, value] : m.record.times) json["times"][name] = number(value);
+  for (const auto& [name, value] : m.record.times) json["times"][name] = number_json(value);
   for (const RecordField& field : record_fields())
     if (!field.group.empty())
       json[std::string(field.group)][std::string(field.key())] =
           with_value(field, m.record, [](const auto& value) -> nlohmann::json {
             if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
-              return number(value);
+              return number_json(value);
             else
               return value;
           });
@@ -222,7 +230,7 @@ std::string point_json(const Measurement& m, const std::string& command) {
   json["primitive"] =
       "index of the triangle, counted from 0 in the order in which the scene's parts are drawn; of a file, triangles "
       "without an area are left out before counting (scene.notes says how many); -1 where there is no surface";
-  std::string text = json_text(json);
+  std::string text = readable_json(json);
   json.clear();
   for (const Ladder::CauseImage& cause : m.ladder.causes) json["causes"].push_back(cause.name);
   if (!m.ladder.brought.empty()) {
@@ -237,7 +245,7 @@ std::string point_json(const Measurement& m, const std::string& command) {
   json["flags"] = {
       {"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
   if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);
-  const std::string rest = json_text(json);
+  const std::string rest = readable_json(json);
   text.resize(text.size() - std::string_view("\n}").size());  // the object continues
   append_parts(m.scene.parts, rest.size(), text);
   text += ',';

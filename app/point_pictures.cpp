@@ -9,6 +9,7 @@
 
 #include "app/pictures.h"
 #include "app/point_files.h"
+#include "compare/judge/recommendation.h"
 #include "scenes/digest.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -24,7 +25,8 @@ constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 
 }  // namespace
 
-std::vector<int64_t> points_with_pictures(const std::string& pictures, const std::vector<PointRecord>& points) {
+std::vector<int64_t> points_with_pictures(const std::string& pictures, const Results& results) {
+  const std::vector<PointRecord>& points = results.points;
   std::vector<int64_t> ids;
   if (points.empty() || pictures == "none") return ids;
   if (pictures == "first") return {points.front().id};
@@ -39,8 +41,14 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const std
   const auto [best, worst] =
       std::minmax_element(points.begin(), points.end(),
                           [&](const PointRecord& a, const PointRecord& b) { return badness(a) < badness(b); });
-  if (pictures == "worst" || best == worst) return {worst->id};
-  return {best->id, worst->id};
+  if (pictures == "extremes" && best != worst) ids.push_back(best->id);
+  ids.push_back(worst->id);
+  // Points of different parts have no common answer.
+  if (!points.front().part.empty()) return ids;
+  const Recommendation found = recommend(results);
+  if (found.outcome != Recommendation::Outcome::found) return ids;
+  if (const int64_t id = found.choice.first().id; std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+  return ids;
 }
 
 PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out) {
@@ -58,6 +66,38 @@ ImageRecord keep_live_picture(const LivePicture& picture, int64_t id, const std:
   make_folder(out + "/images");
   write_file_atomically(out + "/" + path, file);
   return {path, digest_of(file)};
+}
+
+void move_pictures(const std::vector<std::pair<int64_t, PointRecord*>>& moved, const std::string& out) {
+  namespace fs = std::filesystem;
+  std::vector<std::pair<fs::path, fs::path>> from_temporary;
+  std::error_code none;
+  for (const auto& [before, point] : moved) {
+    const std::string old_stem = fmt::format("images/p{:04}-", before);
+    const std::string new_stem = fmt::format("images/p{:04}-", point->id);
+    const auto move = [&](std::string& path) {
+      if (!path.starts_with(old_stem)) return;
+      const std::string rest = path.substr(old_stem.size());
+      // Two points may change places, so every file first gets a name that no point has.
+      const fs::path temporary = fs::path(out) / fmt::format("images/moved-{}-{}", before, rest);
+      fs::rename(fs::path(out) / path, temporary, none);
+      path = new_stem + rest;
+      from_temporary.emplace_back(temporary, fs::path(out) / path);
+    };
+    for (PictureRecord& picture : point->pictures) move(picture.path);
+    for (ImageRecord& image : point->images) move(image.path);
+  }
+  for (const auto& [from, to] : from_temporary) fs::rename(from, to, none);
+}
+
+void remove_pictures(const PointPictures& pictures, const std::string& out) {
+  std::error_code none;
+  const auto remove = [&](const std::string& path) {
+    if (path.starts_with("images/p") && path.find("..") == std::string::npos)
+      std::filesystem::remove(std::filesystem::path(out) / path, none);
+  };
+  for (const PictureRecord& picture : pictures.pictures) remove(picture.path);
+  for (const ImageRecord& image : pictures.images) remove(image.path);
 }
 
 std::string why_not_as_written(const PointRecord& point, const std::string& out) {

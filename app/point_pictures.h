@@ -1,11 +1,12 @@
 // The pictures and images of a sweep's points: selects the points that have them, and checks that their files are the
 // ones that were written.
 //
-//   for (int64_t id : points_with_pictures(experiment.pictures, results.points))
+//   for (int64_t id : points_with_pictures(experiment.pictures, results))
 //     if (!why_not_as_written(*find_point(results.points, id), out).empty()) keep_pictures(measurement, id, out);
 #pragma once
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/workbench.h"
@@ -14,14 +15,22 @@
 namespace noonmark {
 
 // Ids of the points, selected by the experiment's `pictures`. `worst` and `extremes` select by error and need all
-// points; an error that is not finite is the worst.
-std::vector<int64_t> points_with_pictures(const std::string& pictures, const std::vector<PointRecord>& points);
+// points; an error that is not finite is the worst. Both also select the first point of the recommended choice, because
+// the report's first screen shows it. results: with the verdicts of the bounds, which the recommendation reads.
+std::vector<int64_t> points_with_pictures(const std::string& pictures, const Results& results);
 
 // Writes the point's files below out/images. The record must be in the store.
 PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out);
 
 // Writes the point's live picture as out/images/p0003-live.bin.
 ImageRecord keep_live_picture(const LivePicture& picture, int64_t id, const std::string& out);
+
+// Gives picture files the names of their points' new ids, in the records and on the disk. Each pair: the id before, and the
+// record with its id now and the paths before. A file that is lost stays lost (why_not_as_written finds it).
+void move_pictures(const std::vector<std::pair<int64_t, PointRecord*>>& moved, const std::string& out);
+
+// Removes the files of a point that has no pictures any more.
+void remove_pictures(const PointPictures& pictures, const std::string& out);
 
 // "out/images/p0003-map.png is not the file that was written", for the first file that is lost or changed; otherwise
 // empty.

@@ -9,8 +9,8 @@ namespace noonmark {
 
 class Progress {
  public:
-  // already: points finished by an earlier run.
-  Progress(int64_t total, int64_t already);
+  // already: points finished by an earlier run. quiet: prints nothing.
+  Progress(int64_t total, int64_t already, bool quiet);
   ~Progress();
 
   // Says what is being made, and makes it. Its time does not count for the points' rate.
@@ -22,11 +22,11 @@ class Progress {
     start_ += std::chrono::steady_clock::now() - begin;
   }
   void finished(int64_t done, const std::string& what);
+  void say(const std::string& what);
 
  private:
-  void say(const std::string& what);
   int64_t total_, already_;
-  bool terminal_;
+  bool quiet_, terminal_;
   bool line_open_ = false;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -31,15 +31,15 @@ void PromiseReader::read_bound(const toml::table& table) {
     else if (item.key == "min")
       bound.min = number(*item.node, "min");
     else if (item.key == "join")
-      bound.join = one_of(*item.node, "join", {"worst", "mean", "median"});
+      bound.join = one_of(*item.node, "join", key_choices("bound", "join"));
     else if (item.key == "placement")
-      bound.placement = one_of(*item.node, "placement", {"worst", "first"});
+      bound.placement = one_of(*item.node, "placement", key_choices("bound", "placement"));
     else if (item.key == "level")
-      bound.level = one_of(*item.node, "level", {"error", "warn"});
+      bound.level = one_of(*item.node, "level", key_choices("bound", "level"));
     else if (item.key == "where")
       bound.where = read_conditions(*item.node, "where");
     else
-      unknown(item, "key", {"metric", "max", "min", "join", "placement", "level", "where"}, "bound.");
+      unknown(item, "key", key_names("bound"), "bound.");
   }
   if (bound.metric.empty()) fail(table, "a [[bound]] needs a metric");
   at(table.source(), [&] { check_bound(bound); });
@@ -112,7 +112,7 @@ void PromiseReader::read_law(const toml::table& table) {
     else if (item.key == "slack")
       law.slack = formula(*item.node, "slack");
     else if (item.key == "join")
-      law.join = one_of(*item.node, "join", {"each", "mean", "slope"});
+      law.join = one_of(*item.node, "join", key_choices("law", "join"));
     else if (item.key == "over")
       law.over = string(*item.node, "over");
     else if (item.key == "where")
@@ -120,10 +120,7 @@ void PromiseReader::read_law(const toml::table& table) {
     else if (item.key == "against")
       law.against = read_conditions(*item.node, "against");
     else
-      unknown(item, "key",
-              {"name", "says", "found", "measured", "equals", "at_most", "at_least", "within", "slack", "join", "over",
-               "where", "against"},
-              "law.");
+      unknown(item, "key", key_names("law"), "law.");
   }
   law.let = experiment_.let;
   at(table.source(), [&] { check_law(law); });

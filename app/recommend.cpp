@@ -4,23 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 #include <limits>
-#include <numbers>
-#include <random>
+#include <map>
 
 #include "app/experiment.h"
+#include "app/recommend_cost.h"
+#include "app/recommend_judge.h"
+#include "app/recommend_verify.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/store/quantities.h"
 #include "scenes/error.h"
 #include "technique/cost.h"
-#include "technique/light_frame.h"
-#include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
 
-constexpr int searched_placements = 8, fresh_placements = 8;  // along each axis
+constexpr int searched_placements = 8;  // along each axis
 // A bias of more parts, or a dearer technique, must be this factor better than a lesser one, or it does not pay.
 constexpr double factor_that_pays = 1.25;
 
@@ -30,35 +29,6 @@ Settings small(Settings settings, int width_px) {
   settings.view.width_px = std::max(1, static_cast<int>(std::lround(scale * settings.view.width_px)));
   settings.view.height_px = std::max(1, static_cast<int>(std::lround(scale * settings.view.height_px)));
   return settings;
-}
-
-// The settings whose values differ among the points.
-std::vector<std::string> differing(const std::vector<PointRecord>& points) {
-  std::vector<std::string> names;
-  for (const auto& [name, text] : points.front().settings)
-    for (const PointRecord& point : points)
-      if (setting_of(point, name) != text) {
-        names.push_back(name);
-        break;
-      }
-  return names;
-}
-
-// Why no bias of the curve is usable, in numbers.
-std::string why_no_window(const PointRecord& point, const CurveOptions& bounds) {
-  const BiasCurve& curve = *point.curve;
-  const bool placed = curve.placements > 1;
-  const std::vector<double>& acne = placed ? curve.acne_worst : curve.acne;
-  const std::vector<double>& panning = placed ? curve.peter_panning_worst : curve.peter_panning;
-  size_t best = 0;
-  const auto excess = [&](size_t i) {
-    return std::max(acne[i] / bounds.acne_bound, panning[i] / bounds.peter_panning_bound);
-  };
-  for (size_t i = 1; i < acne.size(); ++i)
-    if (excess(i) < excess(best)) best = i;
-  return fmt::format(
-      "no bias keeps both within {:.0f}% of their bounds: the best leaves {:.3g}% acne and {:.3g}% Peter Panning",
-      100 * searched_share, 100 * acne[best], 100 * panning[best]);
 }
 
 class Search {
@@ -72,15 +42,18 @@ class Search {
   Advice run() {
     Advice advice;
     advice.request = request_;
-    for (size_t level = 0; level < std::max<size_t>(1, request_.levels.size()); ++level) screen_level(level);
+    screen_all();
     for (std::optional<size_t> best = best_open(); best && !advice.answer; best = best_open()) {
       candidates_[*best].confirmed = true;
       confirm(candidates_[*best], advice);
-      if (candidates_[*best].tried.why_not.empty())
+      if (candidates_[*best].tried.why_not.empty()) {
         advice.answer = candidates_[*best].tried;
-      else
+      } else {
         screen_finer(candidates_[*best]);
+        screen_all();  // what could not win against the one that failed
+      }
     }
+    if (!advice.answer) take_narrow(advice);
     for (Candidate& candidate : candidates_) {
       Tried& tried = candidate.tried;
       if (tried.why_not.empty() && !candidate.confirmed)
@@ -91,6 +64,7 @@ class Search {
                      [](const Tried& a, const Tried& b) { return a.cost < b.cost; });
     if (!request_.levels.empty() && (!advice.answer || advice.answer->level != request_.levels.front().name))
       advice.least_resolution = least_resolution();
+    if (!advice.answer) advice.nearest = look_at_nearest(advice.tried);
     advice.shadowed = shadowed_;
     return advice;
   }
@@ -100,6 +74,7 @@ class Search {
     Tried tried;
     size_t level = 0;
     bool confirmed = false;  // or refuted
+    size_t narrow = 0;       // its window is too narrow for the margin, but it holds under so many conditions
   };
 
   // The best candidate that holds as far as is known and is not confirmed yet.
@@ -111,6 +86,27 @@ class Search {
       if (!best || rank(one) < rank(candidates_[*best])) best = i;
     }
     return best;
+  }
+
+  // Of those with a window the one of least error, otherwise the one that leaves least, of several the cheapest.
+  std::optional<Tried> look_at_nearest(const std::vector<Tried>& all) {
+    const auto distance = [&](const Tried& tried) {
+      if (tried.bias) return std::pair(0, tried.error);
+      if (!tried.nearest) return std::pair(2, 0.0);
+      return std::pair(1, excess(*tried.nearest, searched_));
+    };
+    const auto found = std::min_element(all.begin(), all.end(),
+                                        [&](const Tried& a, const Tried& b) { return distance(a) < distance(b); });
+    if (found == all.end()) return std::nullopt;
+    Tried tried = *found;
+    if (!tried.nearest) return tried;
+    Settings there = settings_of(*tried.worst);
+    there.map.placements = 1;
+    find_setting(tried.worst->curve->parameter).set(there, fmt::format("{}", tried.nearest->bias));
+    const Measurement m = bench_.measure(there, std::nullopt);
+    tried.worst = m.record;
+    tried.worst->worst = worst_of_bias(m);
+    return tried;
   }
 
   // A resolution that does not hold everywhere was perhaps the last that was screened.
@@ -131,25 +127,11 @@ class Search {
     if (screen(made.tried, 0)) candidates_.push_back(std::move(made));
   }
 
-  // The least resolution from which on one constant bias keeps the bounds at every placement, under the first condition,
-  // without a filter; the finest that the diagram has, negative, if none does. Empty where a diagram has no meaning.
   std::optional<int> least_resolution() {
-    try {
-      const Settings settings = small(of_choice(request_.conditions.front(), 0, {"none", {}}, 1024), request_.width_px);
-      PhaseOptions options;
-      options.rows = 17, options.coarsest = 1024, options.finest = 16384;
-      options.acne_bound = request_.curve.acne_bound;
-      options.peter_panning_bound = request_.curve.peter_panning_bound;
-      say_("which resolution would be enough for one constant bias");
-      const PhaseDiagram diagram = bench_.phase(phase_settings(settings, bench_.scene(settings.scene)), options);
-      int least = -diagram.rows.back().resolution;
-      for (auto row = diagram.rows.rbegin(); row != diagram.rows.rend() && !diagram.usable(*row).empty(); ++row)
-        least = row->resolution;
-      return least;
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::usage) throw;
-      return std::nullopt;
-    }
+    say_("which resolution would be enough for one constant bias");
+    return constant_bias_resolution(
+        bench_, small(of_choice(request_.conditions.front(), 0, {"none", {}}, 1024), request_.width_px),
+        request_.curve);
   }
 
   Settings of_choice(Settings settings, size_t level, const FilterSettings& filter, int resolution) const {
@@ -159,15 +141,35 @@ class Search {
     return settings;
   }
 
-  // The texel work of a picture of full size. The share of its pixels that look up is measured on the small picture.
-  double full_cost(const Settings& full, const PointRecord& measured) const {
-    const double pixels = number_of(setting_of(measured, "view.width_px")).value() *
-                          number_of(setting_of(measured, "view.height_px")).value();
-    const double share = metric_of(measured, "facing") / pixels;
-    const int tiles =
-        static_cast<int>(std::lround(metric_of(measured, "map_texels") / full.map.resolution / full.map.resolution));
-    const auto receivers = std::llround(share * full.view.width_px * full.view.height_px);
-    return static_cast<double>(frame_cost(full, tiles, receivers, 0).texel_work);
+  // Whether the cost alone rules the settings out.
+  bool too_dear(double cost, double cost_before) const {
+    if (request_.budget && cost > *request_.budget) return true;
+    // Law 5: half the texel, half the error on average. So the product of cost and error does not fall any more.
+    return !request_.error && !request_.budget && cost_before > 0 && cost >= 2 * cost_before;
+  }
+
+  // What is known already is not measured again.
+  void screen_all() {
+    for (size_t level = 0; level < std::max<size_t>(1, request_.levels.size()); ++level) screen_level(level);
+  }
+
+  // Whether settings that make no error at all ask for no more of anything: then these cannot win.
+  bool cannot_win(size_t level, const Settings& settings) const {
+    const int fetches = lookup_cost(settings).fetches;
+    return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& one) {
+      const Tried& tried = one.tried;
+      return tried.why_not.empty() && tried.bias && tried.error == 0 && one.level <= level &&
+             tried.settings.map.resolution <= settings.map.resolution && lookup_cost(tried.settings).fetches <= fetches;
+    });
+  }
+
+  std::optional<size_t> known(size_t level, const FilterSettings& filter, int resolution) const {
+    for (size_t i = 0; i < candidates_.size(); ++i)
+      if (const Candidate& one = candidates_[i]; one.level == level &&
+                                                 one.tried.settings.map.resolution == resolution &&
+                                                 same(one.tried.settings.filter, filter))
+        return i;
+    return std::nullopt;
   }
 
   // A bias cannot mend what is not its fault: aliasing, the filter's blur and the light's size. The settings with the
@@ -193,37 +195,69 @@ class Search {
   void screen_level(size_t level) {
     double best_before = std::numeric_limits<double>::infinity();  // of the filter before
     for (const FilterSettings& filter : request_.filters) {
-      const size_t first = candidates_.size();
       screen_filter(level, filter);
       double best = std::numeric_limits<double>::infinity();
-      for (size_t i = first; i < candidates_.size(); ++i)
-        if (candidates_[i].tried.why_not.empty()) best = std::min(best, rank(candidates_[i]));
-      // The filters come in the order of their reach. Once more blur is worse, still more is worse too; and a kernel that
-      // reaches further needs more bias, so where one has no window, the next has none.
+      for (const Candidate& one : candidates_)
+        if (one.level == level && same(one.tried.settings.filter, filter) && one.tried.why_not.empty())
+          best = std::min(best, rank(one));
+      // The filters come in the order of their reach. Once more blur is worse, still more is worse too.
       if (best > best_before || !std::isfinite(best)) break;
       best_before = best;
     }
   }
 
+  // Whether by law 5 this resolution or a finer one can be worth more than the best that is known. coarser: holds.
+  bool may_pay(const Candidate& coarser, int resolution) const {
+    if (request_.error || request_.budget) return true;
+    double best = std::numeric_limits<double>::infinity();
+    for (const Candidate& one : candidates_)
+      if (one.tried.why_not.empty()) best = std::min(best, rank(one));
+    return std::any_of(request_.resolutions.begin(), request_.resolutions.end(), [&](int finer) {
+      Candidate one = coarser;
+      one.tried.settings.map.resolution = finer;
+      one.tried.cost = full_texel_work(one.tried.settings, *seen_);
+      one.tried.error *= static_cast<double>(coarser.tried.settings.map.resolution) / finer;
+      return finer >= resolution && rank(one) < best;
+    });
+  }
+
+  // A kernel that reaches further needs more bias, so where a lesser one has no window, this one has none.
+  bool lesser_filter_fails(size_t level, const FilterSettings& filter, int resolution) const {
+    for (const FilterSettings& lesser : request_.filters) {
+      if (same(lesser, filter)) return false;
+      if (const auto place = known(level, lesser, resolution); place && candidates_[*place].tried.nearest) return true;
+    }
+    return false;
+  }
+
   void screen_filter(size_t level, const FilterSettings& filter) {
-    double before = 0;  // cost of the last resolution that had a window
+    double before = 0;           // cost of the last resolution that had a window
+    std::optional<size_t> last;  // that candidate
     for (int resolution : request_.resolutions) {
-      Candidate made;
-      made.level = level;
+      if (lesser_filter_fails(level, filter, resolution)) continue;
       if (const Tried* lesser = level > 0 ? no_other_bias_pays(filter, resolution) : nullptr) {
         before = lesser->cost;
         continue;
       }
-      made.tried.settings = of_choice(request_.conditions.front(), level, filter, resolution);
-      made.tried.level = request_.levels.empty() ? "the bias as given" : request_.levels[level].name;
-      if (!screen(made.tried, before)) break;
-      const bool holds = made.tried.why_not.empty();
-      if (holds && request_.error && made.tried.error <= *request_.error) {
+      std::optional<size_t> place = known(level, filter, resolution);
+      if (!place) {
+        Candidate made;
+        made.level = level;
+        made.tried.settings = of_choice(request_.conditions.front(), level, filter, resolution);
+        made.tried.level = request_.levels.empty() ? "the bias as given" : request_.levels[level].name;
+        if (cannot_win(level, made.tried.settings) || (last && !may_pay(candidates_[*last], resolution)) ||
+            !screen(made.tried, before))
+          break;
+        place = candidates_.size();
         candidates_.push_back(std::move(made));
-        break;  // finer texels are dearer and no more needed
       }
-      if (holds) before = made.tried.cost;
-      candidates_.push_back(std::move(made));
+      const Tried& tried = candidates_[*place].tried;
+      // Law 9: acne and Peter Panning halve with each doubling, so not even the finest texels would do.
+      if (tried.nearest && excess(*tried.nearest, searched_) * resolution > request_.resolutions.back()) break;
+      if (!tried.why_not.empty()) continue;
+      if (request_.error && tried.error <= *request_.error) break;  // finer texels are dearer and no more needed
+      before = tried.cost;
+      last = place;
     }
   }
 
@@ -236,67 +270,25 @@ class Search {
   // False if neither these settings nor dearer ones can win.
   bool screen(Tried& tried, double cost_before) {
     Settings settings = small(tried.settings, request_.width_px);
+    if (seen_ && too_dear(full_texel_work(tried.settings, *seen_), cost_before)) return false;
     try {
       require_memory(bench_.memory(settings, true, false), bench_.memory_of_program(false), "the search");
       PointRecord record = bench_.measure(settings, searched_).record;
       if (nothing_judged(record))
         throw Error(ErrorKind::usage, "nothing of the scene that faces the light is in view; choose another view");
-      measured_ = true;
+      if (!seen_) seen_ = seen_share(record);
       shadowed_ = std::max(shadowed_, 1 - metric_of(record, "lit"));
-      tried.cost = full_cost(tried.settings, record);
-      if (request_.budget && tried.cost > *request_.budget) return false;
-      // Law 5: half the texel, half the error on average. So the product of cost and error does not fall any more.
-      if (!request_.error && !request_.budget && cost_before > 0 && tried.cost >= 2 * cost_before) return false;
-      judge(tried, {record});
+      tried.cost = full_texel_work(tried.settings, *seen_);
+      if (too_dear(tried.cost, cost_before)) return false;
+      judge_bias(bench_, tried, {record}, searched_, request_.accuracy);
       say_(fmt::format("{}: {}", name_of(tried),
                        tried.bias ? fmt::format("usable, error {:.3g}%", 100 * tried.error) : tried.why_not));
     } catch (const Error& error) {
-      if (!measured_) throw;  // not even the first settings can be measured
+      if (!seen_) throw;  // not even the first settings can be measured
       if (error.kind() != ErrorKind::usage) throw;
       return false;  // a combination that does not exist, or a map that does not fit into memory
     }
     return true;
-  }
-
-  // Chooses the bias for the points, one for each condition, and measures the error there.
-  void judge(Tried& tried, std::vector<PointRecord> points) {
-    tried.bias.reset();
-    tried.worst.reset();
-    tried.why_not.clear();
-    Results results;
-    results.info.accuracy = request_.accuracy;
-    results.info.over = differing(points);
-    results.planned_points = static_cast<int64_t>(points.size());
-    results.points = std::move(points);
-    const auto failing = std::find_if(results.points.begin(), results.points.end(),
-                                      [](const PointRecord& p) { return p.curve && !usable_window(*p.curve); });
-    if (failing != results.points.end()) {
-      tried.why_not = why_no_window(*failing, searched_);
-      tried.worst = *failing;
-      return;
-    }
-    const std::vector<Recommendation> good = good_choices(results);
-    if (good.empty()) {
-      tried.why_not = results.points.front().curve ? "no bias is usable under every condition"
-                                                   : why_no_curve(results.points.front());
-      tried.worst = results.points.front();
-      return;
-    }
-    tried.bias = good.front().bias;
-    set_bias(tried.settings, *tried.bias);
-    tried.error = 0;
-    for (const PointRecord& point : results.points) {
-      Settings there = of_record(point);
-      there.map.placements = 1;
-      set_bias(there, *tried.bias);
-      const PointRecord shown = bench_.measure(there, std::nullopt).record;
-      const double error = metric_of(shown, request_.accuracy);
-      if (!tried.worst || !(error <= tried.error)) tried.error = error, tried.worst = shown;
-    }
-  }
-
-  static void set_bias(Settings& settings, const BiasChoice& bias) {
-    find_setting(bias.parameter).set(settings, fmt::format("{}", bias.value));
   }
 
   double rank(const Candidate& candidate) const {
@@ -328,75 +320,74 @@ class Search {
     Tried& tried = candidate.tried;
     say_(fmt::format("confirming {}, under {} conditions at {} placements", name_of(tried), request_.conditions.size(),
                      searched_placements * searched_placements));
-    std::vector<PointRecord> points;
-    for (const Settings& condition : request_.conditions) {
-      Settings there =
-          small(of_choice(condition, candidate.level, tried.settings.filter, tried.settings.map.resolution),
-                request_.width_px);
+    // The condition that refuted the one before comes first, because it probably refutes this one too.
+    std::map<size_t, PointRecord> of_condition;
+    for (size_t i = 0; i < request_.conditions.size(); ++i) {
+      const size_t which = i == 0 ? hardest_ : i <= hardest_ ? i - 1 : i;
+      Settings there = small(
+          of_choice(request_.conditions[which], candidate.level, tried.settings.filter, tried.settings.map.resolution),
+          request_.width_px);
       there.map.placements = searched_placements;
       PointRecord record = bench_.measure(there, searched_).record;
       if (nothing_judged(record)) {
         say_("a view in which nothing can be judged is left out");
         continue;
       }
-      points.push_back(std::move(record));
-      if (points.back().curve && !usable_window(*points.back().curve)) break;  // that is enough to know
+      shadowed_ = std::max(shadowed_, 1 - metric_of(record, "lit"));
+      const bool fails = record.curve && !usable_window(*record.curve);
+      of_condition.emplace(which, std::move(record));
+      if (!fails) continue;
+      hardest_ = which;
+      break;  // that is enough to know
     }
+    std::vector<PointRecord> points;
+    for (auto& [which, record] : of_condition) points.push_back(std::move(record));
     const size_t seen = points.size();
-    judge(tried, std::move(points));
+    judge_bias(bench_, tried, std::move(points), searched_, request_.accuracy);
     if (!tried.why_not.empty()) return;
     advice.conditions = seen;
     if (too_wrong(tried)) {
       tried.why_not = why_worse(tried, tried);
       return;
     }
+    if (tried.bias->narrow) {
+      candidate.narrow = seen;
+      tried.why_not =
+          fmt::format("its window, {:.3g} to {:.3g} {}, is too narrow for a margin of {:.0f}% on both sides",
+                      tried.bias->window.low, tried.bias->window.high, tried.bias->unit, 100 * (bias_margin - 1));
+      return;
+    }
     verify(tried, advice);
   }
 
-  void verify(Tried& tried, Advice& advice) {
-    say_("verifying at 64 other placements");
-    const Settings at_worst = of_record(*tried.worst);
-    advice.placements = searched_placements * searched_placements;
-    advice.verified = 0;
-    advice.worst_acne = advice.worst_peter_panning = advice.worst_error = 0;
-    std::mt19937_64 random(64);
-    for (int i = 0; i < fresh_placements * fresh_placements; ++i) {
-      const PointRecord shown = bench_.measure(fresh(at_worst, i, random), std::nullopt).record;
-      advice.worst_acne = std::max(advice.worst_acne, metric_of(shown, "acne"));
-      advice.worst_peter_panning = std::max(advice.worst_peter_panning, metric_of(shown, "peter_panning"));
-      advice.worst_error = std::max(advice.worst_error, metric_of(shown, request_.accuracy));
-      ++advice.verified;
-      if (metric_of(shown, "acne") <= request_.curve.acne_bound &&
-          metric_of(shown, "peter_panning") <= request_.curve.peter_panning_bound)
-        continue;
-      tried.why_not =
-          fmt::format("rendered at another placement of the grid it has {:.3g}% acne and {:.3g}% Peter Panning",
-                      100 * metric_of(shown, "acne"), 100 * metric_of(shown, "peter_panning"));
-      tried.worst = shown;
+  // If nothing holds with the margin: the best that holds without it.
+  void take_narrow(Advice& advice) {
+    std::multimap<double, Candidate*> narrow;
+    for (Candidate& one : candidates_)
+      if (one.narrow > 0) narrow.emplace(rank(one), &one);
+    for (const auto& [order, one] : narrow) {
+      one->tried.why_not.clear();
+      advice.conditions = one->narrow;
+      verify(one->tried, advice);
+      if (!one->tried.why_not.empty()) continue;
+      advice.answer = one->tried;
       return;
     }
   }
 
-  static Settings of_record(const PointRecord& point) {
-    Settings settings;
-    for (const Setting& row : settings_table()) row.set(settings, setting_of(point, std::string(row.name)));
-    return settings;
-  }
-
-  // A placement that is none of the searched ones: half a step between them for a flat map, a random turn for a cube.
-  Settings fresh(Settings settings, int i, std::mt19937_64& random) {
-    if (make_light_frame(bench_.scene(settings.scene), settings).map_shape() == MapShape::flat) {
-      settings.map.shift_u_texels += (i % fresh_placements + 0.5) / fresh_placements - 0.5;
-      settings.map.shift_v_texels += (i / fresh_placements + 0.5) / fresh_placements - 0.5;
-      return settings;
-    }
-    // Shoemake, "Uniform random rotations" (Graphics Gems III, 1992).
-    std::uniform_real_distribution<> unit(0, 1);
-    const double a = unit(random), b = 2 * std::numbers::pi * unit(random), c = 2 * std::numbers::pi * unit(random);
-    const glm::dquat turn(std::sqrt(a) * std::cos(c), std::sqrt(1 - a) * std::sin(b), std::sqrt(1 - a) * std::cos(b),
-                          std::sqrt(a) * std::sin(c));
-    settings.map.turn_deg = glm::axis(turn) * (glm::angle(turn) * 180 / std::numbers::pi);
-    return settings;
+  void verify(Tried& tried, Advice& advice) {
+    say_("verifying at 64 other placements");
+    const Verified verified =
+        verify_at_fresh_placements(bench_, settings_of(*tried.worst), request_.curve, request_.accuracy);
+    advice.placements = searched_placements * searched_placements;
+    advice.verified = verified.placements;
+    advice.worst_acne = verified.worst_acne, advice.worst_peter_panning = verified.worst_peter_panning;
+    advice.worst_error = verified.worst_error;
+    if (!verified.broken) return;
+    tried.why_not =
+        fmt::format("rendered at another placement of the grid it has {:.3g}% acne and {:.3g}% Peter Panning",
+                    100 * metric_of(*verified.broken, "acne"), 100 * metric_of(*verified.broken, "peter_panning"));
+    tried.worst = verified.broken;
   }
 
   Workbench& bench_;
@@ -404,8 +395,9 @@ class Search {
   const std::function<void(const std::string&)>& say_;
   CurveOptions searched_;  // the bounds while searching
   std::vector<Candidate> candidates_;
-  bool measured_ = false;  // whether any settings were
+  std::optional<SeenShare> seen_;  // empty until some settings are measured
   double shadowed_ = 0;
+  size_t hardest_ = 0;  // the condition that refuted the last candidate
 };
 
 }  // namespace

@@ -19,14 +19,13 @@
 #include <string>
 #include <vector>
 
+#include "app/recommend_bias.h"
 #include "app/recommend_space.h"
 #include "app/workbench.h"
 #include "compare/judge/recommendation.h"
 #include "compare/ladder/bias_curves.h"
 
 namespace noonmark {
-
-inline constexpr double searched_share = 0.5;
 
 struct AdviceRequest {
   std::vector<Settings> conditions;  // of full size; the first is searched on. They differ in conditions only
@@ -49,16 +48,23 @@ struct Tried {
   std::optional<BiasChoice> bias;    // empty: no usable bias
   std::string why_not;               // why it is not the answer; empty for the answer
   std::optional<PointRecord> worst;  // where it failed, or the worst condition of the answer
+  // Without a usable bias: what comes nearest in the condition that failed.
+  std::optional<NearestBias> nearest;
 };
 
 struct Advice {
   std::optional<Tried> answer;
   std::vector<Tried> tried;  // all others, by cost
+  // Without an answer: the one of them that came nearest. Its record is rendered with its nearest bias, and its worst pixel
+  // is the one with most acne and Peter Panning, if these are what failed.
+  std::optional<Tried> nearest;
   // Of the answer.
   size_t conditions = 0;
   int placements = 0, verified = 0;                                 // searched (each condition); rendered afresh
   double worst_acne = 0, worst_peter_panning = 0, worst_error = 0;  // over the placements that were rendered
-  double shadowed = 0;  // share of the counted receivers that are dark in truth: the error without a shadow map
+  // Share of the counted receivers that are dark in the hard truth, the largest over the conditions that were measured: the
+  // error without a shadow map.
+  double shadowed = 0;
   // If one constant bias is not the answer: the least resolution at which it would keep the bounds, under the first
   // condition and without a filter; negative: none up to that. Empty: not known.
   std::optional<int> least_resolution;

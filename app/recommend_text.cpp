@@ -1,6 +1,7 @@
 #include "app/recommend_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/experiment.h"
+#include "app/toml_writer.h"
 #include "compare/report/findings.h"
 #include "compare/store/quantities.h"
 
@@ -61,39 +63,107 @@ const Tried* next_cheaper(const Advice& advice) {
   return found;
 }
 
-// What would have to change, from what was tried.
-std::vector<std::string> nothing_works(const Advice& advice) {
-  std::vector<std::string> lines;
-  lines.push_back(
-      fmt::format("Nothing that was tried keeps {}{} under all conditions.", bounds_text(advice.request.curve),
-                  advice.request.error ? fmt::format(" and the error within {}", percent(*advice.request.error)) : ""));
-  if (advice.tried.empty()) return lines;
-  // The one that came nearest: of those with a window the least error, otherwise the finest texels.
-  const auto nearest = std::min_element(advice.tried.begin(), advice.tried.end(), [](const Tried& a, const Tried& b) {
-    if (a.bias.has_value() != b.bias.has_value()) return a.bias.has_value();
-    return a.bias ? a.error < b.error : a.settings.map.resolution > b.settings.map.resolution;
-  });
-  lines.push_back(fmt::format("Nearest came {}: {}.", settings_text(*nearest), nearest->why_not));
-  if (nearest->worst && nearest->worst->worst.x >= 0)
-    lines.push_back(fmt::format("Its worst pixel is x = {}, y = {} (row 0 on top, of {} x {}), by {}.",
-                                nearest->worst->worst.x, nearest->worst->worst.y,
-                                setting_of(*nearest->worst, "view.width_px"),
-                                setting_of(*nearest->worst, "view.height_px"), nearest->worst->worst.cause));
-  lines.push_back(
-      "What would have to change: finer texels (a higher resolution or a smaller extent), larger bounds, or a "
-      "mesh whose parts are closed and stand further apart than the bias that its slopes need.");
-  return lines;
+// Whether the scene needs a shadow map at all.
+std::string needed_text(const Advice& advice) {
+  if (advice.shadowed == 0)
+    return "No shadow map is needed here: in no view that was searched is anything in shadow that faces the light, so "
+           "the picture is right without one. If the scene moves, or if other views show shadows, the settings below "
+           "make none where there are none.";
+  const std::string without =
+      fmt::format("Without shadows {} of the picture that faces the light would be wrong, in the worst view",
+                  percent(advice.shadowed));
+  const double with = advice.answer->error;
+  if (with >= advice.shadowed)
+    return fmt::format("{}; this map leaves {}, so it does not pay.", without, percent(with));
+  if (advice.request.error && advice.shadowed <= *advice.request.error)
+    return fmt::format("{}. That is within the error of {} that is allowed, so the scene needs no shadow map.", without,
+                       percent(*advice.request.error));
+  return fmt::format("{}; this map leaves {}, so it removes {:.0f}% of that error.", without, percent(with),
+                     100 * (1 - with / advice.shadowed));
 }
 
 std::string constant_text(int least_resolution) {
   return least_resolution > 0 ? fmt::format(
                                     "One constant bias and no filter would keep both bounds from some {} texels on, "
-                                    "under the first condition.",
+                                    "under the first condition alone.",
                                     least_resolution)
                               : fmt::format(
                                     "One constant bias and no filter keep both bounds at no resolution up to {}, under "
                                     "the first condition.",
                                     -least_resolution);
+}
+
+// The conditions that this one differs in from the others: "view.eye_m = 1,2,3". Empty if there is one condition.
+std::string condition_text(const PointRecord& point, const AdviceRequest& request) {
+  std::vector<std::string> words;
+  std::vector<std::map<std::string, std::string>> all;
+  for (const Settings& condition : request.conditions) all.push_back(settings_map(condition));
+  for (const auto& [name, text] : all.front())
+    if (std::any_of(all.begin(), all.end(), [&](const auto& other) { return other.at(name) != text; }))
+      words.push_back(fmt::format("{} = {}", name, setting_of(point, name)));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+// The cheapest of the settings that were screened and are more accurate than the answer. Null if it has an error or a budget
+// to keep, because then they are no choice.
+const Tried* next_better(const Advice& advice) {
+  if (advice.request.error || advice.request.budget) return nullptr;
+  for (const Tried& tried : advice.tried)  // by cost
+    if (tried.bias && tried.cost > advice.answer->cost && tried.error < advice.answer->error) return &tried;
+  return nullptr;
+}
+
+// What would have to change, from what was tried: one sentence for each way.
+std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
+  const AdviceRequest& request = advice.request;
+  std::vector<std::string> lines;
+  if (nearest.bias && request.error) {
+    const int times = *request.error > 0 ? static_cast<int>(std::ceil(nearest.error / *request.error)) : 0;
+    if (times == 0)
+      lines.push_back("A map of texels cannot have an error of 0%: allow a larger --error.");
+    else
+      lines.push_back(fmt::format(
+          "A larger --error: {} holds with these settings. Or finer texels: errors fall as their width on average (law "
+          "5), so some {} texels, or an extent {} times smaller.",
+          percent(nearest.error), times * nearest.settings.map.resolution, times));
+  } else if (nearest.nearest) {
+    // Of the bounds only a share is used up while searching.
+    const auto enough = [](double bound, double left) { return std::max(bound, left / searched_share); };
+    lines.push_back(fmt::format("Larger bounds: from about --acne {:.3g} --peter-panning {:.3g} on these settings do.",
+                                enough(request.curve.acne_bound, nearest.nearest->acne),
+                                enough(request.curve.peter_panning_bound, nearest.nearest->peter_panning)));
+  }
+  if (advice.least_resolution)
+    lines.push_back(constant_text(*advice.least_resolution));
+  else if (!nearest.bias)
+    lines.push_back(
+        fmt::format("Finer texels: a resolution above {}, or a smaller extent.", advice.request.resolutions.back()));
+  if (request.levels.empty())
+    lines.push_back("Another kind of bias: the experiment gives one; without it all kinds are tried.");
+  if (!nearest.bias)
+    lines.push_back(
+        "Or the mesh: parts that are closed, and that stand further apart than the bias that its slopes need.");
+  return lines;
+}
+
+std::vector<std::string> nothing_works(const Advice& advice) {
+  std::vector<std::string> lines;
+  lines.push_back(
+      fmt::format("Nothing that was tried keeps {}{} under all conditions.", bounds_text(advice.request.curve),
+                  advice.request.error ? fmt::format(" and the error within {}", percent(*advice.request.error)) : ""));
+  const std::optional<Tried>& nearest = advice.nearest;
+  if (!nearest) return lines;
+  lines.push_back(fmt::format("Nearest came {}: {}.", settings_text(*nearest), nearest->why_not));
+  if (nearest->worst && nearest->worst->worst.x >= 0) {
+    const std::string where = condition_text(*nearest->worst, advice.request);
+    lines.push_back(fmt::format(
+        "Its worst pixel is x = {}, y = {} (row 0 on top, of {} x {}{}), by {}.", nearest->worst->worst.x,
+        nearest->worst->worst.y, setting_of(*nearest->worst, "view.width_px"),
+        setting_of(*nearest->worst, "view.height_px"), where.empty() ? "" : "; " + where, nearest->worst->worst.cause));
+  }
+  lines.push_back("What would have to change:");
+  for (const std::string& way : ways_out(advice, *nearest)) lines.push_back("- " + way);
+  return lines;
 }
 
 // For each level of the bias below the answer's: why it does not do.
@@ -109,25 +179,18 @@ std::vector<std::string> lesser_levels(const Advice& advice) {
       any_window = any_window || tried.bias;
     }
     if (finest && !any_window)
-      lines.push_back(fmt::format("With {} nothing up to {} texels keeps both bounds.", level.name, finest));
+      lines.push_back(fmt::format(
+          "With {} nothing up to {} texels keeps {:.0f}% of both bounds under all conditions{}.", level.name, finest,
+          100 * searched_share, finest < advice.request.resolutions.back() ? ", and finer ones could not win" : ""));
     else if (finest)
       for (const Tried& tried : advice.tried)
         if (tried.level == level.name && tried.bias) {
-          lines.push_back(fmt::format("With {} the first that keeps both bounds is {}, but {}.", level.name,
+          lines.push_back(fmt::format("With {} the first that keeps the bounds is {}; {}.", level.name,
                                       settings_text(tried), tried.why_not));
           break;
         }
   }
   return lines;
-}
-
-// The value of a setting as TOML.
-std::string toml_value(const Setting& row, const std::string& text) {
-  const bool bare =
-      text != "auto" && (row.type == ValueType::integer || row.type == ValueType::real || row.type == ValueType::flag);
-  if (bare) return text;
-  if (row.type == ValueType::point && text != "auto") return "[" + text + "]";
-  return nlohmann::json(text).dump();  // a JSON string is a TOML basic string
 }
 
 }  // namespace
@@ -136,6 +199,7 @@ std::vector<std::string> advice_text(const Advice& advice) {
   if (!advice.answer) return nothing_works(advice);
   const Tried& answer = *advice.answer;
   std::vector<std::string> lines;
+  if (advice.shadowed == 0) lines.push_back(needed_text(advice));
   lines.push_back(fmt::format("Set {}.", settings_text(answer)));
   if (answer.bias)
     lines.push_back(fmt::format(
@@ -159,7 +223,7 @@ std::vector<std::string> advice_text(const Advice& advice) {
     lines.push_back(fmt::format("The error that is left ({}) is {}{}.", advice.request.accuracy, percent(answer.error),
                                 causes.empty() ? "" : ", most of it " + causes));
   }
-  lines.push_back(fmt::format("Without a shadow map the error would be {}.", percent(advice.shadowed)));
+  if (advice.shadowed > 0) lines.push_back(needed_text(advice));
   lines.push_back(
       fmt::format("It costs {:.3g} million texels written and texture instructions a frame.", answer.cost / 1e6));
   if (const Tried* cheaper = next_cheaper(advice))
@@ -167,6 +231,9 @@ std::vector<std::string> advice_text(const Advice& advice) {
                                 cheaper->cost / 1e6, cheaper->why_not));
   else
     lines.push_back("Nothing cheaper was tried.");
+  if (const Tried* better = next_better(advice))
+    lines.push_back(fmt::format("More accurate, as far as it was screened, is {} ({:.3g} million): {}.",
+                                settings_text(*better), better->cost / 1e6, better->why_not));
   if (advice.least_resolution) lines.push_back(constant_text(*advice.least_resolution));
   for (std::string& line : lesser_levels(advice)) lines.push_back(std::move(line));
   return lines;
@@ -186,7 +253,7 @@ std::string advice_experiment(const Advice& advice, const std::string& folder) {
   if (std::error_code none; std::filesystem::is_regular_file(scene, none))
     scene = std::filesystem::proximate(scene, folder);
   std::string text = fmt::format("# Written by noonmark recommend. noonmark check judges it.\n\n[scene]\nname = {}\n",
-                                 nlohmann::json(scene).dump());
+                                 toml_string(scene));
   std::string over, group = "scene";
   for (const Setting& row : settings_table()) {
     const std::string name(row.name), value = row.get(settings);
@@ -242,6 +309,14 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
   all["text"] = advice_text(advice);
   all["accuracy"] = advice.request.accuracy;
   all["answer"] = advice.answer ? of(*advice.answer) : json();
+  all["wrong_without_shadows"] = advice.shadowed;
+  if (advice.nearest) {
+    all["nearest"] = of(*advice.nearest);
+    if (advice.nearest->worst)
+      all["nearest"]["worst"] = {{"x", advice.nearest->worst->worst.x},
+                                 {"y", advice.nearest->worst->worst.y},
+                                 {"cause", advice.nearest->worst->worst.cause}};
+  }
   if (advice.answer)
     all["verified"] = {{"conditions", advice.conditions},
                        {"searched_placements", advice.placements},

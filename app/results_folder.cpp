@@ -37,6 +37,15 @@ void remove_verdict(const std::string& folder) {
   }
 }
 
+// The pictures that summary.md shows (app/sweep.cpp).
+void remove_summary_pictures(const std::string& folder) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(summary_picture) && name.ends_with(".png")) fs::remove(entry.path(), none);
+  }
+}
+
 // Through a link, pictures would be written and removed in another folder, and the report would not read them.
 void require_own_images(const std::string& folder) {
   std::error_code none;
@@ -60,6 +69,7 @@ ResultsFolder::ResultsFolder(const std::string& path) : path_(path), descriptor_
   }
   try {
     remove_verdict(path);
+    remove_summary_pictures(path);
     require_own_images(path);
   } catch (...) {
     if (descriptor_ >= 0) close(descriptor_);

@@ -11,10 +11,13 @@ namespace noonmark {
 // make_folder (scenes/file.h) for a folder from the command line. Throws Error(usage).
 void make_output_folder(const std::string& path);
 
+// How the names of the pictures begin that summary.md shows: "worst-pixel-p0003.png".
+inline constexpr const char* summary_picture = "worst-pixel-p";
+
 class ResultsFolder {
  public:
   // Makes the folder if it does not exist, locks it, and removes from it
-  // - junit.xml and summary.md, because a run that fails or is killed must not leave the verdict of an earlier run;
+  // - junit.xml, summary.md and its pictures, because a run that fails or is killed must not leave the verdict of an earlier run;
   // - temporary files of runs that were killed (clear_abandoned_files, scenes/file.h), also in images/.
   //
   // Throws Error(usage) if the folder cannot be made or another run is writing into it. Throws Error(file) if the

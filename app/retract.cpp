@@ -36,7 +36,7 @@ Words sorted_out(std::span<const std::string> words) {
       sorted.plain.push_back(word);
     else if (word == "--")
       only_plain = true;
-    else if (word == "--dry-run")
+    else if (word == "--dry-run" || word == "--print-config")
       sorted.dry_run = true;
     else if (word.starts_with("--out="))
       sorted.outs.push_back(word.substr(6));

@@ -1,7 +1,6 @@
 #include "app/stages.h"
 
 #include <algorithm>
-#include <array>
 
 #include "compare/ladder/receiver_taps.h"
 #include "scenes/camera_fit.h"
@@ -12,20 +11,6 @@
 
 namespace noonmark {
 namespace {
-
-// Runs a pass. Its time, if it is asked for, is the median of three, so that one interruption has no effect. pass(ms):
-// ms receives the time, or is null.
-template <class Pass>
-std::optional<double> run_pass(bool timed, const Pass& pass) {
-  if (!timed) {
-    pass(nullptr);
-    return {};
-  }
-  std::array<double, 3> times;
-  for (double& time : times) pass(&time);
-  std::sort(times.begin(), times.end());
-  return times[1];
-}
 
 double scene_behind(const Scene& scene, const Camera& camera) {
   const glm::dvec3 way = camera.target_m - camera.eye_m;
@@ -47,12 +32,28 @@ LookupEvidence evidence_of(const LookupStage& l, const TruthStage& truth, const 
   return {truth.receivers, l.probe, l.taps, l.exact_depth, s.map, Bias(s.bias), shown.r4, shown.r5};
 }
 
+bool is_kept(size_t map_texels) { return map_texels * sizeof(float) <= most_kept_map_bytes; }
+
+// Frees the texture with which a cube is probed if it is large: the map has its size.
+void keep_small_index(gl::Renderer& renderer, const LightFrame& frame) {
+  const auto side = static_cast<size_t>(frame.resolution);
+  if (!is_kept(static_cast<size_t>(frame.tiles) * side * side)) renderer.forget_cube_index();
+}
+
 }  // namespace
 
-std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t strip_bytes) {
+void keep_small(gl::Renderer& renderer, std::optional<gl::ShadowMap>& map) {
+  if (!map || is_kept(map->texels())) return;
+  map.reset();
+  renderer.release_deleted();
+}
+
+std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t kept_bytes) {
   const auto width = static_cast<size_t>(settings.view.width_px), height = static_cast<size_t>(settings.view.height_px);
   const size_t row_bytes = width * static_cast<size_t>(tap_pattern(settings.filter).taps) * bytes_per_tap(light);
-  const size_t rows = std::clamp<size_t>(strip_bytes / row_bytes, 1, height);
+  const size_t rows = row_bytes * height <= kept_bytes
+                          ? height
+                          : std::clamp<size_t>(kept_bytes / strips_in_kept_taps / row_bytes, 1, height);
   std::vector<PixelRange> strips;
   for (size_t row = 0; row < height; row += rows) strips.push_back({row * width, std::min(row + rows, height) * width});
   return strips;
@@ -66,6 +67,7 @@ void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage
     if (lookup.rays) bring_taps(renderer, lookup, point, strip);
     each_strip(evidence, strip);
   }
+  keep_small_index(renderer, point.frame);
 }
 
 double polygon_offset_unit(gl::Renderer& renderer, const Settings& settings) {
@@ -115,11 +117,9 @@ TruthStage Pipeline::trace_truth(const SceneStage& scene, const ViewStage& view,
 MapStage Pipeline::draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point) {
   std::vector<glm::vec3> casters;
   if (const Bias bias(point.settings.bias); bias.moves_casters()) casters = caster_positions(scene, point.frame, bias);
-  std::optional<gl::ShadowMap> map;
-  const std::optional<double> time = run_pass(
-      point.timed, [&](double* ms) { map.emplace(renderer.render_map(point.frame, point.settings, ms, casters)); });
-  Image<float> depth = renderer.read_map(*map);
-  return {std::move(*map), std::move(depth), time};
+  MapStage stage;
+  stage.map.emplace(renderer.render_map(point.frame, point.settings, nullptr, casters));
+  return stage;
 }
 
 LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
@@ -127,7 +127,7 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
   const Settings& settings = point.settings;
   const LightFrame& frame = point.frame;
   const Bias bias(settings.bias);
-  std::vector<PixelRange> strips = strips_of(settings, frame.kind, strip_bytes_);
+  std::vector<PixelRange> strips = strips_of(settings, frame.kind, kept_bytes_);
   LookupProbe probe = renderer.probe(frame, settings, gl::ProbeTaps::none);
   raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, frame, settings.map, bias,
                                               polygon_offset_unit(renderer, settings));
@@ -136,11 +136,11 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
     renderer.probe_strip(probe, frame, settings, strip);
     rays.ask(probe, strip, &texel_stage);
   }
-  Image<float> depth = rays.trace_map(&texel_stage);
-  gl::ShadowMap exact = renderer.upload_map(depth, settings.map, frame.map_shape());
+  keep_small_index(renderer, frame);
+  MapDepths depth = rays.trace_map(&texel_stage);
   return {.probe = std::move(probe),
-          .exact_map = std::move(exact),
           .exact_depth = std::move(depth),
+          .exact_map = {},
           .strips = std::move(strips),
           .rays = std::move(rays),
           .taps = {},
@@ -149,27 +149,36 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
           .tap_stage = {}};
 }
 
-Image<float> Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point, double* ms) {
-  return renderer.lookup(map, point.frame, point.settings, ms);
+Image<float> Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point) {
+  return renderer.lookup(map, point.frame, point.settings);
 }
 
-ShownStage Pipeline::show(gl::Renderer& renderer, const MapStage& map, const LookupStage& lookup,
-                          const TruthStage& truth, const PointSetup& point) {
+ShownStage Pipeline::show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
+                          const PointSetup& point) {
+  const MapSettings& settings = point.settings.map;
+  const MapShape shape = point.frame.map_shape();
   ShownStage shown;
-  shown.time_ms = run_pass(point.timed, [&](double* ms) { shown.r5 = look_up(renderer, map.map, point, ms); });
-  shown.r4 = look_up(renderer, lookup.exact_map, point, nullptr);
+  shown.r5 = look_up(renderer, *map.map, point);
+  shown.stored = renderer.read_map(*map.map, lookup.exact_depth.texels);
+  keep_small(renderer, map.map);
+
+  if (!lookup.exact_map) lookup.exact_map.emplace(renderer.upload_map(lookup.exact_depth, settings, shape));
+  shown.r4 = look_up(renderer, *lookup.exact_map, point);
+  keep_small(renderer, lookup.exact_map);
+
   shown.ties = tie_map(evidence_of(lookup, truth, shown, point.settings));
-  shown.tie_lookup =
-      look_up(renderer, renderer.upload_map(shown.ties, point.settings.map, point.frame.map_shape()), point, nullptr);
+  std::optional<gl::ShadowMap> tie_map_on_device(renderer.upload_map(shown.ties, settings, shape));
+  shown.tie_lookup = look_up(renderer, *tie_map_on_device, point);
+  keep_small(renderer, tie_map_on_device);
   return shown;
 }
 
-Climbed Pipeline::climb_strips(gl::Renderer& renderer, const MapStage& map, LookupStage& lookup, const ViewStage& view,
+Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view,
                                const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
                                const BiasPart* varied, const EachStrip& each_strip) {
   const LookupEvidence evidence = evidence_of(lookup, truth, shown, point.settings);
   SoundnessCheck soundness(
-      {evidence, map.depth, shown.ties, shown.tie_lookup, view.receivers, point.frame, view.camera.eye_m});
+      {evidence, shown.stored, shown.ties, shown.tie_lookup, view.receivers, point.frame, view.camera.eye_m});
   Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height()), {}, {}};
   if (varied) climbed.counts.emplace(lookup.probe, *varied);
   if (lookup.rays) lookup.tap_stage = {};
@@ -177,13 +186,14 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, const MapStage& map, Look
     if (lookup.rays) bring_taps(renderer, lookup, point, strip);
     Climb climbing(evidence, strip, climbed.ladder);
     if (climbed.counts) {
-      BiasCounts::Adding counting(*climbed.counts, evidence, map.depth);
+      BiasCounts::Adding counting(*climbed.counts, evidence, shown.stored);
       read_taps(evidence, strip, climbing, soundness, counting);
     } else {
       read_taps(evidence, strip, climbing, soundness);
     }
     if (each_strip) each_strip(evidence, strip);
   }
+  keep_small_index(renderer, point.frame);
   climbed.soundness = soundness.metrics();
   return climbed;
 }

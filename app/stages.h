@@ -29,8 +29,6 @@ namespace noonmark {
 struct PointSetup {
   const Settings& settings;
   const LightFrame& frame;  // make_light_frame(), or a placement of it (technique/placements.h)
-  // Whether map and lookup are timed. Without it each is drawn once, with it three times or more.
-  bool timed = false;
 };
 
 struct SceneStage {
@@ -52,17 +50,18 @@ struct TruthStage {
 };
 
 struct MapStage {
-  gl::ShadowMap map;
-  Image<float> depth;             // as the lookup's sampler returns it
-  std::optional<double> time_ms;  // the median of three, if it is asked for
+  std::optional<gl::ShadowMap> map;  // none after show(), if the map is too large to be kept
 };
+
+// Frees the map if it is larger than what is kept (most_kept_map_bytes).
+void keep_small(gl::Renderer& renderer, std::optional<gl::ShadowMap>& map);
 
 // The lookup's inputs and their truth. The truth of the taps covers one strip of the picture at a time. If all taps fit
 // into one strip, the truth is kept and the rays are freed.
 struct LookupStage {
-  LookupProbe probe;  // for a cube with the texels of the present strip
-  gl::ShadowMap exact_map;
-  Image<float> exact_depth;
+  LookupProbe probe;                       // for a cube with the texels of the present strip
+  MapDepths exact_depth;                   // at the texels that the taps of facing receivers read
+  std::optional<gl::ShadowMap> exact_map;  // on the device, once show() has looked it up and if it is kept
   std::vector<PixelRange> strips;
   std::optional<raytrace::LookupTracer> rays;
   TapTruth taps;  // of the present strip
@@ -72,8 +71,9 @@ struct LookupStage {
 
 // What OpenGL shows: the technique on its own map, on the exact map and on the tie map.
 struct ShownStage {
-  Image<float> r5, r4, ties, tie_lookup;
-  std::optional<double> time_ms;  // of the lookup in its own map: the median of three, if it is asked for
+  Image<float> r5, r4, tie_lookup;
+  MapDepths stored;  // the drawn map as the lookup's sampler returns it
+  MapDepths ties;
 };
 
 struct Climbed {
@@ -84,8 +84,9 @@ struct Climbed {
 
 using EachStrip = std::function<void(const LookupEvidence&, PixelRange)>;
 
-// Whole rows of the picture: as many as have room for their taps in this many bytes, at least one.
-std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t strip_bytes);
+// The whole picture, if the truth of its taps takes at most kept_bytes. Otherwise strips of whole rows: as many as have
+// room for their taps in a sixteenth of that (strips_in_kept_taps), at least one.
+std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t kept_bytes);
 
 // Traces the taps of a lookup strip by strip. The evidence has no pictures of OpenGL: its r4 and r5 are empty.
 void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const PointSetup& point,
@@ -97,8 +98,8 @@ double polygon_offset_unit(gl::Renderer& renderer, const Settings& settings);
 // Each virtual method is one stage as the program runs it. What a stage is given must outlive its result.
 class Pipeline {
  public:
-  // strip_bytes: the most memory for the truth of a strip's taps. It changes no result.
-  explicit Pipeline(size_t strip_bytes = most_strip_bytes) : strip_bytes_(strip_bytes) {}
+  // kept_bytes: the most memory for the truth of all taps (strips_of). It changes no result.
+  explicit Pipeline(size_t kept_bytes = most_kept_tap_bytes) : kept_bytes_(kept_bytes) {}
   virtual ~Pipeline() = default;
 
   // Also uploads the scene to the renderer. Throws Error.
@@ -109,18 +110,19 @@ class Pipeline {
   virtual MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point);
   virtual LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
                                      const TruthStage& truth, const PointSetup& point);
-  // One lookup of all receivers. show() calls it for each of its maps. ms receives its time, or is null.
-  virtual Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point, double* ms);
-  virtual ShownStage show(gl::Renderer& renderer, const MapStage& map, const LookupStage& lookup,
-                          const TruthStage& truth, const PointSetup& point);
+  // One lookup of all receivers. show() calls it for each of its maps.
+  virtual Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point);
+  // map: has its map; afterwards it and the exact map on the device are kept only if they are small.
+  virtual ShownStage show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
+                           const PointSetup& point);
   // Traces the taps strip by strip and books them. varied: the part of the bias that a curve varies, or null.
   // each_strip: called for each strip while its taps are at hand, or empty.
-  virtual Climbed climb_strips(gl::Renderer& renderer, const MapStage& map, LookupStage& lookup, const ViewStage& view,
+  virtual Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view,
                                const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
                                const BiasPart* varied, const EachStrip& each_strip = {});
 
  private:
-  size_t strip_bytes_;
+  size_t kept_bytes_;
 };
 
 }  // namespace noonmark

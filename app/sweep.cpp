@@ -7,15 +7,19 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <map>
+#include <functional>
 #include <optional>
 
 #include "app/build_facts.h"
 #include "app/clock.h"
 #include "app/identity.h"
 #include "app/image_file.h"
+#include "app/kept_points.h"
+#include "app/pass_times.h"
+#include "app/pictures.h"
 #include "app/point_pictures.h"
 #include "app/progress.h"
+#include "app/survey.h"
 #include "app/sweep_phase.h"
 #include "app/workbench.h"
 #include "compare/judge/bounds.h"
@@ -32,8 +36,6 @@
 #include "scenes/file.h"
 #include "scenes/library.h"
 #include "scenes/text.h"
-#include "technique/setting_rules.h"
-#include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {
@@ -68,30 +70,9 @@ class StopOnSignal {
   struct sigaction before_[2]{};
 };
 
-// Reports settings that were set but had no effect at any point of their part, so that a user does not believe that
-// they were measured.
-class IdleNotes {
- public:
-  void add(const std::string& part, const std::vector<IdleSetting>& idle) {
-    ++points_[part];
-    for (const IdleSetting& setting : idle) ++idle_[{part, setting.name}];
-  }
-  void print() const {
-    for (const auto& [which, count] : idle_) {
-      const auto& [part, name] = which;
-      if (count == points_.at(part))
-        fmt::print(stderr, "note: {} has no effect at any point{}\n", name,
-                   part.empty() ? "" : fmt::format(" of part '{}'", part));
-    }
-  }
-
- private:
-  std::map<std::string, int> points_;
-  std::map<std::pair<std::string, std::string>, int> idle_;
-};
-
 RunInfo run_info(const Experiment& experiment, const SweepOptions& options, const gl::DeviceInfo& device,
-                 const raytrace::TracerInfo& tracer, const Scene& scene, std::vector<std::string> scene_notes) {
+                 const raytrace::TracerInfo& tracer, const Scene& scene, std::vector<std::string> scene_notes,
+                 std::vector<std::string> sweep_notes) {
   RunInfo info;
   info.experiment = experiment.path;
   info.title = experiment.title;
@@ -103,7 +84,7 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
   info.gl_vendor = device.vendor;
   info.gl_renderer = device.renderer;
   info.gl_version = device.version;
-  info.gl_timer = device.timer_queries ? "timer query" : "glFinish + steady clock";
+  info.gl_timer = gl::text_of(device.times);
   info.embree_version = tracer.version;
   info.embree_isa = tracer.isa;
   for (const LibraryVersion& library : build_facts().libraries)
@@ -116,64 +97,19 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
   info.scene_name = scene.name;
   info.triangles = scene.triangles.size();
   info.scene_notes = std::move(scene_notes);
+  info.sweep_notes = std::move(sweep_notes);
   return info;
 }
 
-// "3 edges map.resolution = 512", for progress lines and messages.
-std::string name_of_point(const Experiment& experiment, int64_t id) {
-  const std::string part = part_of_point(experiment, id).part, swept = swept_text(experiment, id);
-  const std::string name = part + (part.empty() || swept.empty() ? "" : " ") + swept;
-  return name.empty() ? "the only point" : name;
-}
-
-// Predicts the memory of each point and remembers the present contents of every scene. Before any point is measured, it
-// throws the error of the first point that cannot be measured (settings that its light refuses, a map without volume).
-// Each scene is loaded once, in the order of the points.
-std::vector<MemoryEstimate> survey(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points,
-                                   SceneDigests& scenes) {
-  std::vector<MemoryEstimate> memory;
-  for (size_t id = 0; id < points.size(); ++id) {
-    scenes.remember(bench, points[id]);
-    const bool pictures = experiment.pictures != "none" && (experiment.pictures != "first" || id == 0);
-    const Experiment& part = part_of_point(experiment, static_cast<int64_t>(id));
-    memory.push_back(at_point(experiment, static_cast<int64_t>(id),
-                              [&] { return bench.memory(points[id], part.curve_enabled, pictures); }));
-  }
-  return memory;
-}
-
-bool writes_pictures(const Experiment& experiment) { return experiment.pictures != "none"; }
-
-// Compares points with the memory that is free. Reading it opens some 20 files of the system, which takes longer than a
-// small point, so a value is used for a tenth of a second.
-class MemoryCheck {
- public:
-  MemoryCheck(const Workbench& bench, const Experiment& experiment, const std::vector<MemoryEstimate>& memory)
-      : bench_(bench), experiment_(experiment), memory_(memory) {}
-  void require_room_for(size_t id) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!there_ || now - read_ > std::chrono::milliseconds(100)) {
-      there_ = bench_.memory_of_program(writes_pictures(experiment_));
-      read_ = now;
-    }
-    require_memory(memory_[id], *there_,
-                   fmt::format("point {} ({})", id, name_of_point(experiment_, static_cast<int64_t>(id))));
-  }
-
- private:
-  const Workbench& bench_;
-  const Experiment& experiment_;
-  const std::vector<MemoryEstimate>& memory_;
-  std::optional<AvailableMemory> there_;
-  std::chrono::steady_clock::time_point read_;
-};
-
 // Opens the store. It also removes an earlier run's report and results.csv, because they can show an old verdict or
 // other results.
-ResultStore open_store(const ResultsFolder& folder, const std::string& fingerprint, bool overwrite) {
+// use: what else can find that the store holds other results.
+ResultStore open_store(const ResultsFolder& folder, const std::string& fingerprint, bool overwrite,
+                       const std::function<void(ResultStore&)>& use) {
   try {
     ResultStore store(folder.path() + "/results.sqlite", fingerprint,
                       overwrite ? Existing::overwrite : Existing::resume);
+    use(store);
     if (overwrite)
       folder.remove_earlier_results();
     else
@@ -220,6 +156,34 @@ PointPictures pictures_of(Workbench& bench, const Measurement& m, int64_t id, co
   return kept;
 }
 
+// The points at which a bound or a law is furthest off, each once and only the first few: a summary is read in a minute.
+std::vector<const PointRecord*> points_of_broken(const Results& results) {
+  constexpr size_t most = 3;
+  std::vector<const PointRecord*> points;
+  const auto add = [&](int64_t id) {
+    const PointRecord* point = find_point(results.points, id);
+    if (point && point->worst.x >= 0 && points.size() < most &&
+        std::find(points.begin(), points.end(), point) == points.end())
+      points.push_back(point);
+  };
+  for (const BoundResult& bound : results.bounds)
+    if (!bound.held) add(bound.point);
+  for (const LawResult& law : results.laws)
+    if (!law.held && law.worst >= 0) add(law.samples[static_cast<size_t>(law.worst)].point);
+  return points;
+}
+
+SummaryPicture draw_worst_pixel(const Measurement& m, const PointRecord& point, const std::string& name,
+                                const std::string& out) {
+  const std::string file = fmt::format("{}{:04}.png", summary_picture, point.id);
+  write_png(out + "/" + file, pixel_picture(m, point.worst.x, point.worst.y));
+  return {file,
+          fmt::format("Point {} ({}): the pixel with the largest error, ({}, {}), is framed; error {:.4g}, cause {}. "
+                      "Left the truth, in the middle the shadow map, right the causes; {} x {} pixels, enlarged.",
+                      point.id, name, point.worst.x, point.worst.y, point.worst.error, point.worst.cause, crop_px,
+                      crop_px)};
+}
+
 // Whether a stored point has the numbers that the sweep itself needs (require_sound, points_with_pictures).
 bool has_what_a_sweep_reads(const PointRecord& point) {
   const auto has = [&](std::string_view name) { return point.metrics.contains(std::string(name)); };
@@ -229,7 +193,41 @@ bool has_what_a_sweep_reads(const PointRecord& point) {
          });
 }
 
+// Times every point, if one has no times yet: those of another day could not be compared with the others. False if a signal
+// stopped it; then nothing is stored.
+bool add_times(Workbench& bench, ResultStore& store, const std::vector<Settings>& planned, Progress& progress) {
+  const std::vector<PointRecord> points = store.load().points;
+  if (std::all_of(points.begin(), points.end(),
+                  [](const PointRecord& point) { return point.metrics.contains("shadow_ms"); }))
+    return true;
+  std::optional<std::vector<TimeMetrics>> times;
+  const auto go_on = [&](int done, int all) {
+    progress.say(fmt::format("times of map and lookup: round {} of {}", done + 1, all));
+    return stop_asked == 0;
+  };
+  progress.aside("times of map and lookup", [&] { times = time_passes(bench, planned, go_on); });
+  if (!times) return false;
+  std::map<int64_t, TimeMetrics> of_points;
+  for (size_t id = 0; id < planned.size(); ++id) of_points[static_cast<int64_t>(id)] = std::move((*times)[id]);
+  store.set_metrics(of_points);
+  return true;
+}
+
 }  // namespace
+
+std::string SweepOutcome::counts() const {
+  return kept == 0 ? fmt::format("{} measured", counted(static_cast<size_t>(measured), "point"))
+                   : fmt::format("{} measured, {} kept", counted(static_cast<size_t>(measured), "point"), kept);
+}
+
+std::string stopped_text(const SweepOutcome& outcome) {
+  const Results& results = outcome.results;
+  const std::string points = counted(static_cast<size_t>(results.planned_points), "point");
+  if (static_cast<int64_t>(results.points.size()) == results.planned_points)
+    return fmt::format("stopped after all {}; the same command continues with what is left (times, phase diagrams)",
+                       points);
+  return fmt::format("stopped after {} of {}; the same command continues from there", results.points.size(), points);
+}
 
 void require_sound(const Results& results) {
   if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty())
@@ -245,35 +243,37 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   Workbench bench(gl::DebugMode::log);
   if (writes_pictures(experiment)) require_image_files();
   const raytrace::TracerInfo tracer = raytrace::tracer_info();
-  SceneDigests scenes;
-  const std::vector<MemoryEstimate> memory = survey(bench, experiment, planned, scenes);
+  Survey survey(bench, experiment, planned);
+  survey.tell();
+  SceneDigests& scenes = survey.scenes;
   const auto facts = identity(bench, planned, tracer, scenes);
   for (const std::string& note : scenes.notes()) fmt::print(stderr, "note: {}\n", printable(note));
-  ResultStore store = open_store(folder, fingerprint(experiment, facts), options.overwrite);
-  const auto expected = [&](const PointRecord& stored) {
-    return stored.settings == settings_map(planned[static_cast<size_t>(stored.id)]) &&
-           stored.part == part_of_point(experiment, stored.id).part && has_what_a_sweep_reads(stored);
-  };
   const auto total = static_cast<int64_t>(planned.size());
-  for (const std::string& repaired : store.repair(total, expected))
-    fmt::print(stderr, "note: {}\n", printable(repaired));
+  KeptPoints kept;
+  ResultStore store = open_store(folder, facts_text(facts), options.overwrite, [&](ResultStore& opened) {
+    for (const std::string& repaired : opened.repair(total, has_what_a_sweep_reads))
+      fmt::print(stderr, "note: {}\n", printable(repaired));
+    kept = keep_points(opened, experiment, planned, folder.path(), facts_text(facts));
+  });
   const std::vector<PhasePlan> diagrams = phase_plans(experiment, planned);
+  // Diagrams whose measurement may still serve, though the points or the bounds are others now.
+  const std::vector<PhaseDiagram> earlier = store.stored_phases();
   const auto as_planned = [&](int64_t number, const PhaseDiagram& stored) {
     return std::any_of(diagrams.begin(), diagrams.end(), [&](const PhasePlan& plan) {
-      return plan.number == number && plan.made_from() == stored.made_from;
+      return plan.number == number && stored.made_from.starts_with(plan.made_from());
     });
   };
   for (const std::string& repaired : store.repair_phases(as_planned))
     fmt::print(stderr, "note: {}\n", printable(repaired));
-  store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene), scenes.notes()),
+  store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene), scenes.notes(),
+                          survey.idle.dead_sweeps()),
                  total);
 
   const std::vector<int64_t> before = store.finished();
-  if (!before.empty())
-    fmt::print(stderr, "{} of {} {} in {} already\n", before.size(), counted(planned.size(), "point"),
-               total == 1 ? "is" : "are", printable(folder.path()));
+  if (const std::string text = kept.text(planned.size(), folder.path()); !text.empty() && !options.quiet)
+    fmt::print(stderr, "{}\n", text);
   // All of them are checked before the first is measured, so that a user does not get the error hours later.
-  MemoryCheck room(bench, experiment, memory);
+  MemoryCheck room(bench, experiment, survey.memory);
   const auto measured_before = [&](int64_t id) { return std::binary_search(before.begin(), before.end(), id); };
   for (int64_t id = 0; id < total; ++id)
     if (!measured_before(id)) room.require_room_for(static_cast<size_t>(id));
@@ -283,19 +283,18 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       require_room_for(bench, plan);
       undrawn.push_back(&plan);
     }
-  const bool timed = times_measured(experiment);
   SweepOutcome outcome;
+  outcome.kept = static_cast<int64_t>(before.size());
   {
     const StopOnSignal guard;
-    Progress progress(total, static_cast<int64_t>(before.size()));
+    Progress progress(total, static_cast<int64_t>(before.size()), options.quiet);
     auto done = static_cast<int64_t>(before.size());
-    IdleNotes notes;
     for (int64_t id = 0; id < total && !outcome.interrupted; ++id) {
       // Before the part's first point, which shares its scene and, in a picture of the same size, its view.
       if (!undrawn.empty() && undrawn.front()->first == id) {
         const PhasePlan& plan = *undrawn.front();
         scenes.require_unchanged(bench, planned[static_cast<size_t>(id)]);
-        progress.aside(plan.name(), [&] { store.add_phase(plan.number, make_phase(bench, plan)); });
+        progress.aside(plan.name(), [&] { store.add_phase(plan.number, make_phase(bench, plan, earlier)); });
         undrawn.erase(undrawn.begin());
         outcome.interrupted = stop_asked && (done < total || !undrawn.empty());
         if (outcome.interrupted) break;
@@ -305,17 +304,18 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       const Experiment& part = part_of_point(experiment, id);
       scenes.require_unchanged(bench, planned[static_cast<size_t>(id)]);
       Measurement m = bench.measure(planned[static_cast<size_t>(id)],
-                                    part.curve_enabled ? std::optional(part.curve) : std::nullopt, {}, timed);
+                                    part.curve_enabled ? std::optional(part.curve) : std::nullopt);
       m.record.id = id;
       m.record.part = part.part;
-      notes.add(part.part, idle_settings(m.frame.kind, m.settings));
       if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0))
         static_cast<PointPictures&>(m.record) = pictures_of(bench, m, id, folder.path());
       store.add(m.record);
+      ++outcome.measured;
       progress.finished(++done, name_of_point(experiment, id));
       outcome.interrupted = stop_asked && (done < total || !undrawn.empty());
     }
-    notes.print();
+    if (times_measured(experiment) && !outcome.interrupted)
+      outcome.interrupted = !add_times(bench, store, planned, progress);
   }
 
   for (const Settings& point : planned) outcome.scenes.push_back(names_file(point.scene.name) ? scenes.of(point) : "");
@@ -326,7 +326,15 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     fmt::print(stderr, "note: {}\n", doubt);
   if (!outcome.interrupted) {
     bool changed = false;
-    for (int64_t id : points_with_pictures(experiment.pictures, outcome.results.points)) {
+    judge(experiment, outcome.results);
+    const std::vector<int64_t> shown = points_with_pictures(experiment.pictures, outcome.results);
+    for (const PointRecord& point : outcome.results.points) {
+      if (point.pictures.empty() || std::find(shown.begin(), shown.end(), point.id) != shown.end()) continue;
+      remove_pictures(point, folder.path());  // another point has them now
+      store.set_pictures(point.id, {});
+      changed = true;
+    }
+    for (int64_t id : shown) {
       const PointRecord& point = *find_point(outcome.results.points, id);
       if (!point.pictures.empty()) {
         const std::string why = measured_before(id) ? why_not_as_written(point, folder.path()) : "";
@@ -344,6 +352,14 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   judge(experiment, outcome.results);
   store.set_bounds(outcome.results.bounds);
   store.set_laws(outcome.results.laws);
+  if (options.worst_pixels && writes_pictures(experiment) && !outcome.interrupted)
+    for (const PointRecord* point : points_of_broken(outcome.results)) {
+      const auto id = static_cast<size_t>(point->id);
+      room.require_room_for(id);
+      scenes.require_unchanged(bench, planned[id]);
+      outcome.worst_pixels.push_back(draw_worst_pixel(bench.measure(planned[id], std::nullopt), *point,
+                                                      name_of_point(experiment, point->id), folder.path()));
+    }
   write_report(outcome.results, folder.path());
   require_sound(outcome.results);
   return outcome;
@@ -354,63 +370,6 @@ void write_report(const Results& results, const std::string& out) {
   write_file_atomically(out + "/report.html", render_report(results, [&](const std::string& path) {
                           return read_picture(out, path, results.points);
                         }));
-}
-
-void print_plan(const Experiment& experiment) {
-  const std::vector<Settings> planned = points(experiment);
-  const auto taps = [](const Settings& s) {
-    return static_cast<double>(s.view.width_px) * s.view.height_px * tap_pattern(s.filter).taps;
-  };
-  // Checks the same things as run, in the same order.
-  require_room_to_start(writes_pictures(experiment));
-  Workbench bench(gl::DebugMode::log);
-  if (writes_pictures(experiment)) require_image_files();
-  SceneDigests scenes;
-  const std::vector<MemoryEstimate> memory = survey(bench, experiment, planned, scenes);
-  double all_taps = 0;
-  for (size_t i = 0; i < planned.size(); ++i) {
-    const Experiment& part = part_of_point(experiment, static_cast<int64_t>(i));
-    std::string text = part.part.empty() ? "" : "  " + part.part;
-    for (const Swept& swept : part.swept)
-      text += fmt::format("  {} = {}", swept.name, find_setting(swept.name).get(planned[i]));
-    fmt::print("{:5}{}  ({})\n", i, text, bytes_text(memory[i].bytes()));
-    all_taps += taps(planned[i]);
-  }
-  const auto most =
-      std::max_element(memory.begin(), memory.end(),
-                       [](const MemoryEstimate& a, const MemoryEstimate& b) { return a.bytes() < b.bytes(); });
-  const MemoryShare& share = most->largest();
-  fmt::print("memory: at most {}, by point {} ({} of it for {}); {}\n", bytes_text(most->bytes()),
-             most - memory.begin(), bytes_text(share.bytes), share.what,
-             bench.memory_of_program(writes_pictures(experiment)).text());
-  MemoryCheck room(bench, experiment, memory);
-  for (size_t i = 0; i < planned.size(); ++i) room.require_room_for(i);
-  for (const PhasePlan& plan : phase_plans(experiment, planned)) {
-    require_room_for(bench, plan);
-    fmt::print("{}: {} texel sizes, each at {} placements of its grid; its time is not in the estimate below\n",
-               printable(plan.name()), plan.request.texel_sizes, plan.request.placements * plan.request.placements);
-  }
-  // The time is almost a constant for each point plus a share for each tap. Two small pictures of the first point give
-  // both.
-  const auto seconds = [&](int divisor, double nudge) {
-    Settings small = planned[0];
-    small.view.width_px = std::max(1, small.view.width_px / divisor);
-    small.view.height_px = std::max(1, small.view.height_px / divisor);
-    small.map.extent_scale *= nudge;  // so that nothing is reused from the point before
-    const auto start = std::chrono::steady_clock::now();
-    const Experiment& part = part_of_point(experiment, 0);
-    bench.measure(small, part.curve_enabled ? std::optional(part.curve) : std::nullopt, {}, times_measured(experiment));
-    return std::pair(taps(small), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  };
-  seconds(4, 1);  // loads the scene and compiles the shaders
-  const auto [few, short_time] = seconds(4, 1.001);
-  const auto [more, longer_time] = seconds(2, 1.002);
-  const double per_tap = more > few ? std::max(0.0, (longer_time - short_time) / (more - few)) : 0;
-  const double per_point = std::max(0.0, short_time - per_tap * few);
-  fmt::print(
-      "{}, {:.3g} million taps; about {:.0f} s here (judged from point 0 at a quarter and at half of its size)\n",
-      counted(planned.size(), "point"), all_taps / 1e6,
-      per_point * static_cast<double>(planned.size()) + per_tap * all_taps);
 }
 
 }  // namespace noonmark

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "scenes/digest.h"
 #include "scenes/error.h"
 #include "technique/setting_rules.h"
 
@@ -84,6 +85,18 @@ Range range_of(const std::vector<Settings>& points, const std::vector<PhasePlace
           std::max(8192, static_cast<int>(std::ceil(texels(fine) * (1 - 1e-9))))};
 }
 
+// The end of PhaseDiagram::made_from: everything that the rows depend on, but not the bounds.
+std::string measured_text(const Settings& settings, const PhaseOptions& options) {
+  const auto& [rows, coarsest, finest, placements, acne, peter_panning, biases_per_octave] =
+      options;  // must name every member, otherwise it does not compile
+  std::string text = fmt::format("measured\nrows = {}\ncoarsest = {}\nfinest = {}\nS = {}\nbiases_per_octave = {}\n",
+                                 rows, coarsest, finest, placements, biases_per_octave);
+  // Each row has its own resolution, and all have the placements of the options.
+  for (const auto& [name, value] : settings_map(settings))
+    if (name != "map.resolution" && name != "map.placements") text += fmt::format("{} = {}\n", name, value);
+  return text;
+}
+
 bool can_have_one(const Settings& point, const Scene& scene) {
   try {
     phase_settings(point, scene);
@@ -113,8 +126,13 @@ std::string PhasePlan::name() const {
 std::string PhasePlan::made_from() const {
   const auto& [enabled, acne, peter_panning, placements, texel_sizes, width_px] =
       request;  // must name every member, otherwise it does not compile; the bounds are below
-  return fmt::format("placements = {}\ntexel_sizes = {}\nwidth_px = {}\nacne_bound = {}\npeter_panning_bound = {}\n",
-                     placements, texel_sizes, width_px, acne_bound, peter_panning_bound);
+  Digest digest;
+  for (const Settings& point : points)
+    for (const auto& [name, value] : settings_map(point)) digest.text(name), digest.text(value);
+  return fmt::format(
+      "placements = {}\ntexel_sizes = {}\nwidth_px = {}\nacne_bound = {}\npeter_panning_bound = {}\npoints = {} from "
+      "{}\n",
+      placements, texel_sizes, width_px, acne_bound, peter_panning_bound, digest.hex(), first);
 }
 
 std::vector<PhasePlan> phase_plans(const Experiment& experiment, std::span<const Settings> points) {
@@ -150,7 +168,7 @@ void require_room_for(Workbench& bench, const PhasePlan& plan) {
   require_memory(bench.memory(coarse, false, false), bench.memory_of_program(false), plan.name());
 }
 
-PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan) {
+PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan, const std::vector<PhaseDiagram>& earlier) {
   const Scene& scene = bench.scene(plan.points.front().scene);
   const Settings& chosen = point_of_diagram(plan, scene);
   std::vector<PhasePoint> points;
@@ -163,6 +181,7 @@ PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan) {
     points.push_back(std::move(point));
   }
   PhaseDiagram diagram;
+  std::string measured;
   try {
     phase_settings(chosen, scene);  // before the points' places, which a point light does not have
     const std::vector<PhasePlace> places = bench.places(picture_of(chosen, plan.request.width_px), members);
@@ -177,7 +196,11 @@ PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan) {
     PhaseOptions options = options_of(plan);
     options.coarsest = range.coarsest;
     options.finest = range.finest;
-    diagram = bench.phase(settings, options);
+    measured = measured_text(settings, options);
+    const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const PhaseDiagram& one) {
+      return one.refused.empty() && one.made_from.ends_with(measured);
+    });
+    diagram = bench.phase(settings, options, same == earlier.end() ? nullptr : &*same);
     describe_phase(diagram, settings, scene);
     diagram.points = std::move(points);
   } catch (const Error& error) {
@@ -186,7 +209,7 @@ PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan) {
     diagram.refused = error.what();
   }
   diagram.part = plan.part;
-  diagram.made_from = plan.made_from();
+  diagram.made_from = plan.made_from() + measured;
   return diagram;
 }
 

@@ -24,7 +24,8 @@ struct PhasePlan {
   std::vector<Settings> points;
 
   std::string name() const;  // "the phase diagram of part 'x'"
-  // PhaseDiagram::made_from. A stored diagram with another text is made anew.
+  // The beginning of PhaseDiagram::made_from: options, bounds and points. A stored diagram that begins otherwise is made
+  // anew, or judged anew if its measurement is the same.
   std::string made_from() const;
 };
 
@@ -33,7 +34,9 @@ std::vector<PhasePlan> phase_plans(const Experiment& experiment, std::span<const
 // Throws Error(usage) if it does not fit into the memory that is free.
 void require_room_for(Workbench& bench, const PhasePlan& plan);
 
-// If the part can have no diagram, the result says why (PhaseDiagram::refused). Throws Error.
-PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan);
+// If the part can have no diagram, the result says why (PhaseDiagram::refused). earlier: diagrams of the same scenes and
+// program; one with the same texel sizes of the same technique is not measured again, only its bounds and points are new.
+// Throws Error.
+PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan, const std::vector<PhaseDiagram>& earlier = {});
 
 }  // namespace noonmark

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "app/experiment.h"
+#include "app/experiment_keys.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
 #include "technique/settings.h"
@@ -122,7 +123,7 @@ class TomlReader {
       else if (item.key == "max")
         max = number(*item.node, item_name);
       else if (item.key == "scale")
-        logarithmic = one_of(*item.node, item_name, {"linear", "log"}) == "log";
+        logarithmic = one_of(*item.node, item_name, key_choices("range", "scale")) == "log";
       else if (item.key == "steps") {
         if (!item.node->is_integer()) fail(*item.node, fmt::format("{} must be an integer", item_name));
         steps = item.node->as_integer()->get();
@@ -130,7 +131,7 @@ class TomlReader {
           fail(*item.node, fmt::format("{} = {} must be 2 ... {}: the number of values, both ends among them",
                                        item_name, *steps, max_points));
       } else {
-        unknown(item, "key", {"min", "max", "steps", "scale"}, name + ".");
+        unknown(item, "key", key_names("range"), name + ".");
       }
     }
     if (!min || !max || !steps) fail(table, fmt::format("the range {} needs min, max and steps", name));

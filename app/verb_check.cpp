@@ -2,18 +2,25 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "app/atlas_page.h"
 #include "app/baseline_file.h"
+#include "app/build_facts.h"
 #include "app/experiment_arguments.h"
 #include "app/experiment_list.h"
+#include "app/experiment_text.h"
 #include "app/failure.h"
+#include "app/plan.h"
+#include "app/point_pictures.h"
+#include "app/results_json.h"
 #include "app/retract.h"
 #include "app/sweep.h"
 #include "app/verbs.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
+#include "compare/report/index_page.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"
 #include "scenes/error.h"
@@ -25,8 +32,51 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int check_one(const ListedExperiment& listed, const ExperimentArguments& arguments, const CheckOptions& options,
-              const EarlyFolder& folder, AtlasPage& atlas) {
+// "3 of 3 bounds held, 2 of 2 laws hold".
+std::string verdict_words(const Results& results, const BaselineComparison* compared) {
+  size_t bounds_held = 0, warnings = 0, laws_held = 0;
+  for (const BoundResult& bound : results.bounds) {
+    bounds_held += bound.held;
+    warnings += !bound.held && bound.warns;
+  }
+  for (const LawResult& law : results.laws) laws_held += law.held;
+  std::string verdict;
+  if (!results.bounds.empty())
+    verdict = fmt::format("{} of {} held", bounds_held, counted(results.bounds.size(), "bound"));
+  if (warnings > 0) verdict += fmt::format(", {}", counted(warnings, "warning"));
+  if (!results.laws.empty())
+    verdict += fmt::format("{}{} of {} {}", verdict.empty() ? "" : ", ", laws_held, counted(results.laws.size(), "law"),
+                           results.laws.size() == 1 ? "holds" : "hold");
+  if (compared) verdict += (verdict.empty() ? "" : ", ") + baseline_verdict(*compared);
+  return verdict.empty() ? "nothing is promised" : verdict;
+}
+
+// The bounds and laws, each with what was found, and the verdict in the last line.
+std::string verdict_text(const ListedExperiment& listed, const SweepOutcome& outcome,
+                         const BaselineComparison* compared) {
+  const Results& results = outcome.results;
+  std::string text;
+  for (const BoundResult& bound : results.bounds)
+    text += describe(bound, find_point(results.points, bound.point), results.info.swept);
+  if (!results.laws.empty()) text += (results.bounds.empty() ? "" : "\n") + law_table(results.laws);
+  for (const LawResult& law : results.laws)
+    if (!law.found.empty()) text += fmt::format("found: {}\n", law.found);
+  if (compared)
+    for (const auto* lines : {&compared->worse, &compared->better, &compared->notes})
+      for (const std::string& line : *lines) text += printable(line) + "\n";
+  return text + fmt::format("{}: {}; {}; the report is {}/report.html\n", printable(listed.file),
+                            verdict_words(results, compared), outcome.counts(), printable(listed.out));
+}
+
+// What is printed of a checked experiment: text, or JSON.
+struct Checked {
+  int exit_code = 0;
+  std::string text;
+  nlohmann::ordered_json json;
+};
+
+Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arguments, const CheckOptions& options,
+                  const EarlyFolder& folder, IndexEntry& entry, AtlasPage& atlas) {
   const std::string &path = listed.file, &out = listed.out;
   std::error_code none;
   if (listed.in_folder && fs::exists(path, none) && !fs::is_regular_file(path, none))
@@ -41,48 +91,44 @@ int check_one(const ListedExperiment& listed, const ExperimentArguments& argumen
         fmt::format("{} has no [[bound]] and no [[law]], so there is nothing to check; add one, or use noonmark "
                     "run",
                     path));
+  entry.title = experiment.title;
   const BaselineFile baseline(options, experiment);  // read before anything is measured
-  const SweepOutcome outcome = run_sweep(experiment, folder.get(), {arguments.overwrite, arguments.command});
+  const SweepOutcome outcome = run_sweep(
+      experiment, folder.get(),
+      {.overwrite = arguments.overwrite, .command = arguments.command, .quiet = arguments.quiet, .worst_pixels = true});
+  Checked checked;
   const std::optional<BaselineComparison> compared =
-      outcome.interrupted ? std::nullopt : baseline.compare_or_update(experiment, outcome);
-  write_file_atomically(out + "/junit.xml", to_junit(outcome.results, compared ? &*compared : nullptr));
-  write_file_atomically(out + "/summary.md", to_summary(outcome.results, compared ? &*compared : nullptr));
-  if (outcome.interrupted) {
-    fmt::print("stopped after {} of {}; the same command continues from there\n", outcome.results.points.size(),
-               counted(static_cast<size_t>(outcome.results.planned_points), "point"));
-    return static_cast<int>(ErrorKind::incomplete);
-  }
+      outcome.interrupted ? std::nullopt : baseline.compare_or_update(experiment, outcome, checked.text);
+  const BaselineComparison* const comparison = compared ? &*compared : nullptr;
+  write_file_atomically(out + "/junit.xml", to_junit(outcome.results, comparison));
+  write_file_atomically(out + "/summary.md", to_summary(outcome.results, comparison, outcome.worst_pixels));
   const Results& results = outcome.results;
-  size_t bounds_held = 0, warnings = 0, laws_held = 0;
-  for (const BoundResult& bound : results.bounds) {
-    fmt::print("{}", describe(bound, find_point(results.points, bound.point), results.info.swept));
-    bounds_held += bound.held;
-    warnings += !bound.held && bound.warns;
+  const bool held =
+      std::none_of(results.bounds.begin(), results.bounds.end(), breaks) &&
+      std::all_of(results.laws.begin(), results.laws.end(), [](const LawResult& law) { return law.held; }) &&
+      (!compared || compared->held());
+  entry.report = "report.html";
+  entry.numbers = worst_numbers(results);
+  entry.words = outcome.interrupted ? "stopped before its end" : verdict_words(results, comparison);
+  if (!outcome.interrupted) entry.verdict = held ? IndexEntry::Verdict::held : IndexEntry::Verdict::broken;
+  if (const std::string picture = picture_of_index(results); !picture.empty()) {
+    try {
+      entry.thumbnail = read_picture(out, picture, results.points);
+    } catch (const Error&) {
+      // The report says why the picture cannot be read.
+    }
   }
-  for (const LawResult& law : results.laws) laws_held += law.held;
-  if (!results.laws.empty()) fmt::print("{}{}", results.bounds.empty() ? "" : "\n", law_table(results.laws));
-  for (const LawResult& law : results.laws)
-    if (!law.found.empty()) fmt::print("found: {}\n", law.found);
-  std::string verdict;
-  if (!results.bounds.empty())
-    verdict = fmt::format("{} of {} held", bounds_held, counted(results.bounds.size(), "bound"));
-  if (warnings > 0) verdict += fmt::format(", {}", counted(warnings, "warning"));
-  if (!results.laws.empty())
-    verdict += fmt::format("{}{} of {} {}", verdict.empty() ? "" : ", ", laws_held, counted(results.laws.size(), "law"),
-                           results.laws.size() == 1 ? "holds" : "hold");
-  if (compared) {
-    for (const auto* lines : {&compared->worse, &compared->better, &compared->notes})
-      for (const std::string& line : *lines) fmt::print("{}\n", printable(line));
-    verdict += (verdict.empty() ? "" : ", ") + baseline_verdict(*compared);
-  }
-  if (verdict.empty()) verdict = "nothing is promised";
-  fmt::print("{}: {}; the report is {}/report.html\n", printable(path), verdict, printable(out));
-  atlas.add(path, out, results);
-  return bounds_held + warnings == results.bounds.size() && laws_held == results.laws.size() &&
-                 (!compared || compared->held())
-             ? 0
-             : 1;
+  if (!outcome.interrupted) atlas.add(path, out, results);
+  checked.exit_code = outcome.interrupted ? static_cast<int>(ErrorKind::incomplete) : held ? 0 : 1;
+  if (arguments.json)
+    checked.json = results_json(outcome, {path, out, checked.exit_code, true, comparison});
+  else
+    checked.text += outcome.interrupted ? stopped_text(outcome) + "\n" : verdict_text(listed, outcome, comparison);
+  return checked;
 }
+
+// The folder that holds the results' folders of all experiments: that of --out, or `out`.
+std::string index_folder(const ExperimentArguments& arguments) { return arguments.out.empty() ? "out" : arguments.out; }
 
 // Printed at the end, because there may be many lines above.
 void tell_the_unchecked(const std::vector<std::string>& experiments, size_t of,
@@ -115,30 +161,77 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     }
     return 0;
   }
+  if (arguments.print_config) {
+    for (const UnreadableFolder& one : list.unreadable) throw one.error;
+    if (list.experiments.size() != 1)
+      throw Error(ErrorKind::usage, "--print-config: the text is one file, so give one experiment");
+    fmt::print("{}", experiment_text(experiment_from(list.experiments.front().file, arguments)));
+    return 0;
+  }
+  // A folder of experiments gets one page about all of them. That of an earlier check is removed first.
+  const bool indexed =
+      list.experiments.size() > 1 || std::any_of(list.experiments.begin(), list.experiments.end(),
+                                                 [](const ListedExperiment& one) { return one.in_folder; });
+  const std::string index = index_folder(arguments) + "/index.html";
+  std::vector<IndexEntry> entries;
+  std::error_code none;
+  if (indexed) fs::remove(index, none);
   int worst = 0;
   std::vector<std::string> unreadable, failed;
-  AtlasPage atlas(arguments.out.empty() ? "out" : arguments.out);
-  atlas.retract();
+  AtlasPage atlas(index_folder(arguments));
+  if (indexed) atlas.retract();
+  std::vector<nlohmann::ordered_json> printed;
   for (const UnreadableFolder& one : list.unreadable) {
     worst = std::max(worst, tell({one.error.exit_code(), printable(one.error.what())}));
     unreadable.push_back(one.folder);
+    printed.push_back(failure_json(one.folder, one.error.what(), one.error.exit_code()));
   }
   for (const ListedExperiment& listed : list.experiments) {
     EarlyFolder folder;
     folder.open(listed.out);
+    IndexEntry& entry = entries.emplace_back();
+    entry.experiment = listed.file;
     try {
-      worst = std::max(worst, check_one(listed, arguments, options, folder, atlas));
+      const Checked checked = check_one(listed, arguments, options, folder, entry, atlas);
+      worst = std::max(worst, checked.exit_code);
+      if (arguments.json)
+        printed.push_back(checked.json);
+      else
+        fmt::print("{}", checked.text);
     } catch (...) {
       const Failure failure = current_failure();
+      entry.words = failure.message;
       worst = std::max(worst, tell(failure));
       failed.push_back(listed.file);
+      printed.push_back(failure_json(listed.file, failure.message, failure.exit_code));
       if (folder.is_open()) write_unjudged(listed.out, listed.file, failure, arguments.command);
     }
+    if (!entry.report.empty())
+      entry.report = fs::relative(listed.out, index_folder(arguments), none).string() + "/" + entry.report;
     if (worst == static_cast<int>(ErrorKind::incomplete)) break;  // the user asked to stop
   }
-  if (worst != static_cast<int>(ErrorKind::incomplete)) atlas.write();
-  if (list.experiments.size() + unreadable.size() > 1 && failed.size() + unreadable.size() > 0)
+  std::string atlas_words;
+  if (indexed) {
+    for (const UnreadableFolder& one : list.unreadable) {
+      IndexEntry& entry = entries.emplace_back();
+      entry.experiment = one.folder;
+      entry.words = one.error.what();
+    }
+    try {
+      make_folder(index_folder(arguments));
+      write_file_atomically(index, index_page(entries, std::string(build_facts().version)));
+      if (worst != static_cast<int>(ErrorKind::incomplete)) atlas_words = atlas.write();
+    } catch (...) {
+      worst = std::max(worst, tell(current_failure()));
+    }
+  }
+  if (arguments.json)
+    fmt::print("{}", results_text(arguments.command, worst, printed));
+  else if (list.experiments.size() + unreadable.size() > 1 && failed.size() + unreadable.size() > 0)
     tell_the_unchecked(failed, list.experiments.size(), unreadable);
+  if (indexed && !arguments.json && fs::exists(index, none))
+    fmt::print("{}; the index is {}\n", index_words(entries), printable(index));
+  if (!arguments.json) fmt::print("{}", atlas_words);
   return worst;
 }
 

@@ -80,7 +80,7 @@ int verb_doctor() {
     fmt::print("OpenGL    {} ({}), {}\n", device.renderer, device.vendor, device.version);
     fmt::print("          through EGL {}, {}; maps up to {} texels\n", device.egl_platform,
                device.software ? "software" : "hardware", device.max_map_resolution);
-    fmt::print("          times by {}\n", device.timer_queries ? "timer queries" : "glFinish and a steady clock");
+    fmt::print("          times by {}\n", gl::text_of(device.times));
   } catch (const Error& error) {
     fmt::print("OpenGL    NOT USABLE: {}\n", printable(error.what()));
     can_measure = false;

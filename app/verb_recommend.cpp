@@ -55,6 +55,23 @@ void take_choices(AdviceRequest& request, const Experiment& experiment) {
                    [&](const auto& a, const auto& b) { return reach(a) < reach(b); });
 }
 
+// The experiment, or the part that was chosen. Each part is an experiment of its own, with its own conditions and bounds, so
+// one answer cannot hold for several.
+const Experiment& only_part(const Experiment& experiment) {
+  if (experiment.parts.empty()) return experiment;
+  if (experiment.parts.size() == 1) return experiment.parts.front();
+  std::string names;
+  constexpr size_t most = 6;
+  for (size_t i = 0; i < std::min(most, experiment.parts.size()); ++i)
+    names += fmt::format("{}'{}'", i ? ", " : "", experiment.parts[i].part);
+  if (experiment.parts.size() > most) names += " ...";
+  throw Error(
+      ErrorKind::usage,
+      fmt::format("{} has {} parts, and recommend answers for one: give --part NAME ({}); noonmark run compares "
+                  "parts and recommends one of their settings",
+                  experiment.path, experiment.parts.size(), names));
+}
+
 // The files of an earlier run, which another answer, or none, would make stale. Before the search, because it can fail.
 void remove_earlier_advice(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -72,12 +89,8 @@ void remove_earlier_advice(const std::string& folder) {
 
 int verb_recommend(const std::string& what, const RecommendOptions& options, ExperimentArguments arguments) {
   if (!is_experiment(what)) arguments.sets.push_back("scene.name=" + what);
-  const Experiment experiment = experiment_from(is_experiment(what) ? what : "", arguments);
-  if (!experiment.parts.empty())
-    throw Error(ErrorKind::usage,
-                fmt::format("{} has parts; recommend answers for one experiment, so give a file without "
-                            "parts",
-                            what));
+  const Experiment whole = experiment_from(is_experiment(what) ? what : "", arguments);
+  const Experiment& experiment = only_part(whole);
   const std::string out =
       arguments.out.empty() ? "out/recommend-" + std::filesystem::path(what).stem().string() : arguments.out;
   require_room_to_start(true);

@@ -2,11 +2,13 @@
 
 #include "app/experiment_arguments.h"
 #include "app/given_picture.h"
+#include "app/pass_times.h"
 #include "app/pictures.h"
 #include "app/point_files.h"
 #include "app/results_folder.h"
 #include "app/verbs.h"
 #include "app/workbench.h"
+#include "compare/judge/interval.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
 #include "compare/store/metrics.h"
@@ -58,7 +60,8 @@ void print_placements(const Measurement& m) {
              100 * metrics.at("error_worst_shown"));
 }
 
-void print_ladder(const Measurement& m) {
+// clock: what the times come from.
+void print_ladder(const Measurement& m, const char* clock) {
   const auto value = [&](const char* name) { return m.record.metrics.at(name); };
   fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", printable(m.scene.name), value("receivers"),
              value("facing"), value("counted"));
@@ -80,8 +83,12 @@ void print_ladder(const Measurement& m) {
   fmt::print("\n");
   if (const std::string doubt = undecided_note({&m.record, 1}); !doubt.empty()) fmt::print("  {}\n\n", doubt);
   for (const char* name : {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "residual",
-                           "tap_residual", "rounding_excess", "map_ms", "lookup_ms"})
+                           "tap_residual", "rounding_excess"})
     fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);
+  for (const char* name : {"map_ms", "lookup_ms"}) {
+    const Interval time = interval_of(m.record, name);
+    fmt::print("  {:<32}{:>12.5g} ms ({:.5g} ... {:.5g}; {})\n", name, time.middle, time.low, time.high, clock);
+  }
   if (!m.record.causes.empty())
     fmt::print("\n  no bias curve: no bias changes the given picture\n");
   else if (const std::string why = why_no_curve(m.record); !why.empty())
@@ -138,12 +145,13 @@ int verb_render(const std::string& path, long point, const std::string& picture,
     memory.shares.push_back({"the given picture", "measure a smaller picture (view.width_px, view.height_px)",
                              per_given_pixel * static_cast<double>(given->picture.size())});
   require_memory(memory, bench.memory_of_program(true), "this point");
-  const Measurement m =
-      bench.measure(settings, curve ? std::optional(part.curve) : std::nullopt, std::move(given), true);
+  TimeMetrics times = time_passes(bench, settings);
+  Measurement m = bench.measure(settings, curve ? std::optional(part.curve) : std::nullopt, std::move(given));
+  m.record.metrics.merge(times);
   write_pictures(m, out, ".", "point");
   write_images(m, out, ".", "");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));
-  print_ladder(m);
+  print_ladder(m, gl::text_of(bench.device().times));
   if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", note);
   for (const IdleSetting& idle : idle_settings(m.frame.kind, settings))
     fmt::print("  note: {} has no effect {}\n", idle.name, idle.why);

@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "app/experiment.h"
 #include "app/experiment_arguments.h"
+#include "app/experiment_text.h"
+#include "app/plan.h"
+#include "app/results_json.h"
 #include "app/sweep.h"
 #include "app/verbs.h"
 #include "scenes/error.h"
@@ -13,26 +17,35 @@ namespace noonmark {
 
 int verb_run(const std::string& path, const ExperimentArguments& arguments, bool dry_run) {
   const std::string out = out_folder(path, arguments);
+  const bool measures = !dry_run && !arguments.print_config;
   // A folder that does not exist has no verdict. It is made only for an experiment that can be run.
   std::error_code none;
   const bool there = std::filesystem::is_directory(out, none);
   EarlyFolder folder;
-  if (!dry_run && there) folder.open(out);
+  if (measures && there) folder.open(out);
   const Experiment experiment = experiment_from(path, arguments);
+  if (arguments.print_config) {
+    fmt::print("{}", experiment_text(experiment));
+    return 0;
+  }
   if (dry_run) {
     print_plan(experiment);
     return 0;
   }
   if (!there) folder.open(out);
-  const SweepOutcome outcome = run_sweep(experiment, folder.get(), {arguments.overwrite, arguments.command});
-  if (outcome.interrupted) {
-    fmt::print("stopped after {} of {}; the same command continues from there\n", outcome.results.points.size(),
-               counted(static_cast<size_t>(outcome.results.planned_points), "point"));
-    return static_cast<int>(ErrorKind::incomplete);
-  }
-  fmt::print("{} measured; the report is {}/report.html\n", counted(outcome.results.points.size(), "point"),
-             printable(out));
-  return 0;
+  const SweepOutcome outcome =
+      run_sweep(experiment, folder.get(),
+                {.overwrite = arguments.overwrite, .command = arguments.command, .quiet = arguments.quiet});
+  const int exit_code = outcome.interrupted ? static_cast<int>(ErrorKind::incomplete) : 0;
+  if (arguments.json)
+    fmt::print("{}",
+               results_text(arguments.command, exit_code,
+                            {results_json(outcome, {.experiment = path, .folder = out, .exit_code = exit_code})}));
+  else if (outcome.interrupted)
+    fmt::print("{}\n", stopped_text(outcome));
+  else
+    fmt::print("{}; the report is {}/report.html\n", outcome.counts(), printable(out));
+  return exit_code;
 }
 
 }  // namespace noonmark

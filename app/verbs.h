@@ -15,13 +15,16 @@ struct ExperimentArguments {
   std::vector<std::string> parts;  // --part; empty: all of the experiment's
   std::string out;                 // --out; empty: out/<name of the experiment>
   bool overwrite = false;
-  int threads = 0;      // --threads; 0: all cores
-  std::string command;  // the whole command line, for the record
+  int threads = 0;            // --threads; 0: all cores
+  std::string command;        // the whole command line, for the record
+  bool json = false;          // --json: results on standard output as JSON, in place of text
+  bool quiet = false;         // --quiet: no progress on standard error
+  bool print_config = false;  // --print-config: only print the experiment with its defaults
 };
 
 int verb_run(const std::string& experiment, const ExperimentArguments& arguments, bool dry_run);
 struct CheckOptions {
-  bool dry_run = false;  // print the plan of each experiment; measure and write nothing
+  bool dry_run = false;                  // print the plan of each experiment; measure and write nothing
   std::string baseline;                  // a file (compare/judge/baseline.h); empty: none
   bool update_baseline = false;          // write it instead of comparing with it
   std::optional<double> baseline_times;  // compare times too; the share by which they may differ
@@ -52,6 +55,8 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
 int verb_report(const std::string& folder);
 int verb_scenes();
 int verb_settings();
+// The JSON schema of the experiment file.
+int verb_schema();
 int verb_doctor();
 
 }  // namespace noonmark

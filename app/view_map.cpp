@@ -39,27 +39,34 @@ Span covered(int pixel, int pixels, int texels) {
 }
 
 // The arguments of std::min have this order so that a NaN is kept, which is drawn black.
-Image<float> shrunk(const Image<float>& map, int side) {
+Image<float> shrunk(const MapRows& map, int resolution, int side) {
   Image<float> out(side, side, 1);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
-      const Span across = covered(x, side, map.width), along = covered(y, side, map.height);
-      float nearest = map.at(across.first, along.first);
-      for (int j = along.first; j < along.last; ++j)
-        for (int i = across.first; i < across.last; ++i) nearest = std::min(nearest, map.at(i, j));
-      out.at(x, side - 1 - y) = nearest;  // row 0 of the picture is the highest v
-    }
+  constexpr int most_texels = 1 << 22;  // that are read at a time: 16 MiB
+  const int at_a_time = std::max(1, most_texels / resolution * side / resolution);
+  for (int first = 0; first < side; first += at_a_time) {
+    const int end = std::min(side, first + at_a_time), first_row = covered(first, side, resolution).first;
+    const Image<float> rows = map(first_row, covered(end - 1, side, resolution).last - first_row);
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < side; ++x) {
+        const Span across = covered(x, side, resolution), along = covered(y, side, resolution);
+        float nearest = rows.at(across.first, along.first - first_row);
+        for (int j = along.first; j < along.last; ++j)
+          for (int i = across.first; i < across.last; ++i) nearest = std::min(nearest, rows.at(i, j - first_row));
+        out.at(x, side - 1 - y) = nearest;  // row 0 of the picture is the highest v
+      }
+  }
   return out;
 }
 
 }  // namespace
 
-Image<float> cube_cross(const Image<float>& map, int resolution, int cell, float outside) {
+Image<float> cube_cross(const MapRows& map, int resolution, int cell, float outside) {
   cell = std::min(cell, resolution);
   Image<float> cross(cross_columns * cell, cross_rows * cell, outside);
   for (int face = 0; face < 6; ++face) {
     const CrossCell& to = cross_cells()[static_cast<size_t>(face)];
     const CubeFace& from = cube_face(face);
+    const Image<float> texels = map(face * resolution, resolution);
     // Both have the same two axes of the world, so one of each pair of products is 0, the other 1 or -1.
     const glm::ivec2 x_step(glm::dot(to.right, from.right), glm::dot(to.right, from.up));
     const glm::ivec2 y_step(glm::dot(to.up, from.right), glm::dot(to.up, from.up));
@@ -72,7 +79,7 @@ Image<float> cube_cross(const Image<float>& map, int resolution, int cell, float
             // Converts from the face's middle in half texels, and back.
             const glm::ivec2 twice = (2 * a + 1 - resolution) * x_step + (2 * b + 1 - resolution) * y_step;
             const glm::ivec2 texel = (twice + resolution - 1) / 2;
-            nearest = std::min(nearest, map.at(texel.x, face * resolution + texel.y));
+            nearest = std::min(nearest, texels.at(texel.x, texel.y));
           }
         cross.at(to.column * cell + x, (to.row + 1) * cell - 1 - y) = nearest;
       }
@@ -80,10 +87,10 @@ Image<float> cube_cross(const Image<float>& map, int resolution, int cell, float
   return cross;
 }
 
-Image<Color> map_picture(const Image<float>& stored, const LightFrame& frame) {
+Image<Color> map_picture(const MapRows& stored, const LightFrame& frame) {
   const Image<float> depth = frame.map_shape() == MapShape::cube
                                  ? cube_cross(stored, frame.resolution, largest_cell, outside_cross)
-                                 : shrunk(stored, std::min(stored.width, largest_side));
+                                 : shrunk(stored, frame.resolution, std::min(frame.resolution, largest_side));
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
   const auto metres = [&](float d) { return frame.tile(0).depth_of_window(static_cast<double>(d)); };
   for (float d : depth.pixels) {

@@ -1,13 +1,13 @@
 #include "app/workbench.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 
 #include <thread>
 
 #include "app/experiment.h"
 #include "app/placement_stage.h"
+#include "app/stage_keys.h"
 #include "app/view_shading.h"
 #include "compare/judge/poor_view.h"
 #include "compare/ladder/law_metrics.h"
@@ -16,6 +16,7 @@
 #include "scenes/address_space.h"
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"
+#include "technique/casters.h"
 #include "technique/cost.h"
 #include "technique/setting_rules.h"
 
@@ -33,6 +34,7 @@ class Remembered {
   bool has(const std::string& key) const { return value_ && key == key_; }
 
   void forget() { value_.reset(); }
+  T* value() { return value_ ? &*value_ : nullptr; }
 
   template <class Make>
   T& get(const std::string& key, const Make& make) {
@@ -48,26 +50,6 @@ class Remembered {
   std::string key_;
   std::optional<T> value_;
 };
-
-// The settings that the map depends on. Only a map that is fitted to the view reads the camera.
-std::string map_key_of(const Settings& settings) {
-  const std::string key = settings_key(settings, {Stage::scene, Stage::map});
-  return settings.map.fit == MapFit::view ? key + settings_key(settings, {Stage::view}) : key;
-}
-
-// The settings that the probe and the truth of the taps depend on. A polygon offset is in units of the map's format.
-std::string lookup_key_of(const Settings& settings) {
-  const std::string key = settings_key(settings, {Stage::scene, Stage::view, Stage::lookup});
-  return Bias(settings.bias).polygon_offset() ? key + find_setting("map.format").get(settings) : key;
-}
-
-std::string curve_key_of(const Settings& settings, const BiasPart& varied, const CurveOptions& options) {
-  // All settings except the amount of the part that the curve varies.
-  return settings_key(settings, {Stage::scene, Stage::view, Stage::truth, Stage::map, Stage::lookup, Stage::ladder},
-                      "bias." + std::string(varied.name)) +
-         fmt::format("{} {} {} {}", varied.name, options.acne_bound, options.peter_panning_bound,
-                     fmt::join(options.bias_depth, " "));
-}
 
 void add_cost(PointRecord& record, const FrameCost& cost) {
   record.metrics.insert({{"texel_work", static_cast<double>(cost.texel_work)},
@@ -87,7 +69,7 @@ void add_time(PointRecord& record, const std::string& stage, const StageTime& ti
 
 // The point's numbers and times, without its curve.
 PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, const ViewStage& view,
-                      const TruthStage& truth, const MapStage& map, const LookupStage& lookup, const ShownStage& shown,
+                      const TruthStage& truth, const LookupStage& lookup,
                       const std::map<std::string, double>& soundness) {
   const Image<float> occluders = tracer.occluder_distance(m.receivers, m.frame, peter_panning_mask(m.ladder));
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
@@ -102,11 +84,6 @@ PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, cons
   record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
   add_cost(record, frame_cost(m.settings, m.frame.tiles, static_cast<int64_t>(record.metrics["facing"]),
                               static_cast<int64_t>(m.scene.triangles.size())));
-  if (map.time_ms && shown.time_ms) {
-    record.metrics["map_ms"] = *map.time_ms;
-    record.metrics["lookup_ms"] = *shown.time_ms;
-    record.metrics["shadow_ms"] = *map.time_ms + *shown.time_ms;
-  }
   add_time(record, "hard_truth", truth.hard);
   add_time(record, "soft_truth", truth.soft);
   add_time(record, "texel", lookup.texel_stage);
@@ -129,7 +106,7 @@ struct Workbench::Impl {
       : renderer(debug, std::move(shaders)), stages(std::move(all)) {}
 
   const SceneStage& load(const Settings& settings) {
-    const std::string key = settings_key(settings, {Stage::scene});
+    const std::string key = scene_key_of(settings);
     if (!scene.has(key)) forget_scene();
     return scene.get(key, [&] { return stages->load_scene(renderer, settings); });
   }
@@ -148,19 +125,33 @@ struct Workbench::Impl {
     const ViewStage& view;
     const TruthStage& truth;
   };
-  // The receivers and their truth; the receivers are then on the device.
-  Looked look(const SceneStage& loaded, const PointSetup& point) {
-    const Settings& settings = point.settings;
-    const std::string view_key = settings_key(settings, {Stage::scene, Stage::view});
-    const ViewStage& seen =
-        view.get(view_key, [&] { return stages->take_view(renderer, *loaded.scene, settings.view); });
-    const TruthStage& traced = truth.get(settings_key(settings, {Stage::scene, Stage::view, Stage::truth}),
-                                         [&] { return stages->trace_truth(loaded, seen, point); });
-    if (receivers_on_device != view_key) {
+  // The receivers, which are then on the device.
+  const ViewStage& see(const SceneStage& loaded, const Settings& settings) {
+    const std::string key = view_key_of(settings);
+    const ViewStage& seen = view.get(key, [&] { return stages->take_view(renderer, *loaded.scene, settings.view); });
+    if (receivers_on_device != key) {
       renderer.load_receivers(seen.receivers, seen.camera.eye_m);
-      receivers_on_device = view_key;
+      receivers_on_device = key;
     }
-    return {seen, traced};
+    return seen;
+  }
+  // The receivers and their truth.
+  Looked look(const SceneStage& loaded, const PointSetup& point) {
+    const ViewStage& seen = see(loaded, point.settings);
+    return {seen, truth.get(truth_key_of(point.settings), [&] { return stages->trace_truth(loaded, seen, point); })};
+  }
+
+  // The map of a point.
+  MapStage& drawn(const Scene& drawn_scene, const PointSetup& point) {
+    MapStage& stage =
+        map.get(map_key_of(point.settings), [&] { return stages->draw_map(renderer, drawn_scene, point); });
+    if (!stage.map) stage.map = stages->draw_map(renderer, drawn_scene, point).map;
+    return stage;
+  }
+
+  // Frees a map that was drawn again for pictures, and that has no room beside what a probe needs.
+  void free_large_map() {
+    if (MapStage* const kept = map.value()) keep_small(renderer, kept->map);
   }
 
   void add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen, const TruthStage& traced,
@@ -238,11 +229,11 @@ void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placem
   const LightFrame frame = placements.frame(worst);
   const PointSetup moved{point.settings, frame};
   const SceneStage& loaded = load(point.settings);
-  const MapStage drawn = stages->draw_map(renderer, *loaded.scene, moved);
   LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, moved);
+  MapStage drawn = stages->draw_map(renderer, *loaded.scene, moved);
   const ShownStage shown = stages->show(renderer, drawn, asked, traced, moved);
   const Climbed climbed = stages->climb_strips(
-      renderer, drawn, asked, seen, traced, shown, moved, nullptr,
+      renderer, asked, seen, traced, shown, moved, nullptr,
       [&](const LookupEvidence& evidence, PixelRange strip) { placements.compare(evidence, worst, strip); });
   record.metrics["error_worst_shown"] = error_of(climbed.ladder);
   record.metrics["placement_disagreements"] = static_cast<double>(placements.disagreements());
@@ -256,11 +247,12 @@ void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placem
   add_time(record, "placement", placements.time());
 }
 
-PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& options) {
+PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured) {
   validate(settings);
   const SceneStage& loaded = impl_->load(settings);
   const LightFrame frame = make_light_frame(*loaded.scene, settings);
   const auto [view, truth] = impl_->look(loaded, {settings, frame});
+  if (measured) return rejudged_phase(*measured, *loaded.scene, view, truth, settings, options);
   return measure_phase(impl_->renderer, *loaded.tracer, *loaded.scene, view, truth, settings, options);
 }
 
@@ -292,8 +284,9 @@ LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings&
   const ViewStage seen = stages->take_view(renderer, *loaded.scene, settings.view);
   const TruthStage traced = stages->trace_truth(loaded, seen, point);
   renderer.load_receivers(seen.receivers, seen.camera.eye_m);
-  const MapStage drawn = stages->draw_map(renderer, *loaded.scene, point);
   LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, point);
+  const MapDepths stored =
+      renderer.read_map(*stages->draw_map(renderer, *loaded.scene, point).map, asked.exact_depth.texels);
   const BiasPart& varied = *curve_part(settings.bias);
   LivePicture picture = empty_live_picture(seen.receivers.width(), seen.receivers.height());
   picture.taps = asked.probe.taps();
@@ -303,7 +296,7 @@ LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings&
   for (size_t i = 0; i < picture.flags.size(); ++i)
     if (seen.receivers.primitive[i] != no_primitive) picture.flags[i] = live_surface;
   each_strip_of(renderer, asked, traced, point, [&](const LookupEvidence& evidence, PixelRange strip) {
-    add_live_strip(picture, evidence, drawn.depth, settings.bias, varied, strip);
+    add_live_strip(picture, evidence, stored, settings.bias, varied, strip);
   });
   return picture;
 }
@@ -318,7 +311,8 @@ std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
   b.map.forget();
   b.receivers_on_device.clear();
   Settings small = settings;
-  const double shrink = std::min({1.0, 320.0 / small.view.width_px, 180.0 / small.view.height_px});
+  const double shrink = std::min({1.0, static_cast<double>(most_live_width_px) / small.view.width_px,
+                                  static_cast<double>(most_live_height_px) / small.view.height_px});
   for (double scale = shrink;; scale /= 2) {
     small.view.width_px = std::max(1, static_cast<int>(settings.view.width_px * scale));
     small.view.height_px = std::max(1, static_cast<int>(settings.view.height_px * scale));
@@ -327,24 +321,40 @@ std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
   }
 }
 
+PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup) {
+  validate(settings);
+  Impl& b = *impl_;
+  const SceneStage& loaded = b.load(settings);
+  const LightFrame frame = make_light_frame(*loaded.scene, settings);
+  b.see(loaded, settings);
+  b.lookup.forget();  // there may be no memory for another map
+  b.map.forget();
+  PassTimes times;
+  std::vector<glm::vec3> casters;
+  if (const Bias bias(settings.bias); bias.moves_casters()) casters = caster_positions(*loaded.scene, frame, bias);
+  const gl::ShadowMap drawn = b.renderer.render_map(frame, settings, map ? &times.map_ms.emplace() : nullptr, casters);
+  if (lookup) b.renderer.lookup(drawn, frame, settings, &times.lookup_ms.emplace());
+  return times;
+}
+
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
-                               std::optional<RungOnTop> on_top, bool timed) {
+                               std::optional<RungOnTop> on_top) {
   validate(settings);
   Impl& b = *impl_;
   const SceneStage& loaded = b.load(settings);
   const Scene& scene = *loaded.scene;
   const LightFrame frame = make_light_frame(scene, settings);
-  const PointSetup point{settings, frame, timed};
+  const PointSetup point{settings, frame};
 
   const Impl::Looked looked = b.look(loaded, point);
   const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
   const TruthStage& truth = looked.truth;
-  const MapStage& map = b.map.get(map_key_of(settings) + (timed ? " timed" : ""),
-                                  [&] { return b.stages->draw_map(b.renderer, scene, point); });
+  if (!b.lookup.has(lookup_key_of(settings))) b.free_large_map();
   LookupStage& lookup = b.lookup.get(lookup_key_of(settings), [&] {
     return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, point);
   });
-  const ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, point);
+  MapStage& map = b.drawn(scene, point);
+  ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, point);
 
   const BiasPart* const varied = curve_options && !on_top ? curve_part(settings.bias) : nullptr;
   const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
@@ -360,12 +370,21 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
         unknown ? placement_edges(biases_of(*curve_options), scale.depth_per_unit) : std::vector<float>());
     each_strip = [&](const LookupEvidence& evidence, PixelRange strip) { placements->add(evidence, strip); };
   }
-  Climbed climbed = b.stages->climb_strips(b.renderer, map, lookup, view, truth, shown, point, unknown, each_strip);
+  Climbed climbed = b.stages->climb_strips(b.renderer, lookup, view, truth, shown, point, unknown, each_strip);
   if (placements) placements->finish();
   if (on_top) add_rung(climbed.ladder, std::move(*on_top));
-  Measurement m{{},           settings,  std::move(climbed.ladder), frame, view.camera, scene, view.receivers,
-                lookup.probe, map.depth, lookup.exact_depth};
-  m.record = record_of(m, *loaded.tracer, view, truth, map, lookup, shown, climbed.soundness);
+  Measurement m{{},
+                settings,
+                std::move(climbed.ladder),
+                frame,
+                view.camera,
+                scene,
+                view.receivers,
+                lookup.probe,
+                std::move(shown.stored),
+                lookup.exact_depth,
+                {}};
+  m.record = record_of(m, *loaded.tracer, view, truth, lookup, climbed.soundness);
   if (varied && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
       BiasCurve curve = summarise(*climbed.counts, scale, *curve_options);
@@ -373,6 +392,9 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       return curve;
     });
   if (placements && !nothing_judged(m.record)) b.add_placements(m.record, *placements, view, truth, point);
+  m.stored_rows = [&b, &scene, frame, settings](int first_row, int count) {
+    return b.renderer.read_rows(*b.drawn(scene, {settings, frame}).map, first_row, count);
+  };
   return m;
 }
 

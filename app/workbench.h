@@ -4,6 +4,7 @@
 //   Measurement m = bench.measure(settings, curve_options);
 //   save(m.record); write_pictures(m, ...);
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,8 +28,16 @@ struct Measurement {
   const Scene& scene;
   const ReceiverImage& receivers;
   const LookupProbe& probe;
-  const Image<float>& stored_map;  // as the lookup's sampler returns it; row 0 at the lowest v
-  const Image<float>& exact_map;
+  MapDepths stored_map;  // as the lookup's sampler returns it, at the texels that taps of facing receivers read
+  const MapDepths& exact_map;
+  // The whole stored map, by rows from the lowest v on: (first row, number of rows). It is read from the device, and a
+  // large map is drawn again for it.
+  std::function<Image<float>(int, int)> stored_rows;
+};
+
+// Milliseconds by gl::DeviceInfo::times. Empty: not asked for.
+struct PassTimes {
+  std::optional<double> map_ms, lookup_ms;
 };
 
 // Checks the address space that the driver, the rays and the image library need before the first point. Throws
@@ -43,14 +52,19 @@ class Workbench {
                      std::unique_ptr<Pipeline> stages = std::make_unique<Pipeline>());
   ~Workbench();
 
-  // timed: whether map and lookup are timed; if not, the record has no metric that is a time. on_top: a picture that is
-  // judged in place of R5. curve: no curve if it is empty, if no part of the bias can have
-  // one (curve_part), or if there is a picture on top, because no bias changes that. Throws Error.
+  // on_top: a picture that is judged in place of R5. curve: no curve if it is empty, if no part of the bias can have
+  // one (curve_part), or if there is a picture on top, because no bias changes that. The record has no metric that is a
+  // time: see app/pass_times.h. Throws Error.
   Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
-                      std::optional<RungOnTop> on_top = {}, bool timed = false);
+                      std::optional<RungOnTop> on_top = {});
 
-  // The phase diagram of the scene under these settings (phase_settings()). Throws Error.
-  PhaseDiagram phase(const Settings& settings, const PhaseOptions& options);
+  // One sample of the time of each pass that is asked for. The images of the last measurement may be gone afterwards.
+  // Throws Error.
+  PassTimes time_passes(const Settings& settings, bool map, bool lookup);
+
+  // The phase diagram of the scene under these settings (phase_settings()). measured: one with the same rows, if there is
+  // one; then only what depends on the bounds is computed. Throws Error.
+  PhaseDiagram phase(const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured = nullptr);
 
   // The places of points on a diagram that counts the receivers of `picture`: the points differ from it in texel size,
   // in bias and in settings that move no receiver. Throws Error.

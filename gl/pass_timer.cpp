@@ -1,13 +1,24 @@
 #include "gl/pass_timer.h"
 
-namespace noonmark::gl {
+#include <ctime>
 
-PassTimer::PassTimer(bool use_queries) {
-  if (use_queries) query_ = make_query(GL_TIME_ELAPSED);
+namespace noonmark::gl {
+namespace {
+
+double now_ms(TimeSource source) {
+  timespec time{};
+  clock_gettime(source == TimeSource::process_cpu ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace
+
+PassTimer::PassTimer(TimeSource source) : source_(source) {
+  if (source == TimeSource::timer_query) query_ = make_query(GL_TIME_ELAPSED);
 }
 
 double PassTimer::measure(const std::function<void()>& pass) {
-  if (query_) {
+  if (source_ == TimeSource::timer_query) {
     glBeginQuery(GL_TIME_ELAPSED, query_.id());
     pass();
     glEndQuery(GL_TIME_ELAPSED);
@@ -16,10 +27,10 @@ double PassTimer::measure(const std::function<void()>& pass) {
     return static_cast<double>(nanoseconds) * 1e-6;
   }
   glFinish();
-  const auto start = std::chrono::steady_clock::now();
+  const double start = now_ms(source_);
   pass();
   glFinish();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return now_ms(source_) - start;
 }
 
 }  // namespace noonmark::gl

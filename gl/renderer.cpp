@@ -40,7 +40,7 @@ DeviceInfo describe(const EglContext& context) {
   info.software = names_software(info.renderer);
   GLint bits = 0;
   glGetQueryiv(GL_TIME_ELAPSED, GL_QUERY_COUNTER_BITS, &bits);
-  info.timer_queries = !info.software && bits > 0;
+  info.times = info.software ? TimeSource::process_cpu : bits > 0 ? TimeSource::timer_query : TimeSource::steady_clock;
   std::array<GLint, 2> viewport{};
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
   info.max_map_resolution = std::min({gl_integer(GL_MAX_TEXTURE_SIZE), gl_integer(GL_MAX_FRAMEBUFFER_WIDTH),
@@ -53,7 +53,7 @@ DeviceInfo describe(const EglContext& context) {
 Renderer::Impl::Impl(DebugMode debug, ShaderReplacements shaders)
     : context(std::make_shared<EglContext>(debug)), programs(std::move(shaders)) {
   info = describe(*context);
-  timer.emplace(info.timer_queries);
+  timer.emplace(info.times);
   scene_vertices = make_vertex_array();
   no_vertices = make_vertex_array();
   framebuffer = make_framebuffer();
@@ -140,14 +140,21 @@ void Renderer::Impl::draw_screen(const Program& program, GLenum depth_test) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::Impl::run(const std::string& key, double* time_ms, const std::function<void()>& pass) {
-  if (!time_ms) {
-    pass();
-  } else {
-    if (!warm.contains(key)) pass();
-    *time_ms = timer->measure(pass);
+const char* text_of(TimeSource source) {
+  switch (source) {
+    case TimeSource::timer_query:
+      return "GPU timer queries";
+    case TimeSource::process_cpu:
+      return "CPU time of the process";
+    case TimeSource::steady_clock:
+      break;
   }
-  warm.insert(key);
+  return "a steady clock and glFinish";
+}
+
+void Renderer::Impl::run(double* time_ms, const std::function<void()>& pass) {
+  pass();
+  if (time_ms) *time_ms = timer->measure(pass);
 }
 
 Renderer::Renderer(DebugMode debug, ShaderReplacements shaders)
@@ -191,5 +198,9 @@ ShadowMap::ShadowMap(ShadowMap&&) noexcept = default;
 ShadowMap& ShadowMap::operator=(ShadowMap&&) noexcept = default;
 ShadowMap::~ShadowMap() = default;
 int ShadowMap::resolution() const { return impl_->resolution; }
+size_t ShadowMap::texels() const {
+  const auto side = static_cast<size_t>(impl_->resolution);
+  return (impl_->cube ? 6 : 1) * side * side;
+}
 
 }  // namespace noonmark::gl

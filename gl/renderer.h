@@ -11,6 +11,7 @@
 // calls must come from that thread. Throws Error(device) for drivers and shaders, with the shader's file and line.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -21,6 +22,7 @@
 #include "scenes/scene.h"
 #include "technique/evidence.h"
 #include "technique/light_frame.h"
+#include "technique/map_depths.h"
 #include "technique/settings.h"
 
 namespace noonmark::gl {
@@ -39,10 +41,19 @@ using ShaderReplacements = std::map<std::string, std::string>;
 // The program's own text of a GLSL file, as the start of a variant. Throws Error(usage) if there is no such file.
 std::string shader_file(const std::string& name);
 
+// Where the times of passes come from.
+enum class TimeSource {
+  timer_query,  // the GPU's own clock
+  process_cpu,  // CPU time of all threads of the process, with glFinish: a software renderer draws on these threads, and
+                // its timer queries are wrong by orders of magnitude. Other programs do not lengthen it
+  steady_clock,  // time of the wall with glFinish: a GPU without timer queries
+};
+const char* text_of(TimeSource source);  // "GPU timer queries"
+
 struct DeviceInfo {
   std::string vendor, renderer, version, egl_platform;
-  bool software = false;       // llvmpipe and other software renderers
-  bool timer_queries = false;  // true: times come from GPU timer queries; false: from glFinish and a steady clock
+  bool software = false;  // llvmpipe and other software renderers
+  TimeSource times = TimeSource::steady_clock;
   int max_map_resolution = 0;
 };
 
@@ -56,6 +67,7 @@ class ShadowMap {
   ShadowMap& operator=(ShadowMap&&) noexcept;
   ~ShadowMap();
   int resolution() const;
+  size_t texels() const;  // of all its faces
 
  private:
   friend class Renderer;
@@ -86,9 +98,10 @@ class Renderer {
   void load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m);
 
   // Renders the scene's depth from the light. Reads settings.map and the polygon offset of settings.bias; parts that
-  // move the casters' vertices act through `casters` alone. time_ms, if given, receives the time of the pass alone,
-  // from the device or from the clock with glFinish. casters: the scene's vertices as they are drawn
-  // (technique/casters.h); empty: the vertices of load_scene().
+  // move the casters' vertices act through `casters` alone. time_ms, if given, receives the time of the pass alone
+  // (DeviceInfo::times); the pass then runs twice, first without the clock, so that its shader is compiled, its memory is
+  // in use and the caches hold what it reads. casters: the scene's vertices as they are drawn (technique/casters.h);
+  // empty: the vertices of load_scene().
   ShadowMap render_map(const LightFrame& frame, const Settings& settings, double* time_ms = nullptr,
                        std::span<const glm::vec3> casters = {});
 
@@ -97,16 +110,24 @@ class Renderer {
   // shape is LightFrame::map_shape(). Throws Error(defect) if the size is not that of the shape, and for NaN and depths
   // outside [0, 1], because OpenGL may clamp them.
   ShadowMap upload_map(const Image<float>& depth, const MapSettings& settings, MapShape shape = MapShape::flat);
+  ShadowMap upload_map(const MapDepths& depths, const MapSettings& settings, MapShape shape = MapShape::flat);
 
-  // The depths that the lookup's sampler returns, bit for bit, in the layout of LightFrame::map_size().
+  // The depths that the lookup's sampler returns, bit for bit, in the layout of LightFrame::map_size(): of all texels,
+  // of those of a set, or of some rows.
   Image<float> read_map(const ShadowMap& map);
+  MapDepths read_map(const ShadowMap& map, const std::shared_ptr<const TexelSet>& texels);
+  Image<float> read_rows(const ShadowMap& map, int first_row, int count);
+
+  // Gives the memory of deleted maps back. Drivers keep a texture that was bound until the next draw, and until what
+  // was drawn with it is done.
+  void release_deleted();
 
   // One unit of glPolygonOffset on this device, in window depth. It is measured by drawing with it. For 32-bit float it
   // is NaN, because the unit depends on the depth of the primitive.
   double polygon_offset_unit(DepthFormat format);
 
   // The technique's result: the visibility of every receiver, in [0, 1]. Background pixels and receivers at or behind
-  // the light have 0. For filters that compare in hardware, OpenGL clamps the biased reference to [0, 1] if the format
+  // the light have 0. time_ms: as in render_map. For filters that compare in hardware, OpenGL clamps the biased reference to [0, 1] if the format
   // of the map is fixed-point. So even with lit_beyond_far off, a receiver beyond far is lit where the map is empty.
   Image<float> lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings,
                       double* time_ms = nullptr);
@@ -119,6 +140,10 @@ class Renderer {
   // needed for a cube only, because there the sampler chooses the texel of each tap. For a flat map every tap is known,
   // and this function does nothing.
   void probe_strip(LookupProbe& probe, const LightFrame& frame, const Settings& settings, PixelRange strip);
+
+  // Frees what the probes of a cube keep on the device: 4 bytes for each texel of the cube. The next probe makes it
+  // again.
+  void forget_cube_index();
 
  private:
   struct Impl;

@@ -2,10 +2,10 @@
 // renderer_map.cpp (maps drawn as engines draw them), renderer_map_data.cpp (maps uploaded and read back),
 // renderer_lookup.cpp and renderer_probe.cpp.
 #pragma once
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "gl/egl_context.h"
@@ -50,7 +50,6 @@ struct Renderer::Impl {
   DeviceInfo info;
   std::optional<PassTimer> timer;
   ProgramCache programs;
-  std::set<std::string> warm;  // passes that have run once, so that their times contain no compilation by the driver
 
   VertexArray scene_vertices, no_vertices;
   Buffer positions, triangles;
@@ -85,12 +84,14 @@ struct Renderer::Impl {
   // depth_test: GL_NONE means no test.
   void draw_screen(const Program& program, GLenum depth_test = GL_NONE);
 
-  // Runs the pass. If time_ms is given, it receives the time. If `key` is not in `warm`, an untimed run comes first.
-  void run(const std::string& key, double* time_ms, const std::function<void()>& pass);
+  // Runs the pass. If time_ms is given, the pass runs twice, and time_ms receives the time of the second run.
+  void run(double* time_ms, const std::function<void()>& pass);
 
   // Throw Error(usage) if the device or its memory does not allow such a map.
   void check_resolution(int resolution, bool cube) const;
   Texture make_map_texture(GLenum format, int resolution, bool cube, Wrap wrap);
+  // A map of 32-bit floats. copy_row(y, row) writes row y of the map's image.
+  Texture upload_rows(const MapSettings& settings, bool cube, const std::function<void(int, float*)>& copy_row);
 
   // Sets the uniforms of light, bias and receiver in a program that includes shaders/receiver.glsl, and binds the
   // receivers.

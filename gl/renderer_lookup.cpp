@@ -122,9 +122,7 @@ Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, con
   const int width = r.position_image.width, height = r.position_image.height;
   r.require(r.lit, GL_R32F, width, height);
   r.draw_into({r.lit.texture.id()}, 0, width, height);
-  const std::string key =
-      fmt::format("lookup {} {} {} {}", slots.at("light"), slots.at("cube"), slots.at("bias"), settings.filter.kind);
-  r.run(key, time_ms, [&] { r.draw_screen(program); });
+  r.run(time_ms, [&] { r.draw_screen(program); });
   r.detach(1);
   glBindTextureUnit(2, 0);
   glBindTextureUnit(3, 0);

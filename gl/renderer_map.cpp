@@ -99,12 +99,7 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
   // OpenGL ignores the offset if the shader writes its own depth, as it does for a cube.
   set_enabled(GL_POLYGON_OFFSET_FILL, offset.has_value());
   if (offset) glPolygonOffset(offset->factor, offset->units);
-  // In an engine the map's memory is already in use. The first write to new memory is not a cost of the pass, so it is
-  // done here, untimed.
-  if (time_ms) glClearBufferfv(GL_DEPTH, 0, &far_depth);
-  const std::string key = fmt::format("map {} {} {} {}", static_cast<int>(settings.map.format),
-                                      static_cast<int>(settings.map.cull), cube, layered);
-  r.run(key, time_ms, cube && !layered ? std::function<void()>(draw_faces) : draw_once);
+  r.run(time_ms, cube && !layered ? std::function<void()>(draw_faces) : draw_once);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_CLAMP);
   if (!casters.empty()) glVertexArrayVertexBuffer(r.scene_vertices.id(), 0, r.positions.id(), 0, sizeof(glm::vec3));

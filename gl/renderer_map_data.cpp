@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
 #include "gl/renderer_impl.h"
 #include "scenes/error.h"
@@ -11,6 +13,29 @@ namespace {
 
 // A cube of this side takes 400 MB, and so does its index texture (renderer_probe.cpp).
 constexpr int largest_cube = 4096;
+
+// Maps are uploaded and read in bands of at most 16 MiB, so that a large one is nowhere held a second time.
+int rows_of_band(int side) { return std::clamp((1 << 22) / side, 1, side); }
+
+void require_size(glm::ivec2 size, const MapSettings& settings, bool cube) {
+  const int faces = cube ? 6 : 1;
+  if (size.x == settings.resolution && size.y == faces * size.x) return;
+  throw Error(ErrorKind::defect, fmt::format("upload_map: the image is {} x {}, the settings ask for {} face(s) of {} "
+                                             "texels",
+                                             size.x, size.y, faces, settings.resolution));
+}
+
+// OpenGL may clamp values outside [0, 1]; then the map would not be the uploaded one. The place of such a value is looked
+// for only if there is one: a search that stops is several times slower than a count.
+void require_depths(std::span<const float> depths) {
+  const auto outside = [](float d) { return !((d >= 0) & (d <= 1)); };
+  int outsiders = 0;
+  for (const float d : depths) outsiders |= outside(d);
+  if (!outsiders) return;
+  const auto first = std::find_if(depths.begin(), depths.end(), outside);
+  throw Error(ErrorKind::defect,
+              fmt::format("upload_map: depth {} at texel index {} is outside [0,1]", *first, first - depths.begin()));
+}
 
 }  // namespace
 
@@ -53,63 +78,103 @@ Texture Renderer::Impl::make_map_texture(GLenum format, int resolution, bool cub
   return texture;
 }
 
+Texture Renderer::Impl::upload_rows(const MapSettings& settings, bool cube,
+                                    const std::function<void(int, float*)>& copy_row) {
+  const int side = settings.resolution, rows = rows_of_band(side);
+  Texture texture = make_map_texture(GL_DEPTH_COMPONENT32F, side, cube, settings.wrap);
+  std::vector<float> band(static_cast<size_t>(side) * static_cast<size_t>(rows));
+  for (int face = 0; face < (cube ? 6 : 1); ++face)
+    for (int first = 0; first < side; first += rows) {
+      const int count = std::min(rows, side - first);
+      for (int row = 0; row < count; ++row)
+        copy_row(face * side + first + row, &band[static_cast<size_t>(row) * static_cast<size_t>(side)]);
+      if (cube)
+        glTextureSubImage3D(texture.id(), 0, 0, first, face, side, count, 1, GL_DEPTH_COMPONENT, GL_FLOAT, band.data());
+      else
+        glTextureSubImage2D(texture.id(), 0, 0, first, side, count, GL_DEPTH_COMPONENT, GL_FLOAT, band.data());
+    }
+  context->check("upload_map");
+  return texture;
+}
+
 ShadowMap Renderer::upload_map(const Image<float>& depth, const MapSettings& settings, MapShape shape) {
   Impl& r = *impl_;
   r.context->make_current();
-  const int side = depth.width;
   const bool cube = shape == MapShape::cube;
-  const int faces = cube ? 6 : 1;
-  if (side != settings.resolution || depth.height != faces * side)
-    throw Error(ErrorKind::defect,
-                fmt::format("upload_map: the image is {} x {}, the settings ask for {} face(s) of {} "
-                            "texels",
-                            side, depth.height, faces, settings.resolution));
-  // OpenGL may clamp values outside this range; then the map would not be the uploaded one. The place of such a value is
-  // looked for only if there is one: a search that stops is several times slower than a count.
-  const auto outside = [](float d) { return !((d >= 0) & (d <= 1)); };
-  int outsiders = 0;
-  for (const float d : depth.pixels) outsiders |= outside(d);
-  if (outsiders) {
-    const auto first = std::find_if(depth.pixels.begin(), depth.pixels.end(), outside);
-    throw Error(ErrorKind::defect, fmt::format("upload_map: depth {} at texel index {} is outside [0,1]", *first,
-                                               first - depth.pixels.begin()));
-  }
-  Texture texture = r.make_map_texture(GL_DEPTH_COMPONENT32F, side, cube, settings.wrap);
-  if (cube)
-    glTextureSubImage3D(texture.id(), 0, 0, 0, 0, side, side, 6, GL_DEPTH_COMPONENT, GL_FLOAT, depth.pixels.data());
-  else
-    glTextureSubImage2D(texture.id(), 0, 0, 0, side, side, GL_DEPTH_COMPONENT, GL_FLOAT, depth.pixels.data());
-  r.context->check("upload_map");
-  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), side, cube, settings.wrap));
+  require_size({depth.width, depth.height}, settings, cube);
+  require_depths(depth.pixels);
+  Texture texture =
+      r.upload_rows(settings, cube, [&](int y, float* row) { std::copy_n(&depth.at(0, y), depth.width, row); });
+  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), depth.width, cube, settings.wrap));
 }
 
-Image<float> Renderer::read_map(const ShadowMap& map) {
+ShadowMap Renderer::upload_map(const MapDepths& map, const MapSettings& settings, MapShape shape) {
   Impl& r = *impl_;
   r.context->make_current();
-  const int side = map.resolution(), faces = map.impl_->cube ? 6 : 1;
-  // The map is read in strips of at most 64 MiB. So a large map does not need its own size a second time on the device.
-  const int rows = std::clamp((1 << 24) / side, 1, side);
-  r.require(r.map_strip, GL_R32F, side, rows);
+  const bool cube = shape == MapShape::cube;
+  require_size(map.size(), settings, cube);
+  require_depths(map.depth);
+  const auto side = static_cast<size_t>(map.size().x);
+  if (map.texels->count() < side * static_cast<size_t>(map.size().y)) require_depths({&map.elsewhere, 1});
+  Texture texture = r.upload_rows(settings, cube, [&](int y, float* row) { map.copy_row(y, row); });
+  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(texture), map.size().x, cube, settings.wrap));
+}
+
+void Renderer::release_deleted() {
+  Impl& r = *impl_;
+  r.context->make_current();
+  // A draw without textures: what the driver has bound for the draw before is bound no longer.
+  r.require(r.map_strip, GL_R32F, 1, 1);
+  r.draw_into({r.map_strip.texture.id()}, 0, 1, 1);
+  r.draw_screen(r.programs.get({"shaders/screen.vert", "shaders/depth.frag"}));
+  r.detach(1);
+  glFinish();
+  r.context->check("release_deleted");
+}
+
+Image<float> Renderer::read_rows(const ShadowMap& map, int first_row, int count) {
+  Impl& r = *impl_;
+  r.context->make_current();
+  const int side = map.resolution(), faces = map.impl_->cube ? 6 : 1, band = rows_of_band(side);
+  if (first_row < 0 || count < 0 || first_row + count > faces * side)
+    throw Error(ErrorKind::defect,
+                fmt::format("read_rows: {} rows from {} on of a map of {}", count, first_row, faces * side));
+  r.require(r.map_strip, GL_R32F, side, band);
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/read_map.frag"});
-  Image<float> image(side, faces * side);
-  r.draw_into({r.map_strip.texture.id()}, 0, side, rows);
-  for (int face = 0; face < faces; ++face) {
+  Image<float> image(side, count);
+  r.draw_into({r.map_strip.texture.id()}, 0, side, band);
+  for (int row = first_row; row < first_row + count;) {
+    const int face = row / side, in_face = row % side;
+    const int rows = std::min({band, side - in_face, first_row + count - row});
     Texture view;  // one face as a flat map with the same texels
     if (map.impl_->cube) view = make_face_view(map.impl_->depth, face);
     glBindTextureUnit(2, view ? view.id() : map.impl_->depth.id());
-    for (int first = 0; first < side; first += rows) {
-      const int count = std::min(rows, side - first);
-      program.set("first_row", first);
-      r.draw_screen(program);
-      const size_t texels = static_cast<size_t>(side) * static_cast<size_t>(count);
-      glGetTextureSubImage(r.map_strip.texture.id(), 0, 0, 0, 0, side, count, 1, GL_RED, GL_FLOAT,
-                           static_cast<GLsizei>(texels * sizeof(float)), &image.at(0, face * side + first));
-    }
+    program.set("first_row", in_face);
+    r.draw_screen(program);
+    const size_t texels = static_cast<size_t>(side) * static_cast<size_t>(rows);
+    glGetTextureSubImage(r.map_strip.texture.id(), 0, 0, 0, 0, side, rows, 1, GL_RED, GL_FLOAT,
+                         static_cast<GLsizei>(texels * sizeof(float)), &image.at(0, row - first_row));
     glBindTextureUnit(2, 0);
+    row += rows;
   }
   r.detach(1);
-  r.context->check("read_map");
+  r.context->check("read_rows");
   return image;
+}
+
+Image<float> Renderer::read_map(const ShadowMap& map) {
+  return read_rows(map, 0, (map.impl_->cube ? 6 : 1) * map.resolution());
+}
+
+MapDepths Renderer::read_map(const ShadowMap& map, const std::shared_ptr<const TexelSet>& texels) {
+  MapDepths found(texels, MapDepths::unknown);
+  const int band = rows_of_band(map.resolution());
+  for (int first = 0; first < texels->size().y; first += band) {
+    const Image<float> rows = read_rows(map, first, std::min(band, texels->size().y - first));
+    for (int row = 0; row < rows.height; ++row)
+      texels->each_in_row(first + row, [&](int x, size_t index) { found.depth[index] = rows.at(x, row); });
+  }
+  return found;
 }
 
 }  // namespace noonmark::gl

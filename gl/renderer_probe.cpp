@@ -93,6 +93,15 @@ void Renderer::probe_strip(LookupProbe& probe, const LightFrame& frame, const Se
   r.context->check("probe");
 }
 
+void Renderer::forget_cube_index() {
+  Impl& r = *impl_;
+  r.context->make_current();
+  if (!r.cube_index) return;
+  r.cube_index_resolution = 0;
+  r.cube_index = {};
+  release_deleted();
+}
+
 std::vector<uint32_t> Renderer::Impl::cube_texels(const LookupProbe& probe, const LightFrame& frame,
                                                   const Settings& settings, Rows rows, int tap_begin, int tap_end) {
   if (cube_index_resolution != frame.resolution) {

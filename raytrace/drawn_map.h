@@ -32,6 +32,10 @@ class DrawnMap {
   // found in double.
   void depths(int count, const glm::dvec3* places, const uint32_t* hits, float* depths) const;
 
+  // Whether the pass draws other surfaces than the scene's (moved casters, culled faces). They have no first hits in
+  // double: rays of float find them.
+  bool uses_rays() const { return own_tree_.has_value(); }
+
  private:
   float depth_of(uint32_t hit, glm::dvec3 place) const;
 

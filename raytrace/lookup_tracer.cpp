@@ -15,25 +15,6 @@
 namespace noonmark::raytrace {
 namespace {
 
-// The depths that the map's pass draws.
-Image<float> exact_map_of(const DrawnMap& drawn, const LightView& view, const TexelRays& texels) {
-  const glm::ivec2 size = view.frame().map_size();
-  Image<float> map(size.x, size.y, 1.0f);
-  const std::vector<glm::ivec2>& list = texels.inside_texels();
-  for_each_packet(list.size(), [&](size_t first, int n) {
-    uint32_t hits[packet_size];
-    glm::dvec3 places[packet_size];
-    float depths[packet_size];
-    for (int i = 0; i < n; ++i) {
-      places[i] = view.texel_place(list[first + i]);
-      hits[i] = texels.hit(list[first + i]);
-    }
-    drawn.depths(n, places, hits, depths);
-    for (int i = 0; i < n; ++i) map.at(list[first + i].x, list[first + i].y) = depths[i];
-  });
-  return map;
-}
-
 // The silhouettes among the taps of a receiver. A receiver that is lit and has none is lit at all of these places, for
 // sure (OwnSurface::lit_at() without a crossing), so no ray is needed at a tap's exact place. For the others they are
 // listed once, not searched for at each tap. Only where one table of offsets serves all receivers of parallel rays; then
@@ -99,7 +80,7 @@ struct LookupTracer::Impl {
   std::shared_ptr<LightSide> light;
   LightView view;
   bool use_cells;
-  TexelRays texels{traced.embree, view, map.wrap};
+  TexelRays texels{traced, view, map.wrap};
 };
 
 LookupTracer::LookupTracer(TracedScene& traced, const ReceiverImage& receivers, const ReceiverTruth& truth,
@@ -118,13 +99,17 @@ void LookupTracer::ask(const LookupProbe& probe, PixelRange strip, StageTime* st
   impl_->texels.ask(impl_->truth.facing, probe, strip);
 }
 
-Image<float> LookupTracer::trace_map(StageTime* stage) {
+MapDepths LookupTracer::trace_map(StageTime* stage) {
   const StageWatch watch(stage, impl_->traced.device);
   impl_->texels.trace();
   const Impl& l = *impl_;
   const OwnSurface surface(l.traced.embree, l.traced.adjacency, l.view, l.light->silhouettes());
-  return exact_map_of({l.traced, l.view, surface, l.light->silhouettes(), l.view.frame(), l.map, l.bias, l.offset},
-                      impl_->view, impl_->texels);
+  const DrawnMap drawn(l.traced, l.view, surface, l.light->silhouettes(), l.view.frame(), l.map, l.bias, l.offset);
+  MapDepths map(l.texels.texels(), 1);
+  l.texels.each_inside([&](int count, size_t first, const glm::dvec3* places, const uint32_t* hits) {
+    drawn.depths(count, places, hits, &map.depth[first]);
+  });
+  return map;
 }
 
 TapTruth LookupTracer::trace_taps(const LookupProbe& probe, PixelRange strip, Image<float>& edge_distance_texels,

@@ -6,6 +6,7 @@
 #include "technique/bias.h"
 #include "technique/evidence.h"
 #include "technique/light_frame.h"
+#include "technique/map_depths.h"
 #include "technique/settings.h"
 
 namespace noonmark::raytrace {
@@ -16,7 +17,7 @@ class TracedScene;
 //
 //   LookupTracer rays = tracer.lookup(receivers, truth, frame, settings.map, bias);
 //   rays.ask(probe, strip);                                        // for every strip of the picture
-//   Image<float> exact_map = rays.trace_map();
+//   MapDepths exact_map = rays.trace_map();
 //   TapTruth taps = rays.trace_taps(probe, strip, edge_distance);  // for every strip, in any order
 //
 // The probe is the same one in all calls; it must hold the taps of the strip that is given. If a stage is given, the
@@ -33,8 +34,8 @@ class LookupTracer {
   // The map will hold the texels of these pixels' taps.
   void ask(const LookupProbe& probe, PixelRange strip, StageTime* stage = nullptr);
 
-  // Window depth at the centres of the texels that were asked for, 1 elsewhere; of LightFrame::map_size().
-  Image<float> trace_map(StageTime* stage = nullptr);
+  // Window depth at the centres of the texels that were asked for, 1 elsewhere.
+  MapDepths trace_map(StageTime* stage = nullptr);
 
   // edge_distance_texels has the picture's size. It gets, for each receiver of the strip, the largest distance from the
   // exact place of a tap (moved, if the lookup is moved) to the shadow edge on the way to the texel centre that the tap
@@ -54,7 +55,7 @@ class LookupTracer {
 // Of the whole picture at once: every tap of every facing receiver, and the exact map that those taps read.
 struct LookupTruth {
   TapTruth taps;
-  Image<float> exact_map;             // LookupTracer::trace_map()
+  MapDepths exact_map;                // LookupTracer::trace_map()
   Image<float> edge_distance_texels;  // LookupTracer::trace_taps()
   StageTime texel_stage;              // light-side rays through texel centres
   StageTime tap_stage;                // V at every tap

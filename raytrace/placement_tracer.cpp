@@ -74,12 +74,12 @@ void PlacementTracer::trace(const PlacedProbe& probe, PixelRange strip, StageTim
   l.lattice->trace();
 }
 
-double PlacementTracer::ray_error_depth() const {
+PlacementTracer::RayError PlacementTracer::ray_error() const {
   const LightView& view = impl_->view;
   const double near = view.frame().near_m, range = view.frame().far_m - near;
   // Of a perspective map, depth = far (z - near) / (z (far - near)), which rises the fastest at near.
   const double depth_per_m = view.frame().uniform() ? 1 / range : view.frame().far_m / (near * range);
-  return 2 * view.ray_error_m() * depth_per_m;
+  return {2 * view.ray_error_m() * depth_per_m, impl_->drawn.uses_rays()};
 }
 
 void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& box) const {

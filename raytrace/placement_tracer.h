@@ -37,8 +37,14 @@ class PlacementTracer {
   // threads. box: its memory is used again.
   void judge(size_t pixel, const PlacedTaps& taps, LatticeBox& box) const;
 
-  // LightView::ray_error_m of each of two surfaces, as window depth where a metre has most of it.
-  double ray_error_depth() const;
+  // How far the depth of an exact map of the ladder may lie beside the lattice's because rays of float found both: twice
+  // LightView::ray_error_m, as window depth where a metre has most of it. It concerns points that the near plane clips,
+  // and all points of maps with moved casters or culled faces (`everywhere`).
+  struct RayError {
+    double depth = 0;
+    bool everywhere = false;
+  };
+  RayError ray_error() const;
 
  private:
   struct Impl;

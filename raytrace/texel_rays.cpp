@@ -4,9 +4,13 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
 #include <cassert>
+#include <unordered_map>
 
+#include "raytrace/lattice_raster.h"
 #include "raytrace/packets.h"
 
 namespace noonmark {
@@ -27,13 +31,13 @@ glm::ivec2 texel_of(uint64_t key) {
 
 }  // namespace
 
-TexelRays::TexelRays(const EmbreeScene& embree, const LightView& view, Wrap wrap)
-    : embree_(&embree), view_(&view), wrap_(wrap), wanted_(view.frame().map_size().x, view.frame().map_size().y, 0) {
+TexelRays::TexelRays(const raytrace::TracedScene& traced, const LightView& view, Wrap wrap)
+    : traced_(&traced), view_(&view), wrap_(wrap), wanted_(std::make_shared<TexelSet>(view.frame().map_size())) {
   assert(view.scene().triangles.size() < no_primitive >> 1);
 }
 
 void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, PixelRange pixels) {
-  const glm::ivec2 size(wanted_.width, wanted_.height);
+  const glm::ivec2 size = wanted_->size();
   struct Outside {
     std::vector<uint64_t> keys;
     size_t limit = outside_buffer;
@@ -47,8 +51,7 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
                         for (int tap = 0; tap < probe.taps(); ++tap) {
                           const glm::ivec2 texel = probe.texel(i, tap);
                           const glm::ivec2 read = wrapped(texel, size, wrap_);
-                          if (read.x >= 0)
-                            std::atomic_ref(wanted_.at(read.x, read.y)).store(1, std::memory_order_relaxed);
+                          if (read.x >= 0) wanted_->add(read);
                           if (!inside_map(texel, size)) outside.keys.push_back(texel_key(texel));
                         }
                         // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills
@@ -68,40 +71,123 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
   outside_keys_.erase(std::unique(outside_keys_.begin(), outside_keys_.end()), outside_keys_.end());
 }
 
-// Calls store(i, FirstHit) for each texel.
-void TexelRays::first_hits(size_t count, const auto& texel_at, const auto& store) {
-  for_each_packet(count, [&](size_t first, int n) {
+void TexelRays::first_hits(int count, const glm::dvec3* places, FirstHit* hits) {
+  uint32_t triangles[packet_size];
+  view_->first_hits(traced_->embree, count, places, triangles);
+  store(count, places, triangles, hits);
+}
+
+void TexelRays::store(int count, const glm::dvec3* places, const uint32_t* triangles, FirstHit* hits) {
+  bool clipped = false;
+  for (int i = 0; i < count; ++i) {
+    const bool before_near = view_->clipped(triangles[i], places[i]);
+    clipped |= before_near;
+    hits[i] = FirstHit(triangles[i], before_near);
+  }
+  if (clipped) std::atomic_ref(any_clipped_).store(true, std::memory_order_relaxed);
+}
+
+void TexelRays::each_packet_inside(const auto& visit) const {
+  tbb::parallel_for(size_t{0}, texels_->tiles(), [&](size_t tile) {
     glm::dvec3 places[packet_size];
+    size_t first = texels_->first(tile);
+    int count = 0;
+    const auto flush = [&] {
+      if (count > 0) visit(count, first, places);
+      first += static_cast<size_t>(count);
+      count = 0;
+    };
+    for (int row = 0; row < TexelSet::side; ++row)
+      for (uint64_t bits = texels_->bits(tile, row); bits; bits &= bits - 1) {
+        places[count++] = view_->texel_place(texels_->origin(tile) + glm::ivec2(std::countr_zero(bits), row));
+        if (count == packet_size) flush();
+      }
+    flush();
+  });
+}
+
+void TexelRays::each_inside(const std::function<void(int, size_t, const glm::dvec3*, const uint32_t*)>& visit) const {
+  each_packet_inside([&](int count, size_t first, const glm::dvec3* places) {
     uint32_t hits[packet_size];
-    bool clipped = false;
-    for (int i = 0; i < n; ++i) places[i] = view_->texel_place(texel_at(first + i));
-    view_->first_hits(*embree_, n, places, hits);
-    for (int i = 0; i < n; ++i) {
-      const bool before_near = view_->clipped(hits[i], places[i]);
-      clipped |= before_near;
-      store(first + i, FirstHit(hits[i], before_near));
-    }
-    if (clipped) std::atomic_ref(any_clipped_).store(true, std::memory_order_relaxed);
+    for (int i = 0; i < count; ++i) hits[i] = inside_[first + static_cast<size_t>(i)].triangle();
+    visit(count, first, places, hits);
   });
 }
 
 void TexelRays::trace() {
-  for (int y = 0; y < wanted_.height; ++y)
-    for (int x = 0; x < wanted_.width; ++x)
-      if (wanted_.at(x, y)) inside_texels_.push_back({x, y});
-  inside_ = Image<FirstHit>(wanted_.width, wanted_.height);
-  wanted_ = {};
-  first_hits(
-      inside_texels_.size(), [&](size_t i) { return inside_texels_[i]; },
-      [&](size_t i, FirstHit hit) { inside_.at(inside_texels_[i].x, inside_texels_[i].y) = hit; });
-
+  wanted_->close();
+  texels_ = std::move(wanted_);
+  inside_.resize(texels_->count());
   outside_.resize(outside_keys_.size());
-  first_hits(
-      outside_keys_.size(), [&](size_t i) { return texel_of(outside_keys_[i]); },
-      [&](size_t i, FirstHit hit) {
-        outside_[i] = {outside_keys_[i], hit};
-      });
+  if (view_->frame().map_shape() == MapShape::flat)
+    trace_by_raster();
+  else
+    trace_by_rays();
   std::vector<uint64_t>().swap(outside_keys_);
+}
+
+// A cube has no texels outside.
+void TexelRays::trace_by_rays() {
+  each_packet_inside(
+      [&](int count, size_t first, const glm::dvec3* places) { first_hits(count, places, &inside_[first]); });
+}
+
+void TexelRays::trace_by_raster() {
+  using raytrace::LatticeRaster;
+  static_assert(TexelSet::side == LatticeRaster::side);
+  constexpr size_t none = ~size_t{0};
+  // What is asked for of a tile, in the order of its rows: texels of the set, and texels beside the map.
+  struct Tile {
+    glm::ivec2 at{0};
+    size_t in_set = none;           // the number of the tile in the set
+    std::vector<size_t> outside{};  // indexes in outside_keys_, in their order
+  };
+  std::vector<Tile> tiles;
+  std::unordered_map<uint64_t, size_t> known;  // LatticeRaster::key
+  for (size_t n = 0; n < texels_->tiles(); ++n)
+    if (texels_->count(n) > 0) {
+      tiles.push_back({texels_->origin(n) / TexelSet::side, n});
+      known[LatticeRaster::key(tiles.back().at)] = tiles.size() - 1;
+    }
+  for (size_t i = 0; i < outside_keys_.size(); ++i) {
+    const glm::ivec2 texel = texel_of(outside_keys_[i]), at(texel.x >> 6, texel.y >> 6);
+    const auto [tile, added] = known.try_emplace(LatticeRaster::key(at), tiles.size());
+    if (added) tiles.push_back({at});
+    tiles[tile->second].outside.push_back(i);
+  }
+
+  const LatticeRaster raster(*traced_, *view_);
+  std::vector<glm::ivec2> at;
+  for (const Tile& tile : tiles) at.push_back(tile.at);
+  const std::vector<std::vector<uint32_t>> candidates = raster.candidates(at);
+  tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t n) {
+    const Tile& tile = tiles[n];
+    std::array<uint64_t, TexelSet::side> inside{}, wanted;
+    if (tile.in_set != none)
+      for (int row = 0; row < TexelSet::side; ++row) inside[static_cast<size_t>(row)] = texels_->bits(tile.in_set, row);
+    wanted = inside;
+    for (const size_t i : tile.outside) {
+      const glm::ivec2 texel = texel_of(outside_keys_[i]);
+      wanted[static_cast<size_t>(texel.y & 63)] |= uint64_t{1} << (texel.x & 63);
+    }
+    uint32_t triangles[TexelSet::side * TexelSet::side];
+    size_t count = 0;
+    for (const uint64_t bits : wanted) count += static_cast<size_t>(std::popcount(bits));
+    raster.hits(tile.at, candidates[n], wanted, {triangles, count});
+    size_t hit = 0, next_inside = tile.in_set == none ? 0 : texels_->first(tile.in_set), next_outside = 0;
+    for (int row = 0; row < TexelSet::side; ++row)
+      for (uint64_t bits = wanted[static_cast<size_t>(row)]; bits; bits &= bits - 1, ++hit) {
+        const glm::dvec3 place = view_->texel_place(tile.at * TexelSet::side + glm::ivec2(std::countr_zero(bits), row));
+        FirstHit found;
+        store(1, &place, &triangles[hit], &found);
+        if (inside[static_cast<size_t>(row)] >> std::countr_zero(bits) & 1) {
+          inside_[next_inside++] = found;
+        } else {
+          const size_t i = tile.outside[next_outside++];
+          outside_[i] = {outside_keys_[i], found};
+        }
+      }
+  });
 }
 
 const TexelRays::FirstHit& TexelRays::outside_hit(glm::ivec2 texel) const {

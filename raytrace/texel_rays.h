@@ -1,31 +1,36 @@
-// First hits of the light-side rays through texel centres, for the texels that a receiver looks up and for no others.
+// First hits of the light-side rays through texel centres, for the texels that a receiver looks up and for no others. Of
+// a flat map they are found by scan conversion in double (raytrace/lattice_raster.h), as those of the lattice of all
+// placements are; of a cube by rays.
 //
-//   TexelRays texels(embree, view, Wrap::border);
+//   TexelRays texels(traced, view, Wrap::border);
 //   texels.ask(truth.facing, probe, strip);  // for each strip of the picture
 //   texels.trace();
 //   uint32_t triangle = texels.hit({12, 7});
 #pragma once
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
-#include "raytrace/embree_scene.h"
 #include "raytrace/light_view.h"
+#include "raytrace/traced_scene.h"
 #include "technique/evidence.h"
 #include "technique/map_address.h"
+#include "technique/texel_set.h"
 
 namespace noonmark {
 
 class TexelRays {
  public:
-  // embree and view must outlive it.
-  TexelRays(const EmbreeScene& embree, const LightView& view, Wrap wrap);
+  // traced and view must outlive it.
+  TexelRays(const raytrace::TracedScene& traced, const LightView& view, Wrap wrap);
 
   // Asks for the texel of every tap of those pixels' receivers with facing != 0, at its place in the unbounded grid;
   // and, where that is outside the map, for the texel that `wrap` reads in its stead.
   void ask(const Image<uint8_t>& facing, const LookupProbe& probe, PixelRange pixels);
 
-  // Traces one ray through the centre of each texel that was asked for.
+  // Finds the first hit at the centre of each texel that was asked for.
   void trace();
 
   // After trace(), of a texel that was asked for: the triangle first met through its centre, or no_primitive; and
@@ -34,8 +39,13 @@ class TexelRays {
   bool clipped(glm::ivec2 texel) const { return first_hit(texel).before_near(); }
   // After trace(): whether the map's near plane clips the first hit of any texel that was asked for.
   bool any_clipped() const { return any_clipped_; }
-  // The texels inside the map that were asked for.
-  const std::vector<glm::ivec2>& inside_texels() const { return inside_texels_; }
+
+  // After trace(): the texels inside the map that were asked for. each_inside() calls visit for up to 16 of them at a
+  // time, which have consecutive numbers from `first` on, with the places of their centres and their first hits.
+  // Several threads call it.
+  const std::shared_ptr<const TexelSet>& texels() const { return texels_; }
+  void each_inside(
+      const std::function<void(int count, size_t first, const glm::dvec3* places, const uint32_t* hits)>& visit) const;
 
  private:
   // Both in 32 bits, because the taps read it in the order of the receivers: memory is what they wait for. A scene has
@@ -51,19 +61,25 @@ class TexelRays {
     uint32_t bits_ = no_primitive << 1;
   };
   const FirstHit& first_hit(glm::ivec2 texel) const {
-    return inside_map(texel, {inside_.width, inside_.height}) ? inside_.at(texel.x, texel.y) : outside_hit(texel);
+    return inside_map(texel, texels_->size()) ? inside_[texels_->index(texel)] : outside_hit(texel);
   }
   const FirstHit& outside_hit(glm::ivec2 texel) const;
-  void first_hits(size_t count, const auto& texel_at, const auto& store);
+  // Calls visit(count, first, places) for up to 16 texels of the set at a time; `first` is the number of the first.
+  void each_packet_inside(const auto& visit) const;
+  void trace_by_rays();
+  void trace_by_raster();
+  void first_hits(int count, const glm::dvec3* places, FirstHit* hits);
+  // triangles: the first hits at these places.
+  void store(int count, const glm::dvec3* places, const uint32_t* triangles, FirstHit* hits);
 
-  const EmbreeScene* embree_;
+  const raytrace::TracedScene* traced_;
   const LightView* view_;
   Wrap wrap_;
-  Image<uint8_t> wanted_;               // until trace()
+  std::shared_ptr<TexelSet> wanted_;    // until trace()
   std::vector<uint64_t> outside_keys_;  // until trace(); sorted, each once
-  Image<FirstHit> inside_;
+  std::shared_ptr<const TexelSet> texels_;
+  std::vector<FirstHit> inside_;  // by TexelSet::index
   bool any_clipped_ = false;
-  std::vector<glm::ivec2> inside_texels_;
   std::vector<std::pair<uint64_t, FirstHit>> outside_;  // (texel key, hit), sorted
 };
 

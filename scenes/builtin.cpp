@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scenes/camera_frame.h"
+#include "scenes/foliage.h"
 #include "scenes/library.h"
 #include "scenes/shapes.h"
 
@@ -240,6 +241,10 @@ constexpr BuiltinScene scenes[] = {
     {"sphere", "every slope up to grazing, no occluder", sphere},
     {"bowl", "a concave receiver that does not shade itself", bowl},
     {"fence", "wires thinner than a texel", fence},
+    {"foliage",
+     "alpha masks: fronds on cards (scene.masks), leaflets near the size of a texel",
+     foliage,
+     {"scene.masks"}},
     {"facade", "a house front with windows: seams of many pieces, reveals, shadows that cross them", facade},
     {"spot-room", "spot light: one bias is acne near it and Peter Panning far away; coarser texels; contacts",
      spot_room},

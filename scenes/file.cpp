@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "scenes/digest.h"
 #include "scenes/error.h"
@@ -50,7 +51,7 @@ class Temporary {
   explicit Temporary(const std::string& beside) {
     for (int attempt = 0;; ++attempt) {
       path_ = fmt::format("{}{}{}-{}{}", beside, temporary_mark, ::getpid(), attempt, temporary_ending);
-      descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (descriptor_ < 0 && errno == EEXIST) continue;
       if (descriptor_ < 0)
         fail(beside, "cannot be written", errno, "check that its folder exists and may be written to");
@@ -159,20 +160,52 @@ std::unique_ptr<Opened> open_below(const std::string& folder, const std::string&
 
 }  // namespace
 
-void write_file_atomically(const std::string& path, std::string_view bytes) {
-  Temporary temporary(path);
-  constexpr std::string_view next = "check that the disk has room";
+struct AtomicFile::Impl {
+  std::string path;
+  Temporary temporary;
+  explicit Impl(const std::string& target) : path(target), temporary(target) {}
+  [[noreturn]] void fail_to_write() const { fail(path, "cannot be written", errno, "check that the disk has room"); }
+};
+
+AtomicFile::AtomicFile(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
+AtomicFile::~AtomicFile() = default;
+
+void AtomicFile::write_at(uint64_t offset, std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(temporary.descriptor(), bytes.data(), bytes.size());
+    const ssize_t written =
+        ::pwrite(impl_->temporary.descriptor(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(path, "cannot be written", errno, next);
+    if (written < 0) impl_->fail_to_write();
     bytes.remove_prefix(static_cast<size_t>(written));
+    offset += static_cast<uint64_t>(written);
   }
-  if (::fsync(temporary.descriptor()) != 0) fail(path, "cannot be written", errno, next);
+}
+
+std::string AtomicFile::digest() const {
+  Digest digest;
+  std::vector<char> block(1 << 16);
+  for (off_t offset = 0;;) {
+    const ssize_t count = ::pread(impl_->temporary.descriptor(), block.data(), block.size(), offset);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail(impl_->path, "cannot be read", errno, "check the disk");
+    if (count == 0) return digest.hex();
+    digest.bytes(block.data(), static_cast<size_t>(count));
+    offset += count;
+  }
+}
+
+void AtomicFile::keep() {
+  if (::fsync(impl_->temporary.descriptor()) != 0) impl_->fail_to_write();
   // Closed, and with that unlocked, only when it has its own name; what close() could tell, fsync() has told.
-  if (const int error = temporary.rename_to(path))
-    fail(path, "cannot be replaced", error, "choose another place for it");
-  flush_folder(fs::path(path).parent_path());
+  if (const int error = impl_->temporary.rename_to(impl_->path))
+    fail(impl_->path, "cannot be replaced", error, "choose another place for it");
+  flush_folder(fs::path(impl_->path).parent_path());
+}
+
+void write_file_atomically(const std::string& path, std::string_view bytes) {
+  AtomicFile file(path);
+  file.write_at(0, bytes);
+  file.keep();
 }
 
 void make_folder(const std::string& path) {

@@ -6,6 +6,7 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,27 @@ namespace noonmark {
 // then the old file is there and nothing else. A program that is killed may leave the temporary file;
 // clear_abandoned_files removes it.
 void write_file_atomically(const std::string& path, std::string_view bytes);
+
+// The same for a file that is written piece by piece, so that it need not be in memory as a whole.
+//
+//   AtomicFile file("out/map.exr");
+//   file.write_at(0, head);
+//   file.keep();                     // without it the old file stays
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::string& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write_at(uint64_t offset, std::string_view bytes);
+  std::string digest() const;  // digest_of what was written
+  void keep();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 // Makes the folder and all folders above it, and flushes them, so that they survive a power failure. Throws
 // Error(file) if the folder is not there afterwards.

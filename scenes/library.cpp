@@ -27,7 +27,7 @@ Scene scene_as_built(const SceneSettings& settings) {
     }
     names.push_back(builtin.name);
   }
-  if (names_file(settings.name)) return load_gltf(settings.name, {settings.time_s, settings.animation});
+  if (names_file(settings.name)) return load_gltf(settings.name, {settings.time_s, settings.animation}, settings.masks);
   const std::string near = nearest_name(settings.name, names);
   throw Error(
       ErrorKind::usage,

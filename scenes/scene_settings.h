@@ -22,6 +22,7 @@ struct SceneSettings {
   double thickness_m = 0.1;        // wall, plate
   double height_m = 0.5;           // plate: of its lit face above the floor
   MeshForm mesh = MeshForm::as_built;     // the same surface in other triangles
+  bool masks = true;                      // alpha masks of a file's materials are cut out (scenes/alpha_mask.h)
   bool floor = false;                     // a square under the scene (scenes/floor.h)
   double turn_deg = 0;                    // the whole scene, camera and light with it, about the axis (1, 2, 3)
   std::optional<glm::dvec3> move_m = {};  // and then moved; empty: not

@@ -63,6 +63,11 @@ std::function<std::string(const Settings&, LightKind)> only_in_scenes_with(std::
     return "";
   };
 }
+std::function<std::string(const Settings&, LightKind)> only_in_files_and_scenes_with(std::string_view setting) {
+  return [in_scene = only_in_scenes_with(setting)](const Settings& s, LightKind light) -> std::string {
+    return names_file(s.scene.name) ? "" : in_scene(s, light);
+  };
+}
 std::string without_time(const Settings& s, LightKind light) {
   if (const std::string why = in_builtin_scene(s, light); !why.empty()) return why;
   return s.scene.time_s ? "" : "without scene.time_s";

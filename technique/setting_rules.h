@@ -52,6 +52,7 @@ namespace setting_rules {
 std::string in_builtin_scene(const Settings&, LightKind);
 // setting: the name of the row, such as "scene.theta_deg" (BuiltinScene::reads).
 std::function<std::string(const Settings&, LightKind)> only_in_scenes_with(std::string_view setting);
+std::function<std::string(const Settings&, LightKind)> only_in_files_and_scenes_with(std::string_view setting);
 std::string without_time(const Settings&, LightKind);
 std::string where_depths_are_fitted(const Settings&, LightKind);
 std::string with_parallel_rays(const Settings&, LightKind);

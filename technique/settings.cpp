@@ -161,6 +161,12 @@ std::vector<Setting> make_table() {
            MEMBER(scene.turn_deg)),
       point("scene.move_m", "m", "Moves the scene with its camera and light, after the rotation; auto: no move.",
             MEMBER(scene.move_m)),
+      flag("scene.masks",
+           "Whether alpha masks (of the scene foliage, and of a glTF file's materials: alphaMode MASK) are cut out of "
+           "the triangles. false: "
+           "masked triangles are opaque, which makes fewer triangles.",
+           MEMBER(scene.masks))
+          .idle(only_in_files_and_scenes_with("scene.masks")),
       flag("scene.floor",
            "Adds a horizontal square under the scene, for a model that has nothing to cast its shadow on. It touches "
            "the scene's lowest point, its middle is below the middle of the scene's box, and its side is 4 times the "

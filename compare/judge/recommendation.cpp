@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <set>
+#include <tuple>
 
 #include "compare/judge/conditions.h"
 #include "compare/judge/curve_reading.h"
@@ -47,6 +49,23 @@ const Recommendation* best_by(const std::vector<Recommendation>& good, const Bet
   for (const Recommendation& other : good)
     if (!best || better(other, *best)) best = &other;
   return best;
+}
+
+// The cost that ends first: every choice whose cost begins beyond it is certainly dearer.
+Interval least_cost(const std::vector<Recommendation>& good) {
+  const Recommendation* first = best_by(good, [](const auto& a, const auto& b) { return a.cost.high < b.cost.high; });
+  return first ? first->cost : Interval();
+}
+
+CostNoise noise_of(const std::vector<Recommendation>& good) {
+  const Interval bar = least_cost(good);
+  std::set<std::tuple<double, double, double>> costs, least;
+  for (const Recommendation& one : good) {
+    const std::tuple cost(one.cost.low, one.cost.middle, one.cost.high);
+    costs.insert(cost);
+    if (!certainly_less(bar, one.cost)) least.insert(cost);
+  }
+  return {costs.size(), least.size()};
 }
 
 // What pick(good choices) finds, or why nothing can be recommended.
@@ -133,7 +152,7 @@ std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& resul
 
 std::optional<Recommendation> good_choice(const Choice& choice, const Results& results) {
   if (!has_criterion(choice, results)) return std::nullopt;
-  Recommendation candidate{Outcome::found, choice, joined(choice, results.info.cost).worst, {}, {}};
+  Recommendation candidate{Outcome::found, choice, joined_interval(choice, results.info.cost), {}, {}, {}};
   std::optional<double> bias;
   if (has_curves(choice)) {
     candidate.bias = choose_bias(choice, results, results.bounds);
@@ -143,7 +162,7 @@ std::optional<Recommendation> good_choice(const Choice& choice, const Results& r
     return std::nullopt;
   }
   candidate.error = joined_at(choice, results.info.accuracy, bias);
-  if (!std::isfinite(candidate.cost) || !std::isfinite(candidate.error.worst)) return std::nullopt;
+  if (!std::isfinite(candidate.cost.middle) || !std::isfinite(candidate.error.worst)) return std::nullopt;
   return candidate;
 }
 
@@ -158,26 +177,29 @@ bool is_incomplete(const Results& results) {
   return !results.info.over.empty() && static_cast<int64_t>(results.points.size()) < results.planned_points;
 }
 
-const Recommendation* cheapest(const std::vector<Recommendation>& good, const std::string& cost) {
-  const Recommendation* least = best_by(good, [](const auto& a, const auto& b) { return a.cost < b.cost; });
-  if (!least) return nullptr;
-  const bool is_time = find_metric(cost).unit == "ms";
-  const double alike = (is_time ? 1 + time_tolerance : 1) * least->cost;
+const Recommendation* cheapest(const std::vector<Recommendation>& good) {
+  const Interval bar = least_cost(good);
   return best_by(good, [&](const auto& a, const auto& b) {
-    const bool a_alike = a.cost <= alike, b_alike = b.cost <= alike;
+    const bool a_alike = !certainly_less(bar, a.cost), b_alike = !certainly_less(bar, b.cost);
     if (a_alike != b_alike) return a_alike;
-    return a_alike ? a.error.worst < b.error.worst : a.cost < b.cost;
+    return a_alike && std::make_pair(a.error.worst, a.cost.middle) < std::make_pair(b.error.worst, b.cost.middle);
   });
 }
 
 const Recommendation* most_accurate(const std::vector<Recommendation>& good) {
   return best_by(good, [](const auto& a, const auto& b) {
-    return std::make_pair(a.error.worst, a.cost) < std::make_pair(b.error.worst, b.cost);
+    return std::make_pair(a.error.worst, a.cost.middle) < std::make_pair(b.error.worst, b.cost.middle);
   });
 }
 
 Recommendation recommend(const Results& results) {
-  return answered(results, [&](const auto& good) { return cheapest(good, results.info.cost); });
+  CostNoise noise;
+  Recommendation found = answered(results, [&](const auto& good) {
+    noise = noise_of(good);
+    return cheapest(good);
+  });
+  found.noise = noise;
+  return found;
 }
 
 Recommendation recommend_accurate(const Results& results) {

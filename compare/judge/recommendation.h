@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/judge/choices.h"
+#include "compare/judge/interval.h"
 #include "compare/store/records.h"
 
 namespace noonmark {
@@ -27,6 +28,13 @@ struct BiasChoice {
   bool narrow = false;  // the window is too narrow for bias_margin; the value is in its middle half
 };
 
+// How many costs of the good choices are known to be above the least. Costs that are equal for equal work count once.
+struct CostNoise {
+  size_t costs = 0;  // different costs
+  size_t least = 0;  // those of them that are not certainly above the least: 1 if it is known which one is the least
+  bool meaningless() const { return costs > 1 && least == costs; }
+};
+
 struct Recommendation {
   enum class Outcome {
     found,
@@ -36,15 +44,11 @@ struct Recommendation {
   } outcome = Outcome::no_criterion;
   // The others: only if found.
   Choice choice;
-  double cost = 0;                 // largest over the conditions, in the unit of RunInfo::cost
+  Interval cost;                   // largest over the conditions, in the unit of RunInfo::cost (joined_interval)
   Joined error;                    // RunInfo::accuracy, at `bias`, or as rendered if there is no bias
   std::optional<BiasChoice> bias;  // the choice has curves
+  CostNoise noise;                 // of recommend()
 };
-
-// Two times count as equal if they differ by at most this fraction of the shorter one. Another run could order them the
-// other way.
-// Costs that do not depend on the machine are compared exactly.
-inline constexpr double time_tolerance = 0.1;
 
 // The bias for a choice with curves: within its joined window and the margin, as far from the ends as possible without
 // losing accuracy (flat_error; the error is RunInfo::accuracy, the largest over the conditions), and rounded to few digits
@@ -71,11 +75,12 @@ std::vector<Recommendation> good_choices(const Results& results);
 bool is_incomplete(const Results& results);
 
 // Of choices that are good enough the one of least cost, and the one of least error (as recommend and
-// recommend_accurate). cost: RunInfo::cost. Null if there is none.
-const Recommendation* cheapest(const std::vector<Recommendation>& good, const std::string& cost);
+// recommend_accurate). Null if there is none.
+const Recommendation* cheapest(const std::vector<Recommendation>& good);
 const Recommendation* most_accurate(const std::vector<Recommendation>& good);
 
-// Of the good choices the one of least cost; among equal costs the one of least error, then the first.
+// Of the good choices whose cost is not certainly above the least (compare/judge/interval.h; costs that do not depend on
+// the machine have no interval and are compared exactly) the one of least error, then of least cost, then the first.
 Recommendation recommend(const Results& results);
 // The one of least error; among equal errors the one of least cost.
 Recommendation recommend_accurate(const Results& results);

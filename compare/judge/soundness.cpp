@@ -31,7 +31,7 @@ double quantum(DepthFormat format, float depth) {
 
 // Whether `visibility` is what the technique's definition gives for the probe and a map whose depths are of `format`.
 // If all taps have the same weight, it must be the number of lit taps, divided, bit for bit.
-bool holds(const LookupEvidence& e, const ReceiverTaps& taps, float bias, const Image<float>& map, DepthFormat format,
+bool holds(const LookupEvidence& e, const ReceiverTaps& taps, float bias, const MapDepths& map, DepthFormat format,
            size_t i, float visibility) {
   if (!e.probe.pattern.bilinear()) {
     int lit = 0;
@@ -52,7 +52,7 @@ bool holds(const LookupEvidence& e, const ReceiverTaps& taps, float bias, const 
   // The sampler's weights have 8 bits. They come from an address that is a rounded division, which has an error of 8 u
   // of the address in texels. Visibility changes by at most 1 per texel along each of two axes.
   const glm::dvec2 at = glm::abs(glm::dvec2(e.probe.map_texels[i]));
-  const double weights = 2 * (0x1p-8 + 8 * 0x1p-24 * std::max({at.x, at.y, static_cast<double>(map.width)}));
+  const double weights = 2 * (0x1p-8 + 8 * 0x1p-24 * std::max({at.x, at.y, static_cast<double>(map.size().x)}));
   return visibility >= least - weights && visibility <= most + weights;
 }
 
@@ -86,24 +86,28 @@ void SoundnessCheck::join(const Part& part) {
 
 SoundnessCheck::MapFound SoundnessCheck::compare_maps() const {
   const SoundnessInput& in = in_;
-  const Image<float>& exact = in.evidence.exact_map;
+  const MapDepths& exact = in.evidence.exact_map;
+  const glm::ivec2 size = exact.size();
+  const auto across = static_cast<size_t>(size.x);
   // One bit for each texel: a map has many more texels than a small picture asks for. They are read in their order in the
   // map, because which format could have stored them all depends on it.
-  std::vector<uint64_t> asked((exact.size() + 63) / 64);
+  std::vector<uint64_t> asked((across * static_cast<size_t>(size.y) + 63) / 64);
   for (size_t i = 0; i < in.evidence.truth.facing.size(); ++i) {
     if (!in.evidence.truth.facing[i]) continue;
     const glm::ivec2 texel = in.evidence.probe.middle_texel(i);
-    if (!inside_map(texel, {exact.width, exact.height})) continue;
-    const size_t at = static_cast<size_t>(texel.y) * static_cast<size_t>(exact.width) + static_cast<size_t>(texel.x);
+    if (!inside_map(texel, size)) continue;
+    const size_t at = static_cast<size_t>(texel.y) * across + static_cast<size_t>(texel.x);
     asked[at / 64] |= uint64_t{1} << at % 64;
   }
   std::vector<double> errors;
   MapFound found;
   const auto compare = [&](size_t i) {
-    const double error = std::abs(static_cast<double>(in.stored_map[i]) - exact[i]);
-    errors.push_back(std::isnan(error) ? infinity : error / quantum(in.evidence.map.format, exact[i]));
-    if (found.bits == 16 && !held_by(16, in.stored_map[i])) found.bits = 24;
-    if (found.bits == 24 && !held_by(24, in.stored_map[i])) found.bits = 32;
+    const glm::ivec2 texel(i % across, i / across);
+    const float stored = in.stored_map.at(texel), right = exact.at(texel);
+    const double error = std::abs(static_cast<double>(stored) - right);
+    errors.push_back(std::isnan(error) ? infinity : error / quantum(in.evidence.map.format, right));
+    if (found.bits == 16 && !held_by(16, stored)) found.bits = 24;
+    if (found.bits == 24 && !held_by(24, stored)) found.bits = 32;
   };
   for (size_t word = 0; word < asked.size(); ++word)
     for (uint64_t left = asked[word]; left != 0; left &= left - 1)
@@ -115,16 +119,16 @@ SoundnessCheck::MapFound SoundnessCheck::compare_maps() const {
   return found;
 }
 
-Image<float> tie_map(const LookupEvidence& e) {
-  Image<float> map(e.exact_map.width, e.exact_map.height, 1.0f);
+MapDepths tie_map(const LookupEvidence& e) {
+  MapDepths map(e.exact_map.texels, 1, 1);
   for (size_t i = 0; i < e.truth.facing.size(); ++i) {
     if (!e.truth.facing[i]) continue;
     const glm::ivec2 texel = e.probe.middle_texel(i);
-    const glm::ivec2 read = wrapped(texel, {map.width, map.height}, e.map.wrap);
+    const glm::ivec2 read = wrapped(texel, map.size(), e.map.wrap);
     if (read.x < 0) continue;
     const float biased = e.probe.tap_depth(i, e.probe.middle_tap()) - e.bias.at(e.probe, i);
     const float depth = (read.x + read.y) % 2 ? std::nextafter(biased, -1.0f) : biased;
-    if (depth > 0 && depth <= 1) map.at(read.x, read.y) = depth;
+    if (depth > 0 && depth <= 1) map.depth[map.texels->index(read)] = depth;
   }
   return map;
 }

@@ -4,7 +4,7 @@
 // precision error. If the shader's mistake is also in the probe, the truth is traced for the same wrong texels. This
 // check finds both.
 //
-//   Image<float> ties = tie_map(evidence);    // uploaded and looked up like R4's map
+//   MapDepths ties = tie_map(evidence);    // uploaded and looked up like R4's map
 //   auto metrics = measure_soundness({evidence, map, ties, renderer.lookup(...), receivers, frame, eye_m});
 #pragma once
 #include <map>
@@ -24,12 +24,12 @@ namespace noonmark {
 // holds that tap's biased reference itself (a tie, which is lit), or at every second texel the next float below it
 // (dark). It holds 1 at all other texels, and where that value is no depth. The tie map is needed because scenes hardly
 // ever have a tie, and then a `>=` in place of `>` is not noticed.
-Image<float> tie_map(const LookupEvidence& evidence);
+MapDepths tie_map(const LookupEvidence& evidence);
 
 struct SoundnessInput {
   const LookupEvidence& evidence;  // r4 on evidence.exact_map
-  const Image<float>& stored_map;  // r5's map, as its sampler returns it
-  const Image<float>& ties;        // tie_map(evidence)
+  const MapDepths& stored_map;     // r5's map, as its sampler returns it
+  const MapDepths& ties;           // tie_map(evidence)
   const Image<float>& tie_lookup;  // the technique's result on the tie map
   const ReceiverImage& receivers;
   const LightFrame& frame;

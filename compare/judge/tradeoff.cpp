@@ -69,7 +69,7 @@ std::vector<ComparedGroup> compared_groups(const Results& results) {
       if (group.choices.back().good) good.push_back(*group.choices.back().good);
     }
     if (!is_incomplete(results)) {
-      group.recommended = place_of(cheapest(good, results.info.cost), group.choices);
+      group.recommended = place_of(cheapest(good), group.choices);
       group.accurate = place_of(most_accurate(good), group.choices);
     }
     groups.push_back(std::move(group));

@@ -41,6 +41,11 @@ std::vector<ComparedGroup> compared_groups(const Results& results);
 // A metric at the bias of the choice, joined over its conditions. If it does not follow the bias: as rendered.
 Joined value_of(const ComparedChoice& one, const std::string& metric);
 
+// A cost of the choice: joined_interval().
+inline Interval cost_of(const ComparedChoice& one, const std::string& metric) {
+  return joined_interval(one.choice, metric);
+}
+
 // Whether the curve of every point gives the metric at any bias.
 bool follows_bias(const ComparedChoice& one, const std::string& metric);
 

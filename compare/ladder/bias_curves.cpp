@@ -23,12 +23,12 @@ double share_of(double part, double whole) {
 BiasCounts::BiasCounts(const LookupProbe& probe, const BiasPart& varied)
     : varied_(&varied), blended_(probe.pattern.bilinear()), taps_(probe.taps()), whole_(whole_weight(probe)) {}
 
-BiasCounts::BiasCounts(const LookupEvidence& e, const Image<float>& stored_map, const BiasPart& varied)
+BiasCounts::BiasCounts(const LookupEvidence& e, const MapDepths& stored_map, const BiasPart& varied)
     : BiasCounts(e.probe, varied) {
   add(e, stored_map, {0, e.truth.facing.size()});
 }
 
-void BiasCounts::add(const LookupEvidence& e, const Image<float>& stored_map, PixelRange strip) {
+void BiasCounts::add(const LookupEvidence& e, const MapDepths& stored_map, PixelRange strip) {
   Adding adding(*this, e, stored_map);
   read_taps(e, strip, adding);
 }
@@ -157,6 +157,24 @@ float BiasCounts::peter_panning_free_to(double share) const {
   return std::nextafter(t[within], -infinity);
 }
 
+WindowSteps BiasCounts::window_steps(double depth_per_unit, double most_share) const {
+  WindowSteps steps;
+  steps.most_share = most_share;
+  steps.taps = taps();
+  steps.unit_depth = depth_per_unit;
+  const ThresholdSums &acne = sums_[of_cause(Cause::acne)], &panning = sums_[of_cause(Cause::peter_panning)];
+  // The last threshold ends all acne, even if the sums are rounded.
+  for (size_t reached = 0; reached <= acne.size(); ++reached) {
+    const double left = reached == acne.size() ? 0 : std::max(0.0, acne.total() - acne.before(reached));
+    if (share_of(left, taps()) <= most_share) steps.acne.push_back({reached == 0 ? 0.0f : acne[reached - 1], left});
+  }
+  for (size_t reached = 0; reached <= panning.size(); ++reached) {
+    if (!(share_of(panning.before(reached), taps()) <= most_share)) break;
+    steps.peter_panning.push_back({reached == panning.size() ? infinity : panning[reached], panning.before(reached)});
+  }
+  return steps;
+}
+
 BiasCounts::Best BiasCounts::best(float most) const {
   // The error is constant from each breakpoint to the next; 0 starts the first stretch, and `most` ends the last.
   const auto end_before = [&](float next) { return next == infinity ? most : std::nextafter(next, -infinity); };
@@ -253,20 +271,16 @@ BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const Curv
   curve.m_per_depth = scale.m_per_depth;
   curve.texels_per_depth = scale.texels_per_depth;
 
-  curve.acne_bound = options.acne_bound;
-  curve.peter_panning_bound = options.peter_panning_bound;
   if (counts.receivers() == 0) {
+    judge_window(curve, options.acne_bound, options.peter_panning_bound);
     curve.best_error = std::numeric_limits<double>::quiet_NaN();
     return curve;
   }
+  curve.steps = counts.window_steps(scale.depth_per_unit,
+                                    std::max({least_most_share, options.acne_bound, options.peter_panning_bound}));
+  judge_window(curve, options.acne_bound, options.peter_panning_bound);
   // A bias of 1 in depth spans the whole map. A larger bias has no meaning.
   const auto most = static_cast<float>(1 / scale.depth_per_unit);
-  const float from = counts.acne_free_from(options.acne_bound);
-  const float to = counts.peter_panning_free_to(options.peter_panning_bound);
-  if (from <= to && from <= most) {
-    curve.window_min_depth = in_depth(from);
-    curve.window_max_depth = to >= most ? 1.0 : in_depth(to);
-  }
   const BiasCounts::Best best = counts.best(most);
   // If nothing limits the bias from above, the middle would be half the map's depth. Twice the least bias is a better
   // recommendation.

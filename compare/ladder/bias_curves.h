@@ -31,10 +31,10 @@ class BiasCounts {
   BiasCounts(const LookupProbe& probe, const BiasPart& varied);
   // Adds a strip of the picture; the evidence holds the taps of one strip at a time. stored_map: the GPU's map as its
   // sampler returns it. evidence.r4 and r5 are not read. Only counted receivers (facing, not ambiguous) take part.
-  void add(const LookupEvidence& evidence, const Image<float>& stored_map, PixelRange strip);
+  void add(const LookupEvidence& evidence, const MapDepths& stored_map, PixelRange strip);
 
   // Counts the whole picture.
-  BiasCounts(const LookupEvidence& evidence, const Image<float>& stored_map, const BiasPart& varied);
+  BiasCounts(const LookupEvidence& evidence, const MapDepths& stored_map, const BiasPart& varied);
 
   class Adding;
 
@@ -65,6 +65,8 @@ class BiasCounts {
   // if it is never more than the share).
   float acne_free_from(double share) const;
   float peter_panning_free_to(double share) const;
+  // What the usable window is read from, for shares up to most_share.
+  WindowSteps window_steps(double depth_per_unit, double most_share) const;
   // The least x from which the stored map darkens no covered tap that is lit both at its exact place and at its texel's
   // centre. It corresponds to acne_free_from(0), which is about the exact map.
   float stored_acne_free_from() const { return stored_acne_free_from_; }
@@ -117,7 +119,7 @@ class BiasCounts::Adding {
     float stored_acne = 0;  // the largest threshold
     double softer_before = 0;
   };
-  Adding(BiasCounts& counts, const LookupEvidence& evidence, const Image<float>& stored_map)
+  Adding(BiasCounts& counts, const LookupEvidence& evidence, const MapDepths& stored_map)
       : counts_(counts), e_(evidence), stored_map_(stored_map) {}
   void receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
   void soft_receiver(size_t i, const ReceiverTaps& taps, Part& part) const;
@@ -127,7 +129,7 @@ class BiasCounts::Adding {
  private:
   BiasCounts& counts_;
   const LookupEvidence& e_;
-  const Image<float>& stored_map_;
+  const MapDepths& stored_map_;
   Lists all_;  // of the batch
 };
 

@@ -36,8 +36,8 @@ Cause pixel_cause(const Ladder& ladder, size_t i, bool filtered) {
 }
 
 // Whether P itself lies inside the map. A cube map has no outside.
-bool inside(const LookupProbe& probe, size_t i, const Image<float>& map) {
-  return probe.cube_resolution > 0 || inside_map(LookupProbe::floored(probe.map_texels[i]), {map.width, map.height});
+bool inside(const LookupProbe& probe, size_t i, const MapDepths& map) {
+  return probe.cube_resolution > 0 || inside_map(LookupProbe::floored(probe.map_texels[i]), map.size());
 }
 
 }  // namespace

@@ -45,6 +45,7 @@
 #include "technique/bias.h"
 #include "technique/evidence.h"
 #include "technique/map_address.h"
+#include "technique/map_depths.h"
 #include "technique/settings.h"
 
 namespace noonmark {
@@ -70,12 +71,13 @@ enum class Rung : uint8_t { soft_truth, truth, filtered, snapped, on_exact_map, 
 inline constexpr std::string_view rung_names[] = {"R0", "R1", "R2", "R3", "R4", "R5"};
 std::string_view cause_name(Cause cause);
 
-// The data from which a lookup is judged. All images have the picture's size, except the exact map.
+// The data from which a lookup is judged. All images have the picture's size. The exact map has the texels that the taps
+// of the facing receivers read.
 struct LookupEvidence {
   const ReceiverTruth& truth;
   const LookupProbe& probe;
   const TapTruth& taps;
-  const Image<float>& exact_map;
+  const MapDepths& exact_map;
   const MapSettings& map;
   Bias bias;
   const Image<float>& r4;  // OpenGL's result on the exact map; climb() does not read it if a sampler blends the taps

@@ -21,8 +21,8 @@ static_assert(std::endian::native == std::endian::little, "the file's arrays are
 class Answers {
  public:
   struct Part {};
-  Answers(LivePicture& picture, const LookupEvidence& evidence, const Image<float>& stored_map,
-          const BiasSettings& bias, const BiasPart& varied)
+  Answers(LivePicture& picture, const LookupEvidence& evidence, const MapDepths& stored_map, const BiasSettings& bias,
+          const BiasPart& varied)
       : picture_(picture),
         e_(evidence),
         stored_map_(stored_map),
@@ -82,7 +82,7 @@ class Answers {
 
   LivePicture& picture_;
   const LookupEvidence& e_;
-  const Image<float>& stored_map_;
+  const MapDepths& stored_map_;
   const BiasSettings& settings_;
   const BiasPart& varied_;
   mutable Image<float> r4_, r5_;
@@ -128,7 +128,7 @@ LivePicture empty_live_picture(int width, int height) {
   return picture;
 }
 
-void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const Image<float>& stored_map,
+void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const MapDepths& stored_map,
                     const BiasSettings& bias, const BiasPart& varied, PixelRange strip) {
   const ReceiverTruth& truth = evidence.truth;
   for (size_t i = strip.first; i < strip.end; ++i) {

@@ -24,6 +24,9 @@ namespace noonmark {
 // The most taps of a filter with a live picture, because numbers of taps are stored in a byte.
 inline constexpr int most_live_taps = 255;
 
+// The most pixels of the report's live picture; the point's view is made smaller with its proportions.
+inline constexpr int most_live_width_px = 320, most_live_height_px = 180;
+
 // Bits of LivePicture::flags: the first three are those of the pixel's receiver.
 enum LiveFlags : uint8_t { live_facing = 1, live_lit = 2, live_ambiguous = 4, live_surface = 8 };
 
@@ -54,7 +57,7 @@ LivePicture empty_live_picture(int width, int height);
 
 // Adds the receivers of a strip. evidence: holds the strip's taps; its r4 and r5 are not read. stored_map: the GPU's map
 // as its sampler returns it. bias: the settings from which evidence.bias was made. varied: the part that varies.
-void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const Image<float>& stored_map,
+void add_live_strip(LivePicture& picture, const LookupEvidence& evidence, const MapDepths& stored_map,
                     const BiasSettings& bias, const BiasPart& varied, PixelRange strip);
 
 // The file of a live picture: one line of JSON, padded with spaces to a multiple of four bytes, then these arrays

@@ -287,18 +287,19 @@ std::map<std::string, std::vector<double>> PlacementCounts::shares() const {
 }
 
 uint64_t disagreements(const LookupEvidence& e, size_t pixel, const PlacedTaps& taps, const LatticeBox& box,
-                       double ray_error) {
+                       double ray_error, double clipped_ray_error) {
   if (!e.probe.asks(pixel)) return 0;
   uint64_t count = 0;
   for (int t = 0; t < e.probe.taps(); ++t) {
     const auto first = static_cast<size_t>(t * taps.side);
     const size_t n = taps.index(taps.column[first], taps.row[first]);
-    const glm::ivec2 texel = wrapped(e.probe.texel(pixel, t), {e.exact_map.width, e.exact_map.height}, e.map.wrap);
-    const float depth = texel.x < 0 ? border_depth : e.exact_map.at(texel.x, texel.y);
+    const glm::ivec2 texel = wrapped(e.probe.texel(pixel, t), e.exact_map.size(), e.map.wrap);
+    const float depth = texel.x < 0 ? border_depth : e.exact_map.at(texel);
     const uint8_t bits = e.taps.bits(pixel, t), unsure = (bits | box.bits[n]) & tap_texel_unsure;
+    const double allowed = bits & tap_near_clipped ? clipped_ray_error : ray_error;
     count += (!unsure && ((bits ^ box.bits[n]) & of_texel)) ||
              !(within_one_float(depth, box.depth[n]) ||
-               std::abs(static_cast<double>(depth) - static_cast<double>(box.depth[n])) <= ray_error);
+               std::abs(static_cast<double>(depth) - static_cast<double>(box.depth[n])) <= allowed);
   }
   return count;
 }
@@ -368,19 +369,19 @@ void add_bands(BiasCurve& curve, const PlacementCounts& counts, double depth_per
     curve.acne_free_bias_worst_depth = counts.acne_free_from() * depth_per_unit;
 
   // The window at every placement, between two edges. Acne falls with the amount and Peter Panning grows.
-  Band acne_at, panning_at;
+  const auto worst_at = [&](Cause cause, size_t edge) {
+    double worst = 0;
+    for (int p = 0; p < counts.placements().count(); ++p) worst = std::max(worst, counts.caused(cause, p, edge));
+    return WindowSteps::Step{edges[edge], worst};
+  };
+  WindowSteps& steps = curve.steps;
+  const auto within = [&](const WindowSteps::Step& step) { return step.taps / steps.taps <= steps.most_share; };
   for (size_t edge = 0; edge < edges.size(); ++edge) {
-    band_at(caused(Cause::acne), edge, acne_at);
-    band_at(caused(Cause::peter_panning), edge, panning_at);
+    if (const auto acne_there = worst_at(Cause::acne, edge); within(acne_there)) steps.acne_worst.push_back(acne_there);
+    if (const auto there = worst_at(Cause::peter_panning, edge); within(there))
+      steps.peter_panning_worst.push_back(there);
   }
-  const auto from =
-      std::find_if(acne_at.worst.begin(), acne_at.worst.end(), [&](double share) { return share <= curve.acne_bound; });
-  const auto to = std::find_if(panning_at.worst.begin(), panning_at.worst.end(),
-                               [&](double share) { return !(share <= curve.peter_panning_bound); });
-  const auto first = from - acne_at.worst.begin(), end = to - panning_at.worst.begin();
-  if (first >= end) return;
-  curve.window_min_worst_depth = edges[static_cast<size_t>(first)] * depth_per_unit;
-  curve.window_max_worst_depth = edges[static_cast<size_t>(end) - 1] * depth_per_unit;
+  judge_window(curve, curve.acne_bound, curve.peter_panning_bound);
 }
 
 }  // namespace noonmark

@@ -142,10 +142,10 @@ class PlacementCounts {
 // The number of taps of a receiver at which V, what the near plane clips or the depth differs between the lattice and
 // the evidence of one placement: that of the first column and row of `taps`. Where float error can change V, and one
 // float in the depth, are no difference: the two are computed around different origins. Nor are depths that differ by
-// at most `ray_error`: the evidence comes from rays, and of two surfaces that lie so close together a float ray may meet
-// the wrong one first.
+// at most `ray_error`, or by `clipped_ray_error` where the near plane clips: for depths that rays of float have found. Of
+// two surfaces that lie so close together they may meet the wrong one first.
 uint64_t disagreements(const LookupEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box,
-                       double ray_error);
+                       double ray_error, double clipped_ray_error);
 
 // The placement with the largest error at the point's own bias; the first of several.
 int worst_placement(const PlacementCounts& counts);

@@ -24,19 +24,20 @@ namespace noonmark {
 class ReceiverTaps {
  public:
   void read(const LookupEvidence& e, size_t i) { read(e.probe, e.taps, e.map, e.exact_map, i); }
-  void read(const LookupProbe& probe, const TapTruth& truth, const MapSettings& settings, const Image<float>& map,
+  void read(const LookupProbe& probe, const TapTruth& truth, const MapSettings& settings, const MapDepths& map,
             size_t i) {
     const auto count = static_cast<size_t>(truth.taps_per_receiver);
     taps_.resize(count);
     index_.resize(count);
-    const glm::ivec2 size(map.width, map.height);
+    const TexelSet& texels = *map.texels;
+    const glm::ivec2 size = texels.size();
     TapRead read;
     if (probe.cube_resolution == 0) read.position = probe.map_texels[i];
     for (size_t t = 0; t < count; ++t) {
       const int tap = static_cast<int>(t);
       read.texel = probe.texel(i, tap);
       const glm::ivec2 at = wrapped(read.texel, size, settings.wrap);
-      index_[t] = at.x < 0 ? on_border : at.y * size.x + at.x;
+      index_[t] = at.x < 0 ? on_border : texels.index(at);
       read.depth = depth_in(map, t);
       taps_[t] = tap_of(probe, truth.bits(i, tap), settings, size, i, tap, read);
     }
@@ -48,8 +49,8 @@ class ReceiverTaps {
   size_t size() const { return taps_.size(); }
   // A tap as it reads the exact map.
   const Tap& operator[](size_t t) const { return taps_[t]; }
-  // The same tap as it reads another map of that size.
-  Tap on(const Image<float>& map, DepthFormat format, size_t t) const { return at_depth(depth_in(map, t), format, t); }
+  // The same tap as it reads another map at the same texels.
+  Tap on(const MapDepths& map, DepthFormat format, size_t t) const { return at_depth(depth_in(map, t), format, t); }
   // The same tap if it reads this depth.
   Tap at_depth(float depth, DepthFormat format, size_t t) const {
     Tap tap = taps_[t];
@@ -60,13 +61,13 @@ class ReceiverTaps {
   }
 
  private:
-  static constexpr int on_border = -1;
-  float depth_in(const Image<float>& map, size_t t) const {
-    return index_[t] == on_border ? border_depth : map[static_cast<size_t>(index_[t])];
+  static constexpr size_t on_border = ~size_t{0};
+  float depth_in(const MapDepths& map, size_t t) const {
+    return index_[t] == on_border ? border_depth : map[index_[t]];
   }
 
   std::vector<Tap> taps_;
-  std::vector<int> index_;  // of the texel in the map's image
+  std::vector<size_t> index_;  // TexelSet::index of the texel that it reads
   bool asks_ = true, lit_beyond_far_ = false, blended_ = false;
 };
 

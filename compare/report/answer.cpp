@@ -147,6 +147,7 @@ std::string health_items(const Results& results) {
   if (ambiguous > 0)
     out += item("note", fmt::format("At most {} of the facing receivers have an ambiguous truth; they are left out.",
                                     quantity(ambiguous, "fraction")));
+  for (const std::string& note : results.info.sweep_notes) out += item("bad", html(note) + ".");
   for (const std::string& note : results.info.scene_notes)
     out += item("note", fmt::format("About the scene {}.", html(note)));
   return out;

@@ -4,13 +4,16 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/laws.h"
 #include "compare/report/phase_section.h"
+#include "compare/report/point_data.h"
 #include "compare/report/rules.h"
 #include "compare/report/speed.h"
 #include "compare/report/text.h"
@@ -93,6 +96,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
     data["metrics"].push_back({{"name", metric.name},
                                {"label", error_label(metric.name)},
                                {"unit", metric.unit},
+                               {"help", metric.help},
                                {"plotted", metric.plotted}});
   data["causes"] = json::array();
   for (const CauseColor& cause : causes_of(results.points))
@@ -103,6 +107,18 @@ json chart_data(const Results& results, const ShownPoints& shown) {
   data["accuracy"] = results.info.accuracy;
 
   const size_t entries = curve_entries(shown.results);
+  const std::map<int64_t, double> biases = recommended_biases(shown.groups);
+  // The settings that all shown points share stand once.
+  std::map<std::string, size_t> times;
+  for (const PointRecord& point : shown.results.points)
+    for (const std::string& word : settings_of_command(point)) ++times[word];
+  std::set<std::string> common;
+  data["command"] = json::array();
+  for (const auto& [word, count] : times) {
+    if (count < shown.results.points.size()) continue;
+    common.insert(word);
+    data["command"].push_back(word);
+  }
   data["points"] = json::array();
   for (const PointRecord& point : shown.results.points) {
     json settings = json::object(), metrics = json::object();
@@ -110,7 +126,16 @@ json chart_data(const Results& results, const ShownPoints& shown) {
     for (const auto& [name, value] : point.metrics) metrics[name] = value_of(value);
     json entry{{"id", point.id}, {"settings", settings}, {"metrics", metrics}};
     entry["phrase"] = settings_phrase(point, results.info.swept);
+    if (!point.part.empty()) entry["part"] = point.part;
     if (point.curve) entry["curve"] = curve_of(point, entries);
+    if (const auto bias = biases.find(point.id); bias != biases.end()) entry["at"] = at_bias(point, bias->second);
+    for (const std::string& word : settings_of_command(point))
+      if (!common.contains(word)) entry["set"].push_back(word);
+    if (point.worst.x >= 0)
+      entry["worst"] = {{"x", point.worst.x},
+                        {"y", point.worst.y},
+                        {"error", value_of(point.worst.error)},
+                        {"cause", point.worst.cause}};
     data["points"].push_back(std::move(entry));
   }
 

@@ -11,15 +11,27 @@
 #include "compare/store/quantities.h"
 
 namespace noonmark {
-std::vector<size_t> pareto_front(std::span<const std::pair<double, double>> points) {
+std::vector<size_t> pareto_front(std::span<const CostAndError> points) {
   std::vector<size_t> order;
   for (size_t i = 0; i < points.size(); ++i)
-    if (std::isfinite(points[i].first) && std::isfinite(points[i].second)) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return points[a] < points[b]; });
+    if (const auto& [cost, error] = points[i];
+        std::isfinite(cost.low) && std::isfinite(cost.high) && std::isfinite(error))
+      order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return std::make_pair(points[a].error, points[a].cost.middle) <
+           std::make_pair(points[b].error, points[b].cost.middle);
+  });
   std::vector<size_t> front;
-  for (size_t i : order)
-    if (front.empty() || points[i].second < points[front.back()].second || points[i] == points[front.back()])
+  for (size_t i : order) {
+    const CostAndError* last = front.empty() ? nullptr : &points[front.back()];
+    if (!last || certainly_less(points[i].cost, last->cost) ||
+        (points[i].error == last->error && overlap(points[i].cost, last->cost)))
       front.push_back(i);
+  }
+  std::stable_sort(front.begin(), front.end(), [&](size_t a, size_t b) {
+    return std::make_pair(points[a].cost.middle, points[a].error) <
+           std::make_pair(points[b].cost.middle, points[b].error);
+  });
   return front;
 }
 

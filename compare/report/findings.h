@@ -5,14 +5,20 @@
 #include <utility>
 #include <vector>
 
+#include "compare/judge/interval.h"
 #include "compare/store/records.h"
 
 namespace noonmark {
 
-// Indices of the points of the Pareto front, ascending in the first coordinate. No other point is lower or equal in
-// both coordinates and lower in one. Equal points are all kept. Points with a value that is not finite are never on the
-// front.
-std::vector<size_t> pareto_front(std::span<const std::pair<double, double>> points);
+// Indices of the points of the Pareto front, ascending in cost: from the most accurate on, each that is certainly cheaper
+// than all more accurate ones of the front. If costs are plain numbers: no other point is lower or equal in both and lower
+// in one. Points that are equal, in cost as far as it is known, are all kept. Points with a value that is not finite are
+// never on the front.
+struct CostAndError {
+  Interval cost;
+  double error = 0;
+};
+std::vector<size_t> pareto_front(std::span<const CostAndError> points);
 
 struct CauseShare {
   std::string name;  // metric

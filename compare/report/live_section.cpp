@@ -7,9 +7,11 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
+#include "compare/report/deflate.h"
 #include "compare/report/text.h"
 #include "compare/store/quantities.h"
 
@@ -51,12 +53,19 @@ json marks_of(const PointRecord& point, const Recommendation& recommendation) {
   return marks;
 }
 
+// The arrays of the file (compare/ladder/live_picture.h), compressed. The first one, floats, is in byte planes.
+std::string packed(std::string_view arrays, size_t answers) {
+  const size_t floats = sizeof(float) * answers;
+  if (floats > arrays.size()) throw std::runtime_error("the file of the live picture is too short");
+  return deflated(byte_planes(arrays.substr(0, floats), sizeof(float)) + std::string(arrays.substr(floats)));
+}
+
 std::string without_picture(const std::string& why) {
   return fmt::format(
-      "<section id=\"live\"><h2>The picture at every bias</h2>\n<p class=\"small\">{} Points with pictures get a live "
+      "<p class=\"small\">{} Points with pictures get a live "
       "picture if a part of the bias has a curve and the filter is a mean of at most 255 comparisons. Run the "
       "experiment "
-      "with <code>pictures = \"first\"</code> or another value than none.</p></section>\n",
+      "with <code>pictures = \"first\"</code> or another value than none.</p>\n",
       why);
 }
 
@@ -67,7 +76,7 @@ bool has_live_picture(const Results& results) {
                      [](const PointRecord& point) { return live_image(point) != nullptr; });
 }
 
-std::string live_section(const Results& results, const std::function<std::string(const std::string&)>& read_file) {
+std::string live_figure(const Results& results, const std::function<std::string(const std::string&)>& read_file) {
   const Recommendation recommendation = recommend(results);
   const PointRecord* const point = point_to_show(results, recommendation);
   if (!point) return "";
@@ -76,25 +85,25 @@ std::string live_section(const Results& results, const std::function<std::string
   try {
     bytes = read_file(live_image(*point)->path);
     head = json::parse(bytes.substr(0, bytes.find('\n')));
+    head["data"] =
+        base64(packed(std::string_view(bytes).substr(bytes.find('\n') + 1), head.value("answers", size_t{0})));
   } catch (const std::exception& error) {
     return without_picture(fmt::format("The live picture is not shown: {}.", html(error.what())));
   }
+  head["point"] = point->id;
   head["marks"] = marks_of(*point, recommendation);
-  head["data"] = base64(bytes.substr(bytes.find('\n') + 1));
   const std::string phrase = settings_phrase(*point, results.info.swept);
   return fmt::format(
-      "<section id=\"live\"><h2>The picture at every bias</h2>\n"
-      "<p>Move the bias. Every pixel has the light and the cause that OpenGL's picture has with that bias, exactly: "
-      "the page holds the biases at which the pixel changes. Only the grey of the shading is rounded. The marks are "
-      "those of the point's full picture.</p>\n"
       "<figure class=\"chart js-only\" id=\"live-picture\"><div class=\"controls\"></div>"
       "<canvas width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"The picture at the chosen bias\"></canvas>"
       "<div class=\"bias-slider\"><div class=\"bias-marks\" aria-hidden=\"true\"></div>"
       "<input type=\"range\" aria-label=\"Bias, on a logarithmic scale\"></div>"
       "<p class=\"facts\" aria-live=\"polite\"></p><div class=\"legend\"></div>"
-      "<figcaption>Point {2}{3}. The picture and its numbers are measured for themselves with {0} × {1} pixels of the "
-      "point's view, so they differ a little from those of the full picture.</figcaption></figure>\n"
-      "<script type=\"application/json\" id=\"live-data\">{4}</script></section>\n",
+      "<figcaption><a href=\"#p{2}\">Point {2}</a>{3}, at every bias: each pixel has the light and the cause that "
+      "OpenGL's picture has with that bias, exactly; only the grey of the shading is rounded. {0} × {1} pixels, "
+      "measured "
+      "for themselves. The marks are those of the full picture.</figcaption></figure>\n"
+      "<script type=\"application/json\" id=\"live-data\">{4}</script>\n",
       head.value("width", 0), head.value("height", 0), point->id, phrase.empty() ? "" : ": " + html(phrase),
       script_json(head));
 }

@@ -19,4 +19,7 @@ struct PageParts {
 
 std::string fill_page(const PageParts& parts);
 
+// A page with the same style, without scripts. title: text; body: HTML.
+std::string plain_page(const std::string& title, const std::string& body, const std::string& version);
+
 }  // namespace noonmark::report

@@ -151,17 +151,30 @@ nlohmann::json phase_data(const PhaseDiagram& d) {
   return phase;
 }
 
-std::string phase_figure(const PhaseDiagram& d, size_t index, const std::string& points) {
-  std::string sentences;
-  for (const std::string& sentence : phase_words(d)) sentences += fmt::format("<p>{}</p>\n", html(sentence));
-  const int64_t placements = placements_of(d);
-  return sentences +
-         chart_place(index == 0 ? std::string("phase") : fmt::format("phase-{}", index + 1),
+namespace {
+
+std::string chart_of(size_t index) {
+  return chart_place(index == 0 ? std::string("phase") : fmt::format("phase-{}", index + 1),
                      "Texel size against a constant bias. Hatched: usable at every placement of the texel grid. "
                      "Red line: acne meets its bound; blue line: Peter Panning meets its bound (solid: worst "
                      "placement, dashed: mean). Move over the figure for all causes; click for the command that "
-                     "renders a point.") +
-         points + table(d) +
+                     "renders a point.");
+}
+
+}  // namespace
+
+bool has_diagram(const Results& results) {
+  return std::any_of(results.phases.begin(), results.phases.end(),
+                     [](const PhaseDiagram& diagram) { return diagram.refused.empty(); });
+}
+
+std::string first_diagram() { return chart_of(0); }
+
+std::string phase_figure(const PhaseDiagram& d, size_t index, const std::string& points, bool with_chart) {
+  std::string sentences;
+  for (const std::string& sentence : phase_words(d)) sentences += fmt::format("<p>{}</p>\n", html(sentence));
+  const int64_t placements = placements_of(d);
+  return sentences + (with_chart ? chart_of(index) : "") + points + table(d) +
          fmt::format(
              "<p class=\"small\">{} receivers of a picture of {} × {} pixels. Each texel size is measured at {} "
              "placements of its grid, all from one set of first hits. Colour: the cause with the largest share; the "
@@ -179,8 +192,10 @@ std::string phase_section(const Results& results, const ShownPoints& shown) {
     if (!diagram.part.empty()) out += fmt::format("<h3>{}</h3>\n", html(diagram.part));
     if (!diagram.refused.empty())
       out += fmt::format("<p>There is no phase diagram: {}.</p>\n", html(diagram.refused));
-    else
-      out += phase_figure(diagram, index++, points_of(diagram, shown));
+    else {
+      out += phase_figure(diagram, index, points_of(diagram, shown), index > 0);
+      ++index;
+    }
   }
   return out + "</section>\n";
 }

@@ -51,6 +51,27 @@ std::string cost_and_error(const Recommendation& found, const Results& results) 
                      html(error_label(results.info.accuracy)), over);
 }
 
+// What the noise of times means for the answer.
+std::string noise_text(const CostNoise& noise, const Results& results) {
+  if (find_metric(results.info.cost).unit != "ms") return " This cost is the same on every machine and in every run.";
+  const std::string rule = fmt::format(
+      " A time is a median with an interval that holds it with at least {:.0f}\u202f%; two differ only where these do "
+      "not overlap.",
+      100 * median_coverage);
+  if (noise.meaningless())
+    return rule + fmt::format(
+                      " <b>Here the noise makes a ranking by time meaningless</b>: the times of all {} kinds of work "
+                      "overlap with the shortest, so the answer is the most accurate of them. Time on a quiet machine, "
+                      "or rank by a cost that does not depend on it.",
+                      noise.costs);
+  if (noise.least > 1)
+    return rule + fmt::format(
+                      " The times of {} of {} kinds of work cannot be told from the shortest; the answer is the most "
+                      "accurate of these.",
+                      noise.least, noise.costs);
+  return rule + (noise.costs > 1 ? " All others are certainly longer." : "");
+}
+
 }  // namespace
 
 std::string cause_sentence(std::span<const PointRecord* const> points) {
@@ -60,6 +81,44 @@ std::string cause_sentence(std::span<const PointRecord* const> points) {
     out += fmt::format("{}<span class=\"cause\">{}{} ({:.0f}{}%)</span>", i ? ", " : "", swatch(shares[i].name),
                        html(metric_label(shares[i].name)), 100 * shares[i].share, "\u202f");
   return out;
+}
+
+std::string answer_sentence(const Results& results) {
+  if (results.points.empty()) return "No point was measured.";
+  if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
+    return "Nothing was measured: " + html(poor_view_note(results.points)) + ".";
+  // Points of different parts are not meant to be compared, so none of them is an answer.
+  if (!results.points.front().part.empty()) {
+    const auto kept = [](const auto& list) {
+      return std::count_if(list.begin(), list.end(), [](const auto& one) { return one.held; });
+    };
+    std::string out;
+    if (!results.laws.empty()) out = fmt::format("{} of {} laws hold", kept(results.laws), results.laws.size());
+    if (!results.bounds.empty())
+      out +=
+          fmt::format("{}{} of {} bounds hold", out.empty() ? "" : ", ", kept(results.bounds), results.bounds.size());
+    return fmt::format("{}{} points of several parts, which are compared only where they can be.",
+                       out.empty() ? "" : out + ". ", results.points.size());
+  }
+  const Recommendation found = recommend(results);
+  switch (found.outcome) {
+    case Recommendation::Outcome::no_criterion:
+      return "No bound and no bias curve says what is good enough, so no setting is recommended.";
+    case Recommendation::Outcome::incomplete:
+      return "Not all conditions are measured yet, so no setting is recommended.";
+    case Recommendation::Outcome::none_holds:
+      return "None of the swept settings is good enough.";
+    case Recommendation::Outcome::found:
+      break;
+  }
+  const std::string settings = settings_phrase(found.choice.first(), choice_settings(results.info));
+  return fmt::format("Set <a href=\"#p{}\">{}</a>{}: the cheapest setting that is good enough{}. Its error is {}.",
+                     found.choice.first().id, html(settings.empty() ? "this point" : settings),
+                     found.bias ? fmt::format(" and {} {}", html(found.bias->parameter),
+                                              html(bias_in_unit(found.bias->value, found.bias->unit)))
+                                : "",
+                     results.info.over.empty() ? "" : " under all conditions",
+                     quantity(found.error.worst, find_metric(results.info.accuracy).unit));
 }
 
 std::string recommendation_box(const Results& results) {
@@ -124,10 +183,7 @@ std::string recommendation_box(const Results& results) {
       !found.bias              ? "every bound holds"
       : results.bounds.empty() ? "the bias window is not empty"
                                : "the bias window is not empty and every bound holds at that bias",
-      html(error_label(results.info.accuracy)),
-      find_metric(results.info.cost).unit == "ms"
-          ? fmt::format(" Times within {:.0f}\u202f% count as equal.", 100 * time_tolerance)
-          : " This cost is the same on every machine and in every run.");
+      html(error_label(results.info.accuracy)), noise_text(found.noise, results));
 }
 
 }  // namespace noonmark::report

@@ -7,6 +7,9 @@
 
 namespace noonmark::report {
 
+// The answer as one sentence of HTML, for the first screen.
+std::string answer_sentence(const Results& results);
+
 std::string recommendation_box(const Results& results);
 
 // The three largest causes of error over the points, with their colours: "Acne (60 %), Aliasing (30 %)".

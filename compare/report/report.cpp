@@ -12,6 +12,7 @@
 #include "compare/report/live_section.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/phase_section.h"
+#include "compare/report/recommendation_box.h"
 #include "compare/report/sections.h"
 #include "compare/report/shown.h"
 #include "compare/report/speed_section.h"
@@ -62,13 +63,9 @@ std::string by_point(const Results& results, const ShownPoints& shown, const Rea
 std::string pictures(const Results& results, const ShownPoints&, const ReadFile& read_file) {
   return report::pictures_section(results, read_file);
 }
-std::string live(const Results& results, const ShownPoints&, const ReadFile& read_file) {
-  return report::live_section(results, read_file);
-}
 constexpr Section all_sections[] = {
     {"phase", "Diagram", by_point<report::phase_section>, false},
     {"answer", "Answer", plain<report::answer_section>, false},
-    {"live", "Live", live, false},
     {"bias", "Bias", by_point<report::bias_section>, true},
     {"sweep", "Resolution", by_point<report::sweep_section>, true},
     {"budget", "Causes", by_point<report::budget_section>, true},
@@ -83,8 +80,7 @@ std::vector<Section> sections_of(const Results& results) {
   const bool parts = !results.points.empty() && !results.points.front().part.empty();
   std::vector<Section> sections;
   for (const Section& section : all_sections)
-    if ((!parts || !section.compares) && (section.id != std::string_view("phase") || !results.phases.empty()) &&
-        (section.id != std::string_view("live") || report::has_live_picture(results)))
+    if ((!parts || !section.compares) && (section.id != std::string_view("phase") || !results.phases.empty()))
       sections.push_back(section);
   return sections;
 }
@@ -96,6 +92,17 @@ std::string navigation(const Results& results) {
   return links;
 }
 
+// What the first screen shows: the verdict and the answer, then the picture and the diagram beside each other.
+std::string first_screen(const Results& results, const ReadFile& read_file) {
+  const bool live = report::has_live_picture(results), diagram = report::has_diagram(results);
+  std::string figures;
+  if (live) figures += "<div id=\"live\">" + report::live_figure(results, read_file) + "</div>\n";
+  if (diagram) figures += "<div>" + report::first_diagram() + "</div>\n";
+  return fmt::format(
+      "<div class=\"first\">\n{}<p class=\"said\">{}</p>\n<div class=\"side-by-side{}\">{}</div></div>\n",
+      report::verdict_line(results), report::answer_sentence(results), live && diagram ? " two" : "", figures);
+}
+
 }  // namespace
 
 std::string render_report(const Results& results,
@@ -103,19 +110,20 @@ std::string render_report(const Results& results,
   const std::string& given = !results.info.title.empty() ? results.info.title : results.info.scene_name;
   const ShownPoints shown = report::shown_points(results);
   const std::string title = report::html(given.empty() ? "Shadow-map errors" : given);
-  std::string sections = report::verdict_line(results);
+  std::string sections = first_screen(results, read_file);
   for (const Section& section : sections_of(results)) sections += section.html(results, shown, read_file);
   std::vector<CauseColor> causes;
   for (const CauseColor& color : causes_of(results.points)) causes.push_back(color);
-  return report::fill_page({.title = title,
-                            .subtitle = subtitle(results),
-                            .navigation = navigation(results),
-                            .sections = sections,
-                            .data = report::chart_data(results, shown),
-                            .causes = causes,
-                            .scripts = {"charts", "chart_bias", "chart_sweep", "speed_marks", "chart_speed",
-                                        "chart_laws", "chart_phase", "live", "page"},
-                            .version = results.info.version});
+  return report::fill_page(
+      {.title = title,
+       .subtitle = subtitle(results),
+       .navigation = navigation(results),
+       .sections = sections,
+       .data = report::chart_data(results, shown),
+       .causes = causes,
+       .scripts = {"charts", "chart_bias", "chart_sweep", "speed_marks", "chart_speed", "chart_laws", "chart_phase",
+                   "live", "bias_choice", "card", "points_table", "page"},
+       .version = results.info.version});
 }
 
 }  // namespace noonmark

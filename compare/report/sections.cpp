@@ -61,6 +61,10 @@ std::string chart_place(const std::string& name, const std::string& caption) {
       name, caption);
 }
 
+std::string by_bias(const std::string& as_set, const std::string& recommended) {
+  return fmt::format("<span class=\"as-set\">{}</span><span class=\"as-recommended\">{}</span>", as_set, recommended);
+}
+
 std::string swatch(const std::string& cause) { return fmt::format("<i class=\"sw c-{}\"></i>", html(cause)); }
 
 std::string bias_section(const Results& results, const ShownPoints& shown) {
@@ -115,11 +119,11 @@ std::string bias_section(const Results& results, const ShownPoints& shown) {
       "<th class=\"first\" colspan=\"3\">Window from</th><th class=\"first\" colspan=\"3\">Window to</th>"
       "<th class=\"first\" colspan=\"4\">Best bias</th><th class=\"first\">Within 10\u202f%<br>of the best</th>";
   if (!alike) head += "<th>Parameter</th><th>Made</th>";
-  head += "</tr>\n<tr class=\"units\"><th></th>";
-  for (size_t i = 0; i < results.info.swept.size(); ++i) head += "<th></th>";
+  head += "</tr>\n<tr class=\"units\"><td></td>";
+  for (size_t i = 0; i < results.info.swept.size(); ++i) head += "<td></td>";
   for (int i = 0; i < 3; ++i) head += "<th class=\"first\">depth</th><th>m</th><th>texels</th>";
   head += "<th>error %</th><th class=\"first\">depth</th>";
-  if (!alike) head += "<th></th><th></th>";
+  if (!alike) head += "<td></td><td></td>";
   head += "</tr></thead>";
   out += folded(shown.note.empty() ? "Every window" : "The windows of the points that are shown", count,
                 "<div class=\"scroll\"><table class=\"numbers windows\">" + head + "<tbody>\n" + rows +
@@ -221,22 +225,24 @@ std::string budget_section(const Results& results, const ShownPoints& shown) {
       parts += fmt::format("<i class=\"c-{}\" style=\"flex-grow:{:.4f}\"></i>", name, 100 * value / sum);
     const std::string phrase = settings_phrase(point, results.info.swept);
     rows += fmt::format(
-        "<div class=\"row\" title=\"{}\"><span class=\"name\"><a href=\"#p{}\">{}</a></span>"
-        "<span class=\"track\"><span class=\"bar\" style=\"--size:{:.5f}\">{}</span></span><span "
-        "class=\"value\">{}</span></div>\n",
+        "<div class=\"row\" data-point=\"{1}\" title=\"{0}\"><span class=\"name\"><a href=\"#p{1}\">{2}</a></span>"
+        "<span class=\"track\"><span class=\"bar\" style=\"--size:{3:.5f}\">{4}</span></span><span "
+        "class=\"value\">{5}</span></div>\n",
         html(told), point.id, html(phrase.empty() ? fmt::format("point {}", point.id) : phrase),
         largest > 0 ? sum / largest : 0, parts, quantity(metric_of(point, "error"), "fraction"));
   }
   return fmt::format(
-      "<section id=\"budget\"><h2>The error budget</h2>\n<p>The part of the error that each cause adds, with the bias "
-      "as rendered, as a share of counted "
-      "receivers. The number at the end is the whole error, mean |{} − R1|. With a filter, causes can cancel in it, "
+      "<section id=\"budget\"><h2>The error budget</h2>\n<p>The part of the error that each cause adds, {}, as a share "
+      "of counted receivers. The number at the end is the whole error, mean |{} − R1|. With a filter, causes can "
+      "cancel in it, "
       "and displacement can cancel with the others, so the bar can be longer.</p>\n{}"
       "<div class=\"legend\">{}</div>\n"
       "<div class=\"budget{}\"><input type=\"radio\" name=\"budget\" id=\"budget-size\" checked><label "
       "for=\"budget-size\">By size</label>"
       "<input type=\"radio\" name=\"budget\" id=\"budget-share\"><label for=\"budget-share\">By share</label>\n<div "
       "class=\"rows\">\n{}</div></div></section>\n",
+      by_bias("with the bias as rendered",
+              "with the recommended bias (causes that no curve gives are those of the bias as rendered)"),
       judged_rung(results.points.front()), shown.note, legend, results.points.size() > open_rows ? " many" : "", rows);
 }
 

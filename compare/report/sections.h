@@ -17,6 +17,9 @@ std::string budget_section(const Results& results, const ShownPoints& shown);  /
 // The figure that charts.js fills. It is hidden without JavaScript; the table below it has the same numbers.
 std::string chart_place(const std::string& name, const std::string& caption);
 
+// Words that follow the bias that the reader chose; without JavaScript those of the bias as set.
+std::string by_bias(const std::string& as_set, const std::string& recommended);
+
 // "acne" -> a square in the cause's colour, as HTML.
 std::string swatch(const std::string& cause);
 

@@ -96,13 +96,15 @@ json bias_data(const ComparedChoice& one) {
   return out;
 }
 
-// The value of a metric: [largest over the conditions, mean], whether it counts for the front, whether it is at the
+// The value of a metric: [largest over the conditions, mean] at the choice's bias, the same with the bias as set, whether it counts for the front, whether it is at the
 // bias, and its span.
 json metric_data(const ComparedChoice& one, const std::string& metric) {
   const Joined value = value_of(one, metric);
   json out{{"v", {or_null(value.worst), or_null(value.mean)}},
            {"counts", counts_by(one, metric)},
            {"at_bias", follows_bias(one, metric)}};
+  const Joined rendered = joined(one.choice, metric);
+  out["set"] = {or_null(rendered.worst), or_null(rendered.mean)};
   if (const std::optional<Span> span = span_over_window(one, metric))
     out["span"] = {or_null(span->least), or_null(span->largest)};
   return out;
@@ -119,7 +121,9 @@ json entry_data(const ComparedChoice& one, const Axes& axes, const ChoiceNames& 
            {"bias", bias_data(one)},        {"cause", dominating_cause(one)}};
   for (const std::string& cost : axes.costs) {
     const Joined value = value_of(one, cost);
-    out["costs"][cost] = {or_null(value.worst), or_null(value.mean)};
+    json& numbers = out["costs"][cost] = {or_null(value.worst), or_null(value.mean)};
+    if (const Interval known = cost_of(one, cost); known.low < known.high)
+      numbers.push_back(known.low), numbers.push_back(known.high);
   }
   for (const std::string& error : axes.errors) out["errors"][error] = metric_data(one, error);
   return out;
@@ -170,9 +174,9 @@ std::string error_shown_first(const Results& results) {
 }
 
 std::vector<size_t> front_of(const ComparedGroup& group, const std::string& cost, const std::string& error) {
-  std::vector<std::pair<double, double>> plane;
+  std::vector<CostAndError> plane;
   for (const ComparedChoice& one : group.choices)
-    plane.emplace_back(value_of(one, cost).worst, counts_by(one, error) ? value_of(one, error).worst : std::nan(""));
+    plane.push_back({cost_of(one, cost), counts_by(one, error) ? value_of(one, error).worst : std::nan("")});
   return pareto_front(plane);
 }
 

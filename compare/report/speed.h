@@ -23,8 +23,7 @@ std::vector<std::string> errors_of(const Results& results);
 std::string error_shown_first(const Results& results);
 
 // Indices of the choices on the Pareto front, from the cheapest to the most accurate: those that count (counts_by) and
-// have no other such choice that is cheaper or equal and more accurate or equal, and one of both. Equal ones are all
-// kept. Cost and error are the largest over the conditions.
+// are on pareto_front() (findings.h). Cost and error are the largest over the conditions.
 std::vector<size_t> front_of(const ComparedGroup& group, const std::string& cost, const std::string& error);
 
 // The group with the most choices, which the page shows first. There must be a group.

@@ -28,7 +28,7 @@ struct Plane {
   std::unordered_set<int64_t> shown_ids;
 
   std::string cost_text(const ComparedChoice& one) const {
-    return quantity(value_of(one, cost).worst, find_metric(cost).unit);
+    return quantity(cost_of(one, cost), find_metric(cost).unit);
   }
   std::string error_text(const ComparedChoice& one) const {
     return quantity(value_of(one, error).worst, find_metric(error).unit);
@@ -101,13 +101,21 @@ std::string span_cell(const ComparedChoice& one, const std::string& error, std::
   return span ? fmt::format("{} … {}", cell(span->least, unit), cell(span->largest, unit)) : "–";
 }
 
+// "4.1 <small>3.9 … 4.4</small>"
+std::string cost_cell(const ComparedChoice& one, const std::string& cost) {
+  const std::string_view unit = find_metric(cost).unit;
+  const Interval known = cost_of(one, cost);
+  const std::string value = cell(known.middle, unit);
+  if (!(known.low < known.high)) return value;
+  return fmt::format("{} <small>{} … {}</small>", value, cell(known.low, unit), cell(known.high, unit));
+}
+
 std::string row(const ComparedChoice& one, const Plane& plane, bool recommended) {
   const std::string cause = dominating_cause(one);
   return fmt::format(
       "<tr{}><th scope=\"row\">{}{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n",
       recommended ? " class=\"recommended\"" : "", plane.link(one), recommended ? " <small>recommended</small>" : "",
-      cell(value_of(one, plane.cost).worst, find_metric(plane.cost).unit),
-      cell(value_of(one, plane.error).worst, find_metric(plane.error).unit),
+      cost_cell(one, plane.cost), cell(value_of(one, plane.error).worst, find_metric(plane.error).unit),
       span_cell(one, plane.error, find_metric(plane.error).unit),
       one.bias ? bias_in_unit(*one.bias, setting_of(one.choice.first(), "bias.unit")) : "as rendered",
       cause.empty() ? "–" : swatch(cause) + html(metric_label(cause)));

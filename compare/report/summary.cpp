@@ -197,17 +197,21 @@ std::string best_table(const Results& results) {
 
 }  // namespace
 
-std::string to_summary(const Results& results, const BaselineComparison* baseline) {
+std::string to_summary(const Results& results, const BaselineComparison* baseline,
+                       const std::vector<SummaryPicture>& pictures) {
   const RunInfo& info = results.info;
   std::string text =
       fmt::format("# {}\n\n{}", markdown(info.title.empty() ? "Noonmark" : info.title), verdict(results));
   if (const std::string poor = poor_view_note(results.points); !poor.empty())
     text += fmt::format("\nNote: {}.\n", markdown(poor));
+  for (const std::string& note : info.sweep_notes) text += fmt::format("\nWarning: {}.\n", markdown(note));
   if (const std::string doubt = undecided_note(results.points); !doubt.empty())
     text += fmt::format("\nNote: {}.\n", markdown(doubt));
   if (baseline) text += baseline_list(*baseline);
   if (!results.laws.empty()) text += laws_table(results);
   if (!results.bounds.empty()) text += bounds_table(results);
+  for (const SummaryPicture& picture : pictures)
+    text += fmt::format("\n![the worst pixel, enlarged]({})\n\n{}\n", picture.path, markdown(picture.text));
   // Points of different parts are not meant to be compared.
   if (!results.points.empty() && results.points.front().part.empty()) text += best_table(results);
   text +=

@@ -1,15 +1,24 @@
 // summary.md: the verdict for a person, short enough for a CI job's page.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "compare/judge/baseline.h"
 #include "compare/store/records.h"
 
 namespace noonmark {
 
+// A picture beside summary.md.
+struct SummaryPicture {
+  std::string path;  // relative to summary.md
+  std::string text;  // what it shows, as sentences
+};
+
 // First the verdict, then the bounds (broken ones with the command that reproduces them), then the points with the
-// least error and the bias that each needs. baseline: its comparison stands before the bounds; null: without it.
-std::string to_summary(const Results& results, const BaselineComparison* baseline = nullptr);
+// least error and the bias that each needs. baseline: its comparison stands before the bounds; null: without it. pictures:
+// stand after the bounds.
+std::string to_summary(const Results& results, const BaselineComparison* baseline = nullptr,
+                       const std::vector<SummaryPicture>& pictures = {});
 
 // The reason why nothing was judged.
 std::string to_summary(const Unjudged& unjudged);

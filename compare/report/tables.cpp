@@ -109,9 +109,10 @@ std::string points_section(const Results& results, const ShownPoints& shown) {
   }
   const bool parts = !results.points.front().part.empty();  // with parts the page has no chart of bias curves
   out += shown.note;
-  out += fmt::format("<p class=\"js-only small\">Click a head to sort{}.</p>\n",
-                     parts ? "" : ", a row to see its bias curve");
-  out += "<div class=\"scroll tall\"><table class=\"numbers sortable\"><thead><tr><th>Point</th>";
+  // With JavaScript, page/points_table.js makes the rows when they are seen. Without, this table has them.
+  out += "<p class=\"js-only small\">Click a head to sort, a row for the point's card.</p>\n";
+  out += "<div class=\"points-place js-only\"></div>\n<noscript>";
+  out += "<div class=\"scroll tall\"><table class=\"numbers\"><thead><tr><th>Point</th>";
   if (parts) out += "<th>Part</th>";
   for (const std::string& name : results.info.swept) {
     const std::string unit = setting_unit(name);
@@ -124,11 +125,11 @@ std::string points_section(const Results& results, const ShownPoints& shown) {
                     head_unit(metric->unit).empty() ? "" : fmt::format(" <small>{}</small>", head_unit(metric->unit)));
   out += "</tr></thead><tbody>\n";
   for (const PointRecord& point : shown.results.points) {
-    out += fmt::format("<tr id=\"p{0}\" data-point=\"{0}\"><th scope=\"row\" data-v=\"{0}\">{0}</th>", point.id);
-    if (parts) out += fmt::format("<td class=\"text\" data-v=\"{0}\">{0}</td>", html(point.part));
+    out += fmt::format("<tr id=\"p{0}\"><th scope=\"row\">{0}</th>", point.id);
+    if (parts) out += fmt::format("<td class=\"text\">{0}</td>", html(point.part));
     for (const std::string& name : results.info.swept) {
       const std::string value = setting_of(point, name);
-      out += fmt::format("<td data-v=\"{0}\">{0}</td>", html(value));
+      out += fmt::format("<td>{}</td>", html(value));
     }
     for (const Metric* metric : columns) {
       const std::string name(metric->name);
@@ -137,12 +138,11 @@ std::string points_section(const Results& results, const ShownPoints& shown) {
         continue;
       }
       const double value = point.metrics.at(name);
-      out += fmt::format("<td data-v=\"{}\"{}>{}</td>", value, std::isfinite(value) ? "" : " class=\"fails\"",
-                         cell(value, metric->unit));
+      out += fmt::format("<td{}>{}</td>", std::isfinite(value) ? "" : " class=\"fails\"", cell(value, metric->unit));
     }
     out += "</tr>\n";
   }
-  out += "</tbody></table></div>\n";
+  out += "</tbody></table></div></noscript>\n";
   if (!same.empty()) out += fmt::format("<p class=\"small\">The same at every point: {}.</p>\n", same);
   return out + "</section>\n";
 }

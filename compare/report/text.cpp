@@ -130,6 +130,12 @@ std::string quantity(double value, std::string_view unit) {
   return shown.empty() || !std::isfinite(value) ? text : fmt::format("{}{}{}", text, thin_space, shown);
 }
 
+std::string quantity(const Interval& interval, std::string_view unit) {
+  const std::string text = quantity(interval.middle, unit);
+  if (interval.low == interval.high || !std::isfinite(interval.middle)) return text;
+  return fmt::format("{} ({} … {})", text, cell(interval.low, unit), cell(interval.high, unit));
+}
+
 std::string setting_label(const std::string& name) {
   std::string label = name.starts_with("map.") ? name.substr(4) : name;
   for (std::string_view suffix : {".kind", ".name", "_m", "_deg", "_px"}) strip_suffix(label, suffix);

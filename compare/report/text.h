@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "compare/judge/interval.h"
 #include "compare/report/rules.h"
 #include "compare/store/records.h"
 
@@ -21,6 +22,8 @@ std::string number(double value);
 // A number with its unit, as in a sentence: fractions in percent ("0.42 %"), bytes in MB (10⁶), counts as whole
 // numbers.
 std::string quantity(double value, std::string_view unit);
+// The same of a median with its interval: "4.1 ms (3.9 … 4.4)". Only the value if both ends are the value.
+std::string quantity(const Interval& interval, std::string_view unit);
 // The number without its unit, and the unit for a table's head ("%", "ms", "").
 std::string cell(double value, std::string_view unit);
 std::string_view head_unit(std::string_view unit);

@@ -8,4 +8,10 @@ namespace noonmark {
 // (app/identity.h): "the contents of the scene street.glb have changed since these were stored".
 std::string first_difference(const std::string& here, const std::string& there);
 
+// Whether the two say the same of every name; a scene may be in one of the two only.
+bool same_facts(const std::string& here, const std::string& there);
+
+// The lines of `here`, and the scenes that only `there` has.
+std::string joined_facts(const std::string& here, const std::string& there);
+
 }  // namespace noonmark

@@ -70,6 +70,17 @@ const Column<BoundResult> where_column = {
       bound.where = nlohmann::json::parse(row.text(index)).get<std::map<std::string, std::vector<std::string>>>();
     }};
 
+using StepsMember = WindowSteps::Steps WindowSteps::*;
+Column<WindowSteps> steps_column(std::string_view name, StepsMember member) {
+  return {name, "BLOB",
+          [member](Statement& row, int index, const WindowSteps& steps) {
+            row.bind_bytes(index, bytes_of_steps(steps.*member));
+          },
+          [member](const Statement& row, int index, WindowSteps& steps) {
+            steps.*member = steps_of_bytes(row.text(index));
+          }};
+}
+
 std::string series_names() {
   std::string names;
   for (const CurveSeries& series : curve_series()) names += fmt::format(", {}", series.name);
@@ -92,6 +103,16 @@ const Table<BiasCurve>& curves_table() {
   return table;
 }
 
+const Table<WindowSteps>& curve_windows_table() {
+  using W = WindowSteps;
+  static const Table<W> table(
+      "curve_windows", {"point"},
+      {column("most_share", &W::most_share), column("taps", &W::taps), column("unit_depth", &W::unit_depth),
+       steps_column("acne", &W::acne), steps_column("peter_panning", &W::peter_panning),
+       steps_column("acne_worst", &W::acne_worst), steps_column("peter_panning_worst", &W::peter_panning_worst)});
+  return table;
+}
+
 const Table<PictureRecord>& pictures_table() {
   using P = PictureRecord;
   static const Table<P> table("pictures", {"point", "i"},
@@ -108,12 +129,12 @@ const Table<ImageRecord>& images_table() {
 
 const Table<BoundResult>& bounds_table() {
   using B = BoundResult;
-  static const Table<B> table("bounds", {"i"},
-                              {column("part", &B::part), column("metric", &B::metric), column("max", &B::max), column("min", &B::min),
-                               where_column, column("join_by", &B::join), column("placement", &B::placement),
-                               column("held", &B::held), column("found", &B::found), column("point", &B::point),
-                               column("points", &B::points), column("reproduce", &B::reproduce),
-                               column("warns", &B::warns)});
+  static const Table<B> table(
+      "bounds", {"i"},
+      {column("part", &B::part), column("metric", &B::metric), column("max", &B::max), column("min", &B::min),
+       where_column, column("join_by", &B::join), column("placement", &B::placement), column("held", &B::held),
+       column("found", &B::found), column("point", &B::point), column("points", &B::points),
+       column("reproduce", &B::reproduce), column("warns", &B::warns)});
   return table;
 }
 
@@ -184,8 +205,8 @@ std::string record_tables() {
   std::string series = "CREATE TABLE curve_points (point INTEGER, i INTEGER";
   for (const CurveSeries& one : curve_series()) series += fmt::format(", {} REAL", one.name);
   series += ", PRIMARY KEY (point, i)) WITHOUT ROWID;\n";
-  return curves_table().create() + series + pictures_table().create() + images_table().create() +
-         bounds_table().create() + laws_table().create() + law_samples_table().create();
+  return curves_table().create() + series + curve_windows_table().create() + pictures_table().create() +
+         images_table().create() + bounds_table().create() + laws_table().create() + law_samples_table().create();
 }
 
 }  // namespace noonmark

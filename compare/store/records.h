@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compare/store/phase_record.h"
+#include "compare/store/window_steps.h"
 
 namespace noonmark {
 
@@ -53,6 +54,7 @@ struct BiasCurve {
       peter_panning_worst, peter_panning_best, aliasing_mean, aliasing_worst, aliasing_best;
   std::optional<double> window_min_worst_depth, window_max_worst_depth;
   std::optional<double> acne_free_bias_worst_depth;  // exact, not at an edge
+  WindowSteps steps;                                 // the windows at other bounds
 };
 
 // A cause that a rung on top of R5 brought (add_rung, compare/ladder/ladder.h). Its share is the metric of its name. The
@@ -145,7 +147,7 @@ struct RunInfo {
   std::string commit, version;  // of Noonmark; commit may be "unknown"
   std::string started;          // ISO 8601, UTC
   std::string host_cpu;
-  std::string gl_vendor, gl_renderer, gl_version, gl_timer;  // gl_timer: "timer query" or "glFinish + steady clock"
+  std::string gl_vendor, gl_renderer, gl_version, gl_timer;  // gl_timer: "CPU time of the process"
   std::string embree_version, embree_isa;
   std::map<std::string, std::string> libraries;  // name -> version
   std::vector<std::string> swept;                // names of the swept settings, outermost first
@@ -156,6 +158,7 @@ struct RunInfo {
   std::string scene_name;
   uint64_t triangles = 0;
   std::vector<std::string> scene_notes;  // one line for each note of a scene (Scene::notes)
+  std::vector<std::string> sweep_notes;  // one sentence for each swept setting that no point reads
 };
 
 struct Results {

@@ -42,8 +42,10 @@ class View {
                            quoted(help));
   }
   std::string sql() const {
-    return fmt::format("CREATE VIEW points AS SELECT\n{}\nFROM finished f LEFT JOIN curves c ON c.point = f.point;\n{}",
-                       columns_, legend_);
+    return fmt::format(
+        "CREATE VIEW points AS SELECT\n{}\nFROM finished f LEFT JOIN curves c ON c.point = f.point\nWHERE f.point < "
+        "{};\n{}",
+        columns_, first_aside, legend_);
   }
 
  private:

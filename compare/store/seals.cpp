@@ -20,8 +20,8 @@ using sqlite::Database;
 using sqlite::Statement;
 
 // Each table has a column `point`, and its first two columns give the order of its rows.
-constexpr std::string_view point_tables[] = {"finished", "settings",     "metrics",  "times",
-                                             "curves",   "curve_points", "pictures", "images"};
+constexpr std::string_view point_tables[] = {"finished",     "settings", "metrics", "times",        "curves",
+                                             "curve_points", "pictures", "images",  "curve_windows"};
 // Each table has a column `phase`, and its first three columns give the order of its rows.
 constexpr std::string_view phase_tables[] = {"phases", "phase_rows", "phase_cells", "phase_points"};
 constexpr std::string_view info_tables[] = {"info"};

@@ -152,6 +152,9 @@ void Statement::bind(int index, std::string_view value) {
   check(sqlite3_bind_text64(handle_, index, value.data(), value.size(), SQLITE_TRANSIENT, SQLITE_UTF8),
         "cannot be written");
 }
+void Statement::bind_bytes(int index, std::string_view value) {
+  check(sqlite3_bind_blob64(handle_, index, value.data(), value.size(), SQLITE_TRANSIENT), "cannot be written");
+}
 void Statement::bind(int index, const std::optional<double>& value) {
   if (value && std::isnan(*value))
     bind(index, std::string_view("nan"));  // SQLite stores a NaN as NULL, and NULL means that there is no value

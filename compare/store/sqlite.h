@@ -94,6 +94,7 @@ class Statement {
   void bind(int index, std::string_view value);
   void bind(int index, const std::string& value) { bind(index, std::string_view(value)); }
   void bind(int index, const char* value) { bind(index, std::string_view(value)); }
+  void bind_bytes(int index, std::string_view value);        // a BLOB; text() reads it
   void bind(int index, const std::optional<double>& value);  // empty: NULL; NaN: the text "nan"
 
   // Moves to the next row. Returns false after the last.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -15,12 +14,12 @@
 #include "compare/store/fingerprint.h"
 #include "compare/store/journal.h"
 #include "compare/store/phase_tables.h"
+#include "compare/store/point_rows.h"
 #include "compare/store/record_tables.h"
 #include "compare/store/schema.h"
 #include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
 #include "scenes/error.h"
-#include "technique/settings.h"
 
 namespace noonmark {
 namespace {
@@ -61,47 +60,10 @@ void remove_store(const std::string& path) {
   }
 }
 
-void bind_setting_value(Statement& insert, int index, const std::string& name, const std::string& text) {
-  const std::span<const Setting> table = settings_table();
-  const auto row = std::find_if(table.begin(), table.end(), [&](const Setting& s) { return s.name == name; });
-  if (row != table.end() && text != "auto") {
-    if (row->type == ValueType::flag) return insert.bind(index, text == "true" ? 1 : 0);
-    if (row->type == ValueType::integer || row->type == ValueType::real) {
-      double value = 0;
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (error == std::errc{} && end == text.data() + text.size()) {
-        // Every integer setting is far below 2^53.
-        if (row->type == ValueType::integer) return insert.bind(index, static_cast<int64_t>(value));
-        return insert.bind(index, value);
-      }
-    }
-  }
-  insert.bind(index, text);
-}
-
 bool is_finished(Database& db, int64_t point) {
   Statement rows(db, "SELECT 1 FROM finished WHERE point = ?");
   rows.bind(1, point);
   return rows.step();
-}
-
-void add_numbers(Database& db, const char* table, int64_t point, const std::map<std::string, double>& numbers) {
-  Statement insert(db, fmt::format("INSERT INTO {} VALUES (?, ?, ?)", table));
-  for (const auto& [name, value] : numbers) insert.run(point, name, value);
-}
-
-void add_curve(Database& db, int64_t point, const BiasCurve& curve) {
-  if (curve.window_min_depth.has_value() != curve.window_max_depth.has_value())
-    throw std::logic_error("a usable bias window must have two ends or none");
-  Table<BiasCurve>::Insert(db, curves_table()).row({point}, curve);
-  add_series(db, point, curve);
-}
-
-void add_pictures(Database& db, int64_t point, const PointPictures& made) {
-  Table<PictureRecord>::Insert pictures(db, pictures_table());
-  for (size_t i = 0; i < made.pictures.size(); ++i) pictures.row({point, static_cast<int64_t>(i)}, made.pictures[i]);
-  Table<ImageRecord>::Insert images(db, images_table());
-  for (size_t i = 0; i < made.images.size(); ++i) images.row({point, static_cast<int64_t>(i)}, made.images[i]);
 }
 
 void load_info(Database& db, Results& results) {
@@ -115,6 +77,7 @@ void load_info(Database& db, Results& results) {
     if (key == "over") info.over = nlohmann::json::parse(value).get<std::vector<std::string>>();
     if (key == "plot") info.plot = nlohmann::json::parse(value).get<std::vector<std::string>>();
     if (key == "scene_notes") info.scene_notes = nlohmann::json::parse(value).get<std::vector<std::string>>();
+    if (key == "sweep_notes") info.sweep_notes = nlohmann::json::parse(value).get<std::vector<std::string>>();
     if (key == "triangles") info.triangles = std::stoull(value);
     if (key == "planned_points") results.planned_points = std::stoll(value);
   }
@@ -129,6 +92,9 @@ void load_curves(Database& db, std::map<int64_t, PointRecord>& points) {
     points.at(key[0]).curve = std::move(curve);
   });
   read_series(db, [&](int64_t point) -> BiasCurve& { return points.at(point).curve.value(); });
+  curve_windows_table().read(db, [&](std::span<const int64_t> key, WindowSteps steps) {
+    points.at(key[0]).curve.value().steps = std::move(steps);
+  });
 }
 
 // A point has the causes whose metric it has.
@@ -218,12 +184,14 @@ ResultStore::ResultStore(const std::string& path, const std::string& fingerprint
     }
   }
   check_store(*db_);
-  const std::string there = this->fingerprint();
-  if (there != fingerprint)
-    throw OtherResults(fmt::format("{}: holds the results of another experiment ({}); {}", path,
-                                   first_difference(fingerprint, there), db_->way_out()));
+  if (const std::string there = this->fingerprint(); !same_facts(fingerprint, there)) refuse(fingerprint, there);
   begin_writing(*db_);
   writes_ = true;
+}
+
+void ResultStore::refuse(const std::string& here, const std::string& there) const {
+  throw OtherResults(fmt::format("{}: holds the results of another experiment ({}); {}", db_->path(),
+                                 first_difference(here, there), db_->way_out()));
 }
 
 ResultStore::ResultStore(std::unique_ptr<Database> db) : db_(std::move(db)) {}
@@ -241,8 +209,38 @@ ResultStore ResultStore::open(const std::string& path) {
 
 std::vector<int64_t> ResultStore::finished() const {
   std::vector<int64_t> ids;
-  for (Statement rows(*db_, "SELECT point FROM finished ORDER BY point"); rows.step();) ids.push_back(rows.integer(0));
+  for (Statement rows(*db_, "SELECT point FROM finished ORDER BY point"); rows.step();)
+    if (const int64_t id = rows.integer(0); id < first_aside) ids.push_back(id);
   return ids;
+}
+
+std::vector<PointRecord> ResultStore::all_points() const {
+  std::vector<PointRecord> points;
+  read_rows(*db_, [&] {
+    for (auto& [id, point] : load_points(*db_)) points.push_back(std::move(point));
+  });
+  return points;
+}
+
+void ResultStore::replace(const std::vector<std::pair<int64_t, PointRecord>>& changed) {
+  Transaction transaction(*db_);
+  for (const auto& [id, point] : changed) remove_point(*db_, id);
+  for (const auto& [id, point] : changed) {
+    add_rows(*db_, point);
+    seal_point(*db_, point.id);
+  }
+  transaction.commit();
+}
+
+std::string ResultStore::plan() const { return db_->ask("SELECT value FROM info WHERE key = 'plan'").value_or(""); }
+
+void ResultStore::set_plan(const std::string& fingerprint, const std::string& plan) {
+  Transaction transaction(*db_);
+  Statement(*db_, "INSERT OR REPLACE INTO info VALUES ('fingerprint', ?)")
+      .run(joined_facts(fingerprint, this->fingerprint()));
+  Statement(*db_, "INSERT OR REPLACE INTO info VALUES ('plan', ?)").run(plan);
+  seal_info(*db_);
+  transaction.commit();
 }
 
 std::vector<std::string> ResultStore::repair(int64_t planned_points,
@@ -261,9 +259,9 @@ std::vector<std::string> ResultStore::repair(int64_t planned_points,
     say(point, "not those that were stored (edited or lost, or from another store)");
   }
   for (const auto& [id, point] : read_rows(*db_, [&] { return load_points(*db_); })) {
-    if (id >= 0 && id < planned_points && expected(point)) continue;
+    if (id >= 0 && expected(point)) continue;
     remove_point(*db_, id);
-    say(id, "from another experiment");
+    say(id, "not those of a whole measurement");
   }
   if (!verdict_holds(*db_)) {
     db_->execute("DELETE FROM bounds; DELETE FROM laws; DELETE FROM law_samples");
@@ -278,6 +276,14 @@ std::vector<int64_t> ResultStore::phases() const {
   std::vector<int64_t> ids;
   for (Statement rows(*db_, "SELECT phase FROM phases ORDER BY phase"); rows.step();) ids.push_back(rows.integer(0));
   return ids;
+}
+
+std::vector<PhaseDiagram> ResultStore::stored_phases() const {
+  std::vector<PhaseDiagram> diagrams;
+  const std::vector<int64_t> broken = broken_phases(*db_);
+  for (auto& [id, diagram] : read_rows(*db_, [&] { return load_phase_rows(*db_); }))
+    if (std::find(broken.begin(), broken.end(), id) == broken.end()) diagrams.push_back(std::move(diagram));
+  return diagrams;
 }
 
 std::vector<std::string> ResultStore::repair_phases(const std::function<bool(int64_t, const PhaseDiagram&)>& expected) {
@@ -313,17 +319,7 @@ void ResultStore::add(const PointRecord& point) {
   if (is_finished(*db_, point.id))
     throw Error(ErrorKind::usage,
                 fmt::format("point {} is in the result store already; let no two runs share one --out", point.id));
-  Table<PointRecord>::Insert(*db_, finished_table()).row({point.id}, point);
-  Statement settings(*db_, "INSERT INTO settings VALUES (?, ?, ?, ?)");
-  for (const auto& [name, text] : point.settings) {
-    bind_setting_value(settings, 3, name, text);
-    settings.bind(4, text);
-    settings.run(point.id, name);
-  }
-  add_numbers(*db_, "metrics", point.id, point.metrics);
-  add_numbers(*db_, "times", point.id, point.times);
-  if (point.curve) add_curve(*db_, point.id, *point.curve);
-  add_pictures(*db_, point.id, point);
+  add_rows(*db_, point);
   for (const RungCause& cause : point.causes)
     Statement(*db_, "INSERT OR REPLACE INTO info VALUES (?, ?)")
         .run(std::string(cause_prefix) + cause.name, text_of_cause(cause));
@@ -343,9 +339,22 @@ void ResultStore::set_pictures(int64_t point, const PointPictures& pictures) {
   transaction.commit();
 }
 
+void ResultStore::set_metrics(const std::map<int64_t, std::map<std::string, double>>& of_points) {
+  Transaction transaction(*db_);
+  Statement set(*db_, "INSERT OR REPLACE INTO metrics VALUES (?, ?, ?)");
+  for (const auto& [point, metrics] : of_points) {
+    if (!is_finished(*db_, point))
+      throw std::logic_error(fmt::format("metrics of point {}, which is not in the store", point));
+    for (const auto& [name, value] : metrics) set.run(point, name, value);
+    seal_point(*db_, point);
+  }
+  transaction.commit();
+}
+
 void ResultStore::set_info(const RunInfo& info, int64_t planned_points) {
   Transaction transaction(*db_);
-  db_->execute(fmt::format("DELETE FROM info WHERE key <> 'fingerprint' AND key NOT GLOB '{}*'", cause_prefix));
+  db_->execute(
+      fmt::format("DELETE FROM info WHERE key NOT IN ('fingerprint', 'plan') AND key NOT GLOB '{}*'", cause_prefix));
   Statement insert(*db_, "INSERT INTO info VALUES (?, ?)");
   for (const auto& [name, member] : info_texts) insert.run(name, info.*member);
   for (const auto& [name, version] : info.libraries) insert.run(std::string(library_prefix) + name, version);
@@ -354,6 +363,7 @@ void ResultStore::set_info(const RunInfo& info, int64_t planned_points) {
   insert.run("plot", json_text(info.plot));
   insert.run("triangles", std::to_string(info.triangles));
   insert.run("scene_notes", json_text(info.scene_notes));
+  insert.run("sweep_notes", json_text(info.sweep_notes));
   insert.run("planned_points", std::to_string(planned_points));
   seal_info(*db_);
   transaction.commit();
@@ -390,7 +400,8 @@ Results ResultStore::load() const {
     require_sealed(*db_);
     read_rows(*db_, [&] {
       load_info(*db_, results);
-      for (auto& [id, point] : load_points(*db_)) results.points.push_back(std::move(point));
+      for (auto& [id, point] : load_points(*db_))
+        if (id < first_aside) results.points.push_back(std::move(point));
       results.bounds = load_bounds(*db_);
       results.laws = load_laws(*db_);
       for (auto& [id, diagram] : load_phase_rows(*db_)) results.phases.push_back(std::move(diagram));

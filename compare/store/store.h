@@ -7,7 +7,7 @@
 //
 // A person can ask `SELECT map_resolution, filter_kind, acne FROM points`. This view has every setting, metric and
 // quantity of the curve as a column of its own type. `columns` gives the meaning and unit of each of its columns. The
-// tables behind it are info, settings, metrics, times, curves, curve_points, pictures, images, bounds, laws,
+// tables behind it are info, settings, metrics, times, curves, curve_points, curve_windows, pictures, images, bounds, laws,
 // law_samples, and of the phase diagrams phases, phase_rows, phase_cells, phase_points.
 //
 // - A point, and a phase diagram, is one transaction, which is on the disk before add() returns. So a kill, or a power cut, loses at most the
@@ -20,8 +20,10 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compare/store/records.h"
@@ -45,9 +47,10 @@ struct OtherResults : Error {
 
 class ResultStore {
  public:
-  // fingerprint: everything that determines results, as lines of "name = value". The folder must exist. Throws
-  // OtherResults if the store's fingerprint differs, with the first line that differs. Throws Error(usage) for the
-  // store of another version, and Error(file) for a file that is damaged, is no store, or cannot be written.
+  // fingerprint: what every result depends on beside its point's settings (app/identity.h), as lines of "name = value".
+  // The folder must exist. Throws OtherResults if the store's fingerprint differs, with the first line that differs; a
+  // line of a scene may be in one of the two only. Throws Error(usage) for the store of another version, and Error(file)
+  // for a file that is damaged, is no store, or cannot be written.
   ResultStore(const std::string& path, const std::string& fingerprint, Existing existing);
   // Opens an existing store with any fingerprint, to make a report again. Throws Error(file) if there is none.
   static ResultStore open(const std::string& path);
@@ -56,21 +59,36 @@ class ResultStore {
   ResultStore(ResultStore&&) noexcept;
   ResultStore& operator=(ResultStore&&) noexcept;
 
-  // Ids of the points that are in the store, ascending.
+  // Ids of the points of the present experiment that are in the store, ascending.
   std::vector<int64_t> finished() const;
-  // Removes what a resumed sweep cannot continue from: points whose rows were edited or lost, points that the
-  // experiment does not expect (another part, other settings, or an id beyond the planned ones), and a verdict that was
-  // edited. Returns a message for each.
+  // Removes what a sweep cannot use: points whose rows were edited or lost, points that are not expected (not all numbers
+  // are there), and a verdict that was edited. Returns a message for each. planned_points: of the present experiment.
   std::vector<std::string> repair(int64_t planned_points, const std::function<bool(const PointRecord&)>& expected);
+  // All points with whole rows, ascending, also those that are set aside (their ids are first_aside and above,
+  // compare/store/schema.h): points that the present experiment does not have. load() leaves them out.
+  std::vector<PointRecord> all_points() const;
+  // Removes the points with these ids and adds these records instead, under the ids that they have. All or nothing.
+  void replace(const std::vector<std::pair<int64_t, PointRecord>>& changed);
+  // The experiment whose points have the ids of the store, as text for messages ("name = value" lines).
+  std::string plan() const;
+  // Takes over that text and the fingerprint. Scenes that only the store's fingerprint has are kept, because points that
+  // are set aside may have them.
+  void set_plan(const std::string& fingerprint, const std::string& plan);
+  // Throws OtherResults with the first difference of two such texts.
+  [[noreturn]] void refuse(const std::string& here, const std::string& there) const;
   // Throws Error(usage) if the store has this id already.
   void add(const PointRecord& point);
   // The same for the phase diagrams, by their number.
   std::vector<int64_t> phases() const;
+  std::vector<PhaseDiagram> stored_phases() const;  // those with whole rows
   std::vector<std::string> repair_phases(const std::function<bool(int64_t, const PhaseDiagram&)>& expected);
   void add_phase(int64_t phase, const PhaseDiagram& diagram);
   // Replaces the pictures of a point in the store. Some pictures are chosen after the sweep, and some are lost and made
   // again.
   void set_pictures(int64_t point, const PointPictures& pictures);
+  // Gives points in the store more metrics, or other values of those that they have: times are measured after all points
+  // (app/pass_times.h). All in one transaction.
+  void set_metrics(const std::map<int64_t, std::map<std::string, double>>& of_points);
   // Replaces the stored facts of the run.
   void set_info(const RunInfo& info, int64_t planned_points);
   void set_bounds(const std::vector<BoundResult>& bounds);

@@ -43,9 +43,11 @@ bool has_scheme(std::string_view uri) {
 }
 
 // The file that the uri names, with links resolved. It is refused unless it lies below the scene file's folder.
-fs::path confined(const std::string& file, const std::string& uri, const std::string& place) {
+// otherwise: ", or ...", what else can be done.
+fs::path confined(const std::string& file, const std::string& uri, const std::string& place,
+                  std::string_view otherwise = "") {
   const std::string shown = "'" + printable(uri) + "'";
-  constexpr std::string_view remedy = "put the file beside the scene and name it without a path";
+  const std::string remedy = fmt::format("put the file beside the scene and name it without a path{}", otherwise);
   const std::string name = percent_decoded(uri);
   if (name.empty() || name.find('\0') != std::string::npos)
     refuse(file, place, shown + " is not a name of a file", remedy);
@@ -60,7 +62,8 @@ fs::path confined(const std::string& file, const std::string& uri, const std::st
   if (error) refuse(file, place, "the scene's folder cannot be read: " + error.message(), "check its permissions");
   const fs::path target = fs::canonical(folder / relative, error);
   if (error)
-    refuse(file, place, fmt::format("{} cannot be found: {}", shown, error.message()), "put it beside the scene");
+    refuse(file, place, fmt::format("{} cannot be found: {}", shown, error.message()),
+           fmt::format("put it beside the scene{}", otherwise));
   const auto [in_folder, in_target] = std::mismatch(folder.begin(), folder.end(), target.begin(), target.end());
   if (in_folder != folder.end()) refuse(file, place, shown + " is a link out of the scene's folder", remedy);
   return target;
@@ -114,6 +117,30 @@ std::span<const uint8_t> Buffers::view(int view) {
   const std::span<const uint8_t> from = bytes(compressed->buffer).subspan(compressed->offset, compressed->length);
   count(v.byteLength, compressed->place);
   return decompressed_[view] = decompress(document_, *compressed, from);
+}
+
+std::vector<uint8_t> Buffers::image(size_t image) {
+  const ImageInfo& info = document_.guarded.images[image];
+  const std::string place = fmt::format("images[{}]", image);
+  constexpr std::string_view remedy = "export the file again, or set scene.masks = false";
+  if (info.view) {
+    if (*info.view >= document_.model.bufferViews.size())
+      refuse(document_.file, place + ".bufferView",
+             fmt::format("{} refers beyond the {} bufferViews", *info.view, document_.model.bufferViews.size()),
+             remedy);
+    const std::span<const uint8_t> bytes = view(static_cast<int>(*info.view));
+    return {bytes.begin(), bytes.end()};
+  }
+  if (!info.uri) refuse(document_.file, place, "has neither a uri nor a bufferView", remedy);
+  if (!info.uri->starts_with("data:"))
+    return read_bytes(confined(document_.file, *info.uri, place + ".uri", ", or set scene.masks = false"), 0,
+                      document_.file, place + ".uri", printable(*info.uri));
+  const size_t comma = info.uri->find(',');
+  if (comma == std::string::npos || !info.uri->substr(0, comma).ends_with(";base64"))
+    refuse(document_.file, place + ".uri", "is not an embedded image in base64", remedy);
+  std::optional<std::vector<uint8_t>> decoded = base64_decoded(std::string_view(*info.uri).substr(comma + 1));
+  if (!decoded) refuse(document_.file, place + ".uri", "holds text that is not base64", remedy);
+  return std::move(*decoded);
 }
 
 void Buffers::count(uint64_t more, const std::string& place) {

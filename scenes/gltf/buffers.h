@@ -1,4 +1,4 @@
-// Reads the bytes of the buffers, when they are first needed and only from the scene file's own folder.
+// Reads the bytes of the buffers and of the images of masks, when they are first needed and only from the scene file's own folder.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -19,6 +19,8 @@ class Buffers {
   std::span<const uint8_t> bytes(size_t buffer);
   // The bytes of a view, decompressed if it is compressed (meshopt.h).
   std::span<const uint8_t> view(int view);
+  // The bytes of an image's file, not decoded: from its view, its data URI, or a file in the scene's folder.
+  std::vector<uint8_t> image(size_t image);
 
  private:
   std::vector<uint8_t> load(size_t buffer, const std::string& place) const;

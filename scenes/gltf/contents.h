@@ -29,6 +29,6 @@ struct Model {
 };
 
 // As load_gltf(). Throws Error(file).
-Model load_model(const std::string& path, const Pose& pose = {});
+Model load_model(const std::string& path, const Pose& pose = {}, bool masks = true);
 
 }  // namespace noonmark

@@ -15,6 +15,7 @@ using nlohmann::json;
 constexpr std::string_view read_extensions[] = {
     "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_animation_pointer",   "KHR_draco_mesh_compression",
     "KHR_lights_punctual",     "KHR_mesh_quantization",   "KHR_meshopt_compression", "KHR_node_visibility",
+    "KHR_texture_transform",
 };
 
 // The other extensions of the Khronos registry (ratified, vendor and archived ones) that change only shading, textures,
@@ -48,7 +49,6 @@ constexpr std::string_view harmless_extensions[] = {
     "KHR_technique_webgl",
     "KHR_techniques_webgl",
     "KHR_texture_basisu",
-    "KHR_texture_transform",
     "KHR_xmp",
     "KHR_xmp_json_ld",
     "MPEG_audio_spatial",

@@ -20,7 +20,7 @@
 
 namespace noonmark {
 
-Model load_model(const std::string& path, const Pose& pose) {
+Model load_model(const std::string& path, const Pose& pose, bool masks) {
   try {
     std::optional<size_t> animation;
     if (pose.time_s) animation = static_cast<size_t>(pose.animation);
@@ -34,14 +34,14 @@ Model load_model(const std::string& path, const Pose& pose) {
       gltf::pose(document, readers, *pose.time_s, scene.notes);
     }
     const gltf::Placement placement = gltf::place_nodes(document, scene.notes);
-    const uint64_t without_area = gltf::append_geometry(document, buffers, placement, scene);
+    const uint64_t without_area = gltf::append_geometry(document, buffers, placement, masks, scene);
     if (scene.triangles.empty()) {
       gltf::refuse(path, "",
                    "the scene that it shows holds no triangles" +
                        gltf::instead_of_triangles(document, placement.nodes, without_area),
                    "export meshes of triangles, in the default scene and with an area");
     }
-    gltf::note_contents(document, placement.nodes, scene.notes);
+    gltf::note_contents(document, placement.nodes, masks, scene.notes);
     ModelContents contents = gltf::count_contents(document);
     const std::optional<Camera> camera = gltf::find_camera(document, placement.nodes, scene);
     scene.camera = camera ? *camera : fit_camera(scene);
@@ -55,6 +55,6 @@ Model load_model(const std::string& path, const Pose& pose) {
   }
 }
 
-Scene load_gltf(const std::string& path, const Pose& pose) { return load_model(path, pose).scene; }
+Scene load_gltf(const std::string& path, const Pose& pose, bool masks) { return load_model(path, pose, masks).scene; }
 
 }  // namespace noonmark

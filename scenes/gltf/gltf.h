@@ -15,8 +15,9 @@ struct Pose {
   int animation = 0;
 };
 
-// It reads nothing outside the file's own folder and loads no images. If the file has no camera or no light, one is
-// fitted. Throws Error(file).
-Scene load_gltf(const std::string& path, const Pose& pose = {});
+// It reads nothing outside the file's own folder. masks: whether the alpha masks of materials (MASK) are cut out of the
+// triangles; only then images are read, and only those of masks. If the file has no camera or no light, one is fitted.
+// Throws Error(file).
+Scene load_gltf(const std::string& path, const Pose& pose = {}, bool masks = true);
 
 }  // namespace noonmark

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
+#include <set>
 #include <span>
 #include <string_view>
 
@@ -184,6 +186,75 @@ json take_animation(const std::string& file, json& document, std::optional<size_
   return chosen;
 }
 
+// The texture that decides where a material hides its triangles; null: none does.
+const json* masking_texture(const json& document, const json& primitive) {
+  const auto material = primitive.find("material");
+  const auto materials = document.find("materials");
+  if (material == primitive.end() || materials == document.end() || material->get<uint64_t>() >= materials->size())
+    return nullptr;
+  const json& m = (*materials)[material->get<size_t>()];
+  if (m.value("alphaMode", "") != "MASK") return nullptr;
+  const auto base = m.find("pbrMetallicRoughness");
+  if (base == m.end()) return nullptr;
+  const auto texture = base->find("baseColorTexture");
+  return texture == base->end() ? nullptr : &*texture;
+}
+
+// Takes the lists of textures out of the document and keeps what masks need of them. Texture coordinates stay only where
+// a mask reads them, so that broken ones elsewhere do not matter.
+void take_masks(const std::string& file, json& document, GuardedDocument& out) {
+  std::set<size_t> used;
+  if (const auto meshes = document.find("meshes"); meshes != document.end()) {
+    for (json& mesh : *meshes) {
+      for (json& primitive : mesh["primitives"]) {
+        if (const json* const texture = masking_texture(document, primitive)) {
+          used.insert((*texture)["index"].get<size_t>());
+          continue;
+        }
+        json& attributes = primitive["attributes"];
+        for (auto it = attributes.begin(); it != attributes.end();)
+          it = it.key().starts_with("TEXCOORD_") ? attributes.erase(it) : std::next(it);
+      }
+    }
+  }
+  json lists = json::object();
+  for (const Field& list : masking_properties()) {
+    const auto found = document.find(list.name);
+    if (found == document.end()) continue;
+    if (!used.empty()) lists[list.name] = std::move(*found);
+    document.erase(found);
+  }
+  if (used.empty()) return;
+  Checker(file).object(lists, masking_properties(), {});
+  const json samplers = lists.value("samplers", json::array());
+  for (const json& from : lists.value("textures", json::array())) {
+    TextureInfo& texture = out.textures.emplace_back();
+    if (from.contains("source")) texture.image = from["source"].get<uint64_t>();
+    if (!from.contains("sampler")) continue;
+    const uint64_t sampler = from["sampler"].get<uint64_t>();
+    const std::string place = fmt::format("textures[{}].sampler", out.textures.size() - 1);
+    if (sampler >= samplers.size())
+      refuse(file, place, fmt::format("{} refers beyond the {} samplers", sampler, samplers.size()),
+             "export the file again, or correct it");
+    const auto number = [&](const char* name) {
+      const auto found = samplers[sampler].find(name);
+      return found == samplers[sampler].end() ? std::nullopt : std::optional<int>(found->get<int>());
+    };
+    texture.mag_filter = number("magFilter"), texture.wrap_s = number("wrapS"), texture.wrap_t = number("wrapT");
+  }
+  std::set<uint64_t> shown;
+  for (size_t texture : used)
+    if (texture < out.textures.size() && out.textures[texture].image) shown.insert(*out.textures[texture].image);
+  const auto images = lists.find("images");
+  for (size_t i = 0; images != lists.end() && i < images->size(); ++i) {
+    ImageInfo& image = out.images.emplace_back();
+    json& from = (*images)[i];
+    if (!shown.contains(i)) continue;
+    if (from.contains("uri")) image.uri = std::move(from["uri"].get_ref<std::string&>());
+    if (from.contains("bufferView")) image.view = from["bufferView"].get<uint64_t>();
+  }
+}
+
 }  // namespace
 
 GuardedDocument guard(const std::string& file, json document, std::optional<size_t> animation) {
@@ -213,6 +284,7 @@ GuardedDocument guard(const std::string& file, json document, std::optional<size
       accessor.erase("max");
     }
   }
+  take_masks(file, document, out);
   out.json = std::move(document);
   prepare_for_tinygltf(file, out);
   if (const auto buffers = out.json.find("buffers"); buffers != out.json.end()) {

@@ -1,7 +1,8 @@
 // The guard before tinygltf. tinygltf accepts most malformed files, truncates integers silently and tries to read every
 // image. So it gets only the properties that Noonmark uses (properties.h), each of the right type and in range.
-// Everything else (extras, images, textures) is left out by parse_json. The guard also takes out the buffers, because
-// buffers.cpp reads them, and the animation that poses the scene (animation.h). So tinygltf opens no file.
+// Everything else (extras, other textures) is left out by parse_json. The guard also takes out the buffers and the images
+// of masks, because buffers.cpp and masks.cpp read them, and the animation that poses the scene (animation.h). So
+// tinygltf opens no file.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -23,9 +24,22 @@ struct DeclaredBounds {
   std::array<double, 3> min{}, max{};
 };
 
+// A texture of the file and the image that it shows.
+struct TextureInfo {
+  std::optional<uint64_t> image;                  // without a value: an extension names it, or nothing
+  std::optional<int> mag_filter, wrap_s, wrap_t;  // OpenGL's numbers, as the file gives them
+};
+struct ImageInfo {
+  std::optional<std::string> uri;
+  std::optional<uint64_t> view;
+};
+
 struct GuardedDocument {
-  nlohmann::json json;  // without `buffers`
+  nlohmann::json json;  // without `buffers`, `images`, `samplers`, `textures`
   std::vector<BufferInfo> buffers;
+  // Empty unless a material masks by a texture (alphaMode MASK). Images that no mask shows have neither uri nor view.
+  std::vector<TextureInfo> textures;
+  std::vector<ImageInfo> images;
   bool quantized = false;    // KHR_mesh_quantization is in use: positions may be integers
   nlohmann::json animation;  // the animation that poses the scene; null: the scene is at rest
   size_t animations = 0;     // the number of animations in the file

@@ -11,6 +11,7 @@
 #include "scenes/gltf/draco.h"
 #include "scenes/gltf/error.h"
 #include "scenes/gltf/instances.h"
+#include "scenes/gltf/masks.h"
 #include "scenes/gltf/morph.h"
 #include "scenes/gltf/notes.h"
 #include "scenes/gltf/skin.h"
@@ -30,6 +31,7 @@ struct Drawable {
   uint64_t corners = 0;  // for a Draco mesh without an accessor for its indices, known after it is decoded
   uint64_t triangles = 0;
   bool single_sided = true;
+  int material = -1;
 };
 
 // A primitive without a material has the default one (glTF 2.0, section 3.9.6).
@@ -62,6 +64,7 @@ std::vector<Drawable> drawables(const tinygltf::Model& model, const tinygltf::Me
       d.corners = model.accessors[static_cast<size_t>(d.indices == -1 ? d.positions : d.indices)].count;
     d.triangles = triangles_of(d.mode, d.corners);
     d.single_sided = !material.doubleSided;
+    d.material = primitive.material;
     if (d.triangles > 0 || d.draco) out.push_back(d);
   }
   return out;
@@ -128,9 +131,11 @@ struct Source {
 
 class Appender {
  public:
-  Appender(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene)
+  Appender(const Document& document, Buffers& buffers, const Placement& placement, bool masks, Scene& scene)
       : d_(document),
         buffers_(buffers),
+        masks_are_read_(masks),
+        masks_(document, buffers, scene.notes),
         readers_(document, buffers),
         skins_(document, readers_, placement.world_from_node),
         scene_(scene) {}
@@ -148,6 +153,11 @@ class Appender {
       return found != source.unpacked.end() ? found->second : readers_(accessor);
     };
     const MorphedPositions positions(d_, readers_, reader(drawable.positions), node, drawable.primitive);
+    std::optional<MaskedPrimitive> masked;
+    if (const Masks::Mask* const mask = masks_are_read_ ? masks_.of(drawable.material) : nullptr) {
+      const int coordinates = coordinates_of(d_, node.mesh, drawable.primitive, *mask);
+      masked.emplace(d_, *mask, coordinates, reader(coordinates), reader(drawable.positions).count());
+    }
     Part part;
     part.first_triangle = static_cast<uint32_t>(scene_.triangles.size());
     const uint64_t instances = instance_count(d_, placed.node);
@@ -163,13 +173,14 @@ class Appender {
         refuse(d_.file, fmt::format("nodes[{}]", placed.node),
                "instances of a mesh under a skin: glTF does not define their places",
                "export without EXT_mesh_gpu_instancing");
-      append_triangles(placed, drawable, source, positions, false, [&](uint32_t v) { return skin.world_from_mesh(v); });
+      append_triangles(placed, drawable, source, positions, masked, false,
+                       [&](uint32_t v) { return skin.world_from_mesh(v); });
     } else {
       count_reads(placed, source, instances * (1 + positions.targets()));
       const Instances places(d_, readers_, placed.node);
       for (uint64_t i = 0; i < instances; ++i) {
         const glm::dmat4 world_from_mesh = placed.world_from_node * places.node_from_mesh(i);
-        append_triangles(placed, drawable, source, positions, flattens(world_from_mesh),
+        append_triangles(placed, drawable, source, positions, masked, flattens(world_from_mesh),
                          [&](uint32_t) { return world_from_mesh; });
       }
     }
@@ -197,7 +208,8 @@ class Appender {
   // the order of their corners.
   template <class WorldFromMesh>
   void append_triangles(const PlacedNode& placed, const Drawable& drawable, const Source& source,
-                        const MorphedPositions& positions, bool flat, const WorldFromMesh& world_from_mesh) {
+                        const MorphedPositions& positions, std::optional<MaskedPrimitive>& masked, bool flat,
+                        const WorldFromMesh& world_from_mesh) {
     const std::vector<uint32_t>& vertices = source.vertices;
     VertexMap map(vertices);
     const int mode = drawable.draco ? TINYGLTF_MODE_TRIANGLES : drawable.mode;
@@ -220,17 +232,29 @@ class Appender {
         continue;
       }
       if (orientation < 0) std::swap(triangle.y, triangle.z), std::swap(corner[1], corner[2]);
-      for (int k = 0; k < 3; ++k) {
-        uint32_t& place = map.place_of(triangle[k]);
-        if (place == unused) {
-          place = static_cast<uint32_t>(scene_.positions.size());
-          scene_.positions.push_back(corner[k]);
-        }
-        triangle[k] = place;
+      if (masked) {
+        masked->cut(triangle, corner, scene_, pieces_);
+        cut_places_.assign(pieces_.positions.size(), unused);
       }
-      scene_.triangles.push_back(triangle);
-      scene_.single_sided.push_back(drawable.single_sided);
+      // What is not cut is one piece, the triangle itself.
+      for (const glm::uvec3& piece : masked ? pieces_.triangles : whole_) {
+        glm::uvec3 made;
+        for (int k = 0; k < 3; ++k)
+          made[k] = piece[k] < 3 ? vertex(map.place_of(triangle[static_cast<int>(piece[k])]), corner[piece[k]])
+                                 : vertex(cut_places_[piece[k]], pieces_.positions[piece[k]]);
+        scene_.triangles.push_back(made);
+        scene_.single_sided.push_back(drawable.single_sided);
+      }
     }
+  }
+
+  // The scene's vertex at this place of a list, appended if there is none yet.
+  uint32_t vertex(uint32_t& place, const glm::vec3& position) {
+    if (place == unused) {
+      place = static_cast<uint32_t>(scene_.positions.size());
+      scene_.positions.push_back(position);
+    }
+    return place;
   }
 
   // Decoded once, even if several nodes show it.
@@ -295,7 +319,12 @@ class Appender {
 
   const Document& d_;
   Buffers& buffers_;
-  Readers readers_;  // by accessor, because instances share them
+  const bool masks_are_read_;
+  Masks masks_;
+  const std::vector<glm::uvec3> whole_{{0, 1, 2}};
+  MaskCutter::Pieces pieces_;         // of the triangle that is being cut
+  std::vector<uint32_t> cut_places_;  // of their positions, in the scene
+  Readers readers_;                   // by accessor, because instances share them
   Skins skins_;
   Scene& scene_;
   std::map<std::pair<int, size_t>, Source> decoded_;  // Draco meshes, by mesh and primitive
@@ -339,7 +368,8 @@ SceneSize count_geometry(const Document& document, const Placement& placement) {
 
 }  // namespace
 
-uint64_t append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene) {
+uint64_t append_geometry(const Document& document, Buffers& buffers, const Placement& placement, bool masks,
+                         Scene& scene) {
   // Counted before anything is allocated, because instances can turn a small file into a large scene.
   const SceneSize count = count_geometry(document, placement);
   const double needed = scene_bytes(count);
@@ -352,7 +382,7 @@ uint64_t append_geometry(const Document& document, Buffers& buffers, const Place
   const tinygltf::Model& model = document.model;
   std::vector<std::vector<Drawable>> meshes;
   for (const tinygltf::Mesh& mesh : model.meshes) meshes.push_back(drawables(model, mesh));
-  Appender appender(document, buffers, placement, scene);
+  Appender appender(document, buffers, placement, masks, scene);
   for (const PlacedNode& placed : placement.nodes) {
     const tinygltf::Node& node = model.nodes[placed.node];
     if (!draws(node, placed)) continue;

@@ -12,8 +12,9 @@ namespace noonmark::gltf {
 // - triangles, strips and fans. Points and lines are left out, because they have no area that casts a shadow;
 // - positions with their morph targets (morph.h), moved by the node's transform or by its skin's joints (skin.h), once
 //   for each instance of the node (instances.h), read from Draco's data if there are any (draco.h);
-// - no primitive that its material masks completely (MASK, no base colour texture, alpha below the cutoff). A masking
-//   texture is not read, so a primitive with one is drawn completely;
+// - no primitive that its material masks completely (MASK, no base colour texture, alpha below the cutoff);
+// - of a primitive that a texture masks, what the mask shows (masks.h), cut out of its triangles. Without `masks` the
+//   texture is not read, and the primitive is drawn completely;
 // - only the vertices that a triangle uses;
 // - no degenerate triangle: two equal corners, or corners in a line within double arithmetic. Such a triangle has no
 //   normal and hides nothing. Scene::notes says how many there are, because triangles are numbered without them.
@@ -24,6 +25,7 @@ namespace noonmark::gltf {
 // for positions that are not finite or beyond max_coordinate_m; for more triangles than max_triangles or than fit into
 // the available memory (scenes/memory.h); and for everything that the files named above refuse. Returns how many
 // triangles without an area were left out.
-uint64_t append_geometry(const Document& document, Buffers& buffers, const Placement& placement, Scene& scene);
+uint64_t append_geometry(const Document& document, Buffers& buffers, const Placement& placement, bool masks,
+                         Scene& scene);
 
 }  // namespace noonmark::gltf

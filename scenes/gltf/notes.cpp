@@ -5,6 +5,8 @@
 
 #include <set>
 
+#include "scenes/gltf/masks.h"
+
 namespace noonmark::gltf {
 
 std::string counted(uint64_t count, std::string_view noun) {
@@ -63,20 +65,22 @@ std::string instead_of_triangles(const Document& document, const std::vector<Pla
   return parts.empty() ? "" : fmt::format(": {}", fmt::join(parts, ", "));
 }
 
-void note_contents(const Document& document, const std::vector<PlacedNode>& nodes, std::vector<std::string>& notes) {
+void note_contents(const Document& document, const std::vector<PlacedNode>& nodes, bool masks_are_read,
+                   std::vector<std::string>& notes) {
   const tinygltf::Model& model = document.model;
   const Unseen found = unseen(model, nodes);
   uint64_t masks = 0, blends = 0, transmissions = 0;
   for (int index : found.materials) {
     const tinygltf::Material& material = model.materials[static_cast<size_t>(index)];
-    masks += material.alphaMode == "MASK" && material.pbrMetallicRoughness.baseColorTexture.index != -1;
+    masks += masks_by_texture(material);
     blends += material.alphaMode == "BLEND";
     transmissions += material.extensions.contains("KHR_materials_transmission");
   }
   if (found.points > 0) notes.push_back(counted(found.points, "primitive") + " of points left out");
   if (found.lines > 0) notes.push_back(counted(found.lines, "primitive") + " of lines left out");
   if (found.collapsed > 0) notes.push_back(counted(found.collapsed, "node") + " with a mesh scaled to zero, not drawn");
-  if (masks > 0) notes.push_back(counted(masks, "material") + " masked by a texture (alphaMode MASK) taken as opaque");
+  if (masks > 0 && !masks_are_read)
+    notes.push_back(counted(masks, "material") + " masked by a texture taken as opaque (scene.masks = false)");
   if (blends > 0) notes.push_back(counted(blends, "material") + " with alphaMode BLEND taken as opaque");
   if (transmissions > 0)
     notes.push_back(fmt::format("{} that transmit{} light taken as opaque", counted(transmissions, "material"),

@@ -16,7 +16,8 @@ std::string_view is_or_are(uint64_t count);
 
 // Notes the contents of the shown nodes that are not measured: points, lines, alpha, transmission, animations of a
 // scene at rest.
-void note_contents(const Document& document, const std::vector<PlacedNode>& nodes, std::vector<std::string>& notes);
+void note_contents(const Document& document, const std::vector<PlacedNode>& nodes, bool masks,
+                   std::vector<std::string>& notes);
 
 // ": 1 primitive of points, 2 nodes hidden (KHR_node_visibility)": the contents of the shown nodes other than
 // triangles. Empty if there are none.

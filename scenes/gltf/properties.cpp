@@ -72,7 +72,14 @@ constexpr Field node[] = {{"name", Kind::text},
                           {"scale", Kind::numbers, false, 3},
                           {"extensions", Kind::object, false, 0, node_extensions}};
 constexpr Field scene[] = {{"name", Kind::text}, {"nodes", Kind::integers}};
-constexpr Field texture_info[] = {{"index", Kind::integer, required}};
+constexpr Field texture_transform[] = {{"offset", Kind::numbers, false, 2},
+                                       {"rotation", Kind::number},
+                                       {"scale", Kind::numbers, false, 2},
+                                       {"texCoord", Kind::integer}};
+constexpr Field texture_info_extensions[] = {{"KHR_texture_transform", Kind::object, false, 0, texture_transform}};
+constexpr Field texture_info[] = {{"index", Kind::integer, required},
+                                  {"texCoord", Kind::integer},
+                                  {"extensions", Kind::object, false, 0, texture_info_extensions}};
 constexpr Field metallic_roughness[] = {{"baseColorFactor", Kind::numbers, false, 4},
                                         {"baseColorTexture", Kind::object, false, 0, texture_info}};
 constexpr Field material_extensions[] = {{"KHR_materials_transmission", Kind::object}};
@@ -107,6 +114,14 @@ constexpr Field animation_sampler[] = {
     {"input", Kind::integer, required}, {"output", Kind::integer, required}, {"interpolation", Kind::text}};
 constexpr Field animation[] = {{"channels", Kind::objects, required, 0, channel},
                                {"samplers", Kind::objects, required, 0, animation_sampler}};
+// Read only if a material masks by a texture. So a file whose textures are broken or absent can still be loaded without
+// them.
+constexpr Field image[] = {{"uri", Kind::text}, {"bufferView", Kind::integer}};
+constexpr Field texture_sampler[] = {{"magFilter", Kind::integer}, {"wrapS", Kind::integer}, {"wrapT", Kind::integer}};
+constexpr Field texture[] = {{"source", Kind::integer}, {"sampler", Kind::integer}};
+constexpr Field masking[] = {{"images", Kind::objects, false, 0, image},
+                             {"samplers", Kind::objects, false, 0, texture_sampler},
+                             {"textures", Kind::objects, false, 0, texture}};
 constexpr Field asset[] = {{"version", Kind::text, required}, {"minVersion", Kind::text}};
 
 // in_animations: what is read of each animation. All other properties of the file are the same.
@@ -125,6 +140,9 @@ constexpr auto root(std::span<const Field> in_animations) {
                                {"accessors", Kind::objects, false, 0, accessor},
                                {"bufferViews", Kind::objects, false, 0, buffer_view},
                                {"buffers", Kind::objects, false, 0, buffer},
+                               {"images", Kind::unchecked, false, 0, image},
+                               {"samplers", Kind::unchecked, false, 0, texture_sampler},
+                               {"textures", Kind::unchecked, false, 0, texture},
                                {"animations", Kind::unchecked, false, 0, in_animations}});
 }
 constexpr auto root_at_rest = root({});
@@ -138,8 +156,10 @@ std::span<const Field> asset_properties() { return std::span<const Field>(root_a
 
 std::span<const Field> animation_properties() { return animation; }
 
+std::span<const Field> masking_properties() { return masking; }
+
 bool is_read_reference(std::string_view name) {
-  for (std::string_view set : {"JOINTS_", "WEIGHTS_"}) {
+  for (std::string_view set : {"JOINTS_", "WEIGHTS_", "TEXCOORD_"}) {
     if (name.starts_with(set) && name.size() > set.size() && name.size() <= set.size() + 3 &&
         std::all_of(name.begin() + static_cast<std::ptrdiff_t>(set.size()), name.end(),
                     [](unsigned char c) { return std::isdigit(c) != 0; }))

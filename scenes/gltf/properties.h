@@ -40,6 +40,8 @@ std::span<const Field> root_properties(bool posed);
 // The first of them: the version of glTF, which decides what the others mean.
 std::span<const Field> asset_properties();
 std::span<const Field> animation_properties();
+// The lists of the root that a mask needs: images, samplers, textures.
+std::span<const Field> masking_properties();
 
 // Attributes of primitives, morph targets and instances.
 bool is_read_reference(std::string_view name);

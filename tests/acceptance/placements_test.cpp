@@ -113,7 +113,7 @@ TEST_P(EveryPlacement, HasTheNumbersOfMeasuringItByItself) {
   const Measurement together = bench.measure(all, options);
   const std::map<std::string, double> metrics = together.record.metrics;
   const std::optional<BiasCurve> bands = together.record.curve;
-  const std::vector<float> map_0 = together.exact_map.pixels;  // the next measurement replaces it
+  const std::vector<float> map_0 = together.exact_map.depth;  // the next measurement replaces it
   EXPECT_EQ(metrics.at("placement_disagreements"), 0);
 
   const Placements placements(c.side);
@@ -137,7 +137,7 @@ TEST_P(EveryPlacement, HasTheNumbersOfMeasuringItByItself) {
         EXPECT_EQ(m.record.metrics.at(name), metrics.at(name)) << name;
       EXPECT_EQ(m.ladder.truth().pixels, together.ladder.truth().pixels);
       if (p > 0) {
-        EXPECT_NE(m.exact_map.pixels, map_0) << "another map";
+        EXPECT_NE(m.exact_map.depth, map_0) << "another map";
       }
       if (const glm::dvec3 t = *one.map.turn_deg; t == worst_turn) {
         EXPECT_EQ(m.record.metrics.at("error"), metrics.at("error_worst_shown"));
@@ -206,8 +206,8 @@ TEST_P(EveryPlacement, HasTheNumbersOfMeasuringItByItself) {
 INSTANTIATE_TEST_SUITE_P(Cases, EveryPlacement, testing::ValuesIn(cases()),
                          [](const auto& test) { return test.param.name; });
 
-// Two sheets that cross and are nowhere further apart than a few float steps. A float ray meets either of them first, and
-// the lattice, which is computed in double, always the one that is nearer. That is no defect.
+// Two sheets that cross and are nowhere further apart than a few float steps. A float ray meets either of them first. The
+// exact map and the lattice are both computed in double, and both have the one that is nearer.
 TEST(Placements, SheetsWithinTheErrorOfARayAreNoDisagreement) {
   struct Sheets : Pipeline {
     SceneStage load_scene(gl::Renderer& renderer, const Settings& settings) override {

@@ -59,18 +59,18 @@ class DefectivePipeline : public Pipeline {
     if (defect_.drawn_bias) defect_.drawn_bias(drawn.bias);
     MapStage made = Pipeline::draw_map(renderer, drawn_scene, {drawn, frame});
     if (defect_.edited_map) {
-      made.map = renderer.upload_map(defect_.edited_map(made.depth), point.settings.map, frame.map_shape());
-      made.depth = renderer.read_map(made.map);
+      made.map.emplace(
+          renderer.upload_map(defect_.edited_map(renderer.read_map(*made.map)), point.settings.map, frame.map_shape()));
     }
     return made;
   }
 
   // A map keeps the wrap mode that it was made with, so another wrap mode needs another map.
-  Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point, double* ms) override {
-    const PointSetup asked{asked_, point.frame, point.timed};
-    if (asked_.map.wrap == point.settings.map.wrap) return Pipeline::look_up(renderer, map, asked, ms);
+  Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point) override {
+    const PointSetup asked{asked_, point.frame};
+    if (asked_.map.wrap == point.settings.map.wrap) return Pipeline::look_up(renderer, map, asked);
     return Pipeline::look_up(renderer, renderer.upload_map(renderer.read_map(map), asked_.map, point.frame.map_shape()),
-                             asked, ms);
+                             asked);
   }
 
  private:

@@ -3,36 +3,44 @@
 
 #include <cmath>
 
+#include "app/pass_times.h"
 #include "compare/store/metrics.h"
 #include "tests/support/measured.h"
 
 namespace noonmark::acceptance {
 namespace {
 
-bool is_time(const std::string& name) { return find_metric(name).unit == "ms"; }
-
-TEST(Times, AreThereIfAskedForAndChangeNothingElse) {
-  const Settings settings = small("cube-room", 96, 54);
-  // One bench: the map that it remembers without a time must not be taken for a timed one.
+TEST(Times, AreIntervalsOfEachPassAndChangeNothingElse) {
+  Settings settings = small("cube-room", 96, 54);
+  settings.bias["constant"] = 0.01;
   Workbench bench(gl::DebugMode::fatal);
-  const Measurement untimed = bench.measure(settings, CurveOptions{}),
-                    timed = bench.measure(settings, CurveOptions{}, {}, true);
-  size_t times = 0;
-  for (const auto& [name, value] : timed.record.metrics) {
-    const auto other = untimed.record.metrics.find(name);
-    if (is_time(name)) {
-      ++times;
-      EXPECT_GT(value, 0) << name;
-      EXPECT_EQ(other, untimed.record.metrics.end()) << name;
-      continue;
-    }
-    ASSERT_NE(other, untimed.record.metrics.end()) << name;
-    EXPECT_TRUE(value == other->second || (std::isnan(value) && std::isnan(other->second))) << name;
+  const auto numbers = [&] {
+    const Measurement m = bench.measure(settings, CurveOptions{});
+    std::map<std::string, double> metrics = m.record.metrics;
+    std::erase_if(metrics, [](const auto& metric) { return std::isnan(metric.second); });
+    return std::tuple(metrics, m.ladder.shown().pixels, m.record.curve->error);
+  };
+  const auto before = numbers();
+  const TimeMetrics times = time_passes(bench, settings);
+  EXPECT_EQ(numbers(), before) << "the bench is as it was before";
+  EXPECT_EQ(times.size(), 9u);
+  for (const char* name : {"map", "lookup", "shadow"}) {
+    const std::string stem(name);
+    EXPECT_GT(times.at(stem + "_low_ms"), 0) << name;
+    EXPECT_LE(times.at(stem + "_low_ms"), times.at(stem + "_ms")) << name;
+    EXPECT_LE(times.at(stem + "_ms"), times.at(stem + "_high_ms")) << name;
   }
-  EXPECT_EQ(times, 3u);
-  EXPECT_EQ(timed.record.metrics.size(), untimed.record.metrics.size() + times);
-  EXPECT_EQ(timed.ladder.shown().pixels, untimed.ladder.shown().pixels);
-  EXPECT_EQ(timed.record.curve->error, untimed.record.curve->error);
+  for (const auto& [name, value] : times) EXPECT_EQ(std::get<0>(before).count(name), 0u) << name;
+}
+
+TEST(Times, OfEveryKindOfLightAndMap) {
+  Workbench bench(gl::DebugMode::fatal);
+  for (const char* scene : {"spot-room", "point-room"}) {
+    Settings settings = small(scene, 48, 27);
+    EXPECT_GT(time_passes(bench, settings).at("shadow_ms"), 0) << scene;
+    settings.bias["caster_normal_offset"] = 0.01;  // draws moved vertices
+    EXPECT_GT(time_passes(bench, settings).at("shadow_ms"), 0) << scene;
+  }
 }
 
 }  // namespace

@@ -111,18 +111,17 @@ class Bench final : public Pipeline {
       return lookup;
     });
   }
-  Climbed climb_strips(gl::Renderer& renderer, const MapStage& map, LookupStage& lookup, const ViewStage& view,
-                       const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
-                       const BiasPart* varied, const EachStrip& each_strip) override {
+  Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view, const TruthStage& truth,
+                       const ShownStage& shown, const PointSetup& point, const BiasPart* varied,
+                       const EachStrip& each_strip) override {
     if (lookup.strips.size() != 1) throw std::logic_error("the taps do not fit into one strip");
-    compare_ways({renderer, map, lookup, view, truth, shown, point, *varied});
-    return Pipeline::climb_strips(renderer, map, lookup, view, truth, shown, point, varied, each_strip);
+    compare_ways({renderer, lookup, view, truth, shown, point, *varied});
+    return Pipeline::climb_strips(renderer, lookup, view, truth, shown, point, varied, each_strip);
   }
 
  private:
   struct Stages {
     gl::Renderer& renderer;
-    const MapStage& map;
     LookupStage& lookup;
     const ViewStage& view;
     const TruthStage& truth;
@@ -141,7 +140,7 @@ class Bench final : public Pipeline {
     for (size_t i = 0; i < s.truth.receivers.facing.size(); ++i) {
       if (!s.truth.receivers.facing[i] || s.truth.receivers.ambiguous[i]) continue;
       ReceiverTaps taps;
-      taps.read(s.lookup.probe, s.lookup.taps, s.point.settings.map, s.map.depth, i);
+      taps.read(s.lookup.probe, s.lookup.taps, s.point.settings.map, s.shown.stored, i);
       for (size_t t = 0; t < taps.size(); ++t) {
         all.reference.push_back(taps[t].always_lit ? 0 : taps[t].reference);
         all.depth.push_back(taps[t].depth);
@@ -179,6 +178,7 @@ void Bench::compare_ways(const Stages& s) {
   const CurveOptions options = thousand_biases();
   const BiasScale scale = bias_scale(s.point.frame, s.view.receivers, s.truth.receivers, BiasUnit::depth);
   const CachedTaps taps = cached(s);
+  const gl::ShadowMap drawn_map = s.renderer.render_map(s.point.frame, s.point.settings);
   double kept = 0;  // so that nothing is optimised away
   const LookupEvidence evidence{
       s.truth.receivers,           s.lookup.probe, s.lookup.taps, s.lookup.exact_depth, s.point.settings.map,
@@ -202,7 +202,7 @@ void Bench::compare_ways(const Stages& s) {
                 },
                 [&] {
                   counts.emplace(evidence.probe, s.varied);
-                  counts->add(evidence, s.map.depth, all);
+                  counts->add(evidence, s.shown.stored, all);
                 },
                 [&] { kept += summarise(*counts, scale, options).best_error; },
                 [&] {
@@ -212,7 +212,7 @@ void Bench::compare_ways(const Stages& s) {
                     return look_up(s.renderer.render_map(s.point.frame, settings), settings);
                   });
                 },
-                [&] { at_biases(drawn, [&](const Settings& settings) { return look_up(s.map.map, settings); }); },
+                [&] { at_biases(drawn, [&](const Settings& settings) { return look_up(drawn_map, settings); }); },
                 [&] {
                   for (int k = 0; k < looped; ++k) kept += wrong_taps(taps, 1e-4f * static_cast<float>(k));
                 }});

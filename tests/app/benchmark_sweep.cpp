@@ -91,7 +91,7 @@ class FloorOfPoints {
       timed(floor_.lookups, [&] { probe.emplace(renderer_.probe(frame, settings)); });
       cast(tap_rays(frame, light, *probe));
     }
-    timed(floor_.lookups, [&] { renderer_.lookup(map_->map, frame, settings); });
+    timed(floor_.lookups, [&] { renderer_.lookup(*map_->map, frame, settings); });
   }
 
   using Rays = std::vector<raytrace::BareRays::Ray>;

@@ -92,7 +92,7 @@ class Estimate : public testing::Test {
 TEST_F(Estimate, SeesWhatTakesTooMuch) {
   EXPECT_LT(bytes(), 1e9) << "the default settings";
   settings_.map.resolution = 16384;
-  EXPECT_GT(bytes(LightKind::point), 50e9);
+  EXPECT_GT(bytes(LightKind::point), 6.0 * 16384 * 16384 * 4);  // the cube itself, of 4 bytes a texel
   EXPECT_EQ(estimate(LightKind::point).largest().what, std::string("the shadow map"));
   settings_.map.resolution = 1024;
   const SceneSize instances = {67'000'000 / 2, 67'000'000};
@@ -131,6 +131,24 @@ TEST_F(Estimate, GrowsWithWhatIsAskedFor) {
   EXPECT_EQ(bytes(), bytes(LightKind::directional, {100, 100}, false));
   settings_.map.cull = CulledFaces::front;
   EXPECT_GT(bytes(), bytes(LightKind::directional, {100, 100}, false) - 1);
+}
+
+TEST_F(Estimate, KnowsTheLivePicture) {
+  const auto live = [&] {
+    for (const MemoryShare& share : estimate(LightKind::directional, {100, 100}, true, true).shares)
+      if (share.what == std::string("the live picture")) return share.bytes;
+    return -1.0;
+  };
+  EXPECT_EQ(estimate().shares.front().bytes, 0) << "no pictures, no live picture";
+  const double one_tap = live();
+  EXPECT_GT(one_tap, 1e6);
+  settings_.view.width_px *= 2;
+  EXPECT_EQ(live(), one_tap) << "it has a size of its own";
+  settings_.filter.kind = "box";
+  settings_.filter["size"] = 15;
+  EXPECT_GT(live(), 57600 * 2 * 225 * sizeof(float)) << "a threshold on each of two maps for each of 225 taps";
+  settings_.filter["size"] = 31;
+  EXPECT_EQ(live(), 0) << "too many taps for a live picture";
 }
 
 TEST_F(Estimate, IsRefusedWithTheSettingToChange) {

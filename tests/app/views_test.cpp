@@ -42,6 +42,15 @@ float smooth(glm::dvec3 direction) {
   return static_cast<float>(glm::dot(glm::normalize(direction), glm::normalize(glm::dvec3(0.5, -0.3, 0.8))));
 }
 
+// Rows of a whole image.
+MapRows rows_of(const Image<float>& map) {
+  return [&map](int first, int count) {
+    Image<float> rows(map.width, count);
+    std::copy_n(&map.at(0, first), rows.size(), rows.pixels.begin());
+    return rows;
+  };
+}
+
 Image<float> cube_of(const LightFrame& f, float (*value)(glm::dvec3)) {
   const glm::ivec2 size = f.map_size();
   Image<float> map(size.x, size.y);
@@ -54,7 +63,7 @@ TEST(CubeCross, NeighboursJoinWithoutASeam) {
   const int n = 64;
   const LightFrame f = frame_of("point-room", LightChoice::point, n);
   const float outside = 9;
-  const Image<float> cross = cube_cross(cube_of(f, smooth), n, 512, outside);
+  const Image<float> cross = cube_cross(rows_of(cube_of(f, smooth)), n, 512, outside);
   ASSERT_EQ(cross.width, 4 * n);
   ASSERT_EQ(cross.height, 3 * n);
   // Seen from the light, neighbouring texel centres are at most 2 / n apart, also across seams. The gradient is at most
@@ -81,7 +90,7 @@ TEST(CubeCross, FacesAreWhereTheHeadOfTheFileSays) {
   const LightFrame f = frame_of("point-room", LightChoice::point, n);
   const glm::dvec3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   const glm::ivec2 cells[] = {{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}};
-  const Image<float> cross = cube_cross(cube_of(f, smooth), n, n, 9);
+  const Image<float> cross = cube_cross(rows_of(cube_of(f, smooth)), n, n, 9);
   for (int face = 0; face < 6; ++face)
     EXPECT_NEAR(cross.at(cells[face].x * n + n / 2, cells[face].y * n + n / 2), smooth(axes[face]), 1e-6) << face;
   // The cross shows +Z with +X on the right and +Y at the top.
@@ -93,7 +102,7 @@ TEST(CubeCross, ShrinkingKeepsTheNearest) {
   const int n = 64;
   Image<float> map(n, 6 * n, 1);
   map.at(63, 4 * n + 63) = 0.25f;  // face +Z: s is +X and t is -Y, so this is the lower right corner of the middle cell
-  const Image<float> cross = cube_cross(map, n, 10, 9);
+  const Image<float> cross = cube_cross(rows_of(map), n, 10, 9);
   ASSERT_EQ(cross.width, 40);
   for (int y = 0; y < cross.height; ++y)
     for (int x = 0; x < cross.width; ++x)
@@ -113,7 +122,7 @@ TEST(MapPicture, IsLinearInMetresAndStandsUpright) {
     map.at(1, 0) = stored(0.5);
     map.at(2, 0) = stored(0.9);
     map.at(3, 3) = nan;
-    const Image<Color> picture = map_picture(map, f);
+    const Image<Color> picture = map_picture(rows_of(map), f);
     ASSERT_EQ(picture.width, 4);
     EXPECT_EQ(picture.at(0, 3), depth_grey(0));
     EXPECT_NEAR(picture.at(1, 3).r, (depth_grey(0).r + depth_grey(1).r) / 2, 1) << scene;  // halfway in metres
@@ -128,7 +137,7 @@ TEST(MapPicture, OfALargeMapIsShrunkWithoutLosingAnything) {
   Image<float> map(1500, 1500, 1);
   map.at(1499, 0) = 0.5f;
   map.at(700, 700) = 0.25f;
-  const Image<Color> picture = map_picture(map, f);
+  const Image<Color> picture = map_picture(rows_of(map), f);
   EXPECT_EQ(picture.width, 1024);
   EXPECT_EQ(picture.at(1023, 1023), depth_grey(1));
   int bright = 0;
@@ -138,7 +147,7 @@ TEST(MapPicture, OfALargeMapIsShrunkWithoutLosingAnything) {
 
 TEST(MapPicture, OfAPointLightIsTheCross) {
   const LightFrame f = frame_of("point-room", LightChoice::point, 16);
-  const Image<Color> picture = map_picture(Image<float>(16, 96, 0.25f), f);
+  const Image<Color> picture = map_picture(rows_of(Image<float>(16, 96, 0.25f)), f);
   EXPECT_EQ(picture.width, 64);
   EXPECT_EQ(picture.height, 48);
   EXPECT_EQ(picture.at(20, 20), depth_grey(0));

@@ -204,6 +204,34 @@ TEST_F(GlTest, LargeMapsComeBackWhole) {
   EXPECT_TRUE(renderer.read_map(renderer.upload_map(depth, settings.map)).pixels == depth.pixels);
 }
 
+// 2500 rows are more than one band; of a cube, bands end with a face.
+TEST_F(GlTest, SomeTexelsAreUploadedAndReadBitForBit) {
+  std::mt19937 random(13);
+  for (const auto& [side, shape] : {std::pair{70, MapShape::flat}, {2500, MapShape::flat}, {70, MapShape::cube}}) {
+    const int height = shape == MapShape::cube ? 6 * side : side;
+    Settings settings;
+    settings.map.resolution = side;
+    const auto texels = std::make_shared<TexelSet>(glm::ivec2(side, height));
+    for (int i = 0; i < 5000; ++i)
+      texels->add({static_cast<int>(random() % side), static_cast<int>(random() % height)});
+    texels->add({side - 1, height - 1});
+    texels->close();
+    MapDepths depths(texels, 1);
+    for (float& d : depths.depth) d = static_cast<float>(random() >> 8) * 0x1p-24f;
+    const ShadowMap map = renderer.upload_map(depths, settings.map, shape);
+    EXPECT_EQ(renderer.read_map(map, texels).depth, depths.depth);
+    const Image<float> whole = renderer.read_map(map);
+    Image<float> expected(side, height);
+    for (int y = 0; y < height; ++y) depths.copy_row(y, &expected.at(0, y));
+    EXPECT_TRUE(whole.pixels == expected.pixels) << side;
+    const int first = height / 3, count = height / 2;  // of a cube: from the third face to the fifth
+    const Image<float> rows = renderer.read_rows(map, first, count);
+    ASSERT_EQ(rows.height, count);
+    EXPECT_TRUE(std::equal(rows.pixels.begin(), rows.pixels.end(), &expected.at(0, first))) << side;
+    EXPECT_EQ(kind_thrown([&] { renderer.read_rows(map, height - 1, 2); }), static_cast<int>(ErrorKind::defect));
+  }
+}
+
 TEST_F(GlTest, DepthsThatOpenGlWouldClampAreRefused) {
   Settings settings;
   settings.map.resolution = 2;
@@ -212,6 +240,13 @@ TEST_F(GlTest, DepthsThatOpenGlWouldClampAreRefused) {
     depth[3] = bad;
     EXPECT_EQ(kind_thrown([&] { renderer.upload_map(depth, settings.map); }), static_cast<int>(ErrorKind::defect))
         << bad;
+    EXPECT_EQ(kind_thrown([&] { renderer.upload_map(MapDepths(depth), settings.map); }),
+              static_cast<int>(ErrorKind::defect));
+    const auto one_texel = std::make_shared<TexelSet>(glm::ivec2(2, 2));
+    one_texel->add({1, 0});
+    one_texel->close();
+    EXPECT_EQ(kind_thrown([&] { renderer.upload_map(MapDepths(one_texel, bad, 0.5f), settings.map); }),
+              static_cast<int>(ErrorKind::defect));
   }
 }
 

@@ -1,6 +1,7 @@
 // noonmark recommend: what it recommends holds where it was not searched, and it says so where nothing does.
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -94,10 +95,56 @@ TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
   EXPECT_EQ(run({"check", "out/recommended.toml"}), 0) << output_;
 }
 
+TEST_F(Recommend, AnswersForOnePartOfAnExperiment) {
+  write("parts.toml",
+        "[map]\nresolution = 128\n[filter]\nkind = \"none\"\n[[part]]\nname = \"a\"\nscene = \"plate\"\n"
+        "[[part]]\nname = \"b\"\nscene = \"wall\"\n[part.over]\nview.fov_deg = [30, 40]\n");
+  ASSERT_EQ(recommend("parts.toml", {"--part", "b"}), 0) << output_;
+  EXPECT_EQ(setting("scene.name"), "wall");
+  EXPECT_EQ(setting("map.resolution"), "128");
+  EXPECT_EQ(found()["verified"]["conditions"], 2) << "those of the part";
+}
+
+// Settings that make no error are the cheapest ones that do, so nothing dearer is measured. No map at all does as well.
+TEST_F(Recommend, SaysThatASceneWithoutShadowsNeedsNoMap) {
+  ASSERT_EQ(run({"recommend", "plane", "--out", "out", "--set", "view.width_px=240", "--set", "view.height_px=135"}), 0)
+      << output_;
+  EXPECT_TRUE(says("No shadow map is needed here")) << output_;
+  EXPECT_EQ(setting("map.resolution"), "256");
+  EXPECT_EQ(found()["tried"].size(), 0u);
+  ASSERT_EQ(recommend("cube-room", {"--views", "1"}), 0) << output_;
+  EXPECT_FALSE(says("No shadow map is needed")) << output_;
+  EXPECT_TRUE(says("so it removes 9")) << output_;
+}
+
+TEST_F(Recommend, NamesThePixelTheCauseAndTheWaysOut) {
+  ASSERT_EQ(recommend("cube-room", {"--views", "1", "--acne", "1e-7", "--peter-panning", "1e-7", "--set",
+                                    "map.resolution=64", "--set", "filter.kind=none", "--set", "bias.constant=0.1"}),
+            1)
+      << output_;
+  EXPECT_TRUE(says("Its worst pixel is x = ")) << output_;
+  EXPECT_TRUE(says("by acne.") || says("by peter_panning.")) << output_;
+  EXPECT_TRUE(says(fmt::format("y = {} (row 0", found()["nearest"]["worst"]["y"].get<int>()))) << output_;
+  EXPECT_GT(found()["wrong_without_shadows"], 0.01);
+  for (const char* way :
+       {"Larger bounds: from about --acne ", "Finer texels: a resolution above 64", "Another kind of bias"})
+    EXPECT_TRUE(says(way)) << way << "\n" << output_;
+  // What it says of the bounds is true.
+  const size_t at = output_.find("--acne ");
+  double acne = 0, peter_panning = 0;
+  ASSERT_EQ(std::sscanf(output_.c_str() + at, "--acne %lf --peter-panning %lf", &acne, &peter_panning), 2) << output_;
+  EXPECT_EQ(recommend("cube-room", {"--views", "1", "--acne", fmt::format("{}", 1.01 * acne), "--peter-panning",
+                                    fmt::format("{}", 1.01 * peter_panning), "--set", "map.resolution=64", "--set",
+                                    "filter.kind=none", "--set", "bias.constant=0.1"}),
+            0)
+      << output_;
+}
+
 TEST_F(Recommend, RefusesWhatItCannotAnswer) {
-  write("parts.toml", "[[part]]\nname = \"a\"\n");
+  write("parts.toml", "[[part]]\nname = \"a\"\n[[part]]\nname = \"b\"\n");
   EXPECT_EQ(recommend("parts.toml"), 2);
-  EXPECT_TRUE(says("parts")) << output_;
+  EXPECT_TRUE(says("parts.toml has 2 parts, and recommend answers for one: give --part NAME ('a', 'b')")) << output_;
+  EXPECT_EQ(recommend("parts.toml", {"--part", "c"}), 2) << output_;
   EXPECT_EQ(recommend("no-such-scene"), 2) << output_;
   EXPECT_EQ(recommend("cube-room", {"--error", "2"}), 2) << output_;
   EXPECT_EQ(recommend("cube-room", {"--set", "view.target_m=0,100,0", "--set", "view.eye_m=0,90,0"}), 2) << output_;

@@ -235,7 +235,7 @@ class Comparison {
   }
 
   void ask_tap(const Place& place, bool lit, const LookupProbe& probe, size_t i, int tap, uint8_t bits,
-               const Image<float>& map, Verdict& v) const {
+               const MapDepths& map, Verdict& v) const {
     const glm::dvec3 offset = probe.offset(i, tap);
     const glm::ivec2 texel = probe.texel(i, tap);
     const LightRay c = inner_.ray_of_texel(texel);
@@ -265,7 +265,7 @@ class Comparison {
     if ((first < near) != ((bits & tap_near_clipped) != 0))
       ++(std::abs(first - near) <= inner_.beside_m(c, error_) ? t.depth_either : t.clipped);
     if (!inside_map(texel, frame_.map_size())) return;
-    const double found = map.at(texel.x, texel.y);
+    const double found = map.at(texel);
     if (std::abs(found - inner_.window_depth(cut)) <= depth_step_) return;
     ++(inner_.may_hold(c, near, found, depth_step_, error_) ? t.depth_either : t.depth);
   }

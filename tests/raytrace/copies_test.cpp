@@ -76,11 +76,11 @@ TEST(Copies, CostNoMoreRaysAndChangeNothing) {
       EXPECT_EQ(all.truth.ambiguous.pixels, one.truth.ambiguous.pixels);
       EXPECT_EQ(all.truth.soft.pixels, one.truth.soft.pixels);
       EXPECT_EQ(all.lookup.taps.taps, one.lookup.taps.taps);
-      EXPECT_EQ(all.lookup.exact_map.pixels, one.lookup.exact_map.pixels);
+      EXPECT_EQ(all.lookup.exact_map.depth, one.lookup.exact_map.depth);
       EXPECT_EQ(all.lookup.edge_distance_texels.pixels, one.lookup.edge_distance_texels.pixels);
       EXPECT_EQ(all.distance.pixels, one.distance.pixels);
       EXPECT_EQ(all.rays, one.rays);
-      EXPECT_GT(one.rays, 20'000u);
+      EXPECT_GT(one.rays, 4'000u);  // of receivers and taps; texel centres of a flat map need none
     }
     EXPECT_EQ(Tracer(many).open_edges(), Tracer(scene).open_edges());
   }

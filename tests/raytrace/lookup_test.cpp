@@ -330,7 +330,7 @@ TEST(Lookup, ATexelsCentreOnAnOutlineIsSureOnlyAsTheMapHasIt) {
     if (!on_floor || looked.frame.texel_centre(texel).x != 0.125) continue;
     ++(looked.exact_lit(i) ? lit : dark);
     if (looked.bits(i) & tap_unsure) continue;
-    const bool floor_in_map = std::abs(looked.lookup.exact_map.at(texel.x, texel.y) - floor) < 1e-6;
+    const bool floor_in_map = std::abs(looked.lookup.exact_map.at(texel) - floor) < 1e-6;
     EXPECT_EQ(looked.texel_lit(i), floor_in_map) << looked.receivers.position[i].x << ' ' << looked.exact_lit(i);
   }
   EXPECT_GT(dark, 50);
@@ -376,7 +376,7 @@ TEST(Lookup, DoesNotDependOnTheNumberOfThreads) {
   };
   const Looked one = with_threads(1), two = with_threads(2);
   EXPECT_EQ(one.lookup.taps.taps, two.lookup.taps.taps);
-  EXPECT_EQ(one.lookup.exact_map.pixels, two.lookup.exact_map.pixels);
+  EXPECT_EQ(one.lookup.exact_map.depth, two.lookup.exact_map.depth);
   EXPECT_EQ(one.lookup.edge_distance_texels.pixels, two.lookup.edge_distance_texels.pixels);
   EXPECT_EQ(one.lookup.tap_stage.rays, two.lookup.tap_stage.rays);
   EXPECT_EQ(one.lookup.texel_stage.rays, two.lookup.texel_stage.rays);

@@ -24,12 +24,16 @@ LookupTruth look_up(const Scene& scene, const LightFrame& frame, const std::vect
   return Tracer(scene).lookup_truth(receivers, truth, probe, frame, map, bias, offset_unit);
 }
 
+// Of a map of which every texel is asked for.
 Image<float> whole_map(const Scene& scene, const LightFrame& frame, const MapSettings& map = {}, const Bias& bias = {},
                        double offset_unit = 0) {
   std::vector<glm::ivec2> texels;
   for (int y = 0; y < frame.resolution; ++y)
     for (int x = 0; x < frame.resolution; ++x) texels.push_back({x, y});
-  return look_up(scene, frame, texels, map, 1, bias, offset_unit).exact_map;
+  const MapDepths depths = look_up(scene, frame, texels, map, 1, bias, offset_unit).exact_map;
+  Image<float> image(frame.resolution, frame.resolution);
+  for (const glm::ivec2 texel : texels) image.at(texel.x, texel.y) = depths.at(texel);
+  return image;
 }
 
 // Half a last place of a float below 1, and the double rounding of a depth of some metres.
@@ -162,7 +166,7 @@ TEST(ExactMap, ACubesNearPlaneIsAlongItsAxis) {
     const glm::ivec2 texel = probe.texel(0, 0);
     const glm::dvec3 way = frame.texel_place(texel);
     EXPECT_EQ((truth.taps.taps[0] & tap_near_clipped) != 0, cut);
-    EXPECT_NEAR(truth.exact_map.at(texel.x, texel.y), (cut ? 2 : 1) * glm::length(way / way.y) / 10, depth_rounding);
+    EXPECT_NEAR(truth.exact_map.at(texel), (cut ? 2 : 1) * glm::length(way / way.y) / 10, depth_rounding);
   }
 }
 
@@ -212,11 +216,11 @@ TEST(ExactMap, HoldsOnlyTheTexelsLookedUp) {
   const auto set_texels = [&](glm::ivec2 texel, Wrap wrap, int kernel) {
     MapSettings map;
     map.wrap = wrap;
-    const Image<float> exact = look_up(scene, frame, {texel}, map, kernel).exact_map;
+    const MapDepths exact = look_up(scene, frame, {texel}, map, kernel).exact_map;
     std::vector<glm::ivec2> set;
     for (int y = 0; y < 32; ++y)
       for (int x = 0; x < 32; ++x)
-        if (exact.at(x, y) != 1) set.push_back({x, y});
+        if (exact.at({x, y}) != 1) set.push_back({x, y});
     return set;
   };
   using List = std::vector<glm::ivec2>;
@@ -234,12 +238,12 @@ TEST(ExactMap, HoldsOnlyTheTexelsLookedUp) {
   const LightFrame wide_frame = frame_of(wide, 8);
   MapSettings map;
   map.wrap = Wrap::clamp_to_edge;
-  const Image<float> exact = look_up(wide, wide_frame, {{-5, 3}, {40, 900}}, map).exact_map;
+  const MapDepths exact = look_up(wide, wide_frame, {{-5, 3}, {40, 900}}, map).exact_map;
   int set = 0;
-  for (float depth : exact.pixels) set += depth != 1;
+  for (float depth : exact.depth) set += depth != 1;
   EXPECT_EQ(set, 2);
-  EXPECT_NE(exact.at(0, 3), 1);
-  EXPECT_NE(exact.at(7, 7), 1);
+  EXPECT_NE(exact.at({0, 3}), 1);
+  EXPECT_NE(exact.at({7, 7}), 1);
 }
 
 }  // namespace

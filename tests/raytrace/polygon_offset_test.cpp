@@ -71,7 +71,7 @@ TEST(PolygonOffsetMap, IsThePlanePlusFactorTimesItsSteepestTexelStep) {
             for (size_t i = 0; i < receivers.primitive.size(); ++i) {
               const glm::ivec2 texel = probe.texel(i, 0);
               if (!truth.facing[i] || texel.x < 0 || texel.y < 0 || texel.x > 63 || texel.y > 63) continue;
-              const double found = lookup.exact_map.at(texel.x, texel.y);
+              const double found = lookup.exact_map.at(texel);
               if (found == 1) continue;  // the texel's centre is beyond the plane's border or behind far
               // Window depth is affine in the map's texels. So its difference over one texel is its slope.
               const glm::dvec2 c = glm::dvec2(texel) + 0.5;

@@ -301,7 +301,7 @@ TEST(HardTruthLaws, EmptyAndOneTriangleScenesAndNoReceivers) {
   const ReceiverTruth none = nothing.receiver_truth(sky, empty_frame, {});
   EXPECT_EQ(none.facing[0], 0);
   const LookupTruth lookup = nothing.lookup_truth(sky, none, probe_of(sky, empty_frame, box(3)), empty_frame, {});
-  for (float depth : lookup.exact_map.pixels) EXPECT_EQ(depth, 1);
+  for (float depth : lookup.exact_map.depth) EXPECT_EQ(depth, 1);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include <filesystem>
 
+#include "scenes/digest.h"
 #include "scenes/error.h"
 #include "tests/support/sample_results.h"
 
@@ -189,6 +190,28 @@ TEST(AtomicWrite, LeavesNothingWhereItCannotReplace) {
   EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "taken" / "inside"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
   EXPECT_THROW(write_file_atomically(folder.file("absent/file"), "bytes"), Error);
+}
+
+// Image libraries write the head of a file last.
+TEST(AtomicWrite, TakesPiecesInAnyOrder) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a");
+  write_file_atomically(path, "old");
+  {
+    AtomicFile file(path);
+    file.write_at(5, "world");
+    file.write_at(0, "hello");
+    EXPECT_EQ(file.digest(), digest_of("helloworld"));
+    EXPECT_EQ(read_file(path), "old");
+  }
+  EXPECT_EQ(read_file(path), "old") << "it was not kept";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  AtomicFile file(path);
+  file.write_at(0, std::string(70000, 'x'));
+  file.write_at(1, "y");
+  EXPECT_EQ(file.digest(), digest_of("xy" + std::string(69998, 'x')));
+  file.keep();
+  EXPECT_EQ(read_file(path), "xy" + std::string(69998, 'x'));
 }
 
 // A limit on the file size simulates a full disk: the write fails after its first part.

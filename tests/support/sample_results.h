@@ -72,8 +72,16 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
     curve.flat_min_depth = 0.04;
     curve.flat_max_depth = 0.06;
     curve.breakpoints = 87420;
+    curve.steps.most_share = 0.05;
+    curve.steps.taps = 700000;
+    curve.steps.unit_depth = 0.5;
+    curve.steps.acne = {{0.001f, 20000.0 + static_cast<double>(id)}, {0.01f, 300}, {0.5f, 0}};
+    curve.steps.peter_panning = {
+        {0.02f, 0}, {0.03f, 0.125 + static_cast<double>(id)}, {std::numeric_limits<float>::infinity(), 9}};
     if (id % 2) {
       curve.placements = 16;
+      curve.steps.acne_worst = {{0.25f, 31}, {0.5f, 1}};
+      curve.steps.peter_panning_worst = {{0.0f, 0}};
       curve.window_min_worst_depth = 0.11 / 3;
       curve.window_max_worst_depth = 0.19 / 3;
       curve.acne_free_bias_worst_depth = 0.17 / 3;
@@ -165,7 +173,7 @@ inline RunInfo sample_info() {
   info.gl_vendor = "Mesa";
   info.gl_renderer = "llvmpipe (LLVM 15.0.6, 256 bits)";
   info.gl_version = "4.5";
-  info.gl_timer = "glFinish + steady clock";
+  info.gl_timer = "CPU time of the process";
   info.embree_version = "3.13.5";
   info.embree_isa = "AVX2";
   info.libraries = {{"glm", "0.9.9.8"}, {"sqlite", "3.40.1"}};
@@ -173,6 +181,7 @@ inline RunInfo sample_info() {
   info.plot = {"error", "acne"};
   info.scene_name = "cube-room";
   info.triangles = 38;
+  info.sweep_notes = {"the sweep of filter.size is dead"};
   info.scene_notes = {"street: 2 animations at rest; 1 primitive of lines left out"};
   return info;
 }
@@ -204,7 +213,7 @@ inline bool same(const BiasCurve& a, const BiasCurve& b) {
          same(a.window_min_worst_depth, b.window_min_worst_depth) &&
          same(a.window_max_worst_depth, b.window_max_worst_depth) &&
          same(a.acne_free_bias_worst_depth, b.acne_free_bias_worst_depth) && same(a.error_mean, b.error_mean) &&
-         same(a.acne_worst, b.acne_worst) && same(a.peter_panning_best, b.peter_panning_best);
+         same(a.acne_worst, b.acne_worst) && same(a.peter_panning_best, b.peter_panning_best) && a.steps == b.steps;
 }
 inline bool same(const PictureRecord& a, const PictureRecord& b) {
   return a.name == b.name && a.path == b.path && a.caption == b.caption && a.digest == b.digest;

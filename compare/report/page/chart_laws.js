@@ -110,7 +110,7 @@ var self = kit.chart('laws', function(width) {
             'Point ' + d.point + (p && p.phrase ? ': ' + p.phrase : ''));
       });
       view.addEventListener('click', function(event, item) {
-        if (item && item.datum && item.datum.point !== undefined) page.select(item.datum.point);
+        if (item && item.datum && item.datum.point !== undefined) page.open(item.datum.point);
       });
     }
   };

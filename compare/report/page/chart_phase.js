@@ -33,6 +33,7 @@ function pointsTip(event, place) {
 }
 function choose(place) {
   page.select(place.points[0]);
+  if (place.points.length === 1) page.open(place.points[0]);
   said.textContent = '';
   said.append(place.points.length > 1 ? 'Points of the sweep: ' : 'Point of the sweep: ');
   place.points.forEach(function(id, i) {
@@ -40,15 +41,22 @@ function choose(place) {
   });
 }
 // The sweep's points, those at the same place together.
-var places = {};
-phase.points.forEach(function(p) {
-  if (!kit.finite(p.texel_m) || !kit.finite(p.bias_m) || !kit.byId[p.id]) return;
-  var key = p.texel_m.toPrecision(3) + ' ' + p.bias_m.toPrecision(3);
-  (places[key] = places[key] || {t: p.texel_m, b: p.bias_m, points: []}).points.push(p.id);
-});
-places = Object.keys(places).map(function(key) {
-  return places[key];
-});
+var places;
+function place() {
+  var found = {};
+  phase.points.forEach(function(p) {
+    var point = kit.byId[p.id];
+    if (!point || !kit.finite(p.texel_m) || !kit.finite(p.bias_m)) return;
+    var moved = page.bias === 'recommended' && point.at && point.curve && point.at.parameter === 'bias.constant';
+    var bias = moved ? point.at.depth * point.curve.m_per_depth : p.bias_m;
+    var key = p.texel_m.toPrecision(3) + ' ' + bias.toPrecision(3);
+    (found[key] = found[key] || {t: p.texel_m, b: bias, points: []}).points.push(p.id);
+  });
+  places = Object.keys(found).map(function(key) {
+    return found[key];
+  });
+}
+place();
 function millimetres(m) {
   return kit.digits(1000 * m) + ' mm';
 }
@@ -199,6 +207,7 @@ var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width)
       }
     });
   });
+  place();
   // A bias of 0, or beyond the axis, is on the axis' end.
   var rings = places.map(function(p) {
     return {

@@ -12,24 +12,48 @@ function group() {
 function isBytes() {
   return kit.measureUnit(state.cost) === 'bytes';
 }
+// The error of a choice at the bias that the reader chose for the page. As set, it counts if every shown point was
+// rendered with a usable bias.
+function errorOf(entry) {
+  var of = entry.errors[state.error];
+  if (page.bias === 'recommended' || entry.window === 'no_curve' || !of.at_bias) return of;
+  var usable = entry.window === 'usable' && entry.points.every(function(id) {
+    var c = kit.byId[id].curve;
+    return c && c.set_bias_depth >= c.window_min_depth && c.set_bias_depth <= c.window_max_depth;
+  });
+  return {v: of.set, span: of.span, counts: usable, at_bias: false};
+}
 function windowText(entry) {
   return entry.window === 'empty' ? 'none: no bias is good enough' :
       entry.window === 'no_curve' ? 'no bias curve' :
                                     entry.bias.from + ' … ' + entry.bias.to;
 }
 
-// The drawn choices of the group, with x and y in the units of the axes.
+function inUnit(cost) {
+  return cost * (isBytes() ? 1e-6 : 1);
+}
+// "4.1 ms (3.9 … 4.4)"
+function costText(cost) {
+  var unit = kit.measureUnit(state.cost);
+  return kit.shown(cost[0], unit) +
+      (cost.length > 2 ? ' (' + kit.shown(cost[2], unit) + ' … ' + kit.shown(cost[3], unit) + ')' : '');
+}
+
+// The drawn choices of the group, with x and y in the units of the axes. low and high: the interval of a measured cost.
 function rowsOf(entries) {
   var property = group().properties[state.property];
   return entries
       .map(function(entry) {
-        var of = entry.errors[state.error], value = property ? entry.is[state.property] : 0;
+        var of = errorOf(entry), value = property ? entry.is[state.property] : 0;
+        var cost = entry.costs[state.cost];
         return {
           id: entry.id,
           entry: entry,
-          x: entry.costs[state.cost][0] * (isBytes() ? 1e-6 : 1),
+          x: inUnit(cost[0]),
+          low: inUnit(cost.length > 2 ? cost[2] : cost[0]),
+          high: inUnit(cost.length > 2 ? cost[3] : cost[0]),
           v: of.v[0],
-          ok: kit.finite(entry.costs[state.cost][0]) && kit.finite(of.v[0]),
+          ok: kit.finite(cost[0]) && kit.finite(of.v[0]),
           counts: of.counts,
           span: of.span && kit.finite(of.span[0]) && kit.finite(of.span[1]) ? of.span : null,
           // Blur by design is hollow, so that it does not depend on the grey alone.
@@ -48,13 +72,17 @@ function rowsOf(entries) {
 }
 
 function tip(event, row) {
-  var e = row.entry, of = e.errors[state.error], cost = e.costs[state.cost], many = e.conditions > 1;
+  var e = row.entry, of = errorOf(e), cost = e.costs[state.cost], many = e.conditions > 1;
   function both(v, measure) {
     var unit = kit.measureUnit(measure);
     return kit.shown(v[0], unit) + (many ? ' (mean ' + kit.shown(v[1], unit) + ')' : '');
   }
   var unit = kit.measureUnit(state.error), rows = [
-    [kit.measureLabel(state.cost), both(cost, state.cost)], [kit.measureLabel(state.error), both(of.v, state.error)]
+    [
+      kit.measureLabel(state.cost),
+      costText(cost) + (many ? ' (mean ' + kit.shown(cost[1], kit.measureUnit(state.cost)) + ')' : '')
+    ],
+    [kit.measureLabel(state.error), both(of.v, state.error)]
   ];
   if (row.span)
     rows.push(['over the usable window', kit.shown(of.span[0], unit) + ' … ' + kit.shown(of.span[1], unit)]);
@@ -110,6 +138,12 @@ var self = kit.chart('cost', function(width) {
             return r.span;
           })
         },
+        {
+          name: 'intervals',
+          values: only(function(r) {
+            return r.high > r.low;
+          })
+        },
         {name: 'front', values: last ? front.concat([{px: w, y: last.y}]) : []}, {
           name: 'best',
           values: only(function(r) {
@@ -152,10 +186,10 @@ self.plot.before(notes);
 self.plot.before(side);
 
 function describe(entry) {
-  var of = entry.errors[state.error];
+  var of = errorOf(entry);
   return [
     kit.make('b', {}, entry.name),
-    ': ' + kit.shown(entry.costs[state.cost][0], kit.measureUnit(state.cost)) + ', ' +
+    ': ' + costText(entry.costs[state.cost]) + ', ' +
         kit.measureLabel(state.error).toLowerCase() + ' ' + kit.shown(of.v[0], kit.measureUnit(state.error)) +
         (of.at_bias ? ' at ' + entry.bias.parameter + ' ' + entry.bias.value : ' as rendered') +
         '; usable window: ' + windowText(entry) + '.'
@@ -183,11 +217,18 @@ function tell(rows, missing) {
     text.push(g.entries.length + ' of ' + g.choices + ' choices are drawn; the front is of these.');
   if (missing) text.push(missing + ' not finite, left out.');
   var rendered = rows.filter(function(r) {
-    return r.entry.window !== 'no_curve' && !r.entry.errors[state.error].at_bias;
+    return r.entry.window !== 'no_curve' && !errorOf(r.entry).at_bias;
   });
-  if (rendered.length)
+  if (rendered.length && page.bias === 'set')
+    text.push('Each choice is at the bias as set; those outside their usable window are crosses.');
+  else if (rendered.length)
     text.push(
         'This error has no bias curve, so it is that of the bias as rendered. Choices rendered outside their usable window are crosses.');
+  if (rows.some(function(r) {
+        return r.high > r.low;
+      }))
+    text.push(
+        'Each time is a median. The bar along the cost holds it with 96 %: costs whose bars overlap count as equal, for the front too.');
   if (front.length)
     text.push(
         'On the front, from the cheapest: ' +
@@ -249,6 +290,10 @@ function legend() {
   }
   symbol(path(kit.speed.cross, 'none', 'var(--bad)'), 'at no usable bias');
   symbol('<line x1="13" x2="13" y1="0" y2="12" stroke="var(--soft)" stroke-width="1.6"/>', 'over the usable window');
+  if (g.entries.some(function(e) {
+        return e.costs[state.cost].length > 2;
+      }))
+    symbol('<line x1="0" x2="26" y1="6" y2="6" stroke="var(--soft)" stroke-width="1.6"/>', 'interval of the time');
   symbol('<circle cx="13" cy="6" r="5" fill="none" stroke="var(--good)" stroke-width="1.8"/>', 'recommended');
 }
 
@@ -290,9 +335,13 @@ page.onSelect.push(function(id) {
   state.id = entry ? entry.id : null;
   redraw();
 });
+page.onBias.push(function() {
+  picture(described());
+});
 // The arrow keys go from mark to mark, from left to right.
 self.plot.tabIndex = 0;
 self.plot.addEventListener('keydown', function(event) {
+  if (event.key === 'Enter' && described()) page.open(described().id);
   var way = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
   if (!way || !shownRows.length) return;
   var order = shownRows.slice().sort(function(a, b) {

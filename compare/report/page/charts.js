@@ -3,7 +3,8 @@
 (function() {
 'use strict';
 var data = JSON.parse(document.getElementById('noonmark-data').textContent);
-var page = window.noonmarkPage = {data: data, selected: null, onSelect: []};
+// bias: 'set' or 'recommended' (bias_choice.js). select() marks a point everywhere; open() also opens its card (card.js).
+var page = window.noonmarkPage = {data: data, selected: null, onSelect: [], bias: 'set', onBias: []};
 var thin = '\u202f';
 var byId = {}, metricOf = {}, causeLabel = {};
 data.points.forEach(function(p) {
@@ -54,6 +55,8 @@ function shown(v, unit) {
 }
 function value(point, measure) {
   if (measure === 'best_error') return point.curve ? point.curve.best_error : NaN;
+  var at = page.bias === 'recommended' && point.at && point.at.metrics;
+  if (at && measure in at) return at[measure];
   return measure in point.metrics ? point.metrics[measure] : NaN;
 }
 function measureLabel(m) {
@@ -148,6 +151,7 @@ function hideTip() {
   tip.hidden = true;
 }
 
+page.open = page.redraw = function() {};
 page.select = function(id) {
   if (!byId[id]) return;
   page.selected = id;
@@ -173,7 +177,10 @@ function chart(id, build) {
       var built = build(Math.max(260, plot.clientWidth), self);
       if (!built) return;
       built.spec.config = config;
-      view = noonmarkVega.draw(built.spec, plot);
+      // The plot has one name, and a table beside it has its numbers; Vega's names of each group of marks are hidden.
+      var drawing = make('div', {'aria-hidden': 'true'});
+      plot.append(drawing);
+      view = noonmarkVega.draw(built.spec, drawing);
       self.view = view;
       view.addEventListener('mousemove', function(event, item) {
         var d = item && item.datum;
@@ -185,7 +192,7 @@ function chart(id, build) {
       });
       view.addEventListener('mouseout', hideTip);
       view.addEventListener('click', function(event, item) {
-        if (item && item.datum && item.datum.id !== undefined) page.select(item.datum.id);
+        if (item && item.datum && item.datum.id !== undefined) page.open(item.datum.id);
       });
       if (built.hover) built.hover(view, plot);
     }
@@ -197,7 +204,7 @@ function pointTip(event, d, measure) {
   var p = byId[d.id], rows = [[measureLabel(measure), shown(value(p, measure), measureUnit(measure))]];
   ['error', 'acne', 'peter_panning', 'aliasing_dark', 'aliasing_light', data.cost].forEach(function(m) {
     if (m !== measure && m in p.metrics)
-      rows.push([measureLabel(m), shown(p.metrics[m], measureUnit(m)), m === 'error' || m === data.cost ? '' : m]);
+      rows.push([measureLabel(m), shown(value(p, m), measureUnit(m)), m === 'error' || m === data.cost ? '' : m]);
   });
   showTip(event, rows, 'Point ' + p.id + (p.phrase ? ': ' + p.phrase : ''));
 }

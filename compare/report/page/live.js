@@ -1,153 +1,212 @@
-// The picture at every bias. The element live-data holds the arrays that compare/ladder/live_picture.h describes.
+// The picture at every bias. The element live-data holds the arrays that compare/ladder/live_picture.h describes,
+// compressed as compare/report/live_section.cpp packs them. Browsers unpack them only asynchronously; page.liveReady
+// ends when the picture is drawn.
 (function() {
 'use strict';
 var source = document.getElementById('live-data');
 if (!source) return;
 var page = window.noonmarkPage, kit = page.kit, make = kit.make, live = JSON.parse(source.textContent);
-var bytes = Uint8Array.from(atob(live.data), function(c) {
+var packed = Uint8Array.from(atob(live.data), function(c) {
   return c.charCodeAt(0);
 });
-var pixels = live.width * live.height, at = 0;
-function take(type, count) {
-  var bytesOfOne = type.BYTES_PER_ELEMENT, part = bytes.buffer.slice(at, at + count * bytesOfOne);
-  at += count * bytesOfOne;
-  return new type(part);
-}
-var from = take(Float32Array, live.answers), lit = take(Uint8Array, live.answers),
-    cause = take(Uint8Array, live.answers), acne = take(Uint8Array, live.answers),
-    peterPanning = take(Uint8Array, live.answers), flags = take(Uint8Array, pixels), cosine = take(Uint8Array, pixels),
-    count = take(Uint16Array, pixels);
-var facing = 1, truthLit = 2, ambiguous = 4, surface = 8;  // LiveFlags
-
-// The bias in the parameter's own unit, as the shader gets it: a float. Returns each pixel's answer (an index) and the
-// shares of the counted receivers.
-function answersAt(bias) {
-  var x = Math.fround(bias), shown = new Int32Array(pixels).fill(-1), first = 0, counted = 0, wrong = 0, a = 0, p = 0;
-  for (var i = 0; i < pixels; ++i) {
-    var end = first + count[i], k = first;
-    if (flags[i] & facing) {
-      while (k + 1 < end && from[k + 1] <= x) ++k;
-      shown[i] = k;
-      if (!(flags[i] & ambiguous)) {
-        ++counted;
-        wrong += flags[i] & truthLit ? live.taps - lit[k] : lit[k];
-        a += acne[k];
-        p += peterPanning[k];
-      }
+async function unpack() {
+  var source = new ReadableStream({
+    start: function(to) {
+      to.enqueue(packed);
+      to.close();
     }
-    first = end;
+  });
+  var reader = source.pipeThrough(new DecompressionStream('deflate')).getReader(), n = live.answers;
+  var bytes = new Uint8Array(8 * n + 4 * live.width * live.height), floats = new Uint8Array(4 * n), end = 0;
+  for (var read = await reader.read(); !read.done; read = await reader.read()) {
+    bytes.set(read.value, end);
+    end += read.value.length;
   }
-  var taps = counted * live.taps;
-  return {shown: shown, counted: counted, error: wrong / taps, acne: a / taps, peter_panning: p / taps};
+  for (var i = 0; i < 4 * n; ++i) floats[4 * (i % n) + Math.floor(i / n)] = bytes[i];
+  bytes.set(floats);
+  return bytes;
 }
+function start(bytes) {
+  var pixels = live.width * live.height, at = 0;
+  function take(type, count) {
+    var bytesOfOne = type.BYTES_PER_ELEMENT, part = bytes.buffer.slice(at, at + count * bytesOfOne);
+    at += count * bytesOfOne;
+    return new type(part);
+  }
+  var from = take(Float32Array, live.answers), lit = take(Uint8Array, live.answers),
+      cause = take(Uint8Array, live.answers), acne = take(Uint8Array, live.answers),
+      peterPanning = take(Uint8Array, live.answers), flags = take(Uint8Array, pixels),
+      cosine = take(Uint8Array, pixels), count = take(Uint16Array, pixels);
+  var facing = 1, truthLit = 2, ambiguous = 4, surface = 8;  // LiveFlags
 
-var figure = document.getElementById('live-picture'), canvas = figure.querySelector('canvas'),
-    slider = figure.querySelector('input'), facts = figure.querySelector('.facts'), context = canvas.getContext('2d'),
-    kind = 'map';
-function colour(name) {
-  var text = getComputedStyle(document.documentElement).getPropertyValue('--c-' + name).trim();
-  return [1, 3, 5].map(function(k) {
-    return parseInt(text.slice(k, k + 2), 16);
-  });
-}
-var colours = {};
-['background', 'attached', 'ambiguous', 'lit', 'shadowed'].concat(live.causes.slice(1)).forEach(function(name) {
-  colours[name] = colour(name);
-});
-function grey(linear) {
-  var v = linear <= 0.0031308 ? 12.92 * linear : 1.055 * Math.pow(linear, 1 / 2.4) - 0.055;
-  return [255 * v, 255 * v, 255 * v];
-}
-function colourOf(i, answer) {
-  if (!(flags[i] & surface)) return colours.background;
-  var n = cosine[i] / 255, truth = flags[i] & truthLit ? 1 : 0;
-  if (kind === 'truth') return grey(0.15 + 0.75 * n * (flags[i] & facing ? truth : 0));
-  if (answer < 0) return kind === 'map' ? grey(0.15) : colours.attached;
-  var seen = lit[answer] / live.taps;
-  if (kind === 'map') return grey(0.15 + 0.75 * n * seen);
-  if (flags[i] & ambiguous) return colours.ambiguous;
-  var right = colours[truth ? 'lit' : 'shadowed'].map(function(v) {
-    return v * (0.72 + 0.28 * n);
-  });
-  if (!cause[answer]) return right;
-  var strength = 0.25 + 0.75 * Math.abs(seen - truth);
-  return colours[live.causes[cause[answer]]].map(function(v, k) {
-    return right[k] + (v - right[k]) * strength;
-  });
-}
+  // The bias in the parameter's own unit, as the shader gets it: a float. Returns each pixel's answer (an index) and the
+  // shares of the counted receivers.
+  function answersAt(bias) {
+    var x = Math.fround(bias), shown = new Int32Array(pixels).fill(-1), first = 0, counted = 0, wrong = 0, a = 0, p = 0;
+    for (var i = 0; i < pixels; ++i) {
+      var end = first + count[i], k = first;
+      if (flags[i] & facing) {
+        while (k + 1 < end && from[k + 1] <= x) ++k;
+        shown[i] = k;
+        if (!(flags[i] & ambiguous)) {
+          ++counted;
+          wrong += flags[i] & truthLit ? live.taps - lit[k] : lit[k];
+          a += acne[k];
+          p += peterPanning[k];
+        }
+      }
+      first = end;
+    }
+    var taps = counted * live.taps;
+    return {shown: shown, counted: counted, error: wrong / taps, acne: a / taps, peter_panning: p / taps};
+  }
 
-// The slider: 0, then a logarithmic scale from one quantum of 24 bits to the depth of the whole map.
-var least = 1e-7, steps = 1400;
-function depthAt(position) {
-  return position <= 0 ? 0 : least * Math.pow(1 / least, (position - 1) / (steps - 1));
-}
-function positionOf(depth) {
-  return depth < least ? 0 : 1 + (steps - 1) * Math.log(depth / least) / Math.log(1 / least);
-}
-slider.min = 0;
-slider.max = steps;
-slider.step = 1;
-var depth = 0;
-function text(d) {
-  return kit.digits(d) + ' depth = ' + kit.digits(d * live.m_per_depth) +
-      ' m = ' + kit.digits(d * live.texels_per_depth) + ' texels';
-}
-function draw() {
-  var now = answersAt(depth / live.depth_per_unit), image = context.createImageData(live.width, live.height);
-  for (var i = 0; i < pixels; ++i) {
-    image.data.set(colourOf(i, now.shown[i]), 4 * i);
-    image.data[4 * i + 3] = 255;
+  var figure = document.getElementById('live-picture'), canvas = figure.querySelector('canvas'),
+      slider = figure.querySelector('input'), facts = figure.querySelector('.facts'), context = canvas.getContext('2d'),
+      kind = 'map';
+  function colour(name) {
+    var text = getComputedStyle(document.documentElement).getPropertyValue('--c-' + name).trim();
+    return [1, 3, 5].map(function(k) {
+      return parseInt(text.slice(k, k + 2), 16);
+    });
   }
-  context.putImageData(image, 0, 0);
-  slider.setAttribute('aria-valuetext', text(depth));
-  facts.textContent = '';
-  facts.append(
-      make('b', {}, live.parameter), ' ' + text(depth) + ' · error ', make('b', {}, kit.shown(now.error, 'fraction')),
-      ' · acne ', make('b', {}, kit.shown(now.acne, 'fraction')), ' · Peter Panning ',
-      make('b', {}, kit.shown(now.peter_panning, 'fraction')));
-}
-function set(d) {
-  depth = d;
-  slider.value = Math.round(positionOf(d));
-  draw();
-}
-slider.addEventListener('input', function() {
-  depth = depthAt(+slider.value);
-  draw();
-});
-var controls = figure.querySelector('.controls'), marks = figure.querySelector('.bias-marks');
-controls.append(kit.segments([['truth', 'Truth'], ['map', 'Map'], ['causes', 'Causes']], kind, function(k) {
-  kind = k;
-  draw();
-}));
-[['set', 'As set'], ['recommended', 'Recommended'], ['best', 'Best for this point']].forEach(function(m) {
-  if (!(m[0] in live.marks)) return;
-  function go() {
-    set(live.marks[m[0]]);
+  var colours = {};
+  ['background', 'attached', 'ambiguous', 'lit', 'shadowed'].concat(live.causes.slice(1)).forEach(function(name) {
+    colours[name] = colour(name);
+  });
+  function grey(linear) {
+    var v = linear <= 0.0031308 ? 12.92 * linear : 1.055 * Math.pow(linear, 1 / 2.4) - 0.055;
+    return [255 * v, 255 * v, 255 * v];
   }
-  controls.append(make('button', {type: 'button', on: {click: go}}, m[1]));
-  marks.append(make('i', {class: 'mark ' + m[0], style: 'left:' + 100 * positionOf(live.marks[m[0]]) / steps + '%'}));
-});
-if (live.marks.window) {
-  var low = 100 * positionOf(live.marks.window[0]) / steps, high = 100 * positionOf(live.marks.window[1]) / steps;
-  marks.prepend(make('i', {class: 'window', style: 'left:' + low + '%;width:' + (high - low) + '%'}));
+  function colourOf(i, answer) {
+    if (!(flags[i] & surface)) return colours.background;
+    var n = cosine[i] / 255, truth = flags[i] & truthLit ? 1 : 0;
+    if (kind === 'truth') return grey(0.15 + 0.75 * n * (flags[i] & facing ? truth : 0));
+    if (answer < 0) return kind === 'map' ? grey(0.15) : colours.attached;
+    var seen = lit[answer] / live.taps;
+    if (kind === 'map') return grey(0.15 + 0.75 * n * seen);
+    if (flags[i] & ambiguous) return colours.ambiguous;
+    var right = colours[truth ? 'lit' : 'shadowed'].map(function(v) {
+      return v * (0.72 + 0.28 * n);
+    });
+    if (!cause[answer]) return right;
+    var strength = 0.25 + 0.75 * Math.abs(seen - truth);
+    return colours[live.causes[cause[answer]]].map(function(v, k) {
+      return right[k] + (v - right[k]) * strength;
+    });
+  }
+
+  // The slider: 0, then a logarithmic scale from one quantum of 24 bits to the depth of the whole map.
+  var least = 1e-7, steps = 1400;
+  function depthAt(position) {
+    return position <= 0 ? 0 : least * Math.pow(1 / least, (position - 1) / (steps - 1));
+  }
+  function positionOf(depth) {
+    return depth < least ? 0 : 1 + (steps - 1) * Math.log(depth / least) / Math.log(1 / least);
+  }
+  slider.min = 0;
+  slider.max = steps;
+  slider.step = 1;
+  var depth = 0;
+  function text(d) {
+    return kit.digits(d) + ' depth = ' + kit.digits(d * live.m_per_depth) +
+        ' m = ' + kit.digits(d * live.texels_per_depth) + ' texels';
+  }
+  function draw() {
+    var now = answersAt(depth / live.depth_per_unit), image = context.createImageData(live.width, live.height);
+    for (var i = 0; i < pixels; ++i) {
+      image.data.set(colourOf(i, now.shown[i]), 4 * i);
+      image.data[4 * i + 3] = 255;
+    }
+    context.putImageData(image, 0, 0);
+    slider.setAttribute('aria-valuetext', text(depth));
+    facts.textContent = '';
+    facts.append(
+        make('b', {}, live.parameter), ' ' + text(depth) + ' · error ', make('b', {}, kit.shown(now.error, 'fraction')),
+        ' · acne ', make('b', {}, kit.shown(now.acne, 'fraction')), ' · Peter Panning ',
+        make('b', {}, kit.shown(now.peter_panning, 'fraction')));
+  }
+  function set(d) {
+    depth = d;
+    slider.value = Math.round(positionOf(d));
+    draw();
+  }
+  slider.addEventListener('input', function() {
+    depth = depthAt(+slider.value);
+    draw();
+  });
+  var controls = figure.querySelector('.controls'), marks = figure.querySelector('.bias-marks');
+  function show(k) {
+    kind = k;
+    draw();
+  }
+  controls.append(kit.segments([['truth', 'Truth'], ['map', 'Map'], ['causes', 'Causes']], kind, show));
+  [['set', 'As set'], ['recommended', 'Recommended'], ['best', 'Best for this point']].forEach(function(m) {
+    if (!(m[0] in live.marks)) return;
+    function go() {
+      set(live.marks[m[0]]);
+    }
+    controls.append(make('button', {type: 'button', on: {click: go}}, m[1]));
+    marks.append(make('i', {class: 'mark ' + m[0], style: 'left:' + 100 * positionOf(live.marks[m[0]]) / steps + '%'}));
+  });
+  if (live.marks.window) {
+    var low = 100 * positionOf(live.marks.window[0]) / steps, high = 100 * positionOf(live.marks.window[1]) / steps;
+    marks.prepend(make('i', {class: 'window', style: 'left:' + low + '%;width:' + (high - low) + '%'}));
+  }
+  var legend = figure.querySelector('.legend');
+  live.causes.slice(1).forEach(function(name, k) {
+    if (cause.indexOf(k + 1) >= 0)
+      legend.append(make('span', {}, [make('i', {class: 'sw c-' + name}), kit.causeLabel[name] || name]));
+  });
+  // The recommended bias of the point, or the best of its curve.
+  function best() {
+    var p = kit.byId[live.point];
+    if (p && p.at) return p.at.depth;
+    return 'recommended' in live.marks ? live.marks.recommended : 'best' in live.marks ? live.marks.best : depth;
+  }
+  addEventListener('beforeprint', function() {
+    set(best());
+  });
+  function follow() {
+    set(page.bias === 'set' && 'set' in live.marks ? live.marks.set : best());
+  }
+  page.onBias.push(follow);
+  // A picture of the given kind at a bias in window depth, as a data: address.
+  function pictureAt(d, wanted) {
+    var held = [depth, kind];
+    kind = wanted;
+    set(d);
+    var address = canvas.toDataURL();
+    kind = held[1];
+    set(held[0]);
+    return address;
+  }
+  // The pixel that is most wrong by a cause; null if there is none.
+  function worst(name, d) {
+    var now = answersAt(d / live.depth_per_unit), wanted = live.causes.indexOf(name), found = null;
+    for (var i = 0; i < pixels; ++i) {
+      var k = now.shown[i];
+      if (k < 0 || flags[i] & ambiguous || cause[k] !== wanted) continue;
+      var error = Math.abs(lit[k] / live.taps - (flags[i] & truthLit ? 1 : 0));
+      if (!found || error > found.error) found = {x: i % live.width, y: Math.floor(i / live.width), error: error};
+    }
+    return found;
+  }
+  follow();
+  page.live = {
+    data: live,
+    answersAt: answersAt,
+    lit: lit,
+    cause: cause,
+    set: set,
+    show: show,
+    canvas: canvas,
+    pictureAt: pictureAt,
+    worst: worst
+  };
 }
-var legend = figure.querySelector('.legend');
-live.causes.slice(1).forEach(function(name, k) {
-  if (cause.indexOf(k + 1) >= 0)
-    legend.append(make('span', {}, [make('i', {class: 'sw c-' + name}), kit.causeLabel[name] || name]));
+page.liveReady = 'DecompressionStream' in window ? unpack().then(start) : Promise.resolve().then(function() {
+  document.querySelector('#live-picture .facts').textContent =
+      'This browser cannot unpack the live picture. Use Chrome 80, Firefox 113, Safari 16.4 or a later one.';
 });
-function best() {
-  return 'recommended' in live.marks ? live.marks.recommended : 'best' in live.marks ? live.marks.best : depth;
-}
-addEventListener('beforeprint', function() {
-  set(best());
-});
-set('recommended' in live.marks || 'best' in live.marks ? best() : live.marks.set || 0);
-page.live = {
-  data: live,
-  answersAt: answersAt,
-  lit: lit,
-  cause: cause
-};
 })();

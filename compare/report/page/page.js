@@ -1,4 +1,4 @@
-// The page around the charts: pictures to switch between, the sortable table, the selection, and the first drawing.
+// The page around the charts: pictures to switch between, and the first drawing.
 (function() {
 'use strict';
 var page = window.noonmarkPage, kit = page.kit, make = kit.make;
@@ -64,7 +64,7 @@ if (sets.length) {
 }
 // Keys work while the pictures are in view and no element that takes keys has the focus.
 document.addEventListener('keydown', function(event) {
-  if (!current || event.ctrlKey || event.metaKey || event.altKey ||
+  if (!current || event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]') ||
       /^(SELECT|INPUT|TEXTAREA)$/.test(document.activeElement.tagName))
     return;
   var box = current.getBoundingClientRect();
@@ -81,58 +81,7 @@ document.addEventListener('keydown', function(event) {
   event.preventDefault();
 });
 
-// ---- the table
-document.querySelectorAll('table.sortable').forEach(function(table) {
-  var body = table.tBodies[0], heads = Array.prototype.slice.call(table.tHead.rows[0].cells);
-  function sort(column) {
-    var down = heads[column].getAttribute('aria-sort') === 'ascending';
-    heads.forEach(function(h) {
-      h.removeAttribute('aria-sort');
-    });
-    heads[column].setAttribute('aria-sort', down ? 'descending' : 'ascending');
-    function key(row) {
-      var v = row.cells[column].dataset.v;
-      return v === undefined ? '' : v;
-    }
-    var rows = Array.prototype.slice.call(body.rows).map(function(r) {
-      var t = key(r), n = t === '' ? NaN : Number(t);
-      return {r: r, t: t, n: n};
-    });
-    var numeric = rows.some(function(x) {
-      return !isNaN(x.n);
-    });
-    rows.sort(function(a, b) {
-      if (!numeric) return (a.t < b.t ? -1 : a.t > b.t ? 1 : 0) * (down ? -1 : 1);
-      if (isNaN(a.n) || isNaN(b.n)) return isNaN(a.n) - isNaN(b.n);  // values that are not finite are always last
-      return (a.n - b.n) * (down ? -1 : 1);
-    });
-    rows.forEach(function(x) {
-      body.append(x.r);
-    });
-  }
-  heads.forEach(function(head, i) {
-    head.tabIndex = 0;
-    head.addEventListener('click', function() {
-      sort(i);
-    });
-    head.addEventListener('keydown', function(e) {
-      if (e.key === 'Enter' || e.key === ' ') {
-        e.preventDefault();
-        sort(i);
-      }
-    });
-  });
-  body.addEventListener('click', function(event) {
-    var row = event.target.closest('tr');
-    if (row) page.select(+row.dataset.point);
-  });
-});
 page.onSelect.push(function(id) {
-  document.querySelectorAll('tr.selected').forEach(function(r) {
-    r.classList.remove('selected');
-  });
-  var row = document.getElementById('p' + id);
-  if (row) row.classList.add('selected');
   var set = sets.filter(function(s) {
     return +s.dataset.point === id;
   })[0];
@@ -143,15 +92,46 @@ page.onSelect.push(function(id) {
   }
 });
 
+// What scrolls can be scrolled with the keyboard, and has the name of the heading or the summary before it.
+function scrollable() {
+  document.querySelectorAll('.scroll, .budget.many .rows').forEach(function(box) {
+    if (box.tabIndex === 0 || (box.scrollWidth <= box.clientWidth && box.scrollHeight <= box.clientHeight)) return;
+    var folded = box.closest('details'), above = (box.closest('section') || document).querySelector('h1, h2');
+    box.tabIndex = 0;
+    box.setAttribute('role', 'region');
+    box.setAttribute(
+        'aria-label',
+        'Table: ' + (folded ? folded.querySelector('summary') : above).textContent + ' ' +
+            (1 + Array.prototype.indexOf.call(document.querySelectorAll('.scroll, .rows'), box)));
+  });
+}
+
+// Nothing is folded on paper.
+var unfolded = [];
+addEventListener('beforeprint', function() {
+  unfolded = Array.prototype.slice.call(document.querySelectorAll('details:not([open])'));
+  unfolded.forEach(function(d) {
+    d.open = true;
+  });
+});
+addEventListener('afterprint', function() {
+  unfolded.forEach(function(d) {
+    d.open = false;
+  });
+});
+
 // ---- first drawing, and again when the width changes
 function drawAll() {
   kit.drawn.forEach(function(c) {
     c.draw();
   });
   enlarge();
+  scrollable();
 }
+page.redraw = drawAll;
 drawAll();
 addEventListener('load', enlarge);
+if (page.openByAddress) page.openByAddress();
 var width = innerWidth, timer = 0;
 addEventListener('resize', function() {
   if (innerWidth === width) return;

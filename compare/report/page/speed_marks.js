@@ -14,19 +14,23 @@ var shapes = [
 ];
 var cross = 'M-0.8 -0.8L0.8 0.8M-0.8 0.8L0.8 -0.8', disc = 'M1 0A1 1 0 1 1 -1 0A1 1 0 1 1 1 0Z';
 
-// The Pareto front, as pareto_front() in compare/report/findings.h: ascending in cost, equal ones are all kept.
+// The Pareto front, as pareto_front() in compare/report/findings.h: ascending in cost. Costs whose intervals overlap are
+// equal; equal ones are all kept.
 function frontOf(rows) {
   var front = [];
   rows.filter(function(r) {
         return r.counts;
       })
       .sort(function(a, b) {
-        return a.x - b.x || a.v - b.v;
+        return a.v - b.v || a.x - b.x;
       })
       .forEach(function(r) {
         var last = front[front.length - 1];
-        if (!last || r.v < last.v || (r.v === last.v && r.x === last.x)) front.push(r);
+        if (!last || r.high < last.low || (r.v === last.v && r.low <= last.high)) front.push(r);
       });
+  front.sort(function(a, b) {
+    return a.x - b.x || a.v - b.v;
+  });
   return front;
 }
 
@@ -45,7 +49,11 @@ function spread(rows, w) {
         else
           columns.push({x: r.x, rows: [r]});
       });
-  var low = columns[0].x, high = columns[columns.length - 1].x, log = low > 0, same = low === high;
+  var low = Infinity, high = -Infinity;
+  rows.forEach(function(r) {
+    low = Math.min(low, r.low), high = Math.max(high, r.high);
+  });
+  var log = low > 0, same = low === high;
   function room(column) {
     return Math.min(0.2 * w, 10 + step * column.rows.length / 2);
   }
@@ -61,7 +69,9 @@ function spread(rows, w) {
         right = i + 1 < columns.length ? (place(columns[i + 1].x) - column.px) / 2 : w - column.px;
     var n = column.rows.length, apart = Math.min(step, 2 * (Math.min(left, right) - 2) / n);
     column.rows.forEach(function(r, k) {
-      r.px = column.px + Math.max(0, apart) * (k - (n - 1) / 2);
+      var moved = Math.max(0, apart) * (k - (n - 1) / 2);
+      r.px = column.px + moved;
+      r.pxLow = place(r.low) + moved, r.pxHigh = place(r.high) + moved;
     });
   });
   return {name: 'x', type: log ? 'log' : 'linear', zero: false, nice: false, domain: domain, range: [from, to]};
@@ -107,6 +117,22 @@ function marksOf(w, floor) {
           x: {field: 'px'},
           y: {scale: 'y', field: 'top'},
           y2: {scale: 'y', field: 'bottom'},
+          stroke: {value: 'var(--soft)'},
+          strokeOpacity: {value: 0.55},
+          strokeWidth: {value: 1.6}
+        }
+      }
+    },
+    {
+      type: 'rule',
+      name: 'cost-bars',
+      from: {data: 'intervals'},
+      interactive: false,
+      encode: {
+        enter: {
+          x: {field: 'pxLow'},
+          x2: {field: 'pxHigh'},
+          y: {scale: 'y', field: 'y'},
           stroke: {value: 'var(--soft)'},
           strokeOpacity: {value: 0.55},
           strokeWidth: {value: 1.6}

@@ -63,7 +63,40 @@ TEST(Recommend, AccurateTakesTheLeastErrorAtTheChosenBias) {
   EXPECT_NEAR(recommend(results).error.worst, 0.3, 1e-15);
   EXPECT_EQ(id_of(recommend_accurate(results)), 2);  // as accurate as point 1, and cheaper
   EXPECT_EQ(recommend_accurate(results).error.worst, 0.125);
-  EXPECT_EQ(recommend_accurate(results).cost, 2);
+  EXPECT_EQ(recommend_accurate(results).cost.middle, 2);
+}
+
+// Points of the given times, each with an error of its own; the cost is the time.
+Results with_times(std::initializer_list<std::pair<Interval, double>> time_and_error) {
+  Results results;
+  results.info.cost = "shadow_ms";
+  for (const auto& [time, error] : time_and_error) {
+    PointRecord point = point_with(static_cast<int64_t>(results.points.size()), 1, 0.25, 0.75);
+    point.metrics.insert({{"shadow_low_ms", time.low}, {"shadow_ms", time.middle}, {"shadow_high_ms", time.high}});
+    point.curve->error.assign(5, error);
+    results.points.push_back(point);
+  }
+  return results;
+}
+
+TEST(Recommend, TimesDifferOnlyWhereTheirIntervalsDoNotOverlap) {
+  // Point 1 is a little slower than point 0 and more accurate; point 2 is certainly slower, and more accurate still.
+  Recommendation found = recommend(with_times({{{2, 3, 4}, 0.4}, {{3, 3.5, 5}, 0.3}, {{4.5, 5, 6}, 0.1}}));
+  EXPECT_EQ(id_of(found), 1);
+  EXPECT_EQ(found.noise.costs, 3u);
+  EXPECT_EQ(found.noise.least, 2u);
+  EXPECT_FALSE(found.noise.meaningless());
+  found = recommend(with_times({{{2, 3, 4}, 0.4}, {{4.1, 4.5, 5}, 0.3}}));
+  EXPECT_EQ(id_of(found), 0);
+  EXPECT_EQ(found.noise.least, 1u);
+  found = recommend(with_times({{{2, 3, 4}, 0.4}, {{3, 3.5, 5}, 0.3}, {{4, 5, 6}, 0.1}}));
+  EXPECT_EQ(id_of(found), 2);
+  EXPECT_TRUE(found.noise.meaningless()) << "no time is certainly above the shortest";
+  // Equal work has equal times, so it says nothing about noise.
+  found = recommend(with_times({{{2, 3, 4}, 0.4}, {{2, 3, 4}, 0.3}}));
+  EXPECT_EQ(id_of(found), 1);
+  EXPECT_EQ(found.noise.costs, 1u);
+  EXPECT_FALSE(found.noise.meaningless());
 }
 
 TEST(Recommend, MovesTheBestBiasIntoTheWindowAndKeepsAMargin) {

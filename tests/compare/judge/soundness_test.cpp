@@ -13,6 +13,12 @@
 namespace noonmark {
 namespace {
 
+Image<float> image_of(const MapDepths& map) {
+  Image<float> image(map.size().x, map.size().y);
+  for (int y = 0; y < image.height; ++y) map.copy_row(y, &image.at(0, y));
+  return image;
+}
+
 struct Case {
   Synthetic s;
   Image<float> ties, tie_lookup;
@@ -22,14 +28,14 @@ struct Case {
   explicit Case(uint64_t seed, int kernel, Lookup lookup = Lookup::box)
       : s(random_evidence(seed, {.kernel = kernel, .lookup = lookup})) {
     set_verdicts(s);
-    ties = tie_map(s.evidence());
+    ties = image_of(tie_map(s.evidence()));
     tie_lookup = Image<float>(s.r4.width, s.r4.height, 0);
     for (size_t i = 0; i < s.r4.size(); ++i) tie_lookup[i] = naive::visibility(s, ties, i, DepthFormat::d32f);
     receivers = {Image<glm::vec3>(s.r4.width, s.r4.height, glm::vec3(0)),
                  Image<glm::vec3>(s.r4.width, s.r4.height, glm::vec3(0)), Image<uint32_t>(s.r4.width, s.r4.height, 0)};
   }
   std::map<std::string, double> metrics() {
-    return measure_soundness({s.evidence(), s.stored, ties, tie_lookup, receivers, frame, {}});
+    return measure_soundness({s.evidence(), s.stored_map(), MapDepths(ties), tie_lookup, receivers, frame, {}});
   }
 };
 
@@ -64,7 +70,8 @@ TEST(Contract, AndTheRestAreTheSameInStrips) {
     const std::map<std::string, double> whole = c.metrics();
     Synthetic held = c.s;  // the evidence refers to this; each strip replaces it
     const LookupEvidence evidence = held.evidence();
-    SoundnessCheck check({evidence, c.s.stored, c.ties, c.tie_lookup, c.receivers, c.frame, {}});
+    const MapDepths stored = c.s.stored_map(), ties(c.ties);
+    SoundnessCheck check({evidence, stored, ties, c.tie_lookup, c.receivers, c.frame, {}});
     for_each_strip(c.s, seed, [&](const Synthetic& part, PixelRange strip) {
       held.taps = part.taps;
       held.probe = part.probe;
@@ -102,7 +109,7 @@ TEST(Contract, AllowsASamplerTiesOfFixedPointDepthsOnly) {
     }
     for (float& depth : c.s.stored.pixels) depth = 0.5f;
     for (float& depth : c.s.exact.pixels) depth = 0.25f;
-    c.ties = tie_map(c.s.evidence());
+    c.ties = image_of(tie_map(c.s.evidence()));
     set_verdicts(c.s);
     for (size_t i = 0; i < c.s.r4.size(); ++i) {
       ASSERT_EQ(c.s.r5[i], 1);

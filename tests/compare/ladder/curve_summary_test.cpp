@@ -55,7 +55,7 @@ TEST(Summarise, GivesSharesUnitsAndTheWindow) {
   make_acne(s, 1, 0x1p-5f);
   make_shadow(s, 2, 0x1p-3f);
   make_shadow(s, 3, 0x1p-2f);
-  const BiasCounts counts(s.evidence(), s.stored, bias_part("constant"));
+  const BiasCounts counts(s.evidence(), s.stored_map(), bias_part("constant"));
   BiasCurve c = summarise(counts, test_scale(), {0, 0, {0, 0x1p-6, 0x1p-4, 0x1p-3, 1}});
   EXPECT_EQ(c.parameter, "bias.constant");
   EXPECT_EQ(c.made, "one pass");
@@ -99,7 +99,8 @@ TEST(Summarise, HasNoWindowWhereTheCausesOverlap) {
   Synthetic s = row_of(4);
   make_acne(s, 0, 0x1p-3f);
   make_shadow(s, 1, 0x1p-4f);
-  const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored, bias_part("constant")), test_scale(), {0, 0, {}});
+  const BiasCurve c =
+      summarise(BiasCounts(s.evidence(), s.stored_map(), bias_part("constant")), test_scale(), {0, 0, {}});
   EXPECT_FALSE(c.window_min_depth);
   EXPECT_FALSE(c.window_max_depth);
   EXPECT_EQ(c.best_error, 0.25);
@@ -109,12 +110,12 @@ TEST(Summarise, HasNoWindowWhereNoSlopeReaches) {
   Synthetic s = row_of(4);
   make_acne(s, 0, 0x1p-3f);
   s.probe.n_dot_l[0] = 1;  // 1 - N.L = 0, so no slope gives this receiver a bias
-  const BiasCounts counts(s.evidence(), s.stored, bias_part("slope"));
+  const BiasCounts counts(s.evidence(), s.stored_map(), bias_part("slope"));
   EXPECT_EQ(counts.acne_free_from(0), infinity);
   EXPECT_FALSE(summarise(counts, test_scale(), {0, 0, {}}).window_min_depth);
   EXPECT_TRUE(summarise(counts, test_scale(), {0.25, 0, {}}).window_min_depth);
   make_shadow(s, 0, 0x1p-3f);
-  EXPECT_EQ(BiasCounts(s.evidence(), s.stored, bias_part("slope")).peter_panning_free_to(0), infinity);
+  EXPECT_EQ(BiasCounts(s.evidence(), s.stored_map(), bias_part("slope")).peter_panning_free_to(0), infinity);
 }
 
 TEST(Summarise, AllowsWhatTheMetricCallsWithinTheBound) {
@@ -124,7 +125,7 @@ TEST(Summarise, AllowsWhatTheMetricCallsWithinTheBound) {
       Synthetic s = row_of(of);
       for (int i = 0; i < n; ++i) make_acne(s, static_cast<size_t>(i), 0x1p-4f);
       const double share = static_cast<double>(n) / of;
-      const BiasCounts counts(s.evidence(), s.stored, bias_part("constant"));
+      const BiasCounts counts(s.evidence(), s.stored_map(), bias_part("constant"));
       EXPECT_EQ(summarise(counts, test_scale(), {share, 0, {}}).window_min_depth, 0) << n << " of " << of;
       if (n > 0) {
         EXPECT_GT(summarise(counts, test_scale(), {std::nextafter(share, 0), 0, {}}).window_min_depth, 0) << n;
@@ -140,7 +141,7 @@ TEST(Summarise, SaysNaNWhereThereAreNoReceivers) {
   Synthetic nothing;
   nothing.exact = nothing.stored = Image<float>(1, 1, 1);
   for (const Synthetic& s : {empty, nothing}) {
-    const BiasCounts counts(s.evidence(), s.stored, bias_part("constant"));
+    const BiasCounts counts(s.evidence(), s.stored_map(), bias_part("constant"));
     EXPECT_EQ(counts.receivers(), 0);
     EXPECT_EQ(counts.wrong_taps(0.5f), 0);
     EXPECT_EQ(counts.best().wrong_taps, 0);
@@ -164,7 +165,7 @@ TEST(Summarise, TurnsTheParametersUnitIntoDepth) {
   const auto curve = [&](BiasUnit unit) {
     const BiasScale scale = test_scale(unit);
     for (float& of_receiver : s.probe.bias_unit.pixels) of_receiver = static_cast<float>(scale.depth_per_unit);
-    return summarise(BiasCounts(s.evidence(), s.stored, bias_part("constant")), scale, {0, 0, {0, 0x1p-4, 0.2}});
+    return summarise(BiasCounts(s.evidence(), s.stored_map(), bias_part("constant")), scale, {0, 0, {0, 0x1p-4, 0.2}});
   };
   const BiasCurve depth = curve(BiasUnit::depth);
   for (const BiasUnit unit : {BiasUnit::m, BiasUnit::texel}) {
@@ -179,14 +180,14 @@ TEST(Summarise, TurnsTheParametersUnitIntoDepth) {
     EXPECT_EQ(c.m_per_depth, depth.m_per_depth);
   }
   s.probe.bias_unit[0] /= 2;  // this receiver needs twice the parameter
-  const BiasCurve apart =
-      summarise(BiasCounts(s.evidence(), s.stored, bias_part("constant")), test_scale(BiasUnit::texel), {0, 0, {}});
+  const BiasCurve apart = summarise(BiasCounts(s.evidence(), s.stored_map(), bias_part("constant")),
+                                    test_scale(BiasUnit::texel), {0, 0, {}});
   EXPECT_NEAR(*apart.acne_free_bias_depth / (2 * *depth.acne_free_bias_depth), 1, 0x1p-22);
 }
 
 TEST(Summarise, SaysWhenASamplerWeighsTheTaps) {
   const Synthetic s = random_evidence(3, {12, 9, 6, 1, true, Lookup::linear});
-  const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored, bias_part("tan")), {}, {});
+  const BiasCurve c = summarise(BiasCounts(s.evidence(), s.stored_map(), bias_part("tan")), {}, {});
   EXPECT_EQ(c.parameter, "bias.tan");
   EXPECT_EQ(c.made, "one pass, except for the sampler's weights");
 }
@@ -226,6 +227,44 @@ TEST(DefaultBiasGrid, AscendsFromNothingToTheWholeMap) {
   EXPECT_DOUBLE_EQ(grid[1], 1e-7);
   EXPECT_EQ(grid.back(), 1);
   for (size_t i = 1; i < grid.size(); ++i) EXPECT_LT(static_cast<float>(grid[i - 1]), static_cast<float>(grid[i]));
+}
+
+// The windows at other bounds, from the steps alone, are those of another summary, and those of the counts themselves.
+TEST(Summarise, GivesTheWindowsAtOtherBounds) {
+  int windows = 0;
+  for (uint64_t seed = 0; seed < 60; ++seed) {
+    const Synthetic s = random_evidence(seed, {40, 30, 6, 3, false, static_cast<Lookup>(seed % 3)});
+    const BiasCounts counts(s.evidence(), s.stored_map(), bias_part("constant"));
+    BiasCurve curve = summarise(counts, test_scale(), {});
+    const WindowSteps stored = curve.steps;
+    curve.steps.acne = steps_of_bytes(bytes_of_steps(stored.acne));
+    curve.steps.peter_panning = steps_of_bytes(bytes_of_steps(stored.peter_panning));
+    ASSERT_EQ(curve.steps, stored);
+    for (double acne : {0.0, 0.0003, 0.002, 0.01, 0.0499, 0.05})
+      for (double panning : {0.0, 0.001, 0.02, 0.05}) {
+        const BiasCurve anew = summarise(counts, test_scale(), {acne, panning, {}});
+        judge_window(curve, acne, panning);
+        ASSERT_EQ(curve.window_min_depth, anew.window_min_depth) << seed << " " << acne << " " << panning;
+        ASSERT_EQ(curve.window_max_depth, anew.window_max_depth) << seed << " " << acne << " " << panning;
+        const double from = counts.acne_free_from(acne), to = counts.peter_panning_free_to(panning);
+        ASSERT_EQ(curve.window_min_depth.has_value(), from <= to && from <= 1) << seed << " " << acne << " " << panning;
+        if (!curve.window_min_depth) continue;
+        ++windows;
+        ASSERT_EQ(*curve.window_min_depth, from);
+        ASSERT_EQ(*curve.window_max_depth, std::min(to, 1.0));
+      }
+  }
+  EXPECT_GT(windows, 50) << "there are hardly any windows, so the test shows little";
+  EXPECT_FALSE(WindowSteps().can_judge(0, 0));
+}
+
+TEST(Summarise, BytesOfAnotherListAreRefused) {
+  const WindowSteps::Steps steps = {{0, 5}, {0x1p-20f, 7}, {infinity, 1e15}};
+  const std::string bytes = bytes_of_steps(steps);
+  EXPECT_EQ(steps_of_bytes(bytes), steps);
+  for (size_t size = 0; size < bytes.size(); ++size) EXPECT_ANY_THROW(steps_of_bytes(bytes.substr(0, size))) << size;
+  EXPECT_ANY_THROW(steps_of_bytes(bytes + "x"));
+  EXPECT_ANY_THROW(steps_of_bytes("\xff\xff\xff\xff\xff\x01"));
 }
 
 }  // namespace

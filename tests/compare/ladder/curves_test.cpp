@@ -108,7 +108,7 @@ class Curves : public testing::TestWithParam<Case> {
 TEST_P(Curves, CountWhatRenderingWouldAtEveryBreakpointAndBetween) {
   for (uint64_t seed = 1; seed <= 12; ++seed) {
     const Synthetic s = random_evidence(seed, shape);
-    const BiasCounts counts(s.evidence(), s.stored, varied);
+    const BiasCounts counts(s.evidence(), s.stored_map(), varied);
     std::set<float> tried = {0.0f, std::numeric_limits<float>::denorm_min(), 1.0f, 3.0f,
                              std::numeric_limits<float>::max()};
     for (float x : breakpoints(s, varied)) {
@@ -130,7 +130,7 @@ TEST_P(Curves, CountWhatRenderingWouldAtEveryBreakpointAndBetween) {
 TEST_P(Curves, NameTheExactEndsOfTheWindow) {
   for (uint64_t seed = 20; seed <= 32; ++seed) {
     const Synthetic s = random_evidence(seed, shape);
-    const BiasCounts counts(s.evidence(), s.stored, varied);
+    const BiasCounts counts(s.evidence(), s.stored_map(), varied);
     const auto caused = [&](Cause cause, float x) {
       return counted_at(s, varied, x).caused[static_cast<size_t>(cause)];
     };
@@ -174,7 +174,7 @@ uint64_t stored_acne(const Synthetic& s, const BiasPart& varied, float x) {
 TEST_P(Curves, NameTheExactEndOfTheStoredMapsAcne) {
   for (uint64_t seed = 20; seed <= 32; ++seed) {
     const Synthetic s = random_evidence(seed, shape);
-    const BiasCounts counts(s.evidence(), s.stored, varied);
+    const BiasCounts counts(s.evidence(), s.stored_map(), varied);
     const float from = counts.stored_acne_free_from();
     if (from < infinity) {
       EXPECT_EQ(stored_acne(s, varied, from), 0);
@@ -195,7 +195,7 @@ TEST_P(Curves, NameTheExactEndOfTheStoredMapsAcne) {
 TEST_P(Curves, FindTheBestBiasByTryingAll) {
   for (uint64_t seed = 40; seed <= 52; ++seed) {
     const Synthetic s = random_evidence(seed, shape);
-    const BiasCounts::Best best = BiasCounts(s.evidence(), s.stored, varied).best();
+    const BiasCounts::Best best = BiasCounts(s.evidence(), s.stored_map(), varied).best();
     std::vector<float> starts = {0};
     for (float x : breakpoints(s, varied, false, true))
       if (x <= 1) starts.push_back(x);
@@ -242,7 +242,7 @@ RC_GTEST_PROP(BiasCounts, AreDirectEvaluationBitForBit, ()) {
   const auto lookup = *rc::gen::element(Lookup::box, Lookup::linear, Lookup::cube);
   const Synthetic s = random_evidence(*rc::gen::arbitrary<uint64_t>(),
                                       {7, 5, 6, *rc::gen::element(1, 3), *rc::gen::arbitrary<bool>(), lookup});
-  const BiasCounts counts(s.evidence(), s.stored, varied);
+  const BiasCounts counts(s.evidence(), s.stored_map(), varied);
   for (int i = 0; i < 100; ++i) {
     const float x = std::bit_cast<float>(*rc::gen::inRange<uint32_t>(0, std::bit_cast<uint32_t>(64.0f)));
     RC_ASSERT(read_off(counts, x) == counted_at(s, varied, x));
@@ -271,7 +271,7 @@ TEST(BiasCounts, AreTheSameOverManyBlocks) {
     const BiasPart& varied = bias_part(name);
     const Synthetic s =
         random_evidence(5, {220, 170, 64, 1, false, Lookup::linear});  // more than one of the loop's blocks of 8192
-    const BiasCounts counts(s.evidence(), s.stored, varied);
+    const BiasCounts counts(s.evidence(), s.stored_map(), varied);
     for (int i = 0; i <= 40; ++i)
       ASSERT_EQ(read_off(counts, static_cast<float>(i) / 32), counted_at(s, varied, static_cast<float>(i) / 32));
   }
@@ -282,10 +282,11 @@ TEST(BiasCounts, AreTheSameInStrips) {
   for (uint64_t seed = 0; seed < 90; ++seed) {
     const BiasPart& varied = bias_part(varied_names[seed % 3]);
     const Synthetic s = random_evidence(seed, {12, 9, 6, 3, seed % 2 == 0, static_cast<Lookup>(seed / 3 % 3)});
-    const BiasCounts whole(s.evidence(), s.stored, varied);
+    const BiasCounts whole(s.evidence(), s.stored_map(), varied);
     BiasCounts counts(s.probe, varied);
-    for_each_strip(s, seed,
-                   [&](const Synthetic& part, PixelRange strip) { counts.add(part.evidence(), part.stored, strip); });
+    for_each_strip(s, seed, [&](const Synthetic& part, PixelRange strip) {
+      counts.add(part.evidence(), part.stored_map(), strip);
+    });
     for (float x : breakpoints(s, varied))
       for (float beside : {std::nextafter(x, 0.0f), x})
         ASSERT_EQ(read_off(counts, beside), read_off(whole, beside)) << seed;
@@ -308,7 +309,7 @@ TEST(BiasCounts, AreWhatTheLadderBooksAtThatBias) {
     if (!varied) continue;
     set_verdicts(s);
     const Ladder ladder = climb(s.evidence());
-    const BiasCounts counts(s.evidence(), s.stored, *varied);
+    const BiasCounts counts(s.evidence(), s.stored_map(), *varied);
     const auto x = static_cast<float>(s.bias[varied->name]);
     const double whole = s.lookup == Lookup::linear ? 1 : s.taps.taps_per_receiver;
     for (Cause cause : booked) {

@@ -26,7 +26,15 @@ struct Synthetic {
   int kernel = 1;  // box, cube: taps on a side; linear: fetches of 2 x 2 texels on a side
 
   int side() const { return lookup == Lookup::linear ? kernel + 1 : kernel; }
-  LookupEvidence evidence() const { return {truth, probe, taps, exact, map, Bias(bias), r4, r5}; }
+  // The evidence refers to this object; it has the exact map as it is now.
+  LookupEvidence evidence() const {
+    exact_map_ = MapDepths(exact);
+    return {truth, probe, taps, exact_map_, map, Bias(bias), r4, r5};
+  }
+  MapDepths stored_map() const { return MapDepths(stored); }
+
+ private:
+  mutable MapDepths exact_map_;
 };
 
 // The same evidence with the taps of one strip only, as in a measurement with many taps.

@@ -56,7 +56,7 @@ TEST(TapOf, ReadsWhatOpenGLWould) {
       if (!s.truth.facing[i]) continue;
       const std::vector<naive::Tap> expected = naive::taps_of(s, s.stored, i);
       ReceiverTaps taps;
-      taps.read(s.probe, s.taps, s.map, s.stored, i);
+      taps.read(s.probe, s.taps, s.map, s.stored_map(), i);
       for (size_t t = 0; t < expected.size(); ++t) {
         const Tap& tap = taps[t];
         ASSERT_EQ(tap.exact_lit, expected[t].exact_lit);

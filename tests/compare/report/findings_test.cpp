@@ -38,11 +38,25 @@ TEST(Pareto, AgreesWithBruteForce) {
                   other.second <= points[i].second && other != points[i];
       if (!beaten) expected.insert(i);
     }
-    const std::vector<size_t> front = pareto_front(points);
+    std::vector<CostAndError> plane;
+    for (const auto& [x, y] : points) plane.push_back({{x, x, x}, y});
+    const std::vector<size_t> front = pareto_front(plane);
     EXPECT_EQ(std::set<size_t>(front.begin(), front.end()), expected);
     EXPECT_EQ(front.size(), expected.size());
     for (size_t i = 1; i < front.size(); ++i) EXPECT_LE(points[front[i - 1]].first, points[front[i]].first);
   }
+}
+
+TEST(Pareto, TakesCostsThatOverlapAsEqual) {
+  const auto front = [](const std::vector<CostAndError>& points) { return pareto_front(points); };
+  using Indices = std::vector<size_t>;
+  // The cheaper median of point 0 is not certain, and point 1 is more accurate.
+  EXPECT_EQ(front({{{2, 3, 4}, 0.2}, {{3, 3.5, 5}, 0.1}}), (Indices{1}));
+  EXPECT_EQ(front({{{2, 2.5, 2.9}, 0.2}, {{3, 3.5, 5}, 0.1}}), (Indices{0, 1}));
+  // A chain of overlaps does not remove its cheap end, which is certainly cheaper than the accurate one.
+  EXPECT_EQ(front({{{5, 6, 7}, 0.1}, {{4, 5, 6}, 0.2}, {{3, 4, 4.5}, 0.3}}), (Indices{2, 0}));
+  EXPECT_EQ(front({{{2, 3, 4}, 0.2}, {{3, 3.5, 5}, 0.2}}), (Indices{0, 1})) << "equally accurate";
+  EXPECT_EQ(front({{{2, 3, nan}, 0.1}, {{3, 3.5, 5}, 0.2}}), (Indices{1}));
 }
 
 bool speaks_for(const Rule& rule, const PointRecord& point) {

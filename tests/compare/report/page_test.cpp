@@ -1,12 +1,9 @@
 // The report's page in a real browser, headless Chromium: what its scripts draw, and what clicks and keys do.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -16,7 +13,7 @@
 #include "compare/report/phase.h"
 #include "compare/report/report.h"
 #include "compare/report/speed.h"
-#include "scenes/file.h"
+#include "tests/compare/report/browser.h"
 #include "tests/compare/report/sample.h"
 #include "tests/support/sample_results.h"
 
@@ -24,60 +21,6 @@ namespace noonmark {
 namespace {
 
 using nlohmann::json;
-
-std::string output_of(const std::string& command) {
-  FILE* const pipe = popen(command.c_str(), "r");
-  std::string text;
-  char block[65536];
-  for (size_t n = 0; pipe && (n = fread(block, 1, sizeof block, pipe)) > 0;) text.append(block, n);
-  if (pipe) pclose(pipe);
-  return text;
-}
-
-class Browser : public testing::Test {
- protected:
-  // Opens the page and runs a probe in it (a file beside this one), which leaves what it saw. Without a browser the test
-  // is skipped, with this reason.
-  void open(std::string page, const char* probe) {
-    std::string browser = output_of("command -v chromium || command -v chromium-browser || command -v google-chrome");
-    if (browser.empty()) GTEST_SKIP() << "there is no chromium, so the scripts of the page are not tested";
-    browser.pop_back();
-    const auto insert = [&](const std::string& before, const std::string& script) {
-      const size_t at = page.rfind(before);
-      ASSERT_NE(at, std::string::npos);
-      page.insert(at, "<script>" + script + "</script>");
-    };
-    insert("</body>", read_file(std::string(NOONMARK_SOURCE_DIR "/tests/compare/report/") + probe));
-    insert("</head>",
-           "var errors = []; addEventListener('error', function(e) { errors.push(e.message); });"
-           "addEventListener('securitypolicyviolation', function(e) { errors.push(e.violatedDirective); });"
-           "['error', 'warn'].forEach(function(k) { console[k] = function(what) { errors.push(String(what)); }; });");
-    folder_ = std::filesystem::path(testing::TempDir()) / ("noonmark-page-" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_);
-    const std::string file = (folder_ / "report.html").string();
-    write_file_atomically(file, page);
-    const std::string dom = output_of(
-        "HOME='" + folder_.string() + "' timeout 100 '" + browser +
-        "' --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --window-size=1200,900 "
-        "--virtual-time-budget=2000 --user-data-dir='" +
-        (folder_ / "profile").string() + "' --dump-dom 'file://" + file + "' 2>'" + (folder_ / "browser.txt").string() +
-        "'");
-    const std::string head = "<pre id=\"probe\">";
-    const size_t begin = dom.rfind(head);
-    ASSERT_NE(begin, std::string::npos) << "the scripts of the page stopped; the output of the browser: "
-                                        << read_file((folder_ / "browser.txt").string());
-    saw_ = json::parse(dom.substr(begin + head.size(), dom.find("</pre>", begin) - begin - head.size()));
-    EXPECT_EQ(saw_["errors"], json::array()) << "errors of the page's scripts";
-  }
-  void TearDown() override {
-    std::error_code ignored;
-    if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
-  }
-  int marks(const char* chart, const char* kind) const { return saw_["charts"].at(chart).at(kind); }
-
-  std::filesystem::path folder_;
-  json saw_;
-};
 
 class Page : public Browser {
  protected:
@@ -122,10 +65,62 @@ TEST_F(Page, TheTableSortsAndSelects) {
   EXPECT_TRUE(std::is_sorted(down.begin(), down.end() - 1, std::greater<>()));
   EXPECT_EQ(table["sorted"], "descending");
   EXPECT_EQ(table["filter"][0], "box") << "words must be sorted as words, with the keyboard too";
+  EXPECT_TRUE(table["focus"]);
   EXPECT_EQ(table["filter"][31], "none");
   EXPECT_EQ(saw_["selected_by_row"], json({5}));
   EXPECT_NE(saw_["facts_of_5"], saw_["bias"]["facts"]) << "the chart must show the selected point";
   EXPECT_EQ(saw_["selected_by_symbol"], json({saw_["symbol"]}));
+}
+
+// The table and the budget follow the bias that is chosen at the top.
+TEST_F(Page, OneBiasIsInAllFigures) {
+  EXPECT_EQ(saw_["bias_choice"], json({"recommended", "set"}));
+  const json &recommended = saw_["at_recommended"], &set = saw_["as_set"], &point = saw_["data_of_5"];
+  EXPECT_EQ(set["error"], point["metrics"]["error"]);
+  EXPECT_EQ(recommended["error"], point["at"]["metrics"]["error"]);
+  EXPECT_NE(set["error"], recommended["error"]);
+  EXPECT_NE(set["budget"], recommended["budget"]);
+  EXPECT_EQ(set["words"], "inline");
+  EXPECT_EQ(recommended["words"], "none");
+}
+
+TEST_F(Page, ControlsHaveNamesAndImagesHaveTexts) {
+  EXPECT_EQ(saw_["unnamed"], json::array());
+  EXPECT_EQ(saw_["images_without_text"], 0);
+  EXPECT_EQ(saw_["headings"], json::array()) << "a level is skipped before these";
+}
+
+TEST_F(Page, EachPointHasACard) {
+  const json& card = saw_["card"];
+  EXPECT_TRUE(card["by_symbol"]) << "a click on a mark opens the card";
+  EXPECT_TRUE(card["closed"]);
+  const json &pictures = card["with_pictures"], &zoomed = card["zoomed"], &recommended = card["recommended"];
+  EXPECT_TRUE(pictures["open"]);
+  EXPECT_EQ(pictures["title"].get<std::string>().find("Point 18: "), 0u) << pictures["title"];
+  EXPECT_EQ(pictures["pictures"], 2);
+  EXPECT_EQ(pictures["left"].get<std::string>().find("truth"), 0u);
+  EXPECT_EQ(pictures["cuts"], 3) << "truth, classes and map";
+  EXPECT_EQ(pictures["rows"], static_cast<int>(sample_results().points[18].metrics.size()));
+  EXPECT_EQ(pictures["divide"], "inset(0px 0px 0px 50%)");
+  EXPECT_EQ(zoomed["divide"], "inset(0px 0px 0px 20%)");
+  EXPECT_EQ(pictures["width"], "100%");
+  EXPECT_EQ(zoomed["width"], "200%");
+  const std::string command = pictures["command"], at_recommended = recommended["command"];
+  EXPECT_EQ(command.find("noonmark render --set "), 0u) << command;
+  EXPECT_NE(command.find("--set map.extent_m=20"), std::string::npos) << command;
+  EXPECT_EQ(command.find("--set bias.constant="), std::string::npos) << "the default bias: " << command;
+  EXPECT_NE(at_recommended.find("--set bias.constant="), std::string::npos) << at_recommended;
+  EXPECT_EQ(card["next"]["title"].get<std::string>().find("Point 19: "), 0u);
+}
+
+TEST_F(Page, TheTableIsSearched) {
+  std::vector<int> expected;
+  for (const PointRecord& point : sample_results().points)
+    if (point.settings.at("filter.kind") == "box" && point.settings.at("map.resolution") == "2048")
+      expected.push_back(static_cast<int>(point.id));
+  std::vector<int> found = saw_["found"];
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, expected);
 }
 
 TEST_F(Page, KeysFlipThePicturesInSight) {
@@ -187,7 +182,11 @@ class SpeedPage : public Browser {
     results.info.swept.push_back("scene.name");
     for (size_t i = 0; i < 32; ++i)
       has_window_ += i > 0 && i < 28 && results.points[i].curve->window_min_depth.has_value();
-    for (PointRecord& point : results.points) point.metrics["texel_work"] = 1e6;  // all marks side by side
+    for (PointRecord& point : results.points) {
+      point.metrics["texel_work"] = 1e6;  // all marks side by side
+      point.metrics["map_low_ms"] = 0.9 * point.metrics["map_ms"];
+      point.metrics["map_high_ms"] = 1.2 * point.metrics["map_ms"];
+    }
     const ComparedGroup group = compared_groups(results).at(0);
     const report::ChoiceNames names(results);
     for (size_t i : report::front_of(group, "map_ms", "error"))
@@ -221,7 +220,11 @@ TEST_F(SpeedPage, LetsTheReaderChooseAxesGroupAndShape) {
   EXPECT_EQ(soft["titles"][0], "Error against the light's size");
   EXPECT_EQ(soft["bars"], has_window_) << "the curve gives this error at every bias too";
   EXPECT_EQ(saw_["soft_note"].get<std::string>().find("as rendered"), std::string::npos) << saw_["soft_note"];
+  EXPECT_EQ(saw_["first"]["cost_bars"], 0) << "a cost that does not depend on the machine has no interval";
   EXPECT_EQ(saw_["map_ms"]["titles"][1], "Map (ms)");
+  EXPECT_EQ(saw_["map_ms"]["cost_bars"], 28) << "the interval of each time";
+  EXPECT_NE(saw_["map_ms_legend"].get<std::string>().find("interval of the time"), std::string::npos);
+  EXPECT_NE(saw_["map_ms_words"].get<std::string>().find(" … "), std::string::npos) << saw_["map_ms_words"];
   EXPECT_NE(saw_["map_ms_note"].get<std::string>().find("from the cheapest: " + front_ + "."), std::string::npos)
       << "the page's front must be that of front_of(): " << front_ << "\n"
       << saw_["map_ms_note"];

@@ -7,6 +7,10 @@ var saw = {errors: errors};
 function all(selector, root) {
   return Array.prototype.slice.call((root || document).querySelectorAll(selector));
 }
+if (window.noonmarkPage.setBias) window.noonmarkPage.setBias('set');
+await new Promise(function(go) {
+  setTimeout(go, 0);
+});
 var figure = document.getElementById('chart-phase'), cells = all('.mark-rect.role-mark path', figure);
 saw.cells = cells.length;
 saw.lines = all('.mark-line path', figure).length;

@@ -160,7 +160,7 @@ Results sample_results() {
   info.gl_vendor = "Mesa";
   info.gl_renderer = "llvmpipe (LLVM 15.0.6, 256 bits)";
   info.gl_version = "4.5 (Core Profile) Mesa 22.3.6";
-  info.gl_timer = "glFinish + steady clock";
+  info.gl_timer = "CPU time of the process";
   info.embree_version = "3.13.5";
   info.embree_isa = "AVX2";
   info.libraries = {{"GLM", "0.9.9.8"}, {"OpenImageIO", "2.4.7"}, {"SQLite", "3.40.1"}};

@@ -31,6 +31,7 @@
                    })
                    .length,
       bars: all('.span-bars line').length,
+      cost_bars: all('.cost-bars line').length,
       rings: all('.best-ring path').length,
       labels: texts('.mark-text text')
                   .filter(function(t) {
@@ -120,6 +121,8 @@
   await set('Error', 'error');
   await set('Cost', 'map_ms');
   saw.map_ms = observe();
+saw.map_ms_legend = figure.querySelector('.legend').textContent;
+saw.map_ms_words = figure.querySelector('.facts').textContent;
 saw.map_ms_note = figure.querySelector('p.small').textContent;
   await set('Shape', '2');
   saw.by_resolution = observe();

@@ -102,10 +102,10 @@ TEST_F(Store, ReturnsWhatItWasGiven) {
   const RunInfo a = results.info, b = sample_info();
   EXPECT_EQ(std::tie(a.experiment, a.title, a.command, a.commit, a.version, a.started, a.host_cpu, a.gl_vendor,
                      a.gl_renderer, a.gl_version, a.gl_timer, a.embree_version, a.embree_isa, a.libraries, a.swept,
-                     a.plot, a.scene_name, a.triangles, a.scene_notes),
+                     a.plot, a.scene_name, a.triangles, a.scene_notes, a.sweep_notes),
             std::tie(b.experiment, b.title, b.command, b.commit, b.version, b.started, b.host_cpu, b.gl_vendor,
                      b.gl_renderer, b.gl_version, b.gl_timer, b.embree_version, b.embree_isa, b.libraries, b.swept,
-                     b.plot, b.scene_name, b.triangles, b.scene_notes));
+                     b.plot, b.scene_name, b.triangles, b.scene_notes, b.sweep_notes));
 }
 
 TEST_F(Store, KeepsLawsWithTheirSamples) {
@@ -309,6 +309,18 @@ TEST_F(Store, ReplacesPictures) {
   ASSERT_EQ(results.points[0].images.size(), 1u);
   EXPECT_EQ(results.points[0].images[0].digest, "02");
   EXPECT_THROW(store.set_pictures(7, {}), std::logic_error);
+}
+
+TEST_F(Store, AddsMetricsToPoints) {
+  ResultStore store = fresh();
+  PointRecord expected = sample_point(1);
+  store.add(expected);
+  const std::map<std::string, double> more{{"map_ms", 7.5}, {"map_low_ms", 7.25}, {"acne", 0.125}};
+  store.set_metrics({{1, more}});
+  for (const auto& [name, value] : more) expected.metrics[name] = value;
+  EXPECT_TRUE(same(store.load().points.at(0), expected)) << "load() also checks the seal";
+  EXPECT_THROW(store.set_metrics({{1, {{"acne", 0.5}}}, {7, {}}}), std::logic_error);
+  EXPECT_TRUE(same(store.load().points.at(0), expected)) << "all or nothing";
 }
 
 TEST_F(Store, RefusesWhatIsNoStore) {

@@ -40,7 +40,7 @@ int main() {
   probe.map_texels = Image<glm::vec2>(count, 1);
   TapTruth taps;
   taps.taps.resize(pixels.size());
-  Image<float> map(count, count, 1), shown(count, 1);
+  Image<float> depths(count, count, 1), shown(count, 1);
   for (size_t i = 0; i < pixels.size(); ++i) {
     const Pixel& pixel = pixels[i];
     const int x = static_cast<int>(i);
@@ -49,9 +49,10 @@ int main() {
     probe.reference[i] = pixel.reference;
     probe.map_texels[i] = {static_cast<float>(x) + 0.5f, 0.5f};
     taps.taps[i] = static_cast<uint8_t>((pixel.lit ? tap_exact_lit : 0) | (pixel.texel_lit ? tap_texel_lit : 0));
-    map.at(x, 0) = pixel.map;
+    depths.at(x, 0) = pixel.map;
     shown[i] = pixel.reference - 0.0625f > pixel.map ? 0 : 1;  // the result of the other program's shader
   }
+  const MapDepths map(depths);
   MapSettings settings;
   settings.resolution = count;
   const LookupEvidence evidence{truth, probe, taps, map, settings, Bias(bias), shown, shown};

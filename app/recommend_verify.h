@@ -1,0 +1,22 @@
+// The last step of a recommendation: OpenGL renders the settings at placements of the map's grid that were not searched.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "app/workbench.h"
+#include "compare/ladder/bias_curves.h"
+
+namespace noonmark {
+
+struct Verified {
+  int placements = 0;                                               // that were rendered
+  double worst_acne = 0, worst_peter_panning = 0, worst_error = 0;  // over these
+  std::optional<PointRecord> broken;  // the first that breaks a bound; it is the last rendered
+};
+
+// 64 placements: for a flat map half a step between those of 8 x 8, for a cube random turns, the same in every run.
+// accuracy: the metric of worst_error. Throws Error.
+Verified verify_at_fresh_placements(Workbench& bench, const Settings& settings, const CurveOptions& bounds,
+                                    const std::string& accuracy);
+
+}  // namespace noonmark

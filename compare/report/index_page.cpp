@@ -1,0 +1,113 @@
+#include "compare/report/index_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compare/report/page_parts.h"
+#include "compare/report/text.h"
+#include "compare/store/quantities.h"
+
+namespace noonmark {
+namespace {
+
+using report::html;
+using Verdict = IndexEntry::Verdict;
+
+// A folder's name may hold any byte; in an address only letters, digits and a few signs stand for themselves (RFC 3986).
+std::string address(const std::string& path) {
+  std::string out;
+  for (const char c : path) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       std::string_view("-._~/").find(c) != std::string_view::npos;
+    out += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return out;
+}
+
+size_t count(const std::vector<IndexEntry>& entries, Verdict verdict) {
+  return static_cast<size_t>(
+      std::count_if(entries.begin(), entries.end(), [&](const IndexEntry& one) { return one.verdict == verdict; }));
+}
+
+int rank(Verdict verdict) { return verdict == Verdict::broken ? 0 : verdict == Verdict::not_judged ? 1 : 2; }
+
+std::string row(const IndexEntry& entry) {
+  const char* const mark = entry.verdict == Verdict::held     ? "✓ held"
+                           : entry.verdict == Verdict::broken ? "✗ broken"
+                                                              : "! not judged";
+  const char* const kind = entry.verdict == Verdict::held     ? "held"
+                           : entry.verdict == Verdict::broken ? "broken"
+                                                              : "warning";
+  const std::string name = html(entry.title.empty() ? entry.experiment : entry.title);
+  return fmt::format(
+      "<tr class=\"{}\"><td>{}</td><th "
+      "scope=\"row\">{}<br><small>{}</small></th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+      kind, mark, entry.report.empty() ? name : fmt::format("<a href=\"{}\">{}</a>", html(address(entry.report)), name),
+      html(entry.experiment), html(entry.words), html(entry.numbers),
+      entry.thumbnail.empty() ? "–"
+                              : fmt::format("<img class=\"thumb\" alt=\"What the shadow map showed in {}\" "
+                                            "src=\"data:image/png;base64,{}\">",
+                                            name, report::base64(entry.thumbnail)));
+}
+
+}  // namespace
+
+std::string worst_numbers(const Results& results) {
+  std::string out;
+  for (const char* metric : {"error", "acne", "peter_panning"}) {
+    double worst = -1;
+    for (const PointRecord& point : results.points) {
+      if (!point.metrics.contains(metric)) continue;
+      const double value = point.metrics.at(metric);
+      worst = std::isfinite(value) ? std::max(worst, value) : std::numeric_limits<double>::infinity();
+    }
+    if (worst >= 0)
+      out += fmt::format("{}{} {}{}", out.empty() ? "" : ", ", report::metric_label(metric),
+                         std::isfinite(worst) ? "at most " : "", report::quantity(worst, "fraction"));
+  }
+  return out;
+}
+
+std::string picture_of_index(const Results& results) {
+  const PointRecord* chosen = nullptr;
+  const auto error = [](const PointRecord& point) {
+    const double value = metric_of(point, "error");
+    return std::isfinite(value) ? value : -1;
+  };
+  for (const PointRecord& point : results.points)
+    if (!point.pictures.empty() && (!chosen || error(point) > error(*chosen))) chosen = &point;
+  if (!chosen) return "";
+  for (const PictureRecord& picture : chosen->pictures)
+    if (picture.name == "map") return picture.path;
+  return chosen->pictures.front().path;
+}
+
+std::string index_words(const std::vector<IndexEntry>& entries) {
+  std::string out = fmt::format("{} experiment{}: {} held", entries.size(), entries.size() == 1 ? "" : "s",
+                                count(entries, Verdict::held));
+  if (const size_t broken = count(entries, Verdict::broken)) out += fmt::format(", {} broken", broken);
+  if (const size_t others = count(entries, Verdict::not_judged)) out += fmt::format(", {} not judged", others);
+  return out;
+}
+
+std::string index_page(const std::vector<IndexEntry>& entries, const std::string& version) {
+  std::vector<IndexEntry> ordered = entries;
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const IndexEntry& a, const IndexEntry& b) { return rank(a.verdict) < rank(b.verdict); });
+  std::string rows;
+  for (const IndexEntry& entry : ordered) rows += row(entry);
+  const bool all = count(entries, Verdict::held) == entries.size();
+  return report::plain_page(
+      "Checked experiments",
+      fmt::format(
+          "<p class=\"verdict\"><span class=\"pill {}\">{}</span></p>\n<div class=\"scroll\"><table "
+          "class=\"index\"><thead><tr><th>Verdict</th><th>Experiment</th><th>In words</th><th>Worst numbers</th>"
+          "<th>Picture</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+          all ? "held" : "broken", html(index_words(entries)), rows),
+      version);
+}
+
+}  // namespace noonmark

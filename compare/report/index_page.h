@@ -1,0 +1,36 @@
+// The page that `check FOLDER` leaves: one row for each experiment, with its verdict and a link to its report.
+//
+//   write(out + "/index.html", index_page(entries, version));
+#pragma once
+#include <string>
+#include <vector>
+
+#include "compare/store/records.h"
+
+namespace noonmark {
+
+struct IndexEntry {
+  enum class Verdict { held, broken, not_judged } verdict = Verdict::not_judged;
+  std::string experiment;  // path as given
+  std::string title;
+  std::string report;     // the report's path below the index page; empty if there is none
+  std::string words;      // the verdict in words, or why nothing was judged
+  std::string numbers;    // the worst numbers in words; may be empty
+  std::string thumbnail;  // bytes of a PNG file; may be empty
+};
+
+// "error at most 3.1 %, acne at most 0.2 %": the largest error, acne and Peter Panning over all points. Values that are
+// not finite are said.
+std::string worst_numbers(const Results& results);
+
+// The path of a picture that stands for the results: what the map showed at the point with the largest error of those
+// with pictures. Empty if there is none.
+std::string picture_of_index(const Results& results);
+
+// One HTML file without scripts and without other files. Broken experiments come first, then those that were not judged.
+std::string index_page(const std::vector<IndexEntry>& entries, const std::string& version);
+
+// "12 experiments: 10 held, 1 broken, 1 not judged".
+std::string index_words(const std::vector<IndexEntry>& entries);
+
+}  // namespace noonmark

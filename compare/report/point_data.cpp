@@ -1,0 +1,59 @@
+#include "compare/report/point_data.h"
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "compare/judge/curve_reading.h"
+#include "compare/report/text.h"
+#include "compare/store/quantities.h"
+#include "scenes/shell_words.h"
+#include "technique/settings.h"
+
+namespace noonmark::report {
+namespace {
+
+// The metrics of a point that follow the bias, as its own curve gives them.
+constexpr std::array curve_metrics{"error",    "error_soft",    "wrong",          "acne",    "peter_panning",
+                                   "aliasing", "aliasing_dark", "aliasing_light", "coverage"};
+
+}  // namespace
+
+std::map<int64_t, double> recommended_biases(const std::vector<ComparedGroup>& groups) {
+  std::map<int64_t, double> biases;
+  for (const ComparedGroup& group : groups)
+    for (const ComparedChoice& one : group.choices)
+      for (const PointRecord* point : one.choice.points)
+        if (one.bias && point->curve) biases[point->id] = *one.bias;
+  return biases;
+}
+
+nlohmann::json at_bias(const PointRecord& point, double bias) {
+  const double depth = bias / parameter_per_depth(point);
+  if (!std::isfinite(depth)) return {};
+  const std::optional<DepthWindow> window = usable_window(*point.curve);
+  nlohmann::json out{{"parameter", point.curve->parameter},
+                     {"value", bias},
+                     {"text", bias_in_unit(bias, setting_of(point, "bias.unit"))},
+                     {"depth", depth},
+                     // The bias may lie on an end of the window, and its depth was rounded twice.
+                     {"usable", window && depth >= window->low * (1 - 1e-12) && depth <= window->high * (1 + 1e-12)}};
+  for (const char* metric : curve_metrics)
+    if (const std::optional<double> value = curve_value(*point.curve, metric, depth); value && std::isfinite(*value))
+      out["metrics"][metric] = *value;
+  return out;
+}
+
+std::vector<std::string> settings_of_command(const PointRecord& point) {
+  static const Settings defaults;
+  std::vector<std::string> words;
+  for (const Setting& row : settings_table()) {
+    const auto found = point.settings.find(std::string(row.name));
+    if (found != point.settings.end() && found->second != row.get(defaults))
+      words.push_back(shell_quoted(found->first + "=" + found->second));
+  }
+  return words;
+}
+
+}  // namespace noonmark::report

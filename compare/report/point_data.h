@@ -1,0 +1,25 @@
+// What the page's card shows of each point: the recommended bias with the errors there, and the command that renders it.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "compare/judge/tradeoff.h"
+#include "compare/store/records.h"
+
+namespace noonmark::report {
+
+// The recommended bias of each point, by its id: that of its choice (ComparedChoice::bias), in bias.unit. Points without
+// a curve have none.
+std::map<int64_t, double> recommended_biases(const std::vector<ComparedGroup>& groups);
+
+// {"parameter", "value", "text", "depth", "usable", "metrics"}: the bias, whether it is usable, and each metric that the
+// point's curve gives, at that bias. point: has a curve.
+nlohmann::json at_bias(const PointRecord& point, double bias);
+
+// The settings of a point that differ from the defaults: "name=value", quoted for a shell.
+std::vector<std::string> settings_of_command(const PointRecord& point);
+
+}  // namespace noonmark::report

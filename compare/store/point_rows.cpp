@@ -1,0 +1,75 @@
+#include "compare/store/point_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "compare/store/record_tables.h"
+#include "compare/store/sqlite.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+namespace {
+
+using sqlite::Database;
+using sqlite::Statement;
+
+void bind_setting_value(Statement& insert, int index, const std::string& name, const std::string& text) {
+  const std::span<const Setting> table = settings_table();
+  const auto row = std::find_if(table.begin(), table.end(), [&](const Setting& s) { return s.name == name; });
+  if (row != table.end() && text != "auto") {
+    if (row->type == ValueType::flag) return insert.bind(index, text == "true" ? 1 : 0);
+    if (row->type == ValueType::integer || row->type == ValueType::real) {
+      double value = 0;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+      if (error == std::errc{} && end == text.data() + text.size()) {
+        // Every integer setting is far below 2^53.
+        if (row->type == ValueType::integer) return insert.bind(index, static_cast<int64_t>(value));
+        return insert.bind(index, value);
+      }
+    }
+  }
+  insert.bind(index, text);
+}
+
+void add_numbers(Database& db, const char* table, int64_t point, const std::map<std::string, double>& numbers) {
+  Statement insert(db, fmt::format("INSERT INTO {} VALUES (?, ?, ?)", table));
+  for (const auto& [name, value] : numbers) insert.run(point, name, value);
+}
+
+void add_curve(Database& db, int64_t point, const BiasCurve& curve) {
+  if (curve.window_min_depth.has_value() != curve.window_max_depth.has_value())
+    throw std::logic_error("a usable bias window must have two ends or none");
+  Table<BiasCurve>::Insert(db, curves_table()).row({point}, curve);
+  add_series(db, point, curve);
+  Table<WindowSteps>::Insert(db, curve_windows_table()).row({point}, curve.steps);
+}
+
+}  // namespace
+
+void add_pictures(Database& db, int64_t point, const PointPictures& made) {
+  Table<PictureRecord>::Insert pictures(db, pictures_table());
+  for (size_t i = 0; i < made.pictures.size(); ++i) pictures.row({point, static_cast<int64_t>(i)}, made.pictures[i]);
+  Table<ImageRecord>::Insert images(db, images_table());
+  for (size_t i = 0; i < made.images.size(); ++i) images.row({point, static_cast<int64_t>(i)}, made.images[i]);
+}
+
+void add_rows(Database& db, const PointRecord& point) {
+  Table<PointRecord>::Insert(db, finished_table()).row({point.id}, point);
+  Statement settings(db, "INSERT INTO settings VALUES (?, ?, ?, ?)");
+  for (const auto& [name, text] : point.settings) {
+    bind_setting_value(settings, 3, name, text);
+    settings.bind(4, text);
+    settings.run(point.id, name);
+  }
+  add_numbers(db, "metrics", point.id, point.metrics);
+  add_numbers(db, "times", point.id, point.times);
+  if (point.curve) add_curve(db, point.id, *point.curve);
+  add_pictures(db, point.id, point);
+}
+
+}  // namespace noonmark

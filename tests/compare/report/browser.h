@@ -1,0 +1,73 @@
+// A page in a real browser, headless Chromium, for tests of what its scripts draw and what clicks and keys do.
+//
+//   class Page : public Browser { void SetUp() override { open(render_report(results, read), "page_probe.js"); } };
+//   TEST_F(Page, Draws) { EXPECT_EQ(saw_["marks"], 3); }
+#pragma once
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "scenes/file.h"
+
+namespace noonmark {
+
+inline std::string output_of(const std::string& command) {
+  FILE* const pipe = popen(command.c_str(), "r");
+  std::string text;
+  char block[65536];
+  for (size_t n = 0; pipe && (n = fread(block, 1, sizeof block, pipe)) > 0;) text.append(block, n);
+  if (pipe) pclose(pipe);
+  return text;
+}
+
+class Browser : public testing::Test {
+ protected:
+  // Opens the page and runs a probe in it (a file beside this one), which leaves what it saw. Without a browser the test
+  // is skipped, with this reason. window: "WIDTH,HEIGHT" in CSS pixels.
+  void open(std::string page, const char* probe, const std::string& window = "1200,900") {
+    std::string browser = output_of("command -v chromium || command -v chromium-browser || command -v google-chrome");
+    if (browser.empty()) GTEST_SKIP() << "there is no chromium, so the scripts of the page are not tested";
+    browser.pop_back();
+    const auto insert = [&](const std::string& before, const std::string& script) {
+      const size_t at = page.rfind(before);
+      ASSERT_NE(at, std::string::npos);
+      page.insert(at, "<script>" + script + "</script>");
+    };
+    insert("</body>", read_file(std::string(NOONMARK_SOURCE_DIR "/tests/compare/report/") + probe));
+    insert("</head>",
+           "var errors = []; addEventListener('error', function(e) { errors.push(e.message); });"
+           "addEventListener('securitypolicyviolation', function(e) { errors.push(e.violatedDirective); });"
+           "['error', 'warn'].forEach(function(k) { console[k] = function(what) { errors.push(String(what)); }; });");
+    folder_ = std::filesystem::path(testing::TempDir()) / ("noonmark-page-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+    const std::string file = (folder_ / "report.html").string();
+    write_file_atomically(file, page);
+    const std::string dom = output_of(
+        "HOME='" + folder_.string() + "' timeout 100 '" + browser +
+        "' --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --window-size=" + window +
+        " "
+        "--virtual-time-budget=10000 --user-data-dir='" +
+        (folder_ / "profile").string() + "' --dump-dom 'file://" + file + "' 2>'" + (folder_ / "browser.txt").string() +
+        "'");
+    const std::string head = "<pre id=\"probe\">";
+    const size_t begin = dom.rfind(head);
+    ASSERT_NE(begin, std::string::npos) << "the scripts of the page stopped; the output of the browser: "
+                                        << read_file((folder_ / "browser.txt").string());
+    saw_ = nlohmann::json::parse(dom.substr(begin + head.size(), dom.find("</pre>", begin) - begin - head.size()));
+    EXPECT_EQ(saw_["errors"], nlohmann::json::array()) << "errors of the page's scripts";
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+  }
+  int marks(const char* chart, const char* kind) const { return saw_["charts"].at(chart).at(kind); }
+
+  std::filesystem::path folder_;
+  nlohmann::json saw_;
+};
+
+}  // namespace noonmark

@@ -1,0 +1,65 @@
+// The page that `check FOLDER` leaves.
+#include "compare/report/index_page.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/compare/report/sample.h"
+
+namespace noonmark {
+namespace {
+
+using Verdict = IndexEntry::Verdict;
+
+IndexEntry entry(Verdict verdict, const std::string& name) {
+  IndexEntry one;
+  one.verdict = verdict;
+  one.experiment = "experiments/" + name + ".toml";
+  one.title = name;
+  one.report = name + "/report.html";
+  one.words = "1 of 2 bounds held";
+  one.numbers = "Error at most 3 %";
+  return one;
+}
+
+TEST(IndexPage, PutsTheBrokenFirstAndLinksEachReport) {
+  const std::vector<IndexEntry> entries = {entry(Verdict::held, "alpha"), entry(Verdict::broken, "beta"),
+                                           entry(Verdict::not_judged, "gamma")};
+  EXPECT_EQ(index_words(entries), "3 experiments: 1 held, 1 broken, 1 not judged");
+  const std::string page = index_page(entries, "0.1.0");
+  EXPECT_LT(page.find("beta/report.html"), page.find("gamma/report.html"));
+  EXPECT_LT(page.find("gamma/report.html"), page.find("alpha/report.html"));
+  for (const char* text :
+       {"✓ held", "✗ broken", "! not judged", "1 of 2 bounds held", "Error at most 3 %", "pill broken"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_NE(index_page({entry(Verdict::held, "alpha")}, "0.1.0").find("pill held"), std::string::npos);
+}
+
+TEST(IndexPage, EscapesNamesOfFilesAndTitles) {
+  IndexEntry evil = entry(Verdict::held, "a b\"><script>x</script>");
+  const std::string page = index_page({evil}, "0.1.0");
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_NE(page.find("href=\"a%20b%22%3E%3Cscript%3Ex%3C/script%3E/report.html\""), std::string::npos);
+  evil.report.clear();
+  EXPECT_EQ(index_page({evil}, "0.1.0").find("<a href"), std::string::npos) << "there is no report to open";
+}
+
+TEST(IndexPage, SaysTheWorstNumbersAndWhatIsNotFinite) {
+  Results results = sample_results();
+  for (PointRecord& point : results.points) point.metrics["error"] = 0.01;
+  results.points[3].metrics["error"] = 0.25;
+  results.points[4].metrics["acne"] = std::nan("");
+  const std::string words = worst_numbers(results);
+  EXPECT_EQ(words.find("Error at most 25\u202f%, Acne not finite, Peter Panning at most "), 0u) << words;
+  EXPECT_EQ(picture_of_index(results), "images/p0018-map.png")
+      << "point 26 has a picture too, but no map; equal errors";
+  results.points[26].metrics["error"] = 0.5;
+  EXPECT_EQ(picture_of_index(results), "images/p0026-truth.png");
+  EXPECT_EQ(picture_of_index(Results{}), "");
+  EXPECT_EQ(worst_numbers(Results{}), "");
+}
+
+}  // namespace
+}  // namespace noonmark

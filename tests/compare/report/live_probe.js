@@ -1,0 +1,30 @@
+// Runs in the report's page (tests/app/live_page_test.cpp): the live picture at several biases, as its pixels.
+(async function() {
+'use strict';
+var saw = {errors: errors, pictures: []};
+await window.noonmarkPage.liveReady;
+var live = window.noonmarkPage.live, canvas = live.canvas;
+var biases = [0, 1e-6, 1e-4, 3e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.03, 0.2];
+biases.forEach(function(unit) {
+  ['map', 'causes', 'truth'].forEach(function(kind) {
+    live.show(kind);
+    live.set(unit * live.data.depth_per_unit);
+    var pixels = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data, text = '';
+    for (var i = 0; i < pixels.length; i += 4)
+      for (var k = 0; k < 3; ++k) text += (256 + pixels[i + k]).toString(16).slice(1);
+    saw.pictures.push({bias: unit, kind: kind, pixels: text});
+  });
+});
+saw.size = [canvas.width, canvas.height];
+// The slider answers the keyboard: a step to the right is a larger bias.
+live.set(1e-3);
+var slider = document.querySelector('.bias-slider input'), before = slider.getAttribute('aria-valuetext');
+slider.value = +slider.value + 100;
+slider.dispatchEvent(new Event('input', {bubbles: true}));
+saw.moved = slider.getAttribute('aria-valuetext') !== before;
+
+var probe = document.createElement('pre');
+probe.id = 'probe';
+probe.textContent = JSON.stringify(saw);
+document.body.append(probe);
+})();

@@ -1,0 +1,218 @@
+// load_gltf on materials that mask by a texture: what stays of their triangles, and what each broken mask is told.
+#include <png.h>
+
+#include <cmath>
+
+#include "tests/scenes/gltf/expect.h"
+#include "tests/scenes/gltf/files.h"
+
+namespace noonmark::test {
+namespace {
+
+// A PNG of alpha alone (red, green and blue are 0); the first row is the top one, which is v = 0.
+std::string png(int width, int height, const std::vector<int>& alpha, bool with_alpha = true) {
+  std::vector<uint8_t> pixels;
+  for (int a : alpha) {
+    pixels.insert(pixels.end(), {0, 0, 0});
+    if (with_alpha) pixels.push_back(static_cast<uint8_t>(a));
+  }
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<uint32_t>(width), image.height = static_cast<uint32_t>(height);
+  image.format = with_alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  png_alloc_size_t bytes = 0;
+  png_image_write_to_memory(&image, nullptr, &bytes, 0, pixels.data(), 0, nullptr);
+  std::string out(bytes, '\0');
+  EXPECT_NE(png_image_write_to_memory(&image, out.data(), &bytes, 0, pixels.data(), 0, nullptr), 0) << image.message;
+  out.resize(bytes);
+  return out;
+}
+
+class GltfMask : public ::testing::Test {
+ protected:
+  // The unit square with its texture coordinates (u, v) = (x, y), masked by an image.
+  json masked(const std::string& image_bytes) {
+    json d = square();
+    const int coordinates = add_accessor(d, raw(std::vector<float>{0, 0, 1, 0, 1, 1, 0, 1}), 5126, "VEC2", 4);
+    d["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = coordinates;
+    d["meshes"][0]["primitives"][0]["material"] = 0;
+    d["materials"] = {{{"alphaMode", "MASK"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    d["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    d["samplers"] = {{{"magFilter", 9728}}};
+    d["images"] = {{{"uri", "data:image/png;base64," + base64(image_bytes)}}};
+    return d;
+  }
+  Scene load(const json& document, bool masks = true) {
+    Scene scene = load_gltf(folder_.write("scene.gltf", document.dump()), {}, masks);
+    EXPECT_EQ(defect_of(scene), "");
+    return scene;
+  }
+  std::string refusal(const json& document) { return test::refusal(folder_.write("scene.gltf", document.dump())); }
+  static double area(const Scene& s) {
+    double sum = 0;
+    for (const glm::uvec3& t : s.triangles) {
+      const glm::dvec3 a(s.positions[t.x]), b(s.positions[t.y]), c(s.positions[t.z]);
+      sum += glm::length(glm::cross(b - a, c - a)) / 2;
+    }
+    return sum;
+  }
+  // Whether a triangle of the scene, seen along Z, holds the point.
+  static bool holds(const Scene& s, double x, double y) {
+    const auto side = [&](uint32_t i, uint32_t k) {
+      const glm::dvec2 a(s.positions[i]), b(s.positions[k]);
+      return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+    };
+    return std::any_of(s.triangles.begin(), s.triangles.end(), [&](const glm::uvec3& t) {
+      return side(t.x, t.y) > 0 && side(t.y, t.z) > 0 && side(t.z, t.x) > 0;
+    });
+  }
+  TemporaryFolder folder_;
+};
+
+// Two texels side by side, the left one opaque.
+const std::string left_half = png(2, 1, {255, 0});
+
+TEST_F(GltfMask, TheHiddenPartIsNotThere) {
+  const Scene s = load(masked(left_half));
+  EXPECT_NEAR(area(s), 0.5, 1e-7);
+  EXPECT_TRUE(holds(s, 0.3, 0.65));
+  EXPECT_FALSE(holds(s, 0.7, 0.65));
+  EXPECT_EQ(s.parts.size(), 1u);
+  EXPECT_EQ(s.single_sided.size(), s.triangles.size());
+  EXPECT_TRUE(s.notes.empty());
+}
+
+TEST_F(GltfMask, TheTopRowIsWhereVIsZero) {
+  const Scene s = load(masked(png(1, 2, {255, 0})));
+  EXPECT_TRUE(holds(s, 0.6, 0.37));
+  EXPECT_FALSE(holds(s, 0.6, 0.73));
+}
+
+TEST_F(GltfMask, WithoutMasksTheTrianglesAreWholeAndItIsSaid) {
+  json d = masked("not an image");
+  const Scene s = load(d, false);
+  EXPECT_EQ(s.triangles.size(), 2u);
+  ASSERT_EQ(s.notes.size(), 1u);
+  EXPECT_EQ(s.notes[0], "1 material masked by a texture taken as opaque (scene.masks = false)");
+}
+
+// Linear is the default. Between the centres at u = 1/4 and u = 3/4 alpha falls from 1 to 0; beyond them it wraps.
+TEST_F(GltfMask, SamplersDecideFilterAndWrap) {
+  json d = masked(left_half);
+  d["materials"][0]["alphaCutoff"] = 0.25;
+  d["samplers"][0] = {{"wrapS", 33071}};  // clamp to the edge
+  EXPECT_NEAR(area(load(d)), 0.25 + 0.75 * 0.5, 1e-6);
+  d["textures"][0].erase("sampler");
+  EXPECT_NEAR(area(load(d)), 0.75, 1e-6);                      // repeated: 1/8 on the right is opaque too
+  d["samplers"][0] = {{"wrapS", 33648}, {"magFilter", 9728}};  // mirrored
+  d["textures"][0]["sampler"] = 0;
+  d["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {
+      {"scale", {2, 1}}};
+  const Scene s = load(d);
+  for (const auto& [x, opaque] : {std::pair(0.1, true), {0.4, false}, {0.6, false}, {0.9, true}})
+    EXPECT_EQ(holds(s, x, 0.51), opaque) << x;
+}
+
+TEST_F(GltfMask, FactorAndCutoff) {
+  json d = masked(png(2, 1, {255, 100}));
+  json& material = d["materials"][0];
+  EXPECT_NEAR(area(load(d)), 0.5, 1e-7);
+  material["alphaCutoff"] = 0.39;
+  EXPECT_NEAR(area(load(d)), 1, 1e-7);
+  material["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.5};
+  EXPECT_NEAR(area(load(d)), 0.5, 1e-7);
+  material["alphaCutoff"] = 0.6;
+  EXPECT_NE(refusal(d).find("holds no triangles"), std::string::npos);
+}
+
+// A quarter turn with v down: u = y, v = -x (KhronosGroup/glTF issue 1563). The other set of coordinates is shifted.
+TEST_F(GltfMask, TheTransformAndTheSetOfTheTexture) {
+  json d = masked(left_half);
+  json& texture = d["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+  texture["extensions"]["KHR_texture_transform"] = {{"rotation", std::acos(-1.0) / 2}};
+  Scene s = load(d);
+  EXPECT_TRUE(holds(s, 0.7, 0.3));
+  EXPECT_FALSE(holds(s, 0.3, 0.7));
+  texture["extensions"]["KHR_texture_transform"] = {{"offset", {0.5, 0}}};
+  s = load(d);
+  EXPECT_FALSE(holds(s, 0.3, 0.6));
+  EXPECT_TRUE(holds(s, 0.7, 0.6));
+  const int other =
+      add_accessor(d, raw(std::vector<uint16_t>{0, 0, 0, 65535, 65535, 65535, 65535, 0}), 5123, "VEC2", 4);
+  d["accessors"].back()["normalized"] = true;
+  d["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = other;  // u = y
+  texture = {{"index", 0}, {"texCoord", 1}};
+  s = load(d);
+  EXPECT_TRUE(holds(s, 0.7, 0.3));
+  EXPECT_FALSE(holds(s, 0.3, 0.7));
+}
+
+TEST_F(GltfMask, ImagesBesideTheFileAndInViews) {
+  json d = masked(left_half);
+  d["images"][0] = {{"uri", "a%20mask.png"}};
+  folder_.write("a mask.png", left_half);
+  EXPECT_NEAR(area(load(d)), 0.5, 1e-7);
+  d["buffers"].push_back({{"byteLength", left_half.size()}, {"uri", data_uri(left_half)}});
+  d["bufferViews"].push_back({{"buffer", d["buffers"].size() - 1}, {"byteLength", left_half.size()}});
+  d["images"][0] = {{"bufferView", d["bufferViews"].size() - 1}, {"mimeType", "image/png"}};
+  EXPECT_NEAR(area(load(d)), 0.5, 1e-7);
+}
+
+TEST_F(GltfMask, ImagesWithoutAlphaMaskNothing) {
+  EXPECT_EQ(load(masked(png(2, 1, {0, 0}, false))).triangles.size(), 2u);
+  EXPECT_EQ(load(masked("\xff\xd8\xff\xe0 a JPEG")).triangles.size(), 2u);
+  const Scene s = load(masked("RIFF    WEBP"));
+  EXPECT_EQ(s.triangles.size(), 2u);
+  ASSERT_EQ(s.notes.size(), 1u);
+  EXPECT_EQ(s.notes[0], "materials[0] masked by images[0], which is neither PNG nor JPEG, taken as opaque");
+  json d = masked(left_half);
+  d["textures"][0].erase("source");
+  EXPECT_EQ(load(d).notes.at(0), "materials[0] masked by an image that only an extension names, taken as opaque");
+}
+
+// An opaque material never asks for its texture, so what is broken there does not matter.
+TEST_F(GltfMask, TexturesOfOtherMaterialsAreNotRead) {
+  json d = masked("not an image");
+  d["materials"][0]["alphaMode"] = "BLEND";
+  d["images"][0]["uri"] = 7;
+  d["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 99;
+  EXPECT_EQ(load(d).triangles.size(), 2u);
+}
+
+TEST_F(GltfMask, EachBrokenMaskIsToldWhereItIs) {
+  const json good = masked(left_half);
+  const auto told = [&](const std::string& what, auto&& change) {
+    json d = good;
+    change(d);
+    const std::string message = refusal(d);
+    EXPECT_NE(message.find(what), std::string::npos) << message;
+    EXPECT_NE(message.find("scene.masks = false"), std::string::npos) << message;
+  };
+  told("images[0].uri: 'absent.png' cannot be found", [](json& d) { d["images"][0]["uri"] = "absent.png"; });
+  told("images[0]: is a damaged PNG",
+       [](json& d) { d["images"][0]["uri"] = "data:image/png;base64," + base64(left_half.substr(0, 50)); });
+  told("images[0].uri: holds text that is not base64",
+       [](json& d) { d["images"][0]["uri"] = "data:image/png;base64,?"; });
+  told("images[0]: has neither a uri nor a bufferView", [](json& d) { d["images"][0] = json::object(); });
+  told("textures[0].source: 4 refers beyond the 1 images", [](json& d) { d["textures"][0]["source"] = 4; });
+  told("baseColorTexture.index: 3 refers beyond the 1 textures",
+       [](json& d) { d["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 3; });
+  told("textures[0]: wraps by 7", [](json& d) { d["samplers"][0]["wrapT"] = 7; });
+  told("attributes.TEXCOORD_0: is missing",
+       [](json& d) { d["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0"); });
+  told("texture coordinates of vertex 0 are not finite", [](json& d) {
+    d["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+        add_accessor(d, raw(std::vector<float>{NAN, 0, 1, 0, 1, 1, 0, 1}), 5126, "VEC2", 4);
+  });
+  told("2 texture coordinates for 4 vertices", [](json& d) {
+    d["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+        add_accessor(d, raw(std::vector<float>{0, 0, 1, 0}), 5126, "VEC2", 2);
+  });
+  told("repeats more often than can be cut", [](json& d) {
+    d["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {
+        {"scale", {1e6, 1e6}}};
+  });
+}
+
+}  // namespace
+}  // namespace noonmark::test
