@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "app/atlas_reader.h"
 #include "app/experiment.h"
 #include "app/experiment_keys.h"
 #include "app/promise_reader.h"
@@ -42,6 +43,8 @@ class Reader : private SettingsReader {
         times_ = item.node;
       else if (!in_part_ && item.key == "plot")
         read_plot(table(*item.node, "[plot]"));
+      else if (!in_part_ && item.key == "atlas")
+        check_atlas_entry(table(*item.node, "[atlas]"), path());
       else if (!in_part_ && item.key == "part")
         parts_ = item.node;
       else if (item.key == "scene" && item.node->is_string())

@@ -47,6 +47,7 @@ const std::vector<ExperimentKey>& root_keys() {
       of_file("times", Kind::flag, "Whether map and lookup are timed."),
       of_file("plot", Kind::table, "Which metrics stand at the top of the report's list."),
       of_file("answer", Kind::table, "What the answer makes small, and what it counts as cost."),
+      of_file("atlas", Kind::table, "The known failure that the file is about."),
       of_file("part", Kind::tables, "One of several experiments in one file."),
   };
   return keys;
@@ -62,6 +63,20 @@ const std::vector<ExperimentKey>& answer_keys() {
   static const std::vector<ExperimentKey> keys = {
       {"cost", Kind::metric, "The cost: the least is recommended."},
       {"accuracy", Kind::metric, "The error: the least among equal costs."}};
+  return keys;
+}
+
+const std::vector<ExperimentKey>& atlas_keys() {
+  static const std::vector<ExperimentKey> keys = {
+      required({"failure", Kind::text, "The name of the failure."}),
+      required({"cause", Kind::metric, "The metric that carries it."}),
+      required({"driver", Kind::setting, "The setting that is swept through the cliff."}),
+      required({"cure", Kind::text, "The part that has the cure."}),
+      required({"without", Kind::text, "name=value: with it the bounds of that part break."}),
+      {"note", Kind::text, "One or two sentences for the reader."},
+      {"thread", Kind::text, "The address of a public report of this failure; needs answer."},
+      {"answer", Kind::text, "The sentence that would answer the thread."},
+      {"limit", Kind::limits, "Metrics that must not be larger at any point."}};
   return keys;
 }
 
@@ -130,7 +145,7 @@ struct NamedKeys {
 };
 constexpr NamedKeys tables[] = {{"root", root_keys},   {"plot", plot_keys},   {"answer", answer_keys},
                                 {"curve", curve_keys}, {"phase", phase_keys}, {"bound", bound_keys},
-                                {"law", law_keys},     {"range", range_keys}};
+                                {"atlas", atlas_keys}, {"law", law_keys},     {"range", range_keys}};
 
 }  // namespace
 

@@ -28,6 +28,7 @@ struct ExperimentKey {
     setting,     // the name of a setting
     sweep,       // a table of settings with several values
     conditions,  // a table of settings with the values that match
+    limits,      // a table of metrics, each with a number
     amounts,     // a list of numbers, or a range
     table,       // [name]: its keys are experiment_keys(name)
     tables,      // [[name]]
@@ -42,7 +43,8 @@ struct ExperimentKey {
   bool required = false;
 };
 
-// table: "root" (the file and a part), "plot", "answer", "curve", "phase", "bound", "law", "range".
+// table: "root" (the file and a part), "plot", "answer", "atlas", "curve", "phase", "bound", "law",
+// "range".
 std::span<const ExperimentKey> experiment_keys(std::string_view table);
 
 // The names, for messages. in_part: of the table "root", those of a part.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/atlas_page.h"
 #include "app/baseline_file.h"
 #include "app/build_facts.h"
 #include "app/experiment_arguments.h"
@@ -75,7 +76,7 @@ struct Checked {
 };
 
 Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arguments, const CheckOptions& options,
-                  const EarlyFolder& folder, IndexEntry& entry) {
+                  const EarlyFolder& folder, IndexEntry& entry, AtlasPage& atlas) {
   const std::string &path = listed.file, &out = listed.out;
   std::error_code none;
   if (listed.in_folder && fs::exists(path, none) && !fs::is_regular_file(path, none))
@@ -117,6 +118,7 @@ Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arg
       // The report says why the picture cannot be read.
     }
   }
+  if (!outcome.interrupted) atlas.add(path, out, results);
   checked.exit_code = outcome.interrupted ? static_cast<int>(ErrorKind::incomplete) : held ? 0 : 1;
   if (arguments.json)
     checked.json = results_json(outcome, {path, out, checked.exit_code, true, comparison});
@@ -176,6 +178,8 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
   if (indexed) fs::remove(index, none);
   int worst = 0;
   std::vector<std::string> unreadable, failed;
+  AtlasPage atlas(index_folder(arguments));
+  if (indexed) atlas.retract();
   std::vector<nlohmann::ordered_json> printed;
   for (const UnreadableFolder& one : list.unreadable) {
     worst = std::max(worst, tell({one.error.exit_code(), printable(one.error.what())}));
@@ -188,7 +192,7 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     IndexEntry& entry = entries.emplace_back();
     entry.experiment = listed.file;
     try {
-      const Checked checked = check_one(listed, arguments, options, folder, entry);
+      const Checked checked = check_one(listed, arguments, options, folder, entry, atlas);
       worst = std::max(worst, checked.exit_code);
       if (arguments.json)
         printed.push_back(checked.json);
@@ -206,6 +210,7 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
       entry.report = fs::relative(listed.out, index_folder(arguments), none).string() + "/" + entry.report;
     if (worst == static_cast<int>(ErrorKind::incomplete)) break;  // the user asked to stop
   }
+  std::string atlas_words;
   if (indexed) {
     for (const UnreadableFolder& one : list.unreadable) {
       IndexEntry& entry = entries.emplace_back();
@@ -215,6 +220,7 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     try {
       make_folder(index_folder(arguments));
       write_file_atomically(index, index_page(entries, std::string(build_facts().version)));
+      if (worst != static_cast<int>(ErrorKind::incomplete)) atlas_words = atlas.write();
     } catch (...) {
       worst = std::max(worst, tell(current_failure()));
     }
@@ -225,6 +231,7 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     tell_the_unchecked(failed, list.experiments.size(), unreadable);
   if (indexed && !arguments.json && fs::exists(index, none))
     fmt::print("{}; the index is {}\n", index_words(entries), printable(index));
+  if (!arguments.json) fmt::print("{}", atlas_words);
   return worst;
 }
 

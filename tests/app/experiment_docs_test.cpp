@@ -118,7 +118,7 @@ TEST(ExperimentDocuments, EveryKeyChoiceAndFunctionIsNamed) {
   };
   const std::string bound = "[[bound]]\nmetric = \"acne\"\nmax = 1\n";
   const std::string law = "[[law]]\nname = \"x\"\nmeasured = \"acne\"\nequals = 0\n";
-  keys("The keys of the file", "", 19);
+  keys("The keys of the file", "", 20);
   keys("Sweeps", "[sweep.map.extent_m]\n", 4);
   keys("The answer", "[answer]\n", 2);
   keys("Charts and bias curves", "[plot]\n", 1);
