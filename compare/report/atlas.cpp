@@ -95,7 +95,7 @@ code{font-size:12px;overflow-wrap:anywhere}td:first-child{min-width:18rem;max-wi
       "biases span at least a factor of {} at every placement of the texel grid, with acne, Peter Panning and coverage "
       "of at most {} each. It is <b>fragile</b> if the span is narrower, or if a placement breaks it. It <b>fails</b> "
       "if no bias is usable at some point. <i>From</i> names the first value of the swept setting that does not hold. "
-      "The error is the one that is left at the best bias there. Alpha masks and motion are not built.</p>\n",
+      "The error is the one that is left at the best bias there. Rows of alpha masks and of motion are not there yet.</p>\n",
       atlas_window_factor, html(report::quantity(atlas_share, "fraction")));
   text += "<table><thead><tr><th>Failure</th><th>Worst point</th>";
   for (const std::string& technique : techniques) text += fmt::format("<th>{}</th>", html(technique));
