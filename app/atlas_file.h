@@ -1,6 +1,6 @@
 // The [atlas] section of an experiment file: which known failure the experiment is about.
 //
-//   if (const std::optional<AtlasEntry> entry = load_atlas_entry("experiments/atlas/grazing.toml")) ...
+//   if (const std::optional<AtlasEntry> entry = load_atlas_entry("experiments/atlas/grazing-sun.toml")) ...
 #pragma once
 #include <optional>
 #include <string>

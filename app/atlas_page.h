@@ -1,7 +1,7 @@
 // Collects the rows of the atlas while `check` judges experiments, and writes its page.
 //
 //   AtlasPage page("out");
-//   page.add("experiments/atlas/grazing.toml", "out/grazing", results);
+//   page.add("experiments/atlas/grazing-sun.toml", "out/grazing", results);
 //   page.write();    // out/atlas.html, out/atlas.md
 #pragma once
 #include <string>
