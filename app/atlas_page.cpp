@@ -2,11 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
-#include "app/atlas_file.h"
-#include "app/experiment.h"
 #include "scenes/file.h"
 #include "scenes/text.h"
 
@@ -30,21 +27,17 @@ void AtlasPage::retract() const {
   for (const char* name : {"atlas.html", "atlas.md"}) fs::remove(fs::path(folder_) / name, none);
 }
 
-void AtlasPage::add(const std::string& experiment, const std::string& out, const Results& results) {
-  const std::optional<AtlasEntry> entry = load_atlas_entry(experiment);
-  if (!entry) return;
+void AtlasPage::add(const Experiment& experiment, const std::string& out, const Results& results, bool held) {
+  if (!experiment.atlas) return;
   AtlasRow row;
-  row.entry = *entry;
-  row.experiment = experiment;
+  row.entry = *experiment.atlas;
   const fs::path below = fs::path(out).lexically_relative(folder_);
   row.report = (below / "report.html").generic_string();
   if (const std::string picture = picture_of(results); !picture.empty())
     row.picture = (below / picture).generic_string();
-  row.command = fmt::format("noonmark check {}", shell_quoted(experiment));
-  row.held = std::all_of(results.bounds.begin(), results.bounds.end(),
-                         [](const BoundResult& bound) { return bound.held || bound.warns; }) &&
-             std::all_of(results.laws.begin(), results.laws.end(), [](const LawResult& law) { return law.held; });
-  row.cells = judge_atlas(*entry, results.points);
+  row.command = fmt::format("noonmark check {}", shell_quoted(experiment.path));
+  row.held = held;
+  row.cells = judge_atlas(row.entry, results.points);
   row.laws = results.laws;
   rows_.push_back(std::move(row));
 }

@@ -12,7 +12,4 @@ namespace noonmark {
 // or metric that does not exist.
 AtlasEntry read_atlas_entry(const toml::table& table, const std::string& path);
 
-// The same, without the result: the section changes no measurement, so the experiment does not hold it.
-void check_atlas_entry(const toml::table& table, const std::string& path);
-
 }  // namespace noonmark

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/judge/atlas.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/laws.h"
 #include "compare/ladder/bias_curves.h"
@@ -48,6 +49,7 @@ struct Experiment {
   std::vector<Swept> swept;  // outermost first; conditions come before choices
   std::vector<std::string> plot;
   std::string cost = RunInfo().cost, accuracy = RunInfo().accuracy;  // of [answer]
+  std::optional<AtlasEntry> atlas;                                   // of [atlas]; it changes no measurement
   std::vector<Bound> bounds;
   std::vector<std::pair<std::string, std::string>> let;  // definitions for the laws
   std::vector<Law> laws;

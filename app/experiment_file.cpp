@@ -44,7 +44,7 @@ class Reader : private SettingsReader {
       else if (!in_part_ && item.key == "plot")
         read_plot(table(*item.node, "[plot]"));
       else if (!in_part_ && item.key == "atlas")
-        check_atlas_entry(table(*item.node, "[atlas]"), path());
+        experiment_.atlas = read_atlas_entry(table(*item.node, "[atlas]"), path());
       else if (!in_part_ && item.key == "part")
         parts_ = item.node;
       else if (item.key == "scene" && item.node->is_string())

@@ -33,6 +33,7 @@ class Writer {
     header("[answer]");
     line("cost", toml_string(e.cost));
     line("accuracy", toml_string(e.accuracy));
+    if (e.atlas) write_atlas(*e.atlas);
     if (e.parts.empty()) points_of(e, "");
     for (const Experiment& part : e.parts) {
       header("[[part]]");
@@ -112,6 +113,14 @@ class Writer {
     std::vector<std::string> texts;
     for (const std::string& one : values) texts.push_back(value(row, one));
     return fmt::format("[{}]", fmt::join(texts, ", "));
+  }
+
+  void write_atlas(const AtlasEntry& entry) {
+    header("[atlas]");
+    for (const auto& [key, text] : atlas_texts(entry))
+      if (!text->empty()) line(key, toml_string(*text));
+    if (!entry.limit.empty()) header("[atlas.limit]");
+    for (const auto& [metric, most] : entry.limit) line(metric, fmt::format("{}", most));
   }
 
   void write_where(std::string_view key, const Conditions& where) {

@@ -118,7 +118,7 @@ Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arg
       // The report says why the picture cannot be read.
     }
   }
-  if (!outcome.interrupted) atlas.add(path, out, results);
+  if (!outcome.interrupted) atlas.add(experiment, out, results, held);
   checked.exit_code = outcome.interrupted ? static_cast<int>(ErrorKind::incomplete) : held ? 0 : 1;
   if (arguments.json)
     checked.json = results_json(outcome, {path, out, checked.exit_code, true, comparison});

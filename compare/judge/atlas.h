@@ -1,14 +1,16 @@
 // The atlas of failures: for one known failure and one technique, whether the technique holds, and where it stops. The
-// rows are experiments with an [atlas] section (app/atlas_file.h); their parts are the techniques.
+// rows are experiments with an [atlas] section (app/atlas_reader.h); their parts are the techniques.
 //
 //   AtlasCell cell = judge_technique(entry, "texel plane", points_of_that_part);
 #pragma once
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "compare/store/records.h"
@@ -26,7 +28,23 @@ struct AtlasEntry {
   std::string thread;                   // address of a public report of this failure; empty: none
   std::string answer;                   // the sentence that would answer the thread; only with `thread`
   std::map<std::string, double> limit;  // metrics that must not be larger at any point, beside the thresholds below
+
+  bool operator==(const AtlasEntry&) const = default;
 };
+
+// The members that are texts, by their keys in the file. Entry: AtlasEntry, const or not.
+template <class Entry>
+auto atlas_texts(Entry& entry) {
+  using Text = std::pair<std::string_view, decltype(&entry.failure)>;
+  return std::array<Text, 8>{{{"failure", &entry.failure},
+                              {"cause", &entry.cause},
+                              {"driver", &entry.driver},
+                              {"cure", &entry.cure},
+                              {"without", &entry.without},
+                              {"note", &entry.note},
+                              {"thread", &entry.thread},
+                              {"answer", &entry.answer}}};
+}
 
 // Ordered from good to bad, so that the worst point decides.
 enum class AtlasVerdict {
@@ -57,11 +75,12 @@ AtlasPoint judge_point(const AtlasEntry& entry, const PointRecord& point);
 struct AtlasCell {
   std::string technique;  // the part's name
   AtlasVerdict verdict = AtlasVerdict::holds;
-  std::string cliff;        // the driver's value at the first point that does not hold; empty: all hold
-  std::string why;          // of the point that decides
-  int64_t point = -1;       // the point that decides: the first one with the worst verdict
-  double left = 0;          // its error: at the best bias if it has a curve; NaN if nothing was judged
-  double cost = 0;          // its texel_work
+  std::string cliff;   // value of the swept setting (entry.driver) at the first point that does not hold; empty:
+                       // every point holds
+  std::string why;     // of the point that decides
+  int64_t point = -1;  // the point that decides: the first one with the worst verdict
+  double left = 0;     // its error: at the best bias if it has a curve; NaN if nothing was judged
+  double cost = 0;     // its texel_work
 };
 // points: those of one part in the order of the sweep, at least one.
 AtlasCell judge_technique(const AtlasEntry& entry, const std::string& technique, std::span<const PointRecord> points);

@@ -49,7 +49,7 @@ std::string cell_html(const AtlasRow& row, const AtlasCell* cell) {
   if (!cell) return "<td>–</td>";
   std::string_view kind = name_of(cell->verdict);
   if (cell->verdict == AtlasVerdict::nothing) kind = "nothing";
-  return fmt::format("<td class=\"{}\"><b>{}</b><br>{}error {}, {} texels</td>", kind, html(verdict_text(row, *cell)),
+  return fmt::format("<td class=\"{}\"><b>{}</b><br>{}error {}, work {}</td>", kind, html(verdict_text(row, *cell)),
                      cell->why.empty() ? "" : html(cell->why) + "<br>", html(left_text(*cell)),
                      html(report::cell(cell->cost, "count")));
 }
@@ -95,7 +95,8 @@ code{font-size:12px;overflow-wrap:anywhere}td:first-child{min-width:18rem;max-wi
       "biases span at least a factor of {} at every placement of the texel grid, with acne, Peter Panning and coverage "
       "of at most {} each. It is <b>fragile</b> if the span is narrower, or if a placement breaks it. It <b>fails</b> "
       "if no bias is usable at some point. <i>From</i> names the first value of the swept setting that does not hold. "
-      "The error is the one that is left at the best bias there. Rows of alpha masks and of motion are not there yet.</p>\n",
+      "The error is the one that is left at the best bias there, the work counts texels written and texture "
+      "instructions. Rows of alpha masks and of motion are not there yet.</p>\n",
       atlas_window_factor, html(report::quantity(atlas_share, "fraction")));
   text += "<table><thead><tr><th>Failure</th><th>Worst point</th>";
   for (const std::string& technique : techniques) text += fmt::format("<th>{}</th>", html(technique));

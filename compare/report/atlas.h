@@ -12,11 +12,10 @@ namespace noonmark {
 
 struct AtlasRow {
   AtlasEntry entry;
-  std::string experiment;  // the file's path as given
-  std::string report;      // path of the row's report, relative to the page
-  std::string picture;     // path of a picture of its worst point, relative to the page; empty: none
-  std::string command;     // the command that checks the row
-  bool held = false;       // every bound and law of the row held
+  std::string report;   // path of the row's report, relative to the page
+  std::string picture;  // path of a picture of its worst point, relative to the page; empty: none
+  std::string command;  // the command that checks the row
+  bool held = false;    // every bound and law of the row held
   std::vector<AtlasCell> cells;
   std::vector<LawResult> laws;  // the predictions of the row
 };
@@ -25,7 +24,7 @@ struct AtlasRow {
 // rows name them; a technique that a row does not try has an empty cell.
 std::string to_atlas_page(std::span<const AtlasRow> rows);
 
-// The same matrix as a Markdown table, one line for each failure: for README.md (scripts/atlas).
+// The same matrix as a Markdown table, one line for each failure: for a README or a summary of CI.
 std::string to_atlas_table(std::span<const AtlasRow> rows);
 
 }  // namespace noonmark

@@ -1,10 +1,10 @@
-#include "app/atlas_file.h"
-
 #include "app/atlas_reader.h"
+
+#include <algorithm>
+
 #include "app/experiment_keys.h"
 #include "app/toml_reader.h"
 #include "compare/store/quantities.h"
-#include "scenes/file.h"
 
 namespace noonmark {
 namespace {
@@ -15,9 +15,7 @@ class AtlasReader : private TomlReader {
 
   AtlasEntry read(const toml::table& section) {
     AtlasEntry entry;
-    const std::pair<std::string_view, std::string*> texts[] = {
-        {"failure", &entry.failure}, {"cause", &entry.cause}, {"driver", &entry.driver}, {"cure", &entry.cure},
-        {"without", &entry.without}, {"note", &entry.note},   {"thread", &entry.thread}, {"answer", &entry.answer}};
+    const auto texts = atlas_texts(entry);
     for (const Item& item : items(section)) {
       const auto* known =
           std::find_if(std::begin(texts), std::end(texts), [&](const auto& text) { return text.first == item.key; });
@@ -48,19 +46,5 @@ class AtlasReader : private TomlReader {
 }  // namespace
 
 AtlasEntry read_atlas_entry(const toml::table& table, const std::string& path) { return AtlasReader(path).read(table); }
-
-void check_atlas_entry(const toml::table& table, const std::string& path) { (void)read_atlas_entry(table, path); }
-
-std::optional<AtlasEntry> load_atlas_entry(const std::string& path) {
-  try {
-    const toml::table root = toml::parse(read_file(path), path);
-    const toml::table* section = root["atlas"].as_table();
-    if (!section) return std::nullopt;
-    return read_atlas_entry(*section, path);
-  } catch (const toml::parse_error& error) {
-    throw Error(ErrorKind::usage, fmt::format("{}:{}:{}: {}", path, error.source().begin.line,
-                                              error.source().begin.column, error.description()));
-  }
-}
 
 }  // namespace noonmark
