@@ -150,8 +150,7 @@ void judge(const Experiment& experiment, Results& results) {
 // Writes all picture files of a measured point. The measurement's images are gone afterwards.
 PointPictures pictures_of(Workbench& bench, const Measurement& m, int64_t id, const std::string& out) {
   PointPictures kept = keep_pictures(m, id, out);
-  const Settings settings = m.settings;
-  if (const std::optional<LivePicture> live = bench.live_picture(settings))
+  if (const std::optional<LivePicture> live = bench.live_picture(m.settings))
     kept.images.push_back(keep_live_picture(*live, id, out));
   return kept;
 }
@@ -256,7 +255,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     kept = keep_points(opened, experiment, planned, folder.path(), facts_text(facts));
   });
   const std::vector<PhasePlan> diagrams = phase_plans(experiment, planned);
-  // Diagrams whose measurement may still serve, though the points or the bounds are others now.
+  // Stored diagrams. Their measurement can be used again even if the points or the bounds have changed.
   const std::vector<PhaseDiagram> earlier = store.stored_phases();
   const auto as_planned = [&](int64_t number, const PhaseDiagram& stored) {
     return std::any_of(diagrams.begin(), diagrams.end(), [&](const PhasePlan& plan) {

@@ -76,8 +76,8 @@ struct MaskCutter::Leaf {
 
 // Clips convex polygons by one triangle and collects the pieces.
 //
-// Neighbours have to agree about a point on a common line to the last bit. So each point is computed from the whole
-// lines that meet there, whose ends are taken in a fixed order, and never from a line that is already clipped.
+// Two neighbours must get the same bits for a point on their common line. So each point is computed from the two whole
+// lines that meet there, with their ends in a fixed order. A clipped line is never used for it.
 class MaskCutter::Clipper {
  public:
   Clipper(const std::array<glm::vec3, 3>& corners, const std::array<glm::dvec2, 3>& at, Pieces& pieces, uint64_t most)
@@ -228,7 +228,7 @@ class MaskCutter::Clipper {
       add(list_[from], list_[from + 1], list_[from + 2]);
       return add(list_[from], list_[from + 2], list_[(from + 3) % 4]);
     }
-    // A fan from the middle: however many vertices lie on one straight side, no triangle of it is flat.
+    // A fan around the middle point. Several vertices may lie on one straight side; no triangle of the fan is flat then.
     glm::dvec2 sum(0);
     for (const Vertex& v : ring_) sum += v.at;
     const uint32_t middle = number({sum / static_cast<double>(ring_.size()), none, none, none, {}, {}});

@@ -10,8 +10,8 @@ namespace {
 
 using namespace test;
 
-// Where the ray from p along d meets the triangle's plane, as texture coordinates; nothing if it does not meet the
-// triangle ahead of p. margin: how near, in texels, the point comes to a side of a texel or of the card.
+// Where the ray from p along d meets the triangle, as texture coordinates. hit: it meets it; d may also lead backwards,
+// then t is negative.
 struct Met {
   bool hit = false;
   glm::dvec2 uv{0};
@@ -28,6 +28,7 @@ Met meet(glm::dvec3 p, glm::dvec3 d, const std::array<glm::vec3, 3>& corners, co
   return {true, uv[0] + b * (uv[1] - uv[0]) + c * (uv[2] - uv[0]), t};
 }
 
+// How near the place comes to a side of a texel, in texels.
 double to_a_side(glm::dvec2 uv, const AlphaMask& mask) {
   const glm::dvec2 at = uv * glm::dvec2(mask.width, mask.height), off = glm::abs(at - glm::round(at));
   return std::min(off.x, off.y);

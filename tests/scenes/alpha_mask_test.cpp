@@ -145,7 +145,8 @@ TEST(AlphaMask, PiecesAreWhereTheTextureIsOpaque) {
   EXPECT_GT(opaque, asked / 4);
 }
 
-// Where the alpha is a plane over four centres its bilinear border is straight, so the cut is exact there too.
+// If alpha is a linear function of the place, the border of the mask is a straight line. Then the cut is exact with linear
+// filtering too.
 TEST(AlphaMask, LinearFollowsAStraightBorderExactly) {
   AlphaMask mask{8, 8, {}, MaskWrap::clamp, MaskWrap::clamp, MaskFilter::linear, 1, 0.4};
   for (int j = 0; j < 8; ++j)

@@ -9,7 +9,7 @@
 namespace noonmark::test {
 namespace {
 
-// A PNG of alpha alone (red, green and blue are 0); the first row is the top one, which is v = 0.
+// A PNG with these values of alpha; red, green and blue are 0. The first row is the top row, where v = 0.
 std::string png(int width, int height, const std::vector<int>& alpha, bool with_alpha = true) {
   std::vector<uint8_t> pixels;
   for (int a : alpha) {
