@@ -24,7 +24,7 @@ constexpr int searched_placements = 8;  // along each axis
 constexpr double factor_that_pays = 1.25;
 
 // The same settings with a smaller picture of the same shape.
-Settings small(Settings settings, int width_px) {
+Settings small_picture(Settings settings, int width_px) {
   const double scale = std::min(1.0, static_cast<double>(width_px) / settings.view.width_px);
   settings.view.width_px = std::max(1, static_cast<int>(std::lround(scale * settings.view.width_px)));
   settings.view.height_px = std::max(1, static_cast<int>(std::lround(scale * settings.view.height_px)));
@@ -130,7 +130,7 @@ class Search {
   std::optional<int> least_resolution() {
     say_("which resolution would be enough for one constant bias");
     return constant_bias_resolution(
-        bench_, small(of_choice(request_.conditions.front(), 0, {"none", {}}, 1024), request_.width_px),
+        bench_, small_picture(of_choice(request_.conditions.front(), 0, {"none", {}}, 1024), request_.width_px),
         request_.curve);
   }
 
@@ -269,7 +269,7 @@ class Search {
 
   // False if neither these settings nor dearer ones can win.
   bool screen(Tried& tried, double cost_before) {
-    Settings settings = small(tried.settings, request_.width_px);
+    Settings settings = small_picture(tried.settings, request_.width_px);
     if (seen_ && too_dear(full_texel_work(tried.settings, *seen_), cost_before)) return false;
     try {
       require_memory(bench_.memory(settings, true, false), bench_.memory_of_program(false), "the search");
@@ -324,7 +324,7 @@ class Search {
     std::map<size_t, PointRecord> of_condition;
     for (size_t i = 0; i < request_.conditions.size(); ++i) {
       const size_t which = i == 0 ? hardest_ : i <= hardest_ ? i - 1 : i;
-      Settings there = small(
+      Settings there = small_picture(
           of_choice(request_.conditions[which], candidate.level, tried.settings.filter, tried.settings.map.resolution),
           request_.width_px);
       there.map.placements = searched_placements;

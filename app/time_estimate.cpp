@@ -67,7 +67,7 @@ std::vector<double> work_of(const Settings& s, const Settings* before, const std
   return work;
 }
 
-Settings small(Settings settings, int divisor) {
+Settings small_part(Settings settings, int divisor) {
   settings.view.width_px = std::max(1, settings.view.width_px / divisor);
   settings.view.height_px = std::max(1, settings.view.height_px / divisor);
   return settings;
@@ -158,7 +158,7 @@ class Calibration {
 
   // The row of the model: the columns that all points share, and those of its filter.
   std::vector<double> row_of(size_t id, int divisor, const Settings* before) const {
-    const Settings settings = small(planned_[id], divisor);
+    const Settings settings = small_part(planned_[id], divisor);
     const std::vector<double> work = work_of(settings, before, options_of(id), timed_);
     std::vector<double> row(work.begin(), work.begin() + look);
     for (size_t w = look; w < works; ++w) {
@@ -172,7 +172,7 @@ class Calibration {
   }
 
   void measure(size_t id, int divisor) {
-    const Settings settings = small(planned_[id], divisor);
+    const Settings settings = small_part(planned_[id], divisor);
     std::vector<double> row = row_of(id, divisor, last_ ? &*last_ : nullptr);
     const Clock before = now();
     bench_.measure(settings, options_of(id));
@@ -232,12 +232,12 @@ std::vector<double> picture_times(Workbench& bench, const std::vector<Settings>&
   };
   const auto texels = [](const Settings& s) { return std::pow(s.map.resolution, 2); };
   const Settings& first = planned.front();
-  write(small(first, 4));  // opens the picture library
-  const double quarter = write(small(first, 4));
-  Settings other = small(first, 4);
+  write(small_part(first, 4));  // opens the picture library
+  const double quarter = write(small_part(first, 4));
+  Settings other = small_part(first, 4);
   other.map.resolution = first.map.resolution > 1024 ? first.map.resolution / 2 : first.map.resolution * 2;
   const double per_texel = std::max(0.0, (write(other) - quarter) / (texels(other) - texels(first)));
-  double files = at_full_size([&](int divisor) { return divisor == 4 ? quarter : write(small(first, divisor)); });
+  double files = at_full_size([&](int divisor) { return divisor == 4 ? quarter : write(small_part(first, divisor)); });
   const Clock before = now();
   bench.live_picture(first);
   files += now().cpu_s - before.cpu_s;

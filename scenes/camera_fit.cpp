@@ -15,7 +15,7 @@ namespace noonmark {
 namespace {
 
 // Margin around what is fitted, as a fraction of it: far more than the rounding of the matrix to float moves a plane.
-constexpr double margin = 0x1p-10;
+constexpr double plane_margin = 0x1p-10;
 // Of far. Over a triangle that reaches from near to far the rasteriser interpolates near / depth in float: at far it is
 // off by a float step of 1, so that the depth there is off by a share of 2^-24 / this.
 constexpr double least_near = 1e-4;
@@ -36,7 +36,7 @@ double least_depth_between(const std::array<glm::dvec4, 5>& planes, const std::a
 }
 
 Depths depths_in_view(const Scene& scene, const CameraFrame& frame) {
-  const std::array<glm::dvec4, 4> sides = side_planes(frame, margin);
+  const std::array<glm::dvec4, 4> sides = side_planes(frame, plane_margin);
   const std::array<glm::dvec4, 5> planes = {sides[0], sides[1], sides[2], sides[3],
                                             glm::dvec4(0, 0, 1, 0)};  // the eye's
   Depths depths;
@@ -67,10 +67,10 @@ Camera with_fitted_depths(const Scene& scene, Camera camera, int width, int heig
   const Depths seen = depths_in_view(scene, make_camera_frame(camera, width, height));
   // What float coordinates of this size cannot tell apart.
   const double rounding = 0x1p-20 * (glm::length(camera.eye_m) + seen.farthest);
-  camera.far_m = seen.farthest > 0 ? (1 + margin) * seen.farthest + rounding : 1;
+  camera.far_m = seen.farthest > 0 ? (1 + plane_margin) * seen.farthest + rounding : 1;
   const double least = camera.projection == Projection::perspective ? least_near * *camera.far_m : 0;
   const bool any_in_view = std::isfinite(seen.nearest);
-  camera.near_m = std::max(least, any_in_view ? (1 - margin) * seen.nearest - rounding : *camera.far_m / 2);
+  camera.near_m = std::max(least, any_in_view ? (1 - plane_margin) * seen.nearest - rounding : *camera.far_m / 2);
   return camera;
 }
 

@@ -11,7 +11,7 @@ namespace noonmark {
 namespace {
 
 // Empty space around the sphere in the picture, as a fraction of its radius.
-constexpr double margin = 0.05;
+constexpr double view_margin = 0.05;
 // To the eye: a quarter to the right of the front (glTF's +Z), a little above. Any direction that shows three sides of
 // a box would do.
 const glm::dvec3 to_eye = glm::normalize(glm::dvec3(0.7, 0.5, 1.0));
@@ -56,7 +56,7 @@ Camera fit_camera(const Scene& scene) {
   const double radius = usable_radius(sphere);
   Camera camera;
   const double half_angle = glm::radians(0.5 * camera.fov_y_deg);
-  const double distance = (1 + margin) * radius / glm::sin(half_angle);
+  const double distance = (1 + view_margin) * radius / glm::sin(half_angle);
   camera.target_m = sphere.centre_m;
   camera.eye_m = sphere.centre_m + to_eye * distance;
   return camera;

@@ -9,13 +9,13 @@ namespace noonmark {
 
 namespace {
 
-struct Box {
+struct VertexBox {
   glm::dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;
 };
 
 // Of the vertices that triangles use.
-Box box_of_triangles(const Scene& scene) {
-  Box box;
+VertexBox box_of_triangles(const Scene& scene) {
+  VertexBox box;
   for (const glm::uvec3& triangle : scene.triangles)
     for (int corner = 0; corner < 3; ++corner) {
       const glm::dvec3 p(scene.positions[triangle[corner]]);
@@ -29,7 +29,7 @@ Box box_of_triangles(const Scene& scene) {
 
 void add_floor_under(Scene& scene) {
   if (scene.triangles.empty()) return;
-  const Box box = box_of_triangles(scene);
+  const VertexBox box = box_of_triangles(scene);
   const double side = floor_side_diagonals * glm::length(box.high - box.low);
   const glm::dvec3 middle = 0.5 * (box.low + box.high);
   const glm::dvec3 corner(middle.x - 0.5 * side, box.low.y, middle.z - 0.5 * side);
@@ -41,7 +41,7 @@ void add_floor_under(Scene& scene) {
 bool has_ground(const Scene& scene) {
   constexpr double lowest_part = 0.1, least_cover = 0.5;
   if (scene.triangles.empty()) return false;
-  const Box box = box_of_triangles(scene);
+  const VertexBox box = box_of_triangles(scene);
   const glm::dvec3 size = box.high - box.low;
   // What float coordinates of this size cannot tell apart: a level surface that was rotated is not exactly level.
   const double rounding = 0x1p-20 * glm::length(glm::max(glm::abs(box.low), glm::abs(box.high)));

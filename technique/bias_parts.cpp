@@ -180,7 +180,7 @@ constexpr TapReference references[] = {
 #undef FACTOR
 #undef WAY
 
-std::vector<BiasParameter> make_parameters() {
+std::vector<BiasParameter> make_bias_parameters() {
   using Role = BiasParameter::Role;
   std::vector<BiasParameter> all;
   for (const BiasPart& part : parts) {
@@ -208,7 +208,7 @@ std::span<const BiasPart> bias_parts() { return parts; }
 const BiasPart& bias_part(std::string_view name) { return row_of(parts, name, "part of a bias"); }
 
 std::span<const BiasParameter> bias_parameters() {
-  static const std::vector<BiasParameter> all = make_parameters();
+  static const std::vector<BiasParameter> all = make_bias_parameters();
   return all;
 }
 

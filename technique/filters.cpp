@@ -194,7 +194,7 @@ std::vector<Filter> make_filters() {
   };
 }
 
-std::vector<const FilterParameter*> make_parameters() {
+std::vector<const FilterParameter*> make_filter_parameters() {
   std::vector<const FilterParameter*> all;
   for (const Filter& filter : filters())
     for (const FilterRead& read : filter.reads)
@@ -218,7 +218,7 @@ const FilterRead* Filter::read(const FilterParameter& parameter) const {
 }
 
 std::span<const FilterParameter* const> filter_parameters() {
-  static const std::vector<const FilterParameter*> all = make_parameters();
+  static const std::vector<const FilterParameter*> all = make_filter_parameters();
   return all;
 }
 

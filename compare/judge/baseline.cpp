@@ -10,6 +10,7 @@
 #include <set>
 
 #include "compare/judge/conditions.h"
+#include "compare/ladder/numbers.h"
 #include "compare/store/quantities.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
@@ -20,7 +21,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr int file_format = 1;  // counted up when the file changes its form
 
 double rounded(double value) { return std::stod(fmt::format("{:.{}e}", value, baseline_digits - 1)); }

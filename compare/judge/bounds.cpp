@@ -10,6 +10,7 @@
 
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
+#include "compare/ladder/numbers.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
 #include "technique/settings.h"
@@ -17,7 +18,6 @@
 namespace noonmark {
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view joins[] = {"worst", "mean", "median"};
 constexpr std::string_view placements[] = {"worst", "first"};
 

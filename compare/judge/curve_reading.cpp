@@ -5,13 +5,12 @@
 #include <limits>
 #include <vector>
 
+#include "compare/ladder/numbers.h"
 #include "compare/store/curve_fields.h"
 #include "compare/store/quantities.h"
 
 namespace noonmark {
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 const std::vector<double>* series_of(const BiasCurve& curve, const std::string& metric) {
   for (const CurveSeries& series : curve_series())

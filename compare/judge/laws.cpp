@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "compare/judge/formula.h"
+#include "compare/ladder/numbers.h"
 #include "compare/store/metrics.h"
 #include "compare/store/quantities.h"
 #include "scenes/error.h"
@@ -16,8 +17,6 @@
 
 namespace noonmark {
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 double number(std::string_view text) {
   double value = 0;

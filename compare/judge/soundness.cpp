@@ -8,14 +8,13 @@
 #include <limits>
 #include <vector>
 
+#include "compare/ladder/numbers.h"
 #include "compare/ladder/probe_errors.h"
 #include "compare/ladder/receiver_taps.h"
 #include "compare/store/quantities.h"
 
 namespace noonmark {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double quantum(DepthFormat format, float depth) {
   switch (format) {

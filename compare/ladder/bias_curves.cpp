@@ -6,13 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/ladder/numbers.h"
 #include "compare/ladder/receiver_taps.h"
 #include "compare/ladder/tap_threshold.h"
 
 namespace noonmark {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 double share_of(double part, double whole) {
   return whole == 0 ? std::numeric_limits<double>::quiet_NaN() : part / whole;
@@ -45,7 +44,7 @@ void BiasCounts::Adding::receiver(size_t i, const ReceiverTaps& taps, Part& part
   };
   ++part.receivers;
   if (e_.truth.soft[i] != static_cast<float>(e_.truth.lit[i])) soft_receiver(i, taps, part);
-  float least = infinity, most = 0;
+  float least = infinity_f, most = 0;
   for (size_t t = 0; t < taps.size(); ++t) {
     const Tap& exact = taps[t];
     if (exact.weight == 0) continue;  // P lies exactly on a texel's centre: the sampler reads no other texel
@@ -153,8 +152,8 @@ float BiasCounts::peter_panning_free_to(double share) const {
     else
       beyond = middle;
   }
-  if (within == t.size() || t[within] == infinity) return infinity;  // no bias reaches infinity
-  return std::nextafter(t[within], -infinity);
+  if (within == t.size() || t[within] == infinity_f) return infinity_f;  // no bias reaches infinity
+  return std::nextafter(t[within], -infinity_f);
 }
 
 WindowSteps BiasCounts::window_steps(double depth_per_unit, double most_share) const {
@@ -170,24 +169,24 @@ WindowSteps BiasCounts::window_steps(double depth_per_unit, double most_share) c
   }
   for (size_t reached = 0; reached <= panning.size(); ++reached) {
     if (!(share_of(panning.before(reached), taps()) <= most_share)) break;
-    steps.peter_panning.push_back({reached == panning.size() ? infinity : panning[reached], panning.before(reached)});
+    steps.peter_panning.push_back({reached == panning.size() ? infinity_f : panning[reached], panning.before(reached)});
   }
   return steps;
 }
 
 BiasCounts::Best BiasCounts::best(float most) const {
   // The error is constant from each breakpoint to the next; 0 starts the first stretch, and `most` ends the last.
-  const auto end_before = [&](float next) { return next == infinity ? most : std::nextafter(next, -infinity); };
+  const auto end_before = [&](float next) { return next == infinity_f ? most : std::nextafter(next, -infinity_f); };
   const auto for_each_stretch = [&](const auto& visit) {
     size_t d = 0, l = 0;
     float x = 0;
     for (bool last = false; !last;) {
       while (d < sums_[error_dark].size() && sums_[error_dark][d] <= x) ++d;
       while (l < sums_[error_light].size() && sums_[error_light][l] <= x) ++l;
-      const float next = std::min(d < sums_[error_dark].size() ? sums_[error_dark][d] : infinity,
-                                  l < sums_[error_light].size() ? sums_[error_light][l] : infinity);
-      last = next > most || next == infinity;
-      visit(x, last ? infinity : next,
+      const float next = std::min(d < sums_[error_dark].size() ? sums_[error_dark][d] : infinity_f,
+                                  l < sums_[error_light].size() ? sums_[error_light][l] : infinity_f);
+      last = next > most || next == infinity_f;
+      visit(x, last ? infinity_f : next,
             sums_[error_dark].total() - sums_[error_dark].before(d) + sums_[error_light].before(l));
       x = next;
     }
@@ -290,7 +289,7 @@ BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const Curv
   curve.flat_min_depth = in_depth(best.flat_from);
   curve.flat_max_depth = best.flat_to >= most ? 1.0 : in_depth(best.flat_to);
   curve.breakpoints = best.breakpoints;
-  const auto if_any = [&](float x) { return x < infinity ? std::optional<double>(in_depth(x)) : std::nullopt; };
+  const auto if_any = [&](float x) { return x < infinity_f ? std::optional<double>(in_depth(x)) : std::nullopt; };
   curve.acne_free_bias_depth = if_any(counts.acne_free_from(0));
   curve.acne_free_bias_stored_depth = if_any(counts.stored_acne_free_from());
   return curve;

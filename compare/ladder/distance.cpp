@@ -7,17 +7,17 @@
 #include <limits>
 #include <vector>
 
+#include "compare/ladder/numbers.h"
+
 namespace noonmark {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // d[i] = min over j of (i - j)^2 + f[j]: the lower envelope of the parabolas rooted at every j with finite f.
 void transform(const std::vector<float>& f, std::vector<float>& d, std::vector<int>& root, std::vector<double>& from) {
   const int n = static_cast<int>(f.size());
   int k = -1;
   for (int q = 0; q < n; ++q) {
-    if (f[q] == infinity) continue;
+    if (f[q] == infinity_f) continue;
     double start = -infinity;  // double: beyond 4096 a float cannot separate this place from a neighbouring pixel
     while (k >= 0) {
       const double p = root[k];
@@ -32,7 +32,7 @@ void transform(const std::vector<float>& f, std::vector<float>& d, std::vector<i
   }
   for (int q = 0, i = 0; q < n; ++q) {
     if (k < 0) {
-      d[q] = infinity;
+      d[q] = infinity_f;
       continue;
     }
     while (i < k && from[i + 1] < q) ++i;
@@ -45,7 +45,7 @@ void transform(const std::vector<float>& f, std::vector<float>& d, std::vector<i
 
 Image<float> distance_to(const Image<uint8_t>& mask) {
   const int width = mask.width, height = mask.height;
-  Image<float> squared(width, height, infinity);
+  Image<float> squared(width, height, infinity_f);
   const auto lines = [](int count, int length, const auto& get, const auto& set) {
     tbb::parallel_for(tbb::blocked_range<int>(0, count), [&](const tbb::blocked_range<int>& range) {
       std::vector<float> f(length), d(length);
@@ -59,7 +59,7 @@ Image<float> distance_to(const Image<uint8_t>& mask) {
     });
   };
   lines(
-      width, height, [&](int x, int y) { return mask.at(x, y) ? 0.0f : infinity; },
+      width, height, [&](int x, int y) { return mask.at(x, y) ? 0.0f : infinity_f; },
       [&](int x, int y, float d) { squared.at(x, y) = d; });
   lines(
       height, width, [&](int y, int x) { return squared.at(x, y); },

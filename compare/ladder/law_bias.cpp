@@ -6,10 +6,10 @@
 #include <numbers>
 #include <span>
 
+#include "compare/ladder/numbers.h"
+
 namespace noonmark {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool capped(const LookupProbe& probe) {
   return probe.tap_reference->reads_cap && probe.plane_cap < std::numeric_limits<float>::max();

@@ -12,15 +12,11 @@
 #include <vector>
 
 #include "compare/ladder/law_bias.h"
+#include "compare/ladder/numbers.h"
 #include "scenes/camera_frame.h"
 
 namespace noonmark {
 namespace {
-
-// std::max that keeps a NaN, whichever value it is.
-void raise(double& value, double candidate) {
-  if (!(candidate <= value) && !std::isnan(value)) value = candidate;
-}
 
 // A step of window depth in metres, at the near or the far plane of the tile where it is the largest.
 double quantum_m(const LightFrame& frame, double quantum, double MapTile::*plane) {

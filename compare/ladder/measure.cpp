@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "compare/ladder/distance.h"
+#include "compare/ladder/numbers.h"
 
 namespace noonmark {
 namespace {
@@ -15,11 +16,6 @@ namespace {
 // occluder and so no distance to it.
 bool in_gap(const Ladder& ladder, size_t i) {
   return is_counted(ladder, i) && ladder[Cause::peter_panning][i] != 0 && ladder.truth()[i] == 0;
-}
-
-// std::max that keeps a NaN, whichever value it is.
-void raise(double& value, double candidate) {
-  if (!(candidate <= value) && !std::isnan(value)) value = candidate;
 }
 
 // The largest distance in the picture from an aliased pixel to the nearest pixel whose truth is the answer that the map

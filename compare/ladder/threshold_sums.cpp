@@ -9,10 +9,10 @@
 #include <iterator>
 #include <limits>
 
+#include "compare/ladder/numbers.h"
+
 namespace noonmark {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // Sorts floats that are at least 0 (radix sort). Their order is that of their bits, which are read in three digits from
 // the lowest to the highest. The sign is 0 and is not read.
@@ -120,7 +120,7 @@ void ThresholdSums::add(ThresholdSums&& batch) {
   both.at_.reserve(at_.size() + batch.at_.size());
   both.up_to_.reserve(both.at_.capacity());
   for (size_t i = 0, j = 0; i < size() || j < batch.size();) {
-    const float next = std::min(i < size() ? at_[i] : infinity, j < batch.size() ? batch[j] : infinity);
+    const float next = std::min(i < size() ? at_[i] : infinity_f, j < batch.size() ? batch[j] : infinity_f);
     if (i < size() && at_[i] == next) ++i;
     if (j < batch.size() && batch[j] == next) ++j;
     both.at_.push_back(next);

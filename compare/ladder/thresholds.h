@@ -9,11 +9,11 @@
 #include <cstdint>
 #include <limits>
 
+#include "compare/ladder/numbers.h"
+
 namespace noonmark {
 
 namespace threshold_search {
-
-inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // The next float above or below one that is at least 0 and finite; std::nextafter is a call for every tap.
 inline float above(float x) { return std::bit_cast<float>(std::bit_cast<uint32_t>(x) + 1); }
@@ -27,7 +27,7 @@ float smallest(float guess, const Enough& enough) {
   float value = guess > 0 ? guess : 0;
   while (!enough(value)) {
     value = above(value);
-    if (value == infinity) return infinity;
+    if (value == infinity_f) return infinity_f;
   }
   for (float less = below(value); less > 0 && enough(less); less = below(value)) value = less;
   return value;
@@ -41,7 +41,7 @@ float smallest(float guess, const Enough& enough) {
 inline float lit_threshold(float reference, float stored) {
   using namespace threshold_search;
   const double midpoint =
-      (static_cast<double>(stored) + (stored >= 0 ? above(stored + 0.0f) : std::nextafter(stored, infinity))) / 2;
+      (static_cast<double>(stored) + (stored >= 0 ? above(stored + 0.0f) : std::nextafter(stored, infinity_f))) / 2;
   return smallest(static_cast<float>(reference - midpoint), [&](float bias) { return !(reference - bias > stored); });
 }
 
@@ -52,10 +52,10 @@ inline float factor_threshold(float product, float factor) {
   using namespace threshold_search;
   if (factor == 1) return product > 0 ? product : 0;  // no search needed: a constant bias has this factor
   if (product <= 0) return 0;
-  if (!(factor > 0) || product == infinity) return infinity;
+  if (!(factor > 0) || product == infinity_f) return infinity_f;
   const double midpoint = (static_cast<double>(product) + below(product)) / 2;
   const double guess = midpoint / factor;
-  if (guess > std::numeric_limits<float>::max()) return infinity;
+  if (guess > std::numeric_limits<float>::max()) return infinity_f;
   return smallest(static_cast<float>(guess), [&](float x) { return x * factor >= product; });
 }
 
@@ -64,7 +64,7 @@ inline float factor_threshold(float product, float factor) {
 inline float addend_threshold(float sum, float addend) {
   using namespace threshold_search;
   if (addend == 0) return sum > 0 ? sum : 0;  // no search needed: the bias has one part, as most biases have
-  if (sum == infinity) return infinity;
+  if (sum == infinity_f) return infinity_f;
   if (addend >= sum) return 0;
   const double midpoint = (static_cast<double>(sum) + below(sum)) / 2;
   return smallest(static_cast<float>(midpoint - addend), [&](float x) { return addend + x >= sum; });

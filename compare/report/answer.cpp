@@ -153,7 +153,7 @@ std::string health_items(const Results& results) {
   return out;
 }
 
-std::string bounds_table(const Results& results) {
+std::string bounds_section(const Results& results) {
   if (results.bounds.empty()) return "";
   std::string rows;
   for (const BoundResult& bound : results.bounds) {
@@ -223,7 +223,7 @@ std::string answer_section(const Results& results) {
            "<p>No point was measured.</p></section>\n";
   // Points of different parts are not meant to be compared, so none of them is the cheapest.
   if (!results.points.front().part.empty())
-    return "<section id=\"answer\"><h2>The answer</h2>" + laws_table(results) + bounds_table(results) +
+    return "<section id=\"answer\"><h2>The answer</h2>" + laws_table(results) + bounds_section(results) +
            "<ul class=\"findings\">\n" + health_items(results) + "</ul></section>\n";
   std::vector<const PointRecord*> all;
   for (const PointRecord& point : results.points) all.push_back(&point);
@@ -234,7 +234,7 @@ std::string answer_section(const Results& results) {
   items += health_items(results);
   return "<section id=\"answer\"><h2>The answer</h2><div class=\"answer\">" + recommendation_box(results) +
          "<div class=\"breaks\"><h3>What breaks</h3><ul class=\"findings\">\n" + items + "</ul></div></div>\n" +
-         bounds_table(results) + laws_table(results) + "</section>\n";
+         bounds_section(results) + laws_table(results) + "</section>\n";
 }
 
 }  // namespace noonmark::report

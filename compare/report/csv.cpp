@@ -16,7 +16,7 @@
 namespace noonmark {
 namespace {
 
-std::string number(double value) { return fmt::format("{}", value); }
+std::string exact_number(double value) { return fmt::format("{}", value); }
 
 // A heading and its value for each point.
 struct Column {
@@ -26,7 +26,7 @@ struct Column {
 
 std::string look_up(const std::map<std::string, double>& numbers, const std::string& name) {
   const auto found = numbers.find(name);
-  return found == numbers.end() ? std::string() : number(found->second);
+  return found == numbers.end() ? std::string() : exact_number(found->second);
 }
 
 // `known` in its order, then the names that only the points have (results of another version), sorted.
@@ -76,7 +76,7 @@ std::vector<Column> columns(const Results& results) {
   for (const CurveQuantity& row : curve_quantities())
     list.push_back({std::string(row.name), [&row](const PointRecord& p) {
                       const std::optional<double> value = p.curve ? row.value(*p.curve) : std::nullopt;
-                      return value ? number(*value) : std::string();
+                      return value ? exact_number(*value) : std::string();
                     }});
   for (const RecordField& field : record_fields())
     if (!field.group.empty()) field_column(field);

@@ -18,8 +18,6 @@
 namespace noonmark::report {
 namespace {
 
-constexpr size_t open_rows = 40;  // longer tables start folded
-
 std::string folded(const std::string& title, size_t rows, const std::string& inner) {
   return fmt::format("<details{}><summary>{}</summary>\n{}</details>\n", rows <= open_rows ? " open" : "", title,
                      inner);

@@ -17,7 +17,6 @@ namespace {
 
 using Window = ComparedChoice::Window;
 
-constexpr size_t open_rows = 40;   // longer tables start folded
 constexpr size_t most_tables = 8;  // one for each group; a sweep of many scenes has many
 
 // What the section is about: one cost and one error, and how choices are named and linked.

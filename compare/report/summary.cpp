@@ -31,13 +31,13 @@ void add_heading(std::string& text, const std::vector<std::string>& names) {
 }
 
 // Four digits are enough for this page. The store has all digits.
-std::string short_number(std::optional<double> value) {
+std::string short_or_missing(std::optional<double> value) {
   if (!value) return "–";
   return std::isnan(*value) ? std::string(not_measured) : fmt::format("{:.4g}", *value);
 }
 
 // "3 bounds", "the law"
-std::string counted(size_t count, std::string_view what) {
+std::string all_of(size_t count, std::string_view what) {
   return count == 1 ? fmt::format("the {}", what) : fmt::format("all {} {}s", count, what);
 }
 
@@ -53,7 +53,7 @@ std::string verdict(const Results& results) {
     const bool all = kept == static_cast<std::ptrdiff_t>(list.size());  // otherwise some are warnings
     if (!list.empty())
       held += (held.empty() ? "" : " and ") +
-              (all ? counted(list.size(), what) : fmt::format("{} of {} {}s", kept, list.size(), what));
+              (all ? all_of(list.size(), what) : fmt::format("{} of {} {}s", kept, list.size(), what));
   };
   judge(results.bounds, "bound", breaks);
   judge(results.laws, "law", [](const LawResult& law) { return !law.held; });
@@ -81,9 +81,9 @@ std::string laws_table(const Results& results) {
   add_heading(text, {"", "law", "samples", "predicted", "measured", "measured / predicted"});
   for (const LawResult& law : results.laws) {
     const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
-    add_row(text,
-            {law.held ? "holds" : "**broken**", markdown(law.name), fmt::format("{}", law.samples.size()),
-             markdown(predicted_text(law)), worst ? short_number(worst->measured) : "–", markdown(ratio_text(law))});
+    add_row(text, {law.held ? "holds" : "**broken**", markdown(law.name), fmt::format("{}", law.samples.size()),
+                   markdown(predicted_text(law)), worst ? short_or_missing(worst->measured) : "–",
+                   markdown(ratio_text(law))});
   }
   for (const LawResult& law : results.laws)
     if (!law.held) text += "\n" + markdown_block(law_table({&law, 1}));
@@ -117,7 +117,7 @@ std::string bounds_table(const Results& results) {
         if (setting != point->settings.end()) at.push_back(fmt::format("{} = {}", name, setting->second));
       }
     add_row(text, {breaks(bound) ? "**broken**" : std::string(verdict_of(bound)), markdown(bound_text(bound)),
-                   bound.points == 0 ? "–" : short_number(bound.found), fmt::format("{}", bound.points),
+                   bound.points == 0 ? "–" : short_or_missing(bound.found), fmt::format("{}", bound.points),
                    markdown(fmt::format("{}", fmt::join(at, ", ")))});
   }
   for (const BoundResult& bound : results.bounds) {
@@ -175,13 +175,13 @@ std::string best_table(const Results& results) {
     }
     for (const std::string& name : {std::string("error"), std::string("acne"), std::string("peter_panning"),
                                     std::string("aliasing"), results.info.cost})
-      cells.push_back(short_number(quantity(*point, name)));
+      cells.push_back(short_or_missing(quantity(*point, name)));
     const std::optional<double> min = quantity(*point, "window_min_depth"), max = quantity(*point, "window_max_depth");
-    cells.push_back(min && max     ? fmt::format("{} … {}", short_number(min), short_number(max))
+    cells.push_back(min && max     ? fmt::format("{} … {}", short_or_missing(min), short_or_missing(max))
                     : point->curve ? "none"
                                    : "–");
     for (const char* name : {"best_bias_depth", "best_bias_m", "best_bias_texels", "best_error"})
-      cells.push_back(short_number(quantity(*point, name)));
+      cells.push_back(short_or_missing(quantity(*point, name)));
     add_row(text, cells);
   }
 

@@ -10,6 +10,9 @@
 
 namespace noonmark::report {
 
+// A table with more rows starts folded.
+inline constexpr size_t open_rows = 40;
+
 // Text for HTML and for quoted attributes. Bytes that are not UTF-8, and control characters except line breaks and
 // tabs, become U+FFFD.
 std::string html(std::string_view text);

@@ -3,7 +3,7 @@
 namespace noonmark {
 namespace {
 
-constexpr CurveField fields[] = {
+constexpr CurveField fields_of_curves[] = {
     {"parameter", "", "The setting that the curve varies.", &BiasCurve::parameter},
     {"made", "", "How the curve was made.", &BiasCurve::made},
     {"m_per_depth", "m", "Metres along the light for 1 of window depth.", &BiasCurve::m_per_depth},
@@ -72,7 +72,7 @@ constexpr CurveSeries series[] = {
 
 }  // namespace
 
-std::span<const CurveField> curve_fields() { return fields; }
+std::span<const CurveField> curve_fields() { return fields_of_curves; }
 std::span<const CurveWidth> curve_widths() { return widths; }
 std::span<const CurveSeries> curve_series() { return series; }
 

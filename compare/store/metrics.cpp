@@ -210,14 +210,14 @@ constexpr std::string_view placed[] = {"error",    "wrong",         "acne",     
                                        "aliasing", "aliasing_dark", "aliasing_light", "aliasing_rms",
                                        "coverage", "coverage_dark", "coverage_light", "undecided"};
 
-struct Table {
+struct MetricTable {
   std::deque<std::string> texts;  // of the rows that are made here
   std::vector<Metric> rows;
 };
 
-const Table& table() {
-  static const Table made = [] {
-    Table t;
+const MetricTable& table() {
+  static const MetricTable made = [] {
+    MetricTable t;
     t.rows.assign(std::begin(measured_once), std::end(measured_once));
     const auto text = [&](const std::string& made_text) -> std::string_view { return t.texts.emplace_back(made_text); };
     for (const auto& [name, what] : timed) {

@@ -5,7 +5,7 @@ namespace {
 
 using Worst = PointRecord::Worst;
 
-constexpr RecordField fields[] = {
+constexpr RecordField fields_of_records[] = {
     {"part", "", "", "The experiment's part; empty if it has no parts.", &PointRecord::part},
     {"worst_x", "worst", "px", "The worst pixel's column.", &Worst::x},
     {"worst_y", "worst", "px", "The worst pixel's row, 0 on top.", &Worst::y},
@@ -15,6 +15,6 @@ constexpr RecordField fields[] = {
 
 }  // namespace
 
-std::span<const RecordField> record_fields() { return fields; }
+std::span<const RecordField> record_fields() { return fields_of_records; }
 
 }  // namespace noonmark

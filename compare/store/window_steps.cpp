@@ -13,9 +13,7 @@
 namespace noonmark {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-struct Window {
+struct WindowStep {
   float from, to;
 };
 
@@ -91,7 +89,9 @@ void judge_window(BiasCurve& curve, double acne_bound, double peter_panning_boun
   const auto* least = first_within(steps.acne, steps.taps, acne_bound);
   const auto* end = last_within(steps.peter_panning, steps.taps, peter_panning_bound);
   if (least && end) {
-    const float from = least->amount, to = end->amount == infinity ? infinity : std::nextafter(end->amount, -infinity);
+    const float from = least->amount, to = end->amount == std::numeric_limits<float>::infinity()
+                                               ? std::numeric_limits<float>::infinity()
+                                               : std::nextafter(end->amount, -std::numeric_limits<float>::infinity());
     if (from <= to && from <= most) {
       curve.window_min_depth = in_depth(from);
       curve.window_max_depth = to >= most ? 1.0 : in_depth(to);

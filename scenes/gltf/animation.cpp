@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view remedy = "export the animation again, or leave scene.time_s at auto";
+constexpr std::string_view animation_remedy = "export the animation again, or leave scene.time_s at auto";
 
 enum class Path { translation, rotation, scale, weights, visible };
 
@@ -72,7 +72,7 @@ class Poser {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { refuse(d_.file, place_, what, remedy); }
+  [[noreturn]] void fail(const std::string& what) const { refuse(d_.file, place_, what, animation_remedy); }
 
   std::optional<Target> target_of(const json& target) const {
     const std::string path = target["path"].get<std::string>();
@@ -109,7 +109,7 @@ class Poser {
     if (index >= d_.model.accessors.size())
       fail(fmt::format("{} {} is beyond the {} accessors", name, index, d_.model.accessors.size()));
     if (const auto unknown = d_.guarded.unknown_accessors.find(index); unknown != d_.guarded.unknown_accessors.end())
-      refuse(d_.file, fmt::format("accessors[{}]", index), unknown->second, remedy);
+      refuse(d_.file, fmt::format("accessors[{}]", index), unknown->second, animation_remedy);
     return d_.model.accessors[index];
   }
 

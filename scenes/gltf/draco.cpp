@@ -17,7 +17,7 @@ namespace noonmark::gltf {
 namespace {
 
 constexpr const char* extension = "KHR_draco_mesh_compression";
-constexpr std::string_view remedy = "export the file again, or without the compression";
+constexpr std::string_view draco_remedy = "export the file again, or without the compression";
 
 // The number of triangles that the head of the data gives (Draco's bitstream 2.2, the version that glTF names). No
 // value if it is malformed. It is read before decoding, because the decoder allocates memory for that many.
@@ -110,7 +110,7 @@ DracoMesh decode_draco(const Document& document, Buffers& buffers, int mesh, siz
   const tinygltf::Primitive& primitive = model.meshes[static_cast<size_t>(mesh)].primitives[primitive_index];
   const tinygltf::Value& from = primitive.extensions.at(extension);
   const std::string place = fmt::format("meshes[{}].primitives[{}].extensions.{}", mesh, primitive_index, extension);
-  const auto fail = [&](const std::string& what) { refuse(document.file, place, what, remedy); };
+  const auto fail = [&](const std::string& what) { refuse(document.file, place, what, draco_remedy); };
 
   if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP)
     fail("only triangles and strips can be compressed");

@@ -32,9 +32,9 @@ struct Place {
 };
 
 // Checks a document against the table and gives its numbers the types that tinygltf needs.
-class Checker {
+class GuardChecker {
  public:
-  explicit Checker(const std::string& file) : file_(file) {}
+  explicit GuardChecker(const std::string& file) : file_(file) {}
 
   void object(json& object, std::span<const Field> fields, const Place& place) const {
     if (!object.is_object()) wrong(place, "an object", object);
@@ -182,7 +182,8 @@ json take_animation(const std::string& file, json& document, std::optional<size_
   }
   json chosen = index ? std::move((*found)[*index]) : json();
   if (found != document.end()) document.erase(found);
-  if (index) Checker(file).object(chosen, animation_properties(), {nullptr, fmt::format("animations[{}]", *index), {}});
+  if (index)
+    GuardChecker(file).object(chosen, animation_properties(), {nullptr, fmt::format("animations[{}]", *index), {}});
   return chosen;
 }
 
@@ -225,7 +226,7 @@ void take_masks(const std::string& file, json& document, GuardedDocument& out) {
     document.erase(found);
   }
   if (used.empty()) return;
-  Checker(file).object(lists, masking_properties(), {});
+  GuardChecker(file).object(lists, masking_properties(), {});
   const json samplers = lists.value("samplers", json::array());
   for (const json& from : lists.value("textures", json::array())) {
     TextureInfo& texture = out.textures.emplace_back();
@@ -265,7 +266,7 @@ GuardedDocument guard(const std::string& file, json document, std::optional<size
     if (document.contains(list) && document[list].is_object())
       refuse(file, list, "named objects where glTF 2.0 has an array: this is glTF 1.0", "export it as glTF 2.0");
   }
-  const Checker checker(file);
+  const GuardChecker checker(file);
   if (document.contains("asset")) {
     checker.object(document, asset_properties(), {});
     check_version(file, document);

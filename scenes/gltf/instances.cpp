@@ -10,9 +10,11 @@
 namespace noonmark::gltf {
 namespace {
 
-constexpr std::string_view remedy = "export the file again, or without instances";
+constexpr std::string_view instance_remedy = "export the file again, or without instances";
 
-std::string place_of(size_t node) { return fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", node); }
+std::string place_of_instances(size_t node) {
+  return fmt::format("nodes[{}].extensions.EXT_mesh_gpu_instancing", node);
+}
 
 // The accessor of the attribute with that name, or -1.
 int attribute(const Document& document, size_t node, const char* name) {
@@ -29,10 +31,11 @@ uint64_t instance_count(const Document& document, size_t node) {
   for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"}) {
     const int index = attribute(document, node, name);
     if (index == -1) continue;
-    const std::string place = place_of(node) + ".attributes." + name;
+    const std::string place = place_of_instances(node) + ".attributes." + name;
     const auto& accessors = document.model.accessors;
     if (static_cast<size_t>(index) >= accessors.size())
-      refuse(document.file, place, fmt::format("{} refers beyond the {} accessors", index, accessors.size()), remedy);
+      refuse(document.file, place, fmt::format("{} refers beyond the {} accessors", index, accessors.size()),
+             instance_remedy);
     const tinygltf::Accessor& a = accessors[static_cast<size_t>(index)];
     const bool rotation = std::string_view(name) == "ROTATION";
     const bool small = a.normalized && (a.componentType == TINYGLTF_COMPONENT_TYPE_BYTE ||
@@ -40,9 +43,10 @@ uint64_t instance_count(const Document& document, size_t node) {
     if (document.guarded.unknown_accessors.contains(static_cast<size_t>(index)) ||
         a.type != (rotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3) ||
         !(a.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || (rotation && small)))
-      refuse(document.file, place, fmt::format("accessors[{}] is of another type", index), remedy);
+      refuse(document.file, place, fmt::format("accessors[{}] is of another type", index), instance_remedy);
     if (count && *count != a.count)
-      refuse(document.file, place, fmt::format("{} instances, and {} in another attribute", a.count, *count), remedy);
+      refuse(document.file, place, fmt::format("{} instances, and {} in another attribute", a.count, *count),
+             instance_remedy);
     count = a.count;
   }
   return count.value_or(1);
@@ -65,14 +69,14 @@ glm::dmat4 Instances::node_from_mesh(size_t i) const {
     // With 8 bits a quaternion's length is within 1% of 1.
     constexpr double tolerance = 0.02;
     if (!(std::abs(glm::length(q) - 1) < tolerance))
-      refuse(document_.file, place_of(node_) + ".attributes.ROTATION",
-             fmt::format("instance {} has a quaternion of length {} instead of 1", i, glm::length(q)), remedy);
+      refuse(document_.file, place_of_instances(node_) + ".attributes.ROTATION",
+             fmt::format("instance {} has a quaternion of length {} instead of 1", i, glm::length(q)), instance_remedy);
     axes = glm::mat3_cast(glm::normalize(q));
   }
   const auto finite = [&](const glm::dvec3& v, const char* name) {
     if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
-      refuse(document_.file, fmt::format("{}.attributes.{}", place_of(node_), name),
-             fmt::format("instance {} is not finite", i), remedy);
+      refuse(document_.file, fmt::format("{}.attributes.{}", place_of_instances(node_), name),
+             fmt::format("instance {} is not finite", i), instance_remedy);
     return v;
   };
   const glm::dvec3 scale = scale_ != nullptr ? finite(scale_->vec3(i), "SCALE") : glm::dvec3(1);

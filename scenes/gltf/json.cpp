@@ -16,11 +16,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view remedy = "export the file again, or correct it";
+constexpr std::string_view json_remedy = "export the file again, or correct it";
 
 struct Fault {
   std::string place = "JSON", what;
-  std::string_view remedy = gltf::remedy;
+  std::string_view remedy = json_remedy;
 };
 
 // Looks at the first bytes for another encoding, because the parser's message would not name the encoding.

@@ -14,7 +14,7 @@
 namespace noonmark::gltf {
 namespace {
 
-constexpr std::string_view remedy = "export the file again, or set scene.masks = false";
+constexpr std::string_view mask_remedy = "export the file again, or set scene.masks = false";
 
 struct Alpha {
   int width = 0, height = 0;
@@ -28,14 +28,14 @@ bool begins(std::span<const uint8_t> bytes, std::string_view with) {
 
 // libpng's "simplified" interface: it converts every kind of PNG to 8 bits of red, green, blue and alpha.
 Alpha alpha_of_png(const std::string& file, std::span<const uint8_t> bytes, const std::string& place) {
-  struct Reader {
+  struct PngReader {
     png_image image{};
-    ~Reader() { png_image_free(&image); }
+    ~PngReader() { png_image_free(&image); }
   } reader;
   png_image& image = reader.image;
   image.version = PNG_IMAGE_VERSION;
   const auto damaged = [&] {
-    refuse(file, place, fmt::format("is a damaged PNG: {}", printable(image.message)), remedy);
+    refuse(file, place, fmt::format("is a damaged PNG: {}", printable(image.message)), mask_remedy);
   };
   if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) damaged();
   // As many as OpenGL's textures may have on a large GPU.
@@ -71,7 +71,7 @@ MaskWrap wrap_of(const std::string& file, std::optional<int> value, const std::s
     case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
       return MaskWrap::clamp;
     default:
-      refuse(file, place, fmt::format("wraps by {}, which glTF does not define", *value), remedy);
+      refuse(file, place, fmt::format("wraps by {}, which glTF does not define", *value), mask_remedy);
   }
 }
 
@@ -82,7 +82,7 @@ MaskFilter filter_of(const std::string& file, std::optional<int> value, const st
     case TINYGLTF_TEXTURE_FILTER_LINEAR:
       return MaskFilter::linear;
     default:
-      refuse(file, place, fmt::format("has the magFilter {}, which glTF does not define", *value), remedy);
+      refuse(file, place, fmt::format("has the magFilter {}, which glTF does not define", *value), mask_remedy);
   }
 }
 
@@ -120,7 +120,7 @@ std::optional<Masks::Mask> Masks::load(const tinygltf::Material& material, const
   const std::string here = place + ".pbrMetallicRoughness.baseColorTexture";
   if (static_cast<size_t>(info.index) >= guarded.textures.size())
     refuse(document_.file, here + ".index",
-           fmt::format("{} refers beyond the {} textures", info.index, guarded.textures.size()), remedy);
+           fmt::format("{} refers beyond the {} textures", info.index, guarded.textures.size()), mask_remedy);
   const TextureInfo& texture = guarded.textures[static_cast<size_t>(info.index)];
   const std::string texture_place = fmt::format("textures[{}]", info.index);
   if (!texture.image) {
@@ -129,7 +129,7 @@ std::optional<Masks::Mask> Masks::load(const tinygltf::Material& material, const
   }
   if (*texture.image >= guarded.images.size())
     refuse(document_.file, texture_place + ".source",
-           fmt::format("{} refers beyond the {} images", *texture.image, guarded.images.size()), remedy);
+           fmt::format("{} refers beyond the {} images", *texture.image, guarded.images.size()), mask_remedy);
   const std::string image_place = fmt::format("images[{}]", *texture.image);
   const std::vector<uint8_t> bytes = buffers_.image(*texture.image);
   Alpha alpha{1, 1, {255}};
@@ -162,16 +162,17 @@ int coordinates_of(const Document& document, int mesh, size_t primitive, const M
   const auto& attributes = document.model.meshes[static_cast<size_t>(mesh)].primitives[primitive].attributes;
   const auto found = attributes.find(set);
   if (found == attributes.end())
-    refuse(document.file, place, fmt::format("is missing, and {} masks by it", mask.image), remedy);
+    refuse(document.file, place, fmt::format("is missing, and {} masks by it", mask.image), mask_remedy);
   const int accessor = found->second;
   const std::vector<tinygltf::Accessor>& accessors = document.model.accessors;
   if (accessor < 0 || static_cast<size_t>(accessor) >= accessors.size())
-    refuse(document.file, place, fmt::format("{} refers beyond the {} accessors", accessor, accessors.size()), remedy);
+    refuse(document.file, place, fmt::format("{} refers beyond the {} accessors", accessor, accessors.size()),
+           mask_remedy);
   const std::string at = fmt::format("accessors[{}]", accessor);
   const auto unknown = document.guarded.unknown_accessors.find(static_cast<size_t>(accessor));
-  if (unknown != document.guarded.unknown_accessors.end()) refuse(document.file, at, unknown->second, remedy);
+  if (unknown != document.guarded.unknown_accessors.end()) refuse(document.file, at, unknown->second, mask_remedy);
   if (accessors[static_cast<size_t>(accessor)].type != TINYGLTF_TYPE_VEC2)
-    refuse(document.file, at + ".type", "texture coordinates are VEC2", remedy);
+    refuse(document.file, at + ".type", "texture coordinates are VEC2", mask_remedy);
   return accessor;
 }
 
@@ -180,7 +181,7 @@ MaskedPrimitive::MaskedPrimitive(const Document& document, const Masks::Mask& ma
     : document_(document), mask_(mask), accessor_(accessor), coordinates_(coordinates) {
   if (coordinates.count() < vertices)
     refuse(document.file, fmt::format("accessors[{}].count", accessor),
-           fmt::format("{} texture coordinates for {} vertices", coordinates.count(), vertices), remedy);
+           fmt::format("{} texture coordinates for {} vertices", coordinates.count(), vertices), mask_remedy);
 }
 
 void MaskedPrimitive::cut(const glm::uvec3& vertices, const glm::vec3 (&corners)[3], const Scene& scene,

@@ -8,7 +8,7 @@
 namespace noonmark::gltf {
 namespace {
 
-constexpr std::string_view remedy = "export the file again, or without the compression";
+constexpr std::string_view meshopt_remedy = "export the file again, or without the compression";
 
 size_t integer(const tinygltf::Value& object, const char* name) {
   return object.Has(name) ? static_cast<size_t>(object.Get(name).GetNumberAsDouble()) : 0;
@@ -50,7 +50,7 @@ std::optional<MeshoptView> meshopt_view(const Document& document, int view) {
     out.stride = integer(from, "byteStride");
     out.mode = text(from, "mode", "");
     out.filter = text(from, "filter", "NONE");
-    const auto fail = [&](const std::string& what) { refuse(document.file, out.place, what, remedy); };
+    const auto fail = [&](const std::string& what) { refuse(document.file, out.place, what, meshopt_remedy); };
     const auto& buffers = document.guarded.buffers;
     if (out.buffer >= buffers.size())
       fail(fmt::format("buffer {} is beyond the {} buffers", out.buffer, buffers.size()));
@@ -84,7 +84,7 @@ std::vector<uint8_t> decompress(const Document& document, const MeshoptView& vie
     refuse(document.file, view.place,
            later ? fmt::format("its data are of version {} of the codec, which is not supported", from[0] & 0x0f)
                  : "its data cannot be decoded",
-           remedy);
+           meshopt_remedy);
   }
   if (view.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), view.count, view.stride);
   if (view.filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), view.count, view.stride);

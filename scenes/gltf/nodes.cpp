@@ -12,7 +12,7 @@
 namespace noonmark::gltf {
 namespace {
 
-constexpr std::string_view remedy = "correct the node in the modelling program and export again";
+constexpr std::string_view node_remedy = "correct the node in the modelling program and export again";
 // Exporters write quaternions as floats, or from 8-bit values. A quaternion further from unit length is not a rotation.
 constexpr double unit_tolerance = 0.01;
 constexpr int no_parent = -1;
@@ -76,12 +76,12 @@ double relative_determinant(const glm::dmat4& m) {
 void check_local_transform(const Document& document, size_t index) {
   const tinygltf::Node& node = document.model.nodes[index];
   if (const auto& m = node.matrix; !m.empty() && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
-    refuse(document.file, place_of(index) + ".matrix", "its last row is not 0 0 0 1", remedy);
+    refuse(document.file, place_of(index) + ".matrix", "its last row is not 0 0 0 1", node_remedy);
   if (const auto& r = node.rotation; !r.empty()) {
     const double length = glm::length(glm::dquat(r[3], r[0], r[1], r[2]));
     if (!(std::abs(length - 1) <= unit_tolerance))
       refuse(document.file, place_of(index) + ".rotation",
-             fmt::format("a quaternion of length {} instead of 1", length), remedy);
+             fmt::format("a quaternion of length {} instead of 1", length), node_remedy);
   }
 }
 
@@ -114,7 +114,7 @@ bool visible(const tinygltf::Node& node) {
 }
 
 void check_place(const Document& document, size_t node, const glm::dmat4& world) {
-  if (!all_finite(world)) refuse(document.file, place_of(node), "its place in the world is not finite", remedy);
+  if (!all_finite(world)) refuse(document.file, place_of(node), "its place in the world is not finite", node_remedy);
   if (glm::any(glm::greaterThan(glm::abs(glm::dvec3(world[3])), glm::dvec3(max_coordinate_m)))) {
     refuse(document.file, place_of(node), fmt::format("stands more than {} m from the origin", max_coordinate_m),
            "scale the scene to metres");

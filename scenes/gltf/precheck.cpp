@@ -13,13 +13,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view remedy = "export the file again, or correct it";
+constexpr std::string_view precheck_remedy = "export the file again, or correct it";
 
 void check_node(const std::string& file, const json& node, const std::string& place) {
   // tinygltf drops translation, rotation and scale beside a matrix.
   if (node.contains("matrix") &&
       (node.contains("translation") || node.contains("rotation") || node.contains("scale"))) {
-    refuse(file, place, "has both a matrix and a translation, rotation or scale", remedy);
+    refuse(file, place, "has both a matrix and a translation, rotation or scale", precheck_remedy);
   }
 }
 
@@ -28,18 +28,18 @@ std::string check_camera(const std::string& file, const json& camera, const std:
   const std::string type = camera["type"].get<std::string>();
   if (type != "perspective" && type != "orthographic")
     return fmt::format("type '{}' is neither perspective nor orthographic", printable(type));
-  if (!camera.contains(type)) refuse(file, place + "." + type, "is missing", remedy);
+  if (!camera.contains(type)) refuse(file, place + "." + type, "is missing", precheck_remedy);
   if (camera.contains("perspective") && camera.contains("orthographic")) {
-    refuse(file, place, "has both perspective and orthographic", remedy);
+    refuse(file, place, "has both perspective and orthographic", precheck_remedy);
   }
   // tinygltf uses 0 for an absent zfar, so 0 must be refused here.
   if (type == "perspective" && camera[type].value("zfar", 1.0) == 0)
-    refuse(file, place + ".perspective.zfar", "is 0", remedy);
+    refuse(file, place + ".perspective.zfar", "is 0", precheck_remedy);
   return "";
 }
 
 void check_light(const std::string& file, const json& light, const std::string& place) {
-  if (light["type"] == "spot" && !light.contains("spot")) refuse(file, place + ".spot", "is missing", remedy);
+  if (light["type"] == "spot" && !light.contains("spot")) refuse(file, place + ".spot", "is missing", precheck_remedy);
 }
 
 void check_view(const std::string& file, const json& view, const std::string& place) {
@@ -47,7 +47,8 @@ void check_view(const std::string& file, const json& view, const std::string& pl
   const uint64_t stride = view["byteStride"].get<uint64_t>();
   // tinygltf uses 0 for an absent byteStride, so 0 must be refused here.
   if (stride < 4 || stride % 4 != 0) {
-    refuse(file, place + ".byteStride", fmt::format("{} is not a multiple of 4 from 4 to 252", stride), remedy);
+    refuse(file, place + ".byteStride", fmt::format("{} is not a multiple of 4 from 4 to 252", stride),
+           precheck_remedy);
   }
 }
 

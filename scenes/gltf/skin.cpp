@@ -7,7 +7,7 @@
 namespace noonmark::gltf {
 namespace {
 
-constexpr std::string_view remedy = "export the file again";
+constexpr std::string_view skin_remedy = "export the file again";
 
 bool is_integer(const tinygltf::Accessor& a) {
   return a.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
@@ -28,14 +28,14 @@ glm::dmat4 SkinnedVertices::world_from_mesh(uint32_t vertex) const {
         refuse(file_, place_,
                weight > 0 ? fmt::format("vertex {} follows joint {} of {}", vertex, joint, joints_.size())
                           : fmt::format("vertex {} has a weight of {}", vertex, weight),
-               remedy);
+               skin_remedy);
       }
       sum += weight * joints_[joint];
       total += weight;
     }
   }
   if (!(total > 0))
-    refuse(file_, place_, fmt::format("vertex {} has no joint, because its weights are 0", vertex), remedy);
+    refuse(file_, place_, fmt::format("vertex {} has no joint, because its weights are 0", vertex), skin_remedy);
   return sum / total;
 }
 
@@ -62,7 +62,7 @@ std::vector<std::pair<int, int>> Skins::attribute_pairs(int mesh, size_t primiti
   for (const auto& [name, joints] : attributes) {
     if (!name.starts_with("JOINTS_")) continue;
     const auto found = attributes.find("WEIGHTS_" + name.substr(7));
-    if (found == attributes.end()) refuse(document_.file, place, name + " without its weights", remedy);
+    if (found == attributes.end()) refuse(document_.file, place, name + " without its weights", skin_remedy);
     for (int index : {joints, found->second}) {
       const bool there = index >= 0 && static_cast<size_t>(index) < model.accessors.size();
       const tinygltf::Accessor* a = there ? &model.accessors[static_cast<size_t>(index)] : nullptr;
@@ -73,12 +73,12 @@ std::vector<std::pair<int, int>> Skins::attribute_pairs(int mesh, size_t primiti
                       : a->componentType == TINYGLTF_COMPONENT_TYPE_FLOAT || (is_integer(*a) && a->normalized))) {
         refuse(document_.file, fmt::format("{}.{}", place, of_joints ? name : found->first),
                fmt::format("accessors[{}] is not a list of {} {}", index, count, of_joints ? "joints" : "weights"),
-               remedy);
+               skin_remedy);
       }
     }
     pairs.emplace_back(joints, found->second);
   }
-  if (pairs.empty()) refuse(document_.file, place, "a mesh under a skin without JOINTS_0 and WEIGHTS_0", remedy);
+  if (pairs.empty()) refuse(document_.file, place, "a mesh under a skin without JOINTS_0 and WEIGHTS_0", skin_remedy);
   return pairs;
 }
 

@@ -11,29 +11,29 @@
 namespace noonmark::gltf {
 namespace {
 
-constexpr std::string_view remedy = "export the file again, or correct it";
+constexpr std::string_view structure_remedy = "export the file again, or correct it";
 
-class Checker {
+class StructureChecker {
  public:
-  explicit Checker(const Document& document) : d_(document), m_(document.model) {}
+  explicit StructureChecker(const Document& document) : d_(document), m_(document.model) {}
 
   void all() const {
-    each(m_.bufferViews, "bufferViews", &Checker::view);
-    each(m_.accessors, "accessors", &Checker::accessor);
-    each(m_.materials, "materials", &Checker::material);
-    each(m_.meshes, "meshes", &Checker::mesh);
-    each(m_.skins, "skins", &Checker::skin);
-    each(m_.cameras, "cameras", &Checker::camera);
-    each(m_.lights, "extensions.KHR_lights_punctual.lights", &Checker::light);
-    each(m_.nodes, "nodes", &Checker::node);
-    each(m_.scenes, "scenes", &Checker::scene);
+    each(m_.bufferViews, "bufferViews", &StructureChecker::view);
+    each(m_.accessors, "accessors", &StructureChecker::accessor);
+    each(m_.materials, "materials", &StructureChecker::material);
+    each(m_.meshes, "meshes", &StructureChecker::mesh);
+    each(m_.skins, "skins", &StructureChecker::skin);
+    each(m_.cameras, "cameras", &StructureChecker::camera);
+    each(m_.lights, "extensions.KHR_lights_punctual.lights", &StructureChecker::light);
+    each(m_.nodes, "nodes", &StructureChecker::node);
+    each(m_.scenes, "scenes", &StructureChecker::scene);
     optional(m_.defaultScene, m_.scenes.size(), "scene", "scenes");
   }
 
  private:
   template <class T>
   void each(const std::vector<T>& items, std::string_view name,
-            void (Checker::*check)(const T&, const std::string&) const) const {
+            void (StructureChecker::*check)(const T&, const std::string&) const) const {
     for (size_t i = 0; i < items.size(); ++i) (this->*check)(items[i], fmt::format("{}[{}]", name, i));
   }
 
@@ -42,12 +42,12 @@ class Checker {
     reference(index, m_.accessors.size(), place, "accessors");
     const auto unknown = d_.guarded.unknown_accessors.find(static_cast<size_t>(index));
     if (unknown != d_.guarded.unknown_accessors.end())
-      refuse(d_.file, fmt::format("accessors[{}]", index), unknown->second, remedy);
+      refuse(d_.file, fmt::format("accessors[{}]", index), unknown->second, structure_remedy);
     return m_.accessors[static_cast<size_t>(index)];
   }
 
   [[noreturn]] void fail(const std::string& place, const std::string& what) const {
-    refuse(d_.file, place, what, remedy);
+    refuse(d_.file, place, what, structure_remedy);
   }
 
   void reference(int index, size_t size, const std::string& place, std::string_view list) const {
@@ -258,6 +258,6 @@ class Checker {
 
 }  // namespace
 
-void check_structure(const Document& document) { Checker(document).all(); }
+void check_structure(const Document& document) { StructureChecker(document).all(); }
 
 }  // namespace noonmark::gltf

@@ -28,7 +28,7 @@ class EveryScene : public testing::TestWithParam<std::string> {
   }
 };
 
-const std::vector<std::vector<Assignment>> techniques = {
+const std::vector<std::vector<Assignment>> ladder_techniques = {
     {{"bias.constant", "0"}},
     {{"bias.constant", "0.005"}},
     {{"bias.constant", "0.02"}, {"filter.kind", "box"}},
@@ -57,7 +57,7 @@ const std::vector<std::vector<Assignment>> techniques = {
 
 TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
   Workbench bench(gl::DebugMode::fatal);
-  for (const auto& technique : techniques) {
+  for (const auto& technique : ladder_techniques) {
     Settings settings = with({{"map.resolution", "300"}}, small(GetParam()));
     for (const auto& [name, value] : technique) find_setting(name).set(settings, value);
     // A cube map has filters of its own.

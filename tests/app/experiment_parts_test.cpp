@@ -8,11 +8,11 @@
 namespace noonmark {
 namespace {
 
-Experiment parse(const std::string& toml) { return parse_experiment(toml, "folder/x.toml"); }
+Experiment parse_parts(const std::string& toml) { return parse_experiment(toml, "folder/x.toml"); }
 
 std::string message(const std::string& toml) {
   try {
-    parse(toml);
+    parse_parts(toml);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
     return error.what();
@@ -59,12 +59,12 @@ enabled = false
 )";
 
 TEST(ExperimentParts, APhaseDiagramIsAskedForByItsTable) {
-  EXPECT_FALSE(parse("").phase.enabled);
-  const PhaseRequest plain = parse("[phase]\n").phase;
+  EXPECT_FALSE(parse_parts("").phase.enabled);
+  const PhaseRequest plain = parse_parts("[phase]\n").phase;
   EXPECT_TRUE(plain.enabled);
   EXPECT_FALSE(plain.acne_bound || plain.peter_panning_bound) << "those of the curve";
   const PhaseRequest all =
-      parse(
+      parse_parts(
           "[phase]\nacne_bound = 0.01\npeter_panning_bound = 0.002\nplacements = 4\ntexel_sizes = 9\nwidth_px = 160\n")
           .phase;
   EXPECT_EQ(all.acne_bound, 0.01);
@@ -72,17 +72,17 @@ TEST(ExperimentParts, APhaseDiagramIsAskedForByItsTable) {
   EXPECT_EQ(all.placements, 4);
   EXPECT_EQ(all.texel_sizes, 9);
   EXPECT_EQ(all.width_px, 160);
-  const Experiment parts =
-      parse("[phase]\nplacements = 4\n[[part]]\nname = \"a\"\n[[part]]\nname = \"b\"\n[part.phase]\nenabled = false\n");
+  const Experiment parts = parse_parts(
+      "[phase]\nplacements = 4\n[[part]]\nname = \"a\"\n[[part]]\nname = \"b\"\n[part.phase]\nenabled = false\n");
   EXPECT_TRUE(parts.parts[0].phase.enabled);
   EXPECT_EQ(parts.parts[0].phase.placements, 4);
   EXPECT_FALSE(parts.parts[1].phase.enabled);
   // Only the diagram is made anew if its options change.
-  EXPECT_EQ(fingerprint(parse("[phase]\n"), {}), fingerprint(parse(""), {}));
+  EXPECT_EQ(fingerprint(parse_parts("[phase]\n"), {}), fingerprint(parse_parts(""), {}));
 }
 
 TEST(ExperimentParts, FollowEachOtherWithTheirOwnSettings) {
-  const Experiment e = parse(two_parts);
+  const Experiment e = parse_parts(two_parts);
   ASSERT_EQ(e.parts.size(), 2u);
   EXPECT_EQ(point_count(e), 3 + 4);
   const std::vector<Settings> all = points(e);
@@ -106,7 +106,7 @@ TEST(ExperimentParts, FollowEachOtherWithTheirOwnSettings) {
 }
 
 TEST(ExperimentParts, OverridesReachEveryPart) {
-  Experiment e = parse(two_parts);
+  Experiment e = parse_parts(two_parts);
   apply_override(e, "map.resolution=64");
   apply_override(e, "map.format=32f");
   EXPECT_EQ(point_count(e), 3 + 2);
@@ -117,7 +117,7 @@ TEST(ExperimentParts, OverridesReachEveryPart) {
 }
 
 TEST(ExperimentParts, APointIsReproducedByItsNumber) {
-  Experiment e = parse(two_parts);
+  Experiment e = parse_parts(two_parts);
   apply_override(e, "map.resolution=64");
   PointRecord point;
   point.id = 4;
@@ -126,7 +126,7 @@ TEST(ExperimentParts, APointIsReproducedByItsNumber) {
 }
 
 TEST(ExperimentParts, OnlyTheChosenOnesAreMeasured) {
-  Experiment e = parse(two_parts);
+  Experiment e = parse_parts(two_parts);
   choose_parts(e, {"second"});
   ASSERT_EQ(points(e).size(), 4u);
   EXPECT_EQ(points(e)[0].scene.name, "wall");
@@ -135,7 +135,7 @@ TEST(ExperimentParts, OnlyTheChosenOnesAreMeasured) {
   point.id = 1;
   EXPECT_EQ(reproduce_command(e, point), "noonmark render folder/x.toml --part second --point 1");
 
-  Experiment both = parse(two_parts);
+  Experiment both = parse_parts(two_parts);
   choose_parts(both, {"second", "first"});
   EXPECT_EQ(point_count(both), 7) << "the parts must be in the file's order";
   EXPECT_EQ(part_of_point(both, 0).part, "first");
@@ -149,13 +149,14 @@ TEST(ExperimentParts, OnlyTheChosenOnesAreMeasured) {
     }
     return "no error";
   };
-  EXPECT_EQ(message(parse(two_parts), "secnd"), "--part secnd: folder/x.toml has no such part; did you mean 'second'?");
-  EXPECT_EQ(message(parse(two_parts), "x"), "--part x: folder/x.toml has no such part; it has 'first', 'second'");
-  EXPECT_EQ(message(parse(""), "first"), "--part first: folder/x.toml has no parts");
+  EXPECT_EQ(message(parse_parts(two_parts), "secnd"),
+            "--part secnd: folder/x.toml has no such part; did you mean 'second'?");
+  EXPECT_EQ(message(parse_parts(two_parts), "x"), "--part x: folder/x.toml has no such part; it has 'first', 'second'");
+  EXPECT_EQ(message(parse_parts(""), "first"), "--part first: folder/x.toml has no parts");
 }
 
 TEST(ExperimentParts, TheFingerprintSeesEveryPart) {
-  const auto print = [](const std::string& text) { return fingerprint(parse(text), {}); };
+  const auto print = [](const std::string& text) { return fingerprint(parse_parts(text), {}); };
   const std::string whole = two_parts;
   std::set<std::string> prints{print(whole)};
   for (const auto& [from, to] : {std::pair("[10, 20, 30]", "[10, 20, 31]"), std::pair("= 512", "= 128"),
@@ -184,7 +185,7 @@ TEST(ExperimentParts, MistakesAreNamedWithTheirPlace) {
 std::string law(const std::string& keys) { return "[[law]]\nname = \"l\"\n" + keys; }
 
 TEST(ExperimentLaws, AreReadWhole) {
-  const Experiment e = parse(R"(
+  const Experiment e = parse_parts(R"(
 [let]
 k = "(filter.size - 1) / 2 + 0.5"
 two_k = "2 * k"

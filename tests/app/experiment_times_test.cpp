@@ -8,10 +8,10 @@
 namespace noonmark {
 namespace {
 
-Experiment parse(const std::string& toml) { return parse_experiment(toml, "x.toml"); }
+Experiment parse_times(const std::string& toml) { return parse_experiment(toml, "x.toml"); }
 
 TEST(ExperimentTimes, AreNotMeasuredIfNothingAsks) {
-  const Experiment experiment = parse("[plot]\nmetrics = [\"error\"]\n[[bound]]\nmetric = \"acne\"\nmax = 1");
+  const Experiment experiment = parse_times("[plot]\nmetrics = [\"error\"]\n[[bound]]\nmetric = \"acne\"\nmax = 1");
   EXPECT_EQ(time_asked_for(experiment), "");
   EXPECT_FALSE(times_measured(experiment));
 }
@@ -25,22 +25,23 @@ TEST(ExperimentTimes, AreAskedForByEachPlaceThatNamesAMetric) {
         law + std::string("measured = \"0\"\nfound = \"It takes {map_ms} ms.\""),
         "[let]\nt = \"map_ms + 1\"\n" + (law + std::string("measured = \"t\"")),
         std::string("[[part]]\nname = \"p\"\n[[part.bound]]\nmetric = \"map_ms\"\nmax = 1")}) {
-    const Experiment experiment = parse(text);
+    const Experiment experiment = parse_times(text);
     EXPECT_EQ(time_asked_for(experiment), "map_ms") << text;
     EXPECT_TRUE(times_measured(experiment)) << text;
   }
 }
 
 TEST(ExperimentTimes, FollowTheKey) {
-  EXPECT_TRUE(times_measured(parse("times = true")));
-  EXPECT_FALSE(times_measured(parse("times = false")));
-  EXPECT_NE(fingerprint(parse("times = true"), {}), fingerprint(parse(""), {})) << "the points have other metrics";
-  EXPECT_EQ(fingerprint(parse("times = false"), {}), fingerprint(parse(""), {}));
+  EXPECT_TRUE(times_measured(parse_times("times = true")));
+  EXPECT_FALSE(times_measured(parse_times("times = false")));
+  EXPECT_NE(fingerprint(parse_times("times = true"), {}), fingerprint(parse_times(""), {}))
+      << "the points have other metrics";
+  EXPECT_EQ(fingerprint(parse_times("times = false"), {}), fingerprint(parse_times(""), {}));
 }
 
 TEST(ExperimentTimes, CannotBeAskedForAndOff) {
   try {
-    parse("times = false\n[plot]\nmetrics = [\"shadow_ms\"]");
+    parse_times("times = false\n[plot]\nmetrics = [\"shadow_ms\"]");
     FAIL() << "not refused";
   } catch (const Error& error) {
     EXPECT_EQ(std::string(error.what()), "x.toml:1:9: times = false, but the experiment asks for shadow_ms");

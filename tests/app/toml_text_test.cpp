@@ -34,7 +34,7 @@ std::string message(const Read& read) {
   }
   return "";
 }
-std::string refusal(const std::string& text) {
+std::string refusal_of_text(const std::string& text) {
   return message([&] { check_toml_text(text, "x.toml"); });
 }
 
@@ -52,8 +52,8 @@ TEST(TomlText, OutsideOfStringsAndCommentsEveryCharacterIsAscii) {
       const std::string before = "title = \"é\"  # 中\n", whole = before + placed(text, c) + "\n";
       const std::string place =
           "x.toml:2:" + std::to_string(std::string_view(text).find('@') + 1) + ": the character U+";
-      EXPECT_TRUE(refusal(whole).starts_with(place)) << whole << refusal(whole);
-      EXPECT_EQ(message([&] { parse_experiment(whole, "x.toml"); }), refusal(whole))
+      EXPECT_TRUE(refusal_of_text(whole).starts_with(place)) << whole << refusal_of_text(whole);
+      EXPECT_EQ(message([&] { parse_experiment(whole, "x.toml"); }), refusal_of_text(whole))
           << "toml++ read the text before the check";
     }
   }
@@ -90,14 +90,14 @@ TEST(TomlText, InStringsAndCommentsEveryCharacterMayStand) {
                            "a=['@','x']",
                            "a = [\n'x',\n\"@\"]",
                            "a = [\n[1]]\nb.\"@\" = 1"}) {
-    for (const char32_t c : characters) EXPECT_EQ(refusal(placed(text, c) + "\n"), "") << text;
+    for (const char32_t c : characters) EXPECT_EQ(refusal_of_text(placed(text, c) + "\n"), "") << text;
   }
 }
 
 TEST(TomlText, BehindALineThatABackslashEndedACharacterIsRefused) {
   for (const char* text : {"a = \"\"\"\\\n@\"\"\"", "a = \"\"\"\\\n  @\"\"\"", "a = \"\"\"\\ \n\n@\"\"\"",
                            "a = \"\"\"\\\r\n@\"\"\"", "a = \"\"\"x\\@\"\"\""})
-    EXPECT_NE(refusal(placed(text, 0xe9)).find("the character U+00E9 cannot be read after a backslash"),
+    EXPECT_NE(refusal_of_text(placed(text, 0xe9)).find("the character U+00E9 cannot be read after a backslash"),
               std::string::npos)
         << text;
 }
@@ -108,17 +108,17 @@ TEST(TomlText, AccentsComeThroughToTheExperiment) {
 }
 
 TEST(TomlText, BytesThatAreNoCharactersAreNamed) {
-  EXPECT_TRUE(refusal("a = \xff\n").starts_with("x.toml:1:5: the byte 0xff, which is not UTF-8,"));
-  EXPECT_TRUE(refusal("\xef\xbb\xbf\xe9 = 1").starts_with("x.toml:1:1: the byte 0xe9, which is not UTF-8,"));
+  EXPECT_TRUE(refusal_of_text("a = \xff\n").starts_with("x.toml:1:5: the byte 0xff, which is not UTF-8,"));
+  EXPECT_TRUE(refusal_of_text("\xef\xbb\xbf\xe9 = 1").starts_with("x.toml:1:1: the byte 0xe9, which is not UTF-8,"));
 }
 
 // toml++ reports a missing quote. The text after it must not be checked as if it were a name.
 TEST(TomlText, AfterAStringWithoutEndNothingIsRefused) {
-  EXPECT_EQ(refusal("a = \"x\né = 1\n"), "");
-  EXPECT_EQ(refusal("a = 'x\né = 1\n"), "");
-  EXPECT_EQ(refusal("a = \"\"\"x\né"), "");
-  EXPECT_EQ(refusal("a = \"\\"), "");
-  EXPECT_EQ(refusal("a = \"\"\"\\"), "");
+  EXPECT_EQ(refusal_of_text("a = \"x\né = 1\n"), "");
+  EXPECT_EQ(refusal_of_text("a = 'x\né = 1\n"), "");
+  EXPECT_EQ(refusal_of_text("a = \"\"\"x\né"), "");
+  EXPECT_EQ(refusal_of_text("a = \"\\"), "");
+  EXPECT_EQ(refusal_of_text("a = \"\"\"\\"), "");
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace {
 
 // The rasteriser's own error, as in tests/gl/map_test.cpp, but of positions that are divided by a perspective before:
 // two roundings more. Seen on llvmpipe 22.3: up to 2.3 last places of a depth near 1.
-constexpr double rasteriser_error = 4 * 0x1p-24;
-constexpr double read_back_error = 0x1p-25;
+constexpr double light_rasteriser_error = 4 * 0x1p-24;
+constexpr double light_read_back_error = 0x1p-25;
 
 double hit_plane(glm::dvec3 start, glm::dvec3 way, glm::dvec3 on_plane, glm::dvec3 normal) {
   return glm::dot(normal, on_plane - start) / glm::dot(normal, way);
@@ -56,7 +56,8 @@ TEST_F(GlTest, SpotDepthOfATiltedPlane) {
           const double along = hit_plane(frame.origin_m, way, corner(scene, 0, 0), normal_of(scene, 0));
           worst = std::max(worst, std::abs(map.at(i, j) - frame.window_depth(along * place)));
         }
-      EXPECT_LE(worst, rasteriser_error + read_back_error) << "tilt " << tilt << ": " << worst * 0x1p24 << " x 2^-24";
+      EXPECT_LE(worst, light_rasteriser_error + light_read_back_error)
+          << "tilt " << tilt << ": " << worst * 0x1p24 << " x 2^-24";
       if (tilt > 0) {
         EXPECT_GT(*std::max_element(map.pixels.begin(), map.pixels.end()) -
                       *std::min_element(map.pixels.begin(), map.pixels.end()),

@@ -10,7 +10,7 @@ namespace {
 
 class GlProbeTest : public GlLookupTest {};
 
-constexpr LightKind kinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
+constexpr LightKind probed_kinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
 
 bool same_probe(const LookupProbe& a, const LookupProbe& b, size_t i) {
   return same_bits(a.reference[i], b.reference[i]) && a.texel(i, 0) == b.texel(i, 0) &&
@@ -22,7 +22,7 @@ bool same_probe(const LookupProbe& a, const LookupProbe& b, size_t i) {
 // numbers, not even by one bit.
 TEST_F(GlProbeTest, MovesWithTheNormalOffsetAlone) {
   std::mt19937 random(2011);
-  for (const LightKind kind : kinds) {
+  for (const LightKind kind : probed_kinds) {
     const Scene scene = random_scene(random, kind);
     const ReceiverImage receivers = load(scene, 96, 64);
     Settings settings;
@@ -70,7 +70,7 @@ TEST_F(GlProbeTest, MovesWithTheNormalOffsetAlone) {
 
 TEST_F(GlProbeTest, IsNearTheExactPlaces) {
   std::mt19937 random(3);
-  for (const LightKind kind : kinds)
+  for (const LightKind kind : probed_kinds)
     for (const BiasUnit unit : {BiasUnit::depth, BiasUnit::m, BiasUnit::texel}) {
       const Scene scene = random_scene(random, kind);
       const ReceiverImage receivers = load(scene, 96, 64);
@@ -224,7 +224,7 @@ TEST_F(GlProbeTest, CubeTapsFallWhereTheFrameSays) {
 // A picture with many taps is measured strip by strip, so strips must give the same texels.
 TEST_F(GlProbeTest, GivesTheSameTexelsInStrips) {
   std::mt19937 random(77);
-  for (const LightKind kind : kinds) {
+  for (const LightKind kind : probed_kinds) {
     const Scene scene = random_scene(random, kind);
     const ReceiverImage receivers = load(scene, 64, 50);
     Settings settings;

@@ -10,7 +10,7 @@ namespace noonmark::acceptance {
 namespace {
 
 // One setting of each kind: a light with a size (sampled), filters, slopes, formats, culled faces, curves.
-const std::string sweep = R"(
+const std::string repeated_sweep = R"(
 scene = "cube-room"
 pictures = "none"
 [view]
@@ -57,7 +57,7 @@ class Determinism : public Program {
 };
 
 TEST_F(Determinism, OneThreadOrTwoAndAgain) {
-  write("x.toml", sweep);
+  write("x.toml", repeated_sweep);
   ASSERT_EQ(run({"run", "x.toml", "--out", "one", "--threads", "1"}), 0) << output_;
   ASSERT_EQ(run({"run", "x.toml", "--out", "two", "--threads", "2"}), 0) << output_;
   ASSERT_EQ(run({"run", "x.toml", "--out", "again"}), 0) << output_;
@@ -67,7 +67,7 @@ TEST_F(Determinism, OneThreadOrTwoAndAgain) {
 }
 
 TEST_F(Determinism, AKilledRunOnTwoThreadsGoesOnOnOne) {
-  write("x.toml", sweep);
+  write("x.toml", repeated_sweep);
   ASSERT_EQ(run({"run", "x.toml", "--out", "whole"}), 0) << output_;
   const pid_t child = start_until("[5/32]", {"run", "x.toml", "--out", "killed", "--threads", "2"});
   kill(child, SIGKILL);
@@ -80,8 +80,8 @@ TEST_F(Determinism, AKilledRunOnTwoThreadsGoesOnOnOne) {
 
 // A point reuses data that an earlier point left in memory. This must not change its results.
 TEST_F(Determinism, APointDoesNotDependOnThoseBefore) {
-  write("x.toml", sweep);
-  std::string reversed = sweep;
+  write("x.toml", repeated_sweep);
+  std::string reversed = repeated_sweep;
   const auto swap_values = [&](const std::string& from, const std::string& to) {
     const size_t at = reversed.find(from);
     ASSERT_NE(at, std::string::npos);

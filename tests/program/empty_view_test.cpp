@@ -29,13 +29,13 @@ class EmptyView : public Program {
   }
 };
 
-struct Case {
+struct EmptyCase {
   std::vector<std::string> sets;
   std::string says;
 };
 
 TEST_F(EmptyView, RenderSaysWhy) {
-  const std::vector<Case> cases = {
+  const std::vector<EmptyCase> cases = {
       {{"view.eye_m=0,1,100", "view.target_m=0,1,200"}, "no pixel of 2304 can be judged: the whole scene is behind"},
       {{"view.eye_m=0,1,100", "view.target_m=1000,1,0"}, "no pixel of 2304 can be judged: the camera looks past"},
       {{"view.near_m=60"}, "the camera's near or far plane cuts the surface off"},
@@ -48,7 +48,7 @@ TEST_F(EmptyView, RenderSaysWhy) {
       {{"scene.name=point-room", "light.kind=directional", "light.position_m=9,20,3", "light.target_m=0,0,0"},
        "are in shadow: the light reaches nothing"},
   };
-  for (const Case& one : cases) {
+  for (const EmptyCase& one : cases) {
     SCOPED_TRACE(testing::PrintToString(one.sets));
     EXPECT_EQ(run(render(one.sets)), 0) << output_;
     EXPECT_TRUE(says(one.says)) << output_;
@@ -128,7 +128,7 @@ min = 2304
 }
 
 TEST_F(EmptyView, CamerasThatAreNoneAreUsageErrors) {
-  for (const Case& one : std::vector<Case>{
+  for (const EmptyCase& one : std::vector<EmptyCase>{
            {{"view.up=0,0,0"}, "view.up = 0,0,0"},
            {{"view.eye_m=0,5,0", "view.target_m=0,0,0", "view.up=0,1,0"}, "view.up = 0,1,0 is parallel to the view"},
            {{"view.near_m=5", "view.far_m=5"}, "view.near_m = 5 is not less than view.far_m = 5"},

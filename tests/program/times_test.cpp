@@ -11,7 +11,7 @@ namespace noonmark::acceptance {
 namespace {
 
 // Two biases for each of two filters: points 0 and 1, and 2 and 3, ask for equal work.
-const std::string sweep = R"(
+const std::string timed_sweep = R"(
 scene = "cube-room"
 pictures = "none"
 times = true
@@ -68,7 +68,7 @@ class TimesOfASweep : public Program {
 };
 
 TEST_F(TimesOfASweep, AreIntervalsAndTheReportSaysSo) {
-  write("x.toml", sweep);
+  write("x.toml", timed_sweep);
   ASSERT_EQ(run({"run", "x.toml", "--out", "out"}), 0) << output_;
   EXPECT_TRUE(says("times of map and lookup: round 9 of 9")) << output_;
   expect_times("out");
@@ -83,7 +83,7 @@ TEST_F(TimesOfASweep, AreIntervalsAndTheReportSaysSo) {
 }
 
 TEST_F(TimesOfASweep, AreAllThereOrNoneAfterAKill) {
-  write("x.toml", sweep);
+  write("x.toml", timed_sweep);
   const pid_t child = start_until("round 3 of 9", {"run", "x.toml", "--out", "out"});
   kill(child, SIGKILL);
   ASSERT_EQ(wait_for(child), -SIGKILL) << "the run ended before it was killed";
@@ -94,7 +94,7 @@ TEST_F(TimesOfASweep, AreAllThereOrNoneAfterAKill) {
 }
 
 TEST_F(TimesOfASweep, StoppedBetweenTwoRoundsIsIncomplete) {
-  write("x.toml", sweep + held_bound);
+  write("x.toml", timed_sweep + held_bound);
   const pid_t child = start_until("round 2 of 9", {"check", "x.toml", "--out", "out"});
   kill(child, SIGTERM);
   EXPECT_EQ(wait_for(child), 6);

@@ -8,8 +8,6 @@
 namespace noonmark::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // Two depths count as equal if they differ by less than this fraction of the scene's size. They are computed in double,
 // and this is about 900 times 2^-53.
 constexpr double rounding = 1e-13;

@@ -23,6 +23,8 @@
 
 namespace noonmark::test {
 
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
 enum class ShapeKind { rectangle, box, disc, sphere };
 
 // - rectangle: the points at + s edge[0] + t edge[1] for s and t from 0 to 1. cross(edge[0], edge[1]) points to its
@@ -68,7 +70,7 @@ struct Rays {
   glm::dvec3 centre{0};  // the common point; if parallel: the common direction, of length 1
   glm::dvec3 axis{0};    // depths are measured along this axis; 0: along each ray
 
-  double nearest() const { return parallel ? -std::numeric_limits<double>::infinity() : 0; }  // least depth of a hit
+  double nearest() const { return parallel ? -infinity : 0; }  // least depth of a hit
   LightRay through(glm::dvec3 p) const;
   LightRay between(const LightRay& from, const LightRay& to, double t) const;
 

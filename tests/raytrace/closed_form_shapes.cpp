@@ -7,8 +7,6 @@
 namespace noonmark::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // A face is edge-on if the sine of the angle between its plane and the rays is at most this. The sine is computed from
 // a direction and corners in double, each with an error of a few times 2^-53, so a sine of 0 may come out as another
 // number.

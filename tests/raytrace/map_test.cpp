@@ -11,8 +11,8 @@ namespace {
 using namespace test;
 
 // Looks up exactly these texels, one receiver for each.
-LookupTruth look_up(const Scene& scene, const LightFrame& frame, const std::vector<glm::ivec2>& texels,
-                    const MapSettings& map, int kernel = 1, const Bias& bias = {}, double offset_unit = 0) {
+LookupTruth look_up_texels(const Scene& scene, const LightFrame& frame, const std::vector<glm::ivec2>& texels,
+                           const MapSettings& map, int kernel = 1, const Bias& bias = {}, double offset_unit = 0) {
   const std::vector<Placed> points(texels.size(), points_on(scene, frame.direction_to_light(), true, 1, 1)[0]);
   const ReceiverImage receivers = receivers_at(scene, points, frame.direction_to_light(), true);
   LookupProbe probe = probe_of(receivers, frame, box(kernel));
@@ -30,7 +30,7 @@ Image<float> whole_map(const Scene& scene, const LightFrame& frame, const MapSet
   std::vector<glm::ivec2> texels;
   for (int y = 0; y < frame.resolution; ++y)
     for (int x = 0; x < frame.resolution; ++x) texels.push_back({x, y});
-  const MapDepths depths = look_up(scene, frame, texels, map, 1, bias, offset_unit).exact_map;
+  const MapDepths depths = look_up_texels(scene, frame, texels, map, 1, bias, offset_unit).exact_map;
   Image<float> image(frame.resolution, frame.resolution);
   for (const glm::ivec2 texel : texels) image.at(texel.x, texel.y) = depths.at(texel);
   return image;
@@ -142,7 +142,7 @@ TEST(ExactMap, NearClippedTapsSayTheyAre) {
   light_from_above(scene);
   scene.map = MapVolume{.extent_m = 8, .near_m = 6, .far_m = 12};
   const LightFrame frame = frame_of(scene, 8);
-  const LookupTruth truth = look_up(scene, frame, {{1, 3}, {6, 3}}, {});
+  const LookupTruth truth = look_up_texels(scene, frame, {{1, 3}, {6, 3}}, {});
   EXPECT_TRUE(truth.taps.taps[0] & tap_near_clipped);
   EXPECT_FALSE(truth.taps.taps[1] & tap_near_clipped);
 }
@@ -216,7 +216,7 @@ TEST(ExactMap, HoldsOnlyTheTexelsLookedUp) {
   const auto set_texels = [&](glm::ivec2 texel, Wrap wrap, int kernel) {
     MapSettings map;
     map.wrap = wrap;
-    const MapDepths exact = look_up(scene, frame, {texel}, map, kernel).exact_map;
+    const MapDepths exact = look_up_texels(scene, frame, {texel}, map, kernel).exact_map;
     std::vector<glm::ivec2> set;
     for (int y = 0; y < 32; ++y)
       for (int x = 0; x < 32; ++x)
@@ -238,7 +238,7 @@ TEST(ExactMap, HoldsOnlyTheTexelsLookedUp) {
   const LightFrame wide_frame = frame_of(wide, 8);
   MapSettings map;
   map.wrap = Wrap::clamp_to_edge;
-  const MapDepths exact = look_up(wide, wide_frame, {{-5, 3}, {40, 900}}, map).exact_map;
+  const MapDepths exact = look_up_texels(wide, wide_frame, {{-5, 3}, {40, 900}}, map).exact_map;
   int set = 0;
   for (float depth : exact.depth) set += depth != 1;
   EXPECT_EQ(set, 2);

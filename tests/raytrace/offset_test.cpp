@@ -16,7 +16,7 @@ Bias offset_by(const LightFrame& frame, double metres) {
 
 Bias constant_of(float depth) { return bias_of({{"constant", depth}}); }
 
-struct Looked {
+struct OffsetLooked {
   ReceiverTruth truth;
   LookupTruth lookup;
   uint8_t bits(size_t i, int tap = 0) const {
@@ -28,13 +28,13 @@ struct Looked {
   bool ambiguous(size_t i, int tap = 0) const { return bits(i, tap) & tap_unsure; }
 };
 
-Looked look_up(const Scene& scene, const LightFrame& frame, const ReceiverImage& receivers, int kernel,
-               const Bias& bias) {
+OffsetLooked look_up(const Scene& scene, const LightFrame& frame, const ReceiverImage& receivers, int kernel,
+                     const Bias& bias) {
   const Tracer tracer(scene);
   ReceiverImage moved = receivers;
   for (size_t i = 0; i < moved.position.size(); ++i)
     moved.position[i] = glm::vec3(bias.looked_up(frame, receivers.position[i], receivers.normal[i]));
-  Looked looked{tracer.receiver_truth(receivers, frame, {}), {}};
+  OffsetLooked looked{tracer.receiver_truth(receivers, frame, {}), {}};
   looked.lookup = tracer.lookup_truth(receivers, looked.truth, probe_of(moved, frame, box(kernel)), frame, {}, bias);
   return looked;
 }
@@ -48,7 +48,7 @@ TEST(MovedTaps, AreLitWhereNothingShades) {
     const ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), false, 3000, 7);
     for (double offset_m : {0.003, 0.1, 1.0, 30.0}) {
       for (int kernel : {1, 3}) {
-        const Looked looked = look_up(scene, frame, receivers, kernel, offset_by(frame, offset_m));
+        const OffsetLooked looked = look_up(scene, frame, receivers, kernel, offset_by(frame, offset_m));
         int sure = 0, wrong = 0;
         for (size_t i = 0; i < receivers.position.size(); ++i) {
           if (!looked.truth.facing[i] || looked.truth.ambiguous[i]) continue;
@@ -68,9 +68,9 @@ TEST(MovedTaps, CostARayEachAndOnlyWhereTheyAreMoved) {
   const LightFrame frame = frame_of(scene, 256);
   const ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), false, 5000, 3);
   for (int kernel : {1, 3}) {
-    const Looked none = look_up(scene, frame, receivers, kernel, {});
-    const Looked constant = look_up(scene, frame, receivers, kernel, constant_of(0.1f));
-    const Looked moved = look_up(scene, frame, receivers, kernel, offset_by(frame, 0.1));
+    const OffsetLooked none = look_up(scene, frame, receivers, kernel, {});
+    const OffsetLooked constant = look_up(scene, frame, receivers, kernel, constant_of(0.1f));
+    const OffsetLooked moved = look_up(scene, frame, receivers, kernel, offset_by(frame, 0.1));
     EXPECT_EQ(none.lookup.tap_stage.rays, constant.lookup.tap_stage.rays);
     EXPECT_EQ(none.lookup.taps.taps, constant.lookup.taps.taps);
     EXPECT_GE(moved.lookup.tap_stage.rays, none.lookup.tap_stage.rays + 5000u * static_cast<unsigned>(kernel * kernel));
@@ -131,7 +131,7 @@ TEST_F(PlateOnFloor, MovedTapsAreThoseOfTheClosedForm) {
   const ReceiverImage receivers = on_floor(points);
   for (double offset_m : {0.05, 0.3}) {
     const Bias bias = offset_by(frame, offset_m);
-    const Looked looked = look_up(scene, frame, receivers, 3, bias);
+    const OffsetLooked looked = look_up(scene, frame, receivers, 3, bias);
     int checked = 0, displaced = 0;
     for (size_t i = 0; i < points.size(); ++i) {
       const glm::dvec3 p = receivers.position[i], moved = bias.looked_up(frame, p, {0, 1, 0});
@@ -161,8 +161,8 @@ TEST_F(PlateOnFloor, MovedTapsOnAnEdgeAreDecidedInDouble) {
   const double edge = 0.8 + 0.5 * 0.75, before = edge - offset_m * 0.75;
   std::vector<glm::dvec3> points;
   for (int i = 0; i < 600; ++i) points.push_back({before + (i % 3 - 1) * 1e-3, 0, -0.3 + 0.001 * i});
-  const Looked looked = look_up(scene, frame, on_floor(points), 1, offset_by(frame, offset_m));
-  const Looked unmoved = look_up(scene, frame, on_floor(points), 1, {});
+  const OffsetLooked looked = look_up(scene, frame, on_floor(points), 1, offset_by(frame, offset_m));
+  const OffsetLooked unmoved = look_up(scene, frame, on_floor(points), 1, {});
   // The edge as the light sees it, computed from the plate's vertices as floats.
   const glm::dvec2 a(frame.to_light({0.8f, 0.5f, -0.6f})), b(frame.to_light({0.8f, 0.5f, 0.6f}));
   const auto side = [&](glm::dvec3 world) {

@@ -40,7 +40,7 @@ int kind_of_error(const Scene& scene, const ViewSettings& view) {
 }
 
 // Random triangles, small and large, near and far. Some cross the eye's plane, some lie behind it.
-Scene soup(std::mt19937& random, int triangles) {
+Scene soup_before_a_camera(std::mt19937& random, int triangles) {
   std::uniform_real_distribution<float> place(-5, 5), size(-2, 2);
   Scene scene;
   for (int i = 0; i < triangles; ++i) {
@@ -59,7 +59,7 @@ TEST(CameraFit, CutsOffNothingWhereverTheEyeStands) {
   std::uniform_real_distribution<double> in(-1, 1);
   int met = 0, nearer_than_the_least = 0;
   for (int round = 0; round < 400; ++round) {
-    const Scene scene = soup(random, 40);
+    const Scene scene = soup_before_a_camera(random, 40);
     ViewSettings view;
     view.width_px = 8 + round % 9;
     view.height_px = 6;
@@ -183,7 +183,7 @@ TEST(CameraFit, UpTurnsThePicture) {
 // The bit of each triangle, against facing computed from the triangle's plane and the eye.
 TEST(UnseenBacks, AreTheBacksOfSingleSidedTrianglesAlone) {
   std::mt19937 random(5);
-  Scene scene = soup(random, 100);
+  Scene scene = soup_before_a_camera(random, 100);
   scene.camera = {.eye_m = {1, 2, 9}, .target_m = {0, 0, 0}};
   EXPECT_TRUE(unseen_backs(scene, scene.camera).empty()) << "both sides of all triangles are seen";
   scene.single_sided.assign(100, false);

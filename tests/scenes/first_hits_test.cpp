@@ -40,7 +40,7 @@ FirstHits hits_by_brute_force(const Scene& scene, const CameraFrame& frame, int 
 }
 
 // Random triangles, small and large, with slivers among them. They lie around the eye, so that some cross its plane.
-Scene soup(std::mt19937& random, int triangles) {
+Scene soup_of_triangles(std::mt19937& random, int triangles) {
   std::uniform_real_distribution<float> place(-5, 5), size(-2, 2);
   Scene scene;
   for (int i = 0; i < triangles; ++i) {
@@ -67,7 +67,7 @@ TEST(FirstHits, AreThoseOfEveryTriangleAskedAtEveryRay) {
   std::uniform_real_distribution<double> in(-1, 1);
   int met = 0;
   for (int round = 0; round < 120; ++round) {
-    const Scene scene = soup(random, 1 + 3 * round);
+    const Scene scene = soup_of_triangles(random, 1 + 3 * round);
     const double reach = round % 2 == 0 ? 3 : 20;
     const auto eye = reach * glm::dvec3(in(random), in(random), in(random));
     const Backs backs = round % 4 < 2 ? Backs::seen : Backs::seen_of_double_sided;

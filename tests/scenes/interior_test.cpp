@@ -14,10 +14,10 @@
 namespace noonmark {
 namespace {
 
-enum class Sides { both, front };
+enum class SidesSeen { both, front };
 
-Scene with_sides(Scene scene, Sides sides) {
-  if (sides == Sides::front) scene.single_sided.assign(scene.triangles.size(), true);
+Scene with_sides(Scene scene, SidesSeen sides) {
+  if (sides == SidesSeen::front) scene.single_sided.assign(scene.triangles.size(), true);
   return scene;
 }
 
@@ -66,7 +66,7 @@ bool within(const glm::dvec3& p, const glm::dvec3& low, const glm::dvec3& high) 
 }
 
 TEST(Interior, TheCameraOfAClosedRoomStandsInsideAndSeesItsContents) {
-  for (Sides sides : {Sides::both, Sides::front}) {
+  for (SidesSeen sides : {SidesSeen::both, SidesSeen::front}) {
     const Camera camera = fit_camera(with_sides(furnished_room(), sides));
     EXPECT_TRUE(within(camera.eye_m, {-4, -2, -3}, {4, 2, 3}));
     EXPECT_FALSE(within(camera.eye_m, {-3.5, -2, 0}, {-3, 1, 2})) << "the camera is in the shelf";
@@ -91,14 +91,14 @@ TEST(Interior, ThickWallsADomeAndACrateAreRoomsToo) {
   add_sphere(dome, {0, 0, 0}, 5);
   turn_inside_out(dome);
   add_furniture(dome);
-  const std::optional<Camera> in_dome = camera_inside(with_sides(dome, Sides::front));
+  const std::optional<Camera> in_dome = camera_inside(with_sides(dome, SidesSeen::front));
   ASSERT_TRUE(in_dome);
   EXPECT_LT(glm::length(in_dome->eye_m), 5);
 
   Scene turned;  // along no axis, so its bounding box is larger than the room
   add_box(turned, "hull", glm::dvec3(4, 2, 3), glm::rotate(glm::dmat4(1), 0.5, glm::normalize(glm::dvec3(1, 3, 0.5))));
   turn_inside_out(turned);
-  EXPECT_TRUE(camera_inside(with_sides(turned, Sides::front))) << "single-sided walls need no furniture";
+  EXPECT_TRUE(camera_inside(with_sides(turned, SidesSeen::front))) << "single-sided walls need no furniture";
 }
 
 // A room whose wall of 8 x 4 m has a window. `share` is the window's share of the wall's width and of its height.
@@ -149,8 +149,8 @@ TEST(Interior, OrdinaryScenesAreSeenFromOutside) {
     turn_inside_out(solid);
   }
   for (const auto& [name, scene] : scenes) {
-    for (Sides sides : {Sides::both, Sides::front}) {
-      if (sides == Sides::front && std::string_view(name).starts_with("solid turned")) continue;  // this is a room
+    for (SidesSeen sides : {SidesSeen::both, SidesSeen::front}) {
+      if (sides == SidesSeen::front && std::string_view(name).starts_with("solid turned")) continue;  // this is a room
       EXPECT_FALSE(camera_inside(with_sides(scene, sides))) << name;
     }
   }

@@ -60,12 +60,12 @@ class Remesh : public testing::TestWithParam<std::string> {
 };
 
 // Coordinates of up to 80 m are rounded by 2^-24 of that. Areas of up to 160 x 160 m2 change with them.
-constexpr double rounding = 1e-6;
+constexpr double remesh_rounding = 1e-6;
 void expect_same_measure(const Scene& a, const Part& in_a, const Scene& b, const Part& in_b) {
   const auto [area_a, volume_a] = measure(a, in_a);
   const auto [area_b, volume_b] = measure(b, in_b);
-  EXPECT_LT(glm::length(area_a - area_b), rounding * (1 + glm::length(area_a))) << in_a.name;
-  EXPECT_NEAR(volume_a, volume_b, rounding * (1 + std::abs(volume_a))) << in_a.name;
+  EXPECT_LT(glm::length(area_a - area_b), remesh_rounding * (1 + glm::length(area_a))) << in_a.name;
+  EXPECT_NEAR(volume_a, volume_b, remesh_rounding * (1 + std::abs(volume_a))) << in_a.name;
 }
 
 TEST_P(Remesh, OneMeshHasOnePartAndEachPointOnce) {

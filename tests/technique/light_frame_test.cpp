@@ -10,19 +10,13 @@
 #include "scenes/builtin.h"
 #include "scenes/error.h"
 #include "scenes/library.h"
+#include "tests/technique/random_points.h"
 
 namespace noonmark {
 namespace {
 
 // The tolerance for frames some metres wide, in double: about a thousand roundings of 2^-53.
 constexpr double rounding_m = 1e-12;
-
-double random_in(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-glm::dvec3 random_point(std::mt19937& random, double reach) {
-  return {random_in(random, -reach, reach), random_in(random, -reach, reach), random_in(random, -reach, reach)};
-}
 
 Scene scene_lit_from(glm::dvec3 position, glm::dvec3 target) {
   Scene scene;

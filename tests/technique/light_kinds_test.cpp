@@ -10,19 +10,13 @@
 #include "scenes/builtin.h"
 #include "scenes/library.h"
 #include "technique/light_frame.h"
+#include "tests/technique/random_points.h"
 
 namespace noonmark {
 namespace {
 
 // The tolerance for frames some metres wide, in double: about a thousand roundings of 2^-53.
-constexpr double rounding = 1e-12;
-
-double random_in(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-glm::dvec3 random_point(std::mt19937& random, double reach) {
-  return {random_in(random, -reach, reach), random_in(random, -reach, reach), random_in(random, -reach, reach)};
-}
+constexpr double kind_rounding = 1e-12;
 
 LightFrame random_frame(std::mt19937& random, LightKind kind) {
   Scene scene;
@@ -70,7 +64,7 @@ TEST(Tiles, CoverTheMapAndKnowTheirTexels) {
       const int tile = f.tile_of(place);
       EXPECT_EQ(tile, texel.y / f.resolution) << kind->name();
       EXPECT_EQ(f.tile(tile).corner, glm::ivec2(0, tile * f.resolution));
-      EXPECT_LT(glm::length(f.tile(tile).texels(place) - (glm::dvec2(texel) + 0.5)), rounding * f.resolution);
+      EXPECT_LT(glm::length(f.tile(tile).texels(place) - (glm::dvec2(texel) + 0.5)), kind_rounding * f.resolution);
       EXPECT_EQ(f.tile(tile).place_of(texel), place);
     }
   }
@@ -107,8 +101,8 @@ TEST(Tiles, OfDifferentSizeAndMiddleAgreeWithTheirMatrices) {
       EXPECT_DOUBLE_EQ(tile.texel_m(light), w);
       const glm::ivec2 texel = glm::ivec2(glm::floor(in_tile)) + tile.corner;
       const glm::dvec3 centre = tile.place_of(texel);
-      EXPECT_LE(std::abs(centre.x - light.x), w / 2 * (1 + 1e-8) + rounding);
-      EXPECT_LE(std::abs(centre.y - light.y), w / 2 * (1 + 1e-8) + rounding);
+      EXPECT_LE(std::abs(centre.x - light.x), w / 2 * (1 + 1e-8) + kind_rounding);
+      EXPECT_LE(std::abs(centre.y - light.y), w / 2 * (1 + 1e-8) + kind_rounding);
       const glm::dvec2 back = tile.texels(centre);
       EXPECT_NEAR(back.x, texel.x + 0.5, 1e-8);
       EXPECT_NEAR(back.y, texel.y + 0.5, 1e-8);
@@ -127,13 +121,13 @@ TEST_P(Kinds, MatrixAgreesWithPlacesAndDepths) {
     // The matrix of a point light's face has the depth along the axis of the face. The matrix of a spot light has the
     // depth that the map stores.
     const double along = f.kind == LightKind::point ? glm::dot(light, f.tile(face).forward) : light.z;
-    EXPECT_NEAR(clip.w, along, rounding);
+    EXPECT_NEAR(clip.w, along, kind_rounding);
     EXPECT_NEAR((clip.z / clip.w + 1) / 2, f.far_m * (along - f.near_m) / (along * (f.far_m - f.near_m)),
                 1e-10);  // differences of numbers that are larger by up to far / near
     if (f.kind == LightKind::spot) {
       EXPECT_NEAR((clip.z / clip.w + 1) / 2, f.window_depth(light), 1e-10);
     } else {
-      EXPECT_NEAR(f.window_depth(light), glm::length(world - f.origin_m) / f.far_m, rounding);
+      EXPECT_NEAR(f.window_depth(light), glm::length(world - f.origin_m) / f.far_m, kind_rounding);
     }
     EXPECT_NEAR((clip.x / clip.w + 1) / 2 * f.resolution, texels.x, 1e-8);  // of up to thousands of texels
     EXPECT_NEAR((clip.y / clip.w + 1) / 2 * f.resolution + face * f.resolution, texels.y, 1e-8);
@@ -176,7 +170,7 @@ TEST_P(Kinds, TexelsAreAsWideAsTheirRaysAreApart) {
     };
     const glm::ivec2 corner(0, face * f.resolution);
     for (const glm::ivec2 step : {glm::ivec2(1, 0), glm::ivec2(0, 1)})
-      EXPECT_NEAR(glm::length(on_plane(corner + step) - on_plane(corner)), f.texel_m(p), rounding * f.resolution);
+      EXPECT_NEAR(glm::length(on_plane(corner + step) - on_plane(corner)), f.texel_m(p), kind_rounding * f.resolution);
   }
 }
 
@@ -201,8 +195,8 @@ TEST_P(Kinds, DepthRunsFromNearToFarWithItsSlope) {
   std::mt19937 random(5);
   for (int i = 0; i < 200; ++i) {
     const LightFrame f = random_frame(random, GetParam());
-    EXPECT_NEAR(f.tile(0).window_depth(f.far_m), 1, rounding);
-    EXPECT_NEAR(f.tile(0).window_depth(f.kind == LightKind::point ? 0 : f.near_m), 0, rounding);
+    EXPECT_NEAR(f.tile(0).window_depth(f.far_m), 1, kind_rounding);
+    EXPECT_NEAR(f.tile(0).window_depth(f.kind == LightKind::point ? 0 : f.near_m), 0, kind_rounding);
     const double z = random_in(random, f.near_m, f.far_m), h = 1e-5 * z;
     const double slope = (f.tile(0).window_depth(z + h) - f.tile(0).window_depth(z - h)) / (2 * h);
     EXPECT_NEAR(f.tile(0).window_depth_slope(z) / slope, 1, 1e-8);  // h^2, and 2^-53 / h of cancellation
@@ -243,8 +237,8 @@ TEST(CubeFaces, AreOpenGLs) {
     f.kind = LightKind::point;
     f.resolution = 100;
     const glm::dvec2 texels = f.map_texels(r);
-    ASSERT_NEAR(texels.x, 100 * (sc / std::abs(ma) + 1) / 2, rounding * 100);
-    ASSERT_NEAR(texels.y, 100 * (tc / std::abs(ma) + 1) / 2 + 100 * face, rounding * 1000);
+    ASSERT_NEAR(texels.x, 100 * (sc / std::abs(ma) + 1) / 2, kind_rounding * 100);
+    ASSERT_NEAR(texels.y, 100 * (tc / std::abs(ma) + 1) / 2 + 100 * face, kind_rounding * 1000);
   }
   for (int face = 0; face < 6; ++face) {
     const CubeFace& f = cube_face(face);
@@ -273,7 +267,7 @@ TEST(SpotLight, ConeIsItsAngle) {
   }
   // If no angle is given, the map's sides touch the cone.
   EXPECT_NEAR(f.map_texels({f.tan_half_fov, 0, 1}).x, f.resolution, 1e-9);
-  EXPECT_NEAR(f.tan_half_fov, std::tan(20 * std::numbers::pi / 180), rounding);
+  EXPECT_NEAR(f.tan_half_fov, std::tan(20 * std::numbers::pi / 180), kind_rounding);
 }
 
 // When the light and its target move together, every texel's centre stays on one fixed grid of the world.
@@ -304,8 +298,8 @@ TEST(Snap, KeepsTheGridInTheWorld) {
     Settings unsnapped = settings;
     unsnapped.map.snap = false;
     const glm::dvec3 shift = moved.to_light(make_light_frame(scene, unsnapped).origin_m);
-    EXPECT_LE(std::max(std::abs(shift.x), std::abs(shift.y)), moved.texel_m(glm::dvec3(0)) / 2 + rounding);
-    EXPECT_NEAR(shift.z, 0, rounding);
+    EXPECT_LE(std::max(std::abs(shift.x), std::abs(shift.y)), moved.texel_m(glm::dvec3(0)) / 2 + kind_rounding);
+    EXPECT_NEAR(shift.z, 0, kind_rounding);
     // Without snapping the grid moves by any part of a texel.
     if (i > 0) continue;
     settings.map.snap = false;
@@ -352,7 +346,7 @@ TEST_P(Kinds, FittedVolumeHoldsAllThatIsInTheLight) {
         ASSERT_GT(along, f.near_m) << builtin.name;
         ASSERT_LT(f.depth_m(light), f.far_m) << builtin.name;
         const glm::dvec4 clip = f.clip_from_world(face) * glm::dvec4(world, 1);
-        ASSERT_LE(std::max(std::abs(clip.x), std::abs(clip.y)), clip.w * (1 + rounding)) << builtin.name;
+        ASSERT_LE(std::max(std::abs(clip.x), std::abs(clip.y)), clip.w * (1 + kind_rounding)) << builtin.name;
       }
       if (f.kind == LightKind::point) {
         EXPECT_GT(seen, 1000) << builtin.name;

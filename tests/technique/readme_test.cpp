@@ -15,7 +15,7 @@
 namespace noonmark {
 namespace {
 
-using Lines = std::vector<std::string>;
+using TableLines = std::vector<std::string>;
 
 std::string cell(std::string_view text) {
   std::string escaped;
@@ -26,8 +26,8 @@ std::string cell(std::string_view text) {
   return escaped;
 }
 
-Lines bias_table() {
-  Lines lines = {"| part of the bias | unit | what it is | what the laws say |", "|---|---|---|---|"};
+TableLines bias_table() {
+  TableLines lines = {"| part of the bias | unit | what it is | what the laws say |", "|---|---|---|---|"};
   for (const BiasPart& part : bias_parts()) {
     std::string names;
     for (const BiasParameter& parameter : bias_parameters())
@@ -41,8 +41,9 @@ Lines bias_table() {
   return lines;
 }
 
-Lines filter_table() {
-  Lines lines = {"| filter (`filter.kind`) | its settings | what it is | what the laws say |", "|---|---|---|---|"};
+TableLines filter_table() {
+  TableLines lines = {"| filter (`filter.kind`) | its settings | what it is | what the laws say |",
+                      "|---|---|---|---|"};
   for (const Filter& filter : filters()) {
     std::string reads;
     for (const FilterRead& read : filter.reads)
@@ -63,12 +64,12 @@ class Readme : public ::testing::Test {
   }
 
   // The lines between the two comments that enclose a table.
-  Lines table(const std::string& name) {
+  TableLines table(const std::string& name) {
     const auto [begin, end] = place_of(name);
     return {begin, end};
   }
   // Writes the table if the environment asks for it.
-  void bring_up_to_date(const std::string& name, const Lines& table) {
+  void bring_up_to_date(const std::string& name, const TableLines& table) {
     if (!std::getenv("NOONMARK_WRITE_README")) return;
     const auto [begin, end] = place_of(name);
     lines_.insert(lines_.erase(begin, end), table.begin(), table.end());
@@ -83,7 +84,7 @@ class Readme : public ::testing::Test {
   }
 
  private:
-  std::pair<Lines::iterator, Lines::iterator> place_of(const std::string& name) {
+  std::pair<TableLines::iterator, TableLines::iterator> place_of(const std::string& name) {
     const auto begin =
         std::find(lines_.begin(), lines_.end(), "<!-- " + name + ": written by scripts/readme-tables -->");
     const auto end = std::find(begin, lines_.end(), "<!-- end -->");
@@ -91,15 +92,15 @@ class Readme : public ::testing::Test {
     return {begin + 1, end};
   }
 
-  Lines lines_;
+  TableLines lines_;
 };
 
 // A new part needs only its own file, its row and its laws. So a row that is not in README yet is no failure, but a
 // line that is not as its row says is one.
 TEST_F(Readme, TableOfBiasPartsSaysWhatTheRowsSay) {
-  const Lines rows = bias_table();
+  const TableLines rows = bias_table();
   bring_up_to_date("bias", rows);
-  const Lines shown = table("bias");
+  const TableLines shown = table("bias");
   EXPECT_GE(shown.size(), 18u) << "the table had more lines; run scripts/readme-tables";
   auto next = rows.begin();
   for (const std::string& line : shown) {

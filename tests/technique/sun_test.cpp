@@ -13,7 +13,7 @@
 namespace noonmark {
 namespace {
 
-constexpr double rounding = 1e-14;  // some tens of roundings of 2^-53 of numbers up to 1
+constexpr double sun_rounding = 1e-14;  // some tens of roundings of 2^-53 of numbers up to 1
 
 TEST(Sun, StandsExactlyOnTheAxesAtRightAngles) {
   EXPECT_EQ(direction_to_sun({0, 0}), glm::dvec3(0, 0, 1));
@@ -34,14 +34,14 @@ TEST(Sun, HasTheElevationAboveTheHorizonAndTheAzimuthFromZTowardsX) {
   for (int i = 0; i < 1000; ++i) {
     const double azimuth = azimuths(random), elevation = elevations(random);
     const glm::dvec3 l = direction_to_sun({azimuth, elevation});
-    EXPECT_NEAR(glm::length(l), 1, rounding);
-    EXPECT_NEAR(l.y, std::sin(glm::radians(elevation)), rounding);
+    EXPECT_NEAR(glm::length(l), 1, sun_rounding);
+    EXPECT_NEAR(l.y, std::sin(glm::radians(elevation)), sun_rounding);
     const glm::dmat2 turn(std::cos(glm::radians(azimuth)), -std::sin(glm::radians(azimuth)),
                           std::sin(glm::radians(azimuth)),
                           std::cos(glm::radians(azimuth)));  // from (z, x) to the front
     const glm::dvec2 front = turn * glm::dvec2(l.z, l.x);
-    EXPECT_NEAR(front.x, std::cos(glm::radians(elevation)), rounding);
-    EXPECT_NEAR(front.y, 0, rounding);
+    EXPECT_NEAR(front.x, std::cos(glm::radians(elevation)), sun_rounding);
+    EXPECT_NEAR(front.y, 0, sun_rounding);
     const SunPlace back = place_of_sun(3.5 * l);
     constexpr double degrees_of_rounding = 1e-9;  // near the zenith the azimuth loses as much as 1 / cos(89 deg)
     EXPECT_NEAR(back.azimuth_deg, azimuth, degrees_of_rounding);
@@ -62,7 +62,7 @@ TEST(Sun, ReplacesTheDirectionOfTheSceneAndKeepsTargetAndDistance) {
   const double distance = glm::distance(own.position_m, own.target_m);
   const Light sun = effective_light(scene, with_sun(30, 40));
   EXPECT_EQ(sun.target_m, own.target_m);
-  EXPECT_NEAR(glm::distance(sun.position_m, sun.target_m), distance, distance * rounding);
+  EXPECT_NEAR(glm::distance(sun.position_m, sun.target_m), distance, distance * sun_rounding);
   const LightFrame frame = make_light_frame(scene, with_sun(30, 40));
   // A light-side ray has the direction of a float.
   EXPECT_LT(glm::distance(frame.direction_to_light(), direction_to_sun({30, 40})), 4 * 0x1p-24);

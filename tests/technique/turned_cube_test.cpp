@@ -12,7 +12,7 @@ namespace noonmark {
 namespace {
 
 // The tolerance for frames some metres wide, in double: about a thousand roundings of 2^-53.
-constexpr double rounding = 1e-12;
+constexpr double turn_rounding = 1e-12;
 
 LightFrame turned_by(std::optional<glm::dvec3> turn_deg) {
   Scene scene;
@@ -25,7 +25,7 @@ LightFrame turned_by(std::optional<glm::dvec3> turn_deg) {
   return make_light_frame(scene, settings);
 }
 
-void expect_near(glm::dvec3 a, glm::dvec3 b, double allowed = rounding) { EXPECT_LT(glm::length(a - b), allowed); }
+void expect_near(glm::dvec3 a, glm::dvec3 b, double allowed = turn_rounding) { EXPECT_LT(glm::length(a - b), allowed); }
 
 TEST(TurnedCube, TurnsByTheRightHand) {
   const LightFrame f = turned_by(glm::dvec3(0, 0, 90));

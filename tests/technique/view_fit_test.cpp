@@ -17,7 +17,7 @@
 namespace noonmark {
 namespace {
 
-constexpr double rounding = 1e-12;  // relative; thousands of roundings of 2^-53
+constexpr double fit_rounding = 1e-12;  // relative; thousands of roundings of 2^-53
 
 std::vector<Scene> directional_scenes() {
   std::vector<Scene> scenes;
@@ -137,9 +137,9 @@ TEST(ViewFit, ReadsTheShapeOfThePictureAndNoResolution) {
   settings.view.width_px = 320;
   settings.view.height_px = 180;
   const LightFrame same = make_light_frame(scene, settings);
-  EXPECT_NEAR(same.extent_m, frame.extent_m, rounding * frame.extent_m);
-  EXPECT_NEAR(same.near_m, frame.near_m, rounding * frame.extent_m);
-  EXPECT_NEAR(same.far_m, frame.far_m, rounding * frame.extent_m);
+  EXPECT_NEAR(same.extent_m, frame.extent_m, fit_rounding * frame.extent_m);
+  EXPECT_NEAR(same.near_m, frame.near_m, fit_rounding * frame.extent_m);
+  EXPECT_NEAR(same.far_m, frame.far_m, fit_rounding * frame.extent_m);
   settings.view.width_px = 100;
   EXPECT_LT(make_light_frame(scene, settings).extent_m, frame.extent_m) << "a narrower picture";
 }
@@ -163,13 +163,13 @@ TEST(ViewFit, OfAFloorIsTheRectangleOfThePicture) {
   settings.view.height_px = 100;
   const LightFrame frame = make_light_frame(scene, settings);
   const double margin = 1 + 0x1p-10;  // lights::map_margin
-  EXPECT_NEAR(frame.extent_m, 12 * margin, 12 * rounding) << "the picture shows 12 m x 6 m of the floor";
+  EXPECT_NEAR(frame.extent_m, 12 * margin, 12 * fit_rounding) << "the picture shows 12 m x 6 m of the floor";
   const glm::dvec3 middle = frame.to_light({10, 0, 0});
-  EXPECT_NEAR(middle.x, 0, 100 * rounding);
-  EXPECT_NEAR(middle.y, 0, 100 * rounding);
+  EXPECT_NEAR(middle.x, 0, 100 * fit_rounding);
+  EXPECT_NEAR(middle.y, 0, 100 * fit_rounding);
   const double depth = 6;  // from the top of the box, 14 m below the light, to the floor
-  EXPECT_NEAR(frame.near_m, 14 - depth * 0x1p-10, 20 * rounding);
-  EXPECT_NEAR(frame.far_m, 20 + depth * 0x1p-10, 20 * rounding);
+  EXPECT_NEAR(frame.near_m, 14 - depth * 0x1p-10, 20 * fit_rounding);
+  EXPECT_NEAR(frame.far_m, 20 + depth * 0x1p-10, 20 * fit_rounding);
 }
 
 TEST(ViewFit, OfNothingIsThatOfTheWholeScene) {

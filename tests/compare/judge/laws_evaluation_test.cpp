@@ -7,13 +7,11 @@
 #include "compare/judge/formula.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
+#include "compare/ladder/numbers.h"
 #include "scenes/error.h"
 
 namespace noonmark {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double value(const std::string& text, double x = 2) {
   return Formula(text).value([&](const std::string&) { return x; });
@@ -38,7 +36,7 @@ TEST(Formula, RefusesWhatItCannotRead) {
 
 TEST(Formula, WhatHasNoValueIsNotANumber) {
   for (const char* text : {"min(1, x)", "max(x, 1)", "x > 1 ? 2 : 3", "0 * x", "x == x"})
-    EXPECT_TRUE(std::isnan(value(text, nan))) << text;
+    EXPECT_TRUE(std::isnan(value(text, not_a_number))) << text;
   EXPECT_TRUE(std::isnan(value("0 / 0")));
   EXPECT_EQ(value("1 / 0"), infinity);
 }
@@ -116,7 +114,7 @@ TEST(Laws, NameTheSampleFurthestOff) {
 }
 
 TEST(Laws, WhatIsNotFiniteBreaksThem) {
-  for (double bad : {nan, infinity, -infinity})
+  for (double bad : {not_a_number, infinity, -infinity})
     for (LawRelation relation : {LawRelation::equal, LawRelation::at_most, LawRelation::at_least}) {
       Law l = law("error", "1", relation);
       l.within = 1e9;

@@ -9,12 +9,10 @@
 #include <random>
 
 #include "compare/judge/curve_reading.h"
+#include "compare/ladder/numbers.h"
 
 namespace noonmark {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A curve whose acne is below 1% from `low` on, and whose Peter Panning is below 1% up to `high`.
 PointRecord point_with(int64_t id, double cost, std::optional<double> low, std::optional<double> high) {
@@ -153,7 +151,7 @@ TEST(Recommend, NothingToHoldIsNotAnAnswer) {
 }
 
 TEST(Recommend, WhatIsNotFiniteNeverHolds) {
-  for (double bad : {nan, infinity, -infinity}) {
+  for (double bad : {not_a_number, infinity, -infinity}) {
     Results results;
     results.points = {point_with(0, 1, 0.25, 0.75), point_with(1, 2, 0.25, 0.75)};
     results.points[0].metrics["texel_work"] = bad;
@@ -175,7 +173,7 @@ TEST(Meets, ALimitOnOneSideDoesNotLetInfinityThrough) {
   PointRecord point = point_with(0, 1, {}, {});
   BoundResult bound{.metric = "error", .max = 1.0, .min = {}, .where = {}, .join = "worst", .reproduce = ""};
   EXPECT_TRUE(meets(point, bound));
-  for (double bad : {nan, infinity, -infinity}) {
+  for (double bad : {not_a_number, infinity, -infinity}) {
     point.metrics["error"] = bad;
     bound.max = 1.0, bound.min.reset();
     EXPECT_FALSE(meets(point, bound));

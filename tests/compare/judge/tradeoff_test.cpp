@@ -13,7 +13,7 @@ using Window = ComparedChoice::Window;
 
 // The error falls from 0.5 to 0.125 at the bias 0.5 and rises again to 0.5 at 1. Acne is what is above 0.1 before the
 // middle, Peter Panning after it.
-PointRecord point_with(int64_t id, double cost, std::optional<double> low, std::optional<double> high) {
+PointRecord point_of_valley(int64_t id, double cost, std::optional<double> low, std::optional<double> high) {
   PointRecord point;
   point.id = id;
   point.settings = {{"bias.constant", "0.25"}, {"bias.unit", "depth"}, {"filter.size", std::to_string(3 + id)}};
@@ -40,7 +40,7 @@ ComparedChoice compared(const Results& results, size_t which = 0) {
 
 TEST(Tradeoff, StandsAtTheBiasThatWouldBeRecommended) {
   Results results;
-  results.points = {point_with(0, 1, 0.75, 1.0)};
+  results.points = {point_of_valley(0, 1, 0.75, 1.0)};
   const ComparedChoice one = compared(results);
   EXPECT_EQ(one.window, Window::usable);
   EXPECT_EQ(*one.bias, recommend(results).bias->value);
@@ -50,7 +50,7 @@ TEST(Tradeoff, StandsAtTheBiasThatWouldBeRecommended) {
 
 TEST(Tradeoff, SpansTheErrorOverTheWindow) {
   Results results;
-  results.points = {point_with(0, 1, 0.25, 1.0)};
+  results.points = {point_of_valley(0, 1, 0.25, 1.0)};
   results.points[0].curve->error = {0.5, 0.25, 0.125, 0.45, 0.375};  // least and largest are between the ends
   const ComparedChoice one = compared(results);
   const Span span = *span_over_window(one, "error");
@@ -61,7 +61,7 @@ TEST(Tradeoff, SpansTheErrorOverTheWindow) {
 
 TEST(Tradeoff, AnEmptyWindowStandsAtTheLeastErrorAndDoesNotCount) {
   Results results;
-  results.points = {point_with(0, 1, {}, {})};
+  results.points = {point_of_valley(0, 1, {}, {})};
   const ComparedChoice one = compared(results);
   EXPECT_EQ(one.window, Window::empty);
   EXPECT_EQ(*one.bias, 0.5);
@@ -76,7 +76,7 @@ TEST(Tradeoff, AnEmptyWindowStandsAtTheLeastErrorAndDoesNotCount) {
 
 TEST(Tradeoff, AChoiceWithoutACurveStandsAsRendered) {
   Results results;
-  results.points = {point_with(0, 1, 0.25, 0.75)};
+  results.points = {point_of_valley(0, 1, 0.25, 0.75)};
   results.points[0].curve.reset();
   const ComparedChoice one = compared(results);
   EXPECT_EQ(one.window, Window::no_curve);
@@ -89,7 +89,7 @@ TEST(Tradeoff, AChoiceWithoutACurveStandsAsRendered) {
 // A metric without a curve is as rendered. A bias outside the window must not make it look good.
 TEST(Tradeoff, WhatIsAsRenderedCountsOnlyWithinTheWindow) {
   Results results;
-  results.points = {point_with(0, 1, 0.25, 0.75)};  // rendered with 0.25, the end of the window
+  results.points = {point_of_valley(0, 1, 0.25, 0.75)};  // rendered with 0.25, the end of the window
   EXPECT_EQ(value_of(compared(results), "aliasing_rms").worst, 0.375);
   EXPECT_TRUE(counts_by(compared(results), "aliasing_rms"));
   results.points[0].curve->window_min_depth = 0.26;
@@ -99,7 +99,7 @@ TEST(Tradeoff, WhatIsAsRenderedCountsOnlyWithinTheWindow) {
 
 TEST(Tradeoff, ABrokenBoundLeavesTheWindowUsable) {
   Results results;
-  results.points = {point_with(0, 1, 0.25, 0.75)};
+  results.points = {point_of_valley(0, 1, 0.25, 0.75)};
   results.bounds = {{.metric = "error", .max = 0.1, .min = {}, .where = {}, .join = "worst", .reproduce = ""}};
   const ComparedChoice one = compared(results);
   EXPECT_EQ(one.window, Window::usable);
@@ -109,7 +109,7 @@ TEST(Tradeoff, ABrokenBoundLeavesTheWindowUsable) {
 
 TEST(Tradeoff, JoinsTheConditions) {
   Results results;
-  results.points = {point_with(0, 1, 0.25, 0.75), point_with(1, 3, 0.5, 1.0)};
+  results.points = {point_of_valley(0, 1, 0.25, 0.75), point_of_valley(1, 3, 0.5, 1.0)};
   for (PointRecord& point : results.points) point.settings["filter.size"] = "3";
   results.points[0].settings["view.eye_m"] = "0, 0, 0";
   results.points[1].settings["view.eye_m"] = "1, 0, 0";
@@ -132,7 +132,7 @@ TEST(Tradeoff, JoinsTheConditions) {
 
 TEST(Tradeoff, TheDominatingCauseIsThatOfTheBias) {
   Results results;
-  results.points = {point_with(0, 1, {}, {})};
+  results.points = {point_of_valley(0, 1, {}, {})};
   BiasCurve& curve = *results.points[0].curve;
   EXPECT_EQ(dominating_cause(compared(results)), "aliasing") << "dark and light together are more than the filter";
   curve.aliasing_dark = curve.aliasing_light = {0, 0, 0, 0, 0};
@@ -149,7 +149,7 @@ TEST(Tradeoff, TheDominatingCauseIsThatOfTheBias) {
 TEST(Tradeoff, RecommendsWithinEachGroup) {
   Results results;
   for (int64_t id = 0; id < 4; ++id) {
-    results.points.push_back(point_with(id, 4.0 - static_cast<double>(id), 0.25, 0.75));
+    results.points.push_back(point_of_valley(id, 4.0 - static_cast<double>(id), 0.25, 0.75));
     results.points.back().settings["scene.name"] = id < 2 ? "one" : "two";
   }
   const std::vector<ComparedGroup> groups = compared_groups(results);

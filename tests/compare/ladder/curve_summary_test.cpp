@@ -6,12 +6,11 @@
 #include <limits>
 
 #include "compare/ladder/bias_curves.h"
+#include "compare/ladder/numbers.h"
 #include "tests/compare/ladder/evidence.h"
 
 namespace noonmark {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // `count` receivers in a row, each with its own texel. All of them are counted.
 Synthetic row_of(int count) {
@@ -111,11 +110,11 @@ TEST(Summarise, HasNoWindowWhereNoSlopeReaches) {
   make_acne(s, 0, 0x1p-3f);
   s.probe.n_dot_l[0] = 1;  // 1 - N.L = 0, so no slope gives this receiver a bias
   const BiasCounts counts(s.evidence(), s.stored_map(), bias_part("slope"));
-  EXPECT_EQ(counts.acne_free_from(0), infinity);
+  EXPECT_EQ(counts.acne_free_from(0), infinity_f);
   EXPECT_FALSE(summarise(counts, test_scale(), {0, 0, {}}).window_min_depth);
   EXPECT_TRUE(summarise(counts, test_scale(), {0.25, 0, {}}).window_min_depth);
   make_shadow(s, 0, 0x1p-3f);
-  EXPECT_EQ(BiasCounts(s.evidence(), s.stored_map(), bias_part("slope")).peter_panning_free_to(0), infinity);
+  EXPECT_EQ(BiasCounts(s.evidence(), s.stored_map(), bias_part("slope")).peter_panning_free_to(0), infinity_f);
 }
 
 TEST(Summarise, AllowsWhatTheMetricCallsWithinTheBound) {
@@ -259,7 +258,7 @@ TEST(Summarise, GivesTheWindowsAtOtherBounds) {
 }
 
 TEST(Summarise, BytesOfAnotherListAreRefused) {
-  const WindowSteps::Steps steps = {{0, 5}, {0x1p-20f, 7}, {infinity, 1e15}};
+  const WindowSteps::Steps steps = {{0, 5}, {0x1p-20f, 7}, {infinity_f, 1e15}};
   const std::string bytes = bytes_of_steps(steps);
   EXPECT_EQ(steps_of_bytes(bytes), steps);
   for (size_t size = 0; size < bytes.size(); ++size) EXPECT_ANY_THROW(steps_of_bytes(bytes.substr(0, size))) << size;

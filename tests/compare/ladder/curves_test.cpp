@@ -8,13 +8,13 @@
 #include <set>
 
 #include "compare/ladder/bias_curves.h"
+#include "compare/ladder/numbers.h"
 #include "tests/compare/ladder/evidence.h"
 #include "tests/support/bias_of.h"
 
 namespace noonmark {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr Cause booked[] = {Cause::aliasing_dark, Cause::aliasing_light, Cause::acne,     Cause::peter_panning,
                             Cause::coverage_dark, Cause::coverage_light, Cause::undecided};
 
@@ -72,7 +72,7 @@ std::set<float> breakpoints(const Synthetic& s, const BiasPart& varied, bool exa
       for (const naive::Tap& tap : naive::taps_of(s, map, i)) {
         if (tap.weight == 0) continue;
         const auto lit = [&](float x) { return naive::verdict(s, tap, swept_bias(s, varied, i, x)); };
-        uint32_t dark = 0, at = std::bit_cast<uint32_t>(infinity);
+        uint32_t dark = 0, at = std::bit_cast<uint32_t>(infinity_f);
         if (lit(0)) continue;
         while (at - dark > 1) {
           const uint32_t middle = dark + (at - dark) / 2;
@@ -84,7 +84,7 @@ std::set<float> breakpoints(const Synthetic& s, const BiasPart& varied, bool exa
   };
   if (exact) add(s.exact);
   if (stored) add(s.stored);
-  all.erase(infinity);
+  all.erase(infinity_f);
   return all;
 }
 
@@ -114,7 +114,7 @@ TEST_P(Curves, CountWhatRenderingWouldAtEveryBreakpointAndBetween) {
     for (float x : breakpoints(s, varied)) {
       // Without a lattice there are thousands of them, so only every eleventh is tried.
       if (!lattice && std::bit_cast<uint32_t>(x) % 11 != 0) continue;
-      tried.insert({std::nextafter(x, 0.0f), x, std::nextafter(x, infinity)});
+      tried.insert({std::nextafter(x, 0.0f), x, std::nextafter(x, infinity_f)});
     }
     std::mt19937_64 random(seed);
     for (int i = 0; i < 100; ++i)
@@ -136,10 +136,10 @@ TEST_P(Curves, NameTheExactEndsOfTheWindow) {
     };
     for (double allowed : {0, 1, 2, 3, 5, 10, 40, 1000000}) {
       const float from = counts.acne_free_from(allowed / counts.taps());
-      if (from < infinity) {
+      if (from < infinity_f) {
         EXPECT_LE(caused(Cause::acne, from), allowed);
       }
-      if (from == infinity) {
+      if (from == infinity_f) {
         EXPECT_GT(caused(Cause::acne, std::numeric_limits<float>::max()), allowed);
       }
       if (from > 0) {
@@ -148,9 +148,9 @@ TEST_P(Curves, NameTheExactEndsOfTheWindow) {
       const float to = counts.peter_panning_free_to(allowed / counts.taps());
       if (to < 0) {  // no bias is small enough, not even 0
         EXPECT_GT(caused(Cause::peter_panning, 0), allowed);
-      } else if (to < infinity) {
+      } else if (to < infinity_f) {
         EXPECT_LE(caused(Cause::peter_panning, to), allowed);
-        EXPECT_GT(caused(Cause::peter_panning, std::nextafter(to, infinity)), allowed) << allowed << " to " << to;
+        EXPECT_GT(caused(Cause::peter_panning, std::nextafter(to, infinity_f)), allowed) << allowed << " to " << to;
       } else {
         EXPECT_LE(caused(Cause::peter_panning, std::numeric_limits<float>::max()), allowed);
       }
@@ -176,7 +176,7 @@ TEST_P(Curves, NameTheExactEndOfTheStoredMapsAcne) {
     const Synthetic s = random_evidence(seed, shape);
     const BiasCounts counts(s.evidence(), s.stored_map(), varied);
     const float from = counts.stored_acne_free_from();
-    if (from < infinity) {
+    if (from < infinity_f) {
       EXPECT_EQ(stored_acne(s, varied, from), 0);
     } else {
       EXPECT_GT(stored_acne(s, varied, std::numeric_limits<float>::max()), 0);
@@ -186,7 +186,7 @@ TEST_P(Curves, NameTheExactEndOfTheStoredMapsAcne) {
     }
     // The record has both ends for all bounds. It has no value if no bias is enough.
     const BiasCurve curve = summarise(counts, {}, {1, 1, {}});
-    const auto expected = [](float x) { return x < infinity ? std::optional<double>(x) : std::nullopt; };
+    const auto expected = [](float x) { return x < infinity_f ? std::optional<double>(x) : std::nullopt; };
     EXPECT_EQ(curve.acne_free_bias_depth, expected(counts.acne_free_from(0)));
     EXPECT_EQ(curve.acne_free_bias_stored_depth, expected(from));
   }

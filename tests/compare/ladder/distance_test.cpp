@@ -8,10 +8,10 @@
 #include <limits>
 #include <random>
 
+#include "compare/ladder/numbers.h"
+
 namespace noonmark {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // Distances are squared whole numbers, or -1 if no pixel is marked.
 void expect_distances(const Image<uint8_t>& mask) {
@@ -29,7 +29,7 @@ void expect_distances(const Image<uint8_t>& mask) {
         const int64_t squared = (mx - x) * (mx - x) + (my - y) * (my - y);
         if (nearest < 0 || squared < nearest) nearest = squared;
       }
-      const float expected = nearest < 0 ? infinity : std::sqrt(static_cast<float>(nearest));
+      const float expected = nearest < 0 ? infinity_f : std::sqrt(static_cast<float>(nearest));
       ASSERT_EQ(found.at(x, y), expected) << x << ", " << y << " of " << mask.width << " x " << mask.height;
     }
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "compare/ladder/numbers.h"
 #include "tests/compare/ladder/measured_picture.h"
 
 namespace noonmark {
@@ -123,10 +124,10 @@ TEST(Measure, GapIsOverReceiversInShadow) {
   // With a filter, Peter Panning can occur at a lit receiver beside the edge. Nothing is between it and the light.
   p.rungs(0, 0, {1, 1, 0.5f, 0.5f, 0.75f, 0.75f});
   p.step(0, 0, Cause::peter_panning, 0.25f);
-  p.occluder.at(0, 0) = infinity;
+  p.occluder.at(0, 0) = infinity_f;
   p.probe.n_dot_l.at(0, 0) = 0.5f;
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
-  p.probe.n_dot_l.at(0, 0) = 1;  // 0 * infinity
+  p.probe.n_dot_l.at(0, 0) = 1;  // 0 * infinity_f
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 0);
   EXPECT_EQ(p.metric("peter_panning"), 0.0625);  // Peter Panning is still counted
   p.rungs(1, 0, {0, 0, 0.5f, 0.5f, 0.75f, 0.75f});
@@ -143,8 +144,8 @@ TEST(Measure, GapIsOverReceiversInShadow) {
   EXPECT_EQ(p.metric("peter_panning_gap_m"), 2);
   EXPECT_EQ(peter_panning_mask(p.ladder).pixels, (std::vector<uint8_t>{0, 1, 0, 0}));
   // A dark receiver's distance that is not finite is a defect that must show.
-  p.occluder.at(1, 0) = infinity;
-  EXPECT_EQ(p.metric("peter_panning_gap_m"), infinity);
+  p.occluder.at(1, 0) = infinity_f;
+  EXPECT_EQ(p.metric("peter_panning_gap_m"), infinity_f);
   p.occluder.at(1, 0) = nan_float;
   EXPECT_TRUE(std::isnan(p.metric("peter_panning_gap_m")));
 }

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "compare/ladder/law_metrics.h"
+#include "compare/ladder/numbers.h"
 #include "compare/store/metrics.h"
 #include "scenes/error.h"
 #include "scenes/receivers.h"
@@ -174,7 +175,7 @@ TEST(WorstPixel, IsTheFirstOfTheLargestErrors) {
   expect(0, 1, "acne");
   p.ladder[Rung::shown].at(2, 1) = nan_float;  // worse than any number
   expect(2, 1, "none");
-  p.ladder[Rung::shown].at(1, 1) = infinity;
+  p.ladder[Rung::shown].at(1, 1) = infinity_f;
   expect(2, 1, "none");
   p.ladder[Rung::shown].at(2, 1) = 1;
   expect(1, 1, "none");

@@ -11,7 +11,6 @@
 
 namespace noonmark {
 
-inline constexpr float infinity = std::numeric_limits<float>::infinity();
 inline constexpr float nan_float = std::numeric_limits<float>::quiet_NaN();
 
 // A picture whose receivers all face the light, are lit and are right.

@@ -9,10 +9,10 @@
 #include <limits>
 #include <random>
 
+#include "compare/ladder/numbers.h"
+
 namespace noonmark {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // Any float that a threshold can be: 0, denormal, normal, infinity. Some values repeat.
 std::vector<float> any_thresholds(size_t count, uint32_t seed) {
@@ -22,7 +22,8 @@ std::vector<float> any_thresholds(size_t count, uint32_t seed) {
     if (!values.empty() && random() % 4 == 0)
       values.push_back(values[random() % values.size()]);
     else
-      values.push_back(std::bit_cast<float>(static_cast<uint32_t>(random() % (std::bit_cast<uint32_t>(infinity) + 1))));
+      values.push_back(
+          std::bit_cast<float>(static_cast<uint32_t>(random() % (std::bit_cast<uint32_t>(infinity_f) + 1))));
   }
   return values;
 }
@@ -78,7 +79,7 @@ TEST(ThresholdSums, AddBatches) {
 
 TEST(ThresholdSums, AddWeights) {
   // Eighths, so that the sums are exact in any order.
-  ThresholdSums::Weighted weighted = {{0.5f, 0.125}, {0, 0.25}, {0.5f, 0.5}, {infinity, 1}};
+  ThresholdSums::Weighted weighted = {{0.5f, 0.125}, {0, 0.25}, {0.5f, 0.5}, {infinity_f, 1}};
   ThresholdSums sums;
   sums.add(weighted);
   EXPECT_TRUE(weighted.empty());

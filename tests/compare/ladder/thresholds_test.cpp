@@ -9,10 +9,11 @@
 #include <limits>
 #include <random>
 
+#include "compare/ladder/numbers.h"
+
 namespace noonmark {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float largest = std::numeric_limits<float>::max();
 constexpr float least = std::numeric_limits<float>::denorm_min();
 
@@ -22,7 +23,7 @@ bool lit(float reference, float stored, float bias) { return !(reference - bias 
 template <class Enough>
 float bisected(const Enough& enough) {
   if (enough(0.0f)) return 0;
-  uint32_t below = 0, at = std::bit_cast<uint32_t>(infinity);
+  uint32_t below = 0, at = std::bit_cast<uint32_t>(infinity_f);
   while (at - below > 1) {
     const uint32_t middle = below + (at - below) / 2;
     (enough(std::bit_cast<float>(middle)) ? at : below) = middle;
@@ -34,13 +35,13 @@ float bisected(const Enough& enough) {
 // algorithm.
 template <class Enough>
 bool is_least(float threshold, const Enough& enough) {
-  if (threshold == infinity) return !enough(largest);
+  if (threshold == infinity_f) return !enough(largest);
   return threshold >= 0 && enough(threshold) && (threshold == 0 || !enough(std::nextafter(threshold, 0.0f)));
 }
 
 // Floats of every size: any bit pattern that is finite and not negative.
 float any_size(std::mt19937_64& random) {
-  return std::bit_cast<float>(static_cast<uint32_t>(random() % std::bit_cast<uint32_t>(infinity)));
+  return std::bit_cast<float>(static_cast<uint32_t>(random() % std::bit_cast<uint32_t>(infinity_f)));
 }
 // Window depths of a fixed-point map, and depths between them.
 float depth(std::mt19937_64& random) {
@@ -56,7 +57,7 @@ float depth(std::mt19937_64& random) {
   }
 }
 float moved(float x, int floats) {
-  for (; floats > 0; --floats) x = std::nextafter(x, infinity);
+  for (; floats > 0; --floats) x = std::nextafter(x, infinity_f);
   for (; floats < 0; ++floats) x = std::nextafter(x, 0.0f);
   return x;
 }
@@ -184,21 +185,21 @@ TEST(SlopeThreshold, IsTheLeastSlopeWhereProductsAreDenormal) {
 }
 
 TEST(SlopeThreshold, OfNoBiasIsZeroAndOfNoFactorInfinite) {
-  for (float factor : {0.0f, -0.0f, -1e-7f, -infinity, 0.5f, 1.0f, 2.0f, least, infinity}) {
+  for (float factor : {0.0f, -0.0f, -1e-7f, -infinity_f, 0.5f, 1.0f, 2.0f, least, infinity_f}) {
     EXPECT_EQ(factor_threshold(0, factor), 0) << factor;
     EXPECT_EQ(factor_threshold(-0.0f, factor), 0) << factor;
     EXPECT_EQ(factor_threshold(-1, factor), 0) << factor;
     if (!(factor > 0)) {
-      EXPECT_EQ(factor_threshold(least, factor), infinity) << factor;
+      EXPECT_EQ(factor_threshold(least, factor), infinity_f) << factor;
     }
     if (!(factor > 0)) {
-      EXPECT_EQ(factor_threshold(1, factor), infinity) << factor;
+      EXPECT_EQ(factor_threshold(1, factor), infinity_f) << factor;
     }
     if (factor <= 1) {
-      EXPECT_EQ(factor_threshold(infinity, factor), infinity) << factor;
+      EXPECT_EQ(factor_threshold(infinity_f, factor), infinity_f) << factor;
     }
   }
-  EXPECT_EQ(factor_threshold(1, least), infinity);
+  EXPECT_EQ(factor_threshold(1, least), infinity_f);
   EXPECT_EQ(factor_threshold(least, 1), least);
   EXPECT_EQ(factor_threshold(0.005f, 1), 0.005f);
 }
@@ -209,7 +210,7 @@ RC_GTEST_PROP(Thresholds, LightATapExactlyFromTheBiasThatTheyName, ()) {
   const float bias = lit_threshold(reference, stored);
   const float slope = floor >= bias ? 0 : factor_threshold(bias, factor);
   const auto shader = [&](float s) { return lit(reference, stored, std::max(s * factor, floor)); };
-  if (slope < infinity) RC_ASSERT(shader(slope));
+  if (slope < infinity_f) RC_ASSERT(shader(slope));
   if (slope > 0) RC_ASSERT(!shader(std::nextafter(slope, 0.0f)));
 }
 

@@ -9,6 +9,7 @@
 #include <random>
 #include <set>
 
+#include "compare/ladder/numbers.h"
 #include "compare/report/rules.h"
 #include "compare/report/text.h"
 #include "compare/store/quantities.h"
@@ -17,16 +18,13 @@
 namespace noonmark {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 TEST(Pareto, AgreesWithBruteForce) {
   std::mt19937 random(7);
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<std::pair<double, double>> points(random() % 40);
     for (auto& [x, y] : points) {
       x = static_cast<double>(random() % 12), y = static_cast<double>(random() % 12);  // few values, so many ties
-      if (random() % 15 == 0) x = nan;
+      if (random() % 15 == 0) x = not_a_number;
       if (random() % 15 == 0) y = infinity;
     }
     std::set<size_t> expected;
@@ -56,7 +54,7 @@ TEST(Pareto, TakesCostsThatOverlapAsEqual) {
   // A chain of overlaps does not remove its cheap end, which is certainly cheaper than the accurate one.
   EXPECT_EQ(front({{{5, 6, 7}, 0.1}, {{4, 5, 6}, 0.2}, {{3, 4, 4.5}, 0.3}}), (Indices{2, 0}));
   EXPECT_EQ(front({{{2, 3, 4}, 0.2}, {{3, 3.5, 5}, 0.2}}), (Indices{0, 1})) << "equally accurate";
-  EXPECT_EQ(front({{{2, 3, nan}, 0.1}, {{3, 3.5, 5}, 0.2}}), (Indices{1}));
+  EXPECT_EQ(front({{{2, 3, not_a_number}, 0.1}, {{3, 3.5, 5}, 0.2}}), (Indices{1}));
 }
 
 bool speaks_for(const Rule& rule, const PointRecord& point) {
@@ -128,7 +126,7 @@ TEST(DescribePoints, IsTrueOfChosenPointsOnlyAndOfAllOfThem) {
 TEST(CauseShares, AreOfTheSumOverFinitePoints) {
   PointRecord a, b;
   a.metrics = {{"acne", 0.3}, {"precision", 0.1}, {"light_size", 9}, {"aliasing", 9}};
-  b.metrics = {{"acne", nan}, {"precision", 0.1}, {"filter", 0}};
+  b.metrics = {{"acne", not_a_number}, {"precision", 0.1}, {"filter", 0}};
   const PointRecord* both[] = {&a, &b};
   const std::vector<CauseShare> shares = cause_shares(both);
   ASSERT_EQ(shares.size(), 2u);

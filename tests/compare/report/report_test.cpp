@@ -13,6 +13,7 @@
 
 #include "compare/judge/soundness.h"
 #include "compare/ladder/ladder.h"
+#include "compare/ladder/numbers.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/findings.h"
@@ -28,8 +29,6 @@ namespace noonmark {
 namespace {
 
 using nlohmann::json;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(ReportText, NumbersReadAsPeopleWriteThem) {
   using report::number;
@@ -43,10 +42,10 @@ TEST(ReportText, NumbersReadAsPeopleWriteThem) {
   EXPECT_EQ(number(-1234567), "-1\u202f234\u202f567");
   EXPECT_EQ(number(1.2e-7), "1.2×10⁻⁷");
   EXPECT_EQ(number(-3e12), "-3×10¹²");
-  EXPECT_EQ(number(nan), "not finite");
+  EXPECT_EQ(number(not_a_number), "not finite");
   EXPECT_EQ(report::quantity(0.0042, "fraction"), "0.42\u202f%");
   EXPECT_EQ(report::quantity(infinity, "fraction"), "not finite");
-  EXPECT_EQ(report::cell(nan, "count"), "not finite");
+  EXPECT_EQ(report::cell(not_a_number, "count"), "not finite");
   EXPECT_EQ(report::setting_label("map.extent_m"), "extent");
   EXPECT_EQ(report::setting_label("filter.kind"), "filter");
   EXPECT_EQ(report::setting_label("bias.constant"), "bias constant");
@@ -122,7 +121,7 @@ TEST(Report, EscapesWhateverTextTheResultsHold) {
   info.swept.push_back(evil);
   info.plot.push_back(evil);
   info.scene_notes.push_back(evil);
-  results.bounds.push_back({evil, 1.0, {}, {{evil, {evil}}}, evil, false, nan, 3, 1, evil});
+  results.bounds.push_back({evil, 1.0, {}, {{evil, {evil}}}, evil, false, not_a_number, 3, 1, evil});
   LawResult law = sample_law();
   for (std::string* text :
        {&law.part, &law.name, &law.says, &law.measured, &law.predicted, &law.tolerance, &law.join, &law.reproduce})
@@ -224,7 +223,7 @@ TEST(Report, SaysWhyPointsHaveNoCurve) {
 
 TEST(Report, EmbeddedDataIsTheResults) {
   Results results = sample_results();
-  results.points[3].metrics["acne"] = nan;
+  results.points[3].metrics["acne"] = not_a_number;
   results.points[4].metrics["error"] = infinity;
   results.points[5].metrics["error"] = -infinity;
   results.points[6].curve.reset();
@@ -269,7 +268,7 @@ TEST(Report, AnUnsoundPointIsSaidAndNothingHoldsBesideIt) {
       for (const SoundLimit& any : sound_limits) point.metrics[any.metric] = 0;
     const std::string sound = render_report(results, sample_picture);
     EXPECT_EQ(sound.find("Not sound"), std::string::npos);
-    for (const double value : {limit.most + 0.5, nan}) {
+    for (const double value : {limit.most + 0.5, not_a_number}) {
       results.points[1].metrics[limit.metric] = value;
       const std::string page = render_report(results, sample_picture);
       EXPECT_NE(page.find("Not sound"), std::string::npos) << limit.metric;
@@ -282,9 +281,9 @@ TEST(Report, AnUnsoundPointIsSaidAndNothingHoldsBesideIt) {
 
 TEST(Report, NotFiniteIsSaid) {
   Results results = sample_results();
-  results.points[3].metrics["acne"] = nan;
+  results.points[3].metrics["acne"] = not_a_number;
   results.bounds.push_back(
-      {"acne", 0.5, {}, {}, "worst", false, nan, 3, 32, "noonmark render x --set map.resolution=256"});
+      {"acne", 0.5, {}, {}, "worst", false, not_a_number, 3, 32, "noonmark render x --set map.resolution=256"});
   const std::string body = without_scripts(render_report(results, sample_picture));
   const size_t row = body.find("<tr id=\"p3\"");
   EXPECT_NE(body.substr(row, body.find("</tr>", row) - row).find("not finite"), std::string::npos);
@@ -396,7 +395,7 @@ TEST(Report, Written) {
   for (PointRecord& point : results.points) {
     point.curve.reset();
     point.metrics["acne"] = 0;
-    if (point.id % 5 == 0) point.metrics["error"] = nan;
+    if (point.id % 5 == 0) point.metrics["error"] = not_a_number;
   }
   results.bounds.push_back({"error",
                             0.01,
@@ -404,7 +403,7 @@ TEST(Report, Written) {
                             {},
                             "worst",
                             false,
-                            nan,
+                            not_a_number,
                             5,
                             32,
                             "noonmark render experiments/cube-room.toml --set map.resolution=256"});

@@ -18,11 +18,11 @@
 namespace noonmark {
 namespace {
 
-const std::string fingerprint = "version = 0.1.0\n";
+const std::string checked_fingerprint = "version = 0.1.0\n";
 
 class StoreCheck : public testing::Test {
  protected:
-  ResultStore fresh() { return ResultStore(path, fingerprint, Existing::resume); }
+  ResultStore fresh() { return ResultStore(path, checked_fingerprint, Existing::resume); }
   // The message of the Error(file) that opening throws.
   std::string refusal() {
     std::string message = "was opened";
@@ -76,7 +76,7 @@ TEST_F(StoreCheck, RefusesASchemaThatIsNotItsOwn) {
       {"DROP TABLE curves", "table curves is lost"},
       {"DROP VIEW points", "view points is lost"},
       {"ALTER TABLE finished ADD COLUMN mine", "table finished"},
-      {"DROP TABLE info; CREATE VIEW info AS SELECT 'fingerprint' AS key, 'x' AS value", "view info"},
+      {"DROP TABLE info; CREATE VIEW info AS SELECT 'checked_fingerprint' AS key, 'x' AS value", "view info"},
       {"DROP VIEW points; CREATE VIEW points AS SELECT 0 AS acne", "view points"},
   };
   fresh().add(sample_point(1));
@@ -96,7 +96,7 @@ TEST_F(StoreCheck, RefusesASchemaThatIsNotItsOwn) {
       EXPECT_NE(std::string(error.what()).find("--overwrite"), std::string::npos) << error.what();
     }
   }
-  ResultStore(path, fingerprint, Existing::overwrite).add(sample_point(1));
+  ResultStore(path, checked_fingerprint, Existing::overwrite).add(sample_point(1));
   EXPECT_EQ(fresh().finished().size(), 1u);
 }
 

@@ -9,7 +9,7 @@ namespace noonmark::test {
 namespace {
 
 // Floats of order 1 to 10 after a handful of operations in double.
-constexpr float rounding = 1e-6f;
+constexpr float pose_rounding = 1e-6f;
 
 class GltfPose : public ::testing::Test {
  protected:
@@ -24,7 +24,7 @@ class GltfPose : public ::testing::Test {
   static void expect_positions(const Scene& s, const std::vector<glm::vec3>& expected) {
     ASSERT_EQ(s.positions.size(), expected.size());
     for (size_t i = 0; i < expected.size(); ++i)
-      EXPECT_LT(glm::distance(s.positions[i], expected[i]), rounding)
+      EXPECT_LT(glm::distance(s.positions[i], expected[i]), pose_rounding)
           << i << ": " << s.positions[i].x << ' ' << s.positions[i].y << ' ' << s.positions[i].z;
   }
   static bool noted(const Scene& s, const std::string& text) {
@@ -93,8 +93,8 @@ TEST_F(GltfPose, WeightsBlendJointsAndAreScaledToASumOfOne) {
       add_accessor(d, raw(std::vector<float>{0.5, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}), 5126, "VEC4", 4);
   const Scene s = load(d);
   const double sum = 252 / 255.0, first = 63 / 255.0 + 0.5, all = sum + 0.5;
-  EXPECT_NEAR(s.positions[0].y, 5 * (1 - first / all), rounding);
-  EXPECT_NEAR(s.positions[2].y, 1 + 5 * (1 / (sum + 1)), rounding);
+  EXPECT_NEAR(s.positions[0].y, 5 * (1 - first / all), pose_rounding);
+  EXPECT_NEAR(s.positions[2].y, 1 + 5 * (1 / (sum + 1)), pose_rounding);
 }
 
 TEST_F(GltfPose, MirroringJointsFlipTheWinding) {
@@ -281,9 +281,9 @@ TEST_F(GltfPose, LinearKeysAndTheEndsStandStill) {
                                  {3.0, {10, 4, 0}},
                                  {4.0, {10, 8, 0}},
                                  {1000.0, {10, 8, 0}}})
-    EXPECT_LT(glm::distance(corner(time, 0), at), rounding) << time;
+    EXPECT_LT(glm::distance(corner(time, 0), at), pose_rounding) << time;
   EXPECT_LT(glm::distance(corner(3.999999, 1), glm::vec3(11, 8, 0)), 1e-4f) << "a step holds until the next key";
-  EXPECT_LT(glm::distance(corner(4, 1), glm::vec3(13, 8, 0)), rounding);
+  EXPECT_LT(glm::distance(corner(4, 1), glm::vec3(13, 8, 0)), pose_rounding);
   EXPECT_EQ(load(d).positions[0], glm::vec3(0)) << "at rest";
   EXPECT_FALSE(noted(load(d, {2.0, 0}), "at rest"));
 }
@@ -297,7 +297,7 @@ TEST_F(GltfPose, RotationsGoTheShortWayAtEvenSpeed) {
   for (double t : {0.0, 0.25, 0.5, 1.0}) {
     const double angle = t * glm::half_pi<double>();
     const glm::vec3 x = load(d, {1 + t, 0}).positions[1];
-    EXPECT_LT(glm::distance(x, glm::vec3(std::cos(angle), std::sin(angle), 0)), rounding) << t;
+    EXPECT_LT(glm::distance(x, glm::vec3(std::cos(angle), std::sin(angle), 0)), pose_rounding) << t;
   }
 }
 

@@ -13,7 +13,7 @@ namespace noonmark::test {
 namespace {
 
 // Doubles of order 1 to 100 after a handful of operations.
-constexpr double rounding = 1e-9;
+constexpr double view_rounding = 1e-9;
 
 class GltfView : public ::testing::Test {
  protected:
@@ -38,7 +38,7 @@ class GltfView : public ::testing::Test {
   }
   static glm::dvec3 travels(const Light& light) { return glm::normalize(light.target_m - light.position_m); }
   static void expect_near(const glm::dvec3& found, const glm::dvec3& expected) {
-    EXPECT_LT(glm::distance(found, expected), rounding) << found.x << ' ' << found.y << ' ' << found.z;
+    EXPECT_LT(glm::distance(found, expected), view_rounding) << found.x << ' ' << found.y << ' ' << found.z;
   }
   TemporaryFolder folder_;
 };
@@ -54,8 +54,8 @@ TEST_F(GltfView, PerspectiveCameraLooksAlongItsNode) {
   EXPECT_EQ(c.eye_m, glm::dvec3(0.5, 9, 0));
   expect_near(glm::normalize(c.target_m - c.eye_m), {0, -1, 0});
   expect_near(c.up, {0, 0, -1});
-  EXPECT_NEAR(c.target_m.y, 0.5, rounding);  // level with the square's middle
-  EXPECT_NEAR(c.fov_y_deg, 180 / glm::pi<double>(), rounding);
+  EXPECT_NEAR(c.target_m.y, 0.5, view_rounding);  // level with the square's middle
+  EXPECT_NEAR(c.fov_y_deg, 180 / glm::pi<double>(), view_rounding);
   EXPECT_EQ(c.near_m, 0.25);
   EXPECT_EQ(c.far_m, 50);
 }
@@ -115,7 +115,7 @@ TEST_F(GltfView, SpotStandsAndLooksAsItsNode) {
   expect_near(s.light.position_m, {1, 2 + 2 * 4, 3});  // the child's +Z is the world's +Y
   expect_near(travels(s.light), {0, -1, 0});
   expect_near(s.light.target_m, {1, 0.5, 3});  // level with the square's middle
-  EXPECT_NEAR(s.light.cone_deg, glm::degrees(1.0), rounding);
+  EXPECT_NEAR(s.light.cone_deg, glm::degrees(1.0), view_rounding);
   EXPECT_FALSE(s.map);
   // A fitted map contains the scene, whatever `range` is, because our lights do not fall off with distance.
   const LightFrame frame = make_light_frame(s, {});
