@@ -92,7 +92,8 @@ void LatticeStage::compare(const LookupEvidence& evidence, int placement, PixelR
             if (!truth_.facing[i]) continue;
             probe_.taps_of(i, placement, taps);
             rays_.judge(i, taps, box);
-            found += noonmark::disagreements(evidence, i, taps, box, error.everywhere ? error.depth : 0, error.depth);
+            found += noonmark::disagreements(evidence, i, taps, box, error.everywhere ? error.depth : 0, error.depth,
+                                             [&](glm::ivec2 point) { return rays_.on_edge(point); });
           }
           return found;
         },

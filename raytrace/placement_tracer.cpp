@@ -82,6 +82,15 @@ PlacementTracer::RayError PlacementTracer::ray_error() const {
   return {2 * view.ray_error_m() * depth_per_m, impl_->drawn.uses_rays()};
 }
 
+bool PlacementTracer::on_edge(glm::ivec2 point) const {
+  const Impl& l = *impl_;
+  // The error of the same ray in double, by the same formula: double has 29 bits more than float.
+  const double reach = Silhouettes::reach_of(l.view) * (l.drawn.uses_rays() ? 1 : 0x1p-29);
+  const auto near = [&](glm::ivec2 k) { return l.silhouettes.near(l.view.texel_place(k), reach); };
+  const std::optional<glm::ivec2> read = l.lattice->read_at(point);
+  return near(point) || (read && near(*read));
+}
+
 void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& box) const {
   const Impl& l = *impl_;
   if (taps.low.x > taps.high.x) return;

@@ -46,6 +46,12 @@ class PlacementTracer {
   };
   RayError ray_error() const;
 
+  // Whether a silhouette passes through the centre of the texel of this lattice point, or of the texel that a tap there
+  // reads in a repeated map. The map and the lattice compute that place around different origins, so the rounding of
+  // double decides for each of them on which side of the edge it lies; where rays of float find the depths
+  // (`everywhere`), their error does.
+  bool on_edge(glm::ivec2 point) const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -51,6 +51,9 @@ class TexelLattice {
   // left as they are. Its memory is used again.
   void read(const PlacedTaps& taps, std::vector<Point>& points) const;
 
+  // The point that a lookup reads in the stead of this one; no value for the border.
+  std::optional<glm::ivec2> read_at(glm::ivec2 point) const;
+
   uint64_t points() const { return points_; }
 
  private:
@@ -71,8 +74,6 @@ class TexelLattice {
   static glm::ivec2 tile_at(glm::ivec2 point) { return {point.x >> 6, point.y >> 6}; }
   const Tile& tile_of(glm::ivec2 point) const { return *tiles_.at(key(tile_at(point))); }
   void want(glm::ivec2 low, glm::ivec2 high);  // inclusive
-  // The point that a lookup reads in the stead of this one; no value for the border.
-  std::optional<glm::ivec2> read_at(glm::ivec2 point) const;
   bool inside(glm::ivec2 point) const { return inside_map(placements_.texel_of(point), size_); }
   void trace(glm::ivec2 at, std::span<const uint32_t> candidates, Tile& tile) const;
 

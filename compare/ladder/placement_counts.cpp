@@ -287,7 +287,7 @@ std::map<std::string, std::vector<double>> PlacementCounts::shares() const {
 }
 
 uint64_t disagreements(const LookupEvidence& e, size_t pixel, const PlacedTaps& taps, const LatticeBox& box,
-                       double ray_error, double clipped_ray_error) {
+                       double ray_error, double clipped_ray_error, const std::function<bool(glm::ivec2)>& on_edge) {
   if (!e.probe.asks(pixel)) return 0;
   uint64_t count = 0;
   for (int t = 0; t < e.probe.taps(); ++t) {
@@ -297,9 +297,10 @@ uint64_t disagreements(const LookupEvidence& e, size_t pixel, const PlacedTaps& 
     const float depth = texel.x < 0 ? border_depth : e.exact_map.at(texel);
     const uint8_t bits = e.taps.bits(pixel, t), unsure = (bits | box.bits[n]) & tap_texel_unsure;
     const double allowed = bits & tap_near_clipped ? clipped_ray_error : ray_error;
-    count += (!unsure && ((bits ^ box.bits[n]) & of_texel)) ||
-             !(within_one_float(depth, box.depth[n]) ||
-               std::abs(static_cast<double>(depth) - static_cast<double>(box.depth[n])) <= allowed);
+    const bool differs = (!unsure && ((bits ^ box.bits[n]) & of_texel)) ||
+                         !(within_one_float(depth, box.depth[n]) ||
+                           std::abs(static_cast<double>(depth) - static_cast<double>(box.depth[n])) <= allowed);
+    count += differs && !on_edge({taps.column[first], taps.row[first]});
   }
   return count;
 }

@@ -20,6 +20,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -143,9 +144,10 @@ class PlacementCounts {
 // the evidence of one placement: that of the first column and row of `taps`. Where float error can change V, and one
 // float in the depth, are no difference: the two are computed around different origins. Nor are depths that differ by
 // at most `ray_error`, or by `clipped_ray_error` where the near plane clips: for depths that rays of float have found. Of
-// two surfaces that lie so close together they may meet the wrong one first.
+// two surfaces that lie so close together they may meet the wrong one first. Nor is a tap whose texel's centre lies on a
+// silhouette: on_edge(lattice point) says so, and is asked only where something differs.
 uint64_t disagreements(const LookupEvidence& evidence, size_t pixel, const PlacedTaps& taps, const LatticeBox& box,
-                       double ray_error, double clipped_ray_error);
+                       double ray_error, double clipped_ray_error, const std::function<bool(glm::ivec2)>& on_edge);
 
 // The placement with the largest error at the point's own bias; the first of several.
 int worst_placement(const PlacementCounts& counts);
