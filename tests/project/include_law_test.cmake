@@ -1,4 +1,5 @@
-# Plants one breach of the include law at a time in a copy of the sources. The law must find each breach and name it.
+# Plants breaches of the include law in a copy of the sources, all at once, each in a file of its own. The law must name
+# each of them, and nothing of what it allows.
 #   cmake -DROOT=<source folder> -DWORK=<scratch folder> -P tests/project/include_law_test.cmake
 cmake_minimum_required(VERSION 3.25)
 set(failures)
@@ -9,67 +10,105 @@ foreach(module scenes technique gl raytrace compare app tests)  # only what the 
        PATTERN "*.h" PATTERN "*.hpp" PATTERN "*.cpp" PATTERN "*.cc" PATTERN "CMakeLists.txt")
 endforeach()
 
-# check(LABEL EXPECTED [FILE LINE]...): adds LINE to the end of FILE in a copy of the sources. This must break the law, and
-# the message must contain EXPECTED. If EXPECTED is "", the law must hold.
-function(check label expected)
+# The law's answer on the copy: its exit status, and its text on one line, because CMake wraps long messages.
+macro(ask_the_law)
+  execute_process(COMMAND "${CMAKE_COMMAND}" "-DROOT=${WORK}" -P "${ROOT}/cmake/include_law.cmake"
+                  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  string(REGEX REPLACE "[ \n]+" " " output "${output}")
+endmacro()
+
+# plant(FILE LINE [FILE LINE]...): adds LINE to the end of FILE.
+function(plant)
   set(plants ${ARGN})
   while(plants)
     list(POP_FRONT plants file line)
     file(APPEND "${WORK}/${file}" "\n${line}\n")
-    list(APPEND planted ${file})
   endwhile()
-  execute_process(COMMAND "${CMAKE_COMMAND}" "-DROOT=${WORK}" -P "${ROOT}/cmake/include_law.cmake"
-                  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-  foreach(file ${planted})  # restore the file
-    if(EXISTS "${ROOT}/${file}")
-      file(COPY_FILE "${ROOT}/${file}" "${WORK}/${file}")
-    else()
-      file(REMOVE "${WORK}/${file}")
-    endif()
-  endforeach()
-  string(REGEX REPLACE "[ \n]+" " " output "${output}")  # CMake wraps long messages
-  string(FIND "${output}" "${expected}" at)
-  if(expected STREQUAL "" AND NOT status EQUAL 0)
-    list(APPEND failures "${label}: should hold, but: ${output}")
-  elseif(NOT expected STREQUAL "" AND status EQUAL 0)
-    list(APPEND failures "${label}: was not found")
-  elseif(at EQUAL -1)
-    list(APPEND failures "${label}: expected '${expected}', but: ${output}")
-  endif()
-  set(failures "${failures}" PARENT_SCOPE)
 endfunction()
 
-check("the sources as they are" "")
-check("scenes knows gl" "scenes/ may not include gl/" scenes/planted.cpp "#include \"gl/renderer.h\"")
-check("gl knows raytrace" "gl/ may not include raytrace/" gl/planted.cpp "  #  include <raytrace/tracer.h>")
-check("raytrace knows gl" "raytrace/ may not include gl/" raytrace/planted.cpp "#include \"gl/renderer.h\"")
-check("compare knows raytrace" "compare/ may not include raytrace/" compare/store/planted.h "#include \"raytrace/tracer.h\"")
-check("compare knows app" "compare/ may not include app/" compare/judge/planted.cpp "#include \"app/experiment.h\"")
-check("the store knows the report" "compare/store/ may not include compare/report/" compare/store/planted.cpp "#include \"compare/report/text.h\"")
-check("the ladder knows who judges" "compare/ladder/ may not include compare/judge/" compare/ladder/planted.cpp "#include \"compare/judge/laws.h\"")
-check("a file of compare in no folder of it" "stands in none of compare's folders" compare/planted.cpp "#include \"compare/judge/laws.h\"")
-check("app knows tests" "app/ may not include tests/" app/planted.cpp "#include \"tests/closed_forms.h\"")
-check("a path with dots" "without dots" gl/planted.cpp "#include \"../raytrace/tracer.h\"")
-check("a folder below a module" "gl/ may not include compare/" gl/deeper/planted.cpp "#include \"compare/store/metrics.h\"")
-check("OpenGL in app" "OpenGL headers stay inside gl/" app/planted.cpp "#include <epoxy/gl.h>")
-check("EGL in raytrace" "OpenGL headers stay inside gl/" raytrace/planted.cpp "#include <EGL/egl.h>")
-check("Embree in compare" "Embree headers stay inside raytrace/" compare/ladder/planted.cpp "#include <embree3/rtcore.h>")
-check("tinygltf in app" "tinygltf headers stay inside scenes/" app/planted.cpp "#include <tiny_gltf.h>")
-check("OpenGL in gl's public header" "gl/renderer.h is public, yet brings in OpenGL" gl/renderer.h "#include <epoxy/gl.h>")
-check("Embree in raytrace's public header" "raytrace/tracer.h is public, yet brings in Embree"
-      raytrace/tracer.h "#include <embree3/rtcore.h>")
-check("tinygltf in a header that others include" "technique/settings.h is public, yet brings in tinygltf"
-      technique/settings.h "#include <tiny_gltf.h>")
-check("Embree through a second header" "raytrace/tracer.h is public, yet brings in Embree (<embree3/rtcore.h> in raytrace/planted.h)"
-      raytrace/tracer.h "#include \"raytrace/planted.h\"" raytrace/planted.h "#include <embree3/rtcore.h>")
-check("an inner header of gl that app includes" "gl/planted.h is public, yet brings in OpenGL"
-      gl/planted.h "#include <epoxy/gl.h>" app/planted.cpp "#include \"gl/planted.h\"")
-check("linking gl to raytrace" "gl/ may not use raytrace/"
-      gl/CMakeLists.txt "target_link_libraries(noonmark_gl PRIVATE noonmark_raytrace)")
-check("OpenGL in gl's own sources" "" gl/planted.cpp "#include <epoxy/gl.h>")
-check("an include in a comment" "" gl/planted.cpp "// #include \"raytrace/tracer.h\"")
-check("tests use everything" "" tests/planted.cpp "#include \"gl/renderer.h\"" tests/planted.cpp "#include \"raytrace/tracer.h\""
-      tests/planted.cpp "#include \"app/experiment.h\"")
+# breach(LABEL EXPECTED FILE LINE...): plants what the law must name with the text EXPECTED, which names the file.
+set(labels)
+set(texts)
+function(breach label expected)
+  plant(${ARGN})
+  set(labels ${labels} "${label}" PARENT_SCOPE)
+  set(texts ${texts} "${expected}" PARENT_SCOPE)
+endfunction()
+
+# allowed(FILE LINE...): plants what the law allows, so that it must not name FILE.
+set(innocent)
+function(allowed file)
+  plant(${file} ${ARGN})
+  set(innocent ${innocent} ${file} PARENT_SCOPE)
+endfunction()
+
+ask_the_law()
+if(NOT status EQUAL 0)
+  list(APPEND failures "the sources as they are should hold, but: ${output}")
+endif()
+
+breach("scenes knows gl" "scenes/planted_1.cpp includes \"gl/renderer.h\": scenes/ may not include gl/"
+       scenes/planted_1.cpp "#include \"gl/renderer.h\"")
+breach("gl knows raytrace" "gl/planted_2.cpp includes \"raytrace/tracer.h\": gl/ may not include raytrace/"
+       gl/planted_2.cpp "  #  include <raytrace/tracer.h>")
+breach("raytrace knows gl" "raytrace/planted_3.cpp includes \"gl/renderer.h\": raytrace/ may not include gl/"
+       raytrace/planted_3.cpp "#include \"gl/renderer.h\"")
+breach("compare knows raytrace" "compare/store/planted_4.h includes \"raytrace/tracer.h\": compare/ may not include raytrace/"
+       compare/store/planted_4.h "#include \"raytrace/tracer.h\"")
+breach("compare knows app" "compare/judge/planted_5.cpp includes \"app/experiment.h\": compare/ may not include app/"
+       compare/judge/planted_5.cpp "#include \"app/experiment.h\"")
+breach("the store knows the report" "compare/store/planted_6.cpp includes \"compare/report/text.h\": compare/store/ may not include compare/report/"
+       compare/store/planted_6.cpp "#include \"compare/report/text.h\"")
+breach("the ladder knows who judges" "compare/ladder/planted_7.cpp includes \"compare/judge/laws.h\": compare/ladder/ may not include compare/judge/"
+       compare/ladder/planted_7.cpp "#include \"compare/judge/laws.h\"")
+breach("a file of compare in no folder of it" "compare/planted_8.cpp stands in none of compare's folders"
+       compare/planted_8.cpp "#include \"compare/judge/laws.h\"")
+breach("app knows tests" "app/planted_9.cpp includes \"tests/closed_forms.h\": app/ may not include tests/"
+       app/planted_9.cpp "#include \"tests/closed_forms.h\"")
+breach("a path with dots" "gl/planted_10.cpp includes \"../raytrace/tracer.h\": write the path from the source folder, without dots"
+       gl/planted_10.cpp "#include \"../raytrace/tracer.h\"")
+breach("a folder below a module" "gl/deeper/planted_11.cpp includes \"compare/store/metrics.h\": gl/ may not include compare/"
+       gl/deeper/planted_11.cpp "#include \"compare/store/metrics.h\"")
+breach("OpenGL in app" "app/planted_12.cpp includes <epoxy/gl.h>: OpenGL headers stay inside gl/"
+       app/planted_12.cpp "#include <epoxy/gl.h>")
+breach("EGL in raytrace" "raytrace/planted_13.cpp includes <EGL/egl.h>: OpenGL headers stay inside gl/"
+       raytrace/planted_13.cpp "#include <EGL/egl.h>")
+breach("Embree in compare" "compare/ladder/planted_14.cpp includes <embree3/rtcore.h>: Embree headers stay inside raytrace/"
+       compare/ladder/planted_14.cpp "#include <embree3/rtcore.h>")
+breach("tinygltf in app" "app/planted_15.cpp includes <tiny_gltf.h>: tinygltf headers stay inside scenes/"
+       app/planted_15.cpp "#include <tiny_gltf.h>")
+breach("OpenGL in gl's public header" "gl/renderer.h is public, yet brings in OpenGL"
+       gl/renderer.h "#include <epoxy/gl.h>")
+breach("Embree in raytrace's public header" "raytrace/tracer.h is public, yet brings in Embree"
+       raytrace/tracer.h "#include <embree3/rtcore.h>")
+breach("tinygltf in a header that others include" "technique/settings.h is public, yet brings in tinygltf"
+       technique/settings.h "#include <tiny_gltf.h>")
+breach("Embree through a second header" "raytrace/tracer.h is public, yet brings in Embree (<embree3/rtcore.h> in raytrace/planted_19.h)"
+       raytrace/tracer.h "#include \"raytrace/planted_19.h\"" raytrace/planted_19.h "#include <embree3/rtcore.h>")
+breach("an inner header of gl that app includes" "gl/planted_20.h is public, yet brings in OpenGL"
+       gl/planted_20.h "#include <epoxy/gl.h>" app/planted_20.cpp "#include \"gl/planted_20.h\"")
+breach("linking gl to raytrace" "gl/ may not use raytrace/"
+       gl/CMakeLists.txt "target_link_libraries(noonmark_gl PRIVATE noonmark_raytrace)")
+allowed(gl/planted_22.cpp "#include <epoxy/gl.h>")  # OpenGL in gl's own sources
+allowed(gl/planted_23.cpp "// #include \"raytrace/tracer.h\"")  # an include in a comment
+allowed(tests/planted_24.cpp "#include \"gl/renderer.h\"" tests/planted_24.cpp "#include \"raytrace/tracer.h\"" tests/planted_24.cpp "#include \"app/experiment.h\"")  # tests use everything
+
+ask_the_law()
+if(status EQUAL 0)
+  list(APPEND failures "no breach was found")
+endif()
+foreach(label expected IN ZIP_LISTS labels texts)
+  string(FIND "${output}" "${expected}" at)
+  if(at EQUAL -1)
+    list(APPEND failures "${label}: expected '${expected}', but: ${output}")
+  endif()
+endforeach()
+foreach(file ${innocent})
+  string(FIND "${output}" "${file}" at)
+  if(NOT at EQUAL -1)
+    list(APPEND failures "${file} breaks nothing, but: ${output}")
+  endif()
+endforeach()
 
 file(REMOVE_RECURSE "${WORK}")
 if(failures)
