@@ -269,8 +269,12 @@ struct CountsKept : Pipeline {
 
 class OneCurve : public testing::TestWithParam<std::string> {};
 
-// 100 random biases: OpenGL renders with each of them, and the result is compared with the counts from one pass.
+// 40 random biases: OpenGL renders with each of them, and the result is compared with the counts from one pass. Each bias
+// compares eight sums over more than 10,000 receivers, and together 480 biases of twelve cases do. A fault of a class of
+// receivers changes the sums at every bias beyond its thresholds, so a few biases find it; a single threshold that is one
+// float off is found by tests/compare/ladder/thresholds_test.cpp.
 TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
+  constexpr int biases = 40;
   std::mt19937 random(20260301);
   for (const char* kind : {"none", "box"}) {
     for (const char* varied : {"constant", "slope"}) {
@@ -284,7 +288,7 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
       const int taps = tap_pattern(settings.filter).taps;
 
       uint64_t different_counts = 0;
-      for (int trial = 0; trial < 100; ++trial) {
+      for (int trial = 0; trial < biases; ++trial) {
         const float x = static_cast<float>(std::pow(10.0, std::uniform_real_distribution<>(-5, 0)(random)));
         settings.bias[varied] = x;
         const Ladder ladder = bench.measure(settings, std::nullopt).ladder;
@@ -309,7 +313,7 @@ TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
         different_counts += wrong_receivers != counts->wrong_receivers(0);
       }
       // Slopes below the floor change nothing. They are up to two thirds of the biases that are tried.
-      EXPECT_GT(different_counts, 25u) << "too few of the biases change the result";
+      EXPECT_GT(different_counts, biases / 4u) << "too few of the biases change the result";
     }
   }
 }

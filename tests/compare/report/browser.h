@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -27,7 +28,9 @@ inline std::string output_of(const std::string& command) {
 class Browser : public testing::Test {
  protected:
   // Opens the page and runs a probe in it (a file beside this one), which leaves what it saw. Without a browser the test
-  // is skipped, with this reason. window: "WIDTH,HEIGHT" in CSS pixels.
+  // is skipped, with this reason. window: "WIDTH,HEIGHT" in CSS pixels. Tests of one process that open the same page
+  // share one start of the browser, because a start takes two seconds of processor time; see TOGETHER in
+  // tests/CMakeLists.txt.
   void open(std::string page, const char* probe, const std::string& window = "1200,900") {
     std::string browser = output_of("command -v chromium || command -v chromium-browser || command -v google-chrome");
     if (browser.empty()) GTEST_SKIP() << "there is no chromium, so the scripts of the page are not tested";
@@ -42,6 +45,12 @@ class Browser : public testing::Test {
            "var errors = []; addEventListener('error', function(e) { errors.push(e.message); });"
            "addEventListener('securitypolicyviolation', function(e) { errors.push(e.violatedDirective); });"
            "['error', 'warn'].forEach(function(k) { console[k] = function(what) { errors.push(String(what)); }; });");
+    static std::map<std::string, nlohmann::json> seen;
+    if (const auto known = seen.find(window + page); known != seen.end()) {
+      saw_ = known->second;
+      EXPECT_EQ(saw_["errors"], nlohmann::json::array()) << "errors of the page's scripts";
+      return;
+    }
     folder_ = std::filesystem::path(testing::TempDir()) / ("noonmark-page-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
     const std::string file = (folder_ / "report.html").string();
@@ -58,6 +67,7 @@ class Browser : public testing::Test {
     ASSERT_NE(begin, std::string::npos) << "the scripts of the page stopped; the output of the browser: "
                                         << read_file((folder_ / "browser.txt").string());
     saw_ = nlohmann::json::parse(dom.substr(begin + head.size(), dom.find("</pre>", begin) - begin - head.size()));
+    seen[window + page] = saw_;
     EXPECT_EQ(saw_["errors"], nlohmann::json::array()) << "errors of the page's scripts";
   }
   void TearDown() override {
