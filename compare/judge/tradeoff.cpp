@@ -77,8 +77,8 @@ std::vector<ComparedGroup> compared_groups(const Results& results) {
   return groups;
 }
 
-Joined value_of(const ComparedChoice& one, const std::string& metric) {
-  return joined_at(one.choice, metric, one.bias);
+Joined value_of(const ComparedChoice& one, const std::string& metric, AtBias at) {
+  return joined_at(one.choice, metric, at == AtBias::best ? one.bias : std::nullopt);
 }
 
 bool follows_bias(const ComparedChoice& one, const std::string& metric) {
@@ -87,7 +87,7 @@ bool follows_bias(const ComparedChoice& one, const std::string& metric) {
                      [&](const PointRecord* point) { return has_curve_of(*point, metric); });
 }
 
-bool counts_by(const ComparedChoice& one, const std::string& metric) {
+bool counts_by(const ComparedChoice& one, const std::string& metric, AtBias at) {
   switch (one.window) {
     case Window::no_curve:
       return true;
@@ -96,7 +96,7 @@ bool counts_by(const ComparedChoice& one, const std::string& metric) {
     case Window::usable:
       break;
   }
-  return follows_bias(one, metric) || was_rendered_in_window(one.choice);
+  return (at == AtBias::best && follows_bias(one, metric)) || was_rendered_in_window(one.choice);
 }
 
 std::optional<Span> span_over_window(const ComparedChoice& one, const std::string& metric) {
@@ -112,7 +112,7 @@ std::optional<Span> span_over_window(const ComparedChoice& one, const std::strin
   return span;
 }
 
-std::string dominating_cause(const ComparedChoice& one) {
+std::string dominating_cause(const ComparedChoice& one, AtBias at) {
   std::vector<std::string> names{"acne",   "peter_panning", "aliasing",  "coverage",
                                  "filter", "displacement",  "precision", "undecided"};
   for (const PointRecord* point : one.choice.points)
@@ -121,7 +121,7 @@ std::string dominating_cause(const ComparedChoice& one) {
   std::string largest;
   double share = 0;
   for (const std::string& name : names)
-    if (const double mean = value_of(one, name).mean; mean > share) largest = name, share = mean;
+    if (const double mean = value_of(one, name, at).mean; mean > share) largest = name, share = mean;
   return largest;
 }
 

@@ -38,8 +38,11 @@ struct ComparedGroup {
 };
 std::vector<ComparedGroup> compared_groups(const Results& results);
 
-// A metric at the bias of the choice, joined over its conditions. If it does not follow the bias: as rendered.
-Joined value_of(const ComparedChoice& one, const std::string& metric);
+// Where a choice is looked at: at its own bias (ComparedChoice::bias), or with the bias that its points were rendered with.
+enum class AtBias { best, as_set };
+
+// A metric at the bias, joined over the conditions of the choice. If it does not follow the bias: as rendered.
+Joined value_of(const ComparedChoice& one, const std::string& metric, AtBias at = AtBias::best);
 
 // A cost of the choice: joined_interval().
 inline Interval cost_of(const ComparedChoice& one, const std::string& metric) {
@@ -51,8 +54,8 @@ bool follows_bias(const ComparedChoice& one, const std::string& metric);
 
 // Whether the metric's value says something about a usable bias, so that the choice can be better than others by it. It
 // does not if the window is empty, nor if the value is as rendered and a point was rendered with a bias outside its
-// window. A choice without curves has no window that could deny it.
-bool counts_by(const ComparedChoice& one, const std::string& metric);
+// window; as set, no metric follows the bias. A choice without curves has no window that could deny it.
+bool counts_by(const ComparedChoice& one, const std::string& metric, AtBias at = AtBias::best);
 
 // The least and the largest value over the usable window, of the largest over the conditions. Of one condition both are
 // exact for the stored curve, because it is linear between its entries; of several the least is that over all entries.
@@ -62,8 +65,8 @@ struct Span {
 };
 std::optional<Span> span_over_window(const ComparedChoice& one, const std::string& metric);
 
-// The cause with the largest mean over the conditions, at the bias of the choice; causes that do not follow the bias as
+// The cause with the largest mean over the conditions, at the bias; causes that do not follow the bias as
 // rendered. Dark and light aliasing, and dark and light coverage, count together. Empty if no cause is above 0.
-std::string dominating_cause(const ComparedChoice& one);
+std::string dominating_cause(const ComparedChoice& one, AtBias at = AtBias::best);
 
 }  // namespace noonmark

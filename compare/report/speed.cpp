@@ -96,14 +96,15 @@ json bias_data(const ComparedChoice& one) {
   return out;
 }
 
-// The value of a metric: [largest over the conditions, mean] at the choice's bias, the same with the bias as set, whether it counts for the front, whether it is at the
-// bias, and its span.
+// The value of a metric: [largest over the conditions, mean] at the choice's bias, and the same with the bias as set; of
+// both whether it counts for the front; whether the first is at the bias, and its span.
 json metric_data(const ComparedChoice& one, const std::string& metric) {
   const Joined value = value_of(one, metric);
   json out{{"v", {or_null(value.worst), or_null(value.mean)}},
            {"counts", counts_by(one, metric)},
            {"at_bias", follows_bias(one, metric)}};
-  const Joined rendered = joined(one.choice, metric);
+  const Joined rendered = value_of(one, metric, AtBias::as_set);
+  out["set_counts"] = counts_by(one, metric, AtBias::as_set);
   out["set"] = {or_null(rendered.worst), or_null(rendered.mean)};
   if (const std::optional<Span> span = span_over_window(one, metric))
     out["span"] = {or_null(span->least), or_null(span->largest)};
@@ -116,9 +117,13 @@ struct Axes {
 };
 
 json entry_data(const ComparedChoice& one, const Axes& axes, const ChoiceNames& names) {
-  json out{{"name", names.of(one.choice)},  {"conditions", one.choice.points.size()},
-           {"window", text_of(one.window)}, {"good", one.good.has_value()},
-           {"bias", bias_data(one)},        {"cause", dominating_cause(one)}};
+  json out{{"name", names.of(one.choice)},
+           {"conditions", one.choice.points.size()},
+           {"window", text_of(one.window)},
+           {"good", one.good.has_value()},
+           {"bias", bias_data(one)},
+           {"cause", dominating_cause(one)},
+           {"set_cause", dominating_cause(one, AtBias::as_set)}};
   for (const std::string& cost : axes.costs) {
     const Joined value = value_of(one, cost);
     json& numbers = out["costs"][cost] = {or_null(value.worst), or_null(value.mean)};
@@ -173,10 +178,10 @@ std::string error_shown_first(const Results& results) {
   return measured && (has_size || results.info.accuracy != "error_soft") ? errors.front() : "error";
 }
 
-std::vector<size_t> front_of(const ComparedGroup& group, const std::string& cost, const std::string& error) {
+std::vector<size_t> front_of(const ComparedGroup& group, const std::string& cost, const std::string& error, AtBias at) {
   std::vector<CostAndError> plane;
   for (const ComparedChoice& one : group.choices)
-    plane.push_back({cost_of(one, cost), counts_by(one, error) ? value_of(one, error).worst : std::nan("")});
+    plane.push_back({cost_of(one, cost), counts_by(one, error, at) ? value_of(one, error, at).worst : std::nan("")});
   return pareto_front(plane);
 }
 

@@ -23,8 +23,9 @@ std::vector<std::string> errors_of(const Results& results);
 std::string error_shown_first(const Results& results);
 
 // Indices of the choices on the Pareto front, from the cheapest to the most accurate: those that count (counts_by) and
-// are on pareto_front() (findings.h). Cost and error are the largest over the conditions.
-std::vector<size_t> front_of(const ComparedGroup& group, const std::string& cost, const std::string& error);
+// are on pareto_front() (findings.h). Cost and error are the largest over the conditions; the error is that at the bias.
+std::vector<size_t> front_of(const ComparedGroup& group, const std::string& cost, const std::string& error,
+                             AtBias at = AtBias::best);
 
 // The group with the most choices, which the page shows first. There must be a group.
 size_t group_shown_first(const std::vector<ComparedGroup>& groups);

@@ -29,8 +29,8 @@ struct Plane {
   std::string cost_text(const ComparedChoice& one) const {
     return quantity(cost_of(one, cost), find_metric(cost).unit);
   }
-  std::string error_text(const ComparedChoice& one) const {
-    return quantity(value_of(one, error).worst, find_metric(error).unit);
+  std::string error_text(const ComparedChoice& one, AtBias at) const {
+    return quantity(value_of(one, error, at).worst, find_metric(error).unit);
   }
   std::string link(const ComparedChoice& one) const {
     const std::string name = html(names.of(one.choice));
@@ -38,8 +38,12 @@ struct Plane {
     return point ? fmt::format("<a href=\"#p{}\">{}</a>", point->id, name) : name;
   }
   // "filter box (10.7 MB, 0.2 %)"
-  std::string with_numbers(const ComparedChoice& one) const {
-    return fmt::format("<b>{}</b> ({}, {})", link(one), cost_text(one), error_text(one));
+  std::string with_numbers(const ComparedChoice& one, AtBias at) const {
+    return fmt::format("<b>{}</b> ({}, {})", link(one), cost_text(one), error_text(one, at));
+  }
+  // What is good enough is so at its best bias, which is said where the page shows the bias as set.
+  std::string good_one(const ComparedChoice& one) const {
+    return with_numbers(one, AtBias::best) + by_bias(" at its best bias", "");
   }
 };
 
@@ -69,29 +73,37 @@ std::string good_text(const ComparedGroup& group, const Plane& plane) {
   if (is_incomplete(plane.results)) return " Not all conditions are measured yet, so nothing is recommended.";
   if (!group.recommended) return " None is good enough.";
   std::string out = fmt::format(" Good enough {} {}; the cheapest of them is {}.", good == 1 ? "is" : "are", good,
-                                plane.with_numbers(group.choices[*group.recommended]));
+                                plane.good_one(group.choices[*group.recommended]));
   if (group.accurate != group.recommended)
-    out += fmt::format(" The most accurate of them is {}.", plane.with_numbers(group.choices[*group.accurate]));
+    out += fmt::format(" The most accurate of them is {}.", plane.good_one(group.choices[*group.accurate]));
   return out;
 }
 
-// Names the front, which goes from the cheapest to the most accurate. What good_text() named is not named again.
-std::string front_text(const ComparedGroup& group, const std::vector<size_t>& front, const Plane& plane) {
-  if (front.empty()) return " No choice that counts has both a finite cost and a finite error.";
+constexpr const char* no_front[] = {"No choice that counts has both a finite cost and a finite error.",
+                                    "No choice has a finite cost and a finite error with a usable bias as set."};
+
+const char* why_no_front(AtBias at) { return no_front[at == AtBias::as_set]; }
+
+// Names the front, which goes from the cheapest to the most accurate. What good_text() named with the same numbers is not
+// named again.
+std::string front_text(const ComparedGroup& group, const std::vector<size_t>& front, const Plane& plane, AtBias at) {
+  if (front.empty()) return why_no_front(at);
   const auto place = [&](size_t i) {
-    return std::make_pair(value_of(group.choices[i], plane.cost).worst, value_of(group.choices[i], plane.error).worst);
+    return std::make_pair(value_of(group.choices[i], plane.cost).worst,
+                          value_of(group.choices[i], plane.error, at).worst);
   };
   const auto said = [&](size_t i, const std::optional<size_t>& named, const char* as) {
-    return named && place(*named) == place(i) ? std::string(as) : plane.with_numbers(group.choices[i]);
+    return at == AtBias::best && named && place(*named) == place(i) ? std::string(as)
+                                                                    : plane.with_numbers(group.choices[i], at);
   };
   const std::string first = said(front.front(), group.recommended, "the recommended one");
   if (place(front.front()) == place(front.back())) {
     const size_t equal = front.size() - 1;
-    return fmt::format(" No choice is cheaper than {}, and none is more accurate{}.", first,
+    return fmt::format("No choice is cheaper than {}, and none is more accurate{}.", first,
                        equal ? fmt::format("; {} more cost the same and are as accurate", equal) : "");
   }
   return fmt::format(
-      " The Pareto front has {}, from {} to {}: no other choice is both cheaper and more accurate than one of these.",
+      "The Pareto front has {}, from {} to {}: no other choice is both cheaper and more accurate than one of these.",
       counted(front.size(), "choice"), first, said(front.back(), group.accurate, "the most accurate one"));
 }
 
@@ -109,34 +121,68 @@ std::string cost_cell(const ComparedChoice& one, const std::string& cost) {
   return fmt::format("{} <small>{} … {}</small>", value, cell(known.low, unit), cell(known.high, unit));
 }
 
-std::string row(const ComparedChoice& one, const Plane& plane, bool recommended) {
-  const std::string cause = dominating_cause(one);
+// "0.7 texels", or as the experiment writes it where the bias is as set.
+std::string bias_cell(const ComparedChoice& one, AtBias at) {
+  if (!one.bias) return "as rendered";
+  const PointRecord& first = one.choice.first();
+  const std::string unit = setting_of(first, "bias.unit");
+  if (at == AtBias::best) return bias_in_unit(*one.bias, unit);
+  const std::string set = setting_of(first, first.curve->parameter);
+  const std::optional<double> value = number_of(set);
+  return value ? bias_in_unit(*value, unit) : html(set);
+}
+
+std::string row(const ComparedChoice& one, const Plane& plane, bool recommended, AtBias at) {
+  const std::string cause = dominating_cause(one, at);
   return fmt::format(
       "<tr{}><th scope=\"row\">{}{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n",
       recommended ? " class=\"recommended\"" : "", plane.link(one), recommended ? " <small>recommended</small>" : "",
-      cost_cell(one, plane.cost), cell(value_of(one, plane.error).worst, find_metric(plane.error).unit),
-      span_cell(one, plane.error, find_metric(plane.error).unit),
-      one.bias ? bias_in_unit(*one.bias, setting_of(one.choice.first(), "bias.unit")) : "as rendered",
+      cost_cell(one, plane.cost), cell(value_of(one, plane.error, at).worst, find_metric(plane.error).unit),
+      span_cell(one, plane.error, find_metric(plane.error).unit), bias_cell(one, at),
       cause.empty() ? "–" : swatch(cause) + html(metric_label(cause)));
 }
 
-// The front of one group. Choices of which no point is shown have no row, because their links would lead nowhere.
-std::string front_table(const ComparedGroup& group, const std::vector<size_t>& front, const std::string& name,
-                        const Plane& plane, bool open) {
-  std::string rows;
+// Both texts, or one where they are equal.
+std::string at_both(const std::string& as_set, const std::string& best) {
+  return as_set == best ? best : by_bias(as_set, best);
+}
+
+struct FrontRows {
+  std::string summary, rows;
   size_t count = 0;
+};
+
+// Choices of which no point is shown have no row, because their links would lead nowhere.
+FrontRows front_rows(const ComparedGroup& group, const std::string& name, const Plane& plane, AtBias at) {
+  const std::vector<size_t> front = front_of(group, plane.cost, plane.error, at);
+  FrontRows out;
   for (size_t i : front) {
     if (!point_on_page(group.choices[i], plane.error, plane.shown_ids)) continue;
-    rows += row(group.choices[i], plane, group.recommended == i), ++count;
+    out.rows += row(group.choices[i], plane, group.recommended == i, at), ++out.count;
   }
+  if (front.empty()) out.rows = fmt::format("<tr><td class=\"text\" colspan=\"6\">{}</td></tr>\n", why_no_front(at));
   const std::string which = name.empty() ? "" : " of " + html(name);
+  out.summary = out.count == front.size()
+                    ? fmt::format("The Pareto front{}: {}", which, counted(out.count, "choice"))
+                    : fmt::format("{} of the {} choices of the Pareto front{}", out.count, front.size(), which);
+  return out;
+}
+
+// The front of one group: as set, and at the best bias of each choice. The page shows that of its bias. Empty if no
+// choice is on either.
+std::string front_table(const ComparedGroup& group, const std::string& name, const Plane& plane, bool open) {
+  const FrontRows set = front_rows(group, name, plane, AtBias::as_set),
+                  best = front_rows(group, name, plane, AtBias::best);
+  if (set.count == 0 && best.count == 0) return "";
+  const std::string rows = set.rows == best.rows
+                               ? "<tbody>\n" + best.rows + "</tbody>"
+                               : "<tbody class=\"as-set\">\n" + set.rows +
+                                     "</tbody><tbody class=\"as-recommended\">\n" + best.rows + "</tbody>";
   return fmt::format(
       "<details{}><summary>{}</summary>\n<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th>Choice</th>"
       "<th>{} <small>{}</small></th><th>{} <small>{}</small></th><th>Over the usable window</th><th>Bias</th>"
-      "<th>Largest cause</th></tr></thead><tbody>\n{}</tbody></table></div>\n</details>\n",
-      open && count <= open_rows ? " open" : "",
-      count == front.size() ? fmt::format("The Pareto front{}: {}", which, counted(count, "choice"))
-                            : fmt::format("{} of the {} choices of the Pareto front{}", count, front.size(), which),
+      "<th>Largest cause</th></tr></thead>{}</table></div>\n</details>\n",
+      open && std::max(set.count, best.count) <= open_rows ? " open" : "", at_both(set.summary, best.summary),
       html(metric_label(plane.cost)), head_unit(find_metric(plane.cost).unit), html(error_label(plane.error)),
       head_unit(find_metric(plane.error).unit), rows);
 }
@@ -152,7 +198,9 @@ std::string speed_section(const Results& results, const ShownPoints& shown) {
   for (const PointRecord& point : shown.results.points) plane.shown_ids.insert(point.id);
   const size_t first = group_shown_first(shown.groups);
   const ComparedGroup& group = shown.groups[first];
-  const std::vector<size_t> front = front_of(group, plane.cost, plane.error);
+  const auto words = [&](AtBias at) {
+    return front_text(group, front_of(group, plane.cost, plane.error, at), plane, at);
+  };
   const GroupNames names(results, shown.groups);
   const std::string name = names.of(group);
   if (!name.empty())
@@ -161,17 +209,15 @@ std::string speed_section(const Results& results, const ShownPoints& shown) {
         "about "
         "<b>{}</b>.</p>\n",
         counted(shown.groups.size(), "group"), html(name));
-  out +=
-      "<p>" + windows_text(group) + good_text(group, plane) + front_text(group, front, plane) + "</p>\n" + shown.note;
-  out +=
-      chart_place("cost",
-                  "Each choice at its best bias. The bar is the error over its usable window. The line is the Pareto "
-                  "front. Choices of equal cost stand side by side.");
+  out += "<p>" + windows_text(group) + good_text(group, plane) + " " +
+         at_both(words(AtBias::as_set), words(AtBias::best)) + "</p>\n" + shown.note;
+  out += chart_place("cost",
+                     "Each choice at the bias that is chosen at the top: as set, or its best one. The bar is the error "
+                     "over its usable window. The line is the Pareto "
+                     "front. Choices of equal cost stand side by side.");
   for (size_t i = 0; i < std::min(shown.groups.size(), most_tables); ++i) {
     const size_t which = i == 0 ? first : i <= first ? i - 1 : i;  // the one shown first, then the others
-    const std::vector<size_t> its = which == first ? front : front_of(shown.groups[which], plane.cost, plane.error);
-    if (!its.empty())
-      out += front_table(shown.groups[which], its, names.of(shown.groups[which]), plane, which == first);
+    out += front_table(shown.groups[which], names.of(shown.groups[which]), plane, which == first);
   }
   if (shown.groups.size() > most_tables)
     out += fmt::format("<p class=\"small\">The other {} groups are in the chart only.</p>\n",

@@ -12,16 +12,14 @@ function group() {
 function isBytes() {
   return kit.measureUnit(state.cost) === 'bytes';
 }
-// The error of a choice at the bias that the reader chose for the page. As set, it counts if every shown point was
-// rendered with a usable bias.
+// The error of a choice at the bias that the reader chose for the page.
 function errorOf(entry) {
   var of = entry.errors[state.error];
   if (page.bias === 'recommended' || entry.window === 'no_curve' || !of.at_bias) return of;
-  var usable = entry.window === 'usable' && entry.points.every(function(id) {
-    var c = kit.byId[id].curve;
-    return c && c.set_bias_depth >= c.window_min_depth && c.set_bias_depth <= c.window_max_depth;
-  });
-  return {v: of.set, span: of.span, counts: usable, at_bias: false};
+  return {v: of.set, span: of.span, counts: of.set_counts, at_bias: false};
+}
+function causeOf(entry) {
+  return page.bias === 'set' ? entry.set_cause : entry.cause;
 }
 function windowText(entry) {
   return entry.window === 'empty' ? 'none: no bias is good enough' :
@@ -57,9 +55,9 @@ function rowsOf(entries) {
           counts: of.counts,
           span: of.span && kit.finite(of.span[0]) && kit.finite(of.span[1]) ? of.span : null,
           // Blur by design is hollow, so that it does not depend on the grey alone.
-          fill: entry.cause === 'filter' ? 'var(--card)' :
-              entry.cause                ? 'var(--c-' + entry.cause + ')' :
-                                           'var(--grid)',
+          fill: causeOf(entry) === 'filter' ? 'var(--card)' :
+              causeOf(entry)                ? 'var(--c-' + causeOf(entry) + ')' :
+                                              'var(--grid)',
           shape: !of.counts         ? kit.speed.cross :
               value < shapes.length ? shapes[value] :
                                       kit.speed.disc,
@@ -90,7 +88,8 @@ function tip(event, row) {
     rows.push([of.at_bias ? 'at ' + e.bias.parameter : 'best ' + e.bias.parameter, e.bias.value]);
   rows.push(['usable window', windowText(e)]);
   if (!of.at_bias) rows.push(['this error', 'with the bias as rendered']);
-  if (e.cause) rows.push(['largest cause', kit.causeLabel[e.cause] || e.cause, e.cause]);
+  var cause = causeOf(e);
+  if (cause) rows.push(['largest cause', kit.causeLabel[cause] || cause, cause]);
   rows.push(['good enough', e.good ? 'yes' : e.window === 'no_curve' ? 'no, or no criterion' : 'no']);
   if (many) rows.push(['conditions', String(e.conditions)]);
   kit.showTip(event, rows, e.name);
@@ -269,7 +268,7 @@ function legend() {
   self.legend.textContent = '';
   var g = group(), property = g.properties[state.property], causes = {};
   g.entries.forEach(function(e) {
-    if (e.cause) causes[e.cause] = true;
+    if (causeOf(e)) causes[causeOf(e)] = true;
   });
   self.legend.append(kit.make('span', {class: 'title'}, 'Largest cause'));
   Object.keys(causes).forEach(function(c) {
@@ -336,6 +335,7 @@ page.onSelect.push(function(id) {
   redraw();
 });
 page.onBias.push(function() {
+  legend();
   picture(described());
 });
 // The arrow keys go from mark to mark, from left to right.

@@ -97,6 +97,21 @@ TEST(Tradeoff, WhatIsAsRenderedCountsOnlyWithinTheWindow) {
   EXPECT_TRUE(counts_by(compared(results), "error"));
 }
 
+TEST(Tradeoff, AsSetItCountsOnlyWithinTheWindow) {
+  Results results;
+  results.points = {point_of_valley(0, 1, 0.25, 0.75)};  // rendered with 0.25, the end of the window
+  results.points[0].metrics["acne"] = 0.3;
+  EXPECT_EQ(value_of(compared(results), "error", AtBias::as_set).worst, 0.75) << "the metric itself, not its curve";
+  EXPECT_TRUE(counts_by(compared(results), "error", AtBias::as_set));
+  EXPECT_EQ(dominating_cause(compared(results), AtBias::as_set), "acne");
+  EXPECT_NE(dominating_cause(compared(results)), "acne") << "there is none at the best bias";
+  results.points[0].curve->window_min_depth = 0.26;
+  EXPECT_FALSE(counts_by(compared(results), "error", AtBias::as_set));
+  EXPECT_TRUE(counts_by(compared(results), "error"));
+  results.points[0].curve.reset();
+  EXPECT_TRUE(counts_by(compared(results), "error", AtBias::as_set)) << "no window denies it";
+}
+
 TEST(Tradeoff, ABrokenBoundLeavesTheWindowUsable) {
   Results results;
   results.points = {point_of_valley(0, 1, 0.25, 0.75)};

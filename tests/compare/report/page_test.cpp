@@ -1,4 +1,5 @@
 // The report's page in a real browser, headless Chromium: what its scripts draw, and what clicks and keys do.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -240,6 +241,40 @@ TEST_F(SpeedPage, SelectsWithClicksAndKeys) {
   EXPECT_NE(saw_["tip"].get<std::string>().find("no bias is good enough"), std::string::npos) << saw_["tip"];
   EXPECT_NE(saw_["clicked_words"].get<std::string>().find("no bias is good enough"), std::string::npos);
   EXPECT_EQ(saw_["by_key"], json({saw_["next"]}));
+}
+
+// The chart and the table take their fronts apart from each other, the one in JavaScript, the other in C++.
+class FrontPage : public Browser {};
+
+TEST_F(FrontPage, TheFrontFollowsTheBiasOfThePage) {
+  Results results = sample_results();
+  for (PointRecord& point : results.points) {
+    point.metrics["texel_work"] = 1e6 * static_cast<double>(1 + point.id);
+    // Every second one is rendered with a usable bias, the others with one that is too large.
+    if (!point.curve || !point.curve->window_min_depth) continue;
+    const double high = *point.curve->window_max_depth;
+    point.settings["bias.unit"] = "depth";
+    point.settings[point.curve->parameter] = fmt::format("{}", point.id % 2 ? high : 2 * high);
+  }
+  open(render_report(results, sample_picture), "front_probe.js");
+  if (IsSkipped()) return;
+  EXPECT_EQ(saw_["errors"], json::array());
+  for (const char* mode : {"recommended", "set"}) {
+    const json& front = saw_[mode];
+    EXPECT_EQ(front["bodies"], 1) << "one front is seen at a time";
+    ASSERT_FALSE(front["rows"].empty()) << mode;
+    std::string names;
+    for (size_t i = 0; i < std::min<size_t>(front["rows"].size(), 5); ++i)
+      names += (i ? "; " : "") + front["rows"][i][0].get<std::string>();
+    EXPECT_NE(front["note"].get<std::string>().find("On the front, from the cheapest: " + names), std::string::npos)
+        << mode << ": " << names << "\n"
+        << front["note"];
+    const size_t count = front["rows"].size();
+    EXPECT_NE(front["summary"].get<std::string>().find(fmt::format("{} choice{}", count, count == 1 ? "" : "s")),
+              std::string::npos)
+        << front["summary"];
+  }
+  EXPECT_NE(saw_["recommended"]["rows"], saw_["set"]["rows"]) << "the sample is not rendered at its best biases";
 }
 
 class PhasePage : public Browser {
