@@ -51,7 +51,7 @@ void encode(const ImageToEncode& image, Output& bytes) {
   const OIIO::TypeDesc type = image.channel_names ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
   OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
   if (image.channel_names) {
-    spec.attribute("compression", "zip");
+    spec.attribute("compression", "zip:1");
     spec.channelnames.assign(image.channel_names, image.channel_names + image.channels);
   } else {
     spec.attribute("oiio:ColorSpace", "sRGB");
