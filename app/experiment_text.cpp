@@ -16,6 +16,26 @@
 namespace noonmark {
 namespace {
 
+// Whether two absolute paths have more in common than the root.
+bool below_one_folder(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const std::filesystem::path here = a.relative_path(), there = b.relative_path();
+  return !here.empty() && !there.empty() && *here.begin() == *there.begin();
+}
+
+// The path as the reader takes it: it starts at the folder of the file.
+std::string path_from_folder(const std::string& path, const std::filesystem::path& folder) {
+  const std::filesystem::path scene(path);
+  if (folder.empty()) return path;
+  const std::filesystem::path relative = scene.lexically_relative(folder);
+  if (scene.is_absolute()) {
+    const bool together = folder.is_absolute() && below_one_folder(scene, folder);
+    return together && (folder / relative).lexically_normal() == scene ? relative.string() : path;
+  }
+  if (!relative.empty() && !folder.is_absolute()) return relative.string();
+  std::error_code none;
+  return std::filesystem::absolute(scene, none).string();
+}
+
 class Writer {
  public:
   explicit Writer(const Experiment& experiment) : folder_(std::filesystem::path(experiment.path).parent_path()) {}
@@ -56,15 +76,7 @@ class Writer {
   std::string value(const Setting& row, const std::string& canonical) const {
     return toml_value(row, row.name == "scene.name" && names_file(canonical) ? from_folder(canonical) : canonical);
   }
-  // The path as the reader takes it: it starts at the folder of the file.
-  std::string from_folder(const std::string& path) const {
-    const std::filesystem::path scene(path);
-    if (scene.is_absolute() || folder_.empty()) return path;
-    std::error_code none;
-    const std::filesystem::path relative = folder_.is_absolute() ? scene : scene.lexically_relative(folder_);
-    if (!relative.empty() && !folder_.is_absolute()) return relative.string();
-    return std::filesystem::absolute(scene, none).string();
-  }
+  std::string from_folder(const std::string& path) const { return path_from_folder(path, folder_); }
 
   void points_of(const Experiment& e, const std::string& prefix) {
     std::string group;
@@ -165,6 +177,10 @@ class Writer {
 };
 
 }  // namespace
+
+std::string scene_path_in(const std::string& scene, const std::string& file) {
+  return path_from_folder(scene, std::filesystem::path(file).parent_path());
+}
 
 std::string experiment_text(const Experiment& experiment) {
   const std::string text = Writer(experiment).write(experiment);

@@ -13,4 +13,8 @@ namespace noonmark {
 // leaves a `where` without a point that can meet it.
 std::string experiment_text(const Experiment& experiment);
 
+// The path of a scene as the experiment file `file` names it: from the file's folder. A scene that has no more in common with
+// an absolute path of the file than the root keeps its absolute path.
+std::string scene_path_in(const std::string& scene, const std::string& file);
+
 }  // namespace noonmark

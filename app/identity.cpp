@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 #include <gnu/libc-version.h>
 #include <link.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 #include "app/build_facts.h"
+#include "app/clock.h"
 #include "scenes/error.h"
 #include "scenes/library.h"
 #include "scenes/scene_digest.h"
@@ -91,8 +94,8 @@ std::string host_cpu() {
   return "unknown";
 }
 
-std::vector<std::pair<std::string, std::string>> identity(Workbench& bench, std::span<const Settings> points,
-                                                          const raytrace::TracerInfo& tracer, SceneDigests& scenes) {
+std::vector<std::pair<std::string, std::string>> identity(Workbench& bench, const raytrace::TracerInfo& tracer,
+                                                          const SceneDigests& scenes) {
   const gl::DeviceInfo& device = bench.device();
   std::vector<std::pair<std::string, std::string>> facts = {
       {"noonmark", fmt::format("{} {}", build_facts().version, build_facts().commit)},
@@ -101,7 +104,6 @@ std::vector<std::pair<std::string, std::string>> identity(Workbench& bench, std:
       {"embree", fmt::format("{} {}", tracer.version, tracer.isa)},
       {"machine", fmt::format("{}, glibc {}", host_cpu(), gnu_get_libc_version())},
   };
-  for (const Settings& point : points) scenes.remember(bench, point);
   for (const auto& [scene, digest] : scenes.all()) facts.emplace_back("scene " + scene, digest);
   return facts;
 }
@@ -110,6 +112,79 @@ std::string facts_text(std::span<const std::pair<std::string, std::string>> fact
   std::string text;
   for (const auto& [name, value] : facts) text += fmt::format("{} = {}\n", name, value);
   return text;
+}
+
+namespace {
+
+constexpr std::string_view machine_lines[] = {"opengl = ", "embree = ", "machine = "};
+
+// `here` with each line of a machine replaced by use(the line, the same line of `there`). A line that becomes empty is left
+// out.
+template <class Use>
+std::string with_machine_lines(const std::string& here, const std::string& there, const Use& use) {
+  const auto line_of = [](const std::string& text, std::string_view name) {
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);)
+      if (line.starts_with(name)) return line;
+    return std::string();
+  };
+  std::string text;
+  std::istringstream in(here);
+  for (std::string line; std::getline(in, line);) {
+    for (const std::string_view name : machine_lines)
+      if (line.starts_with(name)) line = use(name, line, line_of(there, name));
+    if (!line.empty()) text += line + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string with_machine_of(const std::string& here, const std::string& there) {
+  return with_machine_lines(here, there, [](std::string_view, const std::string& mine, const std::string& other) {
+    return other.empty() ? mine : other;
+  });
+}
+
+std::string with_both_machines(const std::string& here, const std::string& there) {
+  return with_machine_lines(here, there, [](std::string_view name, const std::string& mine, const std::string& other) {
+    return other.empty() || other == mine ? mine : std::string(name) + "several";
+  });
+}
+
+std::string with_scene_names(const std::string& facts, const std::function<std::string(const std::string&)>& name_of) {
+  constexpr std::string_view word = "scene ";
+  std::string text;
+  std::istringstream in(facts);
+  for (std::string line; std::getline(in, line);) {
+    // "scene NAME (its settings) = digest"; the settings and the digest have no " (".
+    const size_t end = line.rfind(" (");
+    if (line.starts_with(word) && end != line.npos && end >= word.size())
+      line = std::string(word) + name_of(line.substr(word.size(), end - word.size())) + line.substr(end);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string without_machine(const std::string& facts) {
+  return with_machine_lines(facts, "",
+                            [](std::string_view, const std::string&, const std::string&) { return std::string(); });
+}
+
+PointRecord::Machine MachineFacts::now() const {
+  PointRecord::Machine stamped = machine;
+  stamped.clock = utc_now();
+  return stamped;
+}
+
+MachineFacts machine_facts(const gl::DeviceInfo& device, const raytrace::TracerInfo& tracer) {
+  char host[256] = "";
+  if (gethostname(host, sizeof host - 1) != 0) host[0] = 0;
+  return {{.host = *host ? host : "unknown",
+           .cpu = host_cpu(),
+           .driver = fmt::format("{} {} {}", device.vendor, device.renderer, device.version),
+           .ray_tracer = fmt::format("{} {}", tracer.version, tracer.isa),
+           .clock = ""}};
 }
 
 }  // namespace noonmark

@@ -2,9 +2,10 @@
 // used: if one line differs, no stored result is used. Which of its points an experiment has is for app/kept_points.h.
 //
 //   SceneDigests scenes;
-//   ResultStore store(path, facts_text(identity(bench, points, tracer, scenes)), Existing::resume);
+//   ResultStore store(path, facts_text(identity(bench, tracer, scenes)), Existing::resume);
 //   scenes.require_unchanged(bench, settings);   // before each point
 #pragma once
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -39,14 +40,33 @@ class SceneDigests {
 //   opengl     vendor, renderer and version of the driver
 //   embree     version and instruction set
 //   machine    processor and C library, on which the software renderer's floating point and all times depend
-//   scene ...  scene_digest of each scene that a point names; the scenes are remembered in `scenes`
+//   scene ...  scene_digest of each scene that a point names
 // Bounds, laws, titles and plotted metrics are not included, because every run judges and draws them anew.
-std::vector<std::pair<std::string, std::string>> identity(Workbench& bench, std::span<const Settings> points,
-                                                          const raytrace::TracerInfo& tracer, SceneDigests& scenes);
+// scenes: those of the points to measure, remembered.
+std::vector<std::pair<std::string, std::string>> identity(Workbench& bench, const raytrace::TracerInfo& tracer,
+                                                          const SceneDigests& scenes);
 
 // The same as text, one "name = value" a line: the fingerprint of a store.
 std::string facts_text(std::span<const std::pair<std::string, std::string>> facts);
 
+// Of two such texts: `here` with the lines opengl, embree and machine of `there`; and `here` with "several" in those of the
+// three that differ. A share may be measured on several machines, one after the other.
+std::string with_machine_of(const std::string& here, const std::string& there);
+std::string with_both_machines(const std::string& here, const std::string& there);
+
+// The text without the lines of the machine: what all stores that are joined must have in common.
+std::string without_machine(const std::string& facts);
+
+// The text with other names of the scenes: name_of("street.glb") is the new one.
+std::string with_scene_names(const std::string& facts, const std::function<std::string(const std::string&)>& name_of);
+
 std::string host_cpu();
+
+// What a point's record says of the machine that measures it.
+struct MachineFacts {
+  PointRecord::Machine machine;      // without the clock
+  PointRecord::Machine now() const;  // with the present time
+};
+MachineFacts machine_facts(const gl::DeviceInfo& device, const raytrace::TracerInfo& tracer);
 
 }  // namespace noonmark

@@ -40,7 +40,8 @@ bool has_asked_times(const PointRecord& stored, bool timed) { return timed || !s
 // point that is where it was comes first, then one of the same part, then any.
 // any_known: whether the settings of any planned point are those of a stored one.
 std::vector<const PointRecord*> find_points(const std::vector<PointRecord>& stored, const Experiment& experiment,
-                                            const std::vector<Settings>& planned, bool& any_known) {
+                                            const std::vector<Settings>& planned, const std::vector<int64_t>& wanted,
+                                            bool& any_known) {
   std::map<std::string, std::vector<const PointRecord*>> free;
   for (const PointRecord& point : stored) free[key_of(point.settings)].push_back(&point);
   any_known = std::any_of(planned.begin(), planned.end(),
@@ -48,11 +49,11 @@ std::vector<const PointRecord*> find_points(const std::vector<PointRecord>& stor
   const bool timed = times_measured(experiment);
   std::vector<const PointRecord*> found(planned.size());
   for (const int round : {0, 1, 2})
-    for (size_t i = 0; i < planned.size(); ++i) {
+    for (const int64_t id : wanted) {
+      const auto i = static_cast<size_t>(id);
       if (found[i]) continue;
       const auto candidates = free.find(key_of(settings_map(planned[i])));
       if (candidates == free.end()) continue;
-      const auto id = static_cast<int64_t>(i);
       const Experiment& part = part_of_point(experiment, id);
       std::vector<const PointRecord*>& list = candidates->second;
       const auto one = std::find_if(list.begin(), list.end(), [&](const PointRecord* point) {
@@ -85,11 +86,11 @@ std::string KeptPoints::text(size_t planned, const std::string& folder) const {
 }
 
 KeptPoints keep_points(ResultStore& store, const Experiment& experiment, const std::vector<Settings>& planned,
-                       const std::string& folder, const std::string& fingerprint) {
+                       const std::vector<int64_t>& wanted, const std::string& folder, const std::string& fingerprint) {
   const std::string plan = noonmark::fingerprint(experiment, {});
   const std::vector<PointRecord> stored = store.all_points();
   bool any_known = false;
-  const std::vector<const PointRecord*> found = find_points(stored, experiment, planned, any_known);
+  const std::vector<const PointRecord*> found = find_points(stored, experiment, planned, wanted, any_known);
   if (!stored.empty() && !any_known) store.refuse(plan, store.plan());
   KeptPoints result;
   std::vector<std::pair<int64_t, PointRecord>> changed;

@@ -111,6 +111,19 @@ void refuse_unknown(const std::string& first, const std::vector<std::string_view
                           option ? " before the verb" : "", near.empty() ? "" : "; did you mean '" + near + "'?"));
 }
 
+// The share that is to be measured: that of --shard, else that of the task of a Slurm array. 1/1 is no share.
+std::optional<Shard> asked_shard(const std::string& option) {
+  std::optional<Shard> shard;
+  if (!option.empty())
+    shard = shard_from(option);
+  else if ((shard = slurm_shard()))
+    fmt::print(stderr,
+               "note: this is a task of a Slurm array, so --shard {} is taken; --shard 1/1 measures all points\n",
+               shard->text());
+  if (shard && shard->of == 1) shard.reset();
+  return shard;
+}
+
 void require_one_output(const ExperimentArguments& arguments, bool dry_run) {
   if (arguments.json + arguments.print_config + dry_run > 1)
     throw Error(ErrorKind::usage, "--json, --print-config and --dry-run each print something else; give one of them");
@@ -165,6 +178,17 @@ int run(int argc, char** argv) {
   with_choices(run);
   with_out(run, "Folder for the results (default: out/<name of the experiment>)");
   with_overwrite(run);
+  std::string shard;
+  const auto with_shard = [&](CLI::App* verb) {
+    verb->add_option(
+            "--shard", shard,
+            "Measure only share I of N, into the subfolder share-I-of-N of the results' folder, and judge nothing: "
+            "noonmark merge joins the shares. In a task of a Slurm array the task's numbers are the default; 1/1 "
+            "measures all")
+        ->check(not_empty)
+        ->type_name("I/N");
+  };
+  with_shard(run);
   run->add_flag("--dry-run", dry_run, "Only print the points, the memory that each takes, and an estimate of the time");
 
   const auto with_output = [&](CLI::App* verb) {
@@ -183,6 +207,7 @@ int run(int argc, char** argv) {
   with_out(check,
            "Folder for the results (default: out/<name of the experiment>); several experiments get a subfolder each");
   with_overwrite(check);
+  with_shard(check);
   CheckOptions checking;
   check->add_flag("--dry-run", checking.dry_run,
                   "Only print each experiment's points, the memory that each takes, and an estimate of the time");
@@ -310,6 +335,15 @@ int run(int argc, char** argv) {
   CLI::App* report = app.add_subcommand("report", "Write report.html and results.csv again from stored results");
   report->add_option("folder", folder, "The results' folder")->required()->check(not_empty);
 
+  MergeOptions merging;
+  CLI::App* merge = app.add_subcommand(
+      "merge", "Join the results of an experiment's shares (--shard) and judge the whole, as check does");
+  merge->add_option("out", merging.out, "Folder for the joined results")->required()->check(not_empty);
+  merge->add_option("shares", merging.shares, "The shares' folders (OUT/share-*)")->required()->check(not_empty);
+  merge->add_flag("--overwrite", merging.overwrite, "Replace results that were measured in the folder, not joined");
+  merge->add_flag("--json", merging.json, "Print the results as JSON: verdict, bounds, laws, answer and every point");
+  merge->footer(exit_codes);
+
   CLI::App* scenes = app.add_subcommand("scenes", "List the built-in scenes and the artefacts that each provokes");
   CLI::App* settings =
       app.add_subcommand("settings", "List every setting, metric and quantity: unit, range, default, meaning");
@@ -331,6 +365,7 @@ int run(int argc, char** argv) {
     require_one_output(arguments, dry_run || checking.dry_run);
     std::optional<ThreadLimit> limit;
     if (*run || *check || *render || *map || *recommend || *inspect) limit.emplace(arguments.threads);
+    if (*run || *check) arguments.shard = asked_shard(shard);
     if (*run) return verb_run(experiment, arguments, dry_run);
     if (*check) return verb_check(paths, arguments, checking);
     if (*render) return verb_render(experiment, point, picture, arguments);
@@ -339,6 +374,10 @@ int run(int argc, char** argv) {
     if (*init) return verb_init(model, arguments);
     if (*inspect) return verb_inspect(model, as_json, arguments);
     if (*report) return verb_report(folder);
+    if (*merge) {
+      merging.command = arguments.command;
+      return verb_merge(merging);
+    }
     if (*scenes) return verb_scenes();
     if (*settings) return verb_settings();
     if (*schema) return verb_schema();

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view options_with_a_value[] = {"--set",   "--part",    "--threads",  "--out",
-                                                     "--point", "--picture", "--baseline", "--baseline-times"};
+                                                     "--point", "--picture", "--baseline", "--baseline-times", "--shard"};
 
 // Sorts the words as far as possible: the words that are neither options nor values of options, and every --out.
 struct Words {

@@ -7,15 +7,18 @@
 
 namespace noonmark {
 
-Survey::Survey(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points) {
-  for (size_t id = 0; id < points.size(); ++id) {
-    scenes.remember(bench, points[id]);
+Survey::Survey(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points,
+               const std::vector<int64_t>& wanted)
+    : memory(points.size()) {
+  for (const int64_t id : wanted) {
+    const auto i = static_cast<size_t>(id);
+    scenes.remember(bench, points[i]);
     const bool pictures = writes_pictures(experiment) && (experiment.pictures != "first" || id == 0);
-    const Experiment& part = part_of_point(experiment, static_cast<int64_t>(id));
-    memory.push_back(at_point(experiment, static_cast<int64_t>(id), [&] {
-      idle.add(part, points[id], effective_light(bench.scene(points[id].scene), points[id]).kind);
-      return bench.memory(points[id], part.curve_enabled, pictures);
-    }));
+    const Experiment& part = part_of_point(experiment, id);
+    memory[i] = at_point(experiment, id, [&] {
+      idle.add(part, points[i], effective_light(bench.scene(points[i].scene), points[i]).kind);
+      return bench.memory(points[i], part.curve_enabled, pictures);
+    });
   }
 }
 

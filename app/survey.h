@@ -1,7 +1,7 @@
 // What `run` and its dry run find out about an experiment before the first point is measured: whether each point can be,
 // how much memory it takes, and which settings are given in vain.
 //
-//   const Survey survey(bench, experiment, points(experiment));   // throws the error of the first point that cannot be
+//   const Survey survey(bench, experiment, points(experiment), wanted);   // throws the error of the first point that cannot be
 //   survey.tell();
 //   MemoryCheck(bench, experiment, survey.memory).require_room_for(0);
 #pragma once
@@ -21,14 +21,16 @@ struct Survey {
   // Predicts the memory of each point and remembers the present contents of every scene. Each scene is loaded once, in the
   // order of the points. Throws the error of the first point that cannot be measured (settings that its light refuses, a
   // map without volume).
-  Survey(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points);
+  // wanted: the ids of the points to measure; nothing is found out about the others.
+  Survey(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& points,
+         const std::vector<int64_t>& wanted);
 
   // Prints the settings that are given in vain to standard error.
   void tell() const;
 
   SceneDigests scenes;
   IdleNotes idle;
-  std::vector<MemoryEstimate> memory;  // of each point
+  std::vector<MemoryEstimate> memory;  // of each point; of those that are not wanted: nothing
 };
 
 bool writes_pictures(const Experiment& experiment);

@@ -7,13 +7,17 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <functional>
+#include <numeric>
 #include <optional>
 
 #include "app/build_facts.h"
 #include "app/clock.h"
+#include "app/definition.h"
 #include "app/identity.h"
 #include "app/image_file.h"
+#include "app/judging.h"
 #include "app/kept_points.h"
 #include "app/pass_times.h"
 #include "app/pictures.h"
@@ -22,18 +26,13 @@
 #include "app/survey.h"
 #include "app/sweep_phase.h"
 #include "app/workbench.h"
-#include "compare/judge/bounds.h"
-#include "compare/judge/laws.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
-#include "compare/report/csv.h"
-#include "compare/report/report.h"
 #include "compare/store/metrics.h"
 #include "compare/store/store.h"
 #include "raytrace/tracer.h"
 #include "scenes/error.h"
-#include "scenes/file.h"
 #include "scenes/library.h"
 #include "scenes/text.h"
 
@@ -70,6 +69,16 @@ class StopOnSignal {
   struct sigaction before_[2]{};
 };
 
+// Empty if no file can say the experiment with its options. A share needs it, because merge judges without the file.
+std::string definition_of(const Experiment& experiment, bool needed) {
+  try {
+    return definition_text(experiment);
+  } catch (const Error&) {
+    if (needed) throw;
+    return "";
+  }
+}
+
 RunInfo run_info(const Experiment& experiment, const SweepOptions& options, const gl::DeviceInfo& device,
                  const raytrace::TracerInfo& tracer, const Scene& scene, std::vector<std::string> scene_notes,
                  std::vector<std::string> sweep_notes) {
@@ -94,11 +103,24 @@ RunInfo run_info(const Experiment& experiment, const SweepOptions& options, cons
   info.cost = experiment.cost;
   info.accuracy = experiment.accuracy;
   info.plot = experiment.plot;
+  info.share = options.shard ? options.shard->text() : "";
+  info.definition = definition_of(experiment, options.shard.has_value());
   info.scene_name = scene.name;
   info.triangles = scene.triangles.size();
   info.scene_notes = std::move(scene_notes);
   info.sweep_notes = std::move(sweep_notes);
   return info;
+}
+
+// Of an earlier run into this store; empty if there is none. What is wrong with it is found when it is opened to write.
+std::string stored_fingerprint(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::exists(path, none)) return "";
+  try {
+    return ResultStore::open(path).fingerprint();
+  } catch (const Error&) {
+    return "";
+  }
 }
 
 // Opens the store. It also removes an earlier run's report and results.csv, because they can show an old verdict or
@@ -120,30 +142,6 @@ ResultStore open_store(const ResultsFolder& folder, const std::string& fingerpri
     throw Error(ErrorKind::usage,
                 fmt::format("{} (its report.html and results.csv are removed; noonmark report {} makes them again)",
                             other.what(), shell_quoted(folder.path())));
-  }
-}
-
-// Judges every part's bounds and laws on that part's points.
-void judge(const Experiment& experiment, Results& results) {
-  const auto reproduce = [&](const PointRecord& point) { return reproduce_command(experiment, point); };
-  const auto judge_part = [&](const Experiment& part, std::span<const PointRecord> points) {
-    for (BoundResult& bound : evaluate_bounds(points, part.bounds, reproduce)) {
-      bound.part = part.part;
-      results.bounds.push_back(std::move(bound));
-    }
-    for (LawResult& law : evaluate_laws(points, part.laws, reproduce)) {
-      law.part = part.part;
-      results.laws.push_back(std::move(law));
-    }
-  };
-  results.bounds.clear();
-  results.laws.clear();
-  if (experiment.parts.empty()) return judge_part(experiment, results.points);
-  for (const Experiment& part : experiment.parts) {
-    const auto in_part = [&](const PointRecord& point) { return point.part == part.part; };
-    const auto begin = std::find_if(results.points.begin(), results.points.end(), in_part);
-    const auto end = std::find_if_not(begin, results.points.end(), in_part);  // parts are stored one after the other
-    judge_part(part, {begin, end});
   }
 }
 
@@ -183,6 +181,16 @@ SummaryPicture draw_worst_pixel(const Measurement& m, const PointRecord& point, 
                       crop_px)};
 }
 
+const Settings& point_at(const std::vector<Settings>& planned, int64_t id) { return planned[static_cast<size_t>(id)]; }
+
+// The ids of the points to measure, in the order to measure them.
+std::vector<int64_t> wanted_points(size_t planned, const SweepOptions& options) {
+  if (options.shard) return options.points;
+  std::vector<int64_t> all(planned);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 // Whether a stored point has the numbers that the sweep itself needs (require_sound, points_with_pictures).
 bool has_what_a_sweep_reads(const PointRecord& point) {
   const auto has = [&](std::string_view name) { return point.metrics.contains(std::string(name)); };
@@ -192,22 +200,25 @@ bool has_what_a_sweep_reads(const PointRecord& point) {
          });
 }
 
-// Times every point, if one has no times yet: those of another day could not be compared with the others. False if a signal
-// stopped it; then nothing is stored.
-bool add_times(Workbench& bench, ResultStore& store, const std::vector<Settings>& planned, Progress& progress) {
+// Times every wanted point, if one has no times yet: those of another day could not be compared with the others. False if a
+// signal stopped it; then nothing is stored.
+bool add_times(Workbench& bench, ResultStore& store, const std::vector<Settings>& planned,
+               const std::vector<int64_t>& wanted, Progress& progress) {
   const std::vector<PointRecord> points = store.load().points;
   if (std::all_of(points.begin(), points.end(),
                   [](const PointRecord& point) { return point.metrics.contains("shadow_ms"); }))
     return true;
+  std::vector<Settings> timed;
+  for (const int64_t id : wanted) timed.push_back(point_at(planned, id));
   std::optional<std::vector<TimeMetrics>> times;
   const auto go_on = [&](int done, int all) {
     progress.say(fmt::format("times of map and lookup: round {} of {}", done + 1, all));
     return stop_asked == 0;
   };
-  progress.aside("times of map and lookup", [&] { times = time_passes(bench, planned, go_on); });
+  progress.aside("times of map and lookup", [&] { times = time_passes(bench, timed, go_on); });
   if (!times) return false;
   std::map<int64_t, TimeMetrics> of_points;
-  for (size_t id = 0; id < planned.size(); ++id) of_points[static_cast<int64_t>(id)] = std::move((*times)[id]);
+  for (size_t i = 0; i < wanted.size(); ++i) of_points[wanted[i]] = std::move((*times)[i]);
   store.set_metrics(of_points);
   return true;
 }
@@ -228,33 +239,37 @@ std::string stopped_text(const SweepOutcome& outcome) {
   return fmt::format("stopped after {} of {}; the same command continues from there", results.points.size(), points);
 }
 
-void require_sound(const Results& results) {
-  if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty())
-    throw Error(ErrorKind::defect,
-                fmt::format("{}; the results are stored, but do not trust them, and report this with the output of "
-                            "noonmark doctor",
-                            text_of(unsound.front())));
-}
-
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options) {
   const std::vector<Settings> planned = points(experiment);
+  const std::vector<int64_t> wanted = wanted_points(planned.size(), options);
+  if (options.shard)
+    definition_text(experiment);  // an experiment that no file can say is refused before it is measured
   require_room_to_start(writes_pictures(experiment));
   Workbench bench(gl::DebugMode::log);
   if (writes_pictures(experiment)) require_image_files();
   const raytrace::TracerInfo tracer = raytrace::tracer_info();
-  Survey survey(bench, experiment, planned);
+  Survey survey(bench, experiment, planned, wanted);
   survey.tell();
   SceneDigests& scenes = survey.scenes;
-  const auto facts = identity(bench, planned, tracer, scenes);
+  const MachineFacts here = machine_facts(bench.device(), tracer);
+  const std::string facts = facts_text(identity(bench, tracer, scenes));
+  const std::string store_path = folder.path() + "/results.sqlite";
+  // A share may continue on another machine.
+  const std::string there = options.shard && !options.overwrite ? stored_fingerprint(store_path) : "";
+  const std::string opened_as = there.empty() ? facts : with_machine_of(facts, there);
+  const std::string kept_as = there.empty() ? facts : with_both_machines(facts, there);
   for (const std::string& note : scenes.notes()) fmt::print(stderr, "note: {}\n", printable(note));
-  const auto total = static_cast<int64_t>(planned.size());
+  const auto all = static_cast<int64_t>(planned.size()), total = static_cast<int64_t>(wanted.size());
   KeptPoints kept;
-  ResultStore store = open_store(folder, facts_text(facts), options.overwrite, [&](ResultStore& opened) {
-    for (const std::string& repaired : opened.repair(total, has_what_a_sweep_reads))
+  ResultStore store = open_store(folder, opened_as, options.overwrite, [&](ResultStore& opened) {
+    for (const std::string& repaired : opened.repair(all, has_what_a_sweep_reads))
       fmt::print(stderr, "note: {}\n", printable(repaired));
-    kept = keep_points(opened, experiment, planned, folder.path(), facts_text(facts));
+    kept = keep_points(opened, experiment, planned, wanted, folder.path(), kept_as);
   });
-  const std::vector<PhasePlan> diagrams = phase_plans(experiment, planned);
+  std::vector<PhasePlan> diagrams = phase_plans(experiment, planned);
+  std::erase_if(diagrams, [&](const PhasePlan& plan) {
+    return std::find(wanted.begin(), wanted.end(), plan.first) == wanted.end();
+  });
   // Stored diagrams. Their measurement can be used again even if the points or the bounds have changed.
   const std::vector<PhaseDiagram> earlier = store.stored_phases();
   const auto as_planned = [&](int64_t number, const PhaseDiagram& stored) {
@@ -264,17 +279,18 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   };
   for (const std::string& repaired : store.repair_phases(as_planned))
     fmt::print(stderr, "note: {}\n", printable(repaired));
-  store.set_info(run_info(experiment, options, bench.device(), tracer, bench.scene(planned[0].scene), scenes.notes(),
-                          survey.idle.dead_sweeps()),
-                 total);
+  store.set_info(
+      run_info(experiment, options, bench.device(), tracer, bench.scene(point_at(planned, wanted.front()).scene),
+               scenes.notes(), survey.idle.dead_sweeps()),
+      total);
 
   const std::vector<int64_t> before = store.finished();
-  if (const std::string text = kept.text(planned.size(), folder.path()); !text.empty() && !options.quiet)
+  if (const std::string text = kept.text(wanted.size(), folder.path()); !text.empty() && !options.quiet)
     fmt::print(stderr, "{}\n", text);
   // All of them are checked before the first is measured, so that a user does not get the error hours later.
   MemoryCheck room(bench, experiment, survey.memory);
   const auto measured_before = [&](int64_t id) { return std::binary_search(before.begin(), before.end(), id); };
-  for (int64_t id = 0; id < total; ++id)
+  for (const int64_t id : wanted)
     if (!measured_before(id)) room.require_room_for(static_cast<size_t>(id));
   std::vector<const PhasePlan*> undrawn;
   for (const std::vector<int64_t> drawn = store.phases(); const PhasePlan& plan : diagrams)
@@ -288,13 +304,16 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     const StopOnSignal guard;
     Progress progress(total, static_cast<int64_t>(before.size()), options.quiet);
     auto done = static_cast<int64_t>(before.size());
-    for (int64_t id = 0; id < total && !outcome.interrupted; ++id) {
+    for (const int64_t id : wanted) {
+      if (outcome.interrupted) break;
       // Before the part's first point, which shares its scene and, in a picture of the same size, its view.
-      if (!undrawn.empty() && undrawn.front()->first == id) {
-        const PhasePlan& plan = *undrawn.front();
+      const auto drawn_here =
+          std::find_if(undrawn.begin(), undrawn.end(), [&](const PhasePlan* plan) { return plan->first == id; });
+      if (drawn_here != undrawn.end()) {
+        const PhasePlan& plan = **drawn_here;
         scenes.require_unchanged(bench, planned[static_cast<size_t>(id)]);
         progress.aside(plan.name(), [&] { store.add_phase(plan.number, make_phase(bench, plan, earlier)); });
-        undrawn.erase(undrawn.begin());
+        undrawn.erase(drawn_here);
         outcome.interrupted = stop_asked && (done < total || !undrawn.empty());
         if (outcome.interrupted) break;
       }
@@ -306,6 +325,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
                                     part.curve_enabled ? std::optional(part.curve) : std::nullopt);
       m.record.id = id;
       m.record.part = part.part;
+      m.record.machine = here.now();
       if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0))
         static_cast<PointPictures&>(m.record) = pictures_of(bench, m, id, folder.path());
       store.add(m.record);
@@ -314,18 +334,24 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       outcome.interrupted = stop_asked && (done < total || !undrawn.empty());
     }
     if (times_measured(experiment) && !outcome.interrupted)
-      outcome.interrupted = !add_times(bench, store, planned, progress);
+      outcome.interrupted = !add_times(bench, store, planned, wanted, progress);
   }
 
-  for (const Settings& point : planned) outcome.scenes.push_back(names_file(point.scene.name) ? scenes.of(point) : "");
+  outcome.scenes.resize(planned.size());
+  for (const int64_t id : wanted)
+    if (const Settings& point = point_at(planned, id); names_file(point.scene.name))
+      outcome.scenes[static_cast<size_t>(id)] = scenes.of(point);
   outcome.results = store.load();
   if (const std::string poor = poor_view_note(outcome.results.points); !poor.empty())
     fmt::print(stderr, "note: {}\n", poor);
   if (const std::string doubt = undecided_note(outcome.results.points); !doubt.empty())
     fmt::print(stderr, "note: {}\n", doubt);
-  if (!outcome.interrupted) {
+  // Which points have pictures by their errors is known when the shares are joined.
+  const bool pictures_known = !options.shard || experiment.pictures == "all" ||
+                              (experiment.pictures == "first" && outcome.results.points.front().id == 0);
+  if (!outcome.interrupted && pictures_known) {
     bool changed = false;
-    judge(experiment, outcome.results);
+    if (!options.shard) judge(experiment, outcome.results);
     const std::vector<int64_t> shown = points_with_pictures(experiment.pictures, outcome.results);
     for (const PointRecord& point : outcome.results.points) {
       if (point.pictures.empty() || std::find(shown.begin(), shown.end(), point.id) != shown.end()) continue;
@@ -348,7 +374,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     }
     if (changed) outcome.results = store.load();
   }
-  judge(experiment, outcome.results);
+  if (!options.shard) judge(experiment, outcome.results);
   store.set_bounds(outcome.results.bounds);
   store.set_laws(outcome.results.laws);
   if (options.worst_pixels && writes_pictures(experiment) && !outcome.interrupted)
@@ -362,13 +388,6 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   write_report(outcome.results, folder.path());
   require_sound(outcome.results);
   return outcome;
-}
-
-void write_report(const Results& results, const std::string& out) {
-  write_file_atomically(out + "/results.csv", to_csv(results));
-  write_file_atomically(out + "/report.html", render_report(results, [&](const std::string& path) {
-                          return read_picture(out, path, results.points);
-                        }));
 }
 
 }  // namespace noonmark

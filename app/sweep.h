@@ -2,21 +2,25 @@
 //
 //   SweepOutcome outcome = run_sweep(experiment, ResultsFolder("out/cube-room"), {.command = "noonmark run ..."});
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/experiment.h"
 #include "app/results_folder.h"
+#include "app/shares.h"
 #include "compare/report/summary.h"
 #include "compare/store/records.h"
 
 namespace noonmark {
 
 struct SweepOptions {
-  bool overwrite = false;     // start anew; the results in the folder's store are lost
-  std::string command;        // for the record
-  bool quiet = false;         // no progress
-  bool worst_pixels = false;  // draw the worst pixel of points where a bound or a law is broken, for summary.md
+  bool overwrite = false;         // start anew; the results in the folder's store are lost
+  std::string command;            // for the record
+  bool quiet = false;             // no progress
+  std::optional<Shard> shard{};   // measure only this share of the points, and judge nothing
+  std::vector<int64_t> points{};  // the share's, in the order to measure them (split); at least one
+  bool worst_pixels = false;      // draw the worst pixel of points where a bound or a law is broken, for summary.md
 };
 
 struct SweepOutcome {
@@ -33,16 +37,13 @@ struct SweepOutcome {
 // kept and judged anew (app/kept_points.h), only the others are measured. Damaged parts of the store are reported and measured anew. Writes results.sqlite
 // point by point, then results.csv, report.html and, if pictures are asked for, images/. Throws Error: usage, scene,
 // device; and defect if a measurement is not sound, after everything is stored.
+//
+// Of a share only its points are measured, timed and reported. No bound and no law is judged, and pictures that are chosen by
+// their errors (worst, extremes) are not drawn: both need all points (app/merge.h). Its store continues on any machine; each
+// point keeps the machine that measured it.
 SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder, const SweepOptions& options);
 
 // "stopped after 3 of 8 points; the same command continues from there"
 std::string stopped_text(const SweepOutcome& outcome);
-
-// Throws Error(defect) at the first point with a metric beyond its limit in compare/judge/soundness.h. Points without a
-// facing receiver are not checked.
-void require_sound(const Results& results);
-
-// Writes report.html and results.csv from the contents of the results' folder.
-void write_report(const Results& results, const std::string& out);
 
 }  // namespace noonmark

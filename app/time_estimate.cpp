@@ -14,7 +14,7 @@
 
 #include "app/pass_times.h"
 #include "app/point_pictures.h"
-#include "app/stage_keys.h"
+#include "app/point_work.h"
 #include "compare/ladder/live_picture.h"
 #include "technique/tap_pattern.h"
 
@@ -38,35 +38,6 @@ Clock now() {
   return {seconds(used.ru_utime) + seconds(used.ru_stime), std::chrono::duration<double>(wall).count()};
 }
 
-// What a point's time is a sum of. Those from `look` on are counted for each filter and bias reference by themselves,
-// because their taps do not cost the same.
-enum Work : size_t { point, scene, map, view, truth, soft, passes, look, compare, curve, place, works };
-
-// Which stages are computed anew after the point before, and how much there is to do in each.
-std::vector<double> work_of(const Settings& s, const Settings* before, const std::optional<CurveOptions>& options,
-                            bool timed) {
-  std::vector<double> work(works, 0.0);
-  const auto anew = [&](const auto& key) { return !before || key(s) != key(*before); };
-  const double pixels = static_cast<double>(s.view.width_px) * s.view.height_px, taps = tap_pattern(s.filter).taps;
-  work[Work::point] = 1;
-  work[Work::scene] = anew(scene_key_of);
-  if (anew(map_key_of)) work[Work::map] = std::pow(s.map.resolution, 2) * (timed ? 1 + 2 * timed_rounds : 1);
-  if (anew(view_key_of)) work[Work::view] = pixels;
-  if (anew(truth_key_of)) {
-    work[Work::truth] = pixels;
-    const bool sized = s.light.angular_diameter_deg.value_or(0) > 0 || s.light.radius_m.value_or(0) > 0;
-    if (sized) work[Work::soft] = pixels;
-  }
-  if (anew(lookup_key_of)) work[Work::look] = pixels * taps;
-  if (timed && anew(lookup_work_of)) work[Work::passes] = pixels * taps;
-  work[Work::compare] = pixels * taps;
-  const BiasPart* const varied = options ? curve_part(s.bias) : nullptr;
-  if (varied && anew([&](const Settings& one) { return curve_key_of(one, *varied, *options); }))
-    work[Work::curve] = pixels * taps;
-  if (s.map.placements > 1) work[Work::place] = pixels * taps * std::pow(s.map.placements, 2);
-  return work;
-}
-
 Settings small_part(Settings settings, int divisor) {
   settings.view.width_px = std::max(1, settings.view.width_px / divisor);
   settings.view.height_px = std::max(1, settings.view.height_px / divisor);
@@ -74,6 +45,8 @@ Settings small_part(Settings settings, int divisor) {
 }
 
 class Calibration {
+  static constexpr size_t look = PointWork::look, works = PointWork::works;
+
  public:
   Calibration(Workbench& bench, const Experiment& experiment, const std::vector<Settings>& planned)
       : bench_(bench), experiment_(experiment), planned_(planned), timed_(times_measured(experiment)) {}
@@ -148,7 +121,7 @@ class Calibration {
   // Points whose time is the same sum with other amounts.
   std::string kind_of(size_t id) const {
     std::string kind = tapped(planned_[id]) + planned_[id].scene.name;
-    for (double amount : work_of(planned_[id], id > 0 ? &planned_[id - 1] : nullptr, options_of(id), timed_))
+    for (uint64_t amount : work_of(planned_[id], id > 0 ? &planned_[id - 1] : nullptr, options_of(id), timed_))
       kind += amount > 0 ? '1' : '0';
     return kind;
   }
@@ -159,14 +132,14 @@ class Calibration {
   // The row of the model: the columns that all points share, and those of its filter.
   std::vector<double> row_of(size_t id, int divisor, const Settings* before) const {
     const Settings settings = small_part(planned_[id], divisor);
-    const std::vector<double> work = work_of(settings, before, options_of(id), timed_);
+    const std::vector<uint64_t> work = work_of(settings, before, options_of(id), timed_);
     std::vector<double> row(work.begin(), work.begin() + look);
     for (size_t w = look; w < works; ++w) {
       const auto [column, added] = columns_.emplace(tapped(settings) + std::to_string(w), columns_.size());
       if (added) works_.push_back(w);
       const size_t at = look + column->second;
       row.resize(std::max(row.size(), at + 1), 0.0);
-      row[at] = work[w];
+      row[at] = static_cast<double>(work[w]);
     }
     return row;
   }

@@ -11,15 +11,14 @@
 #include "app/experiment_list.h"
 #include "app/experiment_text.h"
 #include "app/failure.h"
+#include "app/judging.h"
 #include "app/plan.h"
 #include "app/point_pictures.h"
 #include "app/results_json.h"
 #include "app/retract.h"
+#include "app/shares.h"
 #include "app/sweep.h"
 #include "app/verbs.h"
-#include "compare/judge/bounds.h"
-#include "compare/judge/law_table.h"
-#include "compare/judge/laws.h"
 #include "compare/report/index_page.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"
@@ -32,40 +31,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "3 of 3 bounds held, 2 of 2 laws hold".
-std::string verdict_words(const Results& results, const BaselineComparison* compared) {
-  size_t bounds_held = 0, warnings = 0, laws_held = 0;
-  for (const BoundResult& bound : results.bounds) {
-    bounds_held += bound.held;
-    warnings += !bound.held && bound.warns;
-  }
-  for (const LawResult& law : results.laws) laws_held += law.held;
-  std::string verdict;
-  if (!results.bounds.empty())
-    verdict = fmt::format("{} of {} held", bounds_held, counted(results.bounds.size(), "bound"));
-  if (warnings > 0) verdict += fmt::format(", {}", counted(warnings, "warning"));
-  if (!results.laws.empty())
-    verdict += fmt::format("{}{} of {} {}", verdict.empty() ? "" : ", ", laws_held, counted(results.laws.size(), "law"),
-                           results.laws.size() == 1 ? "holds" : "hold");
-  if (compared) verdict += (verdict.empty() ? "" : ", ") + baseline_verdict(*compared);
-  return verdict.empty() ? "nothing is promised" : verdict;
-}
-
 // The bounds and laws, each with what was found, and the verdict in the last line.
 std::string verdict_text(const ListedExperiment& listed, const SweepOutcome& outcome,
                          const BaselineComparison* compared) {
-  const Results& results = outcome.results;
-  std::string text;
-  for (const BoundResult& bound : results.bounds)
-    text += describe(bound, find_point(results.points, bound.point), results.info.swept);
-  if (!results.laws.empty()) text += (results.bounds.empty() ? "" : "\n") + law_table(results.laws);
-  for (const LawResult& law : results.laws)
-    if (!law.found.empty()) text += fmt::format("found: {}\n", law.found);
-  if (compared)
-    for (const auto* lines : {&compared->worse, &compared->better, &compared->notes})
-      for (const std::string& line : *lines) text += printable(line) + "\n";
-  return text + fmt::format("{}: {}; {}; the report is {}/report.html\n", printable(listed.file),
-                            verdict_words(results, compared), outcome.counts(), printable(listed.out));
+  return findings_text(outcome.results, compared) +
+         fmt::format("{}: {}; {}; the report is {}/report.html\n", printable(listed.file),
+                     verdict_words(outcome.results, compared), outcome.counts(), printable(listed.out));
 }
 
 // What is printed of a checked experiment: text, or JSON.
@@ -103,10 +74,7 @@ Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arg
   write_file_atomically(out + "/junit.xml", to_junit(outcome.results, comparison));
   write_file_atomically(out + "/summary.md", to_summary(outcome.results, comparison, outcome.worst_pixels));
   const Results& results = outcome.results;
-  const bool held =
-      std::none_of(results.bounds.begin(), results.bounds.end(), breaks) &&
-      std::all_of(results.laws.begin(), results.laws.end(), [](const LawResult& law) { return law.held; }) &&
-      (!compared || compared->held());
+  const bool held = all_held(results) && (!compared || compared->held());
   entry.report = "report.html";
   entry.numbers = worst_numbers(results);
   entry.words = outcome.interrupted ? "stopped before its end" : verdict_words(results, comparison);
@@ -125,6 +93,62 @@ Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arg
   else
     checked.text += outcome.interrupted ? stopped_text(outcome) + "\n" : verdict_text(listed, outcome, comparison);
   return checked;
+}
+
+// check --shard: measures the share of one experiment. Nothing is judged; merge does that.
+Checked measure_share(const ListedExperiment& listed, const ExperimentArguments& arguments) {
+  const Experiment experiment = experiment_from(listed.file, arguments);
+  Checked checked;
+  const std::vector<int64_t> share = points_of_share(experiment, *arguments.shard);
+  if (share.empty()) {
+    checked.text = printable(listed.file) + ": " + no_points_text(*arguments.shard);
+    return checked;
+  }
+  const std::string out = listed.out + "/" + arguments.shard->folder();
+  const ResultsFolder folder(out);
+  const SweepOutcome outcome = run_sweep(experiment, folder,
+                                         {.overwrite = arguments.overwrite,
+                                          .command = arguments.command,
+                                          .quiet = arguments.quiet,
+                                          .shard = arguments.shard,
+                                          .points = share});
+  checked.exit_code = outcome.interrupted ? static_cast<int>(ErrorKind::incomplete) : 0;
+  checked.json = results_json(outcome, {.experiment = listed.file, .folder = out, .exit_code = checked.exit_code});
+  checked.text = outcome.interrupted ? stopped_text(outcome) + "\n"
+                                     : fmt::format("{}: share {}: {}; not judged: noonmark merge does that\n",
+                                                   printable(listed.file), arguments.shard->text(), outcome.counts());
+  return checked;
+}
+
+// Of all experiments. There is no page about all of them, because the shares would write one file.
+int measure_shares(const ExperimentList& list, const ExperimentArguments& arguments, const CheckOptions& options) {
+  if (!options.baseline.empty())
+    throw Error(ErrorKind::usage,
+                "--baseline needs all points, and --shard measures a share of them; merge the shares, then check the "
+                "merged folder with --baseline: its points are kept");
+  int worst = 0;
+  std::vector<nlohmann::ordered_json> printed;
+  for (const UnreadableFolder& one : list.unreadable) {
+    worst = std::max(worst, tell({one.error.exit_code(), printable(one.error.what())}));
+    printed.push_back(failure_json(one.folder, one.error.what(), one.error.exit_code()));
+  }
+  for (const ListedExperiment& listed : list.experiments) {
+    try {
+      const Checked checked = measure_share(listed, arguments);
+      worst = std::max(worst, checked.exit_code);
+      if (arguments.json)
+        printed.push_back(checked.json);
+      else
+        fmt::print("{}", checked.text);
+    } catch (...) {
+      const Failure failure = current_failure();
+      worst = std::max(worst, tell(failure));
+      printed.push_back(failure_json(listed.file, failure.message, failure.exit_code));
+    }
+    if (worst == static_cast<int>(ErrorKind::incomplete)) break;  // the user asked to stop
+  }
+  if (arguments.json) fmt::print("{}", results_text(arguments.command, worst, printed));
+  return worst;
 }
 
 // The folder that holds the results' folders of all experiments: that of --out, or `out`.
@@ -157,7 +181,7 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     for (const UnreadableFolder& one : list.unreadable) throw one.error;
     for (const ListedExperiment& listed : list.experiments) {
       fmt::print("{}:\n", printable(listed.file));
-      print_plan(experiment_from(listed.file, arguments));
+      print_plan(experiment_from(listed.file, arguments), arguments.shard);
     }
     return 0;
   }
@@ -168,6 +192,7 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     fmt::print("{}", experiment_text(experiment_from(list.experiments.front().file, arguments)));
     return 0;
   }
+  if (arguments.shard) return measure_shares(list, arguments, options);
   // A folder of experiments gets one page about all of them. That of an earlier check is removed first.
   const bool indexed =
       list.experiments.size() > 1 || std::any_of(list.experiments.begin(), list.experiments.end(),

@@ -6,7 +6,7 @@
 
 #include "app/build_facts.h"
 #include "app/image_file.h"
-#include "app/sweep.h"
+#include "app/judging.h"
 #include "app/threads.h"
 #include "app/verbs.h"
 #include "app/workbench.h"

@@ -16,7 +16,7 @@
 namespace noonmark {
 
 int verb_run(const std::string& path, const ExperimentArguments& arguments, bool dry_run) {
-  const std::string out = out_folder(path, arguments);
+  const std::string out = out_folder(path, arguments) + (arguments.shard ? "/" + arguments.shard->folder() : "");
   const bool measures = !dry_run && !arguments.print_config;
   // A folder that does not exist has no verdict. It is made only for an experiment that can be run.
   std::error_code none;
@@ -29,13 +29,21 @@ int verb_run(const std::string& path, const ExperimentArguments& arguments, bool
     return 0;
   }
   if (dry_run) {
-    print_plan(experiment);
+    print_plan(experiment, arguments.shard);
+    return 0;
+  }
+  std::vector<int64_t> share;
+  if (arguments.shard && (share = points_of_share(experiment, *arguments.shard)).empty()) {
+    fmt::print("{}", no_points_text(*arguments.shard));
     return 0;
   }
   if (!there) folder.open(out);
-  const SweepOutcome outcome =
-      run_sweep(experiment, folder.get(),
-                {.overwrite = arguments.overwrite, .command = arguments.command, .quiet = arguments.quiet});
+  const SweepOutcome outcome = run_sweep(experiment, folder.get(),
+                                         {.overwrite = arguments.overwrite,
+                                          .command = arguments.command,
+                                          .quiet = arguments.quiet,
+                                          .shard = arguments.shard,
+                                          .points = share});
   const int exit_code = outcome.interrupted ? static_cast<int>(ErrorKind::incomplete) : 0;
   if (arguments.json)
     fmt::print("{}",
@@ -44,7 +52,9 @@ int verb_run(const std::string& path, const ExperimentArguments& arguments, bool
   else if (outcome.interrupted)
     fmt::print("{}\n", stopped_text(outcome));
   else
-    fmt::print("{}; the report is {}/report.html\n", outcome.counts(), printable(out));
+    fmt::print("{}{}; the report is {}/report.html\n",
+               arguments.shard ? fmt::format("share {}: ", arguments.shard->text()) : "", outcome.counts(),
+               printable(out));
   return exit_code;
 }
 

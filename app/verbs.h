@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "app/shares.h"
+
 namespace noonmark {
 struct PhaseOptions;
 }
@@ -15,11 +17,12 @@ struct ExperimentArguments {
   std::vector<std::string> parts;  // --part; empty: all of the experiment's
   std::string out;                 // --out; empty: out/<name of the experiment>
   bool overwrite = false;
-  int threads = 0;            // --threads; 0: all cores
-  std::string command;        // the whole command line, for the record
-  bool json = false;          // --json: results on standard output as JSON, in place of text
-  bool quiet = false;         // --quiet: no progress on standard error
-  bool print_config = false;  // --print-config: only print the experiment with its defaults
+  int threads = 0;             // --threads; 0: all cores
+  std::string command;         // the whole command line, for the record
+  bool json = false;           // --json: results on standard output as JSON, in place of text
+  bool quiet = false;          // --quiet: no progress on standard error
+  std::optional<Shard> shard;  // --shard, or the task of a Slurm array; 1/1 is none
+  bool print_config = false;   // --print-config: only print the experiment with its defaults
 };
 
 int verb_run(const std::string& experiment, const ExperimentArguments& arguments, bool dry_run);
@@ -52,6 +55,16 @@ struct RecommendOptions {
   bool json = false, quiet = false;
 };
 int verb_recommend(const std::string& what, const RecommendOptions& options, ExperimentArguments arguments);
+// Joins the stores of shares into `out` and judges the whole. Returns 1 if a bound or a law is broken, 6 if points are
+// missing.
+struct MergeOptions {
+  std::vector<std::string> shares;  // folders
+  std::string out;
+  bool overwrite = false;  // also a folder whose store is no joined one
+  bool json = false;
+  std::string command;
+};
+int verb_merge(const MergeOptions& options);
 int verb_report(const std::string& folder);
 int verb_scenes();
 int verb_settings();

@@ -76,7 +76,7 @@ _noonmark() {
     mapfile -t files < <(_noonmark_files "$word" '[jJ][sS][oO][nN]')
   elif [[ $previous == --part || $previous == --baseline-times || $previous == --point || $previous == --threads || $previous == --acne ||
     $previous == --peter-panning || $previous == --from || $previous == --to || $previous == --rows ||
-    $previous == --placements ]]; then
+    $previous == --placements || $previous == --shard ]]; then
     :  # a name or a number that cannot be listed
   elif [[ $word == -* ]]; then
     mapfile -t choices < <(_noonmark_options "$program" "$verb")
@@ -87,7 +87,7 @@ _noonmark() {
     mapfile -t files < <(_noonmark_files "$word" '[gG][lL][tT][fF]' '[gG][lL][bB]')
   elif [[ $verb == init || $verb == inspect ]]; then
     mapfile -t files < <(_noonmark_files "$word" '[gG][lL][tT][fF]' '[gG][lL][bB]')
-  elif [[ $verb == report ]]; then
+  elif [[ $verb == report || $verb == merge ]]; then
     mapfile -t files < <(compgen -d -- "$word")
   fi
   # If = separates words, bash replaces only the text after it. Otherwise the replies need the text before it too.

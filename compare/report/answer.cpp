@@ -7,6 +7,7 @@
 
 #include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
+#include "compare/judge/machines.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
@@ -148,6 +149,9 @@ std::string health_items(const Results& results) {
     out += item("note", fmt::format("At most {} of the facing receivers have an ambiguous truth; they are left out.",
                                     quantity(ambiguous, "fraction")));
   for (const std::string& note : results.info.sweep_notes) out += item("bad", html(note) + ".");
+  const MachineNotes machines = machine_notes(results);
+  for (const std::string& note : machines.warnings) out += item("bad", html(note) + ".");
+  for (const std::string& note : machines.machines) out += item("note", html(note) + ".");
   for (const std::string& note : results.info.scene_notes)
     out += item("note", fmt::format("About the scene {}.", html(note)));
   return out;

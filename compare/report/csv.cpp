@@ -79,12 +79,15 @@ std::vector<Column> columns(const Results& results) {
                       return value ? exact_number(*value) : std::string();
                     }});
   for (const RecordField& field : record_fields())
-    if (!field.group.empty()) field_column(field);
+    if (!field.group.empty() && field.group != machine_group) field_column(field);
   // A time that is also a metric has its column already.
   for (const std::string& name : present_times)
     if (!clocked.contains(name))
       at_the_end.push_back({name, [name](const PointRecord& p) { return look_up(p.times, name); }});
   list.insert(list.end(), at_the_end.begin(), at_the_end.end());
+  // After the times: two runs of the same program on the same data differ in these columns and in no other.
+  for (const RecordField& field : record_fields())
+    if (field.group == machine_group) field_column(field);
   return list;
 }
 

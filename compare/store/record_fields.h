@@ -17,7 +17,7 @@ struct RecordField {
   std::string_view unit;  // "px", "fraction"; text: ""
   std::string_view help;  // one sentence
   using Member = std::variant<std::string PointRecord::*, int PointRecord::Worst::*, double PointRecord::Worst::*,
-                              std::string PointRecord::Worst::*>;
+                              std::string PointRecord::Worst::*, std::string PointRecord::Machine::*>;
   Member member;
 
   // The name within its group: "x".
@@ -34,6 +34,13 @@ template <class T>
 const PointRecord::Worst& owner(const PointRecord& record, T PointRecord::Worst::*) {
   return record.worst;
 }
+template <class T>
+const PointRecord::Machine& owner(const PointRecord& record, T PointRecord::Machine::*) {
+  return record.machine;
+}
+
+// The group of the fields that say where and when a point was measured. They are no results: two runs differ in them.
+inline constexpr std::string_view machine_group = "machine";
 
 // Calls use(value) with the field's value: a text, an int or a double.
 template <class Use>

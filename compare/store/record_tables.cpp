@@ -38,6 +38,15 @@ Column<PointRecord> record_column(std::string_view name, Member PointRecord::Wor
           [inner](const Statement& row, int index, PointRecord& record) { inner.read(row, index, record.worst); }};
 }
 
+// The column of a member of the machine.
+template <class Member>
+Column<PointRecord> record_column(std::string_view name, Member PointRecord::Machine::*member) {
+  const Column<PointRecord::Machine> inner = column(name, member);
+  return {name, inner.type,
+          [inner](Statement& row, int index, const PointRecord& record) { inner.bind(row, index, record.machine); },
+          [inner](const Statement& row, int index, PointRecord& record) { inner.read(row, index, record.machine); }};
+}
+
 std::vector<Column<PointRecord>> record_columns() {
   std::vector<Column<PointRecord>> columns;
   for (const RecordField& field : record_fields())

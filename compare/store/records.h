@@ -99,6 +99,14 @@ struct PointRecord : PointPictures {
     double error = 0;
     std::string cause;
   } worst;  // the worst pixel; row 0 on top
+  // Where and when the point was measured. The points of a joined store can be of several machines (compare/store/join.h).
+  struct Machine {
+    std::string host;        // its name
+    std::string cpu;         // "AMD EPYC 9B14"
+    std::string driver;      // OpenGL's vendor, renderer and version
+    std::string ray_tracer;  // Embree's version and instruction set
+    std::string clock;       // when the point was finished by the clock of that host: ISO 8601, UTC
+  } machine;
 };
 
 // A bound and its result (compare/judge/bounds.h).
@@ -159,6 +167,10 @@ struct RunInfo {
   uint64_t triangles = 0;
   std::vector<std::string> scene_notes;  // one line for each note of a scene (Scene::notes)
   std::vector<std::string> sweep_notes;  // one sentence for each swept setting that no point reads
+  // The experiment itself, with its options (app/definition.h), so that stores can be joined and judged without its file.
+  // Empty if no file can say it.
+  std::string definition;
+  std::string share;  // "2/4": only this share of the experiment was measured; "joined": of several stores; empty: all
 };
 
 struct Results {

@@ -20,10 +20,10 @@ using sqlite::Database;
 using sqlite::Statement;
 
 // Each table has a column `point`, and its first two columns give the order of its rows.
-constexpr std::string_view point_tables[] = {"finished",     "settings", "metrics", "times",        "curves",
-                                             "curve_points", "pictures", "images",  "curve_windows"};
+constexpr std::string_view tables_by_point[] = {"finished",     "settings", "metrics", "times",        "curves",
+                                                "curve_points", "pictures", "images",  "curve_windows"};
 // Each table has a column `phase`, and its first three columns give the order of its rows.
-constexpr std::string_view phase_tables[] = {"phases", "phase_rows", "phase_cells", "phase_points"};
+constexpr std::string_view tables_by_phase[] = {"phases", "phase_rows", "phase_cells", "phase_points"};
 constexpr std::string_view info_tables[] = {"info"};
 constexpr std::string_view verdict_tables[] = {"bounds", "laws", "law_samples"};
 
@@ -34,8 +34,8 @@ struct Sealed {
   std::string_view order;
   std::string seal(int64_t id) const { return fmt::format("{} {}", name, id); }
 };
-constexpr Sealed sealed_points{"point", point_tables, "1, 2"};
-constexpr Sealed sealed_phases{"phase", phase_tables, "1, 2, 3"};
+constexpr Sealed sealed_points{"point", tables_by_point, "1, 2"};
+constexpr Sealed sealed_phases{"phase", tables_by_phase, "1, 2, 3"};
 
 std::string digest_of(Database& db, std::span<const std::string_view> tables) {
   Digest digest;
@@ -111,6 +111,9 @@ void require_sealed(Database& db) {
   if (!holds(db, "info", digest_of(db, info_tables))) refuse("the facts of the run");
   if (!verdict_holds(db)) refuse("the bounds and laws");
 }
+
+std::span<const std::string_view> tables_of_points() { return tables_by_point; }
+std::span<const std::string_view> tables_of_phases() { return tables_by_phase; }
 
 void remove_point(Database& db, int64_t point) { remove(db, sealed_points, point); }
 void remove_phase(Database& db, int64_t phase) { remove(db, sealed_phases, phase); }

@@ -2,6 +2,8 @@
 // that were edited, lost or added by another program. Every column of every row counts, with its type.
 #pragma once
 #include <cstdint>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace noonmark {
@@ -23,6 +25,10 @@ std::vector<int64_t> broken_phases(sqlite::Database& db);
 bool verdict_holds(sqlite::Database& db);
 // Throws Error(file) that names the rows that do not match their seal.
 void require_sealed(sqlite::Database& db);
+
+// The tables that hold points (column `point`), and phase diagrams (column `phase`).
+std::span<const std::string_view> tables_of_points();
+std::span<const std::string_view> tables_of_phases();
 
 // Removes a point's rows from every table, and its seal.
 void remove_point(sqlite::Database& db, int64_t point);

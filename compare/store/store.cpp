@@ -46,6 +46,8 @@ constexpr std::pair<std::string_view, std::string RunInfo::*> info_texts[] = {
     {"scene_name", &RunInfo::scene_name},
     {"cost", &RunInfo::cost},
     {"accuracy", &RunInfo::accuracy},
+    {"definition", &RunInfo::definition},
+    {"share", &RunInfo::share},
 };
 constexpr std::string_view library_prefix = "library.";
 
@@ -412,6 +414,28 @@ Results ResultStore::load() const {
   }
   db_->execute("COMMIT");
   return results;
+}
+
+Results ResultStore::facts() const {
+  Results results;
+  read_rows(*db_, [&] { load_info(*db_, results); });
+  return results;
+}
+
+void ResultStore::require_whole() const { require_sealed(*db_); }
+
+JoinedStore ResultStore::join(const std::string& path, const SceneName& scene_name) {
+  return read_rows(*db_, [&] { return join_store(*db_, path, scene_name); });
+}
+
+std::vector<int64_t> ResultStore::lacking(const std::string& metric) const {
+  Statement rows(
+      *db_, "SELECT point FROM finished WHERE point NOT IN (SELECT point FROM metrics WHERE name = ?) ORDER BY point");
+  rows.bind(1, metric);
+  std::vector<int64_t> ids;
+  while (rows.step())
+    if (const int64_t id = rows.integer(0); id < first_aside) ids.push_back(id);
+  return ids;
 }
 
 std::string ResultStore::fingerprint() const {

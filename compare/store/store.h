@@ -26,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "compare/store/join.h"
 #include "compare/store/records.h"
 #include "scenes/error.h"
 
@@ -96,7 +97,15 @@ class ResultStore {
 
   // Throws Error(file) if rows do not match their seal (compare/store/seals.h).
   Results load() const;
+  // The facts of the run alone: its points are not read.
+  Results facts() const;
   std::string fingerprint() const;
+  // Throws Error(file) as load() does.
+  void require_whole() const;
+  // Takes over the points and phase diagrams of another store (compare/store/join.h).
+  JoinedStore join(const std::string& path, const SceneName& scene_name);
+  // The ids of points without this metric, ascending.
+  std::vector<int64_t> lacking(const std::string& metric) const;
 
  private:
   explicit ResultStore(std::unique_ptr<sqlite::Database> db);

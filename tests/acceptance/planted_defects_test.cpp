@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/judging.h"
 #include "app/sweep.h"
 #include "app/workbench.h"
 #include "scenes/error.h"

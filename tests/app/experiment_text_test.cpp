@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <tuple>
 
+#include "app/definition.h"
 #include "app/experiment_file.h"
 #include "scenes/error.h"
 
@@ -123,6 +124,35 @@ RC_GTEST_PROP(ExperimentTextProperty, EveryValueComesBack, ()) {
   const Experiment again = parse_experiment(experiment_text(experiment), "x.toml");
   RC_ASSERT(fingerprint(again, {}) == fingerprint(experiment, {}));
   RC_ASSERT(again.title == experiment.title);
+}
+
+TEST(ExperimentDefinition, NamesScenesFromTheFolderOfTheExperiment) {
+  EXPECT_EQ(scene_path_in("/home/ann/models/a.glb", "/home/ann/sets/x.toml"), "../models/a.glb");
+  EXPECT_EQ(scene_path_in("/home/ann/sets/a.glb", "/home/ann/sets/x.toml"), "a.glb");
+  EXPECT_EQ(scene_path_in("/data/a.glb", "/home/ann/sets/x.toml"), "/data/a.glb");  // the root alone is no common folder
+  EXPECT_EQ(scene_path_in("/data/a.glb", "sets/x.toml"), "/data/a.glb");
+  EXPECT_EQ(scene_path_in("sets/models/a.glb", "sets/x.toml"), "models/a.glb");
+}
+
+TEST(ExperimentDefinition, AMovedSceneIsWhatTheMovedFileNames) {
+  const std::string text = "scene = \"../models/a.glb\"\n";
+  for (const std::string from : {"/home/ann/sets/x.toml", "/srv/x.toml", "here/sets/x.toml"})
+    for (const std::string to : {"/mnt/bob/sets/x.toml", "x.toml", "there/sets/x.toml"}) {
+      SCOPED_TRACE(from + " to " + to);
+      const auto scene_in = [&](const std::string& path) { return parse_experiment(text, path).base.scene.name; };
+      EXPECT_EQ(moved_scene(scene_in(from), from, to), from == "/srv/x.toml" ? "/models/a.glb" : scene_in(to));
+    }
+  EXPECT_EQ(moved_scene("plate", "/home/ann/x.toml", "x.toml"), "plate");
+}
+
+TEST(ExperimentDefinition, HasNoFolderOfItsHost) {
+  const std::string text = "scene = \"models/a.glb\"\n[[bound]]\nmetric = \"acne\"\nmax = 1\n";
+  const std::string one = definition_text(parse_experiment(text, "/home/ann/x.toml"));
+  const std::string other = definition_text(parse_experiment(text, "/srv/farm/bob/x.toml"));
+  EXPECT_EQ(definition_path(one), "/home/ann/x.toml");
+  EXPECT_EQ(without_host_path(one), without_host_path(other));
+  EXPECT_EQ(without_host_path(one).find("/home"), std::string::npos);
+  EXPECT_EQ(experiment_of(one, "x").base.scene.name, "/home/ann/models/a.glb");
 }
 
 }  // namespace

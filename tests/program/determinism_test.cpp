@@ -35,7 +35,7 @@ max = 1e-6
 
 class Determinism : public Program {
  protected:
-  // results.csv of a folder, without the columns of times.
+  // results.csv of a folder, without the columns of times and of the machine.
   std::string results(const std::string& out) const {
     std::istringstream lines(read_file((folder_ / out / "results.csv").string()));
     std::set<size_t> times;
@@ -45,7 +45,7 @@ class Determinism : public Program {
       std::istringstream cells(line);
       std::string cell;
       for (size_t i = 0; std::getline(cells, cell, ','); ++i) {
-        if (head && cell.find("_ms") != std::string::npos) times.insert(i);
+        if (head && (cell.find("_ms") != std::string::npos || cell.starts_with("machine_"))) times.insert(i);
         if (!times.contains(i)) kept += cell + ",";
       }
       kept += "\n";

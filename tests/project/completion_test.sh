@@ -43,10 +43,10 @@ has() {
   bad=1
 }
 
-expect 'check doctor init inspect map recommend render report run scenes schema settings' ''
+expect 'check doctor init inspect map merge recommend render report run scenes schema settings' ''
 expect 'recommend render report run' r
 expect '--help --version' -
-expect '--dry-run --help --json --out --overwrite --part --print-config --quiet --set --threads' run --
+expect '--dry-run --help --json --out --overwrite --part --print-config --quiet --set --shard --threads' run --
 expect '--part --picture --point' render --p
 expect '--help' doctor -
 expect '' scenes ''
