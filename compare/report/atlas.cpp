@@ -96,7 +96,7 @@ code{font-size:12px;overflow-wrap:anywhere}td:first-child{min-width:18rem;max-wi
       "of at most {} each. It is <b>fragile</b> if the span is narrower, or if a placement breaks it. It <b>fails</b> "
       "if no bias is usable at some point. <i>From</i> names the first value of the swept setting that does not hold. "
       "The error is the one that is left at the best bias there, the work counts texels written and texture "
-      "instructions. Rows of alpha masks and of motion are not there yet.</p>\n",
+      "instructions. Rows of motion are not there yet.</p>\n",
       atlas_window_factor, html(report::quantity(atlas_share, "fraction")));
   text += "<table><thead><tr><th>Failure</th><th>Worst point</th>";
   for (const std::string& technique : techniques) text += fmt::format("<th>{}</th>", html(technique));
