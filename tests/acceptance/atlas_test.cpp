@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <set>
 
 #include "app/experiment_file.h"
 #include "app/workbench.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/laws.h"
+#include "compare/report/escape.h"
 
 namespace noonmark::acceptance {
 namespace {
@@ -64,6 +67,21 @@ TEST(Atlas, EachRowBreaksWithoutItsCure) {
     const Settings& same = cured[cured.size() == sick.size() ? *breaks : cured.size() - 1];
     EXPECT_EQ(broken_by(bench, with.parts.front(), same), "") << "with its cure";
   }
+}
+
+// README's matrix is that of a run of scripts/atlas; a row that is new or renamed needs another run and scripts/readme-tables.
+TEST(Atlas, ReadmeHasEachRow) {
+  std::ifstream file(NOONMARK_SOURCE_DIR "/README.md");
+  std::set<std::string> shown, rows;
+  bool inside = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line == "<!-- the atlas: written by scripts/readme-tables -->") inside = true;
+    if (line == "<!-- end -->") inside = false;
+    if (inside && line.starts_with("| ")) shown.insert(line.substr(2, line.find(" | ") - 2));
+  }
+  shown.erase("failure");  // the head
+  for (const std::string& path : atlas_files()) rows.insert(markdown(load_experiment(path).atlas.value().failure));
+  EXPECT_EQ(shown, rows);
 }
 
 }  // namespace
