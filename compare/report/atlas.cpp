@@ -118,8 +118,8 @@ code{font-size:12px;overflow-wrap:anywhere}td:first-child{min-width:18rem;max-wi
     for (const std::string& technique : techniques) text += cell_html(row, find_cell(row, technique));
     text += "<td>";
     for (const AtlasCell* cell : others_of(row, techniques))
-      text += fmt::format("{}: <b>{}</b>, error {}<br>", html(cell->technique), html(verdict_text(row, *cell)),
-                          html(left_text(*cell)));
+      text += fmt::format("{}: <b>{}</b>, error {}, work {}<br>", html(cell->technique), html(verdict_text(row, *cell)),
+                          html(left_text(*cell)), html(report::cell(cell->cost, "count")));
     text += "</td></tr>\n";
   }
   return text + "</tbody></table></body></html>\n";
