@@ -303,6 +303,10 @@ int run(int argc, char** argv) {
   recommend->add_option("--part", arguments.parts, "The part of the experiment to answer for, if it has parts")
       ->expected(1)
       ->type_name("NAME");
+  recommend->add_flag(
+      "--around", recommending.around,
+      "Also measure what each setting does around the answer: the error at its half and its double, and the "
+      "range in which the bounds hold");
   recommend->add_flag("--json", recommending.json, "Print everything that was found as JSON");
   recommend->add_flag("--quiet", recommending.quiet, "Print no progress");
   recommend

@@ -19,17 +19,8 @@
 namespace noonmark {
 namespace {
 
-constexpr int searched_placements = 8;  // along each axis
 // A bias of more parts, or a dearer technique, must be this factor better than a lesser one, or it does not pay.
 constexpr double factor_that_pays = 1.25;
-
-// The same settings with a smaller picture of the same shape.
-Settings small_picture(Settings settings, int width_px) {
-  const double scale = std::min(1.0, static_cast<double>(width_px) / settings.view.width_px);
-  settings.view.width_px = std::max(1, static_cast<int>(std::lround(scale * settings.view.width_px)));
-  settings.view.height_px = std::max(1, static_cast<int>(std::lround(scale * settings.view.height_px)));
-  return settings;
-}
 
 class Search {
  public:
@@ -401,6 +392,19 @@ class Search {
 };
 
 }  // namespace
+
+std::vector<Settings> answer_under_conditions(const Advice& advice) {
+  const Settings& answer = advice.answer->settings;
+  std::vector<Settings> all;
+  for (const Settings& condition : advice.request.conditions) {
+    Settings there = small_picture(condition, advice.request.width_px);
+    there.bias = answer.bias, there.filter = answer.filter;
+    there.map.resolution = answer.map.resolution, there.map.cull = answer.map.cull;
+    there.map.placements = searched_placements;
+    all.push_back(std::move(there));
+  }
+  return all;
+}
 
 Advice search(Workbench& bench, const AdviceRequest& request, const std::function<void(const std::string&)>& say) {
   return Search(bench, request, say).run();

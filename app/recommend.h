@@ -24,6 +24,7 @@
 #include "app/workbench.h"
 #include "compare/judge/recommendation.h"
 #include "compare/ladder/bias_curves.h"
+#include "compare/report/tornado.h"
 
 namespace noonmark {
 
@@ -68,8 +69,14 @@ struct Advice {
   // If one constant bias is not the answer: the least resolution at which it would keep the bounds, under the first
   // condition and without a filter; negative: none up to that. Empty: not known.
   std::optional<int> least_resolution;
+  // What each setting does around the answer; only if it was asked for (app/recommend_around.h).
+  std::optional<Tornado> around;
   AdviceRequest request;
 };
+
+// The answer's settings under each condition, as they were searched: small pictures, all placements. There must be an
+// answer.
+std::vector<Settings> answer_under_conditions(const Advice& advice);
 
 // say: progress, one line. Throws Error.
 Advice search(Workbench& bench, const AdviceRequest& request, const std::function<void(const std::string&)>& say);

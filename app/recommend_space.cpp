@@ -1,5 +1,7 @@
 #include "app/recommend_space.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <numbers>
@@ -50,6 +52,13 @@ std::vector<FilterSettings> filters_to_try(LightKind light) {
           {"castano", {{"size", 3}}},
           {"castano", {{"size", 5}}},
           {"castano", {{"size", 7}}}};
+}
+
+Settings small_picture(Settings settings, int width_px) {
+  const double scale = std::min(1.0, static_cast<double>(width_px) / settings.view.width_px);
+  settings.view.width_px = std::max(1, static_cast<int>(std::lround(scale * settings.view.width_px)));
+  settings.view.height_px = std::max(1, static_cast<int>(std::lround(scale * settings.view.height_px)));
+  return settings;
 }
 
 std::vector<Settings> turned_views(const Settings& settings, const Scene& scene) {

@@ -21,6 +21,12 @@ std::vector<BiasLevel> bias_levels();
 // In the order of their reach.
 std::vector<FilterSettings> filters_to_try(LightKind light);
 
+// Placements of a search, along each axis.
+inline constexpr int searched_placements = 8;
+
+// The same settings with a smaller picture of the same shape.
+Settings small_picture(Settings settings, int width_px);
+
 // The settings' own view, and views turned by -30, -15, 15 and 30 degrees: about the camera's target, or in place if the
 // camera is inside the box of the scene, because it could leave a room.
 std::vector<Settings> turned_views(const Settings& settings, const Scene& scene);

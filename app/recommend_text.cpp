@@ -236,6 +236,8 @@ std::vector<std::string> advice_text(const Advice& advice) {
                                 settings_text(*better), better->cost / 1e6, better->why_not));
   if (advice.least_resolution) lines.push_back(constant_text(*advice.least_resolution));
   for (std::string& line : lesser_levels(advice)) lines.push_back(std::move(line));
+  if (advice.around)
+    for (std::string& line : tornado_text(*advice.around)) lines.push_back(std::move(line));
   return lines;
 }
 
@@ -292,6 +294,37 @@ std::string advice_engines(const std::vector<EngineAdvice>& engines) {
   return text;
 }
 
+namespace {
+
+nlohmann::json around_json(const Tornado& tornado) {
+  using nlohmann::json;
+  const auto of = [](const TornadoEnd& end) {
+    json one{{"value", end.value}, {"held", end.held}};
+    if (end.why_not.empty())
+      one["error"] = end.error;
+    else
+      one["why_not"] = end.why_not;
+    return one;
+  };
+  json rows = json::array();
+  for (const TornadoRow& row : tornado.rows) {
+    json low = of(row.low), high = of(row.high);
+    low["open"] = row.low_open, high["open"] = row.high_open;
+    rows.push_back({{"setting", row.setting},
+                    {"unit", row.unit},
+                    {"value", row.value},
+                    {"half", of(row.half)},
+                    {"double", of(row.twice)},
+                    {"usable_from", low},
+                    {"usable_to", high}});
+  }
+  return {{"error", tornado.error},           {"held", tornado.held},
+          {"accuracy", tornado.accuracy},     {"conditions", tornado.conditions},
+          {"placements", tornado.placements}, {"settings", rows}};
+}
+
+}  // namespace
+
 std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& engines) {
   using nlohmann::json;
   const auto of = [](const Tried& tried) {
@@ -324,6 +357,7 @@ std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& e
                        {"worst_acne", advice.worst_acne},
                        {"worst_peter_panning", advice.worst_peter_panning},
                        {"worst_error", advice.worst_error}};
+  if (advice.around) all["around"] = around_json(*advice.around);
   all["engines"] = json::array();
   for (const EngineAdvice& engine : engines)
     all["engines"].push_back({{"engine", engine.engine},

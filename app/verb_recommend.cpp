@@ -8,6 +8,7 @@
 #include "app/experiment_arguments.h"
 #include "app/image_file.h"
 #include "app/pictures.h"
+#include "app/recommend_around.h"
 #include "app/recommend_text.h"
 #include "app/results_folder.h"
 #include "app/verbs.h"
@@ -119,9 +120,13 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
   make_output_folder(out);
   clear_abandoned_files(out);
   remove_earlier_advice(out);
-  const Advice advice = search(bench, request, [&](const std::string& step) {
+  const auto say = [&](const std::string& step) {
     if (!options.quiet) fmt::print(stderr, "{}\n", step);
-  });
+  };
+  Advice advice = search(bench, request, say);
+  if (advice.answer && options.around)
+    advice.around = settings_around(bench, answer_under_conditions(advice),
+                                    {.bounds = request.curve, .accuracy = request.accuracy}, say);
   std::vector<EngineAdvice> engines;
   if (advice.answer) {
     const Settings& settings = advice.answer->settings;
@@ -136,6 +141,7 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
   if (!advice.answer) return 1;
   write_file_atomically(out + "/recommended.toml", advice_experiment(advice, out));
   write_file_atomically(out + "/engines.txt", advice_engines(engines));
+  if (advice.around) write_file_atomically(out + "/recommended.html", to_tornado_page(*advice.around));
   const Measurement shown = bench.measure(advice.answer->settings, std::nullopt);
   write_pictures(shown, out, ".", "recommended");
   if (!options.json) {
@@ -150,6 +156,8 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
         "and "
         "{0}/recommended-*.png are written\n",
         printable(out));
+    if (advice.around)
+      fmt::print("{}/recommended.html shows what each setting does around the recommended ones\n", printable(out));
   }
   return 0;
 }

@@ -52,6 +52,7 @@ struct RecommendOptions {
   std::optional<double> acne, peter_panning;  // bounds; empty: the experiment's
   std::optional<double> error, budget;        // AdviceRequest
   int views = 5;                              // of a scene; 1: its own only
+  bool around = false;                        // also what each setting does around the answer
   bool json = false, quiet = false;
 };
 int verb_recommend(const std::string& what, const RecommendOptions& options, ExperimentArguments arguments);

@@ -96,7 +96,7 @@ code{font-size:12px;overflow-wrap:anywhere}td:first-child{min-width:18rem;max-wi
       "of at most {} each. It is <b>fragile</b> if the span is narrower, or if a placement breaks it. It <b>fails</b> "
       "if no bias is usable at some point. <i>From</i> names the first value of the swept setting that does not hold. "
       "The error is the one that is left at the best bias there, the work counts texels written and texture "
-      "instructions. Rows of alpha masks and of motion are not there yet.</p>\n",
+      "instructions. Rows of motion are not there yet.</p>\n",
       atlas_window_factor, html(report::quantity(atlas_share, "fraction")));
   text += "<table><thead><tr><th>Failure</th><th>Worst point</th>";
   for (const std::string& technique : techniques) text += fmt::format("<th>{}</th>", html(technique));
@@ -118,8 +118,8 @@ code{font-size:12px;overflow-wrap:anywhere}td:first-child{min-width:18rem;max-wi
     for (const std::string& technique : techniques) text += cell_html(row, find_cell(row, technique));
     text += "<td>";
     for (const AtlasCell* cell : others_of(row, techniques))
-      text += fmt::format("{}: <b>{}</b>, error {}<br>", html(cell->technique), html(verdict_text(row, *cell)),
-                          html(left_text(*cell)));
+      text += fmt::format("{}: <b>{}</b>, error {}, work {}<br>", html(cell->technique), html(verdict_text(row, *cell)),
+                          html(left_text(*cell)), html(report::cell(cell->cost, "count")));
     text += "</td></tr>\n";
   }
   return text + "</tbody></table></body></html>\n";

@@ -89,7 +89,12 @@ TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
   write("mine.toml",
         "scene = \"plate\"\n[bias]\nunit = \"texel\"\ntan = 0.5\n[over]\nview.fov_deg = [30, 40]\n"
         "[sweep]\nmap.resolution = [64, 128]\n");
-  ASSERT_EQ(recommend("mine.toml"), 0) << output_;
+  ASSERT_EQ(recommend("mine.toml", {"--around"}), 0) << output_;
+  EXPECT_EQ(found()["around"]["conditions"], 2);
+  EXPECT_EQ(found()["around"]["placements"], 64);
+  EXPECT_EQ(found()["around"]["held"], true);
+  EXPECT_TRUE(says("- bias.tan = ")) << output_;
+  EXPECT_NE(text("out/recommended.html").find("map.resolution"), std::string::npos);
   EXPECT_EQ(found()["answer"]["bias"]["parameter"], "bias.tan");
   EXPECT_EQ(found()["verified"]["conditions"], 2);
   EXPECT_EQ(run({"check", "out/recommended.toml"}), 0) << output_;
