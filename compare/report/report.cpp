@@ -63,13 +63,20 @@ std::string by_point(const Results& results, const ShownPoints& shown, const Rea
 std::string pictures(const Results& results, const ShownPoints&, const ReadFile& read_file) {
   return report::pictures_section(results, read_file);
 }
+// A report without a live picture and without a diagram opens with the chart of cost against error.
+bool opens_with_speed(const Results& results, const ShownPoints& shown) {
+  return !report::has_live_picture(results) && !report::has_diagram(results) && report::has_speed_chart(results, shown);
+}
+std::string speed(const Results& results, const ShownPoints& shown, const ReadFile&) {
+  return report::speed_section(results, shown, opens_with_speed(results, shown));
+}
 constexpr Section all_sections[] = {
     {"phase", "Diagram", by_point<report::phase_section>, false},
     {"answer", "Answer", plain<report::answer_section>, false},
     {"bias", "Bias", by_point<report::bias_section>, true},
     {"sweep", "Resolution", by_point<report::sweep_section>, true},
     {"budget", "Causes", by_point<report::budget_section>, true},
-    {"cost", "Speed", by_point<report::speed_section>, false},
+    {"cost", "Speed", speed, false},
     {"pictures", "Pictures", pictures, false},
     {"points", "Points", by_point<report::points_section>, false},
     {"meaning", "Meaning", plain<report::meaning_section>, false},
@@ -92,15 +99,20 @@ std::string navigation(const Results& results) {
   return links;
 }
 
-// What the first screen shows: the verdict and the answer, then the picture and the diagram beside each other.
-std::string first_screen(const Results& results, const ReadFile& read_file) {
+// What the first screen shows: the verdict and the answer, then the picture and the diagram beside each other, or the
+// chart of cost against error.
+std::string first_screen(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
   const bool live = report::has_live_picture(results), diagram = report::has_diagram(results);
   std::string figures;
   if (live) figures += "<div id=\"live\">" + report::live_figure(results, read_file) + "</div>\n";
   if (diagram) figures += "<div>" + report::first_diagram() + "</div>\n";
-  return fmt::format(
-      "<div class=\"first\">\n{}<p class=\"said\">{}</p>\n<div class=\"side-by-side{}\">{}</div></div>\n",
-      report::verdict_line(results), report::answer_sentence(results), live && diagram ? " two" : "", figures);
+  if (opens_with_speed(results, shown)) figures = "<div>" + report::speed_chart() + "</div>\n";
+  return fmt::format("<div class=\"first\">\n{}<p class=\"said\">{}</p>\n<div class=\"{}\">{}</div></div>\n",
+                     report::verdict_line(results), report::answer_sentence(results),
+                     live && diagram   ? "side-by-side two"
+                     : live || diagram ? "side-by-side"
+                                       : "alone",
+                     figures);
 }
 
 }  // namespace
@@ -110,7 +122,7 @@ std::string render_report(const Results& results,
   const std::string& given = !results.info.title.empty() ? results.info.title : results.info.scene_name;
   const ShownPoints shown = report::shown_points(results);
   const std::string title = report::html(given.empty() ? "Shadow-map errors" : given);
-  std::string sections = first_screen(results, read_file);
+  std::string sections = first_screen(results, shown, read_file);
   for (const Section& section : sections_of(results)) sections += section.html(results, shown, read_file);
   std::vector<CauseColor> causes;
   for (const CauseColor& color : causes_of(results.points)) causes.push_back(color);

@@ -189,10 +189,21 @@ std::string front_table(const ComparedGroup& group, const std::string& name, con
 
 }  // namespace
 
-std::string speed_section(const Results& results, const ShownPoints& shown) {
+std::string speed_chart() {
+  return chart_place("cost",
+                     "Each choice at the bias that is chosen at the top: as set, or its best one. The bar is the error "
+                     "over its usable window. The line is the Pareto "
+                     "front. Choices of equal cost stand side by side.");
+}
+
+bool has_speed_chart(const Results& results, const ShownPoints& shown) {
+  return !shown.groups.empty() && !costs_of(results).empty() && !errors_of(results).empty();
+}
+
+std::string speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen) {
   std::string out = "<section id=\"cost\"><h2>Speed against accuracy</h2>\n";
   const std::vector<std::string> costs = costs_of(results), errors = errors_of(results);
-  if (shown.groups.empty() || costs.empty() || errors.empty())
+  if (!has_speed_chart(results, shown))
     return out + "<p>No point has both a finite cost and a finite error.</p></section>\n";
   Plane plane{results, costs.front(), error_shown_first(results), ChoiceNames(results), {}};
   for (const PointRecord& point : shown.results.points) plane.shown_ids.insert(point.id);
@@ -211,10 +222,7 @@ std::string speed_section(const Results& results, const ShownPoints& shown) {
         counted(shown.groups.size(), "group"), html(name));
   out += "<p>" + windows_text(group) + good_text(group, plane) + " " +
          at_both(words(AtBias::as_set), words(AtBias::best)) + "</p>\n" + shown.note;
-  out += chart_place("cost",
-                     "Each choice at the bias that is chosen at the top: as set, or its best one. The bar is the error "
-                     "over its usable window. The line is the Pareto "
-                     "front. Choices of equal cost stand side by side.");
+  if (!on_first_screen) out += speed_chart();
   for (size_t i = 0; i < std::min(shown.groups.size(), most_tables); ++i) {
     const size_t which = i == 0 ? first : i <= first ? i - 1 : i;  // the one shown first, then the others
     out += front_table(shown.groups[which], names.of(shown.groups[which]), plane, which == first);

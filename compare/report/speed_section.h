@@ -9,7 +9,11 @@
 namespace noonmark::report {
 
 // Words, chart and table are for RunInfo::cost and error_shown_first() (compare/report/speed.h); in the chart the reader
-// chooses others.
-std::string speed_section(const Results& results, const ShownPoints& shown);
+// chooses others. on_first_screen: the chart stands there (speed_chart()) and not in the section.
+std::string speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen);
+
+// Whether there is a choice with a finite cost and a finite error, and so a chart.
+bool has_speed_chart(const Results& results, const ShownPoints& shown);
+std::string speed_chart();
 
 }  // namespace noonmark::report

@@ -40,8 +40,14 @@ function choose(place) {
     said.append(i ? ', ' : '', kit.make('a', {href: '#p' + id}, 'point ' + id));
   });
 }
+function tellCommand(cell) {
+  said.textContent = '';
+  said.append('This point: ', kit.make('code', {}, commandOf(phase.rows[cell.row], phase.bias_m[cell.bias])));
+}
 // The sweep's points, those at the same place together.
 var places;
+// The cell that the arrow keys chose, and what is needed to find it in the drawing.
+var cursor = null, grid = null;
 function place() {
   var found = {};
   phase.points.forEach(function(p) {
@@ -254,6 +260,7 @@ var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width)
       }
     });
   });
+  grid = {left: left, top: 12, x: x.map(px), y: y.map(py), places: places};
   return {
     measure: 'error',
     spec: {
@@ -310,15 +317,106 @@ var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width)
         var d = item && item.datum;
         if (d && d.place) return choose(d.place);
         if (!d || d.row === undefined) return;
-        said.textContent = '';
-        said.append('This point: ', kit.make('code', {}, commandOf(phase.rows[d.row], phase.bias_m[d.bias])));
+        tellCommand(d);
       });
     }
   };
 });
+// ---- by keyboard: the arrow keys go from cell to cell, Enter does what a click does
+function nearest(list, v) {  // the place of the nearest value on a logarithmic axis; the ends stand for all beyond them
+  var best = 0;
+  list.forEach(function(other, i) {
+    if (Math.abs(Math.log(v / other)) < Math.abs(Math.log(v / list[best]))) best = i;
+  });
+  return best;
+}
+// The rings of a cell. Each ring belongs to one cell, also those that are drawn on the end of an axis.
+function ringsOf(cell) {
+  var texels = phase.rows.map(function(r) {
+    return r.texel_m;
+  });
+  return grid.places.filter(function(p) {
+    var bias = Math.max(phase.bias_m[0], p.b);
+    return nearest(texels, p.t) === cell.row && nearest(phase.bias_m, bias) === cell.bias;
+  });
+}
+function wordsOf(cell) {
+  var row = phase.rows[cell.row], i = cell.bias, b = phase.bias_m[i], out = '';
+  out = row.resolution + ' texels of ' + millimetres(row.texel_m) + ', bias ' + millimetres(b) + ': ' +
+      (row.usable && b >= row.usable[0] && b <= row.usable[1] ? 'usable' : 'not usable') + ', error ' +
+      kit.shown(row.error[i], 'fraction') + ' in the mean, ' + kit.shown(row.error_worst[i], 'fraction') + ' at worst';
+  causes.forEach(function(c) {
+    if (row[c][i] > 0) out += ', ' + (kit.causeLabel[c] || c).toLowerCase() + ' ' + kit.shown(row[c][i], 'fraction');
+  });
+  ringsOf(cell).forEach(function(p) {
+    out += (p.points.length > 1 ? '; points ' : '; point ') + p.points.join(', ');
+  });
+  return out + '.';
+}
+function keyboard() {
+  var spoken = kit.make('p', {class: 'small spoken', 'aria-live': 'polite'}), frame = null;
+  self.plot.after(spoken);
+  self.plot.tabIndex = 0;
+  self.plot.setAttribute('role', 'application');  // so that a screen reader passes the arrow keys on
+  function show() {
+    if (frame) frame.remove();
+    var x = [cursor.bias, cursor.bias + 1].map(function(i) {
+      return grid.x[i];
+    }),
+        y = [cursor.row, cursor.row + 1].map(function(j) {
+          return grid.y[j];
+        });
+    frame = kit.make('div', {
+      class: 'cursor',
+      'aria-hidden': 'true',
+      style: 'left:' + (grid.left + Math.min(x[0], x[1])) + 'px;top:' + (grid.top + Math.min(y[0], y[1])) +
+          'px;width:' + Math.abs(x[1] - x[0]) + 'px;height:' + Math.abs(y[1] - y[0]) + 'px'
+    });
+    self.plot.append(frame);
+    spoken.textContent = wordsOf(cursor);
+  }
+  self.plot.addEventListener('keydown', function(event) {
+    var last = {row: phase.rows.length - 1, bias: phase.bias_m.length - 1};
+    // Up is to coarser texels, as it is drawn.
+    var up = phase.rows[0].texel_m < phase.rows[last.row].texel_m ? 1 : -1;
+    var step = {ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [up, 0], ArrowDown: [-up, 0]}[event.key];
+    if (event.key === 'Enter' && cursor) {
+      var rings = ringsOf(cursor);
+      if (rings.length)
+        choose(rings[0]);
+      else
+        tellCommand(cursor);
+    } else if (!step || !grid)
+      return;
+    else if (!cursor) {
+      var first = grid.places[0];
+      cursor = first ? {
+        row: nearest(
+            phase.rows.map(function(r) {
+              return r.texel_m;
+            }),
+            first.t),
+        bias: nearest(phase.bias_m, Math.max(phase.bias_m[0], first.b))
+      } :
+                       {row: 0, bias: 0};
+      show();
+    } else {
+      cursor = {
+        row: Math.max(0, Math.min(last.row, cursor.row + step[0])),
+        bias: Math.max(0, Math.min(last.bias, cursor.bias + step[1]))
+      };
+      show();
+    }
+    event.preventDefault();
+    event.stopPropagation();
+  });
+}
 if (self) {
   self.plot.after(said);
-  said.append('Click a cell for the command that renders it' + (places.length ? ', a ring for its points.' : '.'));
+  keyboard();
+  said.append(
+      'Click a cell for the command that renders it' + (places.length ? ', a ring for its points' : '') +
+      '. By keyboard: the arrow keys go from cell to cell, Enter is the click.');
   var box = self.legend;
   function key(svg, text) {
     var e = kit.make('span');

@@ -300,6 +300,14 @@ TEST_F(PhasePage, HasACellForEachPairAndAnswersThePointer) {
   EXPECT_NE(saw_["tip"].get<std::string>().find("Acne"), std::string::npos) << saw_["tip"];
   EXPECT_EQ(saw_["command"],
             "noonmark render --set scene.name='x y' --set map.resolution=64 --set bias.constant=0.001");
+  const json& keys = saw_["keys"];
+  EXPECT_EQ(keys["stop"], 0) << "one tab stop";
+  EXPECT_EQ(keys["corner"].get<std::string>().find("64 texels of 40"), 0U) << keys;
+  EXPECT_NE(keys["corner"].get<std::string>().find("not usable, error "), std::string::npos) << keys;
+  EXPECT_NE(keys["right"], keys["corner"]);
+  EXPECT_EQ(keys["frames"], 1);
+  EXPECT_NE(keys["command"].get<std::string>().find("--set map.resolution=64 "), std::string::npos) << keys;
+  EXPECT_NE(keys["command"], saw_["command"]) << "the second bias";
   EXPECT_EQ(saw_["rows"], 3) << "the table for readers without JavaScript";
   EXPECT_EQ(saw_["title"], "Phase diagram of a <b> scene");
 }
@@ -324,6 +332,7 @@ TEST_F(ReportWithPhase, OpensWithTheDiagramAndThePointsOnIt) {
   EXPECT_NE(points["tip"].get<std::string>().find("Point 1: "), std::string::npos) << points["tip"];
   EXPECT_EQ(points["links"], json({"#p0", "#p1"}));
   EXPECT_EQ(points["selected"], json({0}));
+  EXPECT_NE(saw_["keys"]["first"].get<std::string>().find("; points 0, 1."), std::string::npos) << saw_["keys"];
   EXPECT_EQ(points["rows"], 3) << "the table for readers without JavaScript";
   EXPECT_EQ(saw_["command"],
             "noonmark render --set scene.name='x y' --set map.resolution=64 --set bias.constant=0.001");

@@ -50,6 +50,19 @@ if (rings.length) {
 saw.tip = await use(cells[0]);
 var code = figure.querySelector('.command code');
 saw.command = code ? code.textContent : '';
+// By keyboard: the first arrow takes a cell, the next ones move, Enter asks for its command.
+var plot = figure.querySelector('.plot');
+function key(name) {
+  plot.dispatchEvent(new KeyboardEvent('keydown', {key: name, bubbles: true, cancelable: true}));
+  return figure.querySelector('.spoken').textContent;
+}
+saw.keys = {stop: plot.tabIndex, first: key('ArrowRight')};
+for (var i = 0; i < 20; ++i) key('ArrowLeft'), key('ArrowUp');
+saw.keys.corner = key('ArrowLeft');
+saw.keys.right = key('ArrowRight');
+saw.keys.frames = all('.cursor', plot).length;
+key('Enter');
+saw.keys.command = (figure.querySelector('.command code') || {}).textContent;
 saw.rows = all('#phase table.numbers tbody tr').length;
 saw.title = document.querySelector('h1').textContent;
 
