@@ -54,6 +54,9 @@ constexpr double per_grid_cell = 8;  // the grid that lists a shadow's edges, fo
 // The live picture, which is drawn beside the point's own images: for each of its pixels a receiver as above and an
 // answer for each threshold, which are two for each tap (compare/ladder/live_picture.h), in a list that grows by doubling.
 constexpr double per_live_answer = 2 * sizeof(LiveAnswer);
+// Of the flicker to the next frame: four lookups and what is booked of them, which pixels see a receiver and which light
+// reaches it there, and the receivers as they are uploaded again.
+constexpr double per_flicker_pixel = 90;
 constexpr double least_grid_cells = 256 * 256, most_grid_cells = 2048 * 2048;
 
 // asked: the texels that taps read.
@@ -119,6 +122,9 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
     else
       placements += strip + pixels * per_pixel;
   }
+  // A snapped map is drawn cell by cell and then put in order; the next frame of a motion has a map of its own.
+  const double more_maps = texels * sizeof(float) * ((s.map.snap ? 1 : 0) + (s.view.motion.any() ? 1 : 0));
+  const double motion = s.view.motion.any() ? pixels * per_flicker_pixel : 0;
   double live = 0;
   if (input.pictures && why_no_live_picture(s).empty()) {
     const double live_pixels = std::min<double>(pixels, most_live_width_px * most_live_height_px);
@@ -130,12 +136,12 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
       {"the program itself", "use a machine with more memory, or raise its limit", program},
       {"the scene", "use a scene with fewer triangles (scene.name, scene.mesh)", scene},
       {"the picture", "lower view.width_px and view.height_px",
-       pixels * (per_pixel + (input.pictures ? per_picture_pixel : 0))},
+       pixels * (per_pixel + (input.pictures ? per_picture_pixel : 0)) + motion},
       {"the taps",
        curve > outside ? "lower filter.size, view.width_px or view.height_px, or set curve.enabled = false"
                        : "lower filter.size, view.width_px or view.height_px, or widen map.extent_m",
        strip + beside},
-      {"the shadow map", "lower map.resolution", map},
+      {"the shadow map", "lower map.resolution", map + more_maps},
   }};
 }
 

@@ -10,6 +10,7 @@
 #include "app/view_frustum.h"
 #include "app/view_map.h"
 #include "app/view_shading.h"
+#include "compare/report/cause_colors.h"
 #include "compare/store/quantities.h"
 
 namespace noonmark {
@@ -83,6 +84,29 @@ Image<Color> greys(const Measurement& m, const Image<float>& frame) {
   return paint(m, [&](size_t i) { return grey(frame[i]); });
 }
 
+// The film strip of a motion: this frame's light and the next one's, at the same points of the world, and what changed,
+// beside each other. What has no flicker is grey; what does not count is dark.
+Image<Color> film_strip(const Measurement& m) {
+  const Flicker& flicker = *m.flicker;
+  const Image<Color> changes = paint(m, [&](size_t i) {
+    if (!flicker.points.counted[i]) return named_color("attached");
+    glm::vec3 color(0.72f * glm::vec3(named_color(flicker.now[i] > 0.5f ? "lit" : "shadowed")));
+    const float change = std::abs(flicker.next[i] - flicker.now[i]);
+    if (change == 0) return Color(color + 0.5f);
+    glm::vec3 mixed(0);
+    for (size_t c = 0; c < flicker_classes; ++c)
+      mixed += flicker.parts[c][i] / change * glm::vec3(flicker_colors[c].r, flicker_colors[c].g, flicker_colors[c].b);
+    return Color(glm::clamp(glm::mix(color, mixed, 0.4f + 0.6f * std::min(1.0f, change)), 0.0f, 255.0f));
+  });
+  const Image<Color> frames[] = {shaded(m, flicker.now), shaded(m, flicker.next), changes};
+  const int width = changes.width, gap = crop_gap;
+  Image<Color> strip(3 * width + 2 * gap, changes.height, Color(255));
+  for (int f = 0; f < 3; ++f)
+    for (int y = 0; y < changes.height; ++y)
+      for (int x = 0; x < width; ++x) strip.at(f * (width + gap) + x, y) = frames[f].at(x, y);
+  return strip;
+}
+
 // Copies the surroundings of (x, y) to `to`, from column `left` on, and frames the pixel.
 void enlarge(const Image<Color>& from, int x, int y, Image<Color>& to, int left) {
   constexpr Color frame{255, 255, 255}, outer{0, 0, 0};
@@ -140,6 +164,14 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
   add("difference",
       fmt::format("{} minus truth: too dark is orange, too light is blue.", given ? "Given picture" : "Map"),
       difference(m));
+  if (m.flicker)
+    add("flicker",
+        fmt::format("What the shadow map shows at the points of frame {0} (left), what that of frame {1} shows at the "
+                    "same points of the world (middle), and what changed although the truth did not (right): the grid "
+                    "moved (orange), depths were re-rounded (pink), the kernel turned (blue), "
+                    "or the map's edge passed (green).",
+                    m.settings.view.motion.frame, m.settings.view.motion.frame + 1),
+        film_strip(m));
   add("depth",
       m.frame.map_shape() == MapShape::cube
           ? "The cube map unfolded, as it looks from outside: bright is near in metres, black is empty."

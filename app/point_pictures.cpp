@@ -23,6 +23,18 @@ constexpr uint64_t max_picture_bytes = uint64_t{1} << 28;
 // PNG specification, section 5.2.
 constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 
+// The frame of a motion with the largest flicker; -1 if there is none that flickers.
+int64_t worst_instant(const std::vector<PointRecord>& points) {
+  int64_t id = -1;
+  double most = 0;
+  for (const PointRecord& point : points)
+    if (const auto found = point.metrics.find("flicker"); found != point.metrics.end() && !(found->second <= most)) {
+      id = point.id;
+      most = found->second;
+    }
+  return id;
+}
+
 }  // namespace
 
 std::vector<int64_t> points_with_pictures(const std::string& pictures, const Results& results) {
@@ -43,6 +55,8 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const Res
                           [&](const PointRecord& a, const PointRecord& b) { return badness(a) < badness(b); });
   if (pictures == "extremes" && best != worst) ids.push_back(best->id);
   ids.push_back(worst->id);
+  if (const int64_t id = worst_instant(points); id >= 0 && std::find(ids.begin(), ids.end(), id) == ids.end())
+    ids.push_back(id);
   // Points of different parts have no common answer.
   if (!points.front().part.empty()) return ids;
   const Recommendation found = recommend(results);

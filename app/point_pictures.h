@@ -14,8 +14,8 @@
 
 namespace noonmark {
 
-// Ids of the points, selected by the experiment's `pictures`. `worst` and `extremes` select by error and need all
-// points; an error that is not finite is the worst. Both also select the first point of the recommended choice, because
+// Ids of the points, selected by the experiment's `pictures`. `worst` and `extremes` select by error, and of a motion the
+// frame with the largest flicker too; they need all points; an error that is not finite is the worst. Both also select the first point of the recommended choice, because
 // the report's first screen shows it. results: with the verdicts of the bounds, which the recommendation reads.
 std::vector<int64_t> points_with_pictures(const std::string& pictures, const Results& results);
 

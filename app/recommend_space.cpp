@@ -73,6 +73,10 @@ std::vector<Settings> turned_views(const Settings& settings, const Scene& scene)
     const glm::dquat turn = glm::angleAxis(turn_deg * std::numbers::pi / 180, glm::normalize(camera.up));
     view.view.eye_m = inside ? camera.eye_m : camera.target_m + turn * (camera.eye_m - camera.target_m);
     view.view.target_m = inside ? camera.eye_m + turn * (camera.target_m - camera.eye_m) : camera.target_m;
+    // The camera of the motion's frame is set already. Its zoom is not: that is of the angle of view.
+    if (view.view.motion.turn_deg) view.view.up = camera.up;
+    view.view.motion.move_m.reset();
+    view.view.motion.turn_deg.reset();
     views.push_back(view);
   }
   return views;

@@ -17,7 +17,7 @@ std::string truth_key_of(const Settings& settings) {
 
 std::string map_key_of(const Settings& settings) {
   const std::string key = settings_key(settings, {Stage::scene, Stage::map});
-  return settings.map.fit == MapFit::view ? key + settings_key(settings, {Stage::view}) : key;
+  return fits_view(settings.map.fit) ? key + settings_key(settings, {Stage::view}) : key;
 }
 
 std::string lookup_key_of(const Settings& settings) {

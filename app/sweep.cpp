@@ -196,7 +196,7 @@ bool has_what_a_sweep_reads(const PointRecord& point) {
   const auto has = [&](std::string_view name) { return point.metrics.contains(std::string(name)); };
   return has("facing") && has("error") &&
          std::all_of(std::begin(sound_limits), std::end(sound_limits), [&](const SoundLimit& limit) {
-           return has(limit.metric) || find_metric(limit.metric).of_placements;
+           return has(limit.metric) || find_metric(limit.metric).optional();
          });
 }
 

@@ -60,6 +60,18 @@ void print_placements(const Measurement& m) {
              100 * metrics.at("error_worst_shown"));
 }
 
+// "from frame 3 to frame 4", and a line for each metric.
+void print_flicker(const Measurement& m) {
+  if (!m.flicker) return;
+  const int frame = m.settings.view.motion.frame;
+  fmt::print("\n  {:<32}{:>11.0f} points\n", fmt::format("from frame {} to frame {}", frame, frame + 1),
+             m.record.metrics.at("flicker_points"));
+  for (const Metric& metric : metrics_table())
+    if (const auto found = m.record.metrics.find(std::string(metric.name));
+        metric.of_motion && metric.unit == "fraction" && found != m.record.metrics.end())
+      fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * found->second);
+}
+
 // clock: what the times come from.
 void print_ladder(const Measurement& m, const char* clock) {
   const auto value = [&](const char* name) { return m.record.metrics.at(name); };
@@ -76,10 +88,11 @@ void print_ladder(const Measurement& m, const char* clock) {
         judged_rung(m.record), m.record.causes.front().name);
   fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
   for (const Metric& metric : metrics_of({&m.record, 1}))
-    if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" &&
-        !metric.of_placements)  // printed otherwise
+    if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
+        !metric.of_motion)  // printed otherwise
       fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
   print_placements(m);
+  print_flicker(m);
   fmt::print("\n");
   if (const std::string doubt = undecided_note({&m.record, 1}); !doubt.empty()) fmt::print("  {}\n\n", doubt);
   for (const char* name : {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "residual",

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "app/experiment.h"
+#include "app/flicker_stage.h"
 #include "app/placement_stage.h"
 #include "app/stage_keys.h"
 #include "app/view_shading.h"
@@ -381,6 +382,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
                 scene,
                 view.receivers,
                 lookup.probe,
+                {},
                 std::move(shown.stored),
                 lookup.exact_depth,
                 {}};
@@ -391,6 +393,10 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       if (placements) add_bands(curve, placements->counts(), scale.depth_per_unit);
       return curve;
     });
+  if (settings.view.motion.any()) {
+    m.flicker = trace_flicker({*b.stages, b.renderer, loaded, view, truth, point, shown.r5});
+    m.record.metrics.merge(measure_flicker(*m.flicker));
+  }
   if (placements && !nothing_judged(m.record)) b.add_placements(m.record, *placements, view, truth, point);
   m.stored_rows = [&b, &scene, frame, settings](int first_row, int count) {
     return b.renderer.read_rows(*b.drawn(scene, {settings, frame}).map, first_row, count);

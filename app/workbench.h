@@ -13,6 +13,7 @@
 
 #include "app/phase_diagram.h"
 #include "app/stages.h"
+#include "compare/ladder/flicker.h"
 #include "compare/ladder/live_picture.h"
 #include "compare/store/records.h"
 
@@ -28,6 +29,7 @@ struct Measurement {
   const Scene& scene;
   const ReceiverImage& receivers;
   const LookupProbe& probe;
+  std::optional<Flicker> flicker;  // from this frame to the next, if the settings have a motion
   MapDepths stored_map;  // as the lookup's sampler returns it, at the texels that taps of facing receivers read
   const MapDepths& exact_map;
   // The whole stored map, by rows from the lowest v on: (first row, number of rows). It is read from the device, and a

@@ -69,6 +69,9 @@ void Program::set_if_used(const char* uniform, float value) {
 void Program::set_if_used(const char* uniform, int value) {
   glProgramUniform1i(id(), glGetUniformLocation(id(), uniform), value);
 }
+void Program::set_if_used(const char* uniform, glm::vec2 value) {
+  glProgramUniform2fv(id(), glGetUniformLocation(id(), uniform), 1, &value.x);
+}
 void Program::set_if_used(const char* uniform, glm::vec3 value) {
   glProgramUniform3fv(id(), glGetUniformLocation(id(), uniform), 1, &value.x);
 }

@@ -36,6 +36,7 @@ class Program {
   // The same, but without an error if the program does not use the uniform. Only some files of a slot use these.
   void set_if_used(const char* uniform, float value);
   void set_if_used(const char* uniform, int value);
+  void set_if_used(const char* uniform, glm::vec2 value);
   void set_if_used(const char* uniform, glm::vec3 value);
   void set_if_used(const char* uniform, const glm::mat3& value);
   void set_if_used(const char* uniform, const glm::mat4& value);

@@ -95,7 +95,9 @@ class Renderer {
   Image<uint32_t> render_primitives(const Camera& camera, int width, int height, std::span<const uint32_t> unseen = {});
 
   // Uploads P and N. eye_m is the position of the camera, for filters that grow with the view distance.
-  void load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m);
+  // pixels: the pixel that each receiver has on the screen (row * width + column), for filters that are rotated by it;
+  // null: its own, the place in the image.
+  void load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m, const Image<uint32_t>* pixels = nullptr);
 
   // Renders the scene's depth from the light. Reads settings.map and the polygon offset of settings.bias; parts that
   // move the casters' vertices act through `casters` alone. time_ms, if given, receives the time of the pass alone

@@ -87,6 +87,9 @@ struct Renderer::Impl {
   // Runs the pass. If time_ms is given, the pass runs twice, and time_ms receives the time of the second run.
   void run(double* time_ms, const std::function<void()>& pass);
 
+  Texture draw_cells(Program& program, const LightFrame& frame, Texture map, GLenum format, Wrap wrap,
+                     const std::function<void()>& draw);
+
   // Throw Error(usage) if the device or its memory does not allow such a map.
   void check_resolution(int resolution, bool cube) const;
   Texture make_map_texture(GLenum format, int resolution, bool cube, Wrap wrap);

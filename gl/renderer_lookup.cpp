@@ -23,7 +23,7 @@ bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) &&
 
 }  // namespace
 
-void Renderer::load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m) {
+void Renderer::load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m, const Image<uint32_t>* pixels) {
   Impl& r = *impl_;
   r.context->make_current();
   const int width = receivers.width(), height = receivers.height();
@@ -33,14 +33,17 @@ void Renderer::load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m) 
                                                receivers.position.size(), receivers.normal.size(), count));
   r.require(r.position_image, GL_RGBA32F, width, height);
   r.require(r.normal_image, GL_RGBA32F, width, height);
+  const auto pixel_of = [&](size_t i) { return pixels ? (*pixels)[i] : static_cast<uint32_t>(i); };
   std::vector<glm::vec4> texels(count);
   for (size_t i = 0; i < count; ++i) {
     const glm::vec3 p = receivers.position[i];
     const bool present = receivers.primitive[i] != no_primitive && is_finite(p) && is_finite(receivers.normal[i]);
-    texels[i] = present ? glm::vec4(p, 1) : glm::vec4(0);
+    texels[i] = present ? glm::vec4(p, 1 + pixel_of(i) % static_cast<uint32_t>(width)) : glm::vec4(0);
   }
   glTextureSubImage2D(r.position_image.texture.id(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, texels.data());
-  for (size_t i = 0; i < count; ++i) texels[i] = texels[i].w != 0 ? glm::vec4(receivers.normal[i], 0) : glm::vec4(0);
+  for (size_t i = 0; i < count; ++i)
+    texels[i] =
+        texels[i].w != 0 ? glm::vec4(receivers.normal[i], pixel_of(i) / static_cast<uint32_t>(width)) : glm::vec4(0);
   glTextureSubImage2D(r.normal_image.texture.id(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT, texels.data());
   r.eye_m = glm::vec3(eye_m);
   r.context->check("load_receivers");
@@ -48,7 +51,7 @@ void Renderer::load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m) 
 
 void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& frame, const Settings& settings) {
   if (!position_image.texture) throw std::logic_error("load_receivers comes before lookup and probe");
-  const glm::vec3 light_position(frame.origin_m);
+  const glm::vec3 light_position(frame.drawn_origin_m());
   const auto set = [&](const char* name, double value) { program.set_if_used(name, static_cast<float>(value)); };
   // The uniforms of the light, for shaders/light/view.glsl and the files beside it. Texel size and bias unit are those
   // at one metre along the axis of the light or of the cube's face, in the light's frame.
@@ -59,7 +62,9 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
   set("light_bias_unit", frame.depth_per_bias_unit(settings.bias.unit, one_metre));
   set("light_far_m", frame.far_m);
   if (frame.map_shape() == MapShape::flat) {
-    const glm::dmat4 clip_from_world = frame.clip_from_world(0);
+    const glm::dmat4 clip_from_world = frame.drawn_clip_from_world(frame.tile(0));
+    program.set_if_used("snapped_step", frame.anchor_m ? frame.snapped_step() : 0.0f);
+    program.set_if_used("snapped_corner", glm::vec2(frame.snapped_corner()));
     // Planes are relative to the light, so that their offsets are small.
     const glm::dmat4 clip_from_light = glm::translate(clip_from_world, glm::dvec3(light_position));
     program.set("clip_from_world", glm::mat4(clip_from_world));

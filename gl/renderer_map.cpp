@@ -45,6 +45,32 @@ constexpr GLfloat far_depth = 1;
 
 }  // namespace
 
+// Draws a snapped map cell by cell: each texel of the grid always at the same place of the window, whichever map it is
+// in, and so with the same rounding. The cells' parts fill one map without overlap, but not in order; they are then
+// copied to their places. Returns the map.
+Texture Renderer::Impl::draw_cells(Program& program, const LightFrame& frame, Texture map, GLenum format, Wrap wrap,
+                                   const std::function<void()>& draw) {
+  const std::vector<LightFrame::Cell> cells = frame.snapped_cells();
+  glClearBufferfv(GL_DEPTH, 0, &far_depth);
+  glEnable(GL_SCISSOR_TEST);
+  for (const LightFrame::Cell& part : cells) {
+    const glm::ivec2 size = part.end - part.first;
+    glScissor(part.first.x, part.first.y, size.x, size.y);
+    program.set_if_used("cell", glm::vec2(part.cell));
+    draw();
+  }
+  glDisable(GL_SCISSOR_TEST);
+  program.set_if_used("cell", glm::vec2(0));
+  if (cells.size() == 1) return map;
+  Texture ordered = make_map_texture(format, frame.resolution, false, wrap);
+  for (const LightFrame::Cell& part : cells) {
+    const glm::ivec2 size = part.end - part.first;
+    glCopyImageSubData(map.id(), GL_TEXTURE_2D, 0, part.first.x, part.first.y, 0, ordered.id(), GL_TEXTURE_2D, 0,
+                       part.to.x, part.to.y, 0, size.x, size.y, 1);
+  }
+  return ordered;
+}
+
 ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings, double* time_ms,
                                std::span<const glm::vec3> casters) {
   Impl& r = *impl_;
@@ -61,7 +87,8 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
       : layered ? ShaderStages{"shaders/cube_layers.vert", "shaders/distance.frag", "shaders/cube_layers.geom"}
                 : ShaderStages{"shaders/cube_face.vert", "shaders/distance.frag"});
   std::vector<glm::mat4> clip_from_world;
-  for (int tile = 0; tile < frame.tiles; ++tile) clip_from_world.emplace_back(frame.clip_from_world(tile));
+  for (int tile = 0; tile < frame.tiles; ++tile)
+    clip_from_world.emplace_back(frame.drawn_clip_from_world(frame.tile(tile)));
   if (cube) {
     program.set("light_position", glm::vec3(frame.origin_m));
     program.set("light_far_m", static_cast<float>(frame.far_m));
@@ -79,6 +106,10 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
       draw_once();
     }
   };
+  // As an engine draws it, at once: the cell of the map itself. If the map is snapped this is what is timed, but a
+  // rasteriser rounds a triangle's depths by its place in the window, so that the map would change by that when it moves.
+  if (!cube)
+    program.set_if_used("cell", glm::vec2(frame.anchor_m ? frame.anchor_texels / double(side) : glm::dvec2(0)));
   if (layered)
     program.set("clip_from_world", std::span<const glm::mat4>(clip_from_world));
   else
@@ -99,7 +130,10 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
   // OpenGL ignores the offset if the shader writes its own depth, as it does for a cube.
   set_enabled(GL_POLYGON_OFFSET_FILL, offset.has_value());
   if (offset) glPolygonOffset(offset->factor, offset->units);
-  r.run(time_ms, cube && !layered ? std::function<void()>(draw_faces) : draw_once);
+  if (time_ms || !frame.anchor_m) r.run(time_ms, cube && !layered ? std::function<void()>(draw_faces) : draw_once);
+  if (frame.anchor_m)
+    depth = r.draw_cells(program, frame, std::move(depth), gl_format(settings.map.format), settings.map.wrap,
+                         [&] { r.draw_scene(program); });
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_CLAMP);
   if (!casters.empty()) glVertexArrayVertexBuffer(r.scene_vertices.id(), 0, r.positions.id(), 0, sizeof(glm::vec3));

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "scenes/camera_frame.h"
 #include "scenes/error.h"
@@ -51,6 +52,23 @@ Depths depths_in_view(const Scene& scene, const CameraFrame& frame) {
   return depths;
 }
 
+// The camera of the motion's frame.
+void move_camera(Camera& camera, const MotionSettings& motion) {
+  if (motion.frame == 0) return;
+  const double n = motion.frame;
+  glm::dvec3 way = camera.target_m - camera.eye_m;
+  if (motion.move_m) camera.eye_m += n * *motion.move_m;
+  if (motion.turn_deg) {
+    const glm::dmat3 turn = rotation_of(n * *motion.turn_deg);
+    way = turn * way;
+    camera.up = turn * camera.up;
+  }
+  camera.target_m = camera.eye_m + way;
+  const double enlarged = std::pow(motion.zoom, n);
+  camera.fov_y_deg = std::atan(std::tan(camera.fov_y_deg * std::numbers::pi / 360) / enlarged) * 360 / std::numbers::pi;
+  camera.height_m /= enlarged;
+}
+
 void require_upright(const Camera& camera) {
   const glm::dvec3 view = camera.target_m - camera.eye_m;
   constexpr double least_sine = 1e-6;  // as in upright_axes
@@ -83,6 +101,7 @@ Camera effective_camera(const Scene& scene, const ViewSettings& view) {
   if (view.fit_depths) camera.near_m = camera.far_m = std::nullopt;
   if (view.near_m) camera.near_m = view.near_m;
   if (view.far_m) camera.far_m = view.far_m;
+  move_camera(camera, view.motion);
   make_camera_frame(camera, view.width_px, view.height_px);  // refuses what is no camera
   if (view.up) require_upright(camera);
   if (camera.near_m && camera.far_m) return camera;

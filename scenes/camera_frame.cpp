@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
 #include "scenes/error.h"
@@ -16,6 +17,12 @@ void upright_axes(glm::dvec3 forward, glm::dvec3 up_hint, glm::dvec3& right, glm
   if (!(glm::length(side) > 1e-6)) side = glm::cross(forward, glm::dvec3(0, 1, 0));
   right = glm::normalize(side);
   up = glm::cross(right, forward);
+}
+
+glm::dmat3 rotation_of(glm::dvec3 turn_deg) {
+  const double length_deg = glm::length(turn_deg);
+  return length_deg == 0 ? glm::dmat3(1)
+                         : glm::mat3_cast(glm::angleAxis(length_deg * (std::numbers::pi / 180), turn_deg / length_deg));
 }
 
 CameraFrame make_camera_frame(const Camera& camera, int width, int height) {

@@ -28,6 +28,9 @@ struct CameraFrame {
   glm::dmat4 clip_from_world() const;  // of a camera with near and far
 };
 
+// The rotation by a vector: its axis times its angle in degrees, counter-clockwise as seen from the vector's tip.
+glm::dmat3 rotation_of(glm::dvec3 turn_deg);
+
 // Throws Error(usage) when eye and target coincide or near >= far.
 CameraFrame make_camera_frame(const Camera& camera, int width, int height);
 

@@ -30,6 +30,28 @@ struct SceneSettings {
   int animation = 0;                      // which of the file's animations time_s is a time of
 };
 
+// How camera and light move from one frame to the next. Frame 0 is what the other settings say. Frame n is n steps
+// later, computed from frame 0 and not from frame n - 1. What moves the camera is read by effective_camera()
+// (scenes/camera_fit.h), what moves the light by effective_light() (technique/light_frame.h).
+struct MotionSettings {
+  int frame = 0;
+  // Of the camera, for each frame: a move of eye and target, in the world; a rotation about the eye, as the axis times
+  // the angle; and the factor by which the picture is enlarged.
+  std::optional<glm::dvec3> move_m;
+  std::optional<glm::dvec3> turn_deg;
+  double zoom = 1;
+  // Of the light: a rotation of position and target about the pivot (empty: the target). Without a period it is the
+  // rotation of each frame (a sun through a day). With one the light swings: frame n is turned by
+  // sin(2 pi n / period) times the vector.
+  std::optional<glm::dvec3> light_turn_deg;
+  std::optional<glm::dvec3> light_pivot_m;
+  int light_period = 0;  // frames; 0: no swing
+  double time_s = 0;     // by which scene.time_s of the next frame is later
+
+  // Whether the next frame can differ from this one.
+  bool any() const { return move_m || turn_deg || zoom != 1 || light_turn_deg || time_s != 0; }
+};
+
 struct ViewSettings {
   int width_px = 1280;
   int height_px = 720;
@@ -40,6 +62,7 @@ struct ViewSettings {
   std::optional<double> near_m;        // along the view; empty: the scene's, or fitted (scenes/camera_fit.h)
   std::optional<double> far_m;
   bool fit_depths = false;  // near and far fitted, also where the scene's file gives them
+  MotionSettings motion;
 };
 
 }  // namespace noonmark

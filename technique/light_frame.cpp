@@ -4,8 +4,11 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 
+#include "scenes/camera_frame.h"
 #include "technique/setting_rules.h"
 #include "technique/sun.h"
 #include "technique/view_fit.h"
@@ -47,6 +50,13 @@ bool LightFrame::has_depth(TileDepth depth) const {
 }
 
 glm::dmat4 LightFrame::clip_from_world(const MapTile& t) const {
+  LightFrame unsnapped = *this;
+  unsnapped.anchor_m.reset();
+  return unsnapped.drawn_clip_from_world(t);
+}
+
+glm::dmat4 LightFrame::drawn_clip_from_world(const MapTile& t) const {
+  const glm::dvec3 from = drawn_origin_m();
   const auto in_world = [&](glm::dvec3 axis) { return axis.x * right + axis.y * up + axis.z * forward; };
   const glm::dvec3 axes[3] = {in_world(t.right), in_world(t.up), in_world(t.forward)};
   const double range = t.far_m - t.near_m;
@@ -72,9 +82,31 @@ glm::dmat4 LightFrame::clip_from_world(const MapTile& t) const {
   glm::dmat4 matrix(0);  // column-major: matrix[column][row]
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 3; ++column) matrix[column][row] = rows[row][column];
-    matrix[3][row] = offsets[row] - glm::dot(rows[row], origin_m);
+    matrix[3][row] = offsets[row] - glm::dot(rows[row], from);
   }
   return matrix;
+}
+
+float LightFrame::snapped_step() const {
+  return std::ldexp(1.0f, std::ilogb(4.0f * static_cast<float>(resolution)) - std::numeric_limits<float>::digits + 1);
+}
+
+std::vector<LightFrame::Cell> LightFrame::snapped_cells() const {
+  struct Piece {
+    int cell, first, end, to;
+  };
+  const auto along = [&](double texels) {
+    const int cell = static_cast<int>(std::floor(texels / resolution));
+    const int before = static_cast<int>(texels - static_cast<double>(cell) * resolution);
+    std::vector<Piece> parts = {{cell, before, resolution, 0}};
+    if (before > 0) parts.push_back({cell + 1, 0, before, resolution - before});
+    return parts;
+  };
+  std::vector<Cell> cells;
+  for (const Piece& v : along(anchor_texels.y))
+    for (const Piece& u : along(anchor_texels.x))
+      cells.push_back({{u.cell, v.cell}, {u.first, v.first}, {u.end, v.end}, {u.to, v.to}});
+  return cells;
 }
 
 double LightFrame::depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const {
@@ -107,6 +139,17 @@ glm::dvec3 way_to_sun(const Light& scenes, const LightSettings& settings) {
   return direction * (distance > 0 ? distance : 1);
 }
 
+// The light of the motion's frame.
+void move_light(Light& light, const MotionSettings& motion) {
+  if (!motion.light_turn_deg || motion.frame == 0) return;
+  const double n = motion.frame;
+  const double turns = motion.light_period > 0 ? std::sin(2 * std::numbers::pi * n / motion.light_period) : n;
+  const glm::dmat3 turn = rotation_of(turns * *motion.light_turn_deg);
+  const glm::dvec3 pivot = motion.light_pivot_m.value_or(light.target_m);
+  light.position_m = pivot + turn * (light.position_m - pivot);
+  light.target_m = pivot + turn * (light.target_m - pivot);
+}
+
 }  // namespace
 
 Light effective_light(const Scene& scene, const Settings& settings) {
@@ -116,6 +159,7 @@ Light effective_light(const Scene& scene, const Settings& settings) {
   if (s.position_m) light.position_m = *s.position_m;
   if (s.target_m) light.target_m = *s.target_m;
   if (s.azimuth_deg || s.elevation_deg) light.position_m = light.target_m + way_to_sun(scene.light, s);
+  move_light(light, settings.view.motion);
   if (s.angular_diameter_deg) light.angular_diameter_deg = *s.angular_diameter_deg;
   if (s.radius_m) light.radius_m = *s.radius_m;
   if (s.cone_deg) light.cone_deg = *s.cone_deg;
@@ -123,18 +167,33 @@ Light effective_light(const Scene& scene, const Settings& settings) {
   return light;
 }
 
+namespace {
+
+std::optional<ViewFit> fit_of_view(const Scene& scene, const Settings& settings, const LightFrame& axes) {
+  if (settings.map.fit == MapFit::view) return fit_to_view(scene, settings.view, axes);
+  if (settings.map.fit == MapFit::sphere) return fit_to_sphere(scene, settings.view, settings.map, axes);
+  return std::nullopt;
+}
+
+}  // namespace
+
 LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
   const Light light = effective_light(scene, settings);
   validate(settings, light.kind);
   // The scene's own map volume fits only the scene's own light.
   const KindOfLight& kind = kind_of_light(light.kind);
   const LightSettings& set = settings.light;
-  const bool moved = set.position_m || (set.target_m && kind.is_aimed()) || set.azimuth_deg || set.elevation_deg;
+  const bool moved = set.position_m || (set.target_m && kind.is_aimed()) || set.azimuth_deg || set.elevation_deg ||
+                     settings.view.motion.light_turn_deg;
   const bool scenes_own = scene.map && light.kind == scene.light.kind && !moved && settings.map.fit == MapFit::scene;
   LightFrame frame = kind.axes(light);
-  const std::optional<ViewFit> in_view =
-      settings.map.fit == MapFit::view ? fit_to_view(scene, settings.view, frame) : std::nullopt;
-  const MapVolume volume = in_view ? in_view->volume : scenes_own ? *scene.map : fit_map(scene, light);
+  const std::optional<ViewFit> in_view = fit_of_view(scene, settings, frame);
+  MapVolume volume = in_view ? in_view->volume : scenes_own ? *scene.map : fit_map(scene, light);
+  if (settings.map.depth_range == DepthRange::scene && kind.rays().have_one_direction()) {
+    const MapVolume whole = fit_map(scene, light);
+    volume.near_m = whole.near_m;
+    volume.far_m = whole.far_m;
+  }
   if (in_view) frame.origin_m += in_view->middle_m.x * frame.right + in_view->middle_m.y * frame.up;
   frame.near_m = settings.map.near_m.value_or(volume.near_m);
   frame.far_m = settings.map.far_m.value_or(volume.far_m);

@@ -14,6 +14,8 @@
 // image of resolution x 6 resolution texels: texel (i, j) of face f is (i, f * resolution + j).
 #pragma once
 #include <glm/glm.hpp>
+#include <optional>
+#include <vector>
 
 #include "scenes/scene.h"
 #include "technique/light_kind.h"
@@ -31,6 +33,11 @@ struct LightFrame {
   // where u, v and z are 0. It is the light's position moved, in its plane, to the middle of the map (map.fit = view) and
   // by map.shift_*_texels and map.snap.
   glm::dvec3 origin_m{0};
+  // Directional with map.snap: the origin of OpenGL's matrix. It does not move with the camera, and its texel grid is
+  // that of the map: origin_m is a whole number of texels from it. So the matrix is bit for bit the same in every frame,
+  // and the map's place is an exact number that the shaders subtract (drawn_clip_from_world).
+  std::optional<glm::dvec3> anchor_m;
+  glm::dvec2 anchor_texels{0};  // whole texels from the anchor to origin_m, along right and up
   // Unit vectors. For a point light they are the axes of the world.
   glm::dvec3 right{1, 0, 0};
   glm::dvec3 up{0, 1, 0};
@@ -106,6 +113,24 @@ struct LightFrame {
 
   glm::dmat4 clip_from_world(const MapTile& tile) const;
   glm::dmat4 clip_from_world(int index) const { return clip_from_world(tile(index)); }
+  // OpenGL's matrix is one from the anchor; without an anchor it is clip_from_world(). From the anchor the grid is the same
+  // in every frame, and a snapped map is a window of resolution x resolution texels on it, of which (snapped_corner) is
+  // the first. OpenGL takes that from the place in the grid, exactly: a map is drawn cell by cell (snapped_cells), and a
+  // lookup rounds its place to snapped_step before the subtraction. So two maps on one grid have bit for bit the same
+  // texels, and a receiver has the same place in them.
+  glm::dvec3 drawn_origin_m() const { return anchor_m.value_or(origin_m); }
+  glm::dmat4 drawn_clip_from_world(const MapTile& tile) const;
+  // Texels from the anchor to the map's first corner; a half one if the resolution is odd.
+  glm::dvec2 snapped_corner() const { return anchor_texels - resolution / 2.0; }
+  // In texels: the step of floats as large as 4 maps. So a place is exact after the subtraction if it lies within two
+  // maps of the middle.
+  float snapped_step() const;
+  // The cells of the grid in which the map lies: maps side by side, one of which has the anchor in its middle. `first`
+  // and `end` bound the part in texels of the cell; the same texels of the map begin at `to`.
+  struct Cell {
+    glm::ivec2 cell{0}, first{0}, end{0}, to{0};
+  };
+  std::vector<Cell> snapped_cells() const;
   // The window depth of one unit of bias (settings.bias.unit), at a point in the light's frame.
   double depth_per_bias_unit(BiasUnit unit, glm::dvec3 point) const;
 };

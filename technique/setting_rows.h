@@ -1,5 +1,6 @@
 // Functions that make the rows of technique/settings.cpp. There is one for each kind of member; it makes the functions
-// that read and write the member as text. Only settings.cpp includes this file.
+// that read and write the member as text. Only settings.cpp and motion_rows.cpp include
+// this file.
 #pragma once
 #include <fmt/format.h>
 
@@ -142,5 +143,7 @@ Setting named(std::string_view name, std::string_view help, const Rows& rows, Me
   };
   return row;
 }
+
+std::vector<Setting> motion_rows();  // technique/motion_rows.cpp
 
 }  // namespace noonmark::setting_rows

@@ -65,6 +65,9 @@ std::string where_map_is_given(const Settings&, LightKind);
 std::string without_size_of_light(const Settings&, LightKind);
 std::string without_part_in_unit(const Settings&, LightKind);
 std::string without_capped_plane(const Settings&, LightKind);
+std::string without_sphere(const Settings&, LightKind);
+std::string without_motion(const Settings&, LightKind);
+std::string without_turning_light(const Settings&, LightKind);
 
 // The conflict as a whole message; empty if there is none. light: as for validate().
 std::string map_near_beyond_far(const Settings&, std::optional<LightKind>);

@@ -117,6 +117,7 @@ Setting filter_row(const FilterParameter& parameter) {
 Stages stages_of_group(std::string_view group) {
   if (group == "scene") return {Stage::scene};
   if (group == "view") return {Stage::view};
+  if (group == "motion") return {Stage::view, Stage::truth, Stage::map, Stage::lookup};
   if (group == "light") return {Stage::truth, Stage::map, Stage::lookup};
   if (group == "map") return {Stage::map, Stage::lookup};
   if (group == "bias" || group == "filter") return {Stage::lookup};
@@ -245,14 +246,26 @@ std::vector<Setting> make_table() {
               MEMBER(map.resolution)),
       choice("map.format", {"16", "24", "32f"}, "Depth format of the shadow map.", MEMBER(map.format))
           .only_read_by({Stage::map}),
-      choice("map.fit", {"scene", "tight", "view"},
+      choice("map.fit", {"scene", "tight", "view", "sphere"},
              "Where extent, near and far come from if they are auto. scene: from the scene, or fitted tightly if the "
              "scene has none or the light is not the scene's; tight: always fitted tightly around the scene; view "
              "(directional): fitted to the part of the scene in the picture's frustum, and near also to what can cast "
-             "a shadow on it.",
+             "a shadow on it; sphere (directional): around the least sphere that holds the picture's frustum up to "
+             "map.reach_m, so that the extent is the same wherever the camera stands and looks.",
              MEMBER(map.fit))
           .idle(where_map_is_given)
           .refused(view_fit_without_parallel_rays),
+      real(
+          "map.reach_m", "m", 1e-6, 1e9,
+          "map.fit = sphere: how far from the camera the map covers what is in view; auto: the diagonal of the scene's "
+          "box.",
+          MEMBER(map.reach_m))
+          .idle(without_sphere),
+      choice("map.depth_range", {"fit", "scene"},
+             "directional: what near and far are if they are auto. fit: by map.fit; scene: those of the whole scene, "
+             "whatever the camera sees, so that depths are rounded alike in every frame.",
+             MEMBER(map.depth_range))
+          .idle(without_parallel_rays),
       real("map.extent_m", "m", 1e-6, 1e9,
            "directional: whole width of the area that the map covers; auto: by map.fit.", MEMBER(map.extent_m))
           .idle(without_parallel_rays),
@@ -264,7 +277,8 @@ std::vector<Setting> make_table() {
           .idle(without_cone),
       flag("map.snap",
            "directional: moves the map by less than a texel, so that its texel grid stays fixed in the world when the "
-           "light's position or target moves without a rotation.",
+           "light's position or target moves without a rotation, or when the map follows the view and keeps its extent "
+           "(map.fit = sphere).",
            MEMBER(map.snap))
           .refused(snapped_perspective),
       real("map.shift_u_texels", "texels", -1, 1,
@@ -341,6 +355,9 @@ std::vector<Setting> make_table() {
     for (const auto& parameter : parameters) at = table.insert(at + 1, row_of(parameter));
   };
   after("bias.plane_cap", bias_parameters(), bias_row);
+  const std::vector<Setting> motion = motion_rows();
+  table.insert(std::find_if(table.begin(), table.end(), [](const Setting& row) { return row.name == "light.kind"; }),
+               motion.begin(), motion.end());
   after("filter.kind", filter_parameters(), [](const FilterParameter* parameter) { return filter_row(*parameter); });
   for (Setting& row : table)
     if (row.read_by.bits == 0) row.read_by = stages_of_group(row.name.substr(0, row.name.find('.')));

@@ -26,7 +26,8 @@ namespace noonmark {
 enum class DepthFormat { d16, d24, d32f };
 enum class Wrap { repeat, clamp_to_edge, clamp_to_border };
 enum class CulledFaces { none, back, front };
-enum class MapFit { scene, tight, view };
+enum class MapFit { scene, tight, view, sphere };
+enum class DepthRange { fit, scene };
 enum class CubePass { layered, six_passes };
 enum class BiasUnit { depth, m, texel };
 enum class LightChoice { automatic, directional, spot, point };
@@ -44,14 +45,20 @@ struct LightSettings {  // automatic and empty: as the scene's light
   std::optional<double> cone_deg;
 };
 
+// Whether the map covers what the camera sees, and so depends on it.
+inline bool fits_view(MapFit fit) { return fit == MapFit::view || fit == MapFit::sphere; }
+
 struct MapSettings {
   int resolution = 1024;  // texels on a side
   DepthFormat format = DepthFormat::d24;
-  MapFit fit = MapFit::scene;      // the source of empty extent, near and far: the scene's own values, or a fit
+  MapFit fit = MapFit::scene;     // the source of empty extent, near and far: the scene's own values, or a fit
+  std::optional<double> reach_m;  // sphere: how far from the camera there are shadows; empty: the scene's diagonal
+  DepthRange depth_range =
+      DepthRange::fit;             // directional: empty near and far are those of `fit`, or of the whole scene
   std::optional<double> extent_m;  // directional: whole width; empty: from `fit`
   double extent_scale = 1;         // multiplies the extent, from whichever source it is
   std::optional<double> fov_deg;   // spot: whole angle of the map; empty: the light's cone
-  bool snap = false;               // directional: the grid stays fixed in the world when the light's position moves
+  bool snap = false;               // directional: the grid stays fixed in the world when the map moves over it
   double shift_u_texels = 0;       // moves the whole grid in the light's plane: along `right` ...
   double shift_v_texels = 0;       // ... and along `up`
   int placements = 1;              // S: measured at S x S placements of the grid (technique/placements.h)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "scenes/camera_fit.h"
@@ -88,6 +89,41 @@ std::optional<ViewFit> fit_to_view(const Scene& scene, const ViewSettings& view,
   const glm::dvec2 middle = 0.5 * (glm::dvec2(part.low) + glm::dvec2(part.high));
   const double near_m = std::min(nearest_caster(scene, axes, middle, half), part.low.z);
   return ViewFit{lights::with_margin(reach, near_m, part.high.z), middle};
+}
+
+namespace {
+
+double diagonal_of(const Scene& scene) {
+  Box box;
+  for (const glm::vec3& p : scene.positions) box.add(p);
+  return scene.positions.empty() ? 1 : glm::length(box.high - box.low);
+}
+
+struct Sphere {
+  double along = 0;  // of its middle, from the eye
+  double radius = 0;
+};
+
+// The least sphere of the frustum from the eye to `reach`.
+Sphere sphere_of_frustum(const CameraFrame& camera, double reach) {
+  const double k2 = camera.half_width * camera.half_width + camera.half_height * camera.half_height;
+  if (camera.camera.projection != Projection::perspective) return {reach / 2, std::sqrt(k2 + reach * reach / 4)};
+  if (k2 >= 1) return {reach, std::sqrt(k2) * reach};
+  const double along = reach * (1 + k2) / 2;
+  return {along, along};  // through the eye and the four far corners
+}
+
+}  // namespace
+
+ViewFit fit_to_sphere(const Scene& scene, const ViewSettings& view, const MapSettings& map, const LightFrame& axes) {
+  const CameraFrame camera = make_camera_frame(effective_camera(scene, view), view.width_px, view.height_px);
+  const Sphere sphere = sphere_of_frustum(camera, map.reach_m.value_or(diagonal_of(scene)));
+  const double texels = map.resolution;
+  const double reach = sphere.radius * texels / std::max(texels - 1, 1.0);
+  const glm::dvec3 middle = axes.to_light(camera.eye_m + sphere.along * camera.forward);
+  const double near_m =
+      std::min(nearest_caster(scene, axes, middle, reach * (1 + lights::map_margin)), middle.z - sphere.radius);
+  return {lights::with_margin(reach, near_m, middle.z + sphere.radius), middle};
 }
 
 }  // namespace noonmark

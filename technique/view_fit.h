@@ -8,6 +8,7 @@
 
 #include "scenes/scene.h"
 #include "scenes/scene_settings.h"
+#include "technique/settings.h"
 
 namespace noonmark {
 
@@ -30,5 +31,12 @@ struct ViewFit {
 // nor the filter. A tap that leaves the square, as at the edge of the picture, is outside the map (cause: coverage).
 // Nothing if no part of the scene is in view. Throws Error(usage) as effective_camera() does.
 std::optional<ViewFit> fit_to_view(const Scene& scene, const ViewSettings& view, const LightFrame& axes);
+
+// map.fit = sphere: the square around the least sphere that holds the picture's frustum from the eye to map.reach_m (the
+// square of a perspective camera, law 29 with near = 0). The sphere's radius reads the angle of view, the shape of the
+// picture and map.reach_m, and neither place nor direction of the camera; the square is one texel wider, so that snapping
+// (map.snap) never uncovers its edge. Near and far hold the sphere, and near all of the scene that can cast a shadow into
+// it.
+ViewFit fit_to_sphere(const Scene& scene, const ViewSettings& view, const MapSettings& map, const LightFrame& axes);
 
 }  // namespace noonmark

@@ -35,11 +35,15 @@ struct ProbeCheck::Place {
 
 ProbeCheck::ProbeCheck(const LookupEvidence& evidence, const ReceiverImage& receivers, const LightFrame& frame,
                        glm::dvec3 eye_m)
-    : e_(evidence), receivers_(receivers), frame_(frame), eye_m_(eye_m), light_position_(glm::vec3(frame.origin_m)) {
+    : e_(evidence),
+      receivers_(receivers),
+      frame_(frame),
+      eye_m_(eye_m),
+      light_position_(glm::vec3(frame.drawn_origin_m())) {
   for (int tile = 0; tile < frame.tiles; ++tile) tiles_.push_back(frame.tile(tile));
   if (frame.map_shape() == MapShape::cube) return;
   for (int tile = 0; tile < frame.tiles; ++tile) {
-    clip_.push_back(frame.clip_from_world(tile));
+    clip_.push_back(frame.drawn_clip_from_world(frame.tile(tile)));
     planes_.push_back(glm::transpose(glm::inverse(glm::translate(clip_.back(), light_position_))));
   }
 }
@@ -150,7 +154,7 @@ glm::dvec4 ProbeCheck::row_errors(const Place& place) const {
     for (int j = 0; j < 3; ++j) {
       sum += std::abs(clip[j][row] * place.world[j]);
       moved += std::abs(clip[j][row]) * place.error[j];
-      exact += std::abs(clip[j][row]) * (std::abs(place.world[j]) + std::abs(frame_.origin_m[j]));
+      exact += std::abs(clip[j][row]) * (std::abs(place.world[j]) + std::abs(frame_.drawn_origin_m()[j]));
     }
     errors[row] = 5 * u * sum + moved + in_double * exact;
   }
@@ -173,12 +177,17 @@ bool ProbeCheck::may_ask_nothing(const Place& place) const {
 }
 
 // Window coordinates. The division adds the errors of both operands and its own rounding. Halving and adding one half
-// round once, and multiplying by the resolution rounds once more.
+// round once, and multiplying by the resolution rounds once more. Of a snapped map x and y are multiplied by half the resolution, rounded to a
+// step, and the map's corner is subtracted.
 void ProbeCheck::compare_flat(size_t i, const Place& place, ProbeErrors& found) const {
   const glm::dvec4 clip = clip_of(place), row_error = row_errors(place);
   const auto window = [&](int row) {
-    const double ndc = clip[row] / clip.w;
-    const double error = (row_error[row] + std::abs(ndc) * row_error[3]) / std::abs(clip.w) + division * std::abs(ndc);
+    double ndc = clip[row] / clip.w;
+    double error = (row_error[row] + std::abs(ndc) * row_error[3]) / std::abs(clip.w) + division * std::abs(ndc);
+    if (frame_.anchor_m && row < 2) {
+      error += u * std::abs(ndc) + static_cast<double>(frame_.snapped_step()) / frame_.resolution;
+      ndc -= 2 * frame_.anchor_texels[row] / frame_.resolution;
+    }
     return std::pair((ndc + 1) / 2, error / 2 + u * std::abs((ndc + 1) / 2));
   };
   const LookupProbe& probe = e_.probe;

@@ -44,6 +44,14 @@ inline constexpr std::array<CauseColor, 5> pixel_state_colors{{
     {"background", 30, 32, 38, "No surface"},
 }};
 
+// The classes of flicker (compare/ladder/flicker.h), by the metrics that measure them.
+inline constexpr std::array<CauseColor, 4> flicker_colors{{
+    {"flicker_grid", 230, 159, 0, "Grid moved"},
+    {"flicker_depth", 204, 121, 167, "Depth re-rounded"},
+    {"flicker_kernel", 0, 114, 178, "Kernel turned"},
+    {"flicker_coverage", 0, 158, 115, "Edge of the map"},
+}};
+
 // cause_colors, followed by the causes that rungs brought at these points (PointRecord::causes), whose texts the rows
 // refer to.
 inline std::vector<CauseColor> causes_of(std::span<const PointRecord> points) {

@@ -9,6 +9,7 @@
 #include "compare/report/answer.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
+#include "compare/report/flicker_section.h"
 #include "compare/report/live_section.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/phase_section.h"
@@ -73,6 +74,7 @@ std::string speed(const Results& results, const ShownPoints& shown, const ReadFi
 constexpr Section all_sections[] = {
     {"phase", "Diagram", by_point<report::phase_section>, false},
     {"answer", "Answer", plain<report::answer_section>, false},
+    {"motion", "Motion", plain<report::flicker_section>, false},
     {"bias", "Bias", by_point<report::bias_section>, true},
     {"sweep", "Resolution", by_point<report::sweep_section>, true},
     {"budget", "Causes", by_point<report::budget_section>, true},
@@ -87,7 +89,8 @@ std::vector<Section> sections_of(const Results& results) {
   const bool parts = !results.points.empty() && !results.points.front().part.empty();
   std::vector<Section> sections;
   for (const Section& section : all_sections)
-    if ((!parts || !section.compares) && (section.id != std::string_view("phase") || !results.phases.empty()))
+    if ((!parts || !section.compares) && (section.id != std::string_view("phase") || !results.phases.empty()) &&
+        (section.id != std::string_view("motion") || report::has_flicker(results)))
       sections.push_back(section);
   return sections;
 }

@@ -185,6 +185,32 @@ constexpr std::pair<std::string_view, std::string_view> timed[] = {
     {"lookup", "the lookup pass over the picture"},
     {"shadow", "the shadow map pass and the lookup pass together"}};
 
+constexpr Metric from_frame_to_frame[] = {
+    {"flicker", "fraction",
+     "Mean |change of R5| from this frame to the next, over the world points that both frames see and whose truth R1 "
+     "is the same in both.",
+     true, false, true},
+    {"flicker_changed", "fraction", "Share of these points whose R5 changes at all.", true, false, true},
+    {"flicker_grid", "fraction", "The part of flicker that comes when the texels move, grow or turn in the world.",
+     true, false, true},
+    {"flicker_depth", "fraction",
+     "The part of flicker that comes when near and far move, so that depths are rounded anew and a bias in window "
+     "depth "
+     "is another one in metres.",
+     true, false, true},
+    {"flicker_kernel", "fraction",
+     "The part of flicker that comes when the filter's kernel turns with the pixel, or grows with the view distance.",
+     true, false, true},
+    {"flicker_coverage", "fraction",
+     "The part of flicker at points that one of the two maps does not hold with all taps of the filter: the map's edge "
+     "passes over them.",
+     true, false, true},
+    {"flicker_truth", "fraction",
+     "Share of the world points that both frames see whose truth R1 changes. They are left out of flicker.", true,
+     false, true},
+    {"flicker_points", "count", "Number of world points over which flicker is taken.", false, false, true},
+};
+
 constexpr Metric over_placements[] = {
     {"error_worst_shown", "fraction",
      "Mean |R5 - R1| at the placement of the texel grid with the largest error, as OpenGL renders it.", true, true},
@@ -246,6 +272,7 @@ const MetricTable& table() {
                   (std::string_view(ending) == "worst" ? ". The largest of all placements may be a tenth more." : ".")),
              true, true});
     t.rows.insert(t.rows.end(), std::begin(over_placements), std::end(over_placements));
+    t.rows.insert(t.rows.end(), std::begin(from_frame_to_frame), std::end(from_frame_to_frame));
     return t;
   }();
   return made;

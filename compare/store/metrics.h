@@ -13,6 +13,8 @@ struct Metric {
   std::string_view help;       // one sentence
   bool plotted;                // whether a chart over the sweep makes sense
   bool of_placements = false;  // measured only with map.placements above 1
+  bool of_motion = false;      // measured only with a [motion]
+  bool optional() const { return of_placements || of_motion; }
 };
 
 std::span<const Metric> metrics_table();

@@ -3,8 +3,8 @@
 #include "shaders/words.glsl"
 #include <light>
 
-layout(binding = 0) uniform sampler2D position_image;  // P, world, metres; w: 1 if there is a receiver, else 0
-layout(binding = 1) uniform sampler2D normal_image;    // N, unit
+layout(binding = 0) uniform sampler2D position_image;  // P, world, metres; w: 1 + the column of its pixel, 0 without a receiver
+layout(binding = 1) uniform sampler2D normal_image;    // N, unit; w: the row of its pixel, from the top
 uniform vec3 eye_m;
 
 // P in this struct is the place looked up. surface and radius belong to the receiver itself.
@@ -41,8 +41,9 @@ Surface surface_at(vec3 position, vec3 normal) {
 
 Receiver receiver_at(ivec2 pixel) {
   vec4 position = texelFetch(position_image, pixel, 0);
-  vec3 normal = texelFetch(normal_image, pixel, 0).xyz;
-  uint index = uint(pixel.y * textureSize(position_image, 0).x + pixel.x);
+  vec4 normal_and_row = texelFetch(normal_image, pixel, 0);
+  vec3 normal = normal_and_row.xyz;
+  uint index = uint(int(normal_and_row.w) * textureSize(position_image, 0).x + int(position.w) - 1);
   Surface surface = surface_at(position.xyz, normal);
   LightView view = seen_by_light(looked_up(position.xyz, surface));
   if (position.w == 0.0 || !view.valid)

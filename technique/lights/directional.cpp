@@ -42,24 +42,30 @@ class Directional final : public KindOfLight {
     return lights::with_margin(reach, near_m, far_m);
   }
 
-  void lay_map(LightFrame& frame, const Light&, const MapVolume& volume, const MapSettings& map) const override {
+  void lay_map(LightFrame& frame, const Light& light, const MapVolume& volume, const MapSettings& map) const override {
     frame.extent_m = map.extent_m.value_or(volume.extent_m) * map.extent_scale;
     if (!(frame.extent_m > 0) || !std::isfinite(frame.extent_m))
       throw SettingConflict("map.extent_m",
                             fmt::format("the map's extent is {} m; set map.extent_m to more than 0", frame.extent_m));
     const double w = tile(frame, 0).texel_m({});
-    // The texels, the matrix and the depths are all relative to the origin, so the whole grid moves together.
+    // The texels, the matrix and the depths are all relative to the origin, so the whole grid moves together. The anchor
+    // is the world's origin, moved along the light to where depths are measured from.
     if (map.snap) {
-      const auto to_grid = [&](double along) { return std::round(along / w) * w - along; };
-      frame.origin_m += to_grid(glm::dot(frame.origin_m, frame.right)) * frame.right +
-                        to_grid(glm::dot(frame.origin_m, frame.up)) * frame.up;
+      const glm::dvec3 anchor = glm::dot(light.position_m, frame.forward) * frame.forward;
+      frame.anchor_texels =
+          glm::round(glm::dvec2(glm::dot(frame.origin_m, frame.right), glm::dot(frame.origin_m, frame.up)) / w);
+      frame.anchor_m = anchor;
+      frame.origin_m = anchor + w * (frame.anchor_texels.x * frame.right + frame.anchor_texels.y * frame.up);
     }
     shift_grid(frame, {map.shift_u_texels, map.shift_v_texels});
   }
 
   void shift_grid(LightFrame& frame, glm::dvec2 texels) const override {
-    frame.origin_m += (texels.x * frame.right + texels.y * frame.up) * tile(frame, 0).texel_m({});
+    const glm::dvec3 shift = (texels.x * frame.right + texels.y * frame.up) * tile(frame, 0).texel_m({});
+    frame.origin_m += shift;
+    if (frame.anchor_m) *frame.anchor_m += shift;
   }
+  void refine_grid(LightFrame& frame, int times) const override { frame.anchor_texels *= times; }
 
   MapTile tile(const LightFrame& frame, int) const override {
     return {.orthographic = true,

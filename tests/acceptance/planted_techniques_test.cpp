@@ -135,17 +135,17 @@ std::vector<Planted> defects() {
                  cubes({{"map.snap", "true"}}),
                  {.drawn_map =
                       [](LightFrame& frame, MapSettings&) {
-                        frame.origin_m += 0.25 * frame.texel_m(glm::dvec3(0)) * (frame.right + frame.up);
+                        *frame.anchor_m += 0.25 * frame.texel_m(glm::dvec3(0)) * (frame.right + frame.up);
                       }},
                  {{"precision", 1e-3, 0.004}, {"map_error_quanta", 2, 1000}},
                  {"contract", "rounding_excess"}});
-  // The same mistake in the lookup. Here the shift of the settings stands for a frame that was not moved.
-  all.push_back(
-      {"LookupNotSnapped",
-       cubes({{"map.snap", "true"}}),
-       {.shaders = patched(projected, "window.xy * float(resolution)", "window.xy * float(resolution) + 0.25")},
-       {{"address_error_texels", 1e-4, 0.24}, {"rounding_excess", 1, 1000}},
-       {"contract", "reference_error_m"}});
+  // The same mistake in the lookup.
+  all.push_back({"LookupNotSnapped",
+                 cubes({{"map.snap", "true"}}),
+                 {.shaders = patched(projected, "steps * snapped_step - snapped_corner",
+                                     "steps * snapped_step - snapped_corner + 0.25")},
+                 {{"address_error_texels", 1e-4, 0.24}, {"rounding_excess", 1, 1000}},
+                 {"contract", "reference_error_m"}});
   return all;
 }
 

@@ -207,7 +207,7 @@ void require_metrics(const Measurement& m) {
   if (metric(m, "counted") == 0) return;
   for (const Metric& row : metrics_table()) {
     if (row.unit == "ms") continue;  // only where times are asked for
-    if (row.of_placements && !m.record.metrics.contains(std::string(row.name))) continue;
+    if (row.optional() && !m.record.metrics.contains(std::string(row.name))) continue;
     const double value = m.record.metrics.at(std::string(row.name));
     require(!std::isnan(value), fmt::format("{} is not a number", row.name));
     if (row.unit == "fraction")
@@ -256,7 +256,7 @@ bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::i
 
 void require_same(const Measurement& a, const Measurement& b) {
   for (const Metric& row : metrics_table()) {
-    if (row.unit == "ms" || (row.of_placements && !a.record.metrics.contains(std::string(row.name)))) continue;
+    if (row.unit == "ms" || (row.optional() && !a.record.metrics.contains(std::string(row.name)))) continue;
     const std::string name(row.name);
     require(same_number(a.record.metrics.at(name), b.record.metrics.at(name)),
             fmt::format("{} = {}, and {} when nothing was remembered", name, a.record.metrics.at(name),

@@ -5,6 +5,8 @@
 uniform mat4 clip_from_world;
 uniform mat4 clip_from_world_planes;  // transforms planes, (normal, offset from light_position), to clip space
 uniform int resolution;
+uniform float snapped_step;   // texels; 0: the map is not snapped (LightFrame::snapped_step)
+uniform vec2 snapped_corner;  // texels from the grid's anchor, where the matrix begins, to the map's first corner
 uniform vec3 light_right;  // unit, in the world: along the rows of the map's texels
 uniform vec3 light_up;
 
@@ -13,6 +15,12 @@ LightView seen_by_light(vec3 place_m) {
   precise vec3 ndc = clip.xyz / clip.w;
   precise vec3 window = ndc * 0.5 + 0.5;
   precise vec2 map_texels = window.xy * float(resolution);
+  if (snapped_step != 0.0) {
+    precise vec2 from_anchor = ndc.xy * (0.5 * float(resolution));
+    precise vec2 steps = roundEven(from_anchor / snapped_step);
+    precise vec2 moved = steps * snapped_step - snapped_corner;
+    map_texels = moved;
+  }
   precise vec3 from_light = place_m - light_position;
   return LightView(clip.w > 0.0 && is_finite(window), window.z, map_texels, from_light, clip.w);
 }

@@ -14,7 +14,7 @@ struct LightView {
   float axis_m;     // spot, point: metres along the axis of the light or of the cube's face
 };
 
-uniform vec3 light_position;    // directional: the position of the map's middle
+uniform vec3 light_position;    // directional: LightFrame::drawn_origin_m
 uniform float light_texel_m;    // the width of a texel; spot, point: its width at one metre along the axis
 uniform int bias_unit;          // BiasUnit (technique/settings.h): 0 depth, 1 m, 2 texel
 uniform float light_bias_unit;  // window depth of one unit of bias; spot, point: at one metre along the axis

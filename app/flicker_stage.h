@@ -1,0 +1,30 @@
+// The stage of a measurement that compares a frame of a motion ([motion]) with the next one.
+//
+//   if (settings.view.motion.any()) Flicker flicker = trace_flicker({stages, renderer, loaded, view, truth, point, r5});
+#pragma once
+#include "app/stages.h"
+#include "compare/ladder/flicker.h"
+
+namespace noonmark {
+
+// All of it must outlive the call. r5: what the frame itself shows. The renderer has the frame's receivers, and has them
+// again afterwards.
+struct FlickerInput {
+  Pipeline& stages;
+  gl::Renderer& renderer;
+  const SceneStage& loaded;
+  const ViewStage& view;
+  const TruthStage& truth;
+  const PointSetup& point;
+  const Image<float>& r5;
+};
+
+// The settings of the next frame.
+Settings next_frame(const Settings& settings);
+
+// A receiver counts if it is in the next frame's picture and no surface hides it there, if it faces the light in both
+// frames, if R1 is the same in both, and if none of these is ambiguous. Throws Error(usage) if the scene's triangles move
+// between the frames: then there is no point of the world that is the same in both.
+Flicker trace_flicker(const FlickerInput& input);
+
+}  // namespace noonmark

@@ -1,0 +1,62 @@
+#include "compare/ladder/flicker.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace noonmark {
+
+std::array<double, flicker_steps> flicker_parts(const std::array<double, flicker_steps + 1>& r) {
+  const double change = r[flicker_steps] - r[0], sign = change < 0 ? -1 : 1;
+  // How much of the change is there from this lookup on, at the least.
+  std::array<double, flicker_steps> lasting{};
+  double least = std::abs(change);
+  for (size_t i = flicker_steps; i-- > 0;) {
+    const double there = sign * (r[i + 1] - r[0]);
+    if (!(there >= least)) least = std::isnan(there) ? there : std::max(there, 0.0);
+    lasting[i] = least;
+  }
+  std::array<double, flicker_steps> parts{};
+  for (size_t i = 0; i < flicker_steps; ++i) parts[i] = lasting[i] - (i == 0 ? 0 : lasting[i - 1]);
+  return parts;
+}
+
+Flicker flicker_of(const FlickerLookups& lookups, FlickerPoints points) {
+  Flicker flicker{std::move(points), lookups.now, lookups.next, {}};
+  const Image<uint8_t>& counted = flicker.points.counted;
+  for (Image<float>& part : flicker.parts) part = Image<float>(counted.width, counted.height, 0);
+  for (size_t i = 0; i < counted.size(); ++i) {
+    if (!counted[i]) continue;
+    if (!flicker.points.held[i]) {
+      flicker.parts[static_cast<size_t>(FlickerClass::coverage)][i] = std::abs(lookups.next[i] - lookups.now[i]);
+      continue;
+    }
+    const auto parts = flicker_parts({lookups.now[i], lookups.grid[i], lookups.depth[i], lookups.next[i]});
+    for (size_t c = 0; c < flicker_steps; ++c) flicker.parts[c][i] = static_cast<float>(parts[c]);
+  }
+  return flicker;
+}
+
+std::map<std::string, double> measure_flicker(const Flicker& flicker) {
+  double points = 0, changed = 0;
+  std::array<double, flicker_classes> sums{};
+  for (size_t i = 0; i < flicker.points.counted.size(); ++i) {
+    if (!flicker.points.counted[i]) continue;
+    ++points;
+    changed += flicker.now[i] != flicker.next[i];
+    for (size_t c = 0; c < flicker_classes; ++c) sums[c] += static_cast<double>(flicker.parts[c][i]);
+  }
+  std::map<std::string, double> metrics = {{"flicker_points", points}};
+  if (flicker.points.shared > 0)
+    metrics["flicker_truth"] =
+        static_cast<double>(flicker.points.truth_changed) / static_cast<double>(flicker.points.shared);
+  if (points > 0)
+    metrics.insert({{"flicker", (sums[0] + sums[1] + sums[2] + sums[3]) / points},
+                    {"flicker_changed", changed / points},
+                    {"flicker_grid", sums[0] / points},
+                    {"flicker_depth", sums[1] / points},
+                    {"flicker_kernel", sums[2] / points},
+                    {"flicker_coverage", sums[3] / points}});
+  return metrics;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,62 @@
+// Flicker: what changes in R5 from one frame to the next although the truth does not change. Both frames' maps are looked
+// up at the same world points, the receivers of the first frame, so no difference between two pictures can look like
+// flicker.
+//
+//   Flicker flicker = flicker_of({now, grid, depth, next}, points);
+//   record.metrics.merge(measure_flicker(flicker));
+//
+// The change is split by lookups that differ in one respect from one to the next, as the ladder's rungs do:
+//
+//   now     frame 0: its map and its kernel
+//   grid    the map of frame 1 with the depth range of frame 0; the kernel of frame 0      grid moved
+//   depth   the map of frame 1; the kernel of frame 0                                      depth re-rounded
+//   next    frame 1: its map and its kernel                                                kernel turned
+//
+// A part of the change is booked where it begins to last: the class gets what its step adds to the change that all later
+// steps keep. So steps that undo each other are not counted, no class is negative, and the classes of a receiver add up to
+// |next - now| exactly. The whole change of a receiver that one of the maps does not hold with all its taps is of a class
+// of its own: there the lookup goes from one answer to another because the map's edge passes over it.
+#pragma once
+#include <array>
+#include <map>
+#include <string>
+
+#include "scenes/image.h"
+
+namespace noonmark {
+
+enum class FlickerClass { grid, depth, kernel, coverage };
+inline constexpr size_t flicker_classes = 4;
+inline constexpr size_t flicker_steps = 3;  // the classes that are steps from lookup to lookup
+
+// The result of each lookup at the receivers of the first frame, in the order above.
+struct FlickerLookups {
+  const Image<float>&now, &grid, &depth, &next;
+};
+
+// The points of the world at which flicker is taken: the receivers of the first frame.
+struct FlickerPoints {
+  // 1: the receiver is seen in both frames, and its truth R1 is the same in both. Only these count.
+  Image<uint8_t> counted;
+  Image<uint8_t> held;         // 1: both maps hold it, with room for all taps
+  uint64_t shared = 0;         // receivers seen in both frames that face the light in both and are not ambiguous
+  uint64_t truth_changed = 0;  // those of them whose truth changes
+};
+
+struct Flicker {
+  FlickerPoints points;
+  Image<float> now, next;
+  std::array<Image<float>, flicker_classes> parts;  // of |next - now|; 0 where nothing is counted
+};
+
+// The steps' parts of one receiver's change. Their sum, from the first to the last, is |r[3] - r[0]|.
+std::array<double, flicker_steps> flicker_parts(const std::array<double, flicker_steps + 1>& r);
+
+Flicker flicker_of(const FlickerLookups& lookups, FlickerPoints points);
+
+// The metrics flicker, flicker_changed, flicker_grid, flicker_depth, flicker_kernel, flicker_coverage, flicker_truth and
+// flicker_points.
+// Fractions of no points are left out. A lookup that is not finite makes its class not finite.
+std::map<std::string, double> measure_flicker(const Flicker& flicker);
+
+}  // namespace noonmark

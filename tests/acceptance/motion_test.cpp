@@ -1,0 +1,207 @@
+// Flicker as it is measured, under the conditions of law 33: the texel grid lies fixed in the world, the map's extent does
+// not depend on the camera, depths are rounded alike in every frame, and the kernel does not turn with the pixel.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "scenes/error.h"
+#include "tests/support/measured.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+// A walk with a turn that obeys all four conditions.
+Settings steady() {
+  return with({{"map.fit", "sphere"},
+               {"map.reach_m", "25"},
+               {"map.extent_scale", "1.1"},  // room for the kernel at the edge of the picture
+               {"map.snap", "true"},
+               {"map.depth_range", "scene"},
+               {"map.resolution", "251"},
+               {"map.format", "16"},
+               {"filter.kind", "vogel"},
+               {"motion.move_m", "-0.013,0.003,-0.011"},
+               {"motion.turn_deg", "0.05,0.31,0.02"}},
+              small("cube-room", 64, 36));
+}
+
+struct Sums {
+  double flicker = 0, grid = 0, depth = 0, kernel = 0, coverage = 0, changed = 0, error = 0;
+  double least_points = 1e9;
+};
+
+Sums over_frames(Workbench& bench, Settings settings, int frames) {
+  Sums sums;
+  for (int frame = 0; frame < frames; ++frame) {
+    settings.view.motion.frame = frame;
+    const Measurement m = bench.measure(settings, std::nullopt);
+    sums.flicker += metric(m, "flicker");
+    sums.grid += metric(m, "flicker_grid");
+    sums.depth += metric(m, "flicker_depth");
+    sums.kernel += metric(m, "flicker_kernel");
+    sums.coverage += metric(m, "flicker_coverage");
+    sums.changed += metric(m, "flicker_changed");
+    sums.error += metric(m, "error");
+    sums.least_points = std::min(sums.least_points, metric(m, "flicker_points"));
+    EXPECT_EQ(metric(m, "flicker_truth"), 0) << frame;  // the light is still
+  }
+  return sums;
+}
+
+// Half of the lit pixels have acne: their verdicts hang on the last bit of a depth, so they show any change of rounding.
+TEST(Motion, SnappedMapsDoNotFlicker) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Sums sums = over_frames(bench, steady(), 200);
+  EXPECT_EQ(sums.flicker, 0);
+  EXPECT_EQ(sums.changed, 0);
+  EXPECT_GT(sums.error, 0.1 * 200);   // there is much that could flicker
+  EXPECT_GT(sums.least_points, 500);  // of 2304 pixels
+}
+
+TEST(Motion, EachBrokenConditionBringsItsOwnClassAlone) {
+  Workbench bench(gl::DebugMode::fatal);
+  constexpr int frames = 10;
+  // Receivers stand at the middle of their pixels, so a pixel changes where a frame turns by more than half of one.
+  const Settings faster = with({{"motion.turn_deg", "0.05,1.3,0.02"}}, steady());
+  for (const char* broken : {"map.snap=false", "map.fit=view", "map.depth_range=fit", "filter.rotate=true"}) {
+    const std::string text = broken;
+    const size_t equals = text.find('=');
+    const Sums sums = over_frames(bench, with({{text.substr(0, equals), text.substr(equals + 1)}}, faster), frames);
+    const bool depth = text.starts_with("map.depth_range"), kernel = text.starts_with("filter");
+    EXPECT_GT(sums.flicker, 0) << broken;
+    EXPECT_EQ(sums.grid, depth || kernel ? 0 : sums.flicker) << broken;
+    EXPECT_EQ(sums.depth, depth ? sums.flicker : 0) << broken;
+    EXPECT_EQ(sums.kernel, kernel ? sums.flicker : 0) << broken;
+    EXPECT_EQ(sums.coverage, 0) << broken;
+  }
+}
+
+// A camera that zooms changes the extent: the grid's class alone.
+TEST(Motion, AZoomMovesTheGrid) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Sums zoom = over_frames(bench, with({{"motion.zoom", "1.01"}}, steady()), 5);
+  EXPECT_GT(zoom.grid, 0);
+  EXPECT_EQ(zoom.grid, zoom.flicker);
+}
+
+// The edge of a snapped map moves with the camera. Points that it passes are a class of their own.
+TEST(Motion, TheEdgeOfTheMapIsAClassOfItsOwn) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Sums sums = over_frames(bench, with({{"map.reach_m", "9"}, {"map.extent_scale", "1"}}, steady()), 10);
+  EXPECT_GT(sums.coverage, 0);
+  EXPECT_EQ(sums.coverage, sums.flicker);
+}
+
+// A sampler takes its place as a fraction of the map, which is exact if the texels are a power of two.
+TEST(Motion, BlendingFiltersDoNotFlickerWithAPowerOfTwo) {
+  Workbench bench(gl::DebugMode::fatal);
+  for (const char* filter : {"hardware", "gaussian"}) {
+    const Settings settings = with({{"filter.kind", filter}, {"map.resolution", "256"}}, steady());
+    EXPECT_EQ(over_frames(bench, settings, 8).changed, 0) << filter;
+  }
+}
+
+// An edge along the texels, unfiltered: it shows at the border of a texel, at any place of it by chance. If the grid moves
+// by the part s of a texel across it, the border stays on the same side with probability 1 - s and moves by s texels, or
+// it jumps back by 1 - s: 2 s (1 - s) texels on average over the alignments. Each frame moves the grid by the golden
+// section of a texel, so that few frames have all alignments.
+TEST(Motion, AnUnsnappedEdgeFlickersByItsClosedForm) {
+  Workbench bench(gl::DebugMode::fatal);
+  Settings settings = with({{"scene.height_m", "1.5"},
+                            {"light.position_m", "-3,3,0"},  // the texels' rows lie along Z
+                            {"view.eye_m", "0.7,8,-0.5"},
+                            {"view.target_m", "0.7,0,-0.5"},
+                            {"view.up", "0,0,-1"},
+                            {"view.fov_deg", "30"},
+                            {"map.fit", "sphere"},
+                            {"map.reach_m", "8.5"},
+                            {"map.resolution", "80"},
+                            {"bias.unit", "texel"},
+                            {"bias.constant", "1.5"}},
+                           small("plate", 160, 160));
+  const double texel = metric(bench.measure(settings, std::nullopt), "texel_m");
+  const double s = (3 - std::sqrt(5.0)) / 2;
+  settings.view.motion.move_m = glm::dvec3(0, 0, s * texel);
+  const double pixel = 2 * 8 * std::tan(15 * std::numbers::pi / 180) / 160;
+  ASSERT_GT(texel / pixel, 4);  // fine enough to see parts of a texel
+  double changed = 0, edge = 0;
+  constexpr int frames = 34;  // a Fibonacci number: the alignments are spread evenly
+  for (int frame = 0; frame < frames; ++frame) {
+    settings.view.motion.frame = frame;
+    const Measurement m = bench.measure(settings, std::nullopt);
+    EXPECT_EQ(metric(m, "flicker_grid"), metric(m, "flicker"));
+    changed += metric(m, "flicker") * metric(m, "flicker_points");
+    const Image<float>& truth = m.ladder.truth();
+    const auto on_floor = [&](int x, int y) {
+      return m.flicker->points.counted.at(x, y) && std::abs(m.receivers.position.at(x, y).y) < 1e-4f;
+    };
+    for (int y = 1; y < truth.height; ++y)
+      for (int x = 0; x < truth.width; ++x)
+        edge += on_floor(x, y) && on_floor(x, y - 1) && truth.at(x, y) != truth.at(x, y - 1);
+  }
+  // The ends of the two edges, where they meet the ones across, and pixels at the plate: a twentieth of their length.
+  EXPECT_NEAR(changed / (edge * texel / pixel), 2 * s * (1 - s), 0.05 * 2 * s * (1 - s));
+}
+
+// A glTF file whose animation moves the camera: frames are times. Its floor stands still; a mesh that moves is refused.
+void write_moving_camera(const std::string& folder, bool moves_mesh) {
+  const float numbers[] = {-5, 0, -5,   0,    0, 5,   5, 0, -5,  // the floor's corners, seen from above
+                           -1, 1, -1,   0,    1, 1,   1, 1, -1,  // a caster above it
+                           0,  2,                                // seconds
+                           0,  6, 0.5f, 0.8f, 6, 0.5f};          // where the node is then
+  std::ofstream(folder + "/moving.bin", std::ios::binary).write(reinterpret_cast<const char*>(numbers), sizeof numbers);
+  std::ofstream(folder + "/moving.gltf") << fmt::format(
+      R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0, 1, 2]}}],
+"nodes": [{{"mesh": 0}}, {{"mesh": 1}}, {{"camera": 0, "translation": [0, 6, 0.5], "rotation": [-0.7071068, 0, 0, 0.7071068]}}],
+"cameras": [{{"type": "perspective", "perspective": {{"yfov": 0.9, "znear": 0.1, "zfar": 20}}}}],
+"meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}, {{"primitives": [{{"attributes": {{"POSITION": 1}}}}]}}],
+"animations": [{{"samplers": [{{"input": 2, "output": 3}}], "channels": [{{"sampler": 0, "target": {{"node": {0}, "path": "translation"}}}}]}}],
+"accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-5, 0, -5], "max": [5, 0, 5]}},
+{{"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, 1, -1], "max": [1, 1, 1]}},
+{{"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [2]}},
+{{"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"}}],
+"bufferViews": [{{"buffer": 0, "byteLength": 36}}, {{"buffer": 0, "byteOffset": 36, "byteLength": 36}},
+{{"buffer": 0, "byteOffset": 72, "byteLength": 8}}, {{"buffer": 0, "byteOffset": 80, "byteLength": 24}}],
+"buffers": [{{"uri": "moving.bin", "byteLength": 104}}]}})",
+      moves_mesh ? 1 : 2);
+}
+
+TEST(Motion, FollowsTheCameraOfAnAnimation) {
+  Workbench bench(gl::DebugMode::fatal);
+  const std::string folder = std::filesystem::path(testing::TempDir()) / "moving-camera";
+  std::filesystem::create_directories(folder);
+  write_moving_camera(folder, false);
+  Settings settings = with({{"scene.time_s", "0.5"},
+                            {"motion.time_s", "0.25"},
+                            {"light.azimuth_deg", "40"},
+                            {"light.elevation_deg", "50"},
+                            {"map.fit", "sphere"},
+                            {"map.reach_m", "9"},
+                            {"map.extent_scale", "1.1"},
+                            {"map.resolution", "128"}},
+                           small(folder + "/moving.gltf", 64, 36));
+  const Measurement loose = bench.measure(settings, std::nullopt);
+  EXPECT_GT(metric(loose, "flicker_points"), 500);
+  EXPECT_GT(metric(loose, "flicker"), 0);
+  EXPECT_NEAR(loose.camera.eye_m.x, 0.2, 1e-6);
+  settings.map.snap = true;
+  settings.map.depth_range = DepthRange::scene;
+  EXPECT_EQ(metric(bench.measure(settings, std::nullopt), "flicker"), 0);
+
+  write_moving_camera(folder, true);
+  Workbench again(gl::DebugMode::fatal);
+  try {
+    again.measure(settings, std::nullopt);
+    FAIL() << "triangles that move have no flicker";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find("motion.time_s"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance
