@@ -39,14 +39,16 @@ class Determinism : public Program {
   std::string results(const std::string& out) const {
     std::istringstream lines(read_file((folder_ / out / "results.csv").string()));
     std::set<size_t> times;
+    size_t machine = SIZE_MAX;  // the first column of the machine; no other column is behind them
     std::string kept;
     bool head = true;
     for (std::string line; std::getline(lines, line); head = false) {
       std::istringstream cells(line);
       std::string cell;
       for (size_t i = 0; std::getline(cells, cell, ','); ++i) {
-        if (head && (cell.find("_ms") != std::string::npos || cell.starts_with("machine_"))) times.insert(i);
-        if (!times.contains(i)) kept += cell + ",";
+        if (head && cell.find("_ms") != std::string::npos) times.insert(i);
+        if (head && cell.starts_with("machine_")) machine = std::min(machine, i);
+        if (i < machine && !times.contains(i)) kept += cell + ",";
       }
       kept += "\n";
     }

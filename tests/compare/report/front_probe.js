@@ -2,7 +2,11 @@
 // biases of the page, as the chart names it and as the table shows it, and writes both to the element `probe`.
 (async function() {
   'use strict';
-  var figure = document.getElementById('chart-cost'), details = figure.parentElement.querySelector('details');
+  var figure = document.getElementById('chart-cost'), details;
+  // The chart may stand at the head of the page, away from its table.
+  details = Array.prototype.find.call(document.querySelectorAll('details'), function(e) {
+    return e.querySelector('summary').textContent.indexOf('Pareto front') >= 0;
+  });
   function seen(selector) {
     return Array.prototype.filter.call(details.querySelectorAll(selector), function(e) {
       return getComputedStyle(e).display !== 'none';
