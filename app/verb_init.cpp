@@ -38,8 +38,11 @@ int verb_init(const std::string& model, const ExperimentArguments& arguments) {
   const std::string word = shell_quoted(file);
   fmt::print("{} is written; each line says what to change\n", printable(file));
   if (const std::string note = notes_line(loaded.scene); !note.empty()) fmt::print("note: {}\n", printable(note));
-  fmt::print("\nNext:\n  noonmark run {0}\n  open {1}/report.html\n", word,
-             shell_quoted("out/" + fs::path(file).stem().string()));
+  const std::string stem = fs::path(file).stem().string();
+  fmt::print(
+      "\nNext:\n  noonmark run {}\n  open {}/report.html\n"
+      "or, for the cheapest settings that hold the bounds:\n  noonmark recommend {}\n  noonmark check {}\n",
+      word, shell_quoted("out/" + stem), word, shell_quoted("out/recommend-" + stem + "/recommended.toml"));
   return 0;
 }
 
