@@ -75,8 +75,8 @@ void print_plan(const Experiment& experiment, const std::optional<Shard>& shard)
     for (const Swept& swept : part.swept)
       text += fmt::format("  {} = {}", swept.name, find_setting(swept.name).get(planned[i]));
     fmt::print("{:5}{}  ({})\n", i, text, bytes_text(memory[i].bytes()));
-    all_taps += taps(planned[i]);
   }
+  for (const Settings& point : planned) all_taps += taps(point);
   if (listed.empty()) {
     fmt::print("{}", shares_text(shares, *shard, std::nullopt));
     return;
