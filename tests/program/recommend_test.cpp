@@ -17,14 +17,18 @@ using nlohmann::json;
 class Recommend : public Program {
  protected:
   int recommend(const std::string& what, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> words = {"recommend",          what,    "--quiet", "--set", "view.width_px=240", "--set",
-                                      "view.height_px=135", "--out", "out"};
+    std::vector<std::string> words = {"recommend", what, "--quiet", "--out", "out"};
+    for (const std::string& size :
+         {"view.width_px=" + std::to_string(width_), "view.height_px=" + std::to_string(height_)})
+      words.insert(words.end(), {"--set", size});
     words.insert(words.end(), more.begin(), more.end());
     return run(words);
   }
   json found() { return json::parse(text("out/recommended.json")); }
   std::string setting(const char* name) { return found()["answer"]["settings"][name]; }
   double bias() { return found()["answer"]["bias"]["value"]; }
+
+  int width_ = 160, height_ = 90;  // pixels
 };
 
 // The file is judged again at other placements of the grid and in views between those that were searched.
@@ -89,6 +93,7 @@ TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
   write("mine.toml",
         "scene = \"plate\"\n[bias]\nunit = \"texel\"\ntan = 0.5\n[over]\nview.fov_deg = [30, 40]\n"
         "[sweep]\nmap.resolution = [64, 128]\n");
+  width_ = 96, height_ = 54;  // --around measures some 40 settings more, and their numbers are tested elsewhere
   ASSERT_EQ(recommend("mine.toml", {"--around"}), 0) << output_;
   EXPECT_EQ(found()["around"]["conditions"], 2);
   EXPECT_EQ(found()["around"]["placements"], 64);
