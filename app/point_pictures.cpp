@@ -89,11 +89,11 @@ void move_pictures(const std::vector<std::pair<int64_t, PointRecord*>>& moved, c
   for (const auto& [before, point] : moved) {
     const std::string old_stem = fmt::format("images/p{:04}-", before);
     const std::string new_stem = fmt::format("images/p{:04}-", point->id);
-    const auto move = [&](std::string& path) {
+    const auto move = [&, id = before](std::string& path) {
       if (!path.starts_with(old_stem)) return;
       const std::string rest = path.substr(old_stem.size());
       // Two points may change places, so every file first gets a name that no point has.
-      const fs::path temporary = fs::path(out) / fmt::format("images/moved-{}-{}", before, rest);
+      const fs::path temporary = fs::path(out) / fmt::format("images/moved-{}-{}", id, rest);
       fs::rename(fs::path(out) / path, temporary, none);
       path = new_stem + rest;
       from_temporary.emplace_back(temporary, fs::path(out) / path);

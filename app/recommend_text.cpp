@@ -98,9 +98,11 @@ std::string condition_text(const PointRecord& point, const AdviceRequest& reques
   std::vector<std::string> words;
   std::vector<std::map<std::string, std::string>> all;
   for (const Settings& condition : request.conditions) all.push_back(settings_map(condition));
-  for (const auto& [name, text] : all.front())
-    if (std::any_of(all.begin(), all.end(), [&](const auto& other) { return other.at(name) != text; }))
+  for (const auto& first : all.front()) {
+    const std::string& name = first.first;
+    if (std::any_of(all.begin(), all.end(), [&](const auto& other) { return other.at(name) != first.second; }))
       words.push_back(fmt::format("{} = {}", name, setting_of(point, name)));
+  }
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
