@@ -120,35 +120,59 @@ Checked measure_share(const ListedExperiment& listed, const ExperimentArguments&
   return checked;
 }
 
+// What is printed of the experiments, text at once and JSON together, and the largest exit code.
+class Answers {
+ public:
+  explicit Answers(const ExperimentArguments& arguments) : arguments_(arguments) {}
+
+  void add(const UnreadableFolder& one) {
+    worst_ = std::max(worst_, tell({one.error.exit_code(), printable(one.error.what())}));
+    printed_.push_back(failure_json(one.folder, one.error.what(), one.error.exit_code()));
+  }
+  void add(const std::string& what, const Failure& failure) {
+    worst_ = std::max(worst_, tell(failure));
+    printed_.push_back(failure_json(what, failure.message, failure.exit_code));
+  }
+  void add(const Checked& checked) {
+    worst_ = std::max(worst_, checked.exit_code);
+    if (arguments_.json)
+      printed_.push_back(checked.json);
+    else
+      fmt::print("{}", checked.text);
+  }
+  // What is wrong with a page about all experiments.
+  void add(const Failure& failure) { worst_ = std::max(worst_, tell(failure)); }
+
+  int worst() const { return worst_; }
+  bool stopped() const { return worst_ == static_cast<int>(ErrorKind::incomplete); }  // the user asked to
+  void print_json() const {
+    if (arguments_.json) fmt::print("{}", results_text(arguments_.command, worst_, printed_));
+  }
+
+ private:
+  const ExperimentArguments& arguments_;
+  int worst_ = 0;
+  std::vector<nlohmann::ordered_json> printed_;
+};
+
 // Of all experiments. There is no page about all of them, because the shares would write one file.
 int measure_shares(const ExperimentList& list, const ExperimentArguments& arguments, const CheckOptions& options) {
   if (!options.baseline.empty())
     throw Error(ErrorKind::usage,
                 "--baseline needs all points, and --shard measures a share of them; merge the shares, then check the "
                 "merged folder with --baseline: its points are kept");
-  int worst = 0;
-  std::vector<nlohmann::ordered_json> printed;
-  for (const UnreadableFolder& one : list.unreadable) {
-    worst = std::max(worst, tell({one.error.exit_code(), printable(one.error.what())}));
-    printed.push_back(failure_json(one.folder, one.error.what(), one.error.exit_code()));
-  }
+  Answers answers(arguments);
+  for (const UnreadableFolder& one : list.unreadable) answers.add(one);
   for (const ListedExperiment& listed : list.experiments) {
     try {
-      const Checked checked = measure_share(listed, arguments);
-      worst = std::max(worst, checked.exit_code);
-      if (arguments.json)
-        printed.push_back(checked.json);
-      else
-        fmt::print("{}", checked.text);
+      answers.add(measure_share(listed, arguments));
     } catch (...) {
-      const Failure failure = current_failure();
-      worst = std::max(worst, tell(failure));
-      printed.push_back(failure_json(listed.file, failure.message, failure.exit_code));
+      answers.add(listed.file, current_failure());
     }
-    if (worst == static_cast<int>(ErrorKind::incomplete)) break;  // the user asked to stop
+    if (answers.stopped()) break;
   }
-  if (arguments.json) fmt::print("{}", results_text(arguments.command, worst, printed));
-  return worst;
+  answers.print_json();
+  return answers.worst();
 }
 
 // The folder that holds the results' folders of all experiments: that of --out, or `out`.
@@ -201,15 +225,13 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
   std::vector<IndexEntry> entries;
   std::error_code none;
   if (indexed) fs::remove(index, none);
-  int worst = 0;
   std::vector<std::string> unreadable, failed;
   AtlasPage atlas(index_folder(arguments));
   if (indexed) atlas.retract();
-  std::vector<nlohmann::ordered_json> printed;
+  Answers answers(arguments);
   for (const UnreadableFolder& one : list.unreadable) {
-    worst = std::max(worst, tell({one.error.exit_code(), printable(one.error.what())}));
+    answers.add(one);
     unreadable.push_back(one.folder);
-    printed.push_back(failure_json(one.folder, one.error.what(), one.error.exit_code()));
   }
   for (const ListedExperiment& listed : list.experiments) {
     EarlyFolder folder;
@@ -217,23 +239,17 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     IndexEntry& entry = entries.emplace_back();
     entry.experiment = listed.file;
     try {
-      const Checked checked = check_one(listed, arguments, options, folder, entry, atlas);
-      worst = std::max(worst, checked.exit_code);
-      if (arguments.json)
-        printed.push_back(checked.json);
-      else
-        fmt::print("{}", checked.text);
+      answers.add(check_one(listed, arguments, options, folder, entry, atlas));
     } catch (...) {
       const Failure failure = current_failure();
       entry.words = failure.message;
-      worst = std::max(worst, tell(failure));
       failed.push_back(listed.file);
-      printed.push_back(failure_json(listed.file, failure.message, failure.exit_code));
+      answers.add(listed.file, failure);
       if (folder.is_open()) write_unjudged(listed.out, listed.file, failure, arguments.command);
     }
     if (!entry.report.empty())
       entry.report = fs::relative(listed.out, index_folder(arguments), none).string() + "/" + entry.report;
-    if (worst == static_cast<int>(ErrorKind::incomplete)) break;  // the user asked to stop
+    if (answers.stopped()) break;
   }
   std::string atlas_words;
   if (indexed) {
@@ -245,19 +261,18 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
     try {
       make_folder(index_folder(arguments));
       write_file_atomically(index, index_page(entries, std::string(build_facts().version)));
-      if (worst != static_cast<int>(ErrorKind::incomplete)) atlas_words = atlas.write();
+      if (!answers.stopped()) atlas_words = atlas.write();
     } catch (...) {
-      worst = std::max(worst, tell(current_failure()));
+      answers.add(current_failure());
     }
   }
-  if (arguments.json)
-    fmt::print("{}", results_text(arguments.command, worst, printed));
-  else if (list.experiments.size() + unreadable.size() > 1 && failed.size() + unreadable.size() > 0)
+  answers.print_json();
+  if (!arguments.json && list.experiments.size() + unreadable.size() > 1 && failed.size() + unreadable.size() > 0)
     tell_the_unchecked(failed, list.experiments.size(), unreadable);
   if (indexed && !arguments.json && fs::exists(index, none))
     fmt::print("{}; the index is {}\n", index_words(entries), printable(index));
   if (!arguments.json) fmt::print("{}", atlas_words);
-  return worst;
+  return answers.worst();
 }
 
 }  // namespace noonmark
