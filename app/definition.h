@@ -21,8 +21,8 @@ std::string definition_path(const std::string& definition);
 std::string with_path(const std::string& definition, const std::string& path);
 
 // The name that a scene of the experiment file `from` has in the same file at `to`. A path of a scene starts at the folder of
-// the experiment, so the folder of one host is replaced by that of the other. An absolute path that is not in the tree of
-// the experiment stays, and so does the name of a built-in scene.
+// the experiment, so the folder of `from` is replaced by that of `to`. The name of a built-in scene stays. An absolute path
+// stays too if it has only the root in common with `from`.
 std::string moved_scene(const std::string& scene, const std::string& from, const std::string& to);
 
 // Throws Error(file) if the text is none of definition_text(). store: for the message.

@@ -47,7 +47,7 @@ std::vector<Group> groups_of(const Experiment& experiment, const std::vector<Set
   return groups;
 }
 
-// How many runs of at most `most` the groups need, each as long as it can be.
+// How many runs the groups need if no run may cost more than `most`.
 size_t runs_within(const std::vector<Group>& groups, uint64_t most) {
   size_t runs = 1;
   uint64_t sum = 0;
@@ -78,7 +78,7 @@ uint64_t least_largest(const std::vector<Group>& groups, size_t n) {
   return low;
 }
 
-// For each group: how many runs of at most `most` the groups from there on need.
+// The same for the groups from each group on: element g counts the runs of the groups g, g + 1, ...
 std::vector<size_t> runs_from(const std::vector<Group>& groups, uint64_t most) {
   std::vector<size_t> runs(groups.size() + 1, 0);
   uint64_t sum = 0;  // of the groups from g to end - 1

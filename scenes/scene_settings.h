@@ -31,7 +31,7 @@ struct SceneSettings {
 };
 
 // How camera and light move from one frame to the next. Frame 0 is what the other settings say. Frame n is n steps
-// later, computed from frame 0 and not from frame n - 1. What moves the camera is read by effective_camera()
+// later. It is computed from frame 0, so that rounding does not add up from frame to frame. What moves the camera is read by effective_camera()
 // (scenes/camera_fit.h), what moves the light by effective_light() (technique/light_frame.h).
 struct MotionSettings {
   int frame = 0;

@@ -12,7 +12,7 @@ namespace noonmark::report {
 // chooses others. on_first_screen: the chart stands there (speed_chart()) and not in the section.
 std::string speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen);
 
-// Whether there is a choice with a finite cost and a finite error, and so a chart.
+// True if at least one choice has a finite cost and a finite error. Otherwise there is no chart.
 bool has_speed_chart(const Results& results, const ShownPoints& shown);
 std::string speed_chart();
 

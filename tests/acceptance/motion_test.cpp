@@ -58,7 +58,9 @@ TEST(Motion, SnappedMapsDoNotFlicker) {
   const Sums sums = over_frames(bench, steady(), 200);
   EXPECT_EQ(sums.flicker, 0);
   EXPECT_EQ(sums.changed, 0);
-  EXPECT_GT(sums.error, 0.1 * 200);   // there is much that could flicker
+  EXPECT_GT(
+      sums.error,
+      0.1 * 200);  // more than a tenth of the receivers are wrong in each frame, so there is error that could flicker
   EXPECT_GT(sums.least_points, 500);  // of 2304 pixels
 }
 
