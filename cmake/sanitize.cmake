@@ -1,12 +1,12 @@
-# NOONMARK_SANITIZED_TESTS compiles scenes and technique a second time, with AddressSanitizer and
-# UndefinedBehaviorSanitizer (casts from floats included), and links the tests that use nothing else with them: a quarter
-# of all tests. These two libraries read what comes from outside: models, images, settings. compare is left out, because
-# its second compilation took a fifth of the time that CI has; run the preset asan, which compiles everything with the
-# sanitizers, for all tests, after a change there. The tests' own files are compiled without sanitizers, because that
-# halves the time to build. CI sets this option (preset ci). The checks of each single pointer (null, alignment, object-size, vptr) are left to that preset: they take a
-# third of the time to compile, and a null or wild pointer stops AddressSanitizer too.
-set(NOONMARK_SANITIZE -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=null,alignment,object-size,vptr)
-set(NOONMARK_SANITIZED_LIBRARIES noonmark_scenes noonmark_technique)
+# NOONMARK_SANITIZED_TESTS compiles scenes a second time, with AddressSanitizer and UndefinedBehaviorSanitizer (casts from
+# floats included), and links the tests that use nothing else with it. This library reads what comes from outside: models
+# and images. The others are left out, because their second compilation took a quarter of the time that CI has; run the
+# preset asan, which compiles everything with the sanitizers, for all tests, after a change there. The tests' own files are
+# compiled without sanitizers, because that halves the time to build. CI sets this option (preset ci). The checks of each
+# single pointer (null, alignment, object-size, vptr, pointer-overflow) are left to that preset: they take half of
+# the time to compile, and a null or wild pointer stops AddressSanitizer too.
+set(NOONMARK_SANITIZE -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=null,alignment,object-size,vptr,pointer-overflow)
+set(NOONMARK_SANITIZED_LIBRARIES noonmark_scenes)
 
 # noonmark_sanitized(OUT item...): the items with the names of the sanitized libraries; other names stay as they are.
 function(noonmark_sanitized out)

@@ -58,7 +58,9 @@ const std::vector<std::vector<Assignment>> ladder_techniques = {
 TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
   Workbench bench(gl::DebugMode::fatal);
   for (const auto& technique : ladder_techniques) {
-    Settings settings = with({{"map.resolution", "300"}}, small(GetParam()));
+    // A model's small picture has too few receivers for the limit of the ambiguous ones (10 of 9,300 are over it).
+    Settings settings = with({{"map.resolution", "300"}},
+                             GetParam().ends_with(".gltf") ? small(GetParam()) : small(GetParam(), 240, 144));
     for (const auto& [name, value] : technique) find_setting(name).set(settings, value);
     // A cube map has filters of its own.
     if (settings.filter.kind == "box" && bench.scene(settings.scene).light.kind == LightKind::point)
@@ -269,12 +271,12 @@ struct CountsKept : Pipeline {
 
 class OneCurve : public testing::TestWithParam<std::string> {};
 
-// 40 random biases: OpenGL renders with each of them, and the result is compared with the counts from one pass. Each bias
-// compares eight sums over more than 10,000 receivers, and together 480 biases of twelve cases do. A fault of a class of
+// 20 random biases: OpenGL renders with each of them, and the result is compared with the counts from one pass. Each bias
+// compares eight sums over more than 10,000 receivers, and together 240 biases of twelve cases do. A fault of a class of
 // receivers changes the sums at every bias beyond its thresholds, so a few biases find it; a single threshold that is one
 // float off is found by tests/compare/ladder/thresholds_test.cpp.
 TEST_P(OneCurve, EqualsRenderingWithEveryBias) {
-  constexpr int biases = 40;
+  constexpr int biases = 20;
   std::mt19937 random(20260301);
   for (const char* kind : {"none", "box"}) {
     for (const char* varied : {"constant", "slope"}) {
