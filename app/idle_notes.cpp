@@ -2,12 +2,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "technique/setting_rules.h"
 
 namespace noonmark {
 namespace {
 
 std::string of_part(const std::string& part) { return part.empty() ? "" : fmt::format(" of part '{}'", part); }
+
+// " of 5 parts ('a', 'b', 'c' and 2 others)"
+std::string of_parts(const std::vector<std::string>& parts) {
+  if (parts.size() == 1) return of_part(parts.front());
+  constexpr size_t most_named = 3;
+  std::string named;
+  for (size_t i = 0; i < std::min(parts.size(), most_named); ++i)
+    named += fmt::format("{}'{}'", i ? ", " : "", parts[i]);
+  if (const size_t more = parts.size() - std::min(parts.size(), most_named))
+    named += fmt::format(" and {} other{}", more, more == 1 ? "" : "s");
+  return fmt::format(" of {} parts ({})", parts.size(), named);
+}
 
 }  // namespace
 
@@ -39,10 +53,12 @@ std::vector<std::string> IdleNotes::dead_sweeps() const {
 }
 
 std::vector<std::string> IdleNotes::fixed() const {
-  std::vector<std::string> texts;
+  std::map<std::string, std::vector<std::string>> parts;  // by setting: one note for all parts
   for (const auto& [key, idle] : fixed_)
     if (everywhere(key, idle) && !(swept_.contains(key) && everywhere(key, swept_.at(key))))
-      texts.push_back(fmt::format("{} has no effect at any point{}", key.second, of_part(key.first)));
+      parts[key.second].push_back(key.first);
+  std::vector<std::string> texts;
+  for (const auto& [setting, in] : parts) texts.push_back(setting + " has no effect at any point" + of_parts(in));
   return texts;
 }
 

@@ -21,7 +21,8 @@ class IdleNotes {
   void add(const Experiment& part, const Settings& point, LightKind light);
 
   // Sentences without a full stop. First the swept settings: "the sweep of filter.size is dead: no point reads it (with
-  // filter.kind = none), so its 3 values measure the same". Then the fixed ones: "map.extent_m has no effect at any point".
+  // filter.kind = none), so its 3 values measure the same". Then the fixed ones, one sentence for each setting:
+  // "map.extent_m has no effect at any point of 2 parts ('a', 'b')".
   std::vector<std::string> dead_sweeps() const;
   std::vector<std::string> fixed() const;
 

@@ -9,7 +9,9 @@
 #include <exception>
 #include <stdexcept>
 
+#include "app/animated_png.h"
 #include "app/image_codec.h"
+#include "scenes/digest.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 
@@ -72,15 +74,14 @@ class Quiet {
   int kept_;
 };
 
-// rows(first, count, pixels) writes rows of the image.
-template <class Rows>
-std::string write(ImageToEncode image, const Rows& rows) {
-  AtomicFile file(image.path);
+// rows(first, count, pixels) writes rows of the image; take(offset, bytes) takes bytes of the file.
+template <class Rows, class Take>
+void encode(ImageToEncode image, const Rows& rows, const Take& take) {
   struct Call {
-    AtomicFile& file;
     const Rows& rows;
+    const Take& take;
     std::string why;
-    std::exception_ptr failure;  // of rows() or of the file; it must not pass through the library
+    std::exception_ptr failure;  // of rows() or of take(); it must not pass through the library
     bool attempt(const std::function<void()>& what) {
       try {
         what();
@@ -90,7 +91,7 @@ std::string write(ImageToEncode image, const Rows& rows) {
         return false;
       }
     }
-  } call{file, rows, "", {}};
+  } call{rows, take, "", {}};
   image.context = &call;
   image.rows = [](void* context, int first, int count, void* pixels) {
     Call& c = *static_cast<Call*>(context);
@@ -98,15 +99,33 @@ std::string write(ImageToEncode image, const Rows& rows) {
   };
   image.write = [](void* context, uint64_t offset, const char* bytes, size_t count) {
     Call& c = *static_cast<Call*>(context);
-    return c.attempt([&] { c.file.write_at(offset, {bytes, count}); });
+    return c.attempt([&] { c.take(offset, std::string_view(bytes, count)); });
   };
   image.fail = [](void* context, const char* why) { static_cast<Call*>(context)->why = why; };
   encoder()(image);
   if (call.failure) std::rethrow_exception(call.failure);
   if (!call.why.empty()) throw Error(ErrorKind::file, fmt::format("cannot write {}: {}", image.path, call.why));
+}
+
+// Returns the digest of the file.
+template <class Rows>
+std::string write(const ImageToEncode& image, const Rows& rows) {
+  AtomicFile file(image.path);
+  encode(image, rows, [&](uint64_t offset, std::string_view bytes) { file.write_at(offset, bytes); });
   std::string digest = file.digest();
   file.keep();
   return digest;
+}
+
+ImageToEncode colours(const std::string& path, const Image<Color>& picture) {
+  return {path.c_str(), picture.width, picture.height, 3, nullptr, {}, {}, {}, {}};
+}
+
+auto rows_of(const Image<Color>& picture) {
+  return [&picture](int first, int count, void* pixels) {
+    std::copy_n(&picture.at(0, first), static_cast<size_t>(count) * static_cast<size_t>(picture.width),
+                static_cast<Color*>(pixels));
+  };
 }
 
 }  // namespace
@@ -141,11 +160,21 @@ Image<float> read_grey(const std::string& path, int width, int height) {
 }
 
 std::string write_png(const std::string& path, const Image<Color>& picture) {
-  return write({path.c_str(), picture.width, picture.height, 3, nullptr, {}, {}, {}, {}},
-               [&](int first, int count, void* pixels) {
-                 std::copy_n(&picture.at(0, first), static_cast<size_t>(count) * static_cast<size_t>(picture.width),
-                             static_cast<Color*>(pixels));
-               });
+  return write(colours(path, picture), rows_of(picture));
+}
+
+std::string write_animated_png(const std::string& path, const std::vector<Image<Color>>& frames, int frame_ms) {
+  std::vector<std::string> files;
+  for (const Image<Color>& frame : frames) {
+    std::string& file = files.emplace_back();
+    encode(colours(path, frame), rows_of(frame), [&](uint64_t offset, std::string_view bytes) {
+      file.resize(std::max(file.size(), static_cast<size_t>(offset) + bytes.size()));
+      bytes.copy(&file[static_cast<size_t>(offset)], bytes.size());
+    });
+  }
+  const std::string animated = animated_png(files, frame_ms);
+  write_file_atomically(path, animated);
+  return digest_of(animated);
 }
 
 std::string write_exr(const std::string& path, const LargeImage& image) {

@@ -17,8 +17,11 @@ void require_image_files();
 
 using Color = glm::u8vec3;  // sRGB
 
-// Both return the digest of the file (digest_of, scenes/digest.h).
+// All of them return the digest of the file (digest_of, scenes/digest.h).
 std::string write_png(const std::string& path, const Image<Color>& picture);
+
+// An animated PNG (app/animated_png.h). The frames are of one size.
+std::string write_animated_png(const std::string& path, const std::vector<Image<Color>>& frames, int frame_ms);
 
 // One named channel of an EXR. Values are stored as 32-bit floats, row 0 on top.
 struct Channel {

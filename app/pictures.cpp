@@ -84,11 +84,11 @@ Image<Color> greys(const Measurement& m, const Image<float>& frame) {
   return paint(m, [&](size_t i) { return grey(frame[i]); });
 }
 
-// The film strip of a motion: this frame's light and the next one's, at the same points of the world, and what changed,
-// beside each other. What has no flicker is grey; what does not count is dark.
-Image<Color> film_strip(const Measurement& m) {
+// What changed from this frame of a motion to the next although the truth did not. What has no flicker is grey; what does
+// not count is dark.
+Image<Color> changes(const Measurement& m) {
   const Flicker& flicker = *m.flicker;
-  const Image<Color> changes = paint(m, [&](size_t i) {
+  return paint(m, [&](size_t i) {
     if (!flicker.points.counted[i]) return named_color("attached");
     glm::vec3 color(0.72f * glm::vec3(named_color(flicker.now[i] > 0.5f ? "lit" : "shadowed")));
     const float change = std::abs(flicker.next[i] - flicker.now[i]);
@@ -98,13 +98,33 @@ Image<Color> film_strip(const Measurement& m) {
       mixed += flicker.parts[c][i] / change * glm::vec3(flicker_colors[c].r, flicker_colors[c].g, flicker_colors[c].b);
     return Color(glm::clamp(glm::mix(color, mixed, 0.4f + 0.6f * std::min(1.0f, change)), 0.0f, 255.0f));
   });
-  const Image<Color> frames[] = {shaded(m, flicker.now), shaded(m, flicker.next), changes};
-  const int width = changes.width, gap = crop_gap;
-  Image<Color> strip(3 * width + 2 * gap, changes.height, Color(255));
-  for (int f = 0; f < 3; ++f)
-    for (int y = 0; y < changes.height; ++y)
-      for (int x = 0; x < width; ++x) strip.at(f * (width + gap) + x, y) = frames[f].at(x, y);
-  return strip;
+}
+
+// Pictures of one size beside each other.
+Image<Color> beside(std::initializer_list<Image<Color>> pictures) {
+  const int width = pictures.begin()->width, height = pictures.begin()->height,
+            count = static_cast<int>(pictures.size());
+  Image<Color> row(count * width + (count - 1) * crop_gap, height, Color(255));
+  int left = 0;
+  for (const Image<Color>& picture : pictures) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) row.at(left + x, y) = picture.at(x, y);
+    left += width + crop_gap;
+  }
+  return row;
+}
+
+// Each pixel of the result is the mean of `by` x `by` pixels; what is left over at the right and below is cut off.
+Image<Color> reduced(const Image<Color>& picture, int by) {
+  Image<Color> small(picture.width / by, picture.height / by);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      glm::ivec3 sum(by * by / 2);
+      for (int v = 0; v < by; ++v)
+        for (int u = 0; u < by; ++u) sum += glm::ivec3(picture.at(x * by + u, y * by + v));
+      small.at(x, y) = Color(sum / (by * by));
+    }
+  return small;
 }
 
 // Copies the surroundings of (x, y) to `to`, from column `left` on, and frames the pixel.
@@ -133,6 +153,12 @@ Image<Color> pixel_picture(const Measurement& m, int x, int y) {
   enlarge(shaded(m, m.ladder.shown()), x, y, picture, side + crop_gap);
   enlarge(classes(m), x, y, picture, 2 * (side + crop_gap));
   return picture;
+}
+
+Image<Color> motion_frame(const Measurement& m) {
+  constexpr int widest = 480;  // 24 frames of both pictures are then a few MB
+  const int by = (m.receivers.width() + widest - 1) / widest;
+  return beside({reduced(shaded(m, m.ladder.shown()), by), reduced(changes(m), by)});
 }
 
 Image<Color> lit_picture(const Measurement& m) {
@@ -171,7 +197,7 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
                     "moved (orange), depths were re-rounded (pink), the kernel turned (blue), "
                     "or the map's edge passed (green).",
                     m.settings.view.motion.frame, m.settings.view.motion.frame + 1),
-        film_strip(m));
+        beside({shaded(m, m.flicker->now), shaded(m, m.flicker->next), changes(m)}));
   add("depth",
       m.frame.map_shape() == MapShape::cube
           ? "The cube map unfolded, as it looks from outside: bright is near in metres, black is empty."

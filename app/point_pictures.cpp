@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <map>
 
 #include "app/pictures.h"
 #include "app/point_files.h"
@@ -23,19 +25,59 @@ constexpr uint64_t max_picture_bytes = uint64_t{1} << 28;
 // PNG specification, section 5.2.
 constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 
-// The frame of a motion with the largest flicker; -1 if there is none that flickers.
-int64_t worst_instant(const std::vector<PointRecord>& points) {
-  int64_t id = -1;
-  double most = 0;
-  for (const PointRecord& point : points)
-    if (const auto found = point.metrics.find("flicker"); found != point.metrics.end() && !(found->second <= most)) {
-      id = point.id;
-      most = found->second;
-    }
-  return id;
+bool names_a_frame(const std::string& setting) { return setting == "motion.frame" || setting == "scene.time_s"; }
+
+// All settings but the frame and its time.
+std::map<std::string, std::string> choice_of(const PointRecord& point) {
+  std::map<std::string, std::string> settings = point.settings;
+  std::erase_if(settings, [](const auto& setting) { return names_a_frame(setting.first); });
+  return settings;
 }
 
 }  // namespace
+
+Instant worst_instant(const std::vector<PointRecord>& points) {
+  const PointRecord* worst = nullptr;
+  double most = 0;
+  for (const PointRecord& point : points)
+    if (const auto found = point.metrics.find("flicker"); found != point.metrics.end() && !(found->second <= most)) {
+      worst = &point;
+      most = found->second;
+    }
+  if (!worst) return {};
+  Instant instant{worst->id, {}};
+  const std::map<std::string, std::string> choice = choice_of(*worst);
+  std::vector<const PointRecord*> frames;
+  for (const PointRecord& point : points)
+    if (point.part == worst->part && choice_of(point) == choice) frames.push_back(&point);
+  const auto time = [](const PointRecord* point) {
+    const auto number = [&](const char* name) {
+      const auto found = point->settings.find(name);
+      return found == point->settings.end() ? 0 : std::strtod(found->second.c_str(), nullptr);  // "auto" is 0
+    };
+    return std::pair(number("motion.frame"), number("scene.time_s"));
+  };
+  std::stable_sort(frames.begin(), frames.end(),
+                   [&](const PointRecord* a, const PointRecord* b) { return time(a) < time(b); });
+  constexpr size_t most_frames = 24;
+  const auto at = static_cast<size_t>(std::find(frames.begin(), frames.end(), worst) - frames.begin());
+  const size_t count = std::min(frames.size(), most_frames);
+  const size_t first = std::min(at - std::min(at, most_frames / 2), frames.size() - count);
+  for (size_t i = first; i < first + count; ++i) instant.frames.push_back(frames[i]->id);
+  return instant;
+}
+
+PictureRecord keep_motion(const std::vector<Image<Color>>& frames, int64_t id, const std::string& out) {
+  constexpr int frame_ms = 200;  // slow enough to see what changes where
+  const std::string path = fmt::format("images/p{:04}-{}.png", id, motion_picture);
+  make_folder(out + "/images");
+  const std::string digest = write_animated_png(out + "/" + path, frames, frame_ms);
+  return {motion_picture, path,
+          fmt::format("{} frames about this one, animated: what the shadow map shows (left) and what changes until the "
+                      "next frame although the truth does not (right; colours as in the picture flicker).",
+                      frames.size()),
+          digest};
+}
 
 std::vector<int64_t> points_with_pictures(const std::string& pictures, const Results& results) {
   const std::vector<PointRecord>& points = results.points;
@@ -55,7 +97,7 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const Res
                           [&](const PointRecord& a, const PointRecord& b) { return badness(a) < badness(b); });
   if (pictures == "extremes" && best != worst) ids.push_back(best->id);
   ids.push_back(worst->id);
-  if (const int64_t id = worst_instant(points); id >= 0 && std::find(ids.begin(), ids.end(), id) == ids.end())
+  if (const int64_t id = worst_instant(points).id; id >= 0 && std::find(ids.begin(), ids.end(), id) == ids.end())
     ids.push_back(id);
   // Points of different parts have no common answer.
   if (!points.front().part.empty()) return ids;

@@ -9,15 +9,29 @@
 #include <utility>
 #include <vector>
 
+#include "app/image_file.h"
 #include "app/workbench.h"
 #include "compare/store/records.h"
 
 namespace noonmark {
 
 // Ids of the points, selected by the experiment's `pictures`. `worst` and `extremes` select by error, and of a motion the
-// frame with the largest flicker too; they need all points; an error that is not finite is the worst. Both also select the first point of the recommended choice, because
+// frame with the largest flicker too (worst_instant); they need all points; an error that is not finite is the worst. Both also select the first point of the recommended choice, because
 // the report's first screen shows it. results: with the verdicts of the bounds, which the recommendation reads.
 std::vector<int64_t> points_with_pictures(const std::string& pictures, const Results& results);
+
+// The point of a motion with the largest flicker, and the frames about it that the experiment has, at most 24 in their
+// order: points of the same part that differ in nothing but the frame and its time. Empty if nothing flickers.
+struct Instant {
+  int64_t id = -1;
+  std::vector<int64_t> frames;
+};
+Instant worst_instant(const std::vector<PointRecord>& points);
+
+// The picture of that name in PointPictures. Writes it as an animated PNG below out/images. frames: motion_frame()
+// (app/pictures.h) of each.
+inline constexpr const char* motion_picture = "motion";
+PictureRecord keep_motion(const std::vector<Image<Color>>& frames, int64_t id, const std::string& out);
 
 // Writes the point's files below out/images. The record must be in the store.
 PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out);

@@ -170,6 +170,11 @@ std::vector<const PointRecord*> points_of_broken(const Results& results) {
   return points;
 }
 
+bool has_picture(const PointPictures& point, std::string_view name) {
+  return std::any_of(point.pictures.begin(), point.pictures.end(),
+                     [&](const PictureRecord& picture) { return picture.name == name; });
+}
+
 SummaryPicture draw_worst_pixel(const Measurement& m, const PointRecord& point, const std::string& name,
                                 const std::string& out) {
   const std::string file = fmt::format("{}{:04}.png", summary_picture, point.id);
@@ -359,17 +364,33 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       store.set_pictures(point.id, {});
       changed = true;
     }
+    const Instant instant = worst_instant(outcome.results.points);
     for (int64_t id : shown) {
       const PointRecord& point = *find_point(outcome.results.points, id);
-      if (!point.pictures.empty()) {
+      // With fewer than 3 frames the film strip shows all.
+      const bool moves = id == instant.id && instant.frames.size() > 2;
+      bool whole = !point.pictures.empty();
+      if (whole) {
         const std::string why = measured_before(id) ? why_not_as_written(point, folder.path()) : "";
-        if (why.empty()) continue;
-        fmt::print(stderr, "note: {}; the pictures of point {} are made again\n", printable(why), id);
+        if (!why.empty()) fmt::print(stderr, "note: {}; the pictures of point {} are made again\n", printable(why), id);
+        whole = why.empty();
       }
-      const Settings& settings = planned[static_cast<size_t>(id)];
-      room.require_room_for(static_cast<size_t>(id));
-      scenes.require_unchanged(bench, settings);
-      store.set_pictures(id, pictures_of(bench, bench.measure(settings, std::nullopt), id, folder.path()));
+      if (whole && moves == has_picture(point, motion_picture)) continue;
+      const auto measure = [&](int64_t wanted_id) {
+        const Settings& settings = point_at(planned, wanted_id);
+        room.require_room_for(static_cast<size_t>(wanted_id));
+        scenes.require_unchanged(bench, settings);
+        return bench.measure(settings, std::nullopt);
+      };
+      PointPictures kept_pictures = point;
+      if (!whole) kept_pictures = pictures_of(bench, measure(id), id, folder.path());
+      std::erase_if(kept_pictures.pictures, [](const PictureRecord& each) { return each.name == motion_picture; });
+      if (moves) {
+        std::vector<Image<Color>> frames;
+        for (const int64_t frame : instant.frames) frames.push_back(motion_frame(measure(frame)));
+        kept_pictures.pictures.push_back(keep_motion(frames, id, folder.path()));
+      }
+      store.set_pictures(id, kept_pictures);
       changed = true;
     }
     if (changed) outcome.results = store.load();

@@ -1,6 +1,7 @@
 #include "compare/report/flicker_section.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr size_t most_strips = 12;
 constexpr size_t most_frame_rows = 2000;
-constexpr double strip_width = 1000, strip_height = 90;
+constexpr double strip_width = 1000, strip_height = 60;
 
 bool names_a_frame(std::string_view setting) { return setting == "motion.frame" || setting == "scene.time_s"; }
 
@@ -118,22 +119,17 @@ bool has_flicker(const Results& results) {
                      [](const PointRecord& point) { return point.metrics.contains("flicker"); });
 }
 
-std::string flicker_section(const Results& results) {
+std::string flicker_strips(const Results& results) {
   const std::vector<Strip> strips = strips_of_motion(results);
-  std::string legend, table, figures, rows;
+  std::string legend, figures;
   for (const CauseColor& color : flicker_colors)
     legend +=
         fmt::format("<span><i class=\"sw\" style=\"background:{}\"></i>{}</span>\n", rgb_of(color), html(color.label));
   std::vector<const Strip*> drawn;
-  size_t frames = 0;
   double largest = 0;
   for (const Strip& strip : strips) {
     drawn.push_back(&strip);
-    frames += strip.frames.size();
     if (const double most = flicker_of_point(*strip.worst); most > largest) largest = most;
-    table += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td><a href=\"#p{}\">{}</a></td>{}</tr>\n",
-                         html(strip.name), strip.frames.size(), cell(strip.mean, "fraction"), strip.worst->id,
-                         html(frame_of(*strip.worst)), numbers_of_point(*strip.worst));
   }
   std::stable_sort(drawn.begin(), drawn.end(),
                    [](const Strip* a, const Strip* b) { return flickers_more(*a->worst, *b->worst); });
@@ -146,6 +142,51 @@ std::string flicker_section(const Results& results) {
                                              : "at most " + quantity(flicker_of_point(*strip->worst), "fraction") +
                                                    ", at frame " + html(frame_of(*strip->worst)),
         strip_svg(*strip, largest));
+  return fmt::format(
+      "<p>How much the shadow of a point of the world changes from each frame to the next although its truth does not: "
+      "the "
+      "mean change of its light over the points that both frames see. The colours say what brought the change. All "
+      "strips "
+      "have one scale; their top is {}.</p>\n<div class=\"legend\">{}</div>\n{}{}",
+      quantity(largest, "fraction"), legend, figures,
+      strips.size() > drawn.size()
+          ? fmt::format("<p class=\"small\">The {} choices that flicker most of {} are drawn.</p>\n", drawn.size(),
+                        strips.size())
+          : "");
+}
+
+std::string flicker_sentence(const Results& results) {
+  const std::vector<Strip> strips = strips_of_motion(results);
+  if (strips.empty()) return "";
+  std::vector<std::string> still;
+  const Strip* most = &strips.front();
+  for (const Strip& strip : strips) {
+    if (flicker_of_point(*strip.worst) == 0) still.push_back(html(strip.name));
+    if (flickers_more(*strip.worst, *most->worst)) most = &strip;
+  }
+  constexpr size_t most_named = 3;
+  std::string out;
+  if (!still.empty())
+    out = fmt::format("Of {} choices {} {} not flicker in any frame{}.", strips.size(), still.size(),
+                      still.size() == 1 ? "does" : "do",
+                      still.size() <= most_named ? fmt::format(": {}", fmt::join(still, ", ")) : "");
+  if (still.size() < strips.size())
+    out += fmt::format("{}<b>{}</b> flickers most: {} of the light at <a href=\"#p{}\">frame {}</a>.",
+                       out.empty() ? "" : " ", html(most->name), quantity(flicker_of_point(*most->worst), "fraction"),
+                       most->worst->id, html(frame_of(*most->worst)));
+  return out;
+}
+
+std::string flicker_section(const Results& results, bool strips_on_first_screen) {
+  const std::vector<Strip> strips = strips_of_motion(results);
+  std::string table, rows;
+  size_t frames = 0;
+  for (const Strip& strip : strips) {
+    frames += strip.frames.size();
+    table += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td><a href=\"#p{}\">{}</a></td>{}</tr>\n",
+                         html(strip.name), strip.frames.size(), cell(strip.mean, "fraction"), strip.worst->id,
+                         html(frame_of(*strip.worst)), numbers_of_point(*strip.worst));
+  }
   if (frames <= most_frame_rows) {
     for (const Strip& strip : strips)
       for (const PointRecord* point : strip.frames)
@@ -157,18 +198,11 @@ std::string flicker_section(const Results& results) {
         frames, head_of_numbers(), rows);
   }
   return fmt::format(
-      "<section id=\"motion\"><h2>Motion</h2>\n<p>How much the shadow of a point of the world changes from each frame "
-      "to "
-      "the next although its truth does not: the mean change of its light over the points that both frames see. The "
-      "colours say what brought the change. All strips have one scale; their top is {}.</p>\n"
-      "<div class=\"legend\">{}</div>\n{}{}"
+      "<section id=\"motion\"><h2>Motion</h2>\n{}"
       "<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th>Choice</th><th>Frames</th><th>Mean flicker "
       "<small>%</small></th><th>Worst frame</th>{}</tr></thead><tbody>\n{}</tbody></table></div>\n{}</section>\n",
-      quantity(largest, "fraction"), legend, figures,
-      strips.size() > drawn.size()
-          ? fmt::format("<p class=\"small\">The {} choices that flicker most of {} are drawn.</p>\n", drawn.size(),
-                        strips.size())
-          : "",
+      strips_on_first_screen ? "<p>The strips of all choices are at the top of this page.</p>\n"
+                             : flicker_strips(results),
       head_of_numbers(), table, rows);
 }
 

@@ -9,8 +9,14 @@ namespace noonmark::report {
 // Whether a point has flicker; the report has the section only then.
 bool has_flicker(const Results& results);
 
-// One strip for each choice of each part: a bar for each frame, in the classes' colours, and a table. Needs no JavaScript.
-// Of more than 12 choices those with the largest flicker are drawn; the table has all of them.
-std::string flicker_section(const Results& results);
+// One strip for each choice of each part: a bar for each frame, in the classes' colours. Needs no JavaScript. Of more than 12
+// choices those with the largest flicker are drawn.
+std::string flicker_strips(const Results& results);
+
+// "2 of 6 choices do not flicker in any frame: steady, and wrapped. The most flickers ...", as HTML.
+std::string flicker_sentence(const Results& results);
+
+// The strips, unless the first screen has them, and a table of all choices.
+std::string flicker_section(const Results& results, bool strips_on_first_screen);
 
 }  // namespace noonmark::report

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/recommendation.h"
 #include "compare/report/findings.h"
 #include "compare/report/sections.h"
+#include "compare/report/speed.h"
 #include "compare/report/text.h"
 #include "compare/store/quantities.h"
 
@@ -83,7 +85,24 @@ std::string cause_sentence(std::span<const PointRecord* const> points) {
   return out;
 }
 
-std::string answer_sentence(const Results& results) {
+// Of points of several parts: the cheapest choice of the largest group that can be compared. Empty if no choice of it has a
+// usable bias window, because a bound of a part alone can also demand an error.
+std::string cheapest_of_parts(const Results& results, const ShownPoints& shown) {
+  if (shown.groups.empty() || is_incomplete(results)) return "";
+  const ComparedGroup& group = shown.groups[group_shown_first(shown.groups)];
+  if (group.choices.size() < 2 || !group.recommended) return "";
+  const ComparedChoice& best = group.choices[*group.recommended];
+  if (best.window != ComparedChoice::Window::usable) return "";
+  std::unordered_set<int64_t> on_page;
+  for (const PointRecord& point : shown.results.points) on_page.insert(point.id);
+  const std::string name = html(ChoiceNames(results).of(best.choice)), of = GroupNames(results, shown.groups).of(group);
+  const PointRecord* const point = point_on_page(best, error_shown_first(results), on_page);
+  return fmt::format(" Of the {} choices{} the cheapest that is good enough is {}.", group.choices.size(),
+                     of.empty() ? "" : " for " + html(of),
+                     point ? fmt::format("<a href=\"#p{}\">{}</a>", point->id, name) : name);
+}
+
+std::string answer_sentence(const Results& results, const ShownPoints& shown) {
   if (results.points.empty()) return "No point was measured.";
   if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
     return "Nothing was measured: " + html(poor_view_note(results.points)) + ".";
@@ -97,8 +116,8 @@ std::string answer_sentence(const Results& results) {
     if (!results.bounds.empty())
       out +=
           fmt::format("{}{} of {} bounds hold", out.empty() ? "" : ", ", kept(results.bounds), results.bounds.size());
-    return fmt::format("{}{} points of several parts, which are compared only where they can be.",
-                       out.empty() ? "" : out + ". ", results.points.size());
+    return fmt::format("{}{} points of several parts, which are compared only where they can be.{}",
+                       out.empty() ? "" : out + ". ", results.points.size(), cheapest_of_parts(results, shown));
   }
   const Recommendation found = recommend(results);
   switch (found.outcome) {

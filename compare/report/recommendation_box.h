@@ -3,12 +3,13 @@
 #include <span>
 #include <string>
 
+#include "compare/report/shown.h"
 #include "compare/store/records.h"
 
 namespace noonmark::report {
 
 // The answer as one sentence of HTML, for the first screen.
-std::string answer_sentence(const Results& results);
+std::string answer_sentence(const Results& results, const ShownPoints& shown);
 
 std::string recommendation_box(const Results& results);
 

@@ -64,9 +64,17 @@ std::string by_point(const Results& results, const ShownPoints& shown, const Rea
 std::string pictures(const Results& results, const ShownPoints&, const ReadFile& read_file) {
   return report::pictures_section(results, read_file);
 }
-// A report without a live picture and without a diagram opens with the chart of cost against error.
+// A report without a live picture and without a diagram opens with the strips of its motion, or with the chart of cost
+// against error.
+bool opens_with_motion(const Results& results) {
+  return !report::has_live_picture(results) && !report::has_diagram(results) && report::has_flicker(results);
+}
 bool opens_with_speed(const Results& results, const ShownPoints& shown) {
-  return !report::has_live_picture(results) && !report::has_diagram(results) && report::has_speed_chart(results, shown);
+  return !report::has_live_picture(results) && !report::has_diagram(results) && !report::has_flicker(results) &&
+         report::has_speed_chart(results, shown);
+}
+std::string motion(const Results& results, const ShownPoints&, const ReadFile&) {
+  return report::flicker_section(results, opens_with_motion(results));
 }
 std::string speed(const Results& results, const ShownPoints& shown, const ReadFile&) {
   return report::speed_section(results, shown, opens_with_speed(results, shown));
@@ -74,7 +82,7 @@ std::string speed(const Results& results, const ShownPoints& shown, const ReadFi
 constexpr Section all_sections[] = {
     {"phase", "Diagram", by_point<report::phase_section>, false},
     {"answer", "Answer", plain<report::answer_section>, false},
-    {"motion", "Motion", plain<report::flicker_section>, false},
+    {"motion", "Motion", motion, false},
     {"bias", "Bias", by_point<report::bias_section>, true},
     {"sweep", "Resolution", by_point<report::sweep_section>, true},
     {"budget", "Causes", by_point<report::budget_section>, true},
@@ -102,16 +110,18 @@ std::string navigation(const Results& results) {
   return links;
 }
 
-// What the first screen shows: the verdict and the answer, then the picture and the diagram beside each other, or the
-// chart of cost against error.
+// What the first screen shows: the verdict and the answer, then the picture and the diagram beside each other, the strips of
+// a motion, or the chart of cost against error.
 std::string first_screen(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
   const bool live = report::has_live_picture(results), diagram = report::has_diagram(results);
   std::string figures;
   if (live) figures += "<div id=\"live\">" + report::live_figure(results, read_file) + "</div>\n";
   if (diagram) figures += "<div>" + report::first_diagram() + "</div>\n";
   if (opens_with_speed(results, shown)) figures = "<div>" + report::speed_chart() + "</div>\n";
-  return fmt::format("<div class=\"first\">\n{}<p class=\"said\">{}</p>\n<div class=\"{}\">{}</div></div>\n",
-                     report::verdict_line(results), report::answer_sentence(results),
+  if (opens_with_motion(results)) figures = "<div>" + report::flicker_strips(results) + "</div>\n";
+  return fmt::format("<div class=\"first\">\n{}<p class=\"said\">{} {}</p>\n<div class=\"{}\">{}</div></div>\n",
+                     report::verdict_line(results), report::answer_sentence(results, shown),
+                     report::has_flicker(results) ? report::flicker_sentence(results) : "",
                      live && diagram   ? "side-by-side two"
                      : live || diagram ? "side-by-side"
                                        : "alone",

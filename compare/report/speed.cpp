@@ -203,7 +203,10 @@ GroupNames::GroupNames(const Results& results, const std::vector<ComparedGroup>&
 }
 
 std::string GroupNames::of(const ComparedGroup& group) const {
-  return settings_phrase(group.choices.front().choice.first(), differing_);
+  const PointRecord& point = group.choices.front().choice.first();
+  std::vector<std::string> said = differing_;  // "auto" says nothing beside another setting
+  std::erase_if(said, [&](const std::string& name) { return setting_of(point, name) == "auto"; });
+  return settings_phrase(point, said.empty() ? differing_ : said);
 }
 
 ChoiceNames::ChoiceNames(const Results& results) {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/judge/machines.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
+#include "compare/judge/machines.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
@@ -205,7 +205,8 @@ std::string to_summary(const Results& results, const BaselineComparison* baselin
       fmt::format("# {}\n\n{}", markdown(info.title.empty() ? "Noonmark" : info.title), verdict(results));
   if (const std::string poor = poor_view_note(results.points); !poor.empty())
     text += fmt::format("\nNote: {}.\n", markdown(poor));
-  for (const std::string& note : machine_notes(results).warnings) text += fmt::format("\nWarning: {}.\n", markdown(note));
+  for (const std::string& note : machine_notes(results).warnings)
+    text += fmt::format("\nWarning: {}.\n", markdown(note));
   for (const std::string& note : info.sweep_notes) text += fmt::format("\nWarning: {}.\n", markdown(note));
   if (const std::string doubt = undecided_note(results.points); !doubt.empty())
     text += fmt::format("\nNote: {}.\n", markdown(doubt));

@@ -3,6 +3,7 @@
 
 #include "app/experiment.h"
 #include "app/experiment_file.h"
+#include "app/idle_notes.h"
 #include "scenes/error.h"
 
 namespace noonmark {
@@ -252,6 +253,21 @@ TEST(ExperimentLaws, MistakesAreNamedWithTheirPlace) {
       "\"b\"\n[[part.law]]\nname = \"l\"\nmeasured = \"error\"\nequals = 0",
       "7:", {"two laws have the name 'l'"});
   expect_error("[let]\nx = \"1 = 2\"", "2:5", {"compare with =="});
+}
+
+// A note for each part would hide what matters among lines of one kind.
+TEST(IdleNotes, NameASettingOnceForAllParts) {
+  std::string file = "scene = \"plane\"\n[bias]\nunit = \"texel\"\n";
+  for (const char* name : {"a", "b", "c", "d"})
+    file += std::string("[[part]]\nname = \"") + name + "\"\n[part.bias]\nnormal_offset = 1\nconstant = 0\n";
+  file += "[[part]]\nname = \"read\"\n[part.bias]\nconstant = 1\n";
+  const Experiment experiment = parse_parts(file);
+  IdleNotes notes;
+  const std::vector<Settings> planned = points(experiment);
+  for (size_t id = 0; id < planned.size(); ++id)
+    notes.add(part_of_point(experiment, static_cast<int64_t>(id)), planned[id], LightKind::directional);
+  EXPECT_EQ(notes.fixed(),
+            (std::vector<std::string>{"bias.unit has no effect at any point of 4 parts ('a', 'b', 'c' and 1 other)"}));
 }
 
 }  // namespace

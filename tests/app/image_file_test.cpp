@@ -5,13 +5,16 @@
 #include <rapidcheck/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <bit>
 #include <csignal>
 #include <random>
 #include <set>
 
+#include "scenes/digest.h"
 #include "scenes/error.h"
+#include "scenes/file.h"
 #include "tests/app/read_image.h"
 #include "tests/support/sample_results.h"
 
@@ -60,6 +63,74 @@ RC_GTEST_FIXTURE_PROP(ImageFile, ExrKeepsEveryBit, ()) {
   for (const Channel& channel : channels)
     RC_ASSERT(bits(image.channels.at(channel.name)) == bits(channel.values.pixels));
   RC_ASSERT(files_in(folder.path()) == std::set<std::string>{"a.exr"});
+}
+
+// A frame of an animated PNG as a PNG of its own: the chunks of the file, with this frame's data in place of the first's.
+std::string frame_as_png(const std::string& animated, size_t wanted) {
+  std::string png = animated.substr(0, 8);
+  size_t frame = 0;
+  uint32_t number = 0;
+  bool begun = false;
+  for (size_t at = 8; at < animated.size();) {
+    const auto number_at = [&](size_t place) {
+      uint32_t value = 0;
+      for (size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<uint8_t>(animated.at(place + i));
+      return value;
+    };
+    const size_t length = number_at(at);
+    const std::string type = animated.substr(at + 4, 4);
+    std::string data = animated.substr(at + 8, length);
+    const auto sum = crc32(0, reinterpret_cast<const Bytef*>(&animated[at + 4]), static_cast<uInt>(length + 4));
+    EXPECT_EQ(number_at(at + 8 + length), sum) << type;
+    if (type == "fcTL") {
+      frame += begun;
+      begun = true;
+    }
+    if (type == "fcTL" || type == "fdAT") {
+      EXPECT_EQ(number_at(at + 8), number++) << "the order of the chunks";
+    }
+    if (type == "fdAT") data.erase(0, 4);
+    const bool picture = type == "IDAT" || type == "fdAT";
+    if (type != "fcTL" && type != "acTL" && (!picture || frame == wanted)) {
+      const std::string kept = (picture ? "IDAT" : type) + data;
+      const auto check = crc32(0, reinterpret_cast<const Bytef*>(kept.data()), static_cast<uInt>(kept.size()));
+      const auto add = [&](uint64_t value) {
+        for (int shift = 24; shift >= 0; shift -= 8) png += static_cast<char>(value >> shift & 0xff);
+      };
+      add(data.size());
+      png += kept;
+      add(check);
+    }
+    at += length + 12;
+  }
+  return png;
+}
+
+TEST_F(ImageFile, AnAnimatedPngHasEveryFrameBitForBit) {
+  std::mt19937 random(7);
+  std::vector<Image<Color>> frames;
+  for (int f = 0; f < 3; ++f) {
+    Image<Color>& frame = frames.emplace_back(301, 173);  // noise: the data of a frame are several chunks
+    for (Color& color : frame.pixels)
+      color = Color(static_cast<uint8_t>(random()), static_cast<uint8_t>(random()), static_cast<uint8_t>(random()));
+  }
+  const std::string path = folder.file("a.png");
+  const std::string digest = write_animated_png(path, frames, 200);
+  EXPECT_EQ(digest, digest_of(read_file(path, 1 << 24)));
+  EXPECT_EQ(read_png(path).pixels, frames[0].pixels) << "what a program shows that does not know animations";
+  const std::string animated = read_file(path, 1 << 24);
+  for (size_t f = 0; f < frames.size(); ++f) {
+    write_file_atomically(folder.file("frame.png"), frame_as_png(animated, f));
+    EXPECT_EQ(read_png(folder.file("frame.png")).pixels, frames[f].pixels) << f;
+  }
+}
+
+TEST_F(ImageFile, AnimatedFramesHaveOneSize) {
+  const std::vector<Image<Color>> frames = {Image<Color>(4, 3), Image<Color>(3, 4)};
+  EXPECT_THROW(write_animated_png(folder.file("a.png"), frames, 200), std::invalid_argument);
+  EXPECT_THROW(write_animated_png(folder.file("a.png"), {}, 200), std::invalid_argument);
+  EXPECT_THROW(write_animated_png(folder.file("a.png"), {frames[0]}, 0), std::invalid_argument);
+  EXPECT_TRUE(files_in(folder.path()).empty());
 }
 
 TEST_F(ImageFile, ExrKeepsWhatIsNoNumber) {

@@ -341,6 +341,40 @@ TEST_F(Stale, PicturesThatAreLostOrAnothersAreMadeAgain) {
   }
 }
 
+TEST_F(Stale, TheAnimationOfAMotionIsOfItsWorstInstant) {
+  const std::string frames = "[motion]\nmove_m = [-0.013, 0.003, -0.011]\nturn_deg = [0.05, 0.31, 0.02]\n";
+  const std::string view = "scene = \"cube-room\"\npictures = \"worst\"\n[view]\nwidth_px = 64\nheight_px = 36\n";
+  const auto run_of = [&](int last, int resolution) {
+    const std::string motion =
+        view + "[map]\nfit = \"view\"\nresolution = " + std::to_string(resolution) + "\n" + frames +
+        "[curve]\nenabled = false\n[over]\nmotion.frame = {min = 0, max = " + std::to_string(last) +
+        ", steps = " + std::to_string(last + 1) + "}\n";
+    return run({"run", write("x.toml", motion), "--out", "out"});
+  };
+  const auto animations = [&] {
+    std::vector<std::string> found;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/images"))
+      if (entry.path().string().ends_with("-motion.png"))
+        found.push_back("out/images/" + entry.path().filename().string());
+    return found;
+  };
+  ASSERT_EQ(run_of(3, 64), 0) << output_;
+  ASSERT_EQ(animations().size(), 1u);
+  const std::string file = animations()[0], four = text(file);
+  EXPECT_NE(four.find(std::string("acTL\0\0\0\4", 8)), std::string::npos) << "four frames";
+  EXPECT_NE(text("out/report.html").find("data-name=\"motion\""), std::string::npos);
+  ASSERT_EQ(run_of(3, 64), 0);
+  EXPECT_FALSE(says("made again")) << output_;
+  fs::remove(folder_ / file);
+  ASSERT_EQ(run_of(3, 64), 0);
+  EXPECT_TRUE(says("made again") && text(file) == four) << output_;
+  // The film strip of the picture flicker shows all of two frames.
+  ASSERT_EQ(run_of(1, 32), 2) << output_;
+  fs::remove_all(folder_ / "out");
+  ASSERT_EQ(run_of(1, 32), 0) << output_;
+  EXPECT_TRUE(animations().empty());
+}
+
 TEST_F(Stale, OnlyAPictureThatWasWrittenIsShown) {
   const std::string experiment =
       write("x.toml", "scene = \"plate\"\npictures = \"first\"\n[view]\nwidth_px = 48\nheight_px = 27\n");

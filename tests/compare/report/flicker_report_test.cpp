@@ -41,12 +41,12 @@ Results walk() {
 }
 
 TEST(FlickerSection, HasAStripForEachChoiceAndABarForEachFrame) {
-  const std::string html = report::flicker_section(walk());
+  const std::string html = report::flicker_section(walk(), false);
   EXPECT_EQ(times_of(html, "<svg"), 2u);
   EXPECT_EQ(times_of(html, "<rect"), 4u);  // a part that is 0 has no bar
   // The worst frame fills the strip: two parts of half its height, one on the other.
-  EXPECT_TRUE(holds_text(html, "y=\"45.000\" width=\"300.00\" height=\"45.000\" fill=\"rgb(230,159,0)\"")) << html;
-  EXPECT_TRUE(holds_text(html, "y=\"0.000\" width=\"300.00\" height=\"45.000\" fill=\"rgb(0,114,178)\"")) << html;
+  EXPECT_TRUE(holds_text(html, "y=\"30.000\" width=\"300.00\" height=\"30.000\" fill=\"rgb(230,159,0)\"")) << html;
+  EXPECT_TRUE(holds_text(html, "y=\"0.000\" width=\"300.00\" height=\"30.000\" fill=\"rgb(0,114,178)\"")) << html;
   EXPECT_TRUE(holds_text(html, "no point of the world changes in any frame"));
   EXPECT_TRUE(holds_text(html, "at most " + report::quantity(0.04, "fraction") + ", at frame 1")) << html;
   EXPECT_EQ(times_of(html, "<tr><th scope=\"row\">"), 2u + 6u);  // a row for each choice, and one for each frame
@@ -57,8 +57,23 @@ TEST(FlickerSection, HasAStripForEachChoiceAndABarForEachFrame) {
 TEST(FlickerSection, ShowsWhatIsNotFinite) {
   Results results = walk();
   results.points[5].metrics["flicker"] = results.points[5].metrics["flicker_grid"] = std::nan("");
-  const std::string html = report::flicker_section(results);
+  const std::string html = report::flicker_section(results, false);
   EXPECT_TRUE(holds_text(html, "at most not finite, at frame 2")) << html;
+}
+
+// The chart of cost against error would lead with what flickers and is cheap.
+TEST(FlickerSection, LeadsAReportWithoutALivePictureAndADiagram) {
+  Results results = walk();
+  results.planned_points = 6;
+  for (PointRecord& point : results.points) point.metrics.insert({{"error", 0.1}, {"facing", 100}, {"counted", 100}});
+  const std::string html = render_report(results, sample_picture);
+  const size_t strips = html.find("chart strip"), section = html.find("id=\"motion\"");
+  ASSERT_NE(strips, std::string::npos);
+  EXPECT_LT(strips, section) << "the strips are on the first screen";
+  EXPECT_EQ(html.find("chart strip", section), std::string::npos) << "the section has them a second time";
+  EXPECT_TRUE(holds_text(html, "Of 2 choices 1 does not flicker in any frame: ")) << html.substr(strips - 900, 900);
+  EXPECT_TRUE(holds_text(html, "flickers most: " + report::quantity(0.04, "fraction")))
+      << html.substr(strips - 900, 900);
 }
 
 TEST(FlickerSection, IsInTheReportOfAMotionOnly) {
