@@ -9,6 +9,7 @@
 #include "compare/ladder/live_picture.h"
 #include "compare/ladder/receiver_taps.h"
 #include "scenes/error.h"
+#include "technique/casters.h"
 #include "technique/tap_pattern.h"
 
 namespace noonmark {
@@ -94,7 +95,7 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   scene += per_grid_cell * faces * std::clamp(16 * edges, least_grid_cells, most_grid_cells);
   if (s.map.cull != CulledFaces::none) scene += per_kept_triangle * static_cast<double>(input.scene.triangles);
   // The scene once more with moved vertices: its triangles, its places in the light's frame, and a tree of its own.
-  if (Bias(s.bias).moves_casters())
+  if (moves_casters(s.map, Bias(s.bias)))
     scene += scene_bytes(input.scene) + per_kept_triangle * static_cast<double>(input.scene.triangles);
 
   if (kind_of_light(input.light).map_shape() == MapShape::flat)

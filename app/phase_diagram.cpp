@@ -12,6 +12,7 @@
 #include "app/placement_stage.h"
 #include "compare/ladder/law_bias.h"
 #include "scenes/error.h"
+#include "technique/casters.h"
 #include "technique/setting_rules.h"
 
 namespace noonmark {
@@ -74,7 +75,7 @@ double acne_of(const Planes& planes, const TapPattern& pattern, double c) {
 
 bool has_law(const Settings& settings) {
   const Bias bias(settings.bias);
-  return !tap_reference(settings.bias.reference).plane && !bias.moves_lookup() && !bias.moves_casters() &&
+  return !tap_reference(settings.bias.reference).plane && !bias.moves_lookup() && !moves_casters(settings.map, bias) &&
          !bias.polygon_offset() && bias.compared().size() <= 1 && !tap_pattern(settings.filter).bilinear();
 }
 

@@ -116,7 +116,8 @@ TruthStage Pipeline::trace_truth(const SceneStage& scene, const ViewStage& view,
 
 MapStage Pipeline::draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point) {
   std::vector<glm::vec3> casters;
-  if (const Bias bias(point.settings.bias); bias.moves_casters()) casters = caster_positions(scene, point.frame, bias);
+  if (const Bias bias(point.settings.bias); moves_casters(point.settings.map, bias))
+    casters = caster_positions(scene, point.frame, point.settings.map, bias);
   MapStage stage;
   stage.map.emplace(renderer.render_map(point.frame, point.settings, nullptr, casters));
   return stage;

@@ -18,6 +18,7 @@
 #include "scenes/library.h"
 #include "scenes/text.h"
 #include "technique/bias.h"
+#include "technique/casters.h"
 #include "technique/placements.h"
 #include "technique/setting_rules.h"
 
@@ -123,7 +124,8 @@ void print_ladder(const Measurement& m, const char* clock) {
     // The law's bias in the parameter's own unit, which each receiver converts to depth by itself. The law does not
     // include the effect of other parts of the bias.
     const Bias bias(m.settings.bias);
-    if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset() || bias.moves_casters())
+    if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset() ||
+        moves_casters(m.settings.map, bias))
       fmt::print(", on top of the other parts");
     else if (m.frame.uniform() || m.settings.bias.unit == BiasUnit::m)
       fmt::print("; by law 1 the planes in the picture need {:.4g} m", value("acne_free_bias_law_m"));

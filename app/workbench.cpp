@@ -76,8 +76,9 @@ PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, cons
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   PointRecord record;
   record.settings = settings_map(m.settings);
-  record.metrics = measure_ladder(
-      {m.ladder, m.receivers, m.frame, m.probe, Bias(m.settings.bias), lookup.edge_distance_texels, occluders});
+  const Bias bias(m.settings.bias);
+  record.metrics = measure_ladder({m.ladder, m.receivers, m.frame, m.probe, bias, lookup.edge_distance_texels,
+                                   occluders, moves_casters(m.settings.map, bias)});
   record.metrics.merge(
       measure_laws({m.ladder, m.scene, m.receivers, m.camera, m.frame, m.settings.map.format, m.probe}));
   record.metrics.insert(soundness.begin(), soundness.end());
@@ -332,7 +333,8 @@ PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup
   b.map.forget();
   PassTimes times;
   std::vector<glm::vec3> casters;
-  if (const Bias bias(settings.bias); bias.moves_casters()) casters = caster_positions(*loaded.scene, frame, bias);
+  if (const Bias bias(settings.bias); moves_casters(settings.map, bias))
+    casters = caster_positions(*loaded.scene, frame, settings.map, bias);
   const gl::ShadowMap drawn = b.renderer.render_map(frame, settings, map ? &times.map_ms.emplace() : nullptr, casters);
   if (lookup) b.renderer.lookup(drawn, frame, settings, &times.lookup_ms.emplace());
   return times;

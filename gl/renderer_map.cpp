@@ -126,7 +126,7 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   set_culling(settings.map.cull);
-  set_enabled(GL_DEPTH_CLAMP, settings.map.depth_clamp);
+  set_enabled(GL_DEPTH_CLAMP, settings.map.keeps_clipped());
   // OpenGL ignores the offset if the shader writes its own depth, as it does for a cube.
   set_enabled(GL_POLYGON_OFFSET_FILL, offset.has_value());
   if (offset) glPolygonOffset(offset->factor, offset->units);

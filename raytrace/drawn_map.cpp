@@ -36,10 +36,11 @@ std::optional<double> first_from_near(const EmbreeScene& seen, const LightView& 
   }
 }
 
-std::optional<Scene> moved_scene(const TracedScene& traced, const LightFrame& frame, const Bias& bias) {
-  if (!bias.moves_casters()) return std::nullopt;
+std::optional<Scene> moved_scene(const TracedScene& traced, const LightFrame& frame, const MapSettings& map,
+                                 const Bias& bias) {
+  if (!moves_casters(map, bias)) return std::nullopt;
   Scene moved = traced.scene;
-  moved.positions = caster_positions(traced.scene, frame, bias);
+  moved.positions = caster_positions(traced.scene, frame, map, bias);
   return moved;
 }
 
@@ -48,11 +49,11 @@ std::optional<Scene> moved_scene(const TracedScene& traced, const LightFrame& fr
 DrawnMap::DrawnMap(const TracedScene& traced, const LightView& view, const OwnSurface& surface,
                    const Silhouettes& silhouettes, const LightFrame& map, const MapSettings& settings, const Bias& bias,
                    const std::optional<PolygonOffset>& offset)
-    : moved_(moved_scene(traced, map, bias)),
+    : moved_(moved_scene(traced, map, settings, bias)),
       view_(moved_ ? LightView(*moved_, view.frame()) : view),
       surface_(surface),
       silhouettes_(silhouettes),
-      depth_clamp_(settings.depth_clamp),
+      depth_clamp_(settings.keeps_clipped()),
       offset_(offset),
       scenes_tree_(traced.embree) {
   const Scene& drawn = moved_ ? *moved_ : traced.scene;

@@ -136,7 +136,7 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
   const AmongTaps among_taps(view, l.light->silhouettes(), probe, l.bias);
   const bool listed = l.use_cells && among_taps.applies();
   const auto certain = static_cast<uint8_t>(tap_exact_lit | (edge_distance_texels ? tap_texel_lit : 0));
-  const bool may_clip = edge_distance_texels && !l.map.depth_clamp && l.texels.any_clipped();
+  const bool may_clip = edge_distance_texels && !l.map.keeps_clipped() && l.texels.any_clipped();
   const auto answer = [&](size_t pixel) {
     uint8_t* bits = &result.taps[(pixel - strip.first) * static_cast<size_t>(taps)];
     std::fill_n(bits, taps, certain);

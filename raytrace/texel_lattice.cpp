@@ -14,7 +14,7 @@ TexelLattice::TexelLattice(const LatticeRaster& raster, const LightView& view, c
       drawn_(drawn),
       placements_(placements),
       wrap_(settings.wrap),
-      depth_clamp_(settings.depth_clamp),
+      depth_clamp_(settings.keeps_clipped()),
       size_(view.frame().map_size() / placements.side()) {}
 
 void TexelLattice::want(glm::ivec2 low, glm::ivec2 high) {

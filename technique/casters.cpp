@@ -17,7 +17,8 @@ std::vector<glm::vec3> vertex_normals(const Scene& scene) {
   return normals;
 }
 
-std::vector<glm::vec3> caster_positions(const Scene& scene, const LightFrame& frame, const Bias& bias) {
+std::vector<glm::vec3> caster_positions(const Scene& scene, const LightFrame& frame, const MapSettings& map,
+                                        const Bias& bias) {
   const std::vector<glm::vec3> normals = vertex_normals(scene);
   std::vector<glm::vec3> moved = scene.positions;
   for (size_t i = 0; i < moved.size(); ++i) {
@@ -26,7 +27,11 @@ std::vector<glm::vec3> caster_positions(const Scene& scene, const LightFrame& fr
     const in_double::Surface surface = surface_at(frame, p, normals[i]);
     glm::dvec3 way(0);
     for (const ActivePart& part : bias.casting()) way += part.amount * texel_m * part.part->formula.way(surface);
-    moved[i] = glm::vec3(p + way);
+    glm::dvec3 to = p + way;
+    if (map.pancake && frame.kind == LightKind::directional)
+      if (const double before = frame.near_m - frame.depth_m(frame.to_light(to)); before > 0)
+        to += before * frame.forward;
+    moved[i] = glm::vec3(to);
   }
   return moved;
 }

@@ -323,6 +323,12 @@ std::vector<Setting> make_table() {
            "Geometry before the near plane or beyond the far plane is drawn at depth 0 or 1 instead of being clipped "
            "(GL_DEPTH_CLAMP).",
            MEMBER(map.depth_clamp)),
+      flag("map.pancake",
+           "directional: vertices before the near plane are moved onto it along the light, as Unity does. A triangle "
+           "through "
+           "the plane gets other depths. Implies map.depth_clamp.",
+           MEMBER(map.pancake))
+          .idle(without_parallel_rays),
       choice("map.cube_pass", {"layered", "six_passes"},
              "point: all six faces in one pass through a geometry shader, or one pass for each face. The map is the "
              "same; the time differs.",

@@ -86,9 +86,10 @@ std::vector<std::string> unexpressed_filter(const AdvicePlace& place) {
 }
 
 std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::vector<std::string_view>& expressed) {
-  constexpr std::string_view rows[] = {"map.snap",    "map.shift_u_texels", "map.shift_v_texels",        "map.wrap",
-                                       "map.cull",    "map.lit_beyond_far", "map.depth_clamp",           "map.turn_deg",
-                                       "map.fov_deg", "light.radius_m",     "light.angular_diameter_deg"};
+  constexpr std::string_view rows[] = {"map.snap",        "map.shift_u_texels", "map.shift_v_texels",
+                                       "map.wrap",        "map.cull",           "map.lit_beyond_far",
+                                       "map.depth_clamp", "map.pancake",        "map.turn_deg",
+                                       "map.fov_deg",     "light.radius_m",     "light.angular_diameter_deg"};
   const Settings defaults;
   std::vector<std::string> said;
   for (std::string_view name : rows) {

@@ -47,7 +47,7 @@ double bias_m(const MapTile& tile, double bias, double depth_m) {
 }  // namespace
 
 double panning_reach_m(const MeasureInput& in, size_t i, glm::dvec3 light) {
-  if (in.bias.polygon_offset() || in.bias.moves_casters()) return std::numeric_limits<double>::infinity();
+  if (in.bias.polygon_offset() || in.casters_moved) return std::numeric_limits<double>::infinity();
   const LightFrame& frame = in.frame;
   const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
   const MapTile tile = frame.tile_at(light);

@@ -18,11 +18,12 @@ struct MeasureInput {
   const Bias& bias;
   const Image<float>& edge_distance_texels;  // raytrace::LookupTruth
   const Image<float>& occluder_distance_m;   // read only at the pixels of peter_panning_mask
+  bool casters_moved = false;                // moves_casters(), technique/casters.h
 };
 
 // The largest distance before a receiver, in metres along its light ray, at which Peter Panning can occur. It is the
-// bias there, plus the largest change of the receiver's own depth within the lookup's taps. Infinity for a part
-// that moves the caster, because that is the occluder. light: P in the light's frame.
+// bias there, plus the largest change of the receiver's own depth within the lookup's taps. Infinity where the
+// caster is moved, because that is the occluder. light: P in the light's frame.
 double panning_reach_m(const MeasureInput& input, size_t i, glm::dvec3 light);
 
 // Mean |shown - R1| over the counted receivers, the metric `error`. NaN if there are none.

@@ -113,6 +113,27 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
   }
 }
 
+// OpenGL draws the moved vertices, and the exact map is that of the moved scene. What lay before the near plane casts its shadow.
+TEST(Acceptance, VerticesMovedOntoTheNearPlaneAddUp) {
+  Workbench bench(gl::DebugMode::fatal);
+  for (const char* scene : {"cube-room", "plate", "wall"})
+    for (const char* filter : {"none", "box"}) {
+      SCOPED_TRACE(std::string(scene) + " " + filter);
+      const Settings clipped =
+          with({{"map.resolution", "300"}, {"map.near_m", "4"}, {"bias.constant", "0.002"}, {"filter.kind", filter}},
+               small(scene, 240, 144));
+      EXPECT_GT(metric(bench.measure(clipped, std::nullopt), "coverage"), 0.001)
+          << "nothing lies before the near plane";
+      const Measurement m = bench.measure(with({{"map.pancake", "true"}}, clipped), std::nullopt);
+      EXPECT_EQ(metric(m, "coverage"), 0);
+      EXPECT_LE(metric(m, "residual"), rounding_of_steps);
+      EXPECT_LE(metric(m, "tap_residual"), rounding_of_steps);
+      EXPECT_EQ(metric(m, "contract"), 0);
+      EXPECT_LE(metric(m, "rounding_excess"), 1);
+      EXPECT_LT(metric(m, "precision"), 0.001) << "the map on the GPU is not that of the moved scene";
+    }
+}
+
 // The texels of a wide map are so large that an offset of one texel moves the lookup behind a spot light. The map has
 // no answer there: the whole error is coverage, and the steps add up.
 TEST(Acceptance, ALookupMovedBehindTheLightIsCoverage) {

@@ -10,6 +10,7 @@
 #include "scenes/builtin.h"
 #include "scenes/error.h"
 #include "scenes/library.h"
+#include "technique/casters.h"
 #include "tests/technique/random_points.h"
 
 namespace noonmark {
@@ -33,6 +34,38 @@ int kind_of_error(const Scene& scene, const Settings& settings) {
     return e.exit_code();
   }
   return 0;
+}
+
+// In double and rounded once to float: the vertex lies on the near plane up to that rounding, on its own ray of light.
+TEST(Casters, PancakingMovesWhatLiesBeforeNearOntoIt) {
+  Scene scene = scene_lit_from({3, 9, -2}, {0, 0, 0});
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> place(-9, 9);
+  for (int i = 0; i < 300; ++i) scene.positions.emplace_back(place(random), place(random), place(random));
+  Settings settings;
+  settings.map.near_m = 8;  // half of the vertices lie before it
+  const LightFrame frame = make_light_frame(scene, settings);
+  const Bias none(settings.bias);
+  EXPECT_FALSE(moves_casters(settings.map, none));
+  EXPECT_EQ(caster_positions(scene, frame, settings.map, none), scene.positions);
+  settings.map.pancake = true;
+  EXPECT_TRUE(moves_casters(settings.map, none));
+  const std::vector<glm::vec3> moved = caster_positions(scene, frame, settings.map, none);
+  constexpr double float_rounding_m = 16 * 0x1p-23;  // coordinates below 16
+  int before = 0;
+  for (size_t i = 0; i < moved.size(); ++i) {
+    const glm::dvec3 at = frame.to_light(scene.positions[i]), to = frame.to_light(moved[i]);
+    before += frame.depth_m(at) < frame.near_m;
+    if (frame.depth_m(at) >= frame.near_m) {
+      EXPECT_EQ(moved[i], scene.positions[i]);
+    } else {
+      EXPECT_NEAR(frame.depth_m(to), frame.near_m, float_rounding_m);
+    }
+    EXPECT_NEAR(to.x, at.x, float_rounding_m);
+    EXPECT_NEAR(to.y, at.y, float_rounding_m);
+  }
+  EXPECT_GT(before, 20);
+  EXPECT_LT(before, 280);
 }
 
 TEST(LightFrame, APointLightHasNoTargetThatMovesItsMap) {

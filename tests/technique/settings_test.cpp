@@ -90,7 +90,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
   [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7, e8] = motion;
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7, c8, c9] = s.light;
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7, d8, d9, d10, d11, d12, d13, d14, d15, d16, d17, d18, d19,
-                                d20] = s.map;
+                                d20, d21] = s.map;
   [[maybe_unused]] const auto& [g1] = s.truth;
   // Unit, reference and plane_cap, and every parameter of a part.
   const int bias = 3 + static_cast<int>(bias_parameters().size());
@@ -100,7 +100,7 @@ TEST(SettingsTable, HasARowForEveryMember) {
                                               {"view", 9},
                                               {"motion", 8},
                                               {"light", 9},
-                                              {"map", 20},
+                                              {"map", 21},
                                               {"bias", bias},
                                               {"filter", filter},
                                               {"truth", 1}}));

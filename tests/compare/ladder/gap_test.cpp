@@ -109,6 +109,12 @@ TEST(Measure, GapUnderAPointLightEndsWhereTheTapsDo) {
             std::numeric_limits<double>::infinity());
 }
 
+TEST(Measure, AMovedCasterReachesAnywhere) {
+  Picture p(1, 1);
+  EXPECT_EQ(panning_reach_m({p.ladder, p.receivers, p.frame, p.probe, p.bias, p.edge, p.occluder, true}, 0, {0, 0, -4}),
+            std::numeric_limits<double>::infinity());
+}
+
 TEST(Measure, APolygonOffsetReachesAnywhere) {
   Picture p(1, 1);
   p.rungs(0, 0, {0, 0, 0, 0, 1, 1});
