@@ -58,7 +58,8 @@ std::string animated_png(const std::vector<std::string>& frames, int frame_ms) {
   for (size_t f = 0; f < frames.size(); ++f) {
     const std::vector<Chunk> chunks = f == 0 ? first : chunks_of(frames[f]);
     if (chunks.front().data != header) throw std::invalid_argument("the frames differ in size or in colour type");
-    // Width and height; no offset; the time as a fraction of a second; nothing is disposed of and nothing is blended.
+    // sequence_number, width and height, x_offset, y_offset, delay_num, delay_den, dispose_op (none) and blend_op
+    // (source).
     out +=
         chunk("fcTL", big_endian(number++, 4) + std::string(header.substr(0, 8)) + big_endian(0, 4) + big_endian(0, 4) +
                           big_endian(static_cast<uint32_t>(frame_ms), 2) + big_endian(1000, 2) + big_endian(0, 2));

@@ -84,8 +84,8 @@ Image<Color> greys(const Measurement& m, const Image<float>& frame) {
   return paint(m, [&](size_t i) { return grey(frame[i]); });
 }
 
-// What changed from this frame of a motion to the next although the truth did not. What has no flicker is grey; what does
-// not count is dark.
+// What changes from this frame of a motion to the next although the truth does not. A pixel without flicker is grey, one
+// that is not counted is dark.
 Image<Color> changes(const Measurement& m) {
   const Flicker& flicker = *m.flicker;
   return paint(m, [&](size_t i) {

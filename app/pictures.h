@@ -12,8 +12,9 @@ namespace noonmark {
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
                                           const std::string& stem);
 
-// A frame of the animation of a motion: what the shadow map shows, and beside it what changes until the next frame although
-// the truth does not. m.flicker must be there. At most 480 pixels wide each; larger pictures are reduced by a whole number.
+// A frame of the animation of a motion: what the shadow map shows, and beside it what changes until the next frame
+// although the truth does not. m.flicker must be there. Each is at most 480 pixels wide; a larger picture is reduced by a
+// whole factor.
 Image<Color> motion_frame(const Measurement& m);
 
 // Grey clay with the true shadow (R1): the picture "shaded-truth" alone.

@@ -12,6 +12,7 @@
 #include "app/pictures.h"
 #include "app/point_files.h"
 #include "compare/judge/recommendation.h"
+#include "compare/ladder/flicker.h"
 #include "scenes/digest.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
@@ -24,8 +25,6 @@ constexpr uint64_t max_picture_bytes = uint64_t{1} << 28;
 
 // PNG specification, section 5.2.
 constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
-
-bool names_a_frame(const std::string& setting) { return setting == "motion.frame" || setting == "scene.time_s"; }
 
 // All settings but the frame and its time.
 std::map<std::string, std::string> choice_of(const PointRecord& point) {
@@ -53,16 +52,15 @@ Instant worst_instant(const std::vector<PointRecord>& points) {
   const auto time = [](const PointRecord* point) {
     const auto number = [&](const char* name) {
       const auto found = point->settings.find(name);
-      return found == point->settings.end() ? 0 : std::strtod(found->second.c_str(), nullptr);  // "auto" is 0
+      return found == point->settings.end() ? 0 : std::strtod(found->second.c_str(), nullptr);  // "auto" reads as 0
     };
     return std::pair(number("motion.frame"), number("scene.time_s"));
   };
   std::stable_sort(frames.begin(), frames.end(),
                    [&](const PointRecord* a, const PointRecord* b) { return time(a) < time(b); });
-  constexpr size_t most_frames = 24;
   const auto at = static_cast<size_t>(std::find(frames.begin(), frames.end(), worst) - frames.begin());
-  const size_t count = std::min(frames.size(), most_frames);
-  const size_t first = std::min(at - std::min(at, most_frames / 2), frames.size() - count);
+  const size_t count = std::min(frames.size(), most_motion_frames);
+  const size_t first = std::min(at - std::min(at, most_motion_frames / 2), frames.size() - count);
   for (size_t i = first; i < first + count; ++i) instant.frames.push_back(frames[i]->id);
   return instant;
 }

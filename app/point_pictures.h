@@ -16,20 +16,21 @@
 namespace noonmark {
 
 // Ids of the points, selected by the experiment's `pictures`. `worst` and `extremes` select by error, and of a motion the
-// frame with the largest flicker too (worst_instant); they need all points; an error that is not finite is the worst. Both also select the first point of the recommended choice, because
-// the report's first screen shows it. results: with the verdicts of the bounds, which the recommendation reads.
+// frame with the largest flicker too (worst_instant); they need all points; an error that is not finite is the worst. Both
+// also select the first point of the recommended choice, because the report's first screen shows it. results: with the
+// verdicts of the bounds, which the recommendation reads.
 std::vector<int64_t> points_with_pictures(const std::string& pictures, const Results& results);
 
-// The point of a motion with the largest flicker, and the frames about it that the experiment has, at most 24 in their
-// order: points of the same part that differ in nothing but the frame and its time. Empty if nothing flickers.
+// The point with the largest flicker, and points of its part that differ in nothing but the frame and its time: those about
+// it, in the order of time. Nothing if no point flickers.
+inline constexpr size_t most_motion_frames = 24;
 struct Instant {
   int64_t id = -1;
-  std::vector<int64_t> frames;
+  std::vector<int64_t> frames;  // at most most_motion_frames, `id` among them
 };
 Instant worst_instant(const std::vector<PointRecord>& points);
 
-// The picture of that name in PointPictures. Writes it as an animated PNG below out/images. frames: motion_frame()
-// (app/pictures.h) of each.
+// Writes the point's picture of this name, an animated PNG. frames: motion_frame() (app/pictures.h) of each frame.
 inline constexpr const char* motion_picture = "motion";
 PictureRecord keep_motion(const std::vector<Image<Color>>& frames, int64_t id, const std::string& out);
 

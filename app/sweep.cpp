@@ -9,6 +9,7 @@
 #include <csignal>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <optional>
 
@@ -170,9 +171,18 @@ std::vector<const PointRecord*> points_of_broken(const Results& results) {
   return points;
 }
 
-bool has_picture(const PointPictures& point, std::string_view name) {
-  return std::any_of(point.pictures.begin(), point.pictures.end(),
-                     [&](const PictureRecord& picture) { return picture.name == name; });
+bool is_motion(const PictureRecord& picture) { return picture.name == motion_picture; }
+
+bool has_motion(const PointPictures& point) {
+  return std::any_of(point.pictures.begin(), point.pictures.end(), is_motion);
+}
+
+// Another point may have the animation now.
+void remove_motion(PointPictures& point, const std::string& out) {
+  PointPictures old;
+  std::copy_if(point.pictures.begin(), point.pictures.end(), std::back_inserter(old.pictures), is_motion);
+  remove_pictures(old, out);
+  std::erase_if(point.pictures, is_motion);
 }
 
 SummaryPicture draw_worst_pixel(const Measurement& m, const PointRecord& point, const std::string& name,
@@ -364,10 +374,11 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       store.set_pictures(point.id, {});
       changed = true;
     }
-    const Instant instant = worst_instant(outcome.results.points);
+    const Instant instant =
+        options.shard ? Instant{} : worst_instant(outcome.results.points);  // of all shares together
     for (int64_t id : shown) {
       const PointRecord& point = *find_point(outcome.results.points, id);
-      // With fewer than 3 frames the film strip shows all.
+      // With fewer than 3 frames the picture "flicker" shows them all.
       const bool moves = id == instant.id && instant.frames.size() > 2;
       bool whole = !point.pictures.empty();
       if (whole) {
@@ -375,7 +386,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
         if (!why.empty()) fmt::print(stderr, "note: {}; the pictures of point {} are made again\n", printable(why), id);
         whole = why.empty();
       }
-      if (whole && moves == has_picture(point, motion_picture)) continue;
+      if (whole && moves == has_motion(point)) continue;
       const auto measure = [&](int64_t wanted_id) {
         const Settings& settings = point_at(planned, wanted_id);
         room.require_room_for(static_cast<size_t>(wanted_id));
@@ -384,7 +395,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       };
       PointPictures kept_pictures = point;
       if (!whole) kept_pictures = pictures_of(bench, measure(id), id, folder.path());
-      std::erase_if(kept_pictures.pictures, [](const PictureRecord& each) { return each.name == motion_picture; });
+      remove_motion(kept_pictures, folder.path());
       if (moves) {
         std::vector<Image<Color>> frames;
         for (const int64_t frame : instant.frames) frames.push_back(motion_frame(measure(frame)));

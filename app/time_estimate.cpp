@@ -275,6 +275,10 @@ TimeEstimate estimate_time(Workbench& bench, const Experiment& experiment, const
     if (experiment.pictures == "all") estimate.cpu_s += mean_of(files) * all;
     // Chosen by their errors after the sweep, so they are measured again.
     if (experiment.pictures == "worst") estimate.cpu_s += mean_of(files) + mean_of(seconds);
+    const bool moves =
+        std::any_of(planned.begin(), planned.end(), [](const Settings& s) { return s.view.motion.any(); });
+    if (moves && experiment.pictures != "first")  // the frames of the animation are measured again
+      estimate.cpu_s += std::min(all, static_cast<double>(most_motion_frames)) * mean_of(seconds);
     if (experiment.pictures == "extremes") estimate.cpu_s += std::min(2.0, all) * (mean_of(files) + mean_of(seconds));
   }
   // One diagram is measured; others have its time, by their pixels and rows.

@@ -28,9 +28,7 @@ std::vector<glm::vec3> caster_positions(const Scene& scene, const LightFrame& fr
     glm::dvec3 way(0);
     for (const ActivePart& part : bias.casting()) way += part.amount * texel_m * part.part->formula.way(surface);
     glm::dvec3 to = p + way;
-    if (map.pancake && frame.kind == LightKind::directional)
-      if (const double before = frame.near_m - frame.depth_m(frame.to_light(to)); before > 0)
-        to += before * frame.forward;
+    if (map.pancake) to += std::max(0.0, frame.near_m - frame.depth_m(frame.to_light(to))) * frame.forward;
     moved[i] = glm::vec3(to);
   }
   return moved;

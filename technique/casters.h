@@ -1,5 +1,5 @@
-// The scene's vertices as they are drawn into the map, when a part of the bias (technique/bias_parts.h) or map.pancake moves
-// the caster.
+// The scene's vertices as they are drawn into the map, when a part of the bias (technique/bias_parts.h) or map.pancake
+// moves the caster.
 //
 //   if (moves_casters(map, bias)) renderer.render_map(frame, settings, &ms, caster_positions(scene, frame, map, bias));
 #pragma once
@@ -19,9 +19,9 @@ std::vector<glm::vec3> vertex_normals(const Scene& scene);
 
 // The moved vertices, computed in double and rounded once to float. The map on the GPU and the exact map both use these
 // vertices, so a part of the caster needs no shader. A part's amount is in texels at the vertex. A vertex behind a spot
-// light is not moved, because a texel has no size there. map.pancake then moves each vertex that lies before the near plane of a
-// directional light onto this plane, along the light ("shadow pancaking", as Unity draws its directional lights). A triangle
-// through the plane gets other depths by that, also behind the plane.
+// light is not moved, because a texel has no size there. map.pancake then moves each vertex that lies before the near
+// plane onto this plane, along the light ("shadow pancaking", as Unity draws its directional lights). A triangle that the
+// plane cuts has other depths after that, also behind the plane.
 std::vector<glm::vec3> caster_positions(const Scene& scene, const LightFrame& frame, const MapSettings& map,
                                         const Bias& bias);
 

@@ -189,6 +189,13 @@ std::string snapped_perspective(const Settings& s, std::optional<LightKind> ligh
   return "map.snap needs a directional light: only its texels have one size everywhere";
 }
 
+std::string pancaked_perspective(const Settings& s, std::optional<LightKind> light) {
+  if (!s.map.pancake || !light || kind_of_light(*light).rays().have_one_direction()) return "";
+  return "map.pancake needs a directional light: only there one move along the light keeps a vertex at its place in "
+         "the "
+         "map; set map.depth_clamp = true instead";
+}
+
 }  // namespace setting_rules
 
 void validate(const Settings& settings, std::optional<LightKind> light) {

@@ -82,6 +82,7 @@ std::string cube_shifted_along_u(const Settings&, std::optional<LightKind>);
 std::string cube_shifted_along_v(const Settings&, std::optional<LightKind>);
 std::string turn_beyond_a_circle(const Settings&, std::optional<LightKind>);
 std::string snapped_perspective(const Settings&, std::optional<LightKind>);
+std::string pancaked_perspective(const Settings&, std::optional<LightKind>);
 
 }  // namespace setting_rules
 }  // namespace noonmark

@@ -325,10 +325,9 @@ std::vector<Setting> make_table() {
            MEMBER(map.depth_clamp)),
       flag("map.pancake",
            "directional: vertices before the near plane are moved onto it along the light, as Unity does. A triangle "
-           "through "
-           "the plane gets other depths. Implies map.depth_clamp.",
+           "through the plane gets other depths. Implies map.depth_clamp.",
            MEMBER(map.pancake))
-          .idle(without_parallel_rays),
+          .refused(pancaked_perspective),
       choice("map.cube_pass", {"layered", "six_passes"},
              "point: all six faces in one pass through a geometry shader, or one pass for each face. The map is the "
              "same; the time differs.",

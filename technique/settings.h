@@ -68,11 +68,12 @@ struct MapSettings {
   bool lit_beyond_far = true;
   CulledFaces cull = CulledFaces::none;
   bool depth_clamp = false;  // geometry before near or beyond far is kept, at depth 0 or 1, instead of clipped
-  bool pancake = false;      // directional: vertices before near are moved onto it; implies depth_clamp
+  bool pancake = false;      // directional: vertices before the near plane are moved onto it; depths are clamped too
   CubePass cube_pass = CubePass::layered;  // point: the method to draw the six faces; the map is the same
   std::optional<glm::dvec3> turn_deg;      // point: rotates the cube; axis times angle; empty: along the world's axes
 
-  // A moved vertex lies on the near plane up to rounding, which clipping would cut.
+  // Whether what lies before near or beyond far is kept. With pancake it must be: rounding leaves some of the moved
+  // vertices just before the near plane.
   bool keeps_clipped() const { return depth_clamp || pancake; }
 };
 

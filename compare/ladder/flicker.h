@@ -20,6 +20,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "scenes/image.h"
 
@@ -58,5 +59,8 @@ Flicker flicker_of(const FlickerLookups& lookups, FlickerPoints points);
 // flicker_points.
 // Fractions of no points are left out. A lookup that is not finite makes its class not finite.
 std::map<std::string, double> measure_flicker(const Flicker& flicker);
+
+// Whether a setting says which frame of a motion a point is. The points that differ in nothing else are one choice.
+inline bool names_a_frame(std::string_view setting) { return setting == "motion.frame" || setting == "scene.time_s"; }
 
 }  // namespace noonmark

@@ -22,8 +22,8 @@ struct MeasureInput {
 };
 
 // The largest distance before a receiver, in metres along its light ray, at which Peter Panning can occur. It is the
-// bias there, plus the largest change of the receiver's own depth within the lookup's taps. Infinity where the
-// caster is moved, because that is the occluder. light: P in the light's frame.
+// bias there, plus the largest change of the receiver's own depth within the lookup's taps. It is infinite if the casters
+// are moved, because a moved occluder can be anywhere. light: P in the light's frame.
 double panning_reach_m(const MeasureInput& input, size_t i, glm::dvec3 light);
 
 // Mean |shown - R1| over the counted receivers, the metric `error`. NaN if there are none.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "compare/ladder/flicker.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/text.h"
 #include "compare/store/quantities.h"
@@ -17,8 +18,6 @@ namespace {
 constexpr size_t most_strips = 12;
 constexpr size_t most_frame_rows = 2000;
 constexpr double strip_width = 1000, strip_height = 60;
-
-bool names_a_frame(std::string_view setting) { return setting == "motion.frame" || setting == "scene.time_s"; }
 
 // All frames of one choice, in their order.
 struct Strip {

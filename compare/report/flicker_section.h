@@ -9,8 +9,8 @@ namespace noonmark::report {
 // Whether a point has flicker; the report has the section only then.
 bool has_flicker(const Results& results);
 
-// One strip for each choice of each part: a bar for each frame, in the classes' colours. Needs no JavaScript. Of more than 12
-// choices those with the largest flicker are drawn.
+// One strip for each choice of each part: a bar for each frame, in the colours of the classes. Needs no JavaScript. If
+// there are more than 12 choices, the 12 with the largest flicker are drawn.
 std::string flicker_strips(const Results& results);
 
 // "2 of 6 choices do not flicker in any frame: steady, and wrapped. The most flickers ...", as HTML.

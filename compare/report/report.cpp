@@ -110,8 +110,8 @@ std::string navigation(const Results& results) {
   return links;
 }
 
-// What the first screen shows: the verdict and the answer, then the picture and the diagram beside each other, the strips of
-// a motion, or the chart of cost against error.
+// What the first screen shows: the verdict and the answer. Below them stand the live picture and the phase diagram; a
+// report without both has the strips of its motion there, or else the chart of cost against error.
 std::string first_screen(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
   const bool live = report::has_live_picture(results), diagram = report::has_diagram(results);
   std::string figures;
@@ -119,9 +119,9 @@ std::string first_screen(const Results& results, const ShownPoints& shown, const
   if (diagram) figures += "<div>" + report::first_diagram() + "</div>\n";
   if (opens_with_speed(results, shown)) figures = "<div>" + report::speed_chart() + "</div>\n";
   if (opens_with_motion(results)) figures = "<div>" + report::flicker_strips(results) + "</div>\n";
-  return fmt::format("<div class=\"first\">\n{}<p class=\"said\">{} {}</p>\n<div class=\"{}\">{}</div></div>\n",
+  return fmt::format("<div class=\"first\">\n{}<p class=\"said\">{}{}</p>\n<div class=\"{}\">{}</div></div>\n",
                      report::verdict_line(results), report::answer_sentence(results, shown),
-                     report::has_flicker(results) ? report::flicker_sentence(results) : "",
+                     report::has_flicker(results) ? " " + report::flicker_sentence(results) : "",
                      live && diagram   ? "side-by-side two"
                      : live || diagram ? "side-by-side"
                                        : "alone",

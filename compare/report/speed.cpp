@@ -204,7 +204,7 @@ GroupNames::GroupNames(const Results& results, const std::vector<ComparedGroup>&
 
 std::string GroupNames::of(const ComparedGroup& group) const {
   const PointRecord& point = group.choices.front().choice.first();
-  std::vector<std::string> said = differing_;  // "auto" says nothing beside another setting
+  std::vector<std::string> said = differing_;  // without those that are "auto", which tell a reader nothing
   std::erase_if(said, [&](const std::string& name) { return setting_of(point, name) == "auto"; });
   return settings_phrase(point, said.empty() ? differing_ : said);
 }

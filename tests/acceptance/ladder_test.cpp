@@ -113,7 +113,8 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
   }
 }
 
-// OpenGL draws the moved vertices, and the exact map is that of the moved scene. What lay before the near plane casts its shadow.
+// OpenGL draws the moved vertices, and the exact map is that of the moved scene. What lies before the near plane casts its
+// shadow.
 TEST(Acceptance, VerticesMovedOntoTheNearPlaneAddUp) {
   Workbench bench(gl::DebugMode::fatal);
   // Near planes that cut what casts the shadow.

@@ -255,7 +255,7 @@ TEST(ExperimentLaws, MistakesAreNamedWithTheirPlace) {
   expect_error("[let]\nx = \"1 = 2\"", "2:5", {"compare with =="});
 }
 
-// A note for each part would hide what matters among lines of one kind.
+// With one note for each part, eight equal lines hid the other notes.
 TEST(IdleNotes, NameASettingOnceForAllParts) {
   std::string file = "scene = \"plane\"\n[bias]\nunit = \"texel\"\n";
   for (const char* name : {"a", "b", "c", "d"})

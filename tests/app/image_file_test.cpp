@@ -65,7 +65,7 @@ RC_GTEST_FIXTURE_PROP(ImageFile, ExrKeepsEveryBit, ()) {
   RC_ASSERT(files_in(folder.path()) == std::set<std::string>{"a.exr"});
 }
 
-// A frame of an animated PNG as a PNG of its own: the chunks of the file, with this frame's data in place of the first's.
+// A frame of an animated PNG as a PNG of its own: the chunks of the file, with the data of this frame alone.
 std::string frame_as_png(const std::string& animated, size_t wanted) {
   std::string png = animated.substr(0, 8);
   size_t frame = 0;

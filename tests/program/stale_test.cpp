@@ -368,7 +368,7 @@ TEST_F(Stale, TheAnimationOfAMotionIsOfItsWorstInstant) {
   fs::remove(folder_ / file);
   ASSERT_EQ(run_of(3, 64), 0);
   EXPECT_TRUE(says("made again") && text(file) == four) << output_;
-  // The film strip of the picture flicker shows all of two frames.
+  // Two frames need no animation: the picture "flicker" shows both.
   ASSERT_EQ(run_of(1, 32), 2) << output_;
   fs::remove_all(folder_ / "out");
   ASSERT_EQ(run_of(1, 32), 0) << output_;

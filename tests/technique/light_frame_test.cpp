@@ -36,7 +36,8 @@ int kind_of_error(const Scene& scene, const Settings& settings) {
   return 0;
 }
 
-// In double and rounded once to float: the vertex lies on the near plane up to that rounding, on its own ray of light.
+// A vertex is moved in double and rounded to float once. So it lies on the near plane and on its own ray of light, up to
+// that rounding.
 TEST(Casters, PancakingMovesWhatLiesBeforeNearOntoIt) {
   Scene scene = scene_lit_from({3, 9, -2}, {0, 0, 0});
   std::mt19937 random(5);
@@ -51,7 +52,8 @@ TEST(Casters, PancakingMovesWhatLiesBeforeNearOntoIt) {
   settings.map.pancake = true;
   EXPECT_TRUE(moves_casters(settings.map, none));
   const std::vector<glm::vec3> moved = caster_positions(scene, frame, settings.map, none);
-  constexpr double float_rounding_m = 16 * 0x1p-23;  // coordinates below 16
+  // Each of three coordinates below 16 m is rounded to a float, by at most 2^-21 m.
+  constexpr double float_rounding_m = 3 * 0x1p-21;
   int before = 0;
   for (size_t i = 0; i < moved.size(); ++i) {
     const glm::dvec3 at = frame.to_light(scene.positions[i]), to = frame.to_light(moved[i]);

@@ -74,6 +74,7 @@ TEST(ValidateFor, RefusesWhatTheLightsMapCannotDo) {
     EXPECT_EQ(refused(kind, with({{"map.shift_u_texels", "0.5"}}), "map.shift_u_texels"), cube);
     EXPECT_EQ(refused(kind, with({{"map.shift_v_texels", "0.5"}}), "map.shift_v_texels"), cube);
     EXPECT_EQ(refused(kind, with({{"map.snap", "true"}}), "map.snap"), kind != LightKind::directional);
+    EXPECT_EQ(refused(kind, with({{"map.pancake", "true"}}), "map.pancake"), kind != LightKind::directional);
     EXPECT_FALSE(refused(kind, with({{"map.placements", "4"}}), ""));
     EXPECT_FALSE(refused(kind, with({{"map.turn_deg", "0,-360,0"}}), ""));
     EXPECT_TRUE(refused(kind, with({{"map.turn_deg", "255,-255,0"}}), "map.turn_deg"));
