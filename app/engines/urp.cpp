@@ -69,10 +69,13 @@ std::vector<std::string> limits(const AdvicePlace& place) {
                   number(fixed_factor), number(fixed_units), number(fixed_factor * place.texel_m)),
       fmt::format("Depth and Normal are at most {}.", number(greatest)), "map.format: the map has 16 bits of depth."};
   if (place.kind() == LightKind::directional)
-    said.push_back(fmt::format(
-        "map.extent_m = {0}, near and far: the engine fits the map around what the camera sees. Change Max Distance "
-        "until the map is {0} m wide; then a texel is as wide as recommended.",
-        number(place.frame.extent_m)));
+    said.insert(
+        said.end(),
+        {fmt::format("map.extent_m = {0}, near and far: the engine fits the map around what the camera sees. Change "
+                     "Max Distance until the map is {0} m wide; then a texel is as wide as recommended.",
+                     number(place.frame.extent_m)),
+         "The engine always moves vertices before the near plane onto it (map.pancake). A large triangle across the "
+         "near plane gets other depths by that, also behind the plane."});
   else
     said.push_back(fmt::format("The unit of both biases is {} m at every distance, while a texel grows with it.",
                                number(engine_texel_m(place))));
@@ -89,7 +92,7 @@ Engine unity_urp() {
   return {"Unity URP",
           "17",
           "Unity Graphics com.unity.render-pipelines.universal Runtime/ShadowUtils.cs (GetShadowBias, "
-          "RenderShadowSlice) and ShaderLibrary/Shadows.hlsl (ApplyShadowBias)",
+          "RenderShadowSlice), ShaderLibrary/Shadows.hlsl (ApplyShadowBias) and Shaders/ShadowCasterPass.hlsl",
           "//",
           knobs,
           filter,
