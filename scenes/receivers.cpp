@@ -30,6 +30,25 @@ glm::dvec3 nearest_in_triangle(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b, glm::dv
   return p;  // inside: not a + v ab + w ac, which would move it by rounding
 }
 
+// What all pixels that show a triangle share.
+struct SeenTriangle {
+  glm::dvec3 a{}, b{}, c{}, cross{};
+  glm::vec3 normal{};
+  double area = 0, area2 = 0, size = 0;  // area of the parallelogram, its square and its root
+  uint32_t primitive = no_primitive;
+
+  SeenTriangle() = default;
+  SeenTriangle(const Scene& scene, uint32_t shown) : primitive(shown) {
+    const glm::uvec3 t = scene.triangles[shown];
+    a = scene.positions[t.x], b = scene.positions[t.y], c = scene.positions[t.z];
+    cross = glm::cross(b - a, c - a);
+    area = glm::length(cross);
+    area2 = area * area;
+    size = std::sqrt(area);
+    normal = glm::vec3(cross * (1 / area));
+  }
+};
+
 }  // namespace
 
 std::vector<uint32_t> unseen_backs(const Scene& scene, const Camera& camera) {
@@ -54,14 +73,13 @@ ReceiverImage resolve_receivers(const Scene& scene, const Camera& camera, const 
   ReceiverImage receivers{Image<glm::vec3>(width, height, glm::vec3(0)), Image<glm::vec3>(width, height, glm::vec3(0)),
                           primitives};
   tbb::parallel_for(tbb::blocked_range<int>(0, height), [&](const tbb::blocked_range<int>& rows) {
+    SeenTriangle seen;  // of the pixel before: most pixels show the same one
     for (int y = rows.begin(); y != rows.end(); ++y) {
       for (int x = 0; x < width; ++x) {
         const uint32_t primitive = primitives.at(x, y);
         if (primitive == no_primitive) continue;
-        const glm::uvec3 t = scene.triangles[primitive];
-        const glm::dvec3 a = scene.positions[t.x], b = scene.positions[t.y], c = scene.positions[t.z];
-        const glm::dvec3 cross = glm::cross(b - a, c - a);
-        const double area = glm::length(cross);
+        if (primitive != seen.primitive) seen = SeenTriangle(scene, primitive);
+        const auto& [a, b, c, cross, normal, area, area2, size, of] = seen;
         const Ray ray = frame.pixel_ray(x, y, width, height);
         const double slope = glm::dot(cross, ray.direction);
         if (!(area > 0)) {  // no normal, so nothing to light: a sliver that the rasteriser still drew
@@ -71,13 +89,13 @@ ReceiverImage resolve_receivers(const Scene& scene, const Camera& camera, const 
         // Seen edge-on, the plane gives no point, or one so far away that nothing of it is left in double. Then the
         // ray's point beside the triangle's first corner will do.
         double along = glm::dot(cross, a - ray.origin) / slope;
-        if (!(glm::length(along * ray.direction) < 0x1p26 * (glm::length(a - ray.origin) + std::sqrt(area))))
+        if (!(glm::length(along * ray.direction) < 0x1p26 * (glm::length(a - ray.origin) + size)))
           along = glm::dot(a - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);
         glm::dvec3 met = ray.origin + along * ray.direction;
-        met -= cross * (glm::dot(met - a, cross) / (area * area));  // onto the plane
+        met -= cross * (glm::dot(met - a, cross) / area2);  // onto the plane
         const glm::dvec3 point = nearest_in_triangle(met, a, b, c);
         receivers.position.at(x, y) = glm::vec3(point);
-        receivers.normal.at(x, y) = glm::vec3(cross * ((slope > 0 ? -1 : 1) / area));
+        receivers.normal.at(x, y) = slope > 0 ? -normal : normal;
       }
     }
   });

@@ -39,13 +39,19 @@ void measure(const std::string& path, int rounds) {
   const LightFrame other_frame = make_light_frame(*scene.scene, other);
   ViewStage view, nothing;
   TruthStage truth;
-  const std::vector<double> ms = test::medians(test::run_in_turns(
-      rounds, {
-                  [&] { view = pipeline.take_view(renderer, *scene.scene, settings.view); },
-                  [&] { truth = pipeline.trace_truth(scene, view, {settings, frame}); },
-                  [&] { pipeline.trace_truth(scene, nothing, {other, other_frame}); },  // forgets the light
-                  [&] { truth = pipeline.trace_truth(scene, view, {settings, frame}); },
-              }));
+  const std::vector<double> ms = test::medians(
+      test::run_in_turns(rounds, {
+                                     [&] { view = pipeline.take_view(renderer, *scene.scene, settings.view); },
+                                     [&] {
+                                       truth = pipeline.trace_truth(scene, view, {settings, frame});
+                                     },
+                                     [&] {
+                                       pipeline.trace_truth(scene, nothing, {other, other_frame});
+                                     },  // forgets the light
+                                     [&] {
+                                       truth = pipeline.trace_truth(scene, view, {settings, frame});
+                                     },
+                                 }));
   size_t facing = 0;
   for (const uint8_t faces : truth.receivers.facing.pixels) facing += faces != 0;
   fmt::print("{}: {} triangles, {} facing receivers\n  picture {:.1f} ms CPU, R1 {:.1f}, first R1 {:.1f}\n", path,
