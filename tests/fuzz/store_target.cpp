@@ -65,6 +65,7 @@ void require_no_markup(const std::string& text, const char* what) {
 void require_report(const std::string& html) {
   require_no_markup(html, "report");
   constexpr std::string_view head = "id=\"noonmark-data\">";
+  require(html.find(head) != std::string::npos, "the report has no data");
   const size_t begin = html.find(head) + head.size();
   const std::string data = html.substr(begin, html.find("</script>", begin) - begin);
   require(nlohmann::json::accept(data), "the report's data are no JSON");

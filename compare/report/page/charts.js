@@ -2,7 +2,7 @@
 // Colours are CSS variables, so light, dark and print need no redrawing.
 (function() {
 'use strict';
-var data = JSON.parse(document.getElementById('noonmark-data').textContent);
+var data = noonmarkData;
 // bias: 'set' or 'recommended' (bias_choice.js). select() marks a point everywhere; open() also opens its card (card.js).
 var page = window.noonmarkPage = {data: data, selected: null, onSelect: [], bias: 'set', onBias: []};
 var thin = '\u202f';

@@ -6,22 +6,8 @@
 var source = document.getElementById('live-data');
 if (!source) return;
 var page = window.noonmarkPage, kit = page.kit, make = kit.make, live = JSON.parse(source.textContent);
-var packed = Uint8Array.from(atob(live.data), function(c) {
-  return c.charCodeAt(0);
-});
 async function unpack() {
-  var source = new ReadableStream({
-    start: function(to) {
-      to.enqueue(packed);
-      to.close();
-    }
-  });
-  var reader = source.pipeThrough(new DecompressionStream('deflate')).getReader(), n = live.answers;
-  var bytes = new Uint8Array(8 * n + 4 * live.width * live.height), floats = new Uint8Array(4 * n), end = 0;
-  for (var read = await reader.read(); !read.done; read = await reader.read()) {
-    bytes.set(read.value, end);
-    end += read.value.length;
-  }
+  var bytes = await noonmarkUnpack(live.data), n = live.answers, floats = new Uint8Array(4 * n);
   for (var i = 0; i < 4 * n; ++i) floats[4 * (i % n) + Math.floor(i / n)] = bytes[i];
   bytes.set(floats);
   return bytes;

@@ -43,6 +43,7 @@ class Browser : public testing::Test {
     insert("</body>", read_file(std::string(NOONMARK_SOURCE_DIR "/tests/compare/report/") + probe));
     insert("</head>",
            "var errors = []; addEventListener('error', function(e) { errors.push(e.message); });"
+           "addEventListener('unhandledrejection', function(e) { errors.push(String(e.reason)); });"
            "addEventListener('securitypolicyviolation', function(e) { errors.push(e.violatedDirective); });"
            "['error', 'warn'].forEach(function(k) { console[k] = function(what) { errors.push(String(what)); }; });");
     static std::map<std::string, nlohmann::json> seen;

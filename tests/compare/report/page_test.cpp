@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/report/data.h"
 #include "compare/report/phase.h"
 #include "compare/report/report.h"
 #include "compare/report/speed.h"
@@ -336,6 +337,45 @@ TEST_F(ReportWithPhase, OpensWithTheDiagramAndThePointsOnIt) {
   EXPECT_EQ(points["rows"], 3) << "the table for readers without JavaScript";
   EXPECT_EQ(saw_["command"],
             "noonmark render --set scene.name='x y' --set map.resolution=64 --set bias.constant=0.001");
+}
+
+// Enough points that the data block is packed: 1.1 MB of JSON at least.
+Results packed_results() {
+  Results results = sample_results();
+  const std::vector<PointRecord> sample = results.points;
+  for (size_t id = sample.size(); id < 600; ++id) {
+    PointRecord point = sample[id % sample.size()];
+    point.id = static_cast<int64_t>(id);
+    point.pictures.clear();
+    point.settings["map.extent_m"] = fmt::format("{}", 100 + id);
+    results.points.push_back(std::move(point));
+  }
+  results.planned_points = static_cast<int64_t>(results.points.size());
+  return results;
+}
+
+class PackedPage : public Browser {};
+
+TEST_F(PackedPage, HasTheSameDataAndDrawsThem) {
+  const Results results = packed_results();
+  const json data = report::chart_data(results, report::shown_points(results));
+  ASSERT_GT(data.dump().size(), size_t{1} << 20) << "the page of this test must be packed";
+  open(render_report(results, sample_picture), "packed_probe.js");
+  if (IsSkipped()) return;
+  EXPECT_TRUE(saw_["packed"]);
+  EXPECT_EQ(saw_["points"], data["points"]);
+  EXPECT_GT(saw_["symbols"], 32);
+  EXPECT_EQ(saw_["rows"], 60) << "the table makes its first rows";
+}
+
+TEST_F(PackedPage, IsReadWithoutScriptsWhereTheBrowserCannotUnpack) {
+  std::string page = render_report(packed_results(), sample_picture);
+  page.insert(page.find("</head>"), "<script>delete window.DecompressionStream;</script>");
+  open(page, "packed_probe.js");
+  if (IsSkipped()) return;
+  EXPECT_EQ(saw_.count("points"), 0u);
+  EXPECT_EQ(saw_["said"].get<std::string>().find("This browser cannot unpack the data"), 0u) << saw_["said"];
+  EXPECT_EQ(saw_["fallback_rows"], 600) << "the table for readers without JavaScript";
 }
 
 }  // namespace

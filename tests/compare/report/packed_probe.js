@@ -1,0 +1,23 @@
+// Runs in a page whose data block is packed (tests/compare/report/page_test.cpp), and writes to the element `probe` what
+// the page unpacked and drew.
+(async function() {
+  'use strict';
+  await window.noonmarkReady;
+  await new Promise(function(go) {  // Vega draws only after the script that called it has ended.
+    setTimeout(go, 0);
+  });
+  var page = window.noonmarkPage, saw = {errors: errors, packed: document.querySelector('[data-packed]') !== null};
+  saw.said = document.querySelector('main p').textContent;
+  saw.fallback_rows = document.querySelectorAll('main tr[id]').length;
+  if (page) {
+    saw.points = page.data.points;
+    saw.symbols = document.querySelectorAll('#chart-sweep-1 .mark-symbol path').length;
+    saw.rows = document.querySelectorAll('.points-place tbody tr').length;
+  }
+  var probe = document.createElement('pre');
+  probe.id = 'probe';
+  probe.textContent = JSON.stringify(saw).replace(/[<>&]/g, function(c) {
+    return '\\u00' + c.charCodeAt(0).toString(16);
+  });
+  document.body.append(probe);
+})();
