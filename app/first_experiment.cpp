@@ -96,10 +96,10 @@ std::string first_experiment(const Model& model, const std::string& path) {
         "texel_sizes = 13            # 25 are smoother and take twice as long\n"
         "width_px = 320\n\n";
   text += fmt::format(
-      "[sweep]                     # every combination is measured: 3 x 4 points\n"
+      "[sweep]                     # every combination is measured: 4 x 4 points\n"
       "map.resolution = [{}]\n"
       "bias.constant = [0, 1, 2, 4]  # texels\n\n",
-      light == LightKind::point ? "512, 1024, 2048" : "1024, 2048, 4096");
+      light == LightKind::point ? "256, 512, 1024, 2048" : "512, 1024, 2048, 4096");
   return text + bounds_text;
 }
 

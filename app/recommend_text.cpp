@@ -232,11 +232,15 @@ std::vector<std::string> advice_text(const Advice& advice) {
     lines.push_back(fmt::format("The next cheaper is {} ({:.3g} million): {}.", settings_text(*cheaper),
                                 cheaper->cost / 1e6, cheaper->why_not));
   else
-    lines.push_back("Nothing cheaper was tried.");
+    lines.push_back(fmt::format("Nothing cheaper was tried: the smallest map among the choices has {} texels a side.",
+                                advice.request.resolutions.front()));
   if (const Tried* better = next_better(advice))
     lines.push_back(fmt::format("More accurate, as far as it was screened, is {} ({:.3g} million): {}.",
                                 settings_text(*better), better->cost / 1e6, better->why_not));
-  if (advice.least_resolution) lines.push_back(constant_text(*advice.least_resolution));
+  if (advice.least_resolution)
+    lines.push_back(constant_text(*advice.least_resolution) +
+                    fmt::format(" The bias of this answer keeps them at {} texels, under all conditions.",
+                                answer.settings.map.resolution));
   for (std::string& line : lesser_levels(advice)) lines.push_back(std::move(line));
   if (advice.around)
     for (std::string& line : tornado_text(*advice.around)) lines.push_back(std::move(line));
