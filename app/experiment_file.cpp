@@ -17,6 +17,8 @@
 #include "compare/store/quantities.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
+#include "scenes/library.h"
+#include "scenes/shell_words.h"
 #include "technique/placements.h"
 
 namespace noonmark {
@@ -319,6 +321,10 @@ bool says_nothing(std::string_view text) {
 }  // namespace
 
 Experiment load_experiment(const std::string& path) {
+  if (names_file(path))
+    throw Error(ErrorKind::usage,
+                fmt::format("{} is a model, not an experiment; noonmark init {} writes a first experiment for it", path,
+                            shell_quoted(path)));
   std::string text;
   try {
     text = read_file(path, max_experiment_bytes);

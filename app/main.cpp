@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -59,6 +60,13 @@ std::string fraction(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc{} && end == text.data() + text.size() && value >= 0 && value <= 1) return "";
   return fmt::format("'{}' is not a number from 0 to 1", text);
+}
+
+std::string above_zero(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc{} && end == text.data() + text.size() && value > 0 && std::isfinite(value)) return "";
+  return fmt::format("'{}' is not a number above 0", text);
 }
 
 std::string not_empty(const std::string& path) { return path.empty() ? "the path is empty" : ""; }
@@ -294,7 +302,7 @@ int run(int argc, char** argv) {
           "--budget", recommending.budget,
           "The most texels written and texture instructions a frame (the metric texel_work). The most accurate "
           "settings are sought")
-      ->check(CLI::Validator(CLI::PositiveNumber).description(""))
+      ->check(above_zero)
       ->type_name("NUMBER");
   recommend
       ->add_option("--views", recommending.views,

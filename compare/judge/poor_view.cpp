@@ -71,8 +71,11 @@ std::string why_poor_view(const PointRecord& point) {
     if (number(point, "lit") == 0)
       return fmt::format(
           "all of the {:.0f} pixels that can be judged are in shadow: the light reaches nothing that "
-          "the camera sees; set light.position_m (in a closed room, with light.kind = point)",
-          counted);
+          "the camera sees; {}",
+          counted,
+          setting_of(point, "light.elevation_deg").starts_with('-')
+              ? "the sun is below the horizon: raise light.elevation_deg"
+              : "set light.position_m (in a closed room, with light.kind = point)");
     return number(point, "clipped") >= few ? cut_off(point) : "";
   }
   std::string text = counted == 0 ? fmt::format("no pixel of {:.0f} can be judged: ", pixels)

@@ -67,6 +67,7 @@ class Poser {
       }
       apply(*target, animation["samplers"][sampler]);
     }
+    if (animation["channels"].empty()) notes_.push_back("the animation has no channels, so scene.time_s moves nothing");
     if (others > 0)
       notes_.push_back(counted(others, "channel") + " of the animation not read: not for nodes or morph targets");
   }

@@ -106,6 +106,12 @@ bool masks_by_texture(const tinygltf::Material& material) {
   return material.alphaMode == "MASK" && material.pbrMetallicRoughness.baseColorTexture.index != -1;
 }
 
+bool masked_out(const tinygltf::Material& material) {
+  const tinygltf::PbrMetallicRoughness& base = material.pbrMetallicRoughness;
+  return material.alphaMode == "MASK" && base.baseColorTexture.index == -1 && base.baseColorFactor.size() == 4 &&
+         base.baseColorFactor[3] < material.alphaCutoff;
+}
+
 const Masks::Mask* Masks::of(int material) {
   if (material == -1) return nullptr;
   const auto [found, fresh] = masks_.try_emplace(material);

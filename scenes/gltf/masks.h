@@ -69,5 +69,7 @@ class MaskedPrimitive {
 
 // Whether a texture decides what of the material is seen.
 bool masks_by_texture(const tinygltf::Material& material);
+// Whether the material masks its primitives completely: without a texture, its alpha is below the cutoff.
+bool masked_out(const tinygltf::Material& material);
 
 }  // namespace noonmark::gltf

@@ -40,12 +40,6 @@ const tinygltf::Material& material_of(const tinygltf::Model& model, const tinygl
   return primitive.material == -1 ? by_default : model.materials[static_cast<size_t>(primitive.material)];
 }
 
-bool masked_out(const tinygltf::Material& material) {
-  const tinygltf::PbrMetallicRoughness& base = material.pbrMetallicRoughness;
-  return material.alphaMode == "MASK" && base.baseColorTexture.index == -1 && base.baseColorFactor.size() == 4 &&
-         base.baseColorFactor[3] < material.alphaCutoff;
-}
-
 uint64_t triangles_of(int mode, uint64_t corners) {
   // The rest of an incomplete triangle is ignored (glTF 2.0, section 3.7.2.1).
   return corners < 3 ? 0 : mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners - 2;

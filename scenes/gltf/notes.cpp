@@ -22,6 +22,7 @@ struct Unseen {
   uint64_t meshes = 0;  // nodes that have one
   uint64_t hidden = 0, collapsed = 0;
   uint64_t points = 0, lines = 0;
+  uint64_t masked_out = 0;  // primitives
   std::set<int> materials;  // the materials of the triangles
 };
 
@@ -40,6 +41,8 @@ Unseen unseen(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes
     for (const tinygltf::Primitive& primitive : model.meshes[static_cast<size_t>(mesh)].primitives) {
       out.points += primitive.mode == TINYGLTF_MODE_POINTS;
       out.lines += primitive.mode > TINYGLTF_MODE_POINTS && primitive.mode < TINYGLTF_MODE_TRIANGLES;
+      out.masked_out += primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.material != -1 &&
+                        masked_out(model.materials[static_cast<size_t>(primitive.material)]);
       if (primitive.material != -1 && primitive.mode >= TINYGLTF_MODE_TRIANGLES)
         out.materials.insert(primitive.material);
     }
@@ -58,6 +61,7 @@ std::string instead_of_triangles(const Document& document, const std::vector<Pla
   };
   add(found.points, "primitive", " of points");
   add(found.lines, "primitive", " of lines");
+  add(found.masked_out, "primitive", " whose alphaMode MASK shows nothing, because its alpha is below alphaCutoff");
   add(without_area, "triangle", " without an area");
   add(found.hidden, "node", " with a mesh hidden by KHR_node_visibility");
   add(found.collapsed, "node", " with a mesh scaled to zero");

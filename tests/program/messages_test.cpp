@@ -46,6 +46,21 @@ TEST_F(Messages, TheExperimentsFaultComesBeforeThatOfTheFolder) {
   }
 }
 
+TEST_F(Messages, AModelInPlaceOfAnExperimentIsNamed) {
+  write("model.gltf", "{}");
+  for (const char* verb : {"run", "check", "render"}) {
+    EXPECT_EQ(run({verb, "model.gltf"}), 2) << verb;
+    EXPECT_TRUE(says("is a model, not an experiment; noonmark init model.gltf")) << output_;
+  }
+}
+
+TEST_F(Messages, ABudgetIsANumberAboveZero) {
+  for (const char* budget : {"0", "-1", "nan", "inf", "1x", ""}) {
+    EXPECT_EQ(run({"recommend", "plate", "--budget", budget}), 2) << budget;
+    EXPECT_TRUE(says("is not a number above 0")) << output_;
+  }
+}
+
 TEST_F(Messages, WhatCouldNotBeCheckedIsAllInTheLastLines) {
   fs::create_directories(folder_ / "exps/closed");
   write("exps/a.toml", one_point + held_bound);

@@ -123,6 +123,9 @@ TEST_F(GltfMask, FactorAndCutoff) {
   EXPECT_NEAR(area(load(d)), 0.5, 1e-7);
   material["alphaCutoff"] = 0.6;
   EXPECT_NE(refusal(d).find("holds no triangles"), std::string::npos);
+  material["pbrMetallicRoughness"].erase("baseColorTexture");
+  EXPECT_NE(refusal(d).find("holds no triangles: 1 primitive whose alphaMode MASK shows nothing"), std::string::npos)
+      << refusal(d);
 }
 
 // A quarter turn with v down: u = y, v = -x (KhronosGroup/glTF issue 1563). The other set of coordinates is shifted.

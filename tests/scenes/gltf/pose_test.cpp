@@ -267,6 +267,8 @@ TEST_F(GltfPose, AtRestAnAnimationIsNotReadButSaid) {
   EXPECT_NE(refusal(d, {1.0, 2}).find("animations: there are 2, counted from 0, and 2 is requested"),
             std::string::npos);
   EXPECT_NE(refusal(square(), {1.0, 0}).find("animations: there are none"), std::string::npos);
+  d["animations"] = {{{"channels", json::array()}, {"samplers", json::array()}}};
+  EXPECT_TRUE(noted(load(d, {1.0, 0}), "the animation has no channels, so scene.time_s moves nothing"));
 }
 
 TEST_F(GltfPose, LinearKeysAndTheEndsStandStill) {
