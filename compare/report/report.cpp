@@ -146,8 +146,8 @@ std::string render_report(const Results& results,
        .sections = sections,
        .data = report::chart_data(results, shown),
        .causes = causes,
-       .scripts = {"charts", "chart_bias", "chart_sweep", "speed_marks", "chart_speed", "chart_laws", "chart_phase",
-                   "live", "bias_choice", "card", "points_table", "page"},
+       .scripts = {"charts", "keyboard", "chart_bias", "chart_sweep", "speed_marks", "chart_speed", "chart_laws",
+                   "chart_phase", "live", "bias_choice", "card", "points_table", "page"},
        .version = results.info.version});
 }
 

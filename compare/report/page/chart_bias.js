@@ -424,6 +424,16 @@ function build(width) {
     },
     hover: function(view, plot) {
       var svg = plot.querySelector('svg');
+      // Where the pointer would stand for bias i: biases of 0 are left of the gap.
+      function place(i) {
+        return bias[i] > 0 ? view.scale('x')(bias[i]) : 12;
+      }
+      stops = function() {
+        var box = svg.getBoundingClientRect();
+        return bias.map(function(b, i) {
+          return {element: svg, x: box.left + left + place(i), y: box.top + box.height / 3};
+        });
+      };
       svg.addEventListener('mousemove', function(event) {
         var px = event.clientX - svg.getBoundingClientRect().left - left, i = 0;
         if (px > gap - 30) {
@@ -432,7 +442,7 @@ function build(width) {
             if (bias[j] > 0 && (bias[i] <= 0 || Math.abs(Math.log(bias[j] / b)) < Math.abs(Math.log(bias[i] / b))))
               i = j;
         }
-        view.signal('hover', bias[i] > 0 ? view.scale('x')(bias[i]) : 12).run();
+        view.signal('hover', place(i)).run();
         kit.showTip(
             event, ['error'].concat(series)
                        .map(function(s) {
@@ -465,7 +475,11 @@ function bandRows(curve, i) {
   }));
 }
 
-var self = kit.chart('bias', build);
+var stops, self = kit.chart('bias', build);
+if (self)
+  kit.keyboard(self, function() {
+    return stops ? stops() : [];
+  });
 if (!self) return;
 var facts = kit.make('p', {class: 'facts'});
 self.legend.before(facts);

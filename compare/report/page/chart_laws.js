@@ -115,6 +115,7 @@ var self = kit.chart('laws', function(width) {
     }
   };
 });
+if (self) kit.keyboard(self);
 if (self && laws.length > 1)
   self.controls.append(kit.picker(
       'Law', laws.map(function(l, i) {

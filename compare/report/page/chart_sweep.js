@@ -190,6 +190,7 @@ function sweepChart(swept, index) {
       }));
   apart.filters(self);
   apart.legend(self.legend);
+  kit.keyboard(self);
 }
 var index = 0;
 data.swept.forEach(function(s) {

@@ -150,6 +150,19 @@ function showTip(event, rows, title) {
 function hideTip() {
   tip.hidden = true;
 }
+// The tip as a sentence.
+function tipWords() {
+  var title = tip.querySelector('b'), rows = Array.prototype.map.call(tip.querySelectorAll('tr'), function(row) {
+    return Array.prototype.map
+        .call(
+            row.cells,
+            function(cell) {
+              return cell.textContent;
+            })
+        .join(' ');
+  });
+  return (title ? title.textContent + ': ' : '') + rows.join('; ') + '.';
+}
 
 page.open = page.redraw = function() {};
 page.select = function(id) {
@@ -393,6 +406,7 @@ page.kit = {
   axisLabel: axisLabel,
   showTip: showTip,
   hideTip: hideTip,
+  tipWords: tipWords,
   chart: chart,
   picker: picker,
   segments: segments,

@@ -243,6 +243,24 @@
   show_point(all('.pictures')[1].dataset.point);
   saw.flips.push(shown());
 
+  // The charts by keyboard.
+  async function keys_in(id, names) {
+    var figure = document.getElementById(id), plot = figure.querySelector('.plot'), said = [];
+    for (var name of names) {
+      plot.dispatchEvent(new KeyboardEvent('keydown', {key: name, bubbles: true, cancelable: true}));
+      await drawn();
+      said.push(figure.querySelector('.spoken').textContent);
+    }
+    return {stop: plot.tabIndex, said: said, tip: document.getElementById('tip').hidden};
+  }
+  if (card.open) await click(card.querySelectorAll('.card-head button')[2]);
+  saw.keys = {
+    bias: await keys_in('chart-bias', ['ArrowRight', 'ArrowRight', 'Home', 'End', 'Escape']),
+    sweep: await keys_in('chart-sweep-1', ['ArrowLeft', 'ArrowRight', 'End'])
+  };
+  await keys_in('chart-sweep-1', ['Enter']);
+  saw.keys.card = card.open && card.querySelector('h2').textContent;
+
   var probe = document.createElement('pre');
   probe.id = 'probe';
   probe.textContent = JSON.stringify(saw).replace(/[<>&]/g, function(c) {

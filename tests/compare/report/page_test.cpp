@@ -74,6 +74,26 @@ TEST_F(Page, TheTableSortsAndSelects) {
   EXPECT_EQ(saw_["selected_by_symbol"], json({saw_["symbol"]}));
 }
 
+TEST_F(Page, ChartsAreReadByKeyboard) {
+  const json& keys = saw_["keys"];
+  EXPECT_EQ(keys["bias"]["stop"], 0);
+  const std::vector<std::string> bias = keys["bias"]["said"];
+  EXPECT_NE(bias[0].find("depth = "), std::string::npos) << bias[0];
+  EXPECT_NE(bias[0].find("Peter Panning "), std::string::npos) << bias[0];
+  EXPECT_NE(bias[1], bias[0]) << "the next bias";
+  EXPECT_EQ(bias[2], bias[0]) << "Home is the first";
+  EXPECT_NE(bias[3], bias[1]);
+  EXPECT_EQ(bias[4], bias[3]) << "Escape says nothing";
+  EXPECT_TRUE(keys["bias"]["tip"]) << "and hides the tip";
+  const std::vector<std::string> sweep = keys["sweep"]["said"];
+  EXPECT_EQ(sweep[0].find("Point "), 0u) << sweep[0];
+  EXPECT_NE(sweep[1], sweep[0]);
+  EXPECT_FALSE(keys["sweep"]["tip"]);
+  ASSERT_TRUE(keys["card"].is_string()) << "Enter opens the card";
+  const std::string point = sweep[2].substr(0, sweep[2].find(':'));
+  EXPECT_EQ(keys["card"].get<std::string>().find(point), 0u) << keys["card"] << " of " << point;
+}
+
 // The table and the budget follow the bias that is chosen at the top.
 TEST_F(Page, OneBiasIsInAllFigures) {
   EXPECT_EQ(saw_["bias_choice"], json({"recommended", "set"}));
