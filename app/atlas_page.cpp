@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "app/build_facts.h"
+#include "compare/report/atlas.h"
 #include "scenes/file.h"
 #include "scenes/text.h"
 
@@ -44,7 +46,7 @@ void AtlasPage::add(const Experiment& experiment, const std::string& out, const 
 
 std::string AtlasPage::write() const {
   if (rows_.empty()) return {};
-  write_file_atomically(folder_ + "/atlas.html", to_atlas_page(rows_));
+  write_file_atomically(folder_ + "/atlas.html", to_atlas_page(rows_, std::string(build_facts().version)));
   write_file_atomically(folder_ + "/atlas.md", to_atlas_table(rows_));
   return fmt::format("the atlas of {} failures is {}/atlas.html\n", rows_.size(), printable(folder_));
 }

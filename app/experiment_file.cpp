@@ -15,6 +15,7 @@
 #include "app/settings_reader.h"
 #include "app/toml_text.h"
 #include "compare/store/quantities.h"
+#include "scenes/builtin.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "scenes/library.h"
@@ -325,6 +326,13 @@ Experiment load_experiment(const std::string& path) {
     throw Error(ErrorKind::usage,
                 fmt::format("{} is a model, not an experiment; noonmark init {} writes a first experiment for it", path,
                             shell_quoted(path)));
+  for (const BuiltinScene& scene : builtin_scenes())
+    if (path == scene.name && !std::filesystem::exists(path))
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("{0} is a built-in scene, not an experiment; noonmark render --set scene.name={0} renders "
+                      "it, and noonmark map {0} and noonmark recommend {0} take its name",
+                      path));
   std::string text;
   try {
     text = read_file(path, max_experiment_bytes);

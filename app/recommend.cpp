@@ -368,16 +368,18 @@ class Search {
 
   void verify(Tried& tried, Advice& advice) {
     say_("verifying at 64 other placements");
-    const Verified verified =
-        verify_at_fresh_placements(bench_, settings_of(*tried.worst), request_.curve, request_.accuracy);
+    const Verified verified = verify_at_fresh_placements(bench_, settings_of(*tried.worst), request_.curve,
+                                                         request_.accuracy, request_.error);
     advice.placements = searched_placements * searched_placements;
     advice.verified = verified.placements;
     advice.worst_acne = verified.worst_acne, advice.worst_peter_panning = verified.worst_peter_panning;
     advice.worst_error = verified.worst_error;
     if (!verified.broken) return;
-    tried.why_not =
-        fmt::format("rendered at another placement of the grid it has {:.3g}% acne and {:.3g}% Peter Panning",
-                    100 * metric_of(*verified.broken, "acne"), 100 * metric_of(*verified.broken, "peter_panning"));
+    tried.why_not = fmt::format(
+        "rendered at another placement of the grid it has {:.3g}% acne, {:.3g}% Peter Panning and {:.3g}% "
+        "error",
+        100 * metric_of(*verified.broken, "acne"), 100 * metric_of(*verified.broken, "peter_panning"),
+        100 * metric_of(*verified.broken, request_.accuracy));
     tried.worst = verified.broken;
   }
 

@@ -15,8 +15,8 @@ struct Verified {
 };
 
 // 64 placements: for a flat map half a step between those of 8 x 8, for a cube random turns, the same in every run.
-// accuracy: the metric of worst_error. Throws Error.
+// accuracy: the metric of worst_error; most: what it may be at each placement; empty: not asked. Throws Error.
 Verified verify_at_fresh_placements(Workbench& bench, const Settings& settings, const CurveOptions& bounds,
-                                    const std::string& accuracy);
+                                    const std::string& accuracy, std::optional<double> most);
 
 }  // namespace noonmark

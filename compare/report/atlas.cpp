@@ -8,6 +8,7 @@
 #include <map>
 
 #include "compare/report/escape.h"
+#include "compare/report/page_parts.h"
 #include "compare/report/text.h"
 
 namespace noonmark {
@@ -57,13 +58,20 @@ std::string cell_html(const AtlasRow& row, const AtlasCell* cell) {
 std::string laws_html(const AtlasRow& row) {
   std::string text;
   for (const LawResult& law : row.laws) {
-    text += fmt::format("<br>{}: {}", html(law.name), law.held ? "holds" : "<b>broken</b>");
+    text += fmt::format("<br>law {}: {}", html(law.name), law.held ? "holds" : "<b>broken</b>");
     if (law.worst < 0) continue;
     const LawResult::Sample& sample = law.samples[static_cast<size_t>(law.worst)];
     text += fmt::format(" (predicted {}, measured {})", html(report::number(sample.predicted)),
                         html(report::number(sample.measured)));
   }
   return text;
+}
+
+// "bevyengine/bevy/issues/16075" of "https://github.com/bevyengine/bevy/issues/16075".
+std::string thread_text(const std::string& address) {
+  const size_t scheme = address.find("://"),
+               path = scheme == std::string::npos ? scheme : address.find('/', scheme + 3);
+  return path == std::string::npos ? address : address.substr(path + 1);
 }
 
 std::vector<const AtlasCell*> others_of(const AtlasRow& row, const std::vector<std::string>& techniques) {
@@ -75,30 +83,21 @@ std::vector<const AtlasCell*> others_of(const AtlasRow& row, const std::vector<s
 
 }  // namespace
 
-std::string to_atlas_page(std::span<const AtlasRow> rows) {
+std::string to_atlas_page(std::span<const AtlasRow> rows, const std::string& version) {
   const std::vector<std::string> techniques = techniques_of(rows);
-  std::string text = R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src 'self' file: data:; style-src 'unsafe-inline'">
-<meta name="viewport" content="width=device-width, initial-scale=1"><meta name="color-scheme" content="light dark">
-<title>The atlas of failures · Noonmark</title>
-<style>
-body{font:14px/1.4 system-ui,sans-serif;margin:1rem;background:Canvas;color:CanvasText}
-table{border-collapse:collapse}th,td{border:1px solid #8886;padding:.35rem .5rem;vertical-align:top;text-align:left;min-width:8rem}
-thead th{position:sticky;top:0;background:Canvas}img{width:192px;image-rendering:pixelated;display:block}
-.holds{background:#2a8a3e33}.fragile{background:#d9a40044}.fails{background:#d0343444}.nothing{background:#8883}
-code{font-size:12px;overflow-wrap:anywhere}td:first-child{min-width:18rem;max-width:26rem}
-</style></head><body><h1>The atlas of failures</h1>
-)";
-  text += fmt::format(
-      "<p>Each row is a known failure, each column a technique. A technique <b>holds</b> if at every point the usable "
+  std::string text = fmt::format(
+      "<p>{} known failures. Each row is a known failure, each column a technique. A technique <b>holds</b> if at "
+      "every point the usable "
       "biases span at least a factor of {} at every placement of the texel grid, with acne, Peter Panning and coverage "
       "of at most {} each. It is <b>fragile</b> if the span is narrower, or if a placement breaks it. It <b>fails</b> "
       "if no bias is usable at some point. <i>From</i> names the first value of the swept setting that does not hold. "
       "The error is the one that is left at the best bias there, the work counts texels written and texture "
-      "instructions. Rows of motion are not there yet.</p>\n",
-      atlas_window_factor, html(report::quantity(atlas_share, "fraction")));
-  text += "<table><thead><tr><th>Failure</th><th>Worst point</th>";
+      "instructions. What flickers in motion, and why, is measured by <code>noonmark check "
+      "experiments/motion.toml</code>.</p>\n",
+      rows.size(), atlas_window_factor, html(report::quantity(atlas_share, "fraction")));
+  text +=
+      "<div class=\"scroll tall\" tabindex=\"0\" role=\"region\" aria-label=\"Failures and techniques\">"
+      "<table class=\"atlas\"><thead><tr><th>Failure</th><th>Worst point</th>";
   for (const std::string& technique : techniques) text += fmt::format("<th>{}</th>", html(technique));
   text += "<th>Other techniques</th></tr></thead><tbody>\n";
   for (const AtlasRow& row : rows) {
@@ -109,7 +108,8 @@ code{font-size:12px;overflow-wrap:anywhere}td:first-child{min-width:18rem;max-wi
     if (!entry.note.empty()) text += "<br>" + html(entry.note);
     text += laws_html(row);
     if (!entry.thread.empty())
-      text += fmt::format("<br><a href=\"{0}\">{0}</a>: {1}", html(entry.thread), html(entry.answer));
+      text += fmt::format("<br><a href=\"{}\">{}</a>: {}", html(entry.thread), html(thread_text(entry.thread)),
+                          html(entry.answer));
     text += fmt::format("<br><code>{}</code></td><td>{}</td>", html(row.command),
                         row.picture.empty()
                             ? "–"
@@ -122,7 +122,8 @@ code{font-size:12px;overflow-wrap:anywhere}td:first-child{min-width:18rem;max-wi
                           html(left_text(*cell)), html(report::cell(cell->cost, "count")));
     text += "</td></tr>\n";
   }
-  return text + "</tbody></table></body></html>\n";
+  return report::plain_page("The atlas of failures", text + "</tbody></table></div>\n", version,
+                            report::Pictures::beside);
 }
 
 std::string to_atlas_table(std::span<const AtlasRow> rows) {

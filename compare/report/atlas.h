@@ -1,6 +1,6 @@
 // The page of the atlas of failures: a matrix of failure and technique with verdict, cliff, cure and picture.
 //
-//   write(out + "/atlas.html", to_atlas_page(rows));
+//   write(out + "/atlas.html", to_atlas_page(rows, version));
 #pragma once
 #include <span>
 #include <string>
@@ -22,7 +22,7 @@ struct AtlasRow {
 
 // One HTML file without scripts. A row stands in the order given; a column is a technique, in the order in which the
 // rows name them; a technique that a row does not try has an empty cell.
-std::string to_atlas_page(std::span<const AtlasRow> rows);
+std::string to_atlas_page(std::span<const AtlasRow> rows, const std::string& version);
 
 // The same matrix as a Markdown table, one line for each failure: for a README or a summary of CI.
 std::string to_atlas_table(std::span<const AtlasRow> rows);

@@ -101,16 +101,18 @@ std::string fill_page(const PageParts& parts) {
   });
 }
 
-std::string plain_page(const std::string& title, const std::string& body, const std::string& version) {
+std::string plain_page(const std::string& title, const std::string& body, const std::string& version,
+                       Pictures pictures) {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
       "http-equiv=\"Content-Security-Policy\" "
-      "content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\">\n<meta name=\"viewport\" "
+      "content=\"default-src 'none'; img-src {4}; style-src 'unsafe-inline'\">\n<meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n<title>{0} · Noonmark</title>\n<style>\n{1}</style>\n</head>\n<body>\n"
       "<header><h1>{0}</h1></header>\n<main>\n{2}</main>\n<footer><p>Made by Noonmark {3}.</p></footer>\n</body>\n"
       "</html>\n",
-      html(title), file("report/page/style.css"), body, html(version));
+      html(title), file("report/page/style.css"), body, html(version),
+      pictures == Pictures::inside ? "data:" : "'self' file: data:");
 }
 
 }  // namespace noonmark::report

@@ -19,7 +19,11 @@ struct PageParts {
 
 std::string fill_page(const PageParts& parts);
 
+// Where a page's pictures are: in the page itself, or in files beside it.
+enum class Pictures { inside, beside };
+
 // A page with the same style, without scripts. title: text; body: HTML.
-std::string plain_page(const std::string& title, const std::string& body, const std::string& version);
+std::string plain_page(const std::string& title, const std::string& body, const std::string& version,
+                       Pictures pictures = Pictures::inside);
 
 }  // namespace noonmark::report

@@ -11,7 +11,8 @@ namespace noonmark::acceptance {
 namespace {
 
 // Two maps with two biases each. The bound holds at every point.
-const std::string two_maps = one_point + "[sweep]\nmap.resolution = [64, 128]\nbias.constant = [0.001, 0.002]\n" + held_bound;
+const std::string two_maps =
+    one_point + "[sweep]\nmap.resolution = [64, 128]\nbias.constant = [0.001, 0.002]\n" + held_bound;
 
 class Merge : public Program {
  protected:
@@ -89,7 +90,8 @@ TEST_F(Merge, NamesWhatIsMissing) {
 
 TEST_F(Merge, RefusesStoresThatDoNotBelongTogether) {
   measure("1/2");
-  measure("2/2", "others", one_point + "[sweep]\nmap.resolution = [64, 128]\nbias.constant = [0.001, 0.003]\n" + held_bound);
+  measure("2/2", "others",
+          one_point + "[sweep]\nmap.resolution = [64, 128]\nbias.constant = [0.001, 0.003]\n" + held_bound);
   measure("2/2", "bounds", two_maps + "[[bound]]\nmetric = \"acne\"\nmax = 1\n");
   const auto refused = [&](const std::vector<std::string>& shares, const std::string& words) {
     std::vector<std::string> command = {"merge", "joined"};
@@ -98,7 +100,8 @@ TEST_F(Merge, RefusesStoresThatDoNotBelongTogether) {
     EXPECT_TRUE(says(words)) << output_;
     EXPECT_FALSE(exists("joined/results.sqlite"));
   };
-  refused({"out/share-1-of-2", "others/share-2-of-2"}, "out/share-1-of-2 and others/share-2-of-2 do not belong together");
+  refused({"out/share-1-of-2", "others/share-2-of-2"},
+          "out/share-1-of-2 and others/share-2-of-2 do not belong together");
   refused({"out/share-1-of-2", "bounds/share-2-of-2"}, "their bounds, laws, title or options are not the same");
   refused({"out/share-1-of-2", "nowhere"}, "nowhere: there are no results here");
   EXPECT_EQ(run({"merge", "out/share-1-of-2", "out/share-1-of-2"}), 2) << output_;
@@ -113,11 +116,14 @@ TEST_F(Merge, RefusesStoresThatDoNotBelongTogether) {
 TEST_F(Merge, OfOtherContentsOfAScene) {
   const std::string experiment = "scene = \"../shared.gltf\"\n" + small_view + "[sweep]\nmap.resolution = [64, 128]\n";
   const auto model = [&](float height) {
-    write("shared.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"translation":[0,)" +
-                             std::to_string(height) + R"(,0]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
-                             R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,0,1]}],)"
-                             R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
-                             R"(AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAPwAAAAAAAAAA"}]})");
+    write(
+        "shared.gltf",
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"translation":[0,)" +
+            std::to_string(height) +
+            R"(,0]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+            R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,0,1]}],)"
+            R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
+            R"(AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAPwAAAAAAAAAA"}]})");
   };
   fs::create_directories(folder_ / "x");
   model(0);
@@ -129,7 +135,8 @@ TEST_F(Merge, OfOtherContentsOfAScene) {
   EXPECT_TRUE(says("the contents of the scene shared.gltf")) << output_;
   // Named by an absolute path, the experiment belongs to one host; the joined store does not hold that path.
   const std::string here = (folder_ / "x/a.toml").string();
-  for (const char* shard : {"1/2", "2/2"}) ASSERT_EQ(run({"run", here, "--out", "abs", "--shard", shard}), 0) << output_;
+  for (const char* shard : {"1/2", "2/2"})
+    ASSERT_EQ(run({"run", here, "--out", "abs", "--shard", shard}), 0) << output_;
   EXPECT_EQ(run({"merge", "joined", "abs/share-1-of-2", "abs/share-2-of-2"}), 0) << output_;
   EXPECT_EQ(text("joined/results.sqlite").find(folder_.string()), std::string::npos);
 }

@@ -51,6 +51,8 @@ TEST_F(Messages, AModelInPlaceOfAnExperimentIsNamed) {
   for (const char* verb : {"run", "check", "render"}) {
     EXPECT_EQ(run({verb, "model.gltf"}), 2) << verb;
     EXPECT_TRUE(says("is a model, not an experiment; noonmark init model.gltf")) << output_;
+    EXPECT_EQ(run({verb, "plate"}), 2) << verb;
+    EXPECT_TRUE(says("plate is a built-in scene, not an experiment")) << output_;
   }
 }
 
