@@ -55,19 +55,17 @@ auto whole_number(long least, long most, const char* range) {
   };
 }
 
-std::string fraction(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc{} && end == text.data() + text.size() && value >= 0 && value <= 1) return "";
-  return fmt::format("'{}' is not a number from 0 to 1", text);
+template <class Holds>
+auto number(const char* range, Holds holds) {
+  return [=](const std::string& text) -> std::string {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc{} && end == text.data() + text.size() && holds(value)) return "";
+    return fmt::format("'{}' is not a number {}", text, range);
+  };
 }
-
-std::string above_zero(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc{} && end == text.data() + text.size() && value > 0 && std::isfinite(value)) return "";
-  return fmt::format("'{}' is not a number above 0", text);
-}
+const auto fraction = number("from 0 to 1", [](double value) { return value >= 0 && value <= 1; });
+const auto above_zero = number("above 0", [](double value) { return value > 0 && std::isfinite(value); });
 
 std::string not_empty(const std::string& path) { return path.empty() ? "the path is empty" : ""; }
 

@@ -15,7 +15,8 @@ struct Verified {
 };
 
 // 64 placements: for a flat map half a step between those of 8 x 8, for a cube random turns, the same in every run.
-// accuracy: the metric of worst_error; most: what it may be at each placement; empty: not asked. Throws Error.
+// `accuracy` names the metric of worst_error. `most` is the largest value that this metric may have at each placement;
+// without it the metric is only reported. Throws Error.
 Verified verify_at_fresh_placements(Workbench& bench, const Settings& settings, const CurveOptions& bounds,
                                     const std::string& accuracy, std::optional<double> most);
 

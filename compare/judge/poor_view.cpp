@@ -73,7 +73,7 @@ std::string why_poor_view(const PointRecord& point) {
           "all of the {:.0f} pixels that can be judged are in shadow: the light reaches nothing that "
           "the camera sees; {}",
           counted,
-          setting_of(point, "light.elevation_deg").starts_with('-')
+          number_of(setting_of(point, "light.elevation_deg")).value_or(0) < 0
               ? "the sun is below the horizon: raise light.elevation_deg"
               : "set light.position_m (in a closed room, with light.kind = point)");
     return number(point, "clipped") >= few ? cut_off(point) : "";

@@ -58,7 +58,7 @@ std::string cell_html(const AtlasRow& row, const AtlasCell* cell) {
 std::string laws_html(const AtlasRow& row) {
   std::string text;
   for (const LawResult& law : row.laws) {
-    text += fmt::format("<br>law {}: {}", html(law.name), law.held ? "holds" : "<b>broken</b>");
+    text += fmt::format("<br>law “{}” {}", html(law.name), law.held ? "holds" : "<b>broken</b>");
     if (law.worst < 0) continue;
     const LawResult::Sample& sample = law.samples[static_cast<size_t>(law.worst)];
     text += fmt::format(" (predicted {}, measured {})", html(report::number(sample.predicted)),
@@ -67,7 +67,7 @@ std::string laws_html(const AtlasRow& row) {
   return text;
 }
 
-// "bevyengine/bevy/issues/16075" of "https://github.com/bevyengine/bevy/issues/16075".
+// The address without its host: "bevyengine/bevy/issues/16075".
 std::string thread_text(const std::string& address) {
   const size_t scheme = address.find("://"),
                path = scheme == std::string::npos ? scheme : address.find('/', scheme + 3);
@@ -86,7 +86,7 @@ std::vector<const AtlasCell*> others_of(const AtlasRow& row, const std::vector<s
 std::string to_atlas_page(std::span<const AtlasRow> rows, const std::string& version) {
   const std::vector<std::string> techniques = techniques_of(rows);
   std::string text = fmt::format(
-      "<p>{} known failures. Each row is a known failure, each column a technique. A technique <b>holds</b> if at "
+      "<p>Each of the {} rows is a known failure, each column a technique. A technique <b>holds</b> if at "
       "every point the usable "
       "biases span at least a factor of {} at every placement of the texel grid, with acne, Peter Panning and coverage "
       "of at most {} each. It is <b>fragile</b> if the span is narrower, or if a placement breaks it. It <b>fails</b> "

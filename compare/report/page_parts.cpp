@@ -51,11 +51,11 @@ std::string colour_rules(const std::vector<CauseColor>& causes) {
   return ":root{" + variables + "}\n" + classes;
 }
 
-// A block of less text than this stays readable in the page's source and is there at once. The data of the report of
-// experiments/laws.toml, 5.3 MB of JSON, take 0.5 MB packed.
+// A data block of at most this many bytes is written as JSON, which the page's scripts read at once. A larger one is
+// packed: the 5.3 MB of JSON in the report of experiments/laws.toml become 0.5 MB.
 constexpr size_t largest_plain_block = 1 << 20;
 
-// The element with the data of the charts, as report/page/data.js reads it.
+// The HTML element that holds the data of the charts. report/page/data.js reads it.
 std::string data_block(const nlohmann::json& data) {
   const std::string text = script_json(data);
   if (text.size() <= largest_plain_block)

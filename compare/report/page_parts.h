@@ -19,7 +19,7 @@ struct PageParts {
 
 std::string fill_page(const PageParts& parts);
 
-// Where a page's pictures are: in the page itself, or in files beside it.
+// Whether a page holds its pictures itself, or shows files from folders beside it. The page allows no other pictures.
 enum class Pictures { inside, beside };
 
 // A page with the same style, without scripts. title: text; body: HTML.

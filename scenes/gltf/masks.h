@@ -69,7 +69,8 @@ class MaskedPrimitive {
 
 // Whether a texture decides what of the material is seen.
 bool masks_by_texture(const tinygltf::Material& material);
-// Whether the material masks its primitives completely: without a texture, its alpha is below the cutoff.
+// Whether the material hides its primitives completely: it is masked, has no base colour texture, and its alpha is
+// below alphaCutoff.
 bool masked_out(const tinygltf::Material& material);
 
 }  // namespace noonmark::gltf

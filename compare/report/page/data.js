@@ -11,7 +11,7 @@ window.noonmarkUnpack = async function(base64) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 };
 // In a browser that cannot unpack, the page is what readers without JavaScript get.
-function without_scripts() {
+function withoutScripts() {
   document.documentElement.className = 'no-js';
   document.querySelectorAll('noscript').forEach(function(n) {
     n.outerHTML = n.textContent;
@@ -27,7 +27,7 @@ window.noonmarkStart = function(run) {
   if (!block.hasAttribute('data-packed'))
     window.noonmarkReady = Promise.resolve(run(JSON.parse(block.textContent)));
   else if (!('DecompressionStream' in window))
-    window.noonmarkReady = Promise.resolve(without_scripts());
+    window.noonmarkReady = Promise.resolve(withoutScripts());
   else
     window.noonmarkReady = noonmarkUnpack(block.textContent).then(function(bytes) {
       run(JSON.parse(new TextDecoder().decode(bytes)));

@@ -22,8 +22,8 @@ function marks(plot) {
       });
 }
 
-// self: what kit.chart() returned. stops(): [{element, x, y}] from left to right, in pixels of the window; without it the
-// marks. The element gets the events that the pointer would send.
+// self is what kit.chart() returned. stops() returns [{element, x, y}] from left to right, in pixels of the window; without
+// it the chart's marks are the stops. Each element gets the events that a pointer at its place would send.
 kit.keyboard = function(self, stops) {
   var plot = self.plot, at = -1, spoken = kit.make('p', {class: 'small spoken', 'aria-live': 'polite'});
   function list() {
@@ -34,8 +34,6 @@ kit.keyboard = function(self, stops) {
         new MouseEvent(type, {bubbles: true, cancelable: true, view: window, clientX: stop.x, clientY: stop.y}));
   }
   function leave() {
-    var all = list();
-    if (at >= 0 && all[at]) send('mouseout', all[at]);
     var svg = plot.querySelector('svg');
     if (svg) svg.dispatchEvent(new MouseEvent('mouseleave'));
     kit.hideTip();

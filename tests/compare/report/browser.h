@@ -45,6 +45,9 @@ class Browser : public testing::Test {
            "var errors = []; addEventListener('error', function(e) { errors.push(e.message); });"
            "addEventListener('unhandledrejection', function(e) { errors.push(String(e.reason)); });"
            "addEventListener('securitypolicyviolation', function(e) { errors.push(e.violatedDirective); });"
+           "function leave(saw) { var probe = document.createElement('pre'); probe.id = 'probe';"
+           "probe.textContent = JSON.stringify(saw).replace(/[<>&]/g, function(c) {"
+           "return '\\\\u00' + c.charCodeAt(0).toString(16); }); document.body.append(probe); }"
            "['error', 'warn'].forEach(function(k) { console[k] = function(what) { errors.push(String(what)); }; });");
     static std::map<std::string, nlohmann::json> seen;
     if (const auto known = seen.find(window + page); known != seen.end()) {

@@ -33,10 +33,5 @@
     });
     saw[mode] = front();
   }
-  var probe = document.createElement('pre');
-  probe.id = 'probe';
-  probe.textContent = JSON.stringify(saw).replace(/[<>&]/g, function(c) {
-    return '\\u00' + c.charCodeAt(0).toString(16);
-  });
-  document.body.append(probe);
+  leave(saw);
 })();

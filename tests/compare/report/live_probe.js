@@ -23,8 +23,5 @@ slider.value = +slider.value + 100;
 slider.dispatchEvent(new Event('input', {bubbles: true}));
 saw.moved = slider.getAttribute('aria-valuetext') !== before;
 
-var probe = document.createElement('pre');
-probe.id = 'probe';
-probe.textContent = JSON.stringify(saw);
-document.body.append(probe);
+leave(saw);
 })();

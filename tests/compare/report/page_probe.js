@@ -1,6 +1,6 @@
 // Runs in the report's page after its own scripts (tests/compare/report/page_test.cpp). It uses the page as a reader
-// does, with clicks and keys, and writes its observations to the element `probe`. The first script of the page makes
-// the list `errors`.
+// does, with clicks and keys, and writes its observations to the element `probe`. browser.h gives the
+// list `errors` and leave().
 (async function() {
   'use strict';
   var saw = {errors: errors};
@@ -261,10 +261,5 @@
   await keys_in('chart-sweep-1', ['Enter']);
   saw.keys.card = card.open && card.querySelector('h2').textContent;
 
-  var probe = document.createElement('pre');
-  probe.id = 'probe';
-  probe.textContent = JSON.stringify(saw).replace(/[<>&]/g, function(c) {
-    return '\\u00' + c.charCodeAt(0).toString(16);
-  });
-  document.body.append(probe);
+  leave(saw);
 })();

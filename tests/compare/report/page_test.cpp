@@ -359,7 +359,7 @@ TEST_F(ReportWithPhase, OpensWithTheDiagramAndThePointsOnIt) {
             "noonmark render --set scene.name='x y' --set map.resolution=64 --set bias.constant=0.001");
 }
 
-// Enough points that the data block is packed: 1.1 MB of JSON at least.
+// So many points that the page packs its data.
 Results packed_results() {
   Results results = sample_results();
   const std::vector<PointRecord> sample = results.points;

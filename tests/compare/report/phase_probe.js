@@ -66,10 +66,5 @@ saw.keys.command = (figure.querySelector('.command code') || {}).textContent;
 saw.rows = all('#phase table.numbers tbody tr').length;
 saw.title = document.querySelector('h1').textContent;
 
-var probe = document.createElement('pre');
-probe.id = 'probe';
-probe.textContent = JSON.stringify(saw).replace(/[<>&]/g, function(c) {
-  return '\\u00' + c.charCodeAt(0).toString(16);
-});
-document.body.append(probe);
+leave(saw);
 })();

@@ -130,10 +130,5 @@ saw.map_ms_note = figure.querySelector('p.small').textContent;
   saw.other = observe();
   saw.width = document.documentElement.scrollWidth <= innerWidth;
 
-  var probe = document.createElement('pre');
-  probe.id = 'probe';
-  probe.textContent = JSON.stringify(saw).replace(/[<>&]/g, function(c) {
-    return '\\u00' + c.charCodeAt(0).toString(16);
-  });
-  document.body.append(probe);
+  leave(saw);
 })();
