@@ -209,45 +209,84 @@ LightCells::Four* LightCells::divide(Cell& cell, uint32_t x, uint32_t y) {
 }
 
 void LightCells::judge(Cell& cell, const Square& square) const {
-  if (cell.triangles.empty()) {
-    cell.kind = Kind::nothing;
-    return;
-  }
-  thread_local std::vector<Part> parts;
-  parts.clear();
+  std::vector<uint32_t>& triangles = cell.triangles;
   // Among many triangles only one that covers the square can make it good.
   const auto may_cover = [&](uint32_t t) {
     const Outline o = outline(t);
     return o.low.x < square.middle.x - square.half && o.high.x > square.middle.x + square.half &&
            o.low.y < square.middle.y - square.half && o.high.y > square.middle.y + square.half;
   };
-  const bool many = cell.triangles.size() > largest_sheet;
-  if (many && cell.divisions > 0 && std::none_of(cell.triangles.begin(), cell.triangles.end(), may_cover)) {
-    for (uint32_t t : cell.triangles)
-      for (int i = 0; i < 3; ++i) cell.nearest_m = std::min(cell.nearest_m, view_.corner(t, i).z);
+  const bool many = triangles.size() > largest_sheet;
+  if (many && cell.divisions > 0 && std::none_of(triangles.begin(), triangles.end(), may_cover)) {
+    for (uint32_t t : triangles) cell.nearest_m = std::min(cell.nearest_m, view_.nearest_m(t));
     return;
   }
-  for (uint32_t t : cell.triangles) {
-    const double a = view_.corner(t, 0).z, b = view_.corner(t, 1).z, c = view_.corner(t, 2).z;
-    Part& part =
-        parts.emplace_back(Part{.outline = outline(t), .least = std::min({a, b, c}), .most = std::max({a, b, c})});
-    part.flat = !view_.edge_on(t);
-    if (!part.flat) continue;
-    part.at_middle = view_.plane_depth(t, {square.middle, 1});
-    part.gradient = view_.gradient(t);
-    const double step = square.half * (std::abs(part.gradient.x) + std::abs(part.gradient.y));
-    part.least = std::max(part.least, part.at_middle - step);
-    part.most = std::min(part.most, part.at_middle + step);
-    part.covers = true;
-    for (int e = 0; e < 3 && part.covers; ++e)
-      part.covers = part.outline.inside(e, square.middle) > part.outline.spread(e, square.half);
-  }
-  for (const Part& part : parts) cell.nearest_m = std::min(cell.nearest_m, part.least);
-  const bool good = judge_triangle(cell, parts, square) || judge_sheet(cell, parts, square);
-  if (good || cell.divisions == 0) std::vector<uint32_t>().swap(cell.triangles);
+  thread_local std::vector<Part> parts;
+  parts.clear();
+  for (uint32_t t : triangles) parts.push_back(part(t, outline(t), square));
+  static_cast<Judged&>(cell) = judge(parts, infinity, square);
+  if (cell.kind == Kind::triangle || cell.kind == Kind::nothing)
+    std::vector<uint32_t>().swap(triangles);
+  else if (cell.ends_here())
+    std::sort(triangles.begin(), triangles.end(),
+              [&](uint32_t a, uint32_t b) { return view_.nearest_m(a) < view_.nearest_m(b); });
 }
 
-bool LightCells::judge_triangle(Cell& cell, const std::vector<Part>& parts, const Square& square) const {
+LightCells::Part LightCells::part(uint32_t t, const Outline& outline, const Square& square) const {
+  const double a = view_.corner(t, 0).z, b = view_.corner(t, 1).z, c = view_.corner(t, 2).z;
+  Part part{.triangle = t, .outline = outline, .least = std::min({a, b, c}), .most = std::max({a, b, c})};
+  part.flat = !view_.edge_on(t);
+  if (!part.flat) return part;
+  part.at_middle = view_.plane_depth(t, {square.middle, 1});
+  part.gradient = view_.gradient(t);
+  const double step = square.half * (std::abs(part.gradient.x) + std::abs(part.gradient.y));
+  part.least = std::max(part.least, part.at_middle - step);
+  part.most = std::min(part.most, part.at_middle + step);
+  part.covers = true;
+  for (int e = 0; e < 3 && part.covers; ++e)
+    part.covers = outline.inside(e, square.middle) > outline.spread(e, square.half);
+  return part;
+}
+
+LightCells::Judged LightCells::judge(const std::vector<Part>& parts, double others_m, const Square& square) const {
+  Judged judged;
+  if (parts.empty()) {
+    judged.kind = Kind::nothing;
+    return judged;
+  }
+  for (const Part& part : parts) judged.nearest_m = std::min(judged.nearest_m, part.least);
+  if (!judge_triangle(parts, square, judged)) judge_sheet(parts, others_m, square, judged);
+  return judged;
+}
+
+// The triangles come in the order of their nearest points. Once one covers the place, those that begin deeper by gap_m
+// are not looked at.
+LightCells::Judged LightCells::judge_place(const Cell& cell, glm::dvec2 at) const {
+  if (!cell.ends_here()) return {};  // memory is used up
+  const Square place{at, reach_m_};
+  const glm::dvec2 low = place.middle - place.half, high = place.middle + place.half;
+  thread_local std::vector<Part> parts;
+  parts.clear();
+  double covered_m = infinity, others_m = infinity;
+  for (uint32_t t : cell.triangles) {
+    if (view_.nearest_m(t) - covered_m > gap_m_) {
+      others_m = view_.nearest_m(t);
+      break;
+    }
+    const glm::dvec2 a(view_.corner(t, 0)), b(view_.corner(t, 1)), c(view_.corner(t, 2));
+    if (std::max({a.x, b.x, c.x}) < low.x || std::min({a.x, b.x, c.x}) > high.x || std::max({a.y, b.y, c.y}) < low.y ||
+        std::min({a.y, b.y, c.y}) > high.y)
+      continue;
+    const Outline seen = outline(t);
+    if (!touches(seen, place)) continue;
+    if (parts.size() == largest_sheet) return {};
+    parts.push_back(part(t, seen, place));
+    if (parts.back().covers) covered_m = std::min(covered_m, parts.back().most);
+  }
+  return judge(parts, others_m, place);
+}
+
+bool LightCells::judge_triangle(const std::vector<Part>& parts, const Square& square, Judged& judged) const {
   const Part* front = nullptr;
   for (const Part& part : parts)
     if (part.covers && (!front || part.at_middle < front->at_middle)) front = &part;
@@ -259,13 +298,14 @@ bool LightCells::judge_triangle(Cell& cell, const std::vector<Part>& parts, cons
            other.at_middle - front->at_middle - square.half * (std::abs(slope.x) + std::abs(slope.y)) > gap_m_;
   });
   if (!first) return false;
-  cell.kind = Kind::triangle;
-  cell.slope = glm::length(front->gradient);
-  cell.front = cell.triangles[static_cast<size_t>(front - parts.data())];
+  judged.kind = Kind::triangle;
+  judged.slope = glm::length(front->gradient);
+  judged.front = front->triangle;
   return true;
 }
 
-bool LightCells::judge_sheet(Cell& cell, const std::vector<Part>& parts, const Square& square) const {
+bool LightCells::judge_sheet(const std::vector<Part>& parts, double others_m, const Square& square,
+                             Judged& judged) const {
   const size_t count = parts.size();
   if (count > largest_sheet) return false;
   const auto nearest =
@@ -280,10 +320,10 @@ bool LightCells::judge_sheet(Cell& cell, const std::vector<Part>& parts, const S
     for (int e = 0; e < 3; ++e) {
       if (!edge_touches(part.outline, e, square)) continue;
       bool goes_on = false, all_listed = true;
-      each_beyond(adjacency_, view_, cell.triangles[sheet[i]], e, [&](uint32_t other) {
+      each_beyond(adjacency_, view_, part.triangle, e, [&](uint32_t other) {
         goes_on = true;
-        const auto at = std::find(cell.triangles.begin(), cell.triangles.end(), other);
-        const auto index = static_cast<size_t>(at - cell.triangles.begin());
+        const auto at = std::find_if(parts.begin(), parts.end(), [&](const Part& of) { return of.triangle == other; });
+        const auto index = static_cast<size_t>(at - parts.begin());
         if (index == count)
           all_listed = false;
         else if (!in_sheet[index])
@@ -292,7 +332,7 @@ bool LightCells::judge_sheet(Cell& cell, const std::vector<Part>& parts, const S
       if (!goes_on || !all_listed) return false;
     }
   }
-  double most = -infinity, behind = infinity;
+  double most = -infinity, behind = others_m;
   for (size_t i = 0; i < count; ++i) {
     if (in_sheet[i])
       most = std::max(most, parts[i].most);
@@ -303,24 +343,23 @@ bool LightCells::judge_sheet(Cell& cell, const std::vector<Part>& parts, const S
   for (size_t i = 0; i < found; ++i)
     for (size_t j = i + 1; j < found; ++j)
       if (!apart(parts[sheet[i]].outline, parts[sheet[j]].outline)) return false;
-  cell.kind = Kind::sheet;
-  for (size_t i = 0; i < found; ++i) cell.slope = std::max(cell.slope, glm::length(parts[sheet[i]].gradient));
-  cell.split_m = std::isfinite(behind) ? 0.5 * (most + behind) : infinity;
+  judged.kind = Kind::sheet;
+  for (size_t i = 0; i < found; ++i) judged.slope = std::max(judged.slope, glm::length(parts[sheet[i]].gradient));
+  judged.split_m = std::isfinite(behind) ? 0.5 * (most + behind) : infinity;
   return true;
 }
 
-bool LightCells::well_inside(uint32_t triangle, glm::dvec2 at) const {
-  const Outline t = outline(triangle);
+LightCells::Reader::Inner::Inner(const LightCells& cells, uint32_t of) : triangle(of) {
+  const Outline seen = cells.outline(of);
   for (int e = 0; e < 3; ++e) {
-    const glm::dvec2 way = t.corner[(e + 1) % 3] - t.corner[e];
-    const double beside = t.inside(e, at);
-    if (!(beside > 0 && beside * beside > reach_m_ * reach_m_ * glm::dot(way, way))) return false;
+    const glm::dvec2 way = seen.corner[(e + 1) % 3] - seen.corner[e];
+    edge[e] = {seen.corner[e], seen.sign * way, cells.reach_m_ * glm::length(way)};
   }
-  return true;
 }
 
 LightCells::Answer LightCells::Reader::disc_at(glm::dvec3 at, uint32_t primitive, double tangent) {
-  const Answer centre = this->at(at, primitive);
+  if (!find(at)) return Answer::unknown;
+  const Answer centre = answer(*cell_, at, primitive);
   if (centre == Answer::unknown) return centre;
   const double reach = (at.z - cells_.nearest_m_) * tangent * rounded_up + cells_.reach_m_;
   // Mostly all rays stay within P's own square.
@@ -359,18 +398,31 @@ bool LightCells::disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 
 }
 
 void LightCells::Reader::find(uint32_t x, uint32_t y) {
-  Cell* cell = cells_.base_cell(x, y);
+  cell_ = &cells_.cell_at(x, y);
+  x_ = x;
+  y_ = y;
+  shift_ = cell_->divisions;
+}
+
+const LightCells::Cell& LightCells::cell_at(uint32_t x, uint32_t y) {
+  Cell* cell = base_cell(x, y);
   while (cell->kind == Kind::mixed && cell->divisions > 0) {
     Four* four = cell->four.load(std::memory_order_acquire);
-    if (!four) four = cells_.divide(*cell, x, y);
+    if (!four) four = divide(*cell, x, y);
     if (!four) break;
     const int divisions = cell->divisions - 1;
     cell = &four->cell[(x >> divisions & 1) + 2 * (y >> divisions & 1)];
   }
-  cell_ = cell;
-  x_ = x;
-  y_ = y;
-  shift_ = cell->divisions;
+  return *cell;
+}
+
+std::optional<std::span<const uint32_t>> LightCells::candidates(glm::dvec3 at) {
+  uint32_t x = 0, y = 0;
+  if (!fine_at(glm::dvec2(at), x, y)) return std::nullopt;
+  const Cell& cell = cell_at(x, y);
+  if (!cell.ends_here()) return std::nullopt;
+  if (cell.kind == Kind::triangle) return std::span(&cell.front, 1);
+  return cell.triangles;
 }
 
 }  // namespace noonmark

@@ -1,9 +1,10 @@
-// Cells of the light's plane in which R1 is known without a ray. Every answer is the one that the program's own rays
+// Cells of the light's plane in which R1, and the first hit of a light-side ray, is known without a ray. Every answer is the one that the program's own rays
 // give, with certainty; where that cannot be proved, the answer is `unknown`, and the rays are cast.
 //
 //   LightCells cells(adjacency, view, embree.near_distance(), 1024);  // built once for a light
 //   LightCells::Reader reader(cells);                                // one for each thread
 //   LightCells::Answer a = reader.at(frame.to_light(P), primitive);  // of a receiver that is not grazing
+//   std::optional<uint32_t> triangle = reader.first_hit(x);          // of the light-side ray through a place
 //
 // A square of the light's plane is *good* if one surface F lies before everything else in it. The receivers on F are
 // lit there, all others are dark. A square that is not good is divided into four, down to `finest` on a side.
@@ -36,6 +37,11 @@
 //
 // If F is a sheet, whether a receiver is on it is read off its depth: F ends before split_m, everything else lies behind
 // it, each by 2 near.
+// In a finest square that is not good, the same is asked of the place of P itself: a square without extent, widened by
+// reach_m. Beside a silhouette most receivers are answered so.
+//
+// A light-side ray passes at most e beside its place. So where one triangle covers the widened square of the place and
+// everything else lies deeper by gap_m, it is the first hit.
 //
 // ---- Why the rays to all of a sun meet the same
 //
@@ -60,6 +66,8 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "raytrace/adjacency.h"
@@ -86,19 +94,28 @@ class LightCells {
   enum class Answer : uint8_t { unknown, lit, dark };
   class Reader;
 
+  // The triangles among which the exact ray through a place meets its first one, in the order of
+  // LightView::nearest_m(); no value if they are not known.
+  std::optional<std::span<const uint32_t>> candidates(glm::dvec3 at);
+
  private:
   enum class Kind : uint8_t { mixed, nothing, triangle, sheet };
   struct Four;
-  struct Cell {
+  // What is known of a widened square.
+  struct Judged {
     Kind kind = Kind::mixed;
-    uint8_t divisions = 0;          // how many times it can be divided
-    uint32_t front = no_primitive;  // Kind::triangle: F
-    double split_m = 0;             // Kind::sheet
-    double nearest_m =
-        std::numeric_limits<double>::infinity();  // no triangle in the widened square is nearer to the light
-    double slope = 0;                             // good squares: how much deeper F becomes for a metre, at most
+    uint32_t front = no_primitive;                               // Kind::triangle: F
+    double split_m = 0;                                          // Kind::sheet
+    double nearest_m = std::numeric_limits<double>::infinity();  // no triangle is nearer to the light
+    double slope = 0;  // good squares: how much deeper F becomes for a metre, at most
+  };
+  struct Cell : Judged {
+    uint8_t divisions = 0;  // how many times it can be divided
     std::atomic<Four*> four{nullptr};
-    std::vector<uint32_t> triangles;  // that touch the widened square; empty if it is not divided any further
+    // That touch the widened square; empty if one covers all others, or if it is divided. If it will not be divided
+    // any more, they are in the order of LightView::nearest_m().
+    std::vector<uint32_t> triangles;
+    bool ends_here() const { return kind != Kind::mixed || divisions == 0; }
   };
   struct Square {
     glm::dvec2 middle;
@@ -122,6 +139,7 @@ class LightCells {
   };
   // What a triangle is within a square.
   struct Part {
+    uint32_t triangle;
     Outline outline;
     double least, most;    // depth
     double at_middle = 0;  // of its plane
@@ -130,6 +148,15 @@ class LightCells {
     bool covers = false;  // all of the square
   };
 
+  // The finest square of a place; false if it lies outside all squares.
+  bool fine_at(glm::dvec2 light, uint32_t& x, uint32_t& y) const {
+    const glm::dvec2 at = place(light);
+    const double size = fine_size_;
+    if (!(at.x >= 0 && at.y >= 0 && at.x < size && at.y < size)) return false;
+    x = static_cast<uint32_t>(static_cast<int32_t>(at.x));
+    y = static_cast<uint32_t>(static_cast<int32_t>(at.y));
+    return true;
+  }
   // Places in units of the finest squares.
   glm::dvec2 place(glm::dvec2 light) const { return (light - low_) * fine_per_m_; }
   Square square_at(uint32_t x, uint32_t y, int divisions) const;
@@ -140,12 +167,18 @@ class LightCells {
   void list_base();
   Cell* base_cell(uint32_t x, uint32_t y);
   Four* divide(Cell& cell, uint32_t x, uint32_t y);  // x, y: of a finest square in it
+  const Cell& cell_at(uint32_t x, uint32_t y);       // the smallest one
   void judge(Cell& cell, const Square& square) const;
-  bool judge_triangle(Cell& cell, const std::vector<Part>& parts, const Square& square) const;
-  bool judge_sheet(Cell& cell, const std::vector<Part>& parts, const Square& square) const;
+  Part part(uint32_t triangle, const Outline& outline, const Square& square) const;
+  // parts: of all triangles that touch the square, but perhaps without some that come no nearer to the light than
+  // others_m and lie deeper than a triangle that covers the square, by more than gap_m.
+  Judged judge(const std::vector<Part>& parts, double others_m, const Square& square) const;
+  bool judge_triangle(const std::vector<Part>& parts, const Square& square, Judged& judged) const;
+  bool judge_sheet(const std::vector<Part>& parts, double others_m, const Square& square, Judged& judged) const;
+  // The square without extent at this place of a cell.
+  Judged judge_place(const Cell& cell, glm::dvec2 at) const;
   // Whether the cell is out of reach of the disc as `at` sees it, or good, or divided into such cells.
   bool disc_is_certain(Cell& cell, uint32_t x, uint32_t y, glm::dvec3 at, double tangent);
-  bool well_inside(uint32_t triangle, glm::dvec2 at) const;
   void free_below(Cell& cell);
 
   int finest_;
@@ -176,26 +209,65 @@ class LightCells::Reader {
 
   // at: P in the light's frame. primitive: its triangle, and no copy. Its N.L is at least least_cosine.
   Answer at(glm::dvec3 at, uint32_t primitive) {
-    const glm::dvec2 fine = cells_.place(glm::dvec2(at));
-    const double size = cells_.fine_size_;
-    if (!(fine.x >= 0 && fine.y >= 0 && fine.x < size && fine.y < size)) return Answer::unknown;
-    const auto x = static_cast<uint32_t>(static_cast<int32_t>(fine.x)),
-               y = static_cast<uint32_t>(static_cast<int32_t>(fine.y));
-    if (((x ^ x_) | (y ^ y_)) >> shift_) find(x, y);
-    if (cell_->kind == Kind::triangle) return cell_->front == primitive ? Answer::lit : Answer::dark;
-    if (cell_->kind != Kind::sheet) return Answer::unknown;
-    if (at.z > cell_->split_m) return Answer::dark;
-    return cells_.well_inside(primitive, glm::dvec2(at)) ? Answer::lit : Answer::unknown;
+    if (!find(at)) return Answer::unknown;
+    return cell_->kind == Kind::mixed ? answer(cells_.judge_place(*cell_, glm::dvec2(at)), at, primitive)
+                                      : answer(*cell_, at, primitive);
   }
 
-  // The same for all rays to a disc of directions, whose radius is `tangent`: lit if no such ray meets an occluder, dark
+  // The triangle that the ray through this place meets first, or no_primitive; no value where the float ray may meet
+  // another one than the exact ray.
+  std::optional<uint32_t> first_hit(glm::dvec3 at) {
+    if (!find(at)) return std::nullopt;
+    if (cell_->kind == Kind::triangle) return cell_->front;
+    if (cell_->kind == Kind::nothing) return no_primitive;
+    const Judged place = cells_.judge_place(*cell_, glm::dvec2(at));
+    if (place.kind == Kind::triangle) return place.front;
+    if (place.kind == Kind::nothing) return no_primitive;
+    return std::nullopt;
+  }
+
+  // at() for all rays to a disc of directions, whose radius is `tangent`: lit if no such ray meets an occluder, dark
   // if all do. The receiver's N.L is at least least_cosine + tangent.
   Answer disc_at(glm::dvec3 at, uint32_t primitive, double tangent);
 
  private:
+  // Finds the square of a place; false if it lies outside all squares.
+  bool find(glm::dvec3 at) {
+    uint32_t x = 0, y = 0;
+    if (!cells_.fine_at(glm::dvec2(at), x, y)) return false;
+    if (((x ^ x_) | (y ^ y_)) >> shift_) find(x, y);
+    return true;
+  }
   void find(uint32_t x, uint32_t y);
+  Answer answer(const Judged& square, glm::dvec3 at, uint32_t primitive) {
+    if (square.kind == Kind::triangle) return square.front == primitive ? Answer::lit : Answer::dark;
+    if (square.kind != Kind::sheet) return Answer::unknown;
+    if (at.z > square.split_m) return Answer::dark;
+    if (inner_.triangle != primitive) inner_ = Inner(cells_, primitive);
+    return inner_.holds(glm::dvec2(at)) ? Answer::lit : Answer::unknown;
+  }
+
+  // The part of a triangle that is more than reach_m from its edges.
+  struct Inner {
+    uint32_t triangle = no_primitive;
+    struct Edge {
+      glm::dvec2 corner{0}, way{0};
+      double least = 0;  // twice the area of the triangle of the edge and a place at that distance
+    } edge[3];
+
+    Inner() = default;
+    Inner(const LightCells& cells, uint32_t of);
+    bool holds(glm::dvec2 place) const {
+      for (const Edge& e : edge) {
+        const glm::dvec2 to = place - e.corner;
+        if (!(e.way.x * to.y - e.way.y * to.x > e.least)) return false;
+      }
+      return true;
+    }
+  };
 
   LightCells& cells_;
+  Inner inner_;  // of the last triangle that was asked for
   const Cell* cell_ = nullptr;
   uint32_t x_ = ~0u, y_ = ~0u;  // a finest square in it
   int shift_ = 0;               // its side is 2^shift finest squares

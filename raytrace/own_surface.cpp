@@ -107,6 +107,8 @@ uint32_t OwnSurface::across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x
 }
 
 uint32_t OwnSurface::first_hit(glm::dvec3 x) const {
+  if (cells_)
+    if (const std::optional<uint32_t> hit = LightCells::Reader(*cells_).first_hit(x)) return *hit;
   uint32_t hit = no_primitive;
   view_.first_hits(embree_, 1, &x, &hit);
   return hit;
@@ -126,6 +128,20 @@ bool OwnSurface::covers(uint32_t triangle, glm::dvec3 x) const {
 }
 
 uint32_t OwnSurface::exact_first(glm::dvec3 x) const {
+  if (cells_)
+    if (const auto candidates = cells_->candidates(x)) {
+      uint32_t first = no_primitive;
+      double depth = 0;
+      for (uint32_t triangle : *candidates) {
+        if (first != no_primitive && view_.nearest_m(triangle) > depth) break;  // and so are all that follow
+        if (!covers(triangle, x)) continue;
+        const double there = view_.hit_depth(triangle, x);
+        if (first != no_primitive && !(there < depth)) continue;
+        first = triangle;
+        depth = there;
+      }
+      return first;
+    }
   std::vector<uint32_t> found;
   embree_.all_hits(view_.ray(x), found);
   silhouettes_.near(x, found);

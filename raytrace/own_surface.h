@@ -18,6 +18,7 @@
 
 #include "raytrace/adjacency.h"
 #include "raytrace/embree_scene.h"
+#include "raytrace/light_cells.h"
 #include "raytrace/light_view.h"
 #include "raytrace/silhouettes.h"
 
@@ -32,10 +33,10 @@ struct SurfacePoint {
 
 class OwnSurface {
  public:
-  // silhouettes: of the same light. All of them must outlive it.
+  // silhouettes, cells: of the same light. All of them must outlive it. Without cells, rays are cast instead.
   OwnSurface(const EmbreeScene& embree, const Adjacency& adjacency, const LightView& view,
-             const Silhouettes& silhouettes)
-      : embree_(embree), adjacency_(adjacency), view_(view), silhouettes_(silhouettes) {}
+             const Silhouettes& silhouettes, LightCells* cells = nullptr)
+      : embree_(embree), adjacency_(adjacency), view_(view), silhouettes_(silhouettes), cells_(cells) {}
 
   SurfacePoint point(glm::dvec3 light, uint32_t primitive, bool lit) const;  // light: P in the light's frame
 
@@ -59,8 +60,9 @@ class OwnSurface {
   // Whether the light ray through x passes through the triangle, in double.
   bool covers(uint32_t triangle, glm::dvec3 x) const;
 
-  // The triangle that the exact ray through x meets first, or no_primitive: of all triangles that the float ray meets,
-  // and of those that end so near to x that it may have missed them, the first one that covers x in double.
+  // The triangle that the exact ray through x meets first, or no_primitive: of all triangles of x's cell, the first one
+  // that covers x in double. Without cells: of all triangles that the float ray meets, and of those that end so near to
+  // x that it may have missed them.
   uint32_t exact_first(glm::dvec3 x) const;
 
   struct Sheet {
@@ -123,6 +125,7 @@ class OwnSurface {
   const Adjacency& adjacency_;
   const LightView& view_;
   const Silhouettes& silhouettes_;
+  LightCells* cells_;
 };
 
 }  // namespace noonmark

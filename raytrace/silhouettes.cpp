@@ -127,36 +127,39 @@ void Silhouettes::put_in_order(std::vector<Crossing>& at) {
   at.erase(std::unique(at.begin(), at.end()), at.end());  // an edge is listed in many cells
 }
 
-bool Silhouettes::rectangle(std::span<const glm::dvec3> places, int& chart, glm::dvec2& low, glm::dvec2& high) const {
-  chart = view_.rays().chart_of(places.front(), low);
-  high = low;
+std::optional<Silhouettes::Rectangle> Silhouettes::rectangle(std::span<const glm::dvec3> places) const {
+  Rectangle around;
+  around.chart = view_.rays().chart_of(places.front(), around.low);
+  around.high = around.low;
   for (glm::dvec3 x : places.subspan(1)) {
     glm::dvec2 at;
-    if (view_.rays().chart_of(x, at) != chart) return false;
-    low = glm::min(low, at);
-    high = glm::max(high, at);
+    if (view_.rays().chart_of(x, at) != around.chart) return std::nullopt;
+    around.low = glm::min(around.low, at);
+    around.high = glm::max(around.high, at);
   }
-  return true;
+  return around;
 }
 
-bool Silhouettes::none_among(std::span<const glm::dvec3> places) const {
-  int chart = 0;
-  glm::dvec2 low, high;
-  if (!rectangle(places, chart, low, high)) return false;
-  const Grid& grid = grids_[static_cast<size_t>(chart)];
-  return grid.size == 0 || grid.empty_between(low, high);
+void Silhouettes::list_nearby(std::span<const glm::dvec3> places, Nearby& nearby) const {
+  if (const std::optional<Rectangle> around = rectangle(places)) {
+    list_in(*around, nearby);
+  } else {
+    nearby.all_ = this;
+    nearby.listed_ = false;
+    nearby.edges_.clear();
+  }
 }
 
 // An edge is listed in every cell that it touches, and in every cell within reach_m of it. So the cells of the rectangle
 // together list all edges that are near one of its places, or that cross a way inside it.
-void Silhouettes::list_nearby(std::span<const glm::dvec3> places, Nearby& nearby) const {
+void Silhouettes::list_in(const Rectangle& rectangle, Nearby& nearby) const {
   nearby.all_ = this;
+  nearby.listed_ = true;
   nearby.edges_.clear();
-  glm::dvec2 low, high;
-  int chart = 0;
-  nearby.listed_ = rectangle(places, chart, low, high);
+  if (none_in(rectangle)) return;
+  const int chart = rectangle.chart;
+  const glm::dvec2 low = rectangle.low, high = rectangle.high;
   const Grid& grid = grids_[static_cast<size_t>(chart)];
-  if (!nearby.listed_ || grid.size == 0 || grid.empty_between(low, high)) return;
   const size_t first = grid.cell_of(low), last = grid.cell_of(high), row = static_cast<size_t>(grid.size);
   const size_t columns = (last - first) % row;
   std::vector<uint32_t>& edges = nearby.edges_;

@@ -6,6 +6,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -78,10 +79,19 @@ class Silhouettes {
     bool listed_ = false;  // false: the places lie in several charts, and all silhouettes are asked
     std::vector<uint32_t> edges_;
   };
-  // True only if no silhouette comes within reach_m of a place of the rectangle around these places, so that none
-  // crosses a way inside it.
-  bool none_among(std::span<const glm::dvec3> places) const;
+  // A rectangle of a chart. Of parallel rays, it is a rectangle of the light's plane.
+  struct Rectangle {
+    int chart = 0;
+    glm::dvec2 low{0}, high{0};
+  };
+  // True only if no silhouette comes within reach_m of a place of the rectangle, so that none crosses a way inside it.
+  bool none_in(const Rectangle& rectangle) const {
+    const Grid& grid = grids_[static_cast<size_t>(rectangle.chart)];
+    return grid.size == 0 || grid.empty_between(rectangle.low, rectangle.high);
+  }
   // nearby: its memory is used again.
+  void list_in(const Rectangle& rectangle, Nearby& nearby) const;
+  // The same around these places.
   void list_nearby(std::span<const glm::dvec3> places, Nearby& nearby) const;
 
  private:
@@ -125,8 +135,8 @@ class Silhouettes {
   };
 
   void fill(Grid& grid, const std::vector<Piece>& pieces);
-  // The rectangle around these places in their chart; false if they lie in several.
-  bool rectangle(std::span<const glm::dvec3> places, int& chart, glm::dvec2& low, glm::dvec2& high) const;
+  // The rectangle around these places in their chart; no value if they lie in several.
+  std::optional<Rectangle> rectangle(std::span<const glm::dvec3> places) const;
   // The grid that x lies in, and where.
   const Grid& grid_of(glm::dvec3 x, glm::dvec2& at) const {
     return grids_[static_cast<size_t>(view_.rays().chart_of(x, at))];

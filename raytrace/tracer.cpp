@@ -22,38 +22,80 @@ struct Facing {
   std::vector<uint32_t> unknown;  // those of them that the cells do not answer
 };
 
-// Sets truth.facing; and truth.lit where the cells answer. cells: may be null.
-Facing find_facing(const ReceiverImage& receivers, const LightFrame& frame, LightCells* cells, ReceiverTruth& truth) {
+// Receivers in blocks, so that the arithmetic that is the same for all of them stands in loops without a branch.
+class FindFacing {
+ public:
+  FindFacing(const ReceiverImage& receivers, const LightFrame& frame, LightCells* cells, bool list_facing,
+             ReceiverTruth& truth)
+      : receivers_(receivers), frame_(frame), cells_(cells), list_facing_(list_facing), truth_(truth) {}
+
+  void operator()(PixelRange pixels, Facing& found) const {
+    std::optional<LightCells::Reader> reader;
+    if (cells_) reader.emplace(*cells_);
+    for (size_t first = pixels.first; first < pixels.end; first += block)
+      judge(first, std::min(block, pixels.end - first), reader ? &*reader : nullptr, found);
+  }
+
+ private:
+  static constexpr size_t block = 64;
+
+  void judge(size_t first, size_t count, LightCells::Reader* reader, Facing& found) const {
+    const uint32_t* const primitives = &receivers_.primitive[first];
+    if (std::all_of(primitives, primitives + count, [](uint32_t p) { return p == no_primitive; })) return;
+    const glm::vec3 *const positions = &receivers_.position[first], *const normals = &receivers_.normal[first];
+    double cosine[block];  // 0 or less where the light does not reach; of the background, any number
+    if (frame_.light().rays().have_one_direction()) {
+      const glm::dvec3 to_light = frame_.direction_to_light();
+      for (size_t k = 0; k < count; ++k) cosine[k] = glm::dot(glm::dvec3(normals[k]), to_light);
+    } else {
+      for (size_t k = 0; k < count; ++k) {
+        const glm::dvec3 p = positions[k];
+        cosine[k] = primitives[k] != no_primitive && frame_.reaches(p)
+                        ? glm::dot(glm::dvec3(normals[k]), frame_.direction_to_light(p))
+                        : 0;
+      }
+    }
+    double u[block], v[block], z[block];  // LightFrame::to_light()
+    if (reader) {
+      const glm::dvec3 origin = frame_.origin_m, right = frame_.right, up = frame_.up, forward = frame_.forward;
+      for (size_t k = 0; k < count; ++k) {
+        const glm::dvec3 way = glm::dvec3(positions[k]) - origin;
+        u[k] = glm::dot(way, right);
+        v[k] = glm::dot(way, up);
+        z[k] = glm::dot(way, forward);
+      }
+    }
+    uint8_t *const facing = &truth_.facing[first], *const lit = &truth_.lit[first];
+    for (size_t k = 0; k < count; ++k) {
+      if (primitives[k] == no_primitive || !(cosine[k] > 0)) continue;
+      facing[k] = 1;
+      if (list_facing_) found.facing.push_back(static_cast<uint32_t>(first + k));
+      const LightCells::Answer answer = reader && cosine[k] >= LightCells::least_cosine
+                                            ? reader->at({u[k], v[k], z[k]}, primitives[k])
+                                            : LightCells::Answer::unknown;
+      if (answer == LightCells::Answer::unknown)
+        found.unknown.push_back(static_cast<uint32_t>(first + k));
+      else
+        lit[k] = answer == LightCells::Answer::lit;
+    }
+  }
+
+  const ReceiverImage& receivers_;
+  const LightFrame& frame_;
+  LightCells* cells_;
+  bool list_facing_;
+  ReceiverTruth& truth_;
+};
+
+// Sets truth.facing; and truth.lit where the cells answer. cells: may be null. list_facing: false leaves `facing` empty.
+Facing find_facing(const ReceiverImage& receivers, const LightFrame& frame, LightCells* cells, bool list_facing,
+                   ReceiverTruth& truth) {
   constexpr size_t pixels_per_part = 8192;
   const size_t pixels = receivers.primitive.size();
   std::vector<Facing> parts((pixels + pixels_per_part - 1) / pixels_per_part);
-  const bool one_direction = frame.light().rays().have_one_direction();
-  const glm::dvec3 only_direction = one_direction ? frame.direction_to_light() : glm::dvec3(0);
-  // LightFrame::to_light(), without the cost of a call for each pixel.
-  const glm::dvec3 origin = frame.origin_m, right = frame.right, up = frame.up, forward = frame.forward;
-  const auto in_light = [=](glm::dvec3 p) {
-    return glm::dvec3(glm::dot(p - origin, right), glm::dot(p - origin, up), glm::dot(p - origin, forward));
-  };
+  const FindFacing find(receivers, frame, cells, list_facing, truth);
   tbb::parallel_for(size_t{0}, parts.size(), [&](size_t part) {
-    std::optional<LightCells::Reader> reader;
-    if (cells) reader.emplace(*cells);
-    Facing& found = parts[part];
-    for (size_t i = part * pixels_per_part; i < std::min(pixels, (part + 1) * pixels_per_part); ++i) {
-      if (receivers.primitive[i] == no_primitive) continue;
-      const glm::dvec3 p = receivers.position[i], normal = receivers.normal[i];
-      if (!one_direction && !frame.reaches(p)) continue;
-      const double cosine = glm::dot(normal, one_direction ? only_direction : frame.direction_to_light(p));
-      if (!(cosine > 0)) continue;
-      truth.facing[i] = 1;
-      found.facing.push_back(static_cast<uint32_t>(i));
-      const LightCells::Answer answer = reader && cosine >= LightCells::least_cosine
-                                            ? reader->at(in_light(p), receivers.primitive[i])
-                                            : LightCells::Answer::unknown;
-      if (answer == LightCells::Answer::unknown)
-        found.unknown.push_back(static_cast<uint32_t>(i));
-      else
-        truth.lit[i] = answer == LightCells::Answer::lit;
-    }
+    find({part * pixels_per_part, std::min(pixels, (part + 1) * pixels_per_part)}, parts[part]);
   });
   Facing all;
   for (const Facing& part : parts) {
@@ -106,7 +148,7 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
 
   const std::shared_ptr<LightSide> light = traced_->lit_by(frame);
   LightCells* const cells = use_cells_ ? light->cells(receivers) : nullptr;
-  const Facing found = find_facing(receivers, frame, cells, truth);
+  const Facing found = find_facing(receivers, frame, cells, has_size(soft.light), truth);
 
   // The verdict of each receiver at P and at four places beside it, at the distance of the float error.
   const double error = light->view().ray_error_m();

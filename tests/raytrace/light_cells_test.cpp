@@ -104,7 +104,7 @@ TEST(LightCells, AnswerMostReceivers) {
   StageTime first, again;
   tracer.receiver_truth(receivers, frame, {}, &first);
   tracer.receiver_truth(receivers, frame, {}, &again);
-  EXPECT_LT(first.rays, 5 * 20000 / 20);
+  EXPECT_LT(first.rays, 5 * 20000 / 200);
   StageTime soft;
   tracer.receiver_truth(receivers, frame, sun(0.53, 0.05), nullptr, &soft);
   EXPECT_LT(soft.rays, 3 * 20000u);
