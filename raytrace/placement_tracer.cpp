@@ -112,6 +112,7 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
 
   thread_local std::vector<TexelLattice::Point> found;
   l.lattice->read(taps, found);
+  const OwnSurface::Verdict everywhere{true, !p.on_silhouette};
   const auto bits_of = [](OwnSurface::Verdict v, bool clipped) {
     return static_cast<uint8_t>((v.lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
                                 (v.sure ? 0 : tap_texel_unsure));
@@ -123,9 +124,8 @@ void PlacementTracer::judge(size_t pixel, const PlacedTaps& taps, LatticeBox& bo
         const size_t n = taps.index(k.x, k.y);
         if (box.bits[n] != lattice_unknown) continue;
         const TexelLattice::Point& at = found[n];
-        const OwnSurface::Verdict v = all_lit ? OwnSurface::Verdict{true, !p.on_silhouette}
-                                              : l.surface.lit_at(p, l.view.texel_place(k), at.hit, nearby);
-        box.bits[n] = bits_of(v, at.clipped);
+        box.bits[n] =
+            bits_of(all_lit ? everywhere : l.surface.lit_at(p, l.view.texel_place(k), at.hit, nearby), at.clipped);
         box.depth[n] = at.depth;
       }
 }

@@ -19,12 +19,17 @@ constexpr int least_edges_per_octave = 16;
 // The leading bits of a float that choose where ThresholdBins::of begins: sign, exponent and three bits of the fraction.
 constexpr int leading_shift = 20;
 
+double depth_steps(DepthFormat format) { return format == DepthFormat::d16 ? 0xffff : 0xffffff; }  // fixed-point
+double depth_step(DepthFormat format) { return format == DepthFormat::d32f ? 0 : 1 / depth_steps(format); }
+
 // The depth that a map of this format holds, as its sampler returns it: OpenGL rounds to the nearest whole number of
 // steps (OpenGL 4.5 core, 2.3.5.1).
 float stored_depth(float depth, DepthFormat format) {
   if (format == DepthFormat::d32f) return depth;
-  const double steps = format == DepthFormat::d16 ? 0xffff : 0xffffff;
-  return static_cast<float>(std::round(std::clamp<double>(depth, 0, 1) * steps) / steps);
+  const double steps = depth_steps(format);
+  // std::round would be a call for every tap. The product has at most 48 bits, so the sum is exact.
+  return static_cast<float>(static_cast<double>(static_cast<int64_t>(std::clamp<double>(depth, 0, 1) * steps + 0.5)) /
+                            steps);
 }
 
 constexpr uint8_t of_texel = tap_texel_lit | tap_near_clipped | tap_texel_unsure;
@@ -119,38 +124,78 @@ void PlacementCounts::add(const PlacementEvidence& e, size_t pixel, const Placed
   const glm::ivec2 size = e.map_size;
   std::optional<TapThreshold> threshold;
   if (varied_) threshold.emplace(probe, e.bias, *varied_, pixel);
-  // Most taps should be lit and are lit at every bias. They are never wrong, so they add to no sum and are skipped.
-  const bool plain = truth && asks && probe.reference[pixel] <= 1.0f && !probe.tap_reference->plane &&
-                     !probe.pattern.bilinear() && e.map.format == DepthFormat::d32f;
-
-  for (size_t j = 0; j < side; ++j)
-    for (size_t i = 0; i < side; ++i) {
-      const size_t placement = j * side + i;
-      OfReceiver receiver;
-      for (int t = 0; t < tap_count; ++t) {
-        const uint8_t base = e.taps.bits(pixel, t);
-        const size_t at = static_cast<size_t>(t) * side;
-        uint8_t bits = base;
-        TapRead read;
-        if (asks) {
-          const glm::ivec2 point(taps.column[at + i], taps.row[at + j]);
-          const size_t n = taps.index(point.x, point.y);
-          const uint8_t found = box.bits[n];
-          read = {placements_.texel_of(point), box.depth[n], {taps.x[i], taps.y[j]}};
-          if (plain && found == tap_texel_lit && (base & ~of_texel) == tap_exact_lit &&
-              !(probe.reference[pixel] > read.depth) && inside_map(read.texel, size))
-            continue;
-          bits = static_cast<uint8_t>((base & ~of_texel) | found);
-        }
-        const Tap exact = tap_of(probe, bits, e.map, size, pixel, t, read);
-        if (exact.weight == 0) continue;
-        read.depth = stored_depth(read.depth, e.map.format);
-        const Tap shown = e.map.format == DepthFormat::d32f ? exact : tap_of(probe, bits, e.map, size, pixel, t, read);
-
-        book(placement, truth, bias, threshold, exact, shown, e.map.format != DepthFormat::d32f, receiver);
-      }
-      book(placement, receiver);
+  const auto add_tap = [&](int t, size_t i, size_t j, OfReceiver& receiver) {
+    uint8_t bits = e.taps.bits(pixel, t);
+    TapRead read;
+    if (asks) {
+      const size_t at = static_cast<size_t>(t) * side;
+      const glm::ivec2 point(taps.column[at + i], taps.row[at + j]);
+      const size_t n = taps.index(point.x, point.y);
+      read = {placements_.texel_of(point), box.depth[n], {taps.x[i], taps.y[j]}};
+      bits = static_cast<uint8_t>((bits & ~of_texel) | box.bits[n]);
     }
+    const Tap exact = tap_of(probe, bits, e.map, size, pixel, t, read);
+    if (exact.weight == 0) return;
+    read.depth = stored_depth(read.depth, e.map.format);
+    const Tap shown = e.map.format == DepthFormat::d32f ? exact : tap_of(probe, bits, e.map, size, pixel, t, read);
+    book(j * side + i, truth, bias, threshold, exact, shown, e.map.format != DepthFormat::d32f, receiver);
+  };
+
+  // Most taps should be lit, and nothing but their depth decides whether they are: neither the map's border, nor a plane,
+  // nor a weight. They have a short way, on which those that are lit at every bias are skipped at once.
+  const bool plain = truth && asks && probe.reference[pixel] <= 1.0f && !probe.tap_reference->plane &&
+                     !probe.pattern.bilinear() && inside_map(placements_.texel_of(taps.low), size) &&
+                     inside_map(placements_.texel_of(taps.high), size);
+  if (!plain) {
+    for (size_t j = 0; j < side; ++j)
+      for (size_t i = 0; i < side; ++i) {
+        OfReceiver receiver;
+        for (int t = 0; t < tap_count; ++t) add_tap(t, i, j, receiver);
+        book(j * side + i, receiver);
+      }
+    return;
+  }
+  // The weights are whole numbers, so their order changes no sum.
+  thread_local std::vector<OfReceiver> receivers;
+  receivers.assign(count_, {});
+  const float reference = probe.reference[pixel];
+  // Two steps of the format: a depth is rounded by half a step, and both sums here to float.
+  const float lit_from = static_cast<float>(reference + 2 * depth_step(e.map.format));
+  for (int t = 0; t < tap_count; ++t) {
+    const bool lit = (e.taps.bits(pixel, t) & ~of_texel) == tap_exact_lit;
+    const int* const column = &taps.column[static_cast<size_t>(t) * side];
+    const int* const row = &taps.row[static_cast<size_t>(t) * side];
+    for (size_t j = 0; j < side; ++j)
+      for (size_t i = 0; i < side; ++i) {
+        const size_t n = taps.index(column[i], row[j]), placement = j * side + i;
+        if (!lit || box.bits[n] != tap_texel_lit)
+          add_tap(t, i, j, receivers[placement]);
+        else if (!(box.depth[n] >= lit_from))
+          book_plain(placement, reference, bias, threshold, box.depth[n], e.map.format, receivers[placement]);
+      }
+  }
+  for (size_t placement = 0; placement < count_; ++placement) book(placement, receivers[placement]);
+}
+
+// What book() does of a tap of weight 1 that should be lit, for sure, and that neither the map's border nor a plane
+// decides: where it is dark it is acne.
+void PlacementCounts::book_plain(size_t placement, float reference, float bias,
+                                 const std::optional<TapThreshold>& threshold, float depth, DepthFormat format,
+                                 OfReceiver& receiver) {
+  const float shown = stored_depth(depth, format);
+  if (reference - bias > depth) ++own_[acne][placement];
+  if (reference - bias > shown) {
+    ++own_[error_dark][placement];
+    ++receiver.wrong_weight;
+  }
+  if (!threshold) return;
+  const float needed = threshold->at(reference, depth),
+              shown_at = shown == depth ? needed : threshold->at(reference, shown);
+  if (needed > 0) {
+    ++cell(acne, static_cast<int>(placement), bins_.of(needed));
+    acne_free_from_ = std::max(acne_free_from_, needed);
+  }
+  if (shown_at > 0) ++cell(error_dark, static_cast<int>(placement), bins_.of(shown_at));
 }
 
 void PlacementCounts::add(const LookupEvidence& e, size_t pixel) {

@@ -119,6 +119,8 @@ class PlacementCounts {
   // Books a tap. threshold: empty if no part is varied. shown: the tap with the depth as the map's format stores it.
   void book(size_t placement, bool truth, float bias, const std::optional<TapThreshold>& threshold, const Tap& exact,
             const Tap& shown, bool rounded, OfReceiver& receiver);
+  void book_plain(size_t placement, float reference, float bias, const std::optional<TapThreshold>& threshold,
+                  float depth, DepthFormat format, OfReceiver& receiver);
   void book(size_t placement, const OfReceiver& receiver);
   static Kind kind_of(Cause cause, bool darkens);
   static bool darkens(Kind kind);

@@ -33,7 +33,11 @@ class TapThreshold {
     if (tap.always_lit) return 0;
     if (tap.reference == std::numeric_limits<float>::infinity())
       return std::numeric_limits<float>::infinity();  // dark at any bias
-    const float needed = lit_threshold(tap.reference, tap.depth);
+    return at(tap.reference, tap.depth);
+  }
+  // Of a tap that compares these finite depths.
+  float at(float reference, float depth) const {
+    const float needed = lit_threshold(reference, depth);
     float sum = unit_ == 1 ? needed : factor_threshold(needed, unit_);
     for (auto part = after_.rbegin(); part != after_.rend(); ++part) sum = addend_threshold(sum, *part);
     const float held = addend_threshold(sum, before_);
