@@ -392,6 +392,7 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
   if (varied && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
       BiasCurve curve = summarise(*climbed.counts, scale, *curve_options);
+      climbed.counts.reset();  // large, and not needed again: freed before the curve is copied
       if (placements) add_bands(curve, placements->counts(), scale.depth_per_unit);
       return curve;
     });

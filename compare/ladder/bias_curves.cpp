@@ -114,10 +114,10 @@ void BiasCounts::Adding::join(Part& part) {
 }
 
 void BiasCounts::Adding::end_batch() {
-  tbb::parallel_for(size_t{0}, size_t{lists}, [&](size_t l) {
+  for (size_t l = 0; l < lists; ++l) {  // one after the other: each needs room for two copies
     counts_.sums_[l].add(all_.whole[l]);
     counts_.sums_[l].add(all_.weighted[l]);
-  });
+  }
 }
 
 double BiasCounts::caused(Cause cause, float x) const {
@@ -163,14 +163,21 @@ WindowSteps BiasCounts::window_steps(double depth_per_unit, double most_share) c
   steps.unit_depth = depth_per_unit;
   const ThresholdSums &acne = sums_[of_cause(Cause::acne)], &panning = sums_[of_cause(Cause::peter_panning)];
   // The last threshold ends all acne, even if the sums are rounded.
-  for (size_t reached = 0; reached <= acne.size(); ++reached) {
-    const double left = reached == acne.size() ? 0 : std::max(0.0, acne.total() - acne.before(reached));
-    if (share_of(left, taps()) <= most_share) steps.acne.push_back({reached == 0 ? 0.0f : acne[reached - 1], left});
-  }
-  for (size_t reached = 0; reached <= panning.size(); ++reached) {
-    if (!(share_of(panning.before(reached), taps()) <= most_share)) break;
+  const auto acne_left = [&](size_t reached) {
+    return reached == acne.size() ? 0 : std::max(0.0, acne.total() - acne.before(reached));
+  };
+  const auto within = [&](double taps_of_cause) { return share_of(taps_of_cause, taps()) <= most_share; };
+  // Counted first: there may be millions of steps, and a list that grows would need memory for three times as many.
+  size_t count = 0;
+  for (size_t reached = 0; reached <= acne.size(); ++reached) count += within(acne_left(reached));
+  steps.acne.reserve(count);
+  for (size_t reached = 0; reached <= acne.size(); ++reached)
+    if (const double left = acne_left(reached); within(left))
+      steps.acne.push_back({reached == 0 ? 0.0f : acne[reached - 1], left});
+  for (count = 0; count <= panning.size() && within(panning.before(count));) ++count;
+  steps.peter_panning.reserve(count);
+  for (size_t reached = 0; reached < count; ++reached)
     steps.peter_panning.push_back({reached == panning.size() ? infinity_f : panning[reached], panning.before(reached)});
-  }
   return steps;
 }
 
