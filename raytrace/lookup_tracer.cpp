@@ -37,6 +37,15 @@ class AmongTaps {
 
   bool applies() const { return applies_; }
 
+  // The taps read texels between these two.
+  std::pair<glm::ivec2, glm::ivec2> texels(size_t pixel) const {
+    const glm::vec2 at = probe_.map_texels[pixel];
+    if (probe_.pattern.bilinear())
+      return {probe_.texel_at(at, pixel, 0), probe_.texel_at(at, pixel, probe_.taps() - 1)};
+    // As LookupProbe::texel_at() rounds, which keeps the order of the offsets.
+    return {LookupProbe::floored(at + low_), LookupProbe::floored(at + high_)};
+  }
+
   // p: the receiver, in the world. nearby: its memory is used again.
   bool none(size_t pixel, glm::dvec3 p, Silhouettes::Nearby& nearby) const {
     const Silhouettes::Rectangle rectangle = around(pixel, p);
@@ -53,15 +62,7 @@ class AmongTaps {
   // for double's rounding, which is far less than the reach of the silhouettes' lists. LightFrame's own functions serve
   // every kind of light, and took half of the time of a lookup without a filter.
   Silhouettes::Rectangle around(size_t pixel, glm::dvec3 p) const {
-    glm::ivec2 low, high;
-    const glm::vec2 at = probe_.map_texels[pixel];
-    if (probe_.pattern.bilinear()) {
-      low = probe_.texel_at(at, pixel, 0);
-      high = probe_.texel_at(at, pixel, probe_.taps() - 1);
-    } else {  // as LookupProbe::texel_at() rounds, which keeps the order of the offsets
-      low = LookupProbe::floored(at + low_);
-      high = LookupProbe::floored(at + high_);
-    }
+    const auto [low, high] = texels(pixel);
     const glm::dvec2 place(glm::dot(p - origin_m_, right_), glm::dot(p - origin_m_, up_));
     return {0, glm::min(place + texel_m_ * glm::dvec2(low_), first_texel_ + texel_m_ * glm::dvec2(low)),
             glm::max(place + texel_m_ * glm::dvec2(high_), first_texel_ + texel_m_ * glm::dvec2(high))};
@@ -145,11 +146,14 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
   const AmongTaps among_taps(view, l.light->silhouettes(), probe, l.bias);
   const bool listed = l.use_cells && among_taps.applies();
   const auto certain = static_cast<uint8_t>(tap_exact_lit | (edge_distance_texels ? tap_texel_lit : 0));
-  const bool may_clip = edge_distance_texels && !l.map.keeps_clipped() && l.texels.any_clipped();
+  const bool may_clip = edge_distance_texels && !l.map.keeps_clipped();
   const auto answer = [&](size_t pixel) {
     uint8_t* bits = &result.taps[(pixel - strip.first) * static_cast<size_t>(taps)];
     std::fill_n(bits, taps, certain);
-    for (int tap = 0; tap < taps && may_clip; ++tap) {
+    if (!may_clip) return;
+    const auto [low, high] = among_taps.texels(pixel);
+    if (!l.texels.may_be_clipped(low, high)) return;
+    for (int tap = 0; tap < taps; ++tap) {
       const glm::ivec2 texel = probe.texel(pixel, tap);
       if (l.texels.clipped(texel)) bits[tap] |= tap_near_clipped;
     }
@@ -245,7 +249,8 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
         const uint32_t hit = l.texels.hit(texel);
         const glm::dvec3 centre = view.texel_place(texel);
         const OwnSurface::Verdict at_texel = lit_at(k, centre, hit);
-        const bool texel_lit = at_texel.lit, clipped = may_clip && l.texels.clipped(texel);
+        const bool texel_lit = at_texel.lit,
+                   clipped = may_clip && l.texels.may_be_clipped(texel, texel) && l.texels.clipped(texel);
         bits = static_cast<uint8_t>(bits | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
                                     (at_texel.sure ? 0 : tap_texel_unsure));
         if (moved_lit != texel_lit && !behind[k]) {

@@ -71,22 +71,6 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
   outside_keys_.erase(std::unique(outside_keys_.begin(), outside_keys_.end()), outside_keys_.end());
 }
 
-void TexelRays::first_hits(int count, const glm::dvec3* places, FirstHit* hits) {
-  uint32_t triangles[packet_size];
-  view_->first_hits(traced_->embree, count, places, triangles);
-  store(count, places, triangles, hits);
-}
-
-void TexelRays::store(int count, const glm::dvec3* places, const uint32_t* triangles, FirstHit* hits) {
-  bool clipped = false;
-  for (int i = 0; i < count; ++i) {
-    const bool before_near = view_->clipped(triangles[i], places[i]);
-    clipped |= before_near;
-    hits[i] = FirstHit(triangles[i], before_near);
-  }
-  if (clipped) std::atomic_ref(any_clipped_).store(true, std::memory_order_relaxed);
-}
-
 void TexelRays::each_packet_inside(const auto& visit) const {
   tbb::parallel_for(size_t{0}, texels_->tiles(), [&](size_t tile) {
     glm::dvec3 places[packet_size];
@@ -128,8 +112,17 @@ void TexelRays::trace() {
 
 // A cube has no texels outside.
 void TexelRays::trace_by_rays() {
-  each_packet_inside(
-      [&](int count, size_t first, const glm::dvec3* places) { first_hits(count, places, &inside_[first]); });
+  std::atomic<bool> clipped = false;
+  each_packet_inside([&](int count, size_t first, const glm::dvec3* places) {
+    uint32_t triangles[packet_size];
+    view_->first_hits(traced_->embree, count, places, triangles);
+    for (int i = 0; i < count; ++i) {
+      FirstHit& found = inside_[first + static_cast<size_t>(i)];
+      found = first_hit_at(places[i], triangles[i]);
+      if (found.before_near()) clipped.store(true, std::memory_order_relaxed);
+    }
+  });
+  if (clipped) std::swap(clipped_low_, clipped_high_);  // everywhere
 }
 
 void TexelRays::trace_by_raster() {
@@ -141,6 +134,7 @@ void TexelRays::trace_by_raster() {
     glm::ivec2 at{0};
     size_t in_set = none;           // the number of the tile in the set
     std::vector<size_t> outside{};  // indexes in outside_keys_, in their order
+    bool clipped = false;           // a hit of it
   };
   std::vector<Tile> tiles;
   std::unordered_map<uint64_t, size_t> known;  // LatticeRaster::key
@@ -161,7 +155,7 @@ void TexelRays::trace_by_raster() {
   for (const Tile& tile : tiles) at.push_back(tile.at);
   const std::vector<std::vector<uint32_t>> candidates = raster.candidates(at);
   tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t n) {
-    const Tile& tile = tiles[n];
+    Tile& tile = tiles[n];
     std::array<uint64_t, TexelSet::side> inside{}, wanted;
     if (tile.in_set != none)
       for (int row = 0; row < TexelSet::side; ++row) inside[static_cast<size_t>(row)] = texels_->bits(tile.in_set, row);
@@ -178,8 +172,8 @@ void TexelRays::trace_by_raster() {
     for (int row = 0; row < TexelSet::side; ++row)
       for (uint64_t bits = wanted[static_cast<size_t>(row)]; bits; bits &= bits - 1, ++hit) {
         const glm::dvec3 place = view_->texel_place(tile.at * TexelSet::side + glm::ivec2(std::countr_zero(bits), row));
-        FirstHit found;
-        store(1, &place, &triangles[hit], &found);
+        const FirstHit found = first_hit_at(place, triangles[hit]);
+        tile.clipped |= found.before_near();
         if (inside[static_cast<size_t>(row)] >> std::countr_zero(bits) & 1) {
           inside_[next_inside++] = found;
         } else {
@@ -188,6 +182,11 @@ void TexelRays::trace_by_raster() {
         }
       }
   });
+  for (const Tile& tile : tiles) {
+    if (!tile.clipped) continue;
+    clipped_low_ = glm::min(clipped_low_, tile.at * TexelSet::side);
+    clipped_high_ = glm::max(clipped_high_, tile.at * TexelSet::side + (TexelSet::side - 1));
+  }
 }
 
 const TexelRays::FirstHit& TexelRays::outside_hit(glm::ivec2 texel) const {

@@ -9,6 +9,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -37,8 +38,10 @@ class TexelRays {
   // whether that hit lies before the map's near plane.
   uint32_t hit(glm::ivec2 texel) const { return first_hit(texel).triangle(); }
   bool clipped(glm::ivec2 texel) const { return first_hit(texel).before_near(); }
-  // After trace(): whether the map's near plane clips the first hit of any texel that was asked for.
-  bool any_clipped() const { return any_clipped_; }
+  // After trace(): false only if the map's near plane clips none of the first hits between these texels.
+  bool may_be_clipped(glm::ivec2 low, glm::ivec2 high) const {
+    return glm::all(glm::lessThanEqual(low, clipped_high_)) && glm::all(glm::greaterThanEqual(high, clipped_low_));
+  }
 
   // After trace(): the texels inside the map that were asked for. each_inside() calls visit for up to 16 of them at a
   // time, which have consecutive numbers from `first` on, with the places of their centres and their first hits.
@@ -68,9 +71,9 @@ class TexelRays {
   void each_packet_inside(const auto& visit) const;
   void trace_by_rays();
   void trace_by_raster();
-  void first_hits(int count, const glm::dvec3* places, FirstHit* hits);
-  // triangles: the first hits at these places.
-  void store(int count, const glm::dvec3* places, const uint32_t* triangles, FirstHit* hits);
+  FirstHit first_hit_at(glm::dvec3 place, uint32_t triangle) const {
+    return FirstHit(triangle, view_->clipped(triangle, place));
+  }
 
   const raytrace::TracedScene* traced_;
   const LightView* view_;
@@ -79,7 +82,8 @@ class TexelRays {
   std::vector<uint64_t> outside_keys_;  // until trace(); sorted, each once
   std::shared_ptr<const TexelSet> texels_;
   std::vector<FirstHit> inside_;  // by TexelSet::index
-  bool any_clipped_ = false;
+  // The rectangle around the tiles of texels that have a clipped hit; empty if there is none.
+  glm::ivec2 clipped_low_{std::numeric_limits<int>::max()}, clipped_high_{std::numeric_limits<int>::min()};
   std::vector<std::pair<uint64_t, FirstHit>> outside_;  // (texel key, hit), sorted
 };
 
