@@ -158,6 +158,13 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
       if (l.texels.clipped(texel)) bits[tap] |= tap_near_clipped;
     }
   };
+  const bool parallel = view.rays().have_one_direction();
+  const double texel_m = parallel ? frame.texel_m({}) : 0;
+  const auto tap_place = [&](glm::dvec3 from, glm::dvec3 offset) {
+    // Of parallel rays the same numbers, without the calls.
+    return parallel ? glm::dvec3(from.x + offset.x * texel_m, from.y + offset.y * texel_m, 1)
+                    : view.normal_place(frame.tap_place(from, offset));
+  };
   constexpr size_t pixels_per_part = 4096;
   std::vector<std::vector<size_t>> parts((strip.size() + pixels_per_part - 1) / pixels_per_part);
   tbb::parallel_for(size_t{0}, parts.size(), [&](size_t part) {
@@ -220,7 +227,7 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
       const auto at_offset = [&](const glm::dvec3* from, OwnSurface::Verdict* verdicts) {
         glm::dvec3 x[packet_size];
         uint32_t hits[packet_size];
-        for (int k = 0; k < active; ++k) x[k] = view.normal_place(frame.tap_place(from[k], offsets[k]));
+        for (int k = 0; k < active; ++k) x[k] = tap_place(from[k], offsets[k]);
         first_hits(active, x, hits);
         for (int k = 0; k < active; ++k) verdicts[k] = lit_at(k, x[k], hits[k]);
       };
@@ -254,7 +261,7 @@ TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<f
         bits = static_cast<uint8_t>(bits | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
                                     (at_texel.sure ? 0 : tap_texel_unsure));
         if (moved_lit != texel_lit && !behind[k]) {
-          const glm::dvec3 from = view.normal_place(frame.tap_place(looked_up[k], offsets[k]));
+          const glm::dvec3 from = tap_place(looked_up[k], offsets[k]);
           const double distance = surface.edge_distance_texels(points[k], from, centre, moved_lit);
           float& farthest = (*edge_distance_texels)[pixel];
           farthest = std::max(farthest, static_cast<float>(distance));

@@ -186,10 +186,8 @@ void Silhouettes::list_in(const Rectangle& rectangle, Nearby& nearby) const {
 
 bool Silhouettes::Nearby::near(glm::dvec3 x, double within_m) const {
   if (!listed_ || edges_.size() > most_searched) return all_->near(x, within_m);
-  return std::any_of(edges_.begin(), edges_.end(), [&](uint32_t index) {
-    const Edge& edge = all_->edges_[index];
-    return all_->view_.rays().distance2_across(x, edge.a, edge.b) <= within_m * within_m;
-  });
+  return std::any_of(edges_.begin(), edges_.end(),
+                     [&](uint32_t index) { return all_->is_near(all_->edges_[index], x, within_m); });
 }
 
 std::vector<Silhouettes::Crossing> Silhouettes::Nearby::crossings(glm::dvec3 from, glm::dvec3 to) const {
@@ -218,7 +216,7 @@ bool Silhouettes::near_listed(glm::dvec3 x, double within_m, std::vector<uint32_
   bool any = false;
   for (uint32_t i = grid.begin[cell]; i < grid.begin[cell + 1]; ++i) {
     const Edge& edge = edges_[grid.listed[i]];
-    if (!(view_.rays().distance2_across(x, edge.a, edge.b) <= within_m * within_m)) continue;
+    if (!is_near(edge, x, within_m)) continue;
     any = true;
     if (!triangles) break;  // one is enough
     triangles->push_back(edge.triangle);

@@ -4,6 +4,7 @@
 // A ray that is further from every silhouette than its float error meets the same triangle as the exact ray; the other
 // rays, which are few, are checked in double. Built once for a light (raytrace/traced_scene.h).
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -100,6 +101,16 @@ class Silhouettes {
     uint32_t triangle = 0;
     double rounding_m = 0;
   };
+  // Whether x lies within within_m of an edge.
+  bool is_near(const Edge& edge, glm::dvec3 x, double within_m) const {
+    if (view_.rays().have_one_direction()) {     // most edges are further away along one axis already
+      const double far = within_m * (1 + 1e-9);  // and the rounding of double
+      if (x.x - std::max(edge.a.x, edge.b.x) > far || std::min(edge.a.x, edge.b.x) - x.x > far ||
+          x.y - std::max(edge.a.y, edge.b.y) > far || std::min(edge.a.y, edge.b.y) - x.y > far)
+        return false;
+    }
+    return view_.rays().distance2_across(x, edge.a, edge.b) <= within_m * within_m;
+  }
   // A square of a chart.
   struct Grid {
     glm::dvec2 low{0};

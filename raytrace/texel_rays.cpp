@@ -8,7 +8,9 @@
 #include <atomic>
 #include <bit>
 #include <cassert>
+#include <limits>
 #include <unordered_map>
+#include <utility>
 
 #include "raytrace/lattice_raster.h"
 #include "raytrace/packets.h"
@@ -43,27 +45,30 @@ void TexelRays::ask(const Image<uint8_t>& facing, const LookupProbe& probe, Pixe
     size_t limit = outside_buffer;
   };
   tbb::combinable<Outside> outside_keys;
-  tbb::parallel_for(tbb::blocked_range<size_t>(pixels.first, pixels.end, 4096),
-                    [&](const tbb::blocked_range<size_t>& range) {
-                      Outside& outside = outside_keys.local();
-                      for (size_t i = range.begin(); i != range.end(); ++i) {
-                        if (!facing[i]) continue;
-                        for (int tap = 0; tap < probe.taps(); ++tap) {
-                          const glm::ivec2 texel = probe.texel(i, tap);
-                          const glm::ivec2 read = wrapped(texel, size, wrap_);
-                          if (read.x >= 0) wanted_->add(read);
-                          if (!inside_map(texel, size)) outside.keys.push_back(texel_key(texel));
-                        }
-                        // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills
-                        // the memory. The limit doubles with what is truly different, so that the sorting stays a small
-                        // share of the work.
-                        if (outside.keys.size() > outside.limit) {
-                          std::sort(outside.keys.begin(), outside.keys.end());
-                          outside.keys.erase(std::unique(outside.keys.begin(), outside.keys.end()), outside.keys.end());
-                          outside.limit = std::max(outside_buffer, 2 * outside.keys.size());
-                        }
-                      }
-                    });
+  tbb::parallel_for(
+      tbb::blocked_range<size_t>(pixels.first, pixels.end, 4096), [&](const tbb::blocked_range<size_t>& range) {
+        Outside& outside = outside_keys.local();
+        // Neighbouring pixels mostly ask for the same texels.
+        std::vector<glm::ivec2> before(static_cast<size_t>(probe.taps()), glm::ivec2(std::numeric_limits<int>::min()));
+        for (size_t i = range.begin(); i != range.end(); ++i) {
+          if (!facing[i]) continue;
+          for (int tap = 0; tap < probe.taps(); ++tap) {
+            const glm::ivec2 texel = probe.texel(i, tap);
+            if (std::exchange(before[static_cast<size_t>(tap)], texel) == texel) continue;
+            const glm::ivec2 read = wrapped(texel, size, wrap_);
+            if (read.x >= 0) wanted_->add(read);
+            if (!inside_map(texel, size)) outside.keys.push_back(texel_key(texel));
+          }
+          // Neighbouring pixels ask for the same texels; without this a wide kernel outside the map fills
+          // the memory. The limit doubles with what is truly different, so that the sorting stays a small
+          // share of the work.
+          if (outside.keys.size() > outside.limit) {
+            std::sort(outside.keys.begin(), outside.keys.end());
+            outside.keys.erase(std::unique(outside.keys.begin(), outside.keys.end()), outside.keys.end());
+            outside.limit = std::max(outside_buffer, 2 * outside.keys.size());
+          }
+        }
+      });
 
   outside_keys.combine_each(
       [&](const Outside& part) { outside_keys_.insert(outside_keys_.end(), part.keys.begin(), part.keys.end()); });
