@@ -284,6 +284,7 @@ var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width)
           orient: 'left',
           scale: 'y',
           title: 'width of a texel',
+          minExtent: 54,  // labels such as 500 µm: Vega measures them too narrow, and the title would touch them
           values: kit.logTicks(fine, coarse),
           encode: {labels: {update: {text: {signal: metre}}}}
         },
