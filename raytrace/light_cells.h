@@ -1,5 +1,6 @@
-// Cells of the light's plane in which R1, and the first hit of a light-side ray, is known without a ray. Every answer is the one that the program's own rays
-// give, with certainty; where that cannot be proved, the answer is `unknown`, and the rays are cast.
+// Cells of the light's plane in which R1, and the first hit of a light-side ray, is known without a ray. Every answer is
+// the one that the program's own rays give, with certainty; where that cannot be proved, the answer is `unknown`, and the
+// rays are cast.
 //
 //   LightCells cells(adjacency, view, embree.near_distance(), 1024);  // built once for a light
 //   LightCells::Reader reader(cells);                                // one for each thread
