@@ -292,6 +292,7 @@ var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width)
           orient: 'right',
           scale: 'y',
           title: 'resolution',
+          minExtent: 46,
           values: resolutions,
           encode: {labels: {update: {text: {signal: 'format(round(' + product + ' / datum.value), \'d\')'}}}}
         }
