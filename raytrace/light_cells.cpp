@@ -61,8 +61,10 @@ LightCells::LightCells(const Adjacency& adjacency, const LightView& view, double
     while (divisions_ > 0 && side / (base_size_ << divisions_) < reaches_per_cell * reach_m_) --divisions_;
     fine_size_ = base_size_ << divisions_;
     fine_per_m_ = fine_size_ / side;
-    list_base();
-    if (base_size_ == 1 || !listed_.empty() || begin_.back() == 0) break;
+    if (std::optional<Lists> lists = list_base()) {
+      lists_ = std::move(*lists);
+      break;
+    }
   }
   base_ = std::vector<std::atomic<Cell*>>(size_t{base_size_} * base_size_);
 }
@@ -82,9 +84,9 @@ void LightCells::free_below(Cell& cell) {
   delete four;
 }
 
-// By the rectangle around each triangle; base_cell() looks closer. listed_
-// stays empty if it would be too long.
-void LightCells::list_base() {
+// By the rectangle around each triangle; base_cell() looks closer. No value if the lists would be too long; those of a
+// single square never are.
+std::optional<LightCells::Lists> LightCells::list_base() const {
   const size_t size = base_size_;
   const double per_m = fine_per_m_ / (1 << divisions_);
   const auto each = [&](const auto& visit) {
@@ -101,23 +103,24 @@ void LightCells::list_base() {
           if (!visit(t, static_cast<size_t>(y) * size + static_cast<size_t>(x))) return;
     }
   };
-  begin_.assign(size * size + 1, 0);
-  listed_.clear();
+  Lists lists{.begin = std::vector<uint32_t>(size * size + 1, 0), .listed = {}};
+  std::vector<uint32_t>& begin = lists.begin;
   const size_t most =
       base_size_ == 1 ? std::numeric_limits<size_t>::max() : listed_per_triangle * triangles_ + listed_besides;
   size_t count = 0;
   each([&](uint32_t, size_t cell) {
-    ++begin_[cell + 1];
+    ++begin[cell + 1];
     return ++count <= most;
   });
-  if (count > most) return;
-  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-  listed_.resize(begin_.back());
-  std::vector<uint32_t> next(begin_.begin(), begin_.end() - 1);
+  if (count > most) return std::nullopt;
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  lists.listed.resize(begin.back());
+  std::vector<uint32_t> next(begin.begin(), begin.end() - 1);
   each([&](uint32_t t, size_t cell) {
-    listed_[next[cell]++] = t;
+    lists.listed[next[cell]++] = t;
     return true;
   });
+  return lists;
 }
 
 LightCells::Square LightCells::square_at(uint32_t x, uint32_t y, int divisions) const {
@@ -175,8 +178,8 @@ LightCells::Cell* LightCells::base_cell(uint32_t x, uint32_t y) {
   auto cell = std::make_unique<Cell>();
   cell->divisions = static_cast<uint8_t>(divisions_);
   const Square square = square_at(x, y, divisions_);
-  for (uint32_t i = begin_[index]; i < begin_[index + 1]; ++i)
-    if (touches(outline(listed_[i]), square)) cell->triangles.push_back(listed_[i]);
+  for (uint32_t i = lists_.begin[index]; i < lists_.begin[index + 1]; ++i)
+    if (touches(outline(lists_.listed[i]), square)) cell->triangles.push_back(lists_.listed[i]);
   judge(*cell, square);
   bytes_ += sizeof(Cell) + cell->triangles.capacity() * sizeof(uint32_t);
   base_[index].store(cell.get(), std::memory_order_release);

@@ -118,6 +118,10 @@ class LightCells {
     std::vector<uint32_t> triangles;
     bool ends_here() const { return kind != Kind::mixed || divisions == 0; }
   };
+  // The triangles of the undivided squares: those of square i are listed[begin[i]] to listed[begin[i + 1] - 1].
+  struct Lists {
+    std::vector<uint32_t> begin, listed;
+  };
   struct Square {
     glm::dvec2 middle;
     double half;  // of its side; widened
@@ -165,7 +169,7 @@ class LightCells {
   static bool touches(const Outline& triangle, const Square& square);
   static bool edge_touches(const Outline& triangle, int edge, const Square& square);
   static bool apart(const Outline& a, const Outline& b);
-  void list_base();
+  std::optional<Lists> list_base() const;
   Cell* base_cell(uint32_t x, uint32_t y);
   Four* divide(Cell& cell, uint32_t x, uint32_t y);  // x, y: of a finest square in it
   const Cell& cell_at(uint32_t x, uint32_t y);       // the smallest one
@@ -190,10 +194,10 @@ class LightCells {
   double nearest_m_ = std::numeric_limits<double>::infinity();  // of the scene
   glm::dvec2 low_{0};
   double fine_per_m_ = 0;
-  uint32_t base_size_ = 0;                // undivided squares on a side
-  int divisions_ = 0;                     // of an undivided square
-  uint32_t fine_size_ = 0;                // finest squares on a side
-  std::vector<uint32_t> begin_, listed_;  // the triangles of the undivided squares
+  uint32_t base_size_ = 0;  // undivided squares on a side
+  int divisions_ = 0;       // of an undivided square
+  uint32_t fine_size_ = 0;  // finest squares on a side; 0: there are no squares
+  Lists lists_;
   std::vector<std::atomic<Cell*>> base_;
   std::atomic<size_t> bytes_{0};
   std::mutex locks_[64];

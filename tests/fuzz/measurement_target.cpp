@@ -20,6 +20,7 @@
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "scenes/library.h"
+#include "tests/fuzz/choices.h"
 #include "tests/fuzz/targets.h"
 #include "tests/scenes/gltf/files.h"
 
@@ -28,24 +29,6 @@ namespace {
 
 // Steps are sums of at most a dozen floats in [0,1], each rounded to 2^-24. Their means have no larger error.
 constexpr double rounding = 1e-6;
-
-// Takes numbers from the input, byte by byte. After the last byte all numbers are 0, so that every input is valid.
-class Choices {
- public:
-  explicit Choices(const std::string& bytes) : bytes_(bytes) {}
-  unsigned byte() { return at_ < bytes_.size() ? static_cast<unsigned char>(bytes_[at_++]) : 0; }
-  int below(int n) { return static_cast<int>((n > 256 ? byte() << 8 | byte() : byte()) % static_cast<unsigned>(n)); }
-  // A number in [0, 1], often one of the two ends.
-  double fraction() {
-    const unsigned value = byte() << 8 | byte();
-    return value == 0xffff ? 1 : value / 65536.0;
-  }
-  double between(double a, double b) { return a + (b - a) * fraction(); }
-
- private:
-  const std::string& bytes_;
-  size_t at_ = 0;
-};
 
 // ---- the scene
 
@@ -62,11 +45,6 @@ struct Triangles {
     for (uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) indices.push_back(first + k);
   }
 };
-
-glm::dvec3 any_point(Choices& choices, double reach) {
-  const double x = choices.between(-reach, reach), y = choices.between(-reach, reach);
-  return {x, y, choices.between(-reach, reach)};
-}
 
 // A parallelepiped. The choices can make it flat or slanted.
 void add_block(Triangles& to, Choices& choices) {
