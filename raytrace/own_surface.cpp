@@ -142,10 +142,25 @@ uint32_t OwnSurface::exact_first(glm::dvec3 x) const {
       }
       return first;
     }
+  thread_local std::vector<uint32_t> found;
+  list_covering(x, found);
+  uint32_t first = no_primitive;
+  for (uint32_t triangle : found)
+    if (first == no_primitive || view_.hit_depth(triangle, x) < view_.hit_depth(first, x)) first = triangle;
+  return first;
+}
+
+void OwnSurface::list_covering(glm::dvec3 x, std::vector<uint32_t>& covering) const {
+  covering.clear();
+  if (cells_)
+    if (const auto candidates = cells_->candidates(x)) {
+      std::copy_if(candidates->begin(), candidates->end(), std::back_inserter(covering),
+                   [&](uint32_t triangle) { return covers(triangle, x); });
+      return;
+    }
   std::vector<uint32_t> found;
   embree_.all_hits(view_.ray(x), found);
   silhouettes_.near(x, found);
-  uint32_t first = no_primitive;
   for (uint32_t triangle : found) {
     if (!covers(triangle, x)) {  // the sheet may continue below x
       const glm::dvec3 centre =
@@ -153,14 +168,46 @@ uint32_t OwnSurface::exact_first(glm::dvec3 x) const {
       triangle = walk({view_.frame().place(centre), triangle, false, false}, x, false).triangle;
       if (!covers(triangle, x)) continue;
     }
-    if (first == no_primitive || view_.hit_depth(triangle, x) < view_.hit_depth(first, x)) first = triangle;
+    covering.push_back(triangle);
   }
-  return first;
+}
+
+// All triangles at x from the nearest on, up to the first that covers x for certain. One that ends at x, or has a corner
+// there, may cover it or not.
+void OwnSurface::firsts_of_tie(glm::dvec3 x, std::vector<uint32_t>& firsts) const {
+  thread_local std::vector<uint32_t> ends;
+  ends.clear();
+  silhouettes_.near(x, tie_m(), ends);
+  list_covering(x, firsts);
+  for (uint32_t triangle : ends)
+    if (!view_.edge_on(triangle)) firsts.push_back(triangle);
+  std::sort(firsts.begin(), firsts.end(), [&](uint32_t a, uint32_t b) {
+    const double first = view_.hit_depth(a, x), second = view_.hit_depth(b, x);
+    return first != second ? first < second : a < b;
+  });
+  const auto may_end = [&](uint32_t triangle) {
+    if (std::find(ends.begin(), ends.end(), triangle) != ends.end()) return true;
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 corner = view_.corner(triangle, i);
+      if (view_.rays().distance2_across(x, corner, corner) <= tie_m() * tie_m()) return true;
+    }
+    return false;
+  };
+  const auto certain = std::find_if_not(firsts.begin(), firsts.end(), may_end);
+  if (certain == firsts.end())
+    firsts.push_back(no_primitive);
+  else
+    firsts.erase(certain + 1, firsts.end());
+}
+
+double OwnSurface::tie_m() const {
+  const double of_the_frame = 0x1p-50 * glm::length(view_.frame().origin_m);
+  return std::min(beside_m(), rounding_share * beside_m() + of_the_frame);
 }
 
 SurfacePoint OwnSurface::point(glm::dvec3 light, uint32_t primitive, bool lit) const {
   const glm::dvec3 at = view_.place_of(light);
-  return {at, primitive, lit, lit && silhouettes_.near(at, rounding_share * beside_m())};
+  return {at, primitive, lit, lit && silhouettes_.near(at, tie_m())};
 }
 
 template <class Edges>
@@ -174,23 +221,34 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   std::vector<Silhouettes::Crossing> crossed;
   if (p.lit) crossed = silhouettes.crossings(p.at, x);
   // Rounding decides whether the way crosses a silhouette on which a lit P lies. If x lies on a silhouette (a tie),
-  // rounding decides whether the ray through x meets the surface that ends there. The ray that was cast may then meet
-  // another surface than the one that is first in double, and the map holds the depth of what the ray has met.
+  // rounding decides whether the ray through x meets the surface that ends there, and whether the way crosses it. The
+  // verdict is sure only if it is the same for every triangle that may be the first.
   bool sure = !p.on_silhouette;
   SheetAt own(*this, p, x);
-  const bool tie = beside && silhouettes.near(x, rounding_share * beside_m());
+  const bool tie = beside && silhouettes.near(x, tie_m());
   const auto exact = [&] {
     const uint32_t first = exact_first(x);
     sure &= view_.clipped(first, x) == view_.clipped(hit, x);
     return first;
   };
+  const auto same_for_every_first = [&](const auto& same) {
+    thread_local std::vector<uint32_t> firsts;
+    firsts_of_tie(x, firsts);
+    return same(hit) && std::all_of(firsts.begin(), firsts.end(), [&](uint32_t first) {
+             return view_.clipped(first, x) == view_.clipped(hit, x) && same(first);
+           });
+  };
+  const auto maybe_lit = [&](uint32_t first) { return may_be_lit(p, x, first, own); };
   if (p.lit && crossed.empty()) {  // no jump: lit, whatever the first hit is
     if (beside) exact();
-    return {true, sure && (!tie || may_be_lit(p, x, hit, own))};
+    return {true, sure && (!tie || same_for_every_first(maybe_lit))};
   }
   const uint32_t first = beside || may_be_lit(p, x, hit, own) ? exact() : hit;
   Verdict v = verdict(p, x, first, own, crossed);
-  if (tie && hit != first) sure &= verdict(p, x, hit, own, crossed).lit == v.lit;
+  if (tie && sure && v.sure)
+    sure = p.lit && v.lit
+               ? same_for_every_first(maybe_lit)
+               : same_for_every_first([&](uint32_t other) { return verdict(p, x, other, own, crossed).lit == v.lit; });
   v.sure &= sure;
   return v;
 }
@@ -214,7 +272,7 @@ OwnSurface::Verdict OwnSurface::verdict(const SurfacePoint& p, glm::dvec3 x, uin
   if (sheet.triangle == hit) return {true, true};
   // If the rounding of P has put it beside its surface or onto its edge, the way from P may cross an edge that the way
   // from the exact P does not cross, or the reverse. Then it may leave the sheet at another place.
-  const bool on_edge = !crossed.empty() && crossed.front().t * length_m(p, x) <= rounding_share * beside_m();
+  const bool on_edge = !crossed.empty() && crossed.front().t * length_m(p, x) <= tie_m();
   const auto on_surface = [&] { return !on_edge && walk(p, p.at).triangle != no_primitive; };
   const double behind = sheet.depth_m - view_.hit_depth(hit, x);
   if (behind <= rounding_of_sheet(p, x, sheet, hit)) return {true, sheet.triangle != no_primitive || on_surface()};
@@ -275,7 +333,7 @@ OwnSurface::Verdict OwnSurface::continuous(const SurfacePoint& p, glm::dvec3 x, 
   };
   const auto around = [&](size_t i, bool rounded) {
     const double length = glm::length(way) * view_.metres_across(at[i].depth_m);  // longer the deeper the edge lies
-    const double aside = (rounding_share * beside_m() + (rounded ? at[i].rounding_m : 0.0)) / (length * at[i].sine);
+    const double aside = (tie_m() + (rounded ? at[i].rounding_m : 0.0)) / (length * at[i].sine);
     return Bracket{i, i, at[i].t - aside, at[i].t + aside};
   };
   const auto widen = [&](Bracket& b, bool rounded) {

@@ -99,6 +99,14 @@ class OwnSurface {
   // The ray that was cast may lie on the other side of a silhouette than the exact ray only if the silhouette is nearer
   // to x than this.
   double beside_m() const { return Silhouettes::reach_of(view_); }
+  // A place nearer than this to a silhouette lies on either side of it, by the rounding of double. It is more than the
+  // distance between the places of one point in two frames of one light, whose origins differ by the shift of the
+  // map's grid: so a tie in one frame is a tie in all of them.
+  double tie_m() const;
+  // The triangles that cover x in double; with repetitions where no cells are.
+  void list_covering(glm::dvec3 x, std::vector<uint32_t>& covering) const;
+  // On a silhouette (within tie_m()): every triangle, or no_primitive, that may be the first hit, by rounding.
+  void firsts_of_tie(glm::dvec3 x, std::vector<uint32_t>& firsts) const;
   uint32_t next_on_sheet(uint32_t triangle, int edge, uint32_t from, glm::dvec3 x) const;
   // end: of the sheet, in the light's frame.
   uint32_t across_seam(uint32_t triangle, glm::dvec3 end, glm::dvec3 x) const;

@@ -53,7 +53,10 @@ class Silhouettes {
     return grid.holds(at) && !grid.empty(grid.cell_of(at)) && near_listed(x, within_m, nullptr);
   }
   // The same, and the triangles that have those edges.
-  void near(glm::dvec3 x, std::vector<uint32_t>& triangles) const { near_listed(x, reach_m_, &triangles); }
+  void near(glm::dvec3 x, std::vector<uint32_t>& triangles) const { near(x, reach_m_, triangles); }
+  void near(glm::dvec3 x, double within_m, std::vector<uint32_t>& triangles) const {
+    near_listed(x, within_m, &triangles);
+  }
 
   struct Crossing {
     double t = 0;           // fraction of the way
