@@ -24,15 +24,6 @@ uint32_t pixel_seen_at(const CameraFrame& camera, glm::dvec3 world, int width, i
   return static_cast<uint32_t>(y) * static_cast<uint32_t>(width) + static_cast<uint32_t>(x);
 }
 
-// Which receivers a camera sees: a light that stands at its eye reaches them.
-ReceiverTruth seen_by(const raytrace::Tracer& tracer, const ReceiverImage& receivers, const Camera& camera) {
-  Light eye;
-  eye.kind = camera.projection == Projection::perspective ? LightKind::point : LightKind::directional;
-  eye.position_m = camera.eye_m;
-  eye.target_m = camera.target_m;
-  return tracer.receiver_truth(receivers, kind_of_light(eye.kind).axes(eye), {eye});
-}
-
 bool same_light(const LightFrame& a, const LightFrame& b) {
   if (a.kind != b.kind || a.cos_half_cone != b.cos_half_cone) return false;
   if (a.light().rays().have_one_direction()) return a.ray_direction == b.ray_direction;
@@ -110,22 +101,34 @@ Flicker trace_flicker(const FlickerInput& in) {
   const Camera camera = effective_camera(scene, next.view);
   const CameraFrame camera_frame = make_camera_frame(camera, width, height);
   const bool still = same_place(camera, in.view.camera);
-  std::optional<ReceiverTruth> seen, truth;
-  if (!still) seen = seen_by(*in.loaded.tracer, receivers, camera);
+  std::optional<raytrace::SeenReceivers> seen;
+  std::optional<ReceiverTruth> truth;
+  if (!still) seen = in.loaded.tracer->seen_by(receivers, camera);
   if (!same_light(now_frame, next_light))
     truth = in.loaded.tracer->receiver_truth(receivers, next_light, {effective_light(scene, next)});
   const ReceiverTruth& before = in.truth.receivers;
   const ReceiverTruth& after = truth ? *truth : before;
-  FlickerPoints points{Image<uint8_t>(width, height, 0), Image<uint8_t>(width, height, 0), 0, 0};
+  FlickerPoints points{Image<uint8_t>(width, height, 0), Image<uint8_t>(width, height, 0)};
   const double reach = reach_of_taps(tap_pattern(next.filter));
   Image<uint32_t> pixels(width, height, 0);
   for (size_t i = 0; i < pixels.size(); ++i) {
     pixels[i] = static_cast<uint32_t>(i);
-    if (!before.facing[i] || before.ambiguous[i] || !after.facing[i] || after.ambiguous[i]) continue;
+    if (!before.facing[i] || before.ambiguous[i]) continue;
     if (!still) {
       const uint32_t pixel = pixel_seen_at(camera_frame, glm::dvec3(receivers.position[i]), width, height);
-      if (pixel == no_pixel || !seen->lit[i] || seen->ambiguous[i]) continue;
+      if (pixel == no_pixel) {
+        ++points.outside;
+        continue;
+      }
+      if (!seen->seen[i] || seen->ambiguous[i]) {
+        ++points.hidden;
+        continue;
+      }
       pixels[i] = pixel;
+    }
+    if (!after.facing[i] || after.ambiguous[i]) {
+      ++points.unlit;
+      continue;
     }
     ++points.shared;
     if (before.lit[i] != after.lit[i]) {

@@ -22,8 +22,8 @@ struct FlickerInput {
 // The settings of the next frame.
 Settings next_frame(const Settings& settings);
 
-// A receiver counts if it is in the next frame's picture and no surface hides it there, if it faces the light in both
-// frames, if R1 is the same in both, and if none of these is ambiguous. Throws Error(usage) if the scene's triangles move
+// A receiver counts if the next frame's camera sees it as it sees its receivers (raytrace::Tracer::seen_by), within the
+// picture, if it faces the light in both frames, if R1 is the same in both, and if none of these is ambiguous. Throws Error(usage) if the scene's triangles move
 // between the frames: then there is no point of the world that is the same in both.
 Flicker trace_flicker(const FlickerInput& input);
 

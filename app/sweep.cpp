@@ -27,6 +27,7 @@
 #include "app/survey.h"
 #include "app/sweep_phase.h"
 #include "app/workbench.h"
+#include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
@@ -359,6 +360,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   outcome.results = store.load();
   if (const std::string poor = poor_view_note(outcome.results.points); !poor.empty())
     fmt::print(stderr, "note: {}\n", poor);
+  if (const std::string still = no_flicker_note(outcome.results.points); !still.empty())
+    fmt::print(stderr, "note: {}\n", still);
   if (const std::string doubt = undecided_note(outcome.results.points); !doubt.empty())
     fmt::print(stderr, "note: {}\n", doubt);
   // Which points have pictures by their errors is known when the shares are joined.

@@ -9,6 +9,7 @@
 #include "app/verbs.h"
 #include "app/workbench.h"
 #include "compare/judge/interval.h"
+#include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
 #include "compare/store/metrics.h"
@@ -67,6 +68,7 @@ void print_flicker(const Measurement& m) {
   const int frame = m.settings.view.motion.frame;
   fmt::print("\n  {:<32}{:>11.0f} points\n", fmt::format("from frame {} to frame {}", frame, frame + 1),
              m.record.metrics.at("flicker_points"));
+  if (const std::string why = why_no_flicker(m.record); !why.empty()) fmt::print("  {}\n", why);
   for (const Metric& metric : metrics_table())
     if (const auto found = m.record.metrics.find(std::string(metric.name));
         metric.of_motion && metric.unit == "fraction" && found != m.record.metrics.end())

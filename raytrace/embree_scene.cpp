@@ -17,6 +17,7 @@ namespace {
 struct ShadowContext : embree::Context {
   const EmbreeScene* scene = nullptr;
   const ShadowRay* rays = nullptr;
+  std::span<const uint32_t> unseen;      // empty: none
   std::vector<uint32_t>* all = nullptr;  // where all_hits() collects
 };
 
@@ -163,7 +164,7 @@ void EmbreeScene::all_hits(const LightRay& start, std::vector<uint32_t>& primiti
   embree::occluded(embree_.get(), context, ray);
 }
 
-uint32_t EmbreeScene::occluded(int count, const ShadowRay* starts) const {
+uint32_t EmbreeScene::occluded(int count, const ShadowRay* starts, std::span<const uint32_t> unseen) const {
   device_.count_rays(count);
   alignas(64) RTCRay16 rays;
   alignas(64) int valid[packet_size];
@@ -186,6 +187,7 @@ uint32_t EmbreeScene::occluded(int count, const ShadowRay* starts) const {
   ShadowContext context;
   context.scene = this;
   context.rays = starts;
+  context.unseen = unseen;
   embree::occluded16(valid, embree_.get(), context, rays);
   uint32_t mask = 0;
   for (int i = 0; i < count; ++i) mask |= rays.tfar[i] < 0 ? 1u << i : 0u;
@@ -248,7 +250,8 @@ void EmbreeScene::filter(const RTCFilterFunctionNArguments* arguments) {
     }
     const unsigned lane = RTCRayN_id(arguments->ray, arguments->N, i);
     const float distance = RTCRayN_tfar(arguments->ray, arguments->N, i);
-    if (!scene.is_occluder(context->rays[lane], primitive, distance)) arguments->valid[i] = 0;
+    const bool unseen = !context->unseen.empty() && (context->unseen[primitive / 32] >> (primitive % 32) & 1u);
+    if (unseen || !scene.is_occluder(context->rays[lane], primitive, distance)) arguments->valid[i] = 0;
   }
 }
 

@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -78,7 +79,8 @@ class EmbreeScene {
   void all_hits(const LightRay& ray, std::vector<uint32_t>& primitives) const;
 
   // Bit i: ray i meets another triangle than its own, beyond its own plane and before the light. count: 1 ... 16.
-  uint32_t occluded(int count, const ShadowRay* rays) const;
+  // unseen: triangles that stop no ray; bit t % 32 of word t / 32 is triangle t. Empty: every triangle stops rays.
+  uint32_t occluded(int count, const ShadowRay* rays, std::span<const uint32_t> unseen = {}) const;
 
   // occluded() counts a hit further than this from both ends of the ray, and further than twice the ray's own_distance,
   // whatever the triangle is. It decides nearer hits in double.

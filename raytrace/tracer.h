@@ -35,6 +35,12 @@ struct SoftTruth {
   double standard_error = 0.01;  // of R0 at each receiver
 };
 
+// Of each receiver.
+struct SeenReceivers {
+  Image<uint8_t> seen;
+  Image<uint8_t> ambiguous;  // 1: `seen` changes when the start of the ray moves by the float error
+};
+
 class Tracer {
  public:
   // use_cells: false asks rays for everything that cells could answer (raytrace/light_cells.h). The answers are the same.
@@ -47,6 +53,12 @@ class Tracer {
   // of the ray moves by the float error in the light's plane; and R0. Only the frame's light is used, not its map.
   ReceiverTruth receiver_truth(const ReceiverImage& receivers, const LightFrame& frame, const SoftTruth& soft,
                                StageTime* hard_stage = nullptr, StageTime* soft_stage = nullptr) const;
+
+  // Which receivers a camera sees as its pictures show them (scenes/receivers.h): the side that the receiver's normal
+  // points to, with no surface between the camera's near plane and it. Of single-sided triangles the camera sees the
+  // front only, so their backs hide nothing. Whether the receiver lies within the picture is not asked. The camera has
+  // a near plane.
+  SeenReceivers seen_by(const ReceiverImage& receivers, const Camera& camera) const;
 
   // map: format, wrap, cull and depth_clamp are read; the resolution is the frame's. bias: the one that the probe was
   // taken with. A part that moves the lookup costs one more ray for each tap; a polygon offset is in the exact map.

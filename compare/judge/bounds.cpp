@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
 #include "compare/ladder/numbers.h"
@@ -274,6 +275,10 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
 
   if (!std::isfinite(bound.found)) text += "  a value that could not be measured breaks every bound\n";
   if (const std::string poor = point ? why_poor_view(*point) : ""; !poor.empty()) text += fmt::format("  {}\n", poor);
+  if (const std::string why =
+          point && std::isnan(bound.found) && bound.metric.starts_with("flicker") ? why_no_flicker(*point) : "";
+      !why.empty())
+    text += fmt::format("  {}\n", why);
   if (point && find_quantity(bound.metric, {point, 1}).of_curve && !nothing_judged(*point) &&
       !why_no_curve(*point).empty())
     text += fmt::format("  it is read off the bias curve, but this point has no curve: {}\n", why_no_curve(*point));

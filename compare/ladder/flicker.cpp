@@ -45,7 +45,10 @@ std::map<std::string, double> measure_flicker(const Flicker& flicker) {
     changed += flicker.now[i] != flicker.next[i];
     for (size_t c = 0; c < flicker_classes; ++c) sums[c] += static_cast<double>(flicker.parts[c][i]);
   }
-  std::map<std::string, double> metrics = {{"flicker_points", points}};
+  std::map<std::string, double> metrics = {{"flicker_points", points},
+                                           {"flicker_outside", static_cast<double>(flicker.points.outside)},
+                                           {"flicker_hidden", static_cast<double>(flicker.points.hidden)},
+                                           {"flicker_unlit", static_cast<double>(flicker.points.unlit)}};
   if (flicker.points.shared > 0)
     metrics["flicker_truth"] =
         static_cast<double>(flicker.points.truth_changed) / static_cast<double>(flicker.points.shared);

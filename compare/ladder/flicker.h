@@ -42,6 +42,10 @@ struct FlickerPoints {
   Image<uint8_t> held;         // 1: both maps hold it, with room for all taps
   uint64_t shared = 0;         // receivers seen in both frames that face the light in both and are not ambiguous
   uint64_t truth_changed = 0;  // those of them whose truth changes
+  // Receivers that face the light and are not ambiguous in the first frame, and are not shared. Each is counted once, as
+  // the first of: outside the next frame's picture; hidden there, seen from its back, or ambiguous in that; turned away
+  // from the next frame's light, or ambiguous there.
+  uint64_t outside = 0, hidden = 0, unlit = 0;
 };
 
 struct Flicker {
@@ -55,8 +59,8 @@ std::array<double, flicker_steps> flicker_parts(const std::array<double, flicker
 
 Flicker flicker_of(const FlickerLookups& lookups, FlickerPoints points);
 
-// The metrics flicker, flicker_changed, flicker_grid, flicker_depth, flicker_kernel, flicker_coverage, flicker_truth and
-// flicker_points.
+// The metrics flicker, flicker_changed, flicker_grid, flicker_depth, flicker_kernel, flicker_coverage, flicker_truth,
+// flicker_points, flicker_outside, flicker_hidden and flicker_unlit.
 // Fractions of no points are left out. A lookup that is not finite makes its class not finite.
 std::map<std::string, double> measure_flicker(const Flicker& flicker);
 

@@ -8,6 +8,7 @@
 #include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/machines.h"
+#include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
@@ -143,6 +144,7 @@ std::string health_items(const Results& results) {
             "{} ha{} a metric that is <b>not finite</b>: it could not be measured, which breaks every bound on it.",
             points_text(not_finite), not_finite == 1 ? "s" : "ve"));
   if (const std::string poor = poor_view_note(results.points); !poor.empty()) out += item("bad", html(poor) + ".");
+  if (const std::string still = no_flicker_note(results.points); !still.empty()) out += item("bad", html(still) + ".");
   if (const std::string doubt = undecided_note(results.points); !doubt.empty())
     out += item("note", fmt::format("At the point with the largest share, {}.", html(doubt)));
   if (ambiguous > 0)

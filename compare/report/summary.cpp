@@ -11,6 +11,7 @@
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "compare/judge/machines.h"
+#include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
@@ -205,6 +206,8 @@ std::string to_summary(const Results& results, const BaselineComparison* baselin
       fmt::format("# {}\n\n{}", markdown(info.title.empty() ? "Noonmark" : info.title), verdict(results));
   if (const std::string poor = poor_view_note(results.points); !poor.empty())
     text += fmt::format("\nNote: {}.\n", markdown(poor));
+  if (const std::string still = no_flicker_note(results.points); !still.empty())
+    text += fmt::format("\nNote: {}.\n", markdown(still));
   for (const std::string& note : machine_notes(results).warnings)
     text += fmt::format("\nWarning: {}.\n", markdown(note));
   for (const std::string& note : info.sweep_notes) text += fmt::format("\nWarning: {}.\n", markdown(note));

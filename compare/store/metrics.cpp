@@ -209,6 +209,18 @@ constexpr Metric from_frame_to_frame[] = {
      "Share of the world points that both frames see whose truth R1 changes. They are left out of flicker.", true,
      false, true},
     {"flicker_points", "count", "Number of world points over which flicker is taken.", false, false, true},
+    {"flicker_outside", "count",
+     "Number of world points that face the light in this frame and that the next frame's picture does not hold, or its "
+     "camera's near or far plane cuts off. They are left out of flicker.",
+     false, false, true},
+    {"flicker_hidden", "count",
+     "Number of such points in the next frame's picture that a surface hides there, or of which its camera sees the "
+     "back, or of which rounding decides that.",
+     false, false, true},
+    {"flicker_unlit", "count",
+     "Number of such points that the next frame sees, and that face away from its light or whose truth there is "
+     "ambiguous.",
+     false, false, true},
 };
 
 constexpr Metric over_placements[] = {

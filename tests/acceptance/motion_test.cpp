@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <vector>
 
+#include "compare/judge/no_flicker.h"
 #include "scenes/error.h"
 #include "tests/support/measured.h"
 
@@ -203,6 +206,81 @@ TEST(Motion, FollowsTheCameraOfAnAnimation) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
     EXPECT_NE(std::string(error.what()).find("motion.time_s"), std::string::npos) << error.what();
   }
+}
+
+// A room of single-sided faces that are seen from inside, 4 x 3 x 4 m, with a box in it that is seen from outside.
+void write_room(const std::string& folder) {
+  std::vector<float> corners;
+  const auto add_box = [&](glm::vec3 low, glm::vec3 high) {
+    for (int i = 0; i < 8; ++i)
+      for (int axis = 0; axis < 3; ++axis) corners.push_back(i >> axis & 1 ? high[axis] : low[axis]);
+  };
+  add_box({-2, 0, -2}, {2, 3, 2});
+  add_box({-0.5f, 0.2f, -0.5f}, {0.5f, 1.2f, 0.5f});
+  std::vector<uint16_t> indices;
+  for (const bool inward : {true, false})
+    for (const auto& [a, b, c, d] : std::vector<std::array<uint16_t, 4>>{
+             {0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}})
+      for (const uint16_t corner : {a, b, c, a, c, d})
+        indices.push_back(static_cast<uint16_t>(corner + (inward ? 0 : 8)));
+  for (size_t i = 0; i < 36; i += 3) std::swap(indices[i + 1], indices[i + 2]);
+  std::ofstream file(folder + "/room.bin", std::ios::binary);
+  file.write(reinterpret_cast<const char*>(corners.data()), static_cast<std::streamsize>(corners.size() * 4));
+  file.write(reinterpret_cast<const char*>(indices.data()), static_cast<std::streamsize>(indices.size() * 2));
+  std::ofstream(folder + "/room.gltf")
+      << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 16, "type": "VEC3", "min": [-2, 0, -2], "max": [2, 3, 2]},
+{"bufferView": 1, "componentType": 5123, "count": 72, "type": "SCALAR"}],
+"bufferViews": [{"buffer": 0, "byteLength": 192}, {"buffer": 0, "byteOffset": 192, "byteLength": 144}],
+"buffers": [{"uri": "room.bin", "byteLength": 336}]})";
+}
+
+// The camera stands outside a room, sees through the backs of its nearest faces, and enlarges its picture a little. So
+// the next frame sees every point that stays in the picture.
+TEST(Motion, SeesThroughTheBacksOfSingleSidedFaces) {
+  Workbench bench(gl::DebugMode::fatal);
+  const std::string folder = std::filesystem::path(testing::TempDir()) / "single-sided-room";
+  std::filesystem::create_directories(folder);
+  write_room(folder);
+  const Settings settings = with({{"view.eye_m", "1,5,9"},
+                                  {"view.target_m", "0,1,0"},
+                                  {"light.kind", "point"},
+                                  {"light.position_m", "0.3,2.5,0.4"},
+                                  {"map.resolution", "64"},
+                                  {"motion.zoom", "1.0001"}},
+                                 small(folder + "/room.gltf", 64, 36));
+  const Measurement m = bench.measure(settings, std::nullopt);
+  ASSERT_GT(metric(m, "counted"), 300);
+  EXPECT_GT(metric(m, "flicker_points"), 0.99 * metric(m, "counted"));
+  EXPECT_LT(metric(m, "flicker_hidden"),
+            0.01 * metric(m, "counted"));  // at the edges of the box, where rounding decides
+}
+
+// What the near plane cuts off hides nothing in either frame.
+TEST(Motion, SeesThroughWhatTheNearPlaneCutsOff) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Settings settings = with({{"view.eye_m", "0,1.5,4.5"},
+                                  {"view.target_m", "0,1,0"},
+                                  {"view.near_m", "3.2"},
+                                  {"map.resolution", "64"},
+                                  {"motion.zoom", "1.0001"}},
+                                 small("cube-room", 64, 36));
+  const Measurement m = bench.measure(settings, std::nullopt);
+  ASSERT_GT(metric(m, "clipped"), 50);
+  ASSERT_GT(metric(m, "counted"), 300);
+  EXPECT_GT(metric(m, "flicker_points"), 0.99 * metric(m, "counted"));
+}
+
+TEST(Motion, SaysWhyNoPointIsLeft) {
+  Workbench bench(gl::DebugMode::fatal);
+  const Settings settings =
+      with({{"motion.turn_deg", "0,170,0"}, {"map.resolution", "64"}}, small("cube-room", 64, 36));
+  const Measurement m = bench.measure(settings, std::nullopt);
+  ASSERT_EQ(metric(m, "flicker_points"), 0);
+  EXPECT_FALSE(m.record.metrics.contains("flicker"));
+  EXPECT_NE(why_no_flicker(m.record).find("are not in the next frame's picture"), std::string::npos)
+      << why_no_flicker(m.record);
 }
 
 }  // namespace
