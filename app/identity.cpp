@@ -16,6 +16,7 @@
 #include "scenes/error.h"
 #include "scenes/library.h"
 #include "scenes/scene_digest.h"
+#include "technique/light_frame.h"
 
 namespace noonmark {
 namespace {
@@ -68,13 +69,16 @@ std::string scene_key(const Settings& point) {
 }  // namespace
 
 void SceneDigests::remember(Workbench& bench, const Settings& point) {
+  // The same file with another triangulation has the same note, and many points have the same map.
+  const auto note = [&](const std::string& text) {
+    if (!text.empty() && std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(text);
+  };
+  const Scene& scene = bench.scene(point.scene);
+  note(map_fit_note(scene, point));
   const std::string key = scene_key(point);
   if (digests_.contains(key)) return;
+  note(notes_line(scene));
   digests_[key] = bench.scene_identity(point.scene);
-  // The same file with another triangulation has the same note.
-  if (const std::string note = notes_line(bench.scene(point.scene));
-      !note.empty() && std::find(notes_.begin(), notes_.end(), note) == notes_.end())
-    notes_.push_back(note);
 }
 
 const std::string& SceneDigests::of(const Settings& point) const { return digests_.at(scene_key(point)); }

@@ -26,7 +26,8 @@ class SceneDigests {
   // Of a point whose scene was remembered.
   const std::string& of(const Settings& point) const;
   const std::map<std::string, std::string>& all() const { return digests_; }
-  // The contents of the scenes' files that are not modelled, one line for each scene (notes_line, scenes/library.h).
+  // One line for each scene with contents that are not modelled (notes_line, scenes/library.h), and for each map that is
+  // fitted in place of its scene's own (map_fit_note, technique/light_frame.h).
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:

@@ -39,6 +39,8 @@ int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentAr
   diagram.command = arguments.command;
   diagram.version = build_facts().version;
   diagram.notes = notes_line(loaded);
+  if (const std::string note = map_fit_note(loaded, settings); !note.empty())
+    diagram.notes += (diagram.notes.empty() ? "" : "; ") + note;
   make_output_folder(out);
   clear_abandoned_files(out);
   write_file_atomically(out + "/phase.html", render_phase(diagram));

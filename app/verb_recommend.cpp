@@ -151,6 +151,11 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
       for (const std::string& line : engine.lines) fmt::print("    {}\n", line);
     }
     if (const std::string note = notes_line(bench.scene(first.scene)); !note.empty()) fmt::print("note: {}\n", note);
+    std::set<std::string> fitted;  // conditions may be lights that stand elsewhere
+    for (const Settings& condition : request.conditions)
+      fitted.insert(map_fit_note(bench.scene(condition.scene), condition));
+    for (const std::string& note : fitted)
+      if (!note.empty()) fmt::print("note: {}\n", printable(note));
     fmt::print(
         "\n{0}/recommended.toml (check it: noonmark check {0}/recommended.toml), {0}/recommended.json, {0}/engines.txt "
         "and "

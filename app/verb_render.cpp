@@ -170,6 +170,8 @@ int verb_render(const std::string& path, long point, const std::string& picture,
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));
   print_ladder(m, gl::text_of(bench.device().times));
   if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", note);
+  if (const std::string note = map_fit_note(m.scene, settings); !note.empty())
+    fmt::print("  note: {}\n", printable(note));
   for (const IdleSetting& idle : idle_settings(m.frame.kind, settings))
     fmt::print("  note: {} has no effect {}\n", idle.name, idle.why);
   if (!part.bounds.empty() || !part.laws.empty())

@@ -35,6 +35,7 @@ void add_floor_under(Scene& scene) {
   const glm::dvec3 corner(middle.x - 0.5 * side, box.low.y, middle.z - 0.5 * side);
   add_quad(scene, "floor", corner, {0, 0, side}, {side, 0, 0});
   if (!scene.single_sided.empty()) scene.single_sided.resize(scene.triangles.size(), false);
+  if (scene.map) scene.notes.push_back("its own map volume replaced by a fit, because scene.floor makes it larger");
   scene.map.reset();
 }
 

@@ -1,6 +1,7 @@
 #include "technique/light_frame.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <cmath>
@@ -128,12 +129,21 @@ MapVolume fit_map(const Scene& scene, const Light& light) {
 
 namespace {
 
+// The rounding of an angle that is computed from the scene's positions; a set angle this near to it is the same.
+constexpr double same_angle_deg = 1e-9;
+
 // From the light's target to its position: as far as the scene's light stands from its target, in the direction of the
-// sun. A setting that is empty leaves that angle of the scene's light.
+// sun. A setting that is empty, or gives the angle of the scene's light, leaves that angle.
 glm::dvec3 way_to_sun(const Light& scenes, const LightSettings& settings) {
   const glm::dvec3 way = scenes.position_m - scenes.target_m;
   const double distance = glm::length(way);
   const SunPlace old = distance > 0 ? place_of_sun(way) : SunPlace();
+  const auto differs = [](std::optional<double> set, double angle) {
+    return set && !(std::abs(std::remainder(*set - angle, 360)) <= same_angle_deg);
+  };
+  if (distance > 0 && !differs(settings.azimuth_deg, old.azimuth_deg) &&
+      !differs(settings.elevation_deg, old.elevation_deg))
+    return way;
   const glm::dvec3 direction = direction_to_sun(
       {settings.azimuth_deg.value_or(old.azimuth_deg), settings.elevation_deg.value_or(old.elevation_deg)});
   return direction * (distance > 0 ? distance : 1);
@@ -150,15 +160,45 @@ void move_light(Light& light, const MotionSettings& motion) {
   light.target_m = pivot + turn * (light.target_m - pivot);
 }
 
-}  // namespace
-
-Light effective_light(const Scene& scene, const Settings& settings) {
+// Of frame 0, without its size.
+Light placed_light(const Scene& scene, const LightSettings& s) {
   Light light = scene.light;
-  const LightSettings& s = settings.light;
   if (s.kind != LightChoice::automatic) light.kind = static_cast<LightKind>(static_cast<int>(s.kind) - 1);
   if (s.position_m) light.position_m = *s.position_m;
   if (s.target_m) light.target_m = *s.target_m;
-  if (s.azimuth_deg || s.elevation_deg) light.position_m = light.target_m + way_to_sun(scene.light, s);
+  if (!s.azimuth_deg && !s.elevation_deg) return light;
+  const glm::dvec3 way = way_to_sun(scene.light, s);
+  // The sum of the scene's own target and way is its own position but for rounding.
+  const bool scenes_own =
+      light.target_m == scene.light.target_m && way == scene.light.position_m - scene.light.target_m;
+  light.position_m = scenes_own ? scene.light.position_m : light.target_m + way;
+  return light;
+}
+
+// Which setting makes the light another one than the scene's own, for which its map volume was chosen: "light.kind is
+// not the scene's", "light.position_m moves the light"; empty: none.
+std::string why_not_the_scenes(const Scene& scene, const Settings& settings) {
+  const LightSettings& s = settings.light;
+  const Light light = placed_light(scene, s);
+  if (light.kind != scene.light.kind) return "light.kind is not the scene's";
+  if (light.position_m != scene.light.position_m) {
+    if (s.azimuth_deg) return "light.azimuth_deg moves the light";
+    if (s.elevation_deg) return "light.elevation_deg moves the light";
+    return s.position_m ? "light.position_m moves the light" : "light.target_m moves the light";
+  }
+  if (kind_of_light(light.kind).is_aimed() && light.target_m != scene.light.target_m)
+    return "light.target_m turns the light";
+  // All frames of a motion have the same volume.
+  return settings.view.motion.light_turn_deg.value_or(glm::dvec3(0)) != glm::dvec3(0)
+             ? "motion.light_turn_deg moves the light"
+             : "";
+}
+
+}  // namespace
+
+Light effective_light(const Scene& scene, const Settings& settings) {
+  const LightSettings& s = settings.light;
+  Light light = placed_light(scene, s);
   move_light(light, settings.view.motion);
   if (s.angular_diameter_deg) light.angular_diameter_deg = *s.angular_diameter_deg;
   if (s.radius_m) light.radius_m = *s.radius_m;
@@ -177,15 +217,35 @@ std::optional<ViewFit> fit_of_view(const Scene& scene, const Settings& settings,
 
 }  // namespace
 
+std::string map_fit_note(const Scene& scene, const Settings& settings) {
+  if (!scene.map || settings.map.fit != MapFit::scene) return "";
+  const std::string why = why_not_the_scenes(scene, settings);
+  if (why.empty()) return "";
+  const KindOfLight& kind = kind_of_light(placed_light(scene, settings.light).kind);
+  std::vector<std::string> fitted, values, keeps;
+  const auto add = [&](bool given, const char* name, double scenes, const char* setting) {
+    if (given) return;
+    fitted.emplace_back(name);
+    values.push_back(fmt::format("{:.4g} m", scenes));
+    keeps.emplace_back(setting);
+  };
+  // The extent of a spot light's map and of a cube follows from the light.
+  if (kind.rays().have_one_direction() && scene.light.kind == LightKind::directional)
+    add(settings.map.extent_m.has_value(), "extent", scene.map->extent_m, "map.extent_m");
+  add(settings.map.near_m.has_value(), "near", scene.map->near_m, "map.near_m");
+  add(settings.map.far_m.has_value(), "far", scene.map->far_m, "map.far_m");
+  if (fitted.empty()) return "";
+  return fmt::format("{}: {} of the map {} fitted in place of the scene's own {}, because {}; {} can keep {}",
+                     scene.name, fmt::join(fitted, ", "), fitted.size() == 1 ? "is" : "are", fmt::join(values, ", "),
+                     why, fmt::join(keeps, ", "), fitted.size() == 1 ? "it" : "them");
+}
+
 LightFrame make_light_frame(const Scene& scene, const Settings& settings) {
   const Light light = effective_light(scene, settings);
   validate(settings, light.kind);
   // The scene's own map volume fits only the scene's own light.
   const KindOfLight& kind = kind_of_light(light.kind);
-  const LightSettings& set = settings.light;
-  const bool moved = set.position_m || (set.target_m && kind.is_aimed()) || set.azimuth_deg || set.elevation_deg ||
-                     settings.view.motion.light_turn_deg;
-  const bool scenes_own = scene.map && light.kind == scene.light.kind && !moved && settings.map.fit == MapFit::scene;
+  const bool scenes_own = scene.map && settings.map.fit == MapFit::scene && why_not_the_scenes(scene, settings).empty();
   LightFrame frame = kind.axes(light);
   const std::optional<ViewFit> in_view = fit_of_view(scene, settings, frame);
   MapVolume volume = in_view ? in_view->volume : scenes_own ? *scene.map : fit_map(scene, light);

@@ -15,6 +15,7 @@
 #pragma once
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "scenes/scene.h"
@@ -149,6 +150,12 @@ Light effective_light(const Scene& scene, const Settings& settings);
 // Throws Error(usage) if near >= far, if the extent is not positive, if near is not before a spot or point light, or if
 // the position of a directional or spot light is its target.
 LightFrame make_light_frame(const Scene& scene, const Settings& settings);
+
+// What stands in the place of the scene's own map volume, and why, where the settings make its light another one:
+// "point-room: near, far of the map are fitted in place of the scene's own 1 m, 25 m, because light.position_m moves the
+// light; map.near_m, map.far_m can keep them". Empty if the scene has no volume of its own, if it is used, if the
+// settings give all of it, and if map.fit asks for a fit.
+std::string map_fit_note(const Scene& scene, const Settings& settings);
 
 // The smallest map volume around the scene: extent, near and far are such that everything the light can reach is
 // inside.

@@ -213,6 +213,7 @@ std::string to_summary(const Results& results, const BaselineComparison* baselin
   for (const std::string& note : info.sweep_notes) text += fmt::format("\nWarning: {}.\n", markdown(note));
   if (const std::string doubt = undecided_note(results.points); !doubt.empty())
     text += fmt::format("\nNote: {}.\n", markdown(doubt));
+  for (const std::string& note : info.scene_notes) text += fmt::format("\nAbout the scene {}.\n", markdown(note));
   if (baseline) text += baseline_list(*baseline);
   if (!results.laws.empty()) text += laws_table(results);
   if (!results.bounds.empty()) text += bounds_table(results);

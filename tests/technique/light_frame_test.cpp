@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -11,6 +12,7 @@
 #include "scenes/error.h"
 #include "scenes/library.h"
 #include "technique/casters.h"
+#include "technique/sun.h"
 #include "tests/technique/random_points.h"
 
 namespace noonmark {
@@ -221,6 +223,75 @@ TEST(LightFrame, AMovedLightGetsAFittedVolume) {
   EXPECT_EQ(moved.extent_m, fitted.extent_m);
   EXPECT_EQ(moved.near_m, fitted.near_m);
   EXPECT_EQ(moved.far_m, fitted.far_m);
+}
+
+// Every setting of the light that says where the scene's own light is anyway.
+TEST(LightFrame, TheScenesOwnLightTypedOutKeepsItsVolume) {
+  for (const BuiltinScene& builtin : builtin_scenes()) {
+    Scene scene = make_scene({.name = std::string(builtin.name), .turn_deg = 17, .move_m = glm::dvec3(0.1, -3, 7)});
+    if (!scene.map) scene.map = MapVolume{.extent_m = 31, .near_m = 1.5, .far_m = 77};
+    const LightFrame own = make_light_frame(scene, {});
+    const auto expect_own = [&](const Settings& typed, const char* what) {
+      const Light light = effective_light(scene, typed);
+      EXPECT_EQ(light.position_m, scene.light.position_m) << builtin.name << what;
+      const LightFrame frame = make_light_frame(scene, typed);
+      EXPECT_EQ(frame.near_m, own.near_m) << builtin.name << what;
+      EXPECT_EQ(frame.far_m, own.far_m) << builtin.name << what;
+      EXPECT_EQ(frame.extent_m, own.extent_m) << builtin.name << what;
+      EXPECT_EQ(frame.clip_from_world(0), own.clip_from_world(0)) << builtin.name << what;
+      EXPECT_EQ(map_fit_note(scene, typed), "") << builtin.name << what;
+    };
+    Settings typed;
+    typed.light.kind = static_cast<LightChoice>(static_cast<int>(scene.light.kind) + 1);
+    typed.light.position_m = scene.light.position_m;
+    expect_own(typed, ": position");
+    typed.light.target_m = scene.light.target_m;
+    expect_own(typed, ": position and target");
+    Settings still;
+    still.view.motion.light_turn_deg = glm::dvec3(0);
+    expect_own(still, ": a turn by nothing");
+    if (scene.light.kind != LightKind::directional) continue;
+    const SunPlace sun = place_of_sun(scene.light.position_m - scene.light.target_m);
+    Settings angles;
+    angles.light.azimuth_deg = sun.azimuth_deg + (sun.azimuth_deg > 0 ? -360 : 0);
+    expect_own(angles, ": azimuth");
+    angles.light.elevation_deg = sun.elevation_deg;
+    expect_own(angles, ": azimuth and elevation");
+    angles.light.elevation_deg = sun.elevation_deg - 1e-6;
+    EXPECT_NE(effective_light(scene, angles).position_m, scene.light.position_m) << builtin.name;
+    EXPECT_NE(map_fit_note(scene, angles), "") << builtin.name;
+  }
+}
+
+TEST(LightFrame, NotesWhatAFitReplaces) {
+  const Scene lamp = make_scene({.name = "point-room"}), wall = make_scene({.name = "wall"});
+  Settings settings;
+  settings.light.position_m = lamp.light.position_m + glm::dvec3(0, 1e-3, 0);
+  EXPECT_EQ(
+      map_fit_note(lamp, settings),
+      "point-room: near, far of the map are fitted in place of the scene's own 1 m, 25 m, because light.position_m "
+      "moves the light; map.near_m, map.far_m can keep them");
+  settings.map.near_m = 1;
+  EXPECT_EQ(map_fit_note(lamp, settings),
+            "point-room: far of the map is fitted in place of the scene's own 25 m, because light.position_m moves the "
+            "light; map.far_m can keep it");
+  settings.map.far_m = 25;
+  EXPECT_EQ(map_fit_note(lamp, settings), "") << "nothing is fitted";
+  const auto why = [&](const std::function<void(Settings&)>& change) {
+    Settings changed;
+    change(changed);
+    return map_fit_note(wall, changed);
+  };
+  const auto holds = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  holds(why([](Settings& s) { s.light.kind = LightChoice::spot; }), "because light.kind is not the scene's");
+  holds(why([](Settings& s) { s.light.azimuth_deg = 11; }), "because light.azimuth_deg moves the light");
+  holds(why([](Settings& s) { s.light.elevation_deg = 11; }), "because light.elevation_deg moves the light");
+  holds(why([](Settings& s) { s.light.target_m = glm::dvec3(0, 0.5, 0); }), "because light.target_m turns the light");
+  holds(why([](Settings& s) { s.view.motion.light_turn_deg = glm::dvec3(0, 1, 0); }),
+        "extent, near, far of the map are fitted");
+  EXPECT_EQ(why([](Settings& s) { s.light.azimuth_deg = 11, s.map.fit = MapFit::tight; }), "") << "asked for";
 }
 
 TEST(LightFrame, FittedVolumeHoldsEveryVertexInTheFloatMatrixToo) {
