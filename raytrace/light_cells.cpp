@@ -38,8 +38,8 @@ LightCells::LightCells(const Adjacency& adjacency, const LightView& view, double
     : finest_(finest),
       adjacency_(adjacency),
       view_(view),
-      reach_m_(view.ray_error_m() + Silhouettes::reach_of(view)),
-      gap_m_(4 * near_m) {
+      reach_m_(view.start_error_m() + Silhouettes::reach_of(view)),
+      gap_m_(4 * std::max(near_m, 64 * view.start_error_m())) {
   glm::dvec2 low(infinity), high(-infinity);
   for (uint32_t t = 0; t < adjacency.triangles(); ++t) {
     triangles_ += !adjacency.is_copy(t);

@@ -14,10 +14,11 @@
 //
 // ---- Why a good square answers as the rays do
 //
-// Let e be LightView::ray_error_m, the most that a float ray passes beside its exact place, and `near` be
-// EmbreeScene::near_distance(), below which is_occluder() decides in double. All statements are about the square
-// widened by reach_m = e + Silhouettes::reach_of = 3 e. A receiver's five rays lie at most e beside P, and each is
-// off by at most e: they lie at most 2 e beside P, so the widened square holds all that they can meet.
+// Let e be LightView::start_error_m, how far a receiver's five rays start beside P and more than a float ray passes
+// beside its exact place, and `near` be EmbreeScene::near_distance(), below which is_occluder() decides in double, or
+// 64 e if that is more. All statements are about the square widened by reach_m = e + Silhouettes::reach_of, which is at
+// least e + 2 ray_error_m (and where no mask is cut, 3 e). The five rays lie at most e beside P, and each is off by at
+// most ray_error_m, so the widened square holds all that they can meet.
 // The triangles of the widened square are listed without gaps. Copies are not among them, because no ray meets them.
 //   1. F covers the widened square. It is one triangle that covers it, or a sheet: a triangle together with all
 //      triangles that follow over the edges at which the surface goes on (each_beyond(), the rule of the silhouettes).
@@ -27,7 +28,7 @@
 //   3. Everything else lies deeper than F by more than gap_m = 4 near.
 //   4. The receiver is not grazing: N.L >= least_cosine = 1/16. Its five rays start beside its own plane, by the rounding
 //      of P along the ray (ShadowStart::beside(): at most 2^-23 * 2 |P| / (1/16) < near / 64) and by e times the slope
-//      of the plane (16 e < near / 4, because e < 2^-20 of the largest coordinate and near is 2^-12 of it).
+//      of the plane (16 e <= near / 4).
 // A receiver on F is lit: what lies deeper lies behind the start of all its rays. Other triangles of F are met only
 // beyond the edges of its own triangle. If F is more than one triangle, P must lie in its own triangle and more than
 // reach_m from its edges. So each ray can meet its own triangle only, which is no occluder.

@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -119,6 +120,11 @@ class LightView {
   // rounding of the ray's float origin and direction and of Embree's edge tests over the scene's size (4 roundings of
   // 2^-24).
   double ray_error_m() const { return ray_error_m_; }
+
+  // How far the start of a receiver's ray is moved to find out whether R1 is sure: the float error, and the distance by
+  // which the border of a cut mask may lie elsewhere. The start is moved along two axes across the ray. A border that
+  // comes from the distance d, in any direction, is met within sqrt(2) d along one of them.
+  double start_error_m() const { return ray_error_m_ + std::numbers::sqrt2 * scene_->mask_error_m; }
 
   const Scene& scene() const { return *scene_; }
   const LightFrame& frame() const { return frame_; }

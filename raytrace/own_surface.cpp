@@ -220,10 +220,13 @@ OwnSurface::Verdict OwnSurface::lit_at(const SurfacePoint& p, glm::dvec3 x, uint
   const bool beside = silhouettes.near(x);
   std::vector<Silhouettes::Crossing> crossed;
   if (p.lit) crossed = silhouettes.crossings(p.at, x);
+  // The silhouette may be the border of a cut mask, which lies on the other side of x in the texture.
+  const double mask_error_m = view_.scene().mask_error_m;
+  const bool on_border = beside && mask_error_m > 0 && silhouettes.near(x, mask_error_m);
   // Rounding decides whether the way crosses a silhouette on which a lit P lies. If x lies on a silhouette (a tie),
   // rounding decides whether the ray through x meets the surface that ends there, and whether the way crosses it. The
   // verdict is sure only if it is the same for every triangle that may be the first.
-  bool sure = !p.on_silhouette;
+  bool sure = !p.on_silhouette && !on_border;
   SheetAt own(*this, p, x);
   const bool tie = beside && silhouettes.near(x, tie_m());
   const auto exact = [&] {

@@ -40,7 +40,8 @@ class OwnSurface {
 
   SurfacePoint point(glm::dvec3 light, uint32_t primitive, bool lit) const;  // light: P in the light's frame
 
-  // sure: float error changes neither the verdict nor whether the first hit is before the near plane.
+  // sure: neither float error nor the error of a cut mask's border (Scene::mask_error_m) changes the verdict, and float
+  // error does not change whether the first hit is before the near plane.
   struct Verdict {
     bool lit = false;
     bool sure = true;

@@ -42,8 +42,8 @@ class Silhouettes {
   // reach_m: the distance that counts as near, in metres across the light's rays.
   Silhouettes(const Adjacency& adjacency, const LightView& view, double reach_m);
   // The ray that was cast may pass on the other side of a silhouette than the exact ray only if the silhouette is
-  // nearer to the exact ray than this.
-  static double reach_of(const LightView& view) { return 2 * view.ray_error_m(); }
+  // nearer to the exact ray than this. A silhouette that is the border of a cut mask may itself lie elsewhere.
+  static double reach_of(const LightView& view) { return 2 * view.ray_error_m() + view.scene().mask_error_m; }
 
   // Whether a silhouette lies within reach_m, or within within_m, of x.
   bool near(glm::dvec3 x) const { return near(x, reach_m_); }

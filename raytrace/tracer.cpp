@@ -150,8 +150,8 @@ ReceiverTruth Tracer::receiver_truth(const ReceiverImage& given, const LightFram
   LightCells* const cells = use_cells_ ? light->cells(receivers) : nullptr;
   const Facing found = find_facing(receivers, frame, cells, has_size(soft.light), truth);
 
-  // The verdict of each receiver at P and at four places beside it, at the distance of the float error.
-  const double error = light->view().ray_error_m();
+  // The verdict of each receiver at P and at four places beside it, at the distance of the error.
+  const double error = light->view().start_error_m();
   const glm::dvec2 places[5] = {{0, 0}, {error, 0}, {-error, 0}, {0, error}, {0, -error}};
   for_each_packet(found.unknown.size(), [&](size_t first, int n) {
     uint32_t dark[5];

@@ -50,7 +50,7 @@ class Tracer {
   Tracer& operator=(const Tracer&) = delete;
 
   // Of each receiver: R1 by one exact shadow ray; whether R1 is ambiguous, which means that it changes when the start
-  // of the ray moves by the float error in the light's plane; and R0. Only the frame's light is used, not its map.
+  // of the ray moves by the float error in the light's plane, or the border of a cut mask by its error; and R0. Only the frame's light is used, not its map.
   ReceiverTruth receiver_truth(const ReceiverImage& receivers, const LightFrame& frame, const SoftTruth& soft,
                                StageTime* hard_stage = nullptr, StageTime* soft_stage = nullptr) const;
 

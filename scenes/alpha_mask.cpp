@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scenes/mask_cell.h"
+
 namespace noonmark {
 namespace {
 
@@ -21,8 +23,6 @@ constexpr double far_texels = 0x1p30;
 int64_t floor_div(int64_t a, int64_t b) { return a / b - (a % b < 0); }
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
-
-bool before(glm::dvec2 a, glm::dvec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
 // The texel that an index means outside the picture.
 int wrapped(int64_t index, int size, MaskWrap wrap) {
@@ -80,21 +80,28 @@ struct MaskCutter::Leaf {
 // lines that meet there, with their ends in a fixed order. A clipped line is never used for it.
 class MaskCutter::Clipper {
  public:
-  Clipper(const std::array<glm::vec3, 3>& corners, const std::array<glm::dvec2, 3>& at, Pieces& pieces, uint64_t most)
-      : corners_(corners), at_(at), area_(cross(at[1] - at[0], at[2] - at[0])), pieces_(pieces), most_(most) {
-    low_ = glm::min(at[0], glm::min(at[1], at[2]));
-    high_ = glm::max(at[0], glm::max(at[1], at[2]));
+  Clipper(const std::array<glm::vec3, 3>& corners, const std::array<glm::dvec2, 3>& at, Pieces& pieces, uint64_t most,
+          double error_texels)
+      : corners_(corners),
+        at_(at),
+        area_(cross(at[1] - at[0], at[2] - at[0])),
+        pieces_(pieces),
+        most_(most),
+        error_texels_(error_texels) {
+    low_ = glm::min(at[0], glm::min(at[1], at[2])), high_ = glm::max(at[0], glm::max(at[1], at[2]));
     for (int e = 0; e < 3; ++e) {
       Edge& edge = edges_[static_cast<size_t>(e)];
       edge.from = e, edge.to = (e + 1) % 3;
       double sign = area_ > 0 ? 1 : -1;
-      if (before(at[static_cast<size_t>(edge.to)], at[static_cast<size_t>(edge.from)]))
+      if (comes_before(at[static_cast<size_t>(edge.to)], at[static_cast<size_t>(edge.from)]))
         std::swap(edge.from, edge.to), sign = -sign;
       edge.inside = sign;
     }
   }
 
   double area() const { return area_; }
+  // Of what add(MaskCell) has added.
+  double furthest_texels() const { return furthest_texels_; }
   glm::dvec2 low() const { return low_; }
   glm::dvec2 high() const { return high_; }
 
@@ -115,6 +122,12 @@ class MaskCutter::Clipper {
     for (int e = 0; e < 3 && !ring_.empty(); ++e) clip(e);
     tidy();
     if (ring_.size() >= 3) triangulate();
+  }
+
+  void add(const MaskCell& cell) {
+    std::vector<MaskCell::Triangle> triangles;
+    furthest_texels_ = std::max(furthest_texels_, cell.solid_part(error_texels_, triangles));
+    for (const MaskCell::Triangle& triangle : triangles) add({triangle.begin(), triangle.end()});
   }
 
  private:
@@ -155,7 +168,7 @@ class MaskCutter::Clipper {
     }
     const Edge& edge = edges_[static_cast<size_t>(e)];
     glm::dvec2 p = begin.p, q = begin.q;
-    if (before(q, p)) std::swap(p, q);
+    if (comes_before(q, p)) std::swap(p, q);
     const glm::dvec2 line = at(edge.to) - at(edge.from);
     const double of_p = cross(line, p - at(edge.from)), of_q = cross(line, q - at(edge.from));
     const glm::dvec2 point = p + of_p / (of_p - of_q) * (q - p);  // the signs differ, so there is no division by 0
@@ -249,6 +262,7 @@ class MaskCutter::Clipper {
   std::array<Edge, 3> edges_;
   Pieces& pieces_;
   uint64_t most_;
+  double error_texels_, furthest_texels_ = 0;
   std::vector<Vertex> ring_, next_;
   std::vector<uint32_t> list_;
   std::map<std::pair<double, double>, uint32_t> numbers_;
@@ -278,7 +292,7 @@ MaskCutter::MaskCutter(AlphaMask mask) : mask_(std::move(mask)) {
 }
 
 // Of node (i, j) for linear, of cell (i, j) for nearest.
-double MaskCutter::value(int i, int j) const {
+double MaskCutter::value(int64_t i, int64_t j) const {
   const Axis u{mask_.width, mask_.wrap_u, mask_.filter}, v{mask_.height, mask_.wrap_v, mask_.filter};
   return mask_.alpha[static_cast<size_t>(v.texel(j)) * static_cast<size_t>(mask_.width) +
                      static_cast<size_t>(u.texel(i))] /
@@ -372,55 +386,43 @@ void MaskCutter::add_opaque_leaf(const Leaf& leaf, Clipper& clipper) const {
   clipper.add(polygon);
 }
 
-// The part of a cell where alpha reaches the cutoff. Where two opposite centres are opaque, the parts are joined if the
-// bilinear saddle between them is opaque.
+// The part of a cell where alpha reaches the cutoff.
 void MaskCutter::add_mixed_cell(const Leaf& leaf, Clipper& clipper) const {
   const Axis u{mask_.width, mask_.wrap_u, mask_.filter}, v{mask_.height, mask_.wrap_v, mask_.filter};
-  const auto node = [&](int64_t i, int64_t j) {  // the first period has all values
-    const int64_t column = u.periodic() ? i - u.cells() * floor_div(i, u.cells()) : i;
-    const int64_t row = v.periodic() ? j - v.cells() * floor_div(j, v.cells()) : j;
-    return value(static_cast<int>(column), static_cast<int>(row));
-  };
-  const std::array<std::pair<int64_t, int64_t>, 4> at = {
-      {{leaf.x0, leaf.y0}, {leaf.x1, leaf.y0}, {leaf.x1, leaf.y1}, {leaf.x0, leaf.y1}}};
-  std::array<double, 4> values{};
-  for (size_t k = 0; k < 4; ++k) values[k] = node(at[k].first, at[k].second);
-  const auto solid = [&](size_t k) { return values[k % 4] >= mask_.cutoff; };
-  const auto corner = [&](size_t k) { return glm::dvec2(u.at(at[k % 4].first), v.at(at[k % 4].second)); };
-  // Between corners k and k + 1, computed from the lower to the higher one: the cell beside it gets the same point.
-  const auto border = [&](size_t k) {
-    size_t a = k % 4, b = (k + 1) % 4;
-    if (before(corner(b), corner(a))) std::swap(a, b);
-    return corner(a) + (mask_.cutoff - values[a]) / (values[b] - values[a]) * (corner(b) - corner(a));
-  };
-  if (solid(0) == solid(2) && solid(1) == solid(3)) {
-    const double saddle =
-        (values[0] * values[2] - values[1] * values[3]) / (values[0] + values[2] - values[1] - values[3]);
-    if (!(saddle >= mask_.cutoff)) {
-      for (size_t k = 0; k < 4; ++k)
-        if (solid(k)) clipper.add({border(k + 3), corner(k), border(k)});
-      return;
-    }
-  }
-  std::vector<glm::dvec2> polygon;
-  for (size_t k = 0; k < 4; ++k) {
-    if (solid(k)) polygon.push_back(corner(k));
-    if (solid(k) != solid(k + 1)) polygon.push_back(border(k));
-  }
-  clipper.add(polygon);
+  const auto above = [&](int64_t i, int64_t j) { return value(i, j) - mask_.cutoff; };
+  const MaskCell cell(
+      {u.at(leaf.x0), v.at(leaf.y0)}, {u.at(leaf.x1), v.at(leaf.y1)},
+      {above(leaf.x0, leaf.y0), above(leaf.x1, leaf.y0), above(leaf.x1, leaf.y1), above(leaf.x0, leaf.y1)});
+  clipper.add(cell);
+}
+
+glm::dvec2 MaskCutter::in_texels(glm::dvec2 uv) const {
+  return uv * glm::dvec2(mask_.width, mask_.height) - texel_shift(mask_.filter);
+}
+
+double MaskCutter::metres_per_texel(const std::array<glm::vec3, 3>& corners,
+                                    const std::array<glm::dvec2, 3>& uv) const {
+  const glm::dvec2 s = in_texels(uv[1]) - in_texels(uv[0]), t = in_texels(uv[2]) - in_texels(uv[0]);
+  const double area = cross(s, t);
+  if (area == 0) return 0;
+  const glm::dvec3 a = glm::dvec3(corners[1]) - glm::dvec3(corners[0]),
+                   b = glm::dvec3(corners[2]) - glm::dvec3(corners[0]);
+  const glm::dvec3 along_x = (a * t.y - b * s.y) / area, along_y = (b * s.x - a * t.x) / area;
+  // The larger singular value of the matrix with these columns.
+  const double x2 = glm::dot(along_x, along_x), y2 = glm::dot(along_y, along_y), xy = glm::dot(along_x, along_y);
+  return std::sqrt((x2 + y2 + std::hypot(x2 - y2, 2 * xy)) / 2);
 }
 
 void MaskCutter::cut(const std::array<glm::vec3, 3>& corners, const std::array<glm::dvec2, 3>& uv, Pieces& pieces,
-                     uint64_t most) const {
-  pieces.positions.assign(corners.begin(), corners.end());
-  pieces.triangles.clear();
+                     uint64_t most, double error_texels) const {
+  pieces = {{corners.begin(), corners.end()}, {}, 0};
   const Axis u{mask_.width, mask_.wrap_u, mask_.filter}, v{mask_.height, mask_.wrap_v, mask_.filter};
   std::array<glm::dvec2, 3> at;
   for (size_t k = 0; k < 3; ++k) {
-    at[k] = uv[k] * glm::dvec2(mask_.width, mask_.height) - texel_shift(mask_.filter);
+    at[k] = in_texels(uv[k]);
     if (!(std::abs(at[k].x) < far_texels && std::abs(at[k].y) < far_texels)) throw TooManyPieces();
   }
-  Clipper clipper(corners, at, pieces, most);
+  Clipper clipper(corners, at, pieces, most, error_texels);
   if (clipper.area() == 0) {
     if (mask_.opaque_at((uv[0] + uv[1] + uv[2]) / 3.0)) pieces.triangles.emplace_back(0, 1, 2);
     return;
@@ -442,6 +444,7 @@ void MaskCutter::cut(const std::array<glm::vec3, 3>& corners, const std::array<g
     for (int64_t column = left; column <= right; ++column)
       visit(root_, {root_, column * u.cells(), (column + 1) * u.cells(), row * v.cells(), (row + 1) * v.cells()},
             clipper);
+  pieces.error_m = clipper.furthest_texels() * metres_per_texel(corners, uv);
 }
 
 }  // namespace noonmark

@@ -32,27 +32,37 @@ struct AlphaMask {
 
 class MaskCutter {
  public:
+  // How far the border of the pieces may lie from the texture's, in texels, where nothing coarser is asked for.
+  static constexpr double finest_error_texels = 0x1p-11;
+
   // Throws std::invalid_argument for a picture whose size is not that of its alpha.
   explicit MaskCutter(AlphaMask mask);
 
   struct Pieces {
     std::vector<glm::vec3> positions;  // the corners that were given come first, unchanged
     std::vector<glm::uvec3> triangles;
+    double error_m = 0;  // how far their border may lie from the texture's, along the surface
   };
 
   // The opaque part of the triangle as triangles of the same winding; none: the mask hides all of it. uv: the texture
   // coordinates of the corners. Positions of new vertices are computed in double and rounded to float once.
   // - nearest: the border runs along the sides of the texels, exactly.
   // - linear: between two neighbouring texel centres the border is exactly where the interpolated alpha reaches the
-  //   cutoff. Inside a square of four centres it is straight, where the bilinear border is an arc of a hyperbola.
+  //   cutoff. Inside a square of four centres it is an arc of a hyperbola, or two of them. The pieces follow it by
+  //   chords, none of which is further from its arc than error_texels. Where four alphas are those of a plane, the arc
+  //   is straight and the cut exact.
   // - Pieces share their vertices: there is no T-junction inside a triangle, and none between two triangles whose
   //   common corners have equal positions and equal texture coordinates.
   // - A triangle whose texture coordinates span no area has no border that could be cut: it stays whole if the mask is
   //   opaque in the middle of its texture coordinates, otherwise nothing of it stays.
   // most: of the triangles. Throws TooManyPieces for more, and for a triangle that repeats the mask more than a million
-  // times or whose texture coordinates are so large that a double cannot tell texels apart.
+  // times or whose texture coordinates are so large that a double cannot tell texels apart. error_texels: triangles
+  // beside each other need the same one, or their vertices on the common side differ.
   void cut(const std::array<glm::vec3, 3>& corners, const std::array<glm::dvec2, 3>& uv, Pieces& pieces,
-           uint64_t most = UINT64_MAX) const;
+           uint64_t most = UINT64_MAX, double error_texels = finest_error_texels) const;
+
+  // The most metres that a texel measures on the triangle, in any direction; 0 if its texture coordinates span no area.
+  double metres_per_texel(const std::array<glm::vec3, 3>& corners, const std::array<glm::dvec2, 3>& uv) const;
 
   struct TooManyPieces {};
 
@@ -69,8 +79,9 @@ class MaskCutter {
 
   int32_t build(int x0, int x1, int y0, int y1);
   int32_t cell(int i, int j) const;
-  double value(int i, int j) const;
+  double value(int64_t i, int64_t j) const;
   Leaf leaf_at(int64_t i, int64_t j) const;
+  glm::dvec2 in_texels(glm::dvec2 uv) const;
   void visit(int32_t code, Leaf leaf, Clipper& clipper) const;
   void add_opaque_leaf(const Leaf& leaf, Clipper& clipper) const;
   void add_mixed_cell(const Leaf& leaf, Clipper& clipper) const;

@@ -81,6 +81,9 @@ struct Scene {
   // culls.
   std::vector<bool> single_sided;
   std::vector<Part> parts;
+  // How far, in metres, the border of a cut alpha mask may lie from the border in its texture (scenes/alpha_mask.h). A
+  // truth that such a distance can change is ambiguous. 0: no mask, or all of them cut exactly.
+  double mask_error_m = 0;
   Camera camera;
   Light light;
   std::optional<MapVolume> map;  // the scene's own choice; without one the map is fitted tightly to the scene

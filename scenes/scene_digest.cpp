@@ -15,9 +15,9 @@ namespace {
 class SceneDigest {
  public:
   void add(const Scene& scene) {
-    const auto& [name, positions, triangles, single_sided, parts, camera, light, map, notes] = scene;
+    const auto& [name, positions, triangles, single_sided, parts, mask_error_m, camera, light, map, notes] = scene;
     static_cast<void>(name);  // a label; which scene it is, the settings say
-    add_all(positions, triangles, single_sided, parts, camera, light, map, notes);
+    add_all(positions, triangles, single_sided, parts, mask_error_m, camera, light, map, notes);
   }
   std::string hex() const { return digest_.hex(); }
 

@@ -190,8 +190,7 @@ MaskedPrimitive::MaskedPrimitive(const Document& document, const Masks::Mask& ma
            fmt::format("{} texture coordinates for {} vertices", coordinates.count(), vertices), mask_remedy);
 }
 
-void MaskedPrimitive::cut(const glm::uvec3& vertices, const glm::vec3 (&corners)[3], const Scene& scene,
-                          MaskCutter::Pieces& pieces) {
+std::array<glm::dvec2, 3> MaskedPrimitive::uv_of(const glm::uvec3& vertices) const {
   std::array<glm::dvec2, 3> uv;
   for (int k = 0; k < 3; ++k) {
     const uint32_t v = vertices[k];
@@ -202,12 +201,32 @@ void MaskedPrimitive::cut(const glm::uvec3& vertices, const glm::vec3 (&corners)
              "repair the mesh and export again, or set scene.masks = false");
     uv[static_cast<size_t>(k)] = at;
   }
+  return uv;
+}
+
+void MaskedPrimitive::prepare(const glm::uvec3& vertices, const glm::vec3 (&corners)[3]) {
+  for (const glm::vec3& corner : corners)
+    for (int axis = 0; axis < 3; ++axis) largest_m_ = std::max(largest_m_, std::abs(double{corner[axis]}));
+  metres_per_texel_ =
+      std::max(metres_per_texel_, mask_.cutter.metres_per_texel({corners[0], corners[1], corners[2]}, uv_of(vertices)));
+}
+
+// A chord that is nearer to its arc than a step of the corners' floats is lost in their rounding.
+double MaskedPrimitive::error_texels() const {
+  const double step_m = 0x1p-23 * largest_m_;
+  return metres_per_texel_ > 0 ? std::max(MaskCutter::finest_error_texels, step_m / metres_per_texel_)
+                               : MaskCutter::finest_error_texels;
+}
+
+void MaskedPrimitive::cut(const glm::uvec3& vertices, const glm::vec3 (&corners)[3], const Scene& scene,
+                          MaskCutter::Pieces& pieces) {
+  const std::array<glm::dvec2, 3> uv = uv_of(vertices);
   const auto too_many = [&](const std::string& what) {
     refuse(document_.file, mask_.image, what, "set scene.masks = false, or use a smaller texture");
   };
   try {
     const uint64_t there = std::min<uint64_t>(max_triangles, scene.triangles.size());
-    mask_.cutter.cut({corners[0], corners[1], corners[2]}, uv, pieces, max_triangles - there);
+    mask_.cutter.cut({corners[0], corners[1], corners[2]}, uv, pieces, max_triangles - there, error_texels());
   } catch (const MaskCutter::TooManyPieces&) {
     too_many(
         fmt::format("its mask cuts the scene into more than the {} triangles allowed, or repeats more often than "

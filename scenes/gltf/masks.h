@@ -54,6 +54,10 @@ class MaskedPrimitive {
   MaskedPrimitive(const Document& document, const Masks::Mask& mask, int accessor, const AccessorReader& coordinates,
                   size_t vertices);
 
+  // A triangle of the primitive that cut() will get: all of them decide how fine its mask is cut, which is as fine as
+  // MaskCutter::finest_error_texels, but not finer than floats at these corners. Throws as cut() does.
+  void prepare(const glm::uvec3& vertices, const glm::vec3 (&corners)[3]);
+
   // The shown part of the triangle of these vertices, which stand at these corners. scene: what there is already.
   // Throws Error(file) for texture coordinates that are not finite, and for a mask that makes more triangles than a
   // scene may have or than fit into memory.
@@ -64,7 +68,11 @@ class MaskedPrimitive {
   const Masks::Mask& mask_;
   const int accessor_;
   const AccessorReader& coordinates_;
-  uint64_t room_asked_at_ = 0;  // triangles
+  double largest_m_ = 0, metres_per_texel_ = 0;  // of the corners' coordinates; of a texel
+  uint64_t room_asked_at_ = 0;                   // triangles
+
+  std::array<glm::dvec2, 3> uv_of(const glm::uvec3& vertices) const;
+  double error_texels() const;
 };
 
 // Whether a texture decides what of the material is seen.

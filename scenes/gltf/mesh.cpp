@@ -226,20 +226,31 @@ class Appender {
         continue;
       }
       if (orientation < 0) std::swap(triangle.y, triangle.z), std::swap(corner[1], corner[2]);
-      if (masked) {
-        masked->cut(triangle, corner, scene_, pieces_);
-        cut_places_.assign(pieces_.positions.size(), unused);
+      if (masked) {  // all are known before the first is cut
+        masked->prepare(triangle, corner);
+        uncut_.push_back({triangle, {corner[0], corner[1], corner[2]}});
+        continue;
       }
-      // What is not cut is one piece, the triangle itself.
-      for (const glm::uvec3& piece : masked ? pieces_.triangles : whole_) {
-        glm::uvec3 made;
-        for (int k = 0; k < 3; ++k)
-          made[k] = piece[k] < 3 ? vertex(map.place_of(triangle[static_cast<int>(piece[k])]), corner[piece[k]])
-                                 : vertex(cut_places_[piece[k]], pieces_.positions[piece[k]]);
-        scene_.triangles.push_back(made);
-        scene_.single_sided.push_back(drawable.single_sided);
-      }
+      append_piece(drawable, {0, 1, 2}, triangle, corner, map);
     }
+    for (const Uncut& u : uncut_) {
+      masked->cut(u.vertices, u.corner, scene_, pieces_);
+      cut_places_.assign(pieces_.positions.size(), unused);
+      scene_.mask_error_m = std::max(scene_.mask_error_m, pieces_.error_m);
+      for (const glm::uvec3& piece : pieces_.triangles) append_piece(drawable, piece, u.vertices, u.corner, map);
+    }
+    uncut_.clear();
+  }
+
+  // The corners of the triangle come first among the piece's; the others are in pieces_.
+  void append_piece(const Drawable& drawable, const glm::uvec3& piece, const glm::uvec3& triangle,
+                    const glm::vec3 (&corner)[3], VertexMap& map) {
+    glm::uvec3 made;
+    for (int k = 0; k < 3; ++k)
+      made[k] = piece[k] < 3 ? vertex(map.place_of(triangle[static_cast<int>(piece[k])]), corner[piece[k]])
+                             : vertex(cut_places_[piece[k]], pieces_.positions[piece[k]]);
+    scene_.triangles.push_back(made);
+    scene_.single_sided.push_back(drawable.single_sided);
   }
 
   // The scene's vertex at this place of a list, appended if there is none yet.
@@ -315,7 +326,11 @@ class Appender {
   Buffers& buffers_;
   const bool masks_are_read_;
   Masks masks_;
-  const std::vector<glm::uvec3> whole_{{0, 1, 2}};
+  struct Uncut {
+    glm::uvec3 vertices;
+    glm::vec3 corner[3];
+  };
+  std::vector<Uncut> uncut_;          // the triangles of a masked primitive
   MaskCutter::Pieces pieces_;         // of the triangle that is being cut
   std::vector<uint32_t> cut_places_;  // of their positions, in the scene
   Readers readers_;                   // by accessor, because instances share them

@@ -1,5 +1,5 @@
-// R1 of a masked scene against brute force that samples the mask by itself: the whole cards are met in double, and the
-// texture says whether the point is there. Nothing of this knows how cards are cut.
+// R1 and V of masked scenes against brute force that samples the mask by itself: the whole cards are met in double, and
+// the texture says whether the point is there. Nothing of this knows how cards are cut.
 #include <gtest/gtest.h>
 
 #include "scenes/foliage.h"
@@ -73,6 +73,114 @@ TEST(MaskedTruth, EqualsTheTextureSampledAlongEachRay) {
   EXPECT_GT(dark, 500);
   EXPECT_GT(through_holes, 500);
   EXPECT_LT(near + ambiguous, asked / 50);
+}
+
+// A mask that is sampled linearly: a soft frond, or noise of black and white, whose border is as long and as bent as one
+// can be.
+AlphaMask linear_mask(bool noise) {
+  AlphaMask mask = frond_mask();
+  mask.filter = MaskFilter::linear;
+  std::mt19937 random(5);
+  const std::vector<uint8_t> sharp = mask.alpha;
+  for (int j = 0; j < mask.height; ++j)
+    for (int i = 0; i < mask.width; ++i) {
+      int sum = 0;
+      for (const auto& [di, dj] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}})
+        sum += sharp[static_cast<size_t>(std::min(j + dj, mask.height - 1) * mask.width +
+                                         std::min(i + di, mask.width - 1))];
+      mask.alpha[static_cast<size_t>(j * mask.width + i)] =
+          static_cast<uint8_t>(noise ? random() % 2 * 255 : static_cast<unsigned>(sum / 4));
+    }
+  return mask;
+}
+
+// The cards of the scene foliage with this mask, over its floor.
+Scene masked_cards(const AlphaMask& mask) {
+  Scene scene;
+  add_quad(scene, "floor", {-4, 0, -4}, {0, 0, 8}, {8, 0, 0});
+  const MaskCutter cutter(mask);
+  MaskCutter::Pieces pieces;
+  for (const auto& card : frond_cards())
+    for (size_t half = 0; half < 2; ++half) {
+      cutter.cut(card[half], frond_coordinates[half], pieces);
+      const auto base = static_cast<uint32_t>(scene.positions.size());
+      scene.positions.insert(scene.positions.end(), pieces.positions.begin(), pieces.positions.end());
+      for (const glm::uvec3& t : pieces.triangles) scene.triangles.push_back(base + t);
+      scene.mask_error_m = std::max(scene.mask_error_m, pieces.error_m);
+    }
+  scene.light = {.position_m = {-2.5, 5, 1.5}, .target_m = {0, 0, 0}};
+  scene.map = MapVolume{.extent_m = 7, .near_m = 1, .far_m = 9};
+  return scene;
+}
+
+// Whether the texture of a card is opaque between the point and the light.
+bool occluded_by_texture(glm::dvec3 p, glm::dvec3 to_light, const AlphaMask& mask) {
+  for (const auto& card : frond_cards())
+    for (size_t half = 0; half < 2; ++half)
+      if (const Met met = meet(p, to_light, card[half], frond_coordinates[half]);
+          met.hit && met.t > 1e-5 && mask.opaque_at(met.uv))
+        return true;
+  return false;
+}
+
+// No receiver is left out because it lies near a border: what the texture and the polygon say otherwise is ambiguous.
+TEST(MaskedTruth, OfALinearMaskIsWrongNowhereAndInDoubtHardlyAnywhere) {
+  for (const bool noise : {false, true}) {
+    const AlphaMask mask = linear_mask(noise);
+    const Scene scene = masked_cards(mask);
+    EXPECT_GT(scene.mask_error_m, 0);
+    const LightFrame frame = frame_of(scene);
+    const Tracer tracer(scene);
+    const ReceiverImage receivers = random_receivers(scene, frame.direction_to_light(), true, 40000, 7);
+    const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {});
+    int asked = 0, dark = 0, ambiguous = 0, differ = 0;
+    for (size_t i = 0; i < receivers.primitive.size(); ++i) {
+      if (!truth.facing[i]) continue;
+      ++asked;
+      const bool occluded = occluded_by_texture(receivers.position[i], frame.direction_to_light(), mask);
+      dark += occluded, ambiguous += truth.ambiguous[i];
+      differ += !truth.ambiguous[i] && (truth.lit[i] == 0) != occluded;
+    }
+    EXPECT_EQ(differ, 0) << (noise ? "noise" : "frond");
+    EXPECT_GT(dark, asked / 50);
+    RecordProperty(noise ? "ambiguous_noise" : "ambiguous_frond", ambiguous);
+    EXPECT_LT(ambiguous, asked / 1000) << (noise ? "noise" : "frond");
+  }
+}
+
+// V at the exact places of taps around receivers on the floor, which goes on below all of them.
+TEST(MaskedTruth, OfATapUnderALinearMaskIsWrongNowhereAndInDoubtHardlyAnywhere) {
+  for (const bool noise : {false, true}) {
+    const AlphaMask mask = linear_mask(noise);
+    const Scene scene = masked_cards(mask);
+    const LightFrame frame = frame_of(scene);
+    const glm::dvec3 to_light = frame.direction_to_light();
+    const Tracer tracer(scene);
+    Scene floor = scene;
+    floor.triangles.resize(2);
+    const ReceiverImage receivers = random_receivers(floor, to_light, true, 5000, 3);
+    const LookupProbe probe = probe_of(receivers, frame, box(3));
+    const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, {});
+    const LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe, frame, {});
+    int asked = 0, dark = 0, unsure = 0, differ = 0;
+    for (size_t i = 0; i < receivers.primitive.size(); ++i) {
+      if (truth.ambiguous[i]) continue;
+      for (int tap = 0; tap < probe.taps(); ++tap) {
+        const glm::dvec3 place = frame.tap_place(frame.to_light(receivers.position[i]), probe.offset(i, tap));
+        const glm::dvec3 above = frame.to_world({place.x, place.y, 0}), x = above - above.y / to_light.y * to_light;
+        if (std::max(std::abs(x.x), std::abs(x.z)) > 3.99) continue;  // beside the floor
+        const uint8_t bits = lookup.taps.bits(i, tap);
+        const bool occluded = occluded_by_texture(x, to_light, mask);
+        ++asked, dark += occluded, unsure += (bits & tap_exact_unsure) != 0;
+        differ += !(bits & tap_exact_unsure) && ((bits & tap_exact_lit) == 0) != occluded;
+      }
+    }
+    EXPECT_EQ(differ, 0) << (noise ? "noise" : "frond");
+    EXPECT_GT(asked, 35000);
+    EXPECT_GT(dark, asked / 50);
+    RecordProperty(noise ? "unsure_noise" : "unsure_frond", unsure);
+    EXPECT_LT(unsure, asked / 1000) << (noise ? "noise" : "frond");
+  }
 }
 
 }  // namespace

@@ -113,6 +113,40 @@ TEST_F(GltfMask, SamplersDecideFilterAndWrap) {
     EXPECT_EQ(holds(s, x, 0.51), opaque) << x;
 }
 
+// One opaque texel of four, whose border is four arcs around its centre. The texture is scaled and moved: u = 2 x + 0.25.
+TEST_F(GltfMask, LinearFollowsTheTextureWithinTheScenesError) {
+  json d = masked(png(2, 2, {255, 0, 0, 0}));
+  d["samplers"][0] = {{"magFilter", 9729}};
+  d["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {
+      {"scale", {2, 1}}, {"offset", {0.25, 0}}};
+  const Scene s = load(d);
+  // A texel measures 1/4 m along x and 1/2 m along y.
+  EXPECT_GT(s.mask_error_m, 0);
+  EXPECT_LE(s.mask_error_m, 0.5 * 0x1p-11);
+  const auto opaque = [](double x, double y) {  // between the centres alpha falls from 1 to 0 along each axis
+    const auto weight = [](double t) { return std::abs(1 - 2 * std::abs(t - std::floor(t + 0.5))); };
+    return weight(2 * x + 0.25 - 0.25) * weight(y - 0.25) >= 0.5;
+  };
+  int asked = 0, inside = 0;
+  for (int j = 0; j < 60; ++j)
+    for (int i = 0; i < 60; ++i) {
+      const double x = (i + 0.37) / 60, y = (j + 0.61) / 60, e = s.mask_error_m + 1e-6;
+      if (opaque(x + e, y) != opaque(x - e, y) || opaque(x, y + e) != opaque(x, y - e)) continue;
+      // No triangle's side may run through the point.
+      if (holds(s, x, y) != opaque(x, y) && holds(s, x + 1e-5, y + 2e-5) != opaque(x, y))
+        ADD_FAILURE() << x << ", " << y;
+      ++asked, inside += opaque(x, y);
+    }
+  EXPECT_GT(asked, 3500);
+  EXPECT_GT(inside, 500);
+
+  // Far from the origin the floats of the corners are coarser than that, and finer chords are lost in them.
+  d["nodes"][0]["translation"] = {100000, 0, 0};
+  const Scene far = load(d);
+  EXPECT_LT(far.triangles.size(), s.triangles.size());
+  EXPECT_LE(far.mask_error_m, 100001 * 0x1p-23);
+}
+
 TEST_F(GltfMask, FactorAndCutoff) {
   json d = masked(png(2, 1, {255, 100}));
   json& material = d["materials"][0];
