@@ -212,7 +212,7 @@ std::vector<std::string> advice_text(const Advice& advice) {
         answer.bias->window.high, answer.bias->unit, advice.conditions, advice.conditions == 1 ? "" : "s",
         advice.placements,
         answer.bias->narrow ? "; that is narrow, so a small change of the scene can break it"
-                            : fmt::format("; the bias keeps at least {:.0f}% from both ends", 100 * (bias_margin - 1)),
+                            : "; " + margin_text(*answer.bias),
         100 * searched_share));
   lines.push_back(
       fmt::format("Verified: OpenGL rendered it under the worst condition at {} other placements, {} pixels wide; the "

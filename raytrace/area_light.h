@@ -13,7 +13,8 @@ namespace noonmark {
 bool has_size(const Light& light);
 
 // Samples the light, 16 rays at a time, until the standard error of each receiver's fraction is at most standard_error.
-// - A sun is a disc of directions. A sphere is sampled uniformly over the solid angle that it fills at the receiver, a
+// - A sun is a disc in the plane that touches the unit sphere of directions at its middle, sampled uniformly over its
+//   area. Over its solid angle a wide sun would be sampled more in the middle. A sphere is sampled uniformly over the solid angle that it fills at the receiver, a
 //   disc uniformly over its area.
 // - The standard error is sqrt(p (1 - p) / n) with p = (k + 1) / (n + 2), because n rays that all agree do not make the
 //   result certain.

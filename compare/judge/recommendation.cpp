@@ -114,6 +114,16 @@ std::vector<double> curve_biases(const Choice& choice, double low, double high) 
   return all;
 }
 
+std::string margin_text(const BiasChoice& bias) {
+  const double percent = 100 * (bias_margin - 1);
+  if (bias.window.low > 0) return fmt::format("the bias keeps at least {:.0f}% from both ends", percent);
+  return bias.value > 0
+             ? fmt::format(
+                   "no bias is needed, so there is no lower end, and it keeps at least {:.0f}% from the upper one",
+                   percent)
+             : "no bias is needed, so there is no lower end, and 0 is furthest from the upper one";
+}
+
 std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& results,
                                       const std::vector<BoundResult>& bounds) {
   const std::optional<BiasWindow> window = joined_window(choice);

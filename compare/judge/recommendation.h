@@ -28,6 +28,10 @@ struct BiasChoice {
   bool narrow = false;  // the window is too narrow for bias_margin; the value is in its middle half
 };
 
+// How far a bias that is not narrow keeps from the ends of its window: "the bias keeps at least 5% from both ends". A
+// window from 0 has no lower end, because no bias is needed there.
+std::string margin_text(const BiasChoice& bias);
+
 // How many costs of the good choices are known to be above the least. Costs that are equal for equal work count once.
 struct CostNoise {
   size_t costs = 0;  // different costs

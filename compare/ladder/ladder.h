@@ -54,7 +54,7 @@ namespace noonmark {
 enum class Cause : uint8_t {
   none,
   light_size,  // R1 - R0
-  filter,      // R2 - R1
+  filter,      // R2 - R1, without the taps that are undecided at their exact place
   displacement,
   aliasing_dark,
   aliasing_light,

@@ -19,7 +19,10 @@ constexpr Metric measured_once[] = {
     {"wrong", "fraction", "Share of the counted receivers whose R5 differs from R1.", true},
     {"light_size", "fraction", "Mean |R1 - R0|: the error of a hard shadow, which ignores the size of the light.",
      true},
-    {"filter", "fraction", "Mean |R2 - R1|: the blur that the filter makes on purpose.", true},
+    {"filter", "fraction",
+     "Mean |R2 - R1| without the taps whose truth is undecided at their exact place: the blur that the filter makes on "
+     "purpose.",
+     true},
     {"displacement", "fraction",
      "Mean |change of visibility| because the lookup is moved (normal offset), at the exact places of the taps: how "
      "far shadows are moved.",

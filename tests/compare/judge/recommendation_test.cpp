@@ -53,6 +53,17 @@ TEST(Recommend, TakesTheCheapestPointThatHasAWindow) {
   EXPECT_EQ(found.error.worst, 0.125);
 }
 
+// A window from 0 has no lower end from which a bias could keep a distance.
+TEST(Recommend, SaysFromWhichEndsTheBiasKeepsItsDistance) {
+  const auto of_window = [](double low, double value) {
+    return margin_text({"bias.constant", "depth", value, BiasWindow{low, 0.75}, false});
+  };
+  EXPECT_EQ(of_window(0.25, 0.5), "the bias keeps at least 5% from both ends");
+  EXPECT_EQ(of_window(0, 0.5),
+            "no bias is needed, so there is no lower end, and it keeps at least 5% from the upper one");
+  EXPECT_EQ(of_window(0, 0), "no bias is needed, so there is no lower end, and 0 is furthest from the upper one");
+}
+
 TEST(Recommend, AccurateTakesTheLeastErrorAtTheChosenBias) {
   Results results;
   results.points = {point_with(0, 1, 0.75, 1.0), point_with(1, 3, 0.25, 0.75), point_with(2, 2, 0.25, 0.75),
