@@ -1,6 +1,5 @@
-// Shared by run, check and render: the experiment with its overrides, and the folder of the results.
+// Shared by the verbs that measure: the experiment with its overrides.
 #pragma once
-#include <filesystem>
 #include <string>
 
 #include "app/experiment.h"
@@ -14,11 +13,6 @@ inline Experiment experiment_from(const std::string& path, const ExperimentArgum
   if (!arguments.parts.empty()) choose_parts(experiment, arguments.parts);
   for (const std::string& assignment : arguments.sets) apply_override(experiment, assignment);
   return experiment;
-}
-
-inline std::string out_folder(const std::string& path, const ExperimentArguments& arguments) {
-  if (!arguments.out.empty()) return arguments.out;
-  return "out/" + (path.empty() ? std::string("render") : std::filesystem::path(path).stem().string());
 }
 
 }  // namespace noonmark

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/default_folder.h"
 #include "scenes/text.h"
 
 namespace noonmark {
@@ -54,11 +55,9 @@ ExperimentList list_experiments(const std::vector<std::string>& paths, const std
     for (const std::string& file : toml_files_below(path, list.unreadable))
       list.experiments.push_back({file, fs::path(file).lexically_relative(path).replace_extension().string(), true});
   }
-  if (list.experiments.size() == 1 && !out.empty()) {
-    list.experiments[0].out = out;
-    return list;
-  }
-  for (ListedExperiment& one : list.experiments) one.out = (out.empty() ? "out" : out) + "/" + one.out;
+  const bool alone = list.experiments.size() == 1;
+  for (ListedExperiment& one : list.experiments)
+    one.out = out.empty() ? default_folder(one.file) : alone ? out : out + "/" + one.out;
   return list;
 }
 

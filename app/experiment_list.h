@@ -29,9 +29,9 @@ struct ExperimentList {
 };
 
 // paths: experiment files, or folders, whose *.toml files are listed with those of their subfolders (links to folders
-// are not followed). out: the value of --out. If it is empty, the results go to out/<name>, where <name> is the file's
-// stem or its path below the given folder. One file alone has its results in `out` itself, several have them in
-// <out>/<name>.
+// are not followed). out: the value of --out. If it is empty, each has its default folder (app/default_folder.h). One file
+// alone has its results in `out` itself, several have them in <out>/<name>, where <name> is the file's stem or its path below
+// the given folder.
 ExperimentList list_experiments(const std::vector<std::string>& paths, const std::string& out);
 
 // Throws Error(usage) if two experiments would share a folder.

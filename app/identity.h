@@ -1,5 +1,6 @@
 // The facts, beside the settings of a point, that its results depend on. They decide whether the points of a store can be
-// used: if one line differs, no stored result is used. Which of its points an experiment has is for app/kept_points.h.
+// used: if one line differs that is not of a scene, no stored result is used. Which of its points an experiment has, and
+// which of them are of scenes with the present contents, is for app/kept_points.h.
 //
 //   SceneDigests scenes;
 //   ResultStore store(path, facts_text(identity(bench, tracer, scenes)), Existing::resume);

@@ -5,18 +5,21 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "app/point_pictures.h"
+#include "compare/store/fingerprint.h"
 #include "compare/store/quantities.h"
 #include "compare/store/schema.h"
+#include "scenes/error.h"
 #include "scenes/text.h"
 
 namespace noonmark {
 namespace {
 
-std::string key_of(const std::map<std::string, std::string>& settings) {
-  std::string key;
+std::string key_of(const std::map<std::string, std::string>& settings, const std::string& scene_digest) {
+  std::string key = scene_digest + "\n";
   for (const auto& [name, value] : settings) key += name + "=" + value + "\n";
   return key;
 }
@@ -38,21 +41,17 @@ bool has_asked_times(const PointRecord& stored, bool timed) { return timed || !s
 
 // Finds a stored point for each planned one. In three rounds, because parts may have points with the same settings: the
 // point that is where it was comes first, then one of the same part, then any.
-// any_known: whether the settings of any planned point are those of a stored one.
-std::vector<const PointRecord*> find_points(const std::vector<PointRecord>& stored, const Experiment& experiment,
-                                            const std::vector<Settings>& planned, const std::vector<int64_t>& wanted,
-                                            bool& any_known) {
+std::vector<const PointRecord*> find_points(const std::vector<PointRecord>& stored, const AskedPoints& asked) {
+  const auto& [experiment, planned, wanted, scenes] = asked;
   std::map<std::string, std::vector<const PointRecord*>> free;
-  for (const PointRecord& point : stored) free[key_of(point.settings)].push_back(&point);
-  any_known = std::any_of(planned.begin(), planned.end(),
-                          [&](const Settings& point) { return free.contains(key_of(settings_map(point))); });
+  for (const PointRecord& point : stored) free[key_of(point.settings, point.scene_digest)].push_back(&point);
   const bool timed = times_measured(experiment);
   std::vector<const PointRecord*> found(planned.size());
   for (const int round : {0, 1, 2})
     for (const int64_t id : wanted) {
       const auto i = static_cast<size_t>(id);
       if (found[i]) continue;
-      const auto candidates = free.find(key_of(settings_map(planned[i])));
+      const auto candidates = free.find(key_of(settings_map(planned[i]), scenes.of(planned[i])));
       if (candidates == free.end()) continue;
       const Experiment& part = part_of_point(experiment, id);
       std::vector<const PointRecord*>& list = candidates->second;
@@ -67,7 +66,37 @@ std::vector<const PointRecord*> find_points(const std::vector<PointRecord>& stor
   return found;
 }
 
+// The scenes of the points that are not found, but stored with other contents.
+std::vector<std::string> edited_scenes(const std::vector<PointRecord>& stored, const AskedPoints& asked,
+                                       const std::vector<const PointRecord*>& found) {
+  std::map<std::string, std::set<std::string>> digests;
+  for (const PointRecord& point : stored) digests[key_of(point.settings, "")].insert(point.scene_digest);
+  std::set<std::string> edited;
+  for (const int64_t id : asked.wanted) {
+    const Settings& point = asked.planned[static_cast<size_t>(id)];
+    if (found[static_cast<size_t>(id)] || edited.contains(point.scene.name)) continue;
+    const auto known = digests.find(key_of(settings_map(point), ""));
+    if (known != digests.end() && !known->second.contains(asked.scenes.of(point))) edited.insert(point.scene.name);
+  }
+  return {edited.begin(), edited.end()};
+}
+
 }  // namespace
+
+void require_own_results(const std::string& folder, const std::string& fingerprint, const AskedPoints& asked) {
+  const ResultStore store = ResultStore::open(folder + "/results.sqlite");
+  std::set<std::string> stored;
+  for (const PointRecord& point : store.all_points()) stored.insert(key_of(point.settings, point.scene_digest));
+  const bool common = std::any_of(asked.wanted.begin(), asked.wanted.end(), [&](int64_t id) {
+    const Settings& point = asked.planned[static_cast<size_t>(id)];
+    return stored.contains(key_of(settings_map(point), asked.scenes.of(point)));
+  });
+  if (!common || !same_facts(without_scenes(fingerprint), without_scenes(store.fingerprint())))
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: holds the results of another experiment ({}); give another --out, or "
+                            "pass --overwrite to lose them",
+                            folder, store.facts().info.experiment));
+}
 
 std::string KeptPoints::text(size_t planned, const std::string& folder) const {
   std::string text;
@@ -78,6 +107,9 @@ std::string KeptPoints::text(size_t planned, const std::string& folder) const {
       text += fmt::format("; the bias curve{} of {} {} judged by other bounds", rejudged == 1 ? "" : "s", rejudged,
                           rejudged == 1 ? "is" : "are");
   }
+  for (const std::string& scene : edited)
+    text += fmt::format("{}the contents of {} have changed since its points were stored, so they are measured again",
+                        text.empty() ? "" : "; ", printable(scene));
   if (aside > 0)
     text +=
         fmt::format("{}{} that this experiment does not have {} in the store for a later one", text.empty() ? "" : "; ",
@@ -85,14 +117,14 @@ std::string KeptPoints::text(size_t planned, const std::string& folder) const {
   return text;
 }
 
-KeptPoints keep_points(ResultStore& store, const Experiment& experiment, const std::vector<Settings>& planned,
-                       const std::vector<int64_t>& wanted, const std::string& folder, const std::string& fingerprint) {
+KeptPoints keep_points(ResultStore& store, const AskedPoints& asked, const std::string& folder,
+                       const std::string& fingerprint) {
+  const Experiment& experiment = asked.experiment;
   const std::string plan = noonmark::fingerprint(experiment, {});
   const std::vector<PointRecord> stored = store.all_points();
-  bool any_known = false;
-  const std::vector<const PointRecord*> found = find_points(stored, experiment, planned, wanted, any_known);
-  if (!stored.empty() && !any_known) store.refuse(plan, store.plan());
+  const std::vector<const PointRecord*> found = find_points(stored, asked);
   KeptPoints result;
+  result.edited = edited_scenes(stored, asked, found);
   std::vector<std::pair<int64_t, PointRecord>> changed;
   std::map<int64_t, bool> used;
   for (size_t i = 0; i < found.size(); ++i) {

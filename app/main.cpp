@@ -182,7 +182,8 @@ int run(int argc, char** argv) {
   CLI::App* run = app.add_subcommand("run", "Measure every point of an experiment and write its report");
   run->add_option("experiment", experiment, "The experiment's TOML file")->required()->check(not_empty);
   with_choices(run);
-  with_out(run, "Folder for the results (default: out/<name of the experiment>)");
+  with_out(run,
+           "Folder for the results (default: out/shadows for shadows.toml, out/tests/shadows for tests/shadows.toml)");
   with_overwrite(run);
   std::string shard;
   const auto with_shard = [&](CLI::App* verb) {
@@ -211,7 +212,9 @@ int run(int argc, char** argv) {
   check->add_option("experiments", paths, "TOML files, or folders of them")->required()->check(not_empty);
   with_choices(check);
   with_out(check,
-           "Folder for the results (default: out/<name of the experiment>); several experiments get a subfolder each");
+           "Folder for the results (default: out/shadows for shadows.toml, out/tests/shadows for tests/shadows.toml); "
+           "several "
+           "experiments get a subfolder each");
   with_overwrite(check);
   with_shard(check);
   CheckOptions checking;
@@ -274,7 +277,8 @@ int run(int argc, char** argv) {
                   "Number of threads (default: one for each core); no result depends on it")
       ->check(whole_number(1, 1024, "from 1 to 1024"));
   map->footer(exit_codes);
-  with_out(map, "Folder for the files (default: out/map-<name of the scene>)");
+  with_out(map,
+           "Folder for the files (default: out/map-<name of the scene>, or out/tests/map-helmet for tests/helmet.glb)");
 
   RecommendOptions recommending;
   CLI::App* recommend = app.add_subcommand(
@@ -320,7 +324,8 @@ int run(int argc, char** argv) {
                    "Number of threads (default: one for each core); no result depends on it")
       ->check(whole_number(1, 1024, "from 1 to 1024"));
   recommend->footer(exit_codes);
-  with_out(recommend, "Folder for the files (default: out/recommend-<name>)");
+  with_out(recommend,
+           "Folder for the files (default: out/recommend-<name>, or out/tests/recommend-helmet for tests/helmet.toml)");
 
   std::string model;
   bool as_json = false;
@@ -340,7 +345,8 @@ int run(int argc, char** argv) {
   with_model(inspect);
   inspect->add_flag("--json", as_json, "Print the same as JSON");
   with_set(inspect);
-  with_out(inspect, "Folder for the picture (default: out/inspect-<name of the model>)");
+  with_out(inspect,
+           "Folder for the picture (default: out/inspect-<name>, or out/tests/inspect-helmet for tests/helmet.glb)");
 
   CLI::App* report = app.add_subcommand("report", "Write report.html and results.csv again from stored results");
   report->add_option("folder", folder, "The results' folder")->required()->check(not_empty);

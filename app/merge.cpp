@@ -107,27 +107,62 @@ bool same_folder(const std::string& a, const std::string& b) {
   return fs::equivalent(a, b, none);
 }
 
-void require_own_store(const ResultsFolder& out, const std::vector<Source>& sources, bool overwrite) {
-  for (const Source& source : sources)
-    if (same_folder(source.folder, out.path()))
+// As its shares name it. The path of a joined store is that of its first share (joined_info).
+std::string joined_name(const std::string& experiment) {
+  return fs::path(experiment).is_absolute() ? fs::path(experiment).filename().string() : experiment;
+}
+
+fs::path without_way_up(const fs::path& path) {
+  fs::path rest;
+  for (const fs::path& step : path.lexically_normal())
+    if (step != "..") rest /= step;
+  return rest;
+}
+
+// The experiment's file as seen from the joined store. Empty if the way there has folders that the name of the experiment does
+// not have, because they are of one host.
+std::string joined_file(const Source& first, const std::string& out) {
+  if (first.info.file.empty()) return "";
+  const std::string file = seen_from(out, first.folder + "/" + first.info.file);
+  return without_way_up(file) == without_way_up(first.info.experiment) ? file : "";
+}
+
+// Empty if the folder has no store, or one that cannot be read.
+std::optional<RunInfo> facts_in(const std::string& folder) {
+  std::error_code none;
+  if (!fs::exists(folder + "/results.sqlite", none)) return std::nullopt;
+  try {
+    return ResultStore::open(folder + "/results.sqlite").facts().info;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+void require_own_store(const ResultsFolder& out, const std::vector<std::string>& shares, bool overwrite) {
+  for (const std::string& share : shares)
+    if (same_folder(share, out.path()))
       throw Error(ErrorKind::usage,
                   fmt::format("{}: is one of the shares; give another folder for the joined results", out.path()));
-  const std::string path = out.path() + "/results.sqlite";
-  std::error_code none;
-  if (overwrite || !fs::exists(path, none)) return;
-  if (ResultStore::open(path).facts().info.share != joined_share)
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: holds results that were measured there, not joined ones; give another folder, or pass "
-                            "--overwrite, which loses them",
-                            out.path()));
+  const std::optional<RunInfo> there = overwrite ? std::nullopt : facts_in(out.path());
+  if (!there) return;
+  const auto refuse = [&](const std::string& holds) {
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{}: holds {}; give another folder, or pass --overwrite, which loses them", out.path(), holds));
+  };
+  if (there->share != joined_share) refuse("results that were measured there, not joined ones");
+  const std::optional<RunInfo> first = facts_in(shares.front());
+  if (first && joined_name(first->experiment) != there->experiment)
+    refuse(fmt::format("the joined results of another experiment ({})", there->experiment));
 }
 
 // The facts of the whole. A fact of the machine that is not the same everywhere is "several".
-RunInfo joined_info(const std::vector<Source>& sources) {
+RunInfo joined_info(const std::vector<Source>& sources, const std::string& out) {
   RunInfo info = sources.front().info;
   info.share = joined_share;
   info.command = fmt::format("noonmark merge (of {})", counted(sources.size(), "store"));
-  if (fs::path(info.experiment).is_absolute()) info.experiment = fs::path(info.experiment).filename().string();
+  info.experiment = joined_name(info.experiment);
+  info.file = joined_file(sources.front(), out);
   for (const Source& source : sources) {
     const RunInfo& other = source.info;
     info.started = std::min(info.started, other.started);
@@ -254,6 +289,8 @@ std::vector<std::string> find_missing(const ResultStore& store, const Experiment
 }  // namespace
 
 Merged merge_stores(const std::vector<std::string>& shares, const ResultsFolder& out, bool overwrite) {
+  require_own_store(out, shares, overwrite);
+  out.take();
   std::vector<Source> sources;
   for (const std::string& folder : shares) {
     Source source = read_source(folder);
@@ -261,7 +298,6 @@ Merged merge_stores(const std::vector<std::string>& shares, const ResultsFolder&
     sources.push_back(std::move(source));
     require_same(sources.front(), sources.back());
   }
-  require_own_store(out, sources, overwrite);
   Merged merged;
   merged.experiment = experiment_of(sources.front().info.definition, sources.front().path);
   const Experiment& experiment = merged.experiment;
@@ -273,7 +309,7 @@ Merged merge_stores(const std::vector<std::string>& shares, const ResultsFolder&
   out.remove_earlier_results();
   try {
     store.set_plan(facts, sources.front().plan);
-    store.set_info(joined_info(sources), static_cast<int64_t>(planned.size()));
+    store.set_info(joined_info(sources, out.path()), static_cast<int64_t>(planned.size()));
     for (const Source& source : sources) {
       const JoinedStore joined = store.join(source.path, [&](const std::string& scene) {
         return moved_scene(scene, source.experiment, experiment.path);
@@ -299,10 +335,11 @@ Merged merge_stores(const std::vector<std::string>& shares, const ResultsFolder&
     write_file_atomically(out.path() + "/summary.md", to_summary(merged.results));
   }
   if (const std::string& scene = planned.front().scene.name; fs::path(scene).is_absolute())
-    merged.notes.push_back(fmt::format(
-        "the scene's name {} is a path of one host; it has only the root in common with the path of the experiment. Put both below "
-        "one folder, and the results name the scene from there",
-        scene));
+    merged.notes.push_back(
+        fmt::format("the scene's name {} is a path of one host; it has only the root in common with the path of the "
+                    "experiment. Put both below "
+                    "one folder, and the results name the scene from there",
+                    scene));
   if (merged.missing.empty() && (experiment.pictures == "worst" || experiment.pictures == "extremes"))
     merged.notes.push_back(fmt::format(
         "the points with pictures are chosen by their errors, so no share has drawn them; {} --out {} draws them",

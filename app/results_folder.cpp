@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <filesystem>
 
+#include "compare/store/store.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 
@@ -56,9 +57,22 @@ void require_own_images(const std::string& folder) {
                                              folder, fs::is_symlink(images) ? "a symbolic link" : "not a folder"));
 }
 
+// The file may be a link, or be there no longer; its folder decides.
+fs::path resolved(const fs::path& file) {
+  std::error_code none;
+  const fs::path whole = fs::absolute(file, none).lexically_normal();
+  return fs::weakly_canonical(whole.parent_path(), none) / whole.filename();
+}
+
 }  // namespace
 
-ResultsFolder::ResultsFolder(const std::string& path) : path_(path), descriptor_(-1) {
+std::string seen_from(const std::string& folder, const std::string& experiment) {
+  std::error_code none;
+  const fs::path here = fs::weakly_canonical(fs::absolute(folder, none), none);
+  return resolved(experiment).lexically_proximate(here).string();
+}
+
+ResultsFolder::ResultsFolder(const std::string& path, const std::string& experiment) : path_(path), descriptor_(-1) {
   make_output_folder(path);
   descriptor_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   // Some file systems have no locks. There another run is not kept out.
@@ -68,15 +82,22 @@ ResultsFolder::ResultsFolder(const std::string& path) : path_(path), descriptor_
                 fmt::format("another run is writing into {}; wait for it, or give another --out", path));
   }
   try {
-    remove_verdict(path);
-    remove_summary_pictures(path);
+    const std::string owner = experiment.empty() ? "" : ResultStore::experiment_file(path + "/results.sqlite");
+    if (!experiment.empty() && (owner.empty() || owner == seen_from(path, experiment))) take();
     require_own_images(path);
   } catch (...) {
     if (descriptor_ >= 0) close(descriptor_);
     throw;
   }
-  clear_abandoned_files(path);
-  clear_abandoned_files(path + "/images");
+}
+
+void ResultsFolder::take() const {
+  if (ours_) return;
+  remove_verdict(path_);
+  remove_summary_pictures(path_);
+  clear_abandoned_files(path_);
+  clear_abandoned_files(path_ + "/images");
+  ours_ = true;
 }
 
 ResultsFolder::~ResultsFolder() {
@@ -99,9 +120,9 @@ void ResultsFolder::remove_earlier_results() const {
   }
 }
 
-void EarlyFolder::open(const std::string& path) {
+void EarlyFolder::open(const std::string& path, const std::string& experiment) {
   try {
-    folder_.emplace(path);
+    folder_.emplace(path, experiment);
   } catch (...) {
     fault_ = std::current_exception();
   }

@@ -8,6 +8,7 @@
 #include "app/results_folder.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"
+#include "compare/store/store.h"
 #include "scenes/error.h"
 #include "scenes/file.h"
 #include "scenes/text.h"
@@ -18,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view options_with_a_value[] = {"--set",   "--part",    "--threads",  "--out",
-                                                     "--point", "--picture", "--baseline", "--baseline-times", "--shard"};
+constexpr std::string_view options_with_a_value[] = {"--set",     "--part",     "--threads",        "--out",  "--point",
+                                                     "--picture", "--baseline", "--baseline-times", "--shard"};
 
 // Sorts the words as far as possible: the words that are neither options nor values of options, and every --out.
 struct Words {
@@ -69,9 +70,12 @@ MeantFolders meant_folders(std::span<const std::string> words, const std::vector
   for (const std::string& out : sorted.outs) {
     // A word that was wrongly taken for an experiment turns one experiment into several. So both are listed: the folder
     // itself and the folders below it.
-    if (!out.empty()) meant.folders.push_back({out, paths.empty() ? out : paths[0]});
-    for (const ListedExperiment& one : list_experiments(paths, out).experiments)
-      if (one.out != out) meant.folders.push_back({one.out, one.file});
+    MeantFolder whole{out, paths};
+    for (const ListedExperiment& one : list_experiments(paths, out).experiments) {
+      whole.experiments.push_back(one.file);
+      if (one.out != out) meant.folders.push_back({one.out, {one.file}});
+    }
+    if (!out.empty()) meant.folders.push_back(std::move(whole));
   }
   return meant;
 }
@@ -82,8 +86,13 @@ void retract_verdicts(const MeantFolders& meant, const Failure& failure, const s
     if (!fs::exists(fs::path(one.path) / "junit.xml", none) && !fs::exists(fs::path(one.path) / "summary.md", none))
       continue;
     try {
-      const ResultsFolder folder(one.path);
-      if (meant.judges) write_unjudged(one.path, one.experiment, failure, command);
+      const ResultsFolder folder(one.path, "");
+      const std::string owner = ResultStore::experiment_file(one.path + "/results.sqlite");
+      const auto is_owner = [&](const std::string& experiment) { return seen_from(one.path, experiment) == owner; };
+      const std::vector<std::string>& known = one.experiments;
+      if (!owner.empty() && !known.empty() && std::none_of(known.begin(), known.end(), is_owner)) continue;
+      folder.take();
+      if (meant.judges) write_unjudged(one.path, known.empty() ? one.path : known.front(), failure, command);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::usage) tell({failure.exit_code, printable(error.what())});  // else another run's
     }

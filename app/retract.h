@@ -15,7 +15,7 @@ namespace noonmark {
 // is `check` or `run`, or a misspelling of one, and the command would have measured something.
 struct MeantFolder {
   std::string path;
-  std::string experiment;
+  std::vector<std::string> experiments;  // those that may be meant; the first is named. Empty: none is known
 };
 struct MeantFolders {
   bool judges = false;  // the verb is `check`
@@ -24,8 +24,8 @@ struct MeantFolders {
 MeantFolders meant_folders(std::span<const std::string> words, const std::vector<std::string_view>& verbs);
 
 // Removes junit.xml and summary.md from those folders that have one. If the verb is `check`, it writes new ones with
-// the reason why nothing was judged. It does not touch a folder into which another run is writing. Never throws an
-// Error.
+// the reason why nothing was judged. It does not touch a folder into which another run is writing, or one that holds the
+// results of an experiment that is not meant. Never throws an Error.
 void retract_verdicts(const MeantFolders& meant, const Failure& failure, const std::string& command);
 
 // Writes junit.xml and summary.md with the reason why an experiment was not judged, because a CI server that finds no

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <functional>
 #include <iterator>
 #include <numeric>
 #include <optional>
@@ -81,11 +80,12 @@ std::string definition_of(const Experiment& experiment, bool needed) {
   }
 }
 
-RunInfo run_info(const Experiment& experiment, const SweepOptions& options, const gl::DeviceInfo& device,
-                 const raytrace::TracerInfo& tracer, const Scene& scene, std::vector<std::string> scene_notes,
-                 std::vector<std::string> sweep_notes) {
+RunInfo run_info(const Experiment& experiment, const std::string& folder, const SweepOptions& options,
+                 const gl::DeviceInfo& device, const raytrace::TracerInfo& tracer, const Scene& scene,
+                 std::vector<std::string> scene_notes, std::vector<std::string> sweep_notes) {
   RunInfo info;
   info.experiment = experiment.path;
+  info.file = seen_from(folder, experiment.path);
   info.title = experiment.title;
   info.command = options.command;
   info.commit = build_facts().commit;
@@ -127,24 +127,13 @@ std::string stored_fingerprint(const std::string& path) {
 
 // Opens the store. It also removes an earlier run's report and results.csv, because they can show an old verdict or
 // other results.
-// use: what else can find that the store holds other results.
-ResultStore open_store(const ResultsFolder& folder, const std::string& fingerprint, bool overwrite,
-                       const std::function<void(ResultStore&)>& use) {
-  try {
-    ResultStore store(folder.path() + "/results.sqlite", fingerprint,
-                      overwrite ? Existing::overwrite : Existing::resume);
-    use(store);
-    if (overwrite)
-      folder.remove_earlier_results();
-    else
-      folder.remove_report();
-    return store;
-  } catch (const OtherResults& other) {
+ResultStore open_store(const ResultsFolder& folder, const std::string& fingerprint, bool overwrite) {
+  ResultStore store(folder.path() + "/results.sqlite", fingerprint, overwrite ? Existing::overwrite : Existing::resume);
+  if (overwrite)
+    folder.remove_earlier_results();
+  else
     folder.remove_report();
-    throw Error(ErrorKind::usage,
-                fmt::format("{} (its report.html and results.csv are removed; noonmark report {} makes them again)",
-                            other.what(), shell_quoted(folder.path())));
-  }
+  return store;
 }
 
 // Writes all picture files of a measured point. The measurement's images are gone afterwards.
@@ -276,16 +265,18 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   const std::string kept_as = there.empty() ? facts : with_both_machines(facts, there);
   for (const std::string& note : scenes.notes()) fmt::print(stderr, "note: {}\n", printable(note));
   const auto all = static_cast<int64_t>(planned.size()), total = static_cast<int64_t>(wanted.size());
-  KeptPoints kept;
-  ResultStore store = open_store(folder, opened_as, options.overwrite, [&](ResultStore& opened) {
-    for (const std::string& repaired : opened.repair(all, has_what_a_sweep_reads))
-      fmt::print(stderr, "note: {}\n", printable(repaired));
-    kept = keep_points(opened, experiment, planned, wanted, folder.path(), kept_as);
-  });
+  const AskedPoints asked{experiment, planned, wanted, scenes};
+  if (!folder.ours() && !options.overwrite) require_own_results(folder.path(), opened_as, asked);
+  folder.take();
+  ResultStore store = open_store(folder, opened_as, options.overwrite);
+  for (const std::string& repaired : store.repair(all, has_what_a_sweep_reads))
+    fmt::print(stderr, "note: {}\n", printable(repaired));
+  const KeptPoints kept = keep_points(store, asked, folder.path(), kept_as);
   std::vector<PhasePlan> diagrams = phase_plans(experiment, planned);
   std::erase_if(diagrams, [&](const PhasePlan& plan) {
     return std::find(wanted.begin(), wanted.end(), plan.first) == wanted.end();
   });
+  for (PhasePlan& diagram : diagrams) diagram.scene = scenes.of(diagram.points.front());
   // Stored diagrams. Their measurement can be used again even if the points or the bounds have changed.
   const std::vector<PhaseDiagram> earlier = store.stored_phases();
   const auto as_planned = [&](int64_t number, const PhaseDiagram& stored) {
@@ -296,8 +287,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   for (const std::string& repaired : store.repair_phases(as_planned))
     fmt::print(stderr, "note: {}\n", printable(repaired));
   store.set_info(
-      run_info(experiment, options, bench.device(), tracer, bench.scene(point_at(planned, wanted.front()).scene),
-               scenes.notes(), survey.idle.dead_sweeps()),
+      run_info(experiment, folder.path(), options, bench.device(), tracer,
+               bench.scene(point_at(planned, wanted.front()).scene), scenes.notes(), survey.idle.dead_sweeps()),
       total);
 
   const std::vector<int64_t> before = store.finished();
@@ -341,6 +332,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
                                     part.curve_enabled ? std::optional(part.curve) : std::nullopt);
       m.record.id = id;
       m.record.part = part.part;
+      m.record.scene_digest = scenes.of(point_at(planned, id));
       m.record.machine = here.now();
       if (experiment.pictures == "all" || (experiment.pictures == "first" && id == 0))
         static_cast<PointPictures&>(m.record) = pictures_of(bench, m, id, folder.path());

@@ -1,6 +1,6 @@
 // Runs an experiment: measures and stores every point once, and writes the files for people and programs.
 //
-//   SweepOutcome outcome = run_sweep(experiment, ResultsFolder("out/cube-room"), {.command = "noonmark run ..."});
+//   SweepOutcome outcome = run_sweep(experiment, ResultsFolder("out/cube-room", "cube-room.toml"), {.command = "noonmark run ..."});
 #pragma once
 #include <optional>
 #include <string>

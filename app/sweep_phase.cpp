@@ -86,11 +86,12 @@ Range range_of(const std::vector<Settings>& points, const std::vector<PhasePlace
 }
 
 // The end of PhaseDiagram::made_from: everything that the rows depend on, but not the bounds.
-std::string measured_text(const Settings& settings, const PhaseOptions& options) {
+std::string measured_text(const Settings& settings, const PhaseOptions& options, const std::string& scene) {
   const auto& [rows, coarsest, finest, placements, acne, peter_panning, biases_per_octave] =
       options;  // must name every member, otherwise it does not compile
-  std::string text = fmt::format("measured\nrows = {}\ncoarsest = {}\nfinest = {}\nS = {}\nbiases_per_octave = {}\n",
-                                 rows, coarsest, finest, placements, biases_per_octave);
+  std::string text =
+      fmt::format("measured\nscene = {}\nrows = {}\ncoarsest = {}\nfinest = {}\nS = {}\nbiases_per_octave = {}\n",
+                  scene, rows, coarsest, finest, placements, biases_per_octave);
   // Each row has its own resolution, and all have the placements of the options.
   for (const auto& [name, value] : settings_map(settings))
     if (name != "map.resolution" && name != "map.placements") text += fmt::format("{} = {}\n", name, value);
@@ -127,6 +128,7 @@ std::string PhasePlan::made_from() const {
   const auto& [enabled, acne, peter_panning, placements, texel_sizes, width_px] =
       request;  // must name every member, otherwise it does not compile; the bounds are below
   Digest digest;
+  digest.text(scene);
   for (const Settings& point : points)
     for (const auto& [name, value] : settings_map(point)) digest.text(name), digest.text(value);
   return fmt::format(
@@ -148,7 +150,8 @@ std::vector<PhasePlan> phase_plans(const Experiment& experiment, std::span<const
                        part.phase.acne_bound.value_or(part.curve.acne_bound),
                        part.phase.peter_panning_bound.value_or(part.curve.peter_panning_bound),
                        first,
-                       {of_part.begin(), of_part.end()}});
+                       {of_part.begin(), of_part.end()},
+                       ""});
     }
     ++number;
     first += count;
@@ -196,7 +199,7 @@ PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan, const std::vect
     PhaseOptions options = options_of(plan);
     options.coarsest = range.coarsest;
     options.finest = range.finest;
-    measured = measured_text(settings, options);
+    measured = measured_text(settings, options, plan.scene);
     const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const PhaseDiagram& one) {
       return one.refused.empty() && one.made_from.ends_with(measured);
     });

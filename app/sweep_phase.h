@@ -22,6 +22,7 @@ struct PhasePlan {
   double acne_bound = 0, peter_panning_bound = 0;
   int64_t first = 0;  // the id of the part's first point
   std::vector<Settings> points;
+  std::string scene;  // the digest of the first point's scene: a diagram of other contents is not used again
 
   std::string name() const;  // "the phase diagram of part 'x'"
   // The beginning of PhaseDiagram::made_from: options, bounds and points. A stored diagram that begins otherwise is made
@@ -29,12 +30,13 @@ struct PhasePlan {
   std::string made_from() const;
 };
 
+// The digests of the scenes are left empty.
 std::vector<PhasePlan> phase_plans(const Experiment& experiment, std::span<const Settings> points);
 
 // Throws Error(usage) if it does not fit into the memory that is free.
 void require_room_for(Workbench& bench, const PhasePlan& plan);
 
-// If the part can have no diagram, the result says why (PhaseDiagram::refused). earlier: diagrams of the same scenes and
+// If the part can have no diagram, the result says why (PhaseDiagram::refused). earlier: diagrams of the same
 // program; one with the same texel sizes of the same technique is not measured again, only its bounds and points are new.
 // Throws Error.
 PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan, const std::vector<PhaseDiagram>& earlier = {});

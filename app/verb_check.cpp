@@ -7,6 +7,7 @@
 #include "app/atlas_page.h"
 #include "app/baseline_file.h"
 #include "app/build_facts.h"
+#include "app/default_folder.h"
 #include "app/experiment_arguments.h"
 #include "app/experiment_list.h"
 #include "app/experiment_text.h"
@@ -105,7 +106,7 @@ Checked measure_share(const ListedExperiment& listed, const ExperimentArguments&
     return checked;
   }
   const std::string out = listed.out + "/" + arguments.shard->folder();
-  const ResultsFolder folder(out);
+  const ResultsFolder folder(out, listed.file);
   const SweepOutcome outcome = run_sweep(experiment, folder,
                                          {.overwrite = arguments.overwrite,
                                           .command = arguments.command,
@@ -175,8 +176,12 @@ int measure_shares(const ExperimentList& list, const ExperimentArguments& argume
   return answers.worst();
 }
 
-// The folder that holds the results' folders of all experiments: that of --out, or `out`.
-std::string index_folder(const ExperimentArguments& arguments) { return arguments.out.empty() ? "out" : arguments.out; }
+// The folder that holds the results' folders of all experiments. Without --out, that of the one folder that is checked.
+std::string index_folder(const std::vector<std::string>& paths, const ExperimentArguments& arguments) {
+  if (!arguments.out.empty()) return arguments.out;
+  std::error_code none;
+  return default_folder_of_folder(paths.size() == 1 && fs::is_directory(paths[0], none) ? paths[0] : ".");
+}
 
 // Printed at the end, because there may be many lines above.
 void tell_the_unchecked(const std::vector<std::string>& experiments, size_t of,
@@ -221,12 +226,12 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
   const bool indexed =
       list.experiments.size() > 1 || std::any_of(list.experiments.begin(), list.experiments.end(),
                                                  [](const ListedExperiment& one) { return one.in_folder; });
-  const std::string index = index_folder(arguments) + "/index.html";
+  const std::string index_at = index_folder(paths, arguments), index = index_at + "/index.html";
   std::vector<IndexEntry> entries;
   std::error_code none;
   if (indexed) fs::remove(index, none);
   std::vector<std::string> unreadable, failed;
-  AtlasPage atlas(index_folder(arguments));
+  AtlasPage atlas(index_at);
   if (indexed) atlas.retract();
   Answers answers(arguments);
   for (const UnreadableFolder& one : list.unreadable) {
@@ -235,7 +240,7 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
   }
   for (const ListedExperiment& listed : list.experiments) {
     EarlyFolder folder;
-    folder.open(listed.out);
+    folder.open(listed.out, listed.file);
     IndexEntry& entry = entries.emplace_back();
     entry.experiment = listed.file;
     try {
@@ -245,10 +250,9 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
       entry.words = failure.message;
       failed.push_back(listed.file);
       answers.add(listed.file, failure);
-      if (folder.is_open()) write_unjudged(listed.out, listed.file, failure, arguments.command);
+      if (folder.ours()) write_unjudged(listed.out, listed.file, failure, arguments.command);
     }
-    if (!entry.report.empty())
-      entry.report = fs::relative(listed.out, index_folder(arguments), none).string() + "/" + entry.report;
+    if (!entry.report.empty()) entry.report = fs::relative(listed.out, index_at, none).string() + "/" + entry.report;
     if (answers.stopped()) break;
   }
   std::string atlas_words;
@@ -259,7 +263,7 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
       entry.words = one.error.what();
     }
     try {
-      make_folder(index_folder(arguments));
+      make_folder(index_at);
       write_file_atomically(index, index_page(entries, std::string(build_facts().version)));
       if (!answers.stopped()) atlas_words = atlas.write();
     } catch (...) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "app/default_folder.h"
 #include "app/experiment.h"
 #include "app/experiment_file.h"
 #include "app/first_experiment.h"
@@ -38,11 +39,11 @@ int verb_init(const std::string& model, const ExperimentArguments& arguments) {
   const std::string word = shell_quoted(file);
   fmt::print("{} is written; each line says what to change\n", printable(file));
   if (const std::string note = notes_line(loaded.scene); !note.empty()) fmt::print("note: {}\n", printable(note));
-  const std::string stem = fs::path(file).stem().string();
   fmt::print(
       "\nNext:\n  noonmark run {}\n  open {}/report.html\n"
       "or, for the cheapest settings that hold the bounds:\n  noonmark recommend {}\n  noonmark check {}\n",
-      word, shell_quoted("out/" + stem), word, shell_quoted("out/recommend-" + stem + "/recommended.toml"));
+      word, shell_quoted(default_folder(file)), word,
+      shell_quoted(default_folder(file, "recommend-") + "/recommended.toml"));
   return 0;
 }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-
+#include "app/default_folder.h"
 #include "app/experiment_arguments.h"
 #include "app/model_report.h"
 #include "app/pictures.h"
@@ -18,8 +17,7 @@ int verb_inspect(const std::string& model, bool json, ExperimentArguments argume
   arguments.sets.push_back("scene.name=" + model);
   const Settings settings = points(experiment_from("", arguments)).at(0);
   const ModelReport report = inspect_model(settings);
-  const std::string out =
-      arguments.out.empty() ? "out/inspect-" + std::filesystem::path(model).stem().string() : arguments.out;
+  const std::string out = arguments.out.empty() ? default_folder(model, "inspect-") : arguments.out;
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
   require_memory(bench.memory(settings, false, false), bench.memory_of_program(true), "this picture");

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "app/build_facts.h"
+#include "app/default_folder.h"
 #include "app/experiment_arguments.h"
 #include "app/phase_diagram.h"
 #include "app/results_folder.h"
@@ -25,8 +25,7 @@ int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentAr
   arguments.sets.insert(arguments.sets.begin(), {"view.width_px=640", "view.height_px=360"});
   arguments.sets.push_back("scene.name=" + scene);
   const Settings given = points(experiment_from("", arguments)).at(0);
-  const std::string out =
-      arguments.out.empty() ? "out/map-" + std::filesystem::path(scene).stem().string() : arguments.out;
+  const std::string out = arguments.out.empty() ? default_folder(scene, "map-") : arguments.out;
   Workbench bench(gl::DebugMode::log);
   const Scene& loaded = bench.scene(given.scene);
   const Settings settings = phase_settings(given, loaded);

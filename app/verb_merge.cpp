@@ -13,7 +13,7 @@
 namespace noonmark {
 
 int verb_merge(const MergeOptions& options) {
-  const ResultsFolder out(options.out);
+  const ResultsFolder out(options.out, "");
   Merged merged = merge_stores(options.shares, out, options.overwrite);
   const Results& results = merged.results;
   const MachineNotes machines = machine_notes(results);

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "app/default_folder.h"
 #include "app/experiment_arguments.h"
 #include "app/image_file.h"
 #include "app/pictures.h"
@@ -92,8 +93,7 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
   if (!is_experiment(what)) arguments.sets.push_back("scene.name=" + what);
   const Experiment whole = experiment_from(is_experiment(what) ? what : "", arguments);
   const Experiment& experiment = only_part(whole);
-  const std::string out =
-      arguments.out.empty() ? "out/recommend-" + std::filesystem::path(what).stem().string() : arguments.out;
+  const std::string out = arguments.out.empty() ? default_folder(what, "recommend-") : arguments.out;
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
   require_image_files();

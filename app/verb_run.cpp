@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/default_folder.h"
 #include "app/experiment.h"
 #include "app/experiment_arguments.h"
 #include "app/experiment_text.h"
@@ -16,13 +17,14 @@
 namespace noonmark {
 
 int verb_run(const std::string& path, const ExperimentArguments& arguments, bool dry_run) {
-  const std::string out = out_folder(path, arguments) + (arguments.shard ? "/" + arguments.shard->folder() : "");
+  const std::string out = (arguments.out.empty() ? default_folder(path) : arguments.out) +
+                          (arguments.shard ? "/" + arguments.shard->folder() : "");
   const bool measures = !dry_run && !arguments.print_config;
   // A folder that does not exist has no verdict. It is made only for an experiment that can be run.
   std::error_code none;
   const bool there = std::filesystem::is_directory(out, none);
   EarlyFolder folder;
-  if (measures && there) folder.open(out);
+  if (measures && there) folder.open(out, path);
   const Experiment experiment = experiment_from(path, arguments);
   if (arguments.print_config) {
     fmt::print("{}", experiment_text(experiment));
@@ -37,7 +39,7 @@ int verb_run(const std::string& path, const ExperimentArguments& arguments, bool
     fmt::print("{}", no_points_text(*arguments.shard));
     return 0;
   }
-  if (!there) folder.open(out);
+  if (!there) folder.open(out, path);
   const SweepOutcome outcome = run_sweep(experiment, folder.get(),
                                          {.overwrite = arguments.overwrite,
                                           .command = arguments.command,

@@ -15,7 +15,7 @@ namespace noonmark {
 struct ExperimentArguments {
   std::vector<std::string> sets;   // --set name=value, in order
   std::vector<std::string> parts;  // --part; empty: all of the experiment's
-  std::string out;                 // --out; empty: out/<name of the experiment>
+  std::string out;                 // --out; empty: the default folder (app/default_folder.h)
   bool overwrite = false;
   int threads = 0;             // --threads; 0: all cores
   std::string command;         // the whole command line, for the record

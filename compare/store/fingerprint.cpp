@@ -35,6 +35,13 @@ bool same_facts(const std::string& here, const std::string& there) {
   return all_in(a, b) && all_in(b, a);
 }
 
+std::string without_scenes(const std::string& facts) {
+  std::string text;
+  for (const auto& [name, line] : named_lines(facts))
+    if (!name.starts_with("scene ")) text += line + "\n";
+  return text;
+}
+
 std::string joined_facts(const std::string& here, const std::string& there) {
   const auto lines = named_lines(here);
   std::string text = here;

@@ -11,6 +11,9 @@ std::string first_difference(const std::string& here, const std::string& there);
 // Whether the two say the same of every name; a scene may be in one of the two only.
 bool same_facts(const std::string& here, const std::string& there);
 
+// The text without the lines of scenes: what all points of a store have in common. Each point has the digest of its own scene.
+std::string without_scenes(const std::string& facts);
+
 // The lines of `here`, and the scenes that only `there` has.
 std::string joined_facts(const std::string& here, const std::string& there);
 

@@ -8,6 +8,7 @@ using Machine = PointRecord::Machine;
 
 constexpr RecordField fields_of_records[] = {
     {"part", "", "", "The experiment's part; empty if it has no parts.", &PointRecord::part},
+    {"scene_digest", "", "", "The digest of the contents of the point's scene.", &PointRecord::scene_digest},
     {"worst_x", "worst", "px", "The worst pixel's column.", &Worst::x},
     {"worst_y", "worst", "px", "The worst pixel's row, 0 on top.", &Worst::y},
     {"worst_error", "worst", "fraction", "Its error.", &Worst::error},

@@ -90,6 +90,7 @@ struct PointRecord : PointPictures {
   int64_t id = 0;                               // position in the sweep, from 0
   std::string part;                             // the experiment's part; empty if it has no parts
   std::map<std::string, std::string> settings;  // every setting by its row's name, in canonical text
+  std::string scene_digest;                     // of the contents of its scene (scenes/scene_digest.h)
   std::map<std::string, double> metrics;  // by metric name; not finite: could not be measured, which breaks any bound
   std::map<std::string, double> times;    // of stages: "hard_truth_ms", "texel_rays" ...
   std::optional<BiasCurve> curve;
@@ -150,6 +151,7 @@ struct LawResult {
 // How the results were made.
 struct RunInfo {
   std::string experiment;  // path as given, or empty
+  std::string file;        // the same as seen from the folder of the store; empty: not known
   std::string title;
   std::string command;          // the command line
   std::string commit, version;  // of Noonmark; commit may be "unknown"

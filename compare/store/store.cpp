@@ -31,6 +31,7 @@ using sqlite::Transaction;
 // The text members of RunInfo, with their keys in the table `info`.
 constexpr std::pair<std::string_view, std::string RunInfo::*> info_texts[] = {
     {"experiment", &RunInfo::experiment},
+    {"file", &RunInfo::file},
     {"title", &RunInfo::title},
     {"command", &RunInfo::command},
     {"commit", &RunInfo::commit},
@@ -186,14 +187,12 @@ ResultStore::ResultStore(const std::string& path, const std::string& fingerprint
     }
   }
   check_store(*db_);
-  if (const std::string there = this->fingerprint(); !same_facts(fingerprint, there)) refuse(fingerprint, there);
+  const std::string here = without_scenes(fingerprint), there = without_scenes(this->fingerprint());
+  if (!same_facts(here, there))
+    throw OtherResults(fmt::format("{}: its points were measured by another program or on another machine ({}); {}",
+                                   db_->path(), first_difference(here, there), db_->way_out()));
   begin_writing(*db_);
   writes_ = true;
-}
-
-void ResultStore::refuse(const std::string& here, const std::string& there) const {
-  throw OtherResults(fmt::format("{}: holds the results of another experiment ({}); {}", db_->path(),
-                                 first_difference(here, there), db_->way_out()));
 }
 
 ResultStore::ResultStore(std::unique_ptr<Database> db) : db_(std::move(db)) {}
@@ -207,6 +206,14 @@ ResultStore ResultStore::open(const std::string& path) {
   auto db = std::make_unique<Database>(path, Database::Mode::existing);
   check_store(*db);
   return ResultStore(std::move(db));
+}
+
+std::string ResultStore::experiment_file(const std::string& path) {
+  try {
+    return Database(path, Database::Mode::existing).ask("SELECT value FROM info WHERE key = 'file'").value_or("");
+  } catch (const Error&) {
+    return "";
+  }
 }
 
 std::vector<int64_t> ResultStore::finished() const {

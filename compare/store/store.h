@@ -37,11 +37,11 @@ class Database;
 }
 
 enum class Existing {
-  resume,     // continue a store that has the same fingerprint; refuse any other
+  resume,     // continue a store that has the same fingerprint (its scenes may differ); refuse any other
   overwrite,  // start anew; the file's contents are lost
 };
 
-// The store holds the results of another experiment, scene, program, driver or machine.
+// The store holds the results of another program, driver or machine.
 struct OtherResults : Error {
   explicit OtherResults(const std::string& message) : Error(ErrorKind::usage, message) {}
 };
@@ -49,12 +49,15 @@ struct OtherResults : Error {
 class ResultStore {
  public:
   // fingerprint: what every result depends on beside its point's settings (app/identity.h), as lines of "name = value".
-  // The folder must exist. Throws OtherResults if the store's fingerprint differs, with the first line that differs; a
-  // line of a scene may be in one of the two only. Throws Error(usage) for the store of another version, and Error(file)
+  // The folder must exist. Throws OtherResults if the store's fingerprint differs in more than scenes, with the first line that
+  // differs. Throws Error(usage) for the store of another version, and Error(file)
   // for a file that is damaged, is no store, or cannot be written.
   ResultStore(const std::string& path, const std::string& fingerprint, Existing existing);
   // Opens an existing store with any fingerprint, to make a report again. Throws Error(file) if there is none.
   static ResultStore open(const std::string& path);
+  // RunInfo::file of the store at this path, also of one that open() refuses. Empty if there is no store, if it does not say,
+  // or if it cannot be read.
+  static std::string experiment_file(const std::string& path);
 
   ~ResultStore();
   ResultStore(ResultStore&&) noexcept;
@@ -75,8 +78,6 @@ class ResultStore {
   // Takes over that text and the fingerprint. Scenes that only the store's fingerprint has are kept, because points that
   // are set aside may have them.
   void set_plan(const std::string& fingerprint, const std::string& plan);
-  // Throws OtherResults with the first difference of two such texts.
-  [[noreturn]] void refuse(const std::string& here, const std::string& there) const;
   // Throws Error(usage) if the store has this id already.
   void add(const PointRecord& point);
   // The same for the phase diagrams, by their number.

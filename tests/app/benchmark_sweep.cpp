@@ -154,8 +154,9 @@ void measure(const std::string& path, int rounds) {
   Floor floor;
   for (int round = 0; round < rounds; ++round) {
     double sweep = 0;
-    timed(sweep,
-          [&] { run_sweep(experiment, ResultsFolder(folder), {.overwrite = true, .command = "benchmark_sweep"}); });
+    timed(sweep, [&] {
+      run_sweep(experiment, ResultsFolder(folder, experiment.path), {.overwrite = true, .command = "benchmark_sweep"});
+    });
     floor = points_floor.measure(planned);
     sweeps.push_back(sweep);
     floors.push_back(floor.all());

@@ -35,7 +35,8 @@ TEST_F(FirstSteps, AnInitializedExperimentRunsAtOnce) {
   write("models/a \"b\"/square.gltf", standing().dump());
   ASSERT_EQ(run({"init", "models/a \"b\"/square.gltf", "--out", "exp/first.toml"}), 0) << output_;
   EXPECT_TRUE(says("noonmark run exp/first.toml")) << output_;
-  EXPECT_TRUE(says("noonmark recommend exp/first.toml") && says("noonmark check out/recommend-first/recommended.toml"))
+  EXPECT_TRUE(says("noonmark recommend exp/first.toml") &&
+              says("noonmark check out/exp/recommend-first/recommended.toml") && says("open out/exp/first/report.html"))
       << output_;
   ASSERT_EQ(run({"run", "exp/first.toml", "--out", "out", "--set", "view.width_px=64", "--set", "view.height_px=36"}),
             0)

@@ -110,6 +110,31 @@ TEST_F(Rejudge, PointsThatAreGoneAreKeptForLater) {
   expect_as_new(cubes("[128, 64, 32]"), "out");
 }
 
+// The everyday loop: a setting of one's own file is changed, the file is run again, and changed back.
+TEST_F(Rejudge, AChangedSettingIsASetOfNewPoints) {
+  const auto biased = [](const std::string& bias) {
+    return cubes("[32, 64]", "[bias]\nconstant = " + bias + "\n", "first");
+  };
+  check(biased("0.001234"), "out", 4, 0);
+  check(biased("0.004321"), "out", 4, 0);
+  EXPECT_TRUE(says("4 points that this experiment does not have stay in the store for a later one")) << output_;
+  expect_as_new(biased("0.004321"), "out");
+  for (const char* file : {"out/report.html", "out/junit.xml", "out/summary.md", "out/images/p0000-truth.png"})
+    EXPECT_TRUE(fs::exists(folder_ / file)) << file;
+  const std::string report = text("out/report.html");
+  EXPECT_EQ(report.find("0.001234"), std::string::npos) << "a bias of the points that were set aside";
+  check(biased("0.001234"), "out", 0, 4);
+  expect_as_new(biased("0.001234"), "out");
+  // The points of the other bias are still there.
+  check(cubes("[32, 64]", "[bias]\nconstant = 0.004321\n"), "out", 0, 4);
+  for (const char* other : {"scene.name=plane", "view.width_px=63", "light.elevation_deg=40", "filter.kind=box"}) {
+    SCOPED_TRACE(other);
+    write("x.toml", one_point + held_bound);
+    EXPECT_EQ(run({"check", "x.toml", "--out", "set", "--set", other}), 0) << output_;
+    EXPECT_TRUE(says("; 1 point measured; the report is")) << output_;
+  }
+}
+
 TEST_F(Rejudge, OnlyThePointsOfANewPartAreMeasured) {
   const auto parts = [](std::initializer_list<const char*> scenes) {
     std::string toml = small_view;

@@ -43,6 +43,7 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
   Settings settings;
   settings.map.resolution = 256 << (id % 4);
   for (const Setting& row : settings_table()) point.settings[std::string(row.name)] = row.get(settings);
+  point.scene_digest = "5ce7e" + std::to_string(id);
   double value = 0.1 + static_cast<double>(id);
   for (const Metric& row : metrics_table()) point.metrics[std::string(row.name)] = value /= 3;
   point.metrics["placement_disagreements"] = 0;
@@ -164,6 +165,7 @@ inline PhaseDiagram sample_phase() {
 inline RunInfo sample_info() {
   RunInfo info;
   info.experiment = "experiments/cube room.toml";
+  info.file = "../../experiments/cube room.toml";
   info.title = "Größe & \"Bias\" <test>";
   info.command = "noonmark run 'experiments/cube room.toml'";
   info.commit = "0123abc";
@@ -219,8 +221,8 @@ inline bool same(const PictureRecord& a, const PictureRecord& b) {
   return a.name == b.name && a.path == b.path && a.caption == b.caption && a.digest == b.digest;
 }
 inline bool same(const PointRecord& a, const PointRecord& b) {
-  return a.id == b.id && a.part == b.part && a.settings == b.settings && same(a.metrics, b.metrics) &&
-         same(a.times, b.times) && a.curve.has_value() == b.curve.has_value() &&
+  return a.id == b.id && a.part == b.part && a.settings == b.settings && a.scene_digest == b.scene_digest &&
+         same(a.metrics, b.metrics) && same(a.times, b.times) && a.curve.has_value() == b.curve.has_value() &&
          (!a.curve || same(*a.curve, *b.curve)) &&
          std::equal(a.pictures.begin(), a.pictures.end(), b.pictures.begin(), b.pictures.end(),
                     [](const PictureRecord& x, const PictureRecord& y) { return same(x, y); }) &&
