@@ -198,10 +198,12 @@ int run(int argc, char** argv) {
   with_shard(run);
   run->add_flag("--dry-run", dry_run, "Only print the points, the memory that each takes, and an estimate of the time");
 
-  const auto with_output = [&](CLI::App* verb) {
-    verb->add_flag("--json", arguments.json,
-                   "Print the results as JSON: verdict, bounds, laws, answer and every point");
+  const auto with_json = [&](CLI::App* verb, const char* what) {
+    verb->add_flag("--json", arguments.json, what);
     verb->add_flag("--quiet", arguments.quiet, "Print no progress; notes, warnings and errors stay");
+  };
+  const auto with_output = [&](CLI::App* verb) {
+    with_json(verb, "Print the results as JSON: verdict, bounds, laws, answer and every point");
     verb->add_flag("--print-config", arguments.print_config,
                    "Only print the experiment as a file with every default written out");
   };
@@ -276,6 +278,7 @@ int run(int argc, char** argv) {
   map->add_option("--threads", arguments.threads,
                   "Number of threads (default: one for each core); no result depends on it")
       ->check(whole_number(1, 1024, "from 1 to 1024"));
+  with_json(map, "Print the usable biases of each texel size as JSON");
   map->footer(exit_codes);
   with_out(map,
            "Folder for the files (default: out/map-<name of the scene>, or out/tests/map-helmet for tests/helmet.glb)");
@@ -317,8 +320,7 @@ int run(int argc, char** argv) {
       "--around", recommending.around,
       "Also measure what each setting does around the answer: the error at its half and its double, and the "
       "range in which the bounds hold");
-  recommend->add_flag("--json", recommending.json, "Print everything that was found as JSON");
-  recommend->add_flag("--quiet", recommending.quiet, "Print no progress");
+  with_json(recommend, "Print everything that was found as JSON");
   recommend
       ->add_option("--threads", arguments.threads,
                    "Number of threads (default: one for each core); no result depends on it")
@@ -328,7 +330,6 @@ int run(int argc, char** argv) {
            "Folder for the files (default: out/recommend-<name>, or out/tests/recommend-helmet for tests/helmet.toml)");
 
   std::string model;
-  bool as_json = false;
   const auto with_model = [&](CLI::App* verb) {
     verb->add_option("model", model, "The path of a .gltf or .glb file")->required()->check(not_empty);
     verb->footer(exit_codes);
@@ -343,7 +344,7 @@ int run(int argc, char** argv) {
   CLI::App* inspect = app.add_subcommand(
       "inspect", "Say what a model holds, how large it is and what is not modelled, and draw it with its shadow");
   with_model(inspect);
-  inspect->add_flag("--json", as_json, "Print the same as JSON");
+  with_json(inspect, "Print the same as JSON");
   with_set(inspect);
   with_out(inspect,
            "Folder for the picture (default: out/inspect-<name>, or out/tests/inspect-helmet for tests/helmet.glb)");
@@ -388,7 +389,7 @@ int run(int argc, char** argv) {
     if (*map) return verb_map(scene, phase, arguments);
     if (*recommend) return verb_recommend(scene, recommending, arguments);
     if (*init) return verb_init(model, arguments);
-    if (*inspect) return verb_inspect(model, as_json, arguments);
+    if (*inspect) return verb_inspect(model, arguments);
     if (*report) return verb_report(folder);
     if (*merge) {
       merging.command = arguments.command;

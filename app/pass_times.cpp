@@ -1,6 +1,7 @@
 #include "app/pass_times.h"
 
 #include <algorithm>
+#include <set>
 
 #include "app/stage_keys.h"
 #include "compare/judge/interval.h"
@@ -35,18 +36,27 @@ void add(TimeMetrics& metrics, const std::string& name, const std::vector<double
   metrics.insert({{low, time.low}, {name, time.middle}, {high, time.high}});
 }
 
+// Points with one picture are timed together.
+std::string picture_key_of(const Settings& point) { return settings_key(point, {Stage::scene, Stage::view}); }
+
 }  // namespace
+
+int time_rounds(std::span<const Settings> points) {
+  std::set<std::string> pictures;
+  for (const Settings& point : points) pictures.insert(picture_key_of(point));
+  return timed_rounds * static_cast<int>(pictures.size());
+}
 
 std::optional<std::vector<TimeMetrics>> time_passes(const SamplePasses& sample, std::span<const Settings> points,
                                                     const std::function<bool(int done, int all)>& go_on) {
   std::map<std::string, std::vector<size_t>> pictures;
   std::vector<Work> work;
   for (size_t i = 0; i < points.size(); ++i) {
-    pictures[settings_key(points[i], {Stage::scene, Stage::view})].push_back(i);
+    pictures[picture_key_of(points[i])].push_back(i);
     work.push_back({map_key_of(points[i]), lookup_work_of(points[i])});
   }
   std::vector<TimeMetrics> all(points.size());
-  const int rounds = timed_rounds * static_cast<int>(pictures.size());
+  const int rounds = time_rounds(points);
   int done = 0;
   for (const auto& [key, picture] : pictures) {
     Samples maps, lookups;

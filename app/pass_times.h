@@ -32,6 +32,9 @@ std::optional<std::vector<TimeMetrics>> time_passes(const SamplePasses& sample, 
 std::optional<std::vector<TimeMetrics>> time_passes(Workbench& bench, std::span<const Settings> points,
                                                     const std::function<bool(int done, int all)>& go_on);
 
+// How many rounds these points need.
+int time_rounds(std::span<const Settings> points);
+
 // Of one point.
 TimeMetrics time_passes(Workbench& bench, const Settings& point);
 

@@ -207,7 +207,7 @@ Settings phase_settings(const Settings& given, const Scene& scene) {
 
 PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& tracer, const Scene& scene,
                            const ViewStage& view, const TruthStage& truth, const Settings& given,
-                           const PhaseOptions& options) {
+                           const PhaseOptions& options, const RowDone& row_done) {
   PhaseDiagram diagram;
   diagram.width_px = view.receivers.width();
   diagram.height_px = view.receivers.height();
@@ -260,6 +260,7 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
     diagram.rows.push_back(std::move(row));
     diagram.receivers = static_cast<double>(counts.receivers());
     if (r == 0) add_law(diagram, frame, view, truth, settings);
+    row_done(r + 1);
   }
   return diagram;
 }

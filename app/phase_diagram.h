@@ -1,6 +1,8 @@
 // Measures the phase diagram of a scene (compare/report/phase.h): every texel size at all placements of its own grid,
 // and every bias from one set of thresholds. Nothing is rendered but where OpenGL looks up.
 #pragma once
+#include <functional>
+
 #include "app/stages.h"
 #include "compare/report/phase.h"
 
@@ -18,11 +20,14 @@ struct PhaseOptions {
 // Error(usage) if the diagram has no meaning for them, with what to change.
 Settings phase_settings(const Settings& settings, const Scene& scene);
 
+// Called after each texel size, with the number of those that are measured.
+using RowDone = std::function<void(int done)>;
+
 // settings: from phase_settings(). The receivers are on the device. The texts of the diagram are left empty
 // (describe_phase).
 PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& tracer, const Scene& scene,
                            const ViewStage& view, const TruthStage& truth, const Settings& settings,
-                           const PhaseOptions& options);
+                           const PhaseOptions& options, const RowDone& row_done);
 
 // The same diagram at the bounds of `options`, from its rows.
 PhaseDiagram rejudged_phase(const PhaseDiagram& measured, const Scene& scene, const ViewStage& view,

@@ -22,9 +22,9 @@
 #include "app/pass_times.h"
 #include "app/pictures.h"
 #include "app/point_pictures.h"
-#include "app/progress.h"
 #include "app/survey.h"
 #include "app/sweep_phase.h"
+#include "app/sweep_progress.h"
 #include "app/workbench.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
@@ -208,20 +208,22 @@ bool has_what_a_sweep_reads(const PointRecord& point) {
 // Times every wanted point, if one has no times yet: those of another day could not be compared with the others. False if a
 // signal stopped it; then nothing is stored.
 bool add_times(Workbench& bench, ResultStore& store, const std::vector<Settings>& planned,
-               const std::vector<int64_t>& wanted, Progress& progress) {
+               const std::vector<int64_t>& wanted, SweepProgress& progress) {
   const std::vector<PointRecord> points = store.load().points;
   if (std::all_of(points.begin(), points.end(),
                   [](const PointRecord& point) { return point.metrics.contains("shadow_ms"); }))
     return true;
   std::vector<Settings> timed;
   for (const int64_t id : wanted) timed.push_back(point_at(planned, id));
-  std::optional<std::vector<TimeMetrics>> times;
   const auto go_on = [&](int done, int all) {
-    progress.say(fmt::format("times of map and lookup: round {} of {}", done + 1, all));
+    if (done == 0) progress.shown.say("times of map and lookup");
+    if (done > 0)
+      progress.shown.finished(progress.rounds, fmt::format("times of map and lookup: round {} of {}", done, all));
     return stop_asked == 0;
   };
-  progress.aside("times of map and lookup", [&] { times = time_passes(bench, timed, go_on); });
+  std::optional<std::vector<TimeMetrics>> times = time_passes(bench, timed, go_on);
   if (!times) return false;
+  progress.shown.finished(progress.rounds, "times of map and lookup: the last round");
   std::map<int64_t, TimeMetrics> of_points;
   for (size_t i = 0; i < wanted.size(); ++i) of_points[wanted[i]] = std::move((*times)[i]);
   store.set_metrics(of_points);
@@ -307,9 +309,9 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     }
   SweepOutcome outcome;
   outcome.kept = static_cast<int64_t>(before.size());
+  SweepProgress progress(experiment, planned, ahead_of(experiment, planned, wanted, store, undrawn), options.quiet);
   {
     const StopOnSignal guard;
-    Progress progress(total, static_cast<int64_t>(before.size()), options.quiet);
     auto done = static_cast<int64_t>(before.size());
     for (const int64_t id : wanted) {
       if (outcome.interrupted) break;
@@ -319,7 +321,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
       if (drawn_here != undrawn.end()) {
         const PhasePlan& plan = **drawn_here;
         scenes.require_unchanged(bench, planned[static_cast<size_t>(id)]);
-        progress.aside(plan.name(), [&] { store.add_phase(plan.number, make_phase(bench, plan, earlier)); });
+        store.add_phase(plan.number, make_phase(bench, plan, earlier, progress.of_diagram(plan)));
+        progress.diagram_done(plan);
         undrawn.erase(drawn_here);
         outcome.interrupted = stop_asked && (done < total || !undrawn.empty());
         if (outcome.interrupted) break;
@@ -338,7 +341,8 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
         static_cast<PointPictures&>(m.record) = pictures_of(bench, m, id, folder.path());
       store.add(m.record);
       ++outcome.measured;
-      progress.finished(++done, name_of_point(experiment, id));
+      ++done;
+      progress.shown.finished(progress.points, fmt::format("[{}/{}] {}", done, total, name_of_point(experiment, id)));
       outcome.interrupted = stop_asked && (done < total || !undrawn.empty());
     }
     if (times_measured(experiment) && !outcome.interrupted)
@@ -350,6 +354,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     if (const Settings& point = point_at(planned, id); names_file(point.scene.name))
       outcome.scenes[static_cast<size_t>(id)] = scenes.of(point);
   outcome.results = store.load();
+  progress.shown.end_line();
   if (const std::string poor = poor_view_note(outcome.results.points); !poor.empty())
     fmt::print(stderr, "note: {}\n", poor);
   if (const std::string still = no_flicker_note(outcome.results.points); !still.empty())
@@ -371,13 +376,18 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     }
     const Instant instant =
         options.shard ? Instant{} : worst_instant(outcome.results.points);  // of all shares together
+    size_t undrawn_pictures = shown.size() + (instant.frames.size() > 2 ? instant.frames.size() : 0) +
+                              (options.worst_pixels ? points_of_broken(outcome.results).size() : 0);
     for (int64_t id : shown) {
+      progress.shown.set_left(progress.pictures, undrawn_pictures);
+      --undrawn_pictures;
       const PointRecord& point = *find_point(outcome.results.points, id);
       // With fewer than 3 frames the picture "flicker" shows them all.
       const bool moves = id == instant.id && instant.frames.size() > 2;
       bool whole = !point.pictures.empty();
       if (whole) {
         const std::string why = measured_before(id) ? why_not_as_written(point, folder.path()) : "";
+        if (!why.empty()) progress.shown.end_line();
         if (!why.empty()) fmt::print(stderr, "note: {}; the pictures of point {} are made again\n", printable(why), id);
         whole = why.empty();
       }
@@ -389,11 +399,20 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
         return bench.measure(settings, std::nullopt);
       };
       PointPictures kept_pictures = point;
-      if (!whole) kept_pictures = pictures_of(bench, measure(id), id, folder.path());
+      if (!whole) {
+        progress.shown.say(fmt::format("pictures of point {}", id));
+        kept_pictures = pictures_of(bench, measure(id), id, folder.path());
+        progress.shown.finished(progress.pictures, fmt::format("pictures of point {} are drawn", id));
+      }
       remove_motion(kept_pictures, folder.path());
       if (moves) {
         std::vector<Image<Color>> frames;
-        for (const int64_t frame : instant.frames) frames.push_back(motion_frame(measure(frame)));
+        for (const int64_t frame : instant.frames) {
+          frames.push_back(motion_frame(measure(frame)));
+          --undrawn_pictures;
+          progress.shown.finished_small(
+              progress.pictures, fmt::format("animation: {} of {} frames", frames.size(), instant.frames.size()));
+        }
         kept_pictures.pictures.push_back(keep_motion(frames, id, folder.path()));
       }
       store.set_pictures(id, kept_pictures);
@@ -407,12 +426,17 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   if (options.worst_pixels && writes_pictures(experiment) && !outcome.interrupted)
     for (const PointRecord* point : points_of_broken(outcome.results)) {
       const auto id = static_cast<size_t>(point->id);
+      progress.shown.say(fmt::format("the worst pixel of point {}", id));
       room.require_room_for(id);
       scenes.require_unchanged(bench, planned[id]);
       outcome.worst_pixels.push_back(draw_worst_pixel(bench.measure(planned[id], std::nullopt), *point,
                                                       name_of_point(experiment, point->id), folder.path()));
+      progress.shown.finished(progress.pictures, fmt::format("the worst pixel of point {} is drawn", id));
     }
+  progress.report_alone();
   write_report(outcome.results, folder.path());
+  progress.shown.finished(progress.report, "the report is written");
+  progress.shown.end_line();
   require_sound(outcome.results);
   return outcome;
 }

@@ -171,7 +171,8 @@ void require_room_for(Workbench& bench, const PhasePlan& plan) {
   require_memory(bench.memory(coarse, false, false), bench.memory_of_program(false), plan.name());
 }
 
-PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan, const std::vector<PhaseDiagram>& earlier) {
+PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan, const std::vector<PhaseDiagram>& earlier,
+                        const RowDone& row_done) {
   const Scene& scene = bench.scene(plan.points.front().scene);
   const Settings& chosen = point_of_diagram(plan, scene);
   std::vector<PhasePoint> points;
@@ -203,7 +204,7 @@ PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan, const std::vect
     const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const PhaseDiagram& one) {
       return one.refused.empty() && one.made_from.ends_with(measured);
     });
-    diagram = bench.phase(settings, options, same == earlier.end() ? nullptr : &*same);
+    diagram = bench.phase(settings, options, same == earlier.end() ? nullptr : &*same, row_done);
     describe_phase(diagram, settings, scene);
     diagram.points = std::move(points);
   } catch (const Error& error) {

@@ -39,6 +39,8 @@ void require_room_for(Workbench& bench, const PhasePlan& plan);
 // If the part can have no diagram, the result says why (PhaseDiagram::refused). earlier: diagrams of the same
 // program; one with the same texel sizes of the same technique is not measured again, only its bounds and points are new.
 // Throws Error.
-PhaseDiagram make_phase(Workbench& bench, const PhasePlan& plan, const std::vector<PhaseDiagram>& earlier = {});
+PhaseDiagram make_phase(
+    Workbench& bench, const PhasePlan& plan, const std::vector<PhaseDiagram>& earlier = {},
+    const RowDone& row_done = [](int) {});
 
 }  // namespace noonmark

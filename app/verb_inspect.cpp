@@ -4,6 +4,7 @@
 #include "app/experiment_arguments.h"
 #include "app/model_report.h"
 #include "app/pictures.h"
+#include "app/progress.h"
 #include "app/results_folder.h"
 #include "app/verbs.h"
 #include "app/workbench.h"
@@ -11,7 +12,7 @@
 
 namespace noonmark {
 
-int verb_inspect(const std::string& model, bool json, ExperimentArguments arguments) {
+int verb_inspect(const std::string& model, ExperimentArguments arguments) {
   // A picture that is quick to make. A finer map changes nothing in it, because its shadow is the truth.
   arguments.sets.insert(arguments.sets.begin(), {"view.width_px=960", "view.height_px=540"});
   arguments.sets.push_back("scene.name=" + model);
@@ -21,11 +22,16 @@ int verb_inspect(const std::string& model, bool json, ExperimentArguments argume
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
   require_memory(bench.memory(settings, false, false), bench.memory_of_program(true), "this picture");
+  Progress progress(arguments.quiet);
+  const Progress::Work picture_drawn = progress.add(1, 2.0);
+  progress.say(fmt::format("the picture of {}", model));
   const Measurement m = bench.measure(settings, std::nullopt);
   make_output_folder(out);
   const std::string picture = out + "/view.png";
   write_png(picture, lit_picture(m));
-  if (json) {
+  progress.finished(picture_drawn, "the picture is drawn");
+  progress.end_line();
+  if (arguments.json) {
     fmt::print("{}", report_json(report, picture));
     return 0;
   }

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "app/build_facts.h"
 #include "app/default_folder.h"
 #include "app/experiment_arguments.h"
 #include "app/phase_diagram.h"
+#include "app/progress.h"
 #include "app/results_folder.h"
 #include "app/verbs.h"
 #include "app/workbench.h"
@@ -15,6 +18,40 @@
 #include "scenes/text.h"
 
 namespace noonmark {
+namespace {
+
+// What the page and the CSV say of each texel size, and where they are. docs/experiment.md describes the keys.
+std::string map_json(const PhaseDiagram& diagram, const std::string& out) {
+  using Json = nlohmann::ordered_json;
+  const auto number = [](double value) {
+    return std::isfinite(value) ? Json(value) : Json(std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
+  };
+  Json rows = Json::array();
+  for (const PhaseRow& row : diagram.rows) {
+    const BiasInterval usable = diagram.usable(row);
+    Json one{
+        {"resolution", row.resolution}, {"texel_m", number(row.texel_m)}, {"last_acne_m", number(row.last_acne_m)}};
+    one["usable_m"] = usable.empty() ? Json() : Json{number(usable.from), number(usable.to)};
+    rows.push_back(std::move(one));
+  }
+  const Json all{{"noonmark", diagram.version},
+                 {"command", diagram.command},
+                 {"exit_code", 0},
+                 {"scene", diagram.scene},
+                 {"light", diagram.light},
+                 {"technique", diagram.technique},
+                 {"placements", diagram.placements},
+                 {"acne_bound", diagram.acne_bound},
+                 {"peter_panning_bound", diagram.peter_panning_bound},
+                 {"text", phase_words(diagram)},
+                 {"texel_sizes", std::move(rows)},
+                 {"notes", diagram.notes.empty() ? Json::array() : Json{diagram.notes}},
+                 {"page", out + "/phase.html"},
+                 {"csv", out + "/phase.csv"}};
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
 
 int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentArguments arguments) {
   if (options.coarsest >= options.finest)
@@ -33,7 +70,13 @@ int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentAr
   coarse.map.resolution = options.coarsest;  // no map is drawn, and none is kept
   coarse.map.placements = options.placements;
   require_memory(bench.memory(coarse, false, false), bench.memory_of_program(false), "this diagram");
-  PhaseDiagram diagram = bench.phase(settings, options);
+  Progress progress(arguments.quiet);
+  const Progress::Work rows = progress.add(static_cast<size_t>(options.rows), 1.0);
+  progress.say(fmt::format("the phase diagram of {}", loaded.name));
+  PhaseDiagram diagram = bench.phase(settings, options, nullptr, [&](int done) {
+    progress.finished_small(rows, fmt::format("{} of {} texel sizes", done, options.rows));
+  });
+  progress.end_line();
   describe_phase(diagram, settings, loaded);
   diagram.command = arguments.command;
   diagram.version = build_facts().version;
@@ -44,6 +87,10 @@ int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentAr
   clear_abandoned_files(out);
   write_file_atomically(out + "/phase.html", render_phase(diagram));
   write_file_atomically(out + "/phase.csv", phase_csv(diagram));
+  if (arguments.json) {
+    fmt::print("{}", map_json(diagram, out));
+    return 0;
+  }
   for (const std::string& sentence : phase_words(diagram)) fmt::print("{}\n", sentence);
   if (!diagram.notes.empty()) fmt::print("note: {}\n", printable(diagram.notes));
   fmt::print("\n{0}/phase.html and {0}/phase.csv are written\n", printable(out));

@@ -9,6 +9,7 @@
 #include "app/experiment_arguments.h"
 #include "app/image_file.h"
 #include "app/pictures.h"
+#include "app/progress.h"
 #include "app/recommend_around.h"
 #include "app/recommend_text.h"
 #include "app/results_folder.h"
@@ -120,13 +121,13 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
   make_output_folder(out);
   clear_abandoned_files(out);
   remove_earlier_advice(out);
-  const auto say = [&](const std::string& step) {
-    if (!options.quiet) fmt::print(stderr, "{}\n", step);
-  };
+  Progress progress(arguments.quiet);  // without a remaining time: what is found decides what is tried next
+  const auto say = [&](const std::string& step) { progress.say(step); };
   Advice advice = search(bench, request, say);
   if (advice.answer && options.around)
     advice.around = settings_around(bench, answer_under_conditions(advice),
                                     {.bounds = request.curve, .accuracy = request.accuracy}, say);
+  progress.end_line();
   std::vector<EngineAdvice> engines;
   if (advice.answer) {
     const Settings& settings = advice.answer->settings;
@@ -134,7 +135,7 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
     engines = engine_advice(settings, make_light_frame(loaded, settings), loaded);
   }
   write_file_atomically(out + "/recommended.json", advice_json(advice, engines));
-  if (options.json)
+  if (arguments.json)
     fmt::print("{}", advice_json(advice, engines));
   else
     for (const std::string& line : advice_text(advice)) fmt::print("{}\n", line);
@@ -144,7 +145,7 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
   if (advice.around) write_file_atomically(out + "/recommended.html", to_tornado_page(*advice.around));
   const Measurement shown = bench.measure(advice.answer->settings, std::nullopt);
   write_pictures(shown, out, ".", "recommended");
-  if (!options.json) {
+  if (!arguments.json) {
     fmt::print("\nWhat to type (what each engine cannot express is in {}/engines.txt):\n", printable(out));
     for (const EngineAdvice& engine : engines) {
       fmt::print("  {} ({})\n", engine.engine, engine.version);

@@ -40,8 +40,8 @@ int verb_check(const std::vector<std::string>& paths, const ExperimentArguments&
 // only. picture: a file that is judged in place of R5, or empty.
 int verb_render(const std::string& experiment, long point, const std::string& picture,
                 const ExperimentArguments& arguments);
-// Says what a glTF model holds and writes a picture of it. json: as JSON. --out is the folder of the picture.
-int verb_inspect(const std::string& model, bool json, ExperimentArguments arguments);
+// Says what a glTF model holds and writes a picture of it. --out is the folder of the picture.
+int verb_inspect(const std::string& model, ExperimentArguments arguments);
 // Writes a first experiment for a glTF model. --out is the file (default: <name of the model>.toml in the working
 // folder). A file that is there stays, unless arguments.overwrite.
 int verb_init(const std::string& model, const ExperimentArguments& arguments);
@@ -53,7 +53,6 @@ struct RecommendOptions {
   std::optional<double> error, budget;        // AdviceRequest
   int views = 5;                              // of a scene; 1: its own only
   bool around = false;                        // also what each setting does around the answer
-  bool json = false, quiet = false;
 };
 int verb_recommend(const std::string& what, const RecommendOptions& options, ExperimentArguments arguments);
 // Joins the stores of shares into `out` and judges the whole. Returns 1 if a bound or a law is broken, 6 if points are

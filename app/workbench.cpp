@@ -249,13 +249,14 @@ void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placem
   add_time(record, "placement", placements.time());
 }
 
-PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured) {
+PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured,
+                              const RowDone& row_done) {
   validate(settings);
   const SceneStage& loaded = impl_->load(settings);
   const LightFrame frame = make_light_frame(*loaded.scene, settings);
   const auto [view, truth] = impl_->look(loaded, {settings, frame});
   if (measured) return rejudged_phase(*measured, *loaded.scene, view, truth, settings, options);
-  return measure_phase(impl_->renderer, *loaded.tracer, *loaded.scene, view, truth, settings, options);
+  return measure_phase(impl_->renderer, *loaded.tracer, *loaded.scene, view, truth, settings, options, row_done);
 }
 
 std::vector<PhasePlace> Workbench::places(const Settings& picture, std::span<const Settings> points) {

@@ -66,7 +66,9 @@ class Workbench {
 
   // The phase diagram of the scene under these settings (phase_settings()). measured: one with the same rows, if there is
   // one; then only what depends on the bounds is computed. Throws Error.
-  PhaseDiagram phase(const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured = nullptr);
+  PhaseDiagram phase(
+      const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured = nullptr,
+      const RowDone& row_done = [](int) {});
 
   // The places of points on a diagram that counts the receivers of `picture`: the points differ from it in texel size,
   // in bias and in settings that move no receiver. Throws Error.

@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
+#include <tuple>
 
 #include "tests/program/fixture.h"
+#include "tests/scenes/gltf/files.h"
 
 namespace noonmark::acceptance {
 namespace {
@@ -78,12 +80,73 @@ TEST_F(Output, JsonNamesAnExperimentThatFails) {
   EXPECT_NE(errors_.find("cube-rom"), std::string::npos) << "errors stay with --quiet";
 }
 
+// From the first texel size of the phase diagram to the report, each with the remaining time.
+TEST_F(Output, ProgressCoversTheWholeRun) {
+  write("x.toml",
+        "scene = \"cube-room\"\npictures = \"extremes\"\ntimes = true\n[view]\nwidth_px = 48\nheight_px = 27\n"
+        "[sweep]\nmap.resolution = [32, 64]\n[phase]\ntexel_sizes = 3\nplacements = 2\n[[bound]]\nmetric = \"acne\"\n"
+        "max = 0\n");
+  ASSERT_EQ(run_apart({"check", "x.toml", "--out", "out"}), 1) << errors_;
+  size_t at = 0;
+  for (const char* step : {"the phase diagram (", "[1/2] map.resolution = 32 (", "[2/2] map.resolution = 64 (",
+                           "times of map and lookup (", "times of map and lookup: round 1 of 9 (",
+                           "times of map and lookup: the last round (", "pictures of point ",
+                           "the worst pixel of point ", "the report (", "the report is written ("}) {
+    const size_t next = errors_.find(step, at);
+    ASSERT_NE(next, std::string::npos) << step << " is missing, or comes too early:\n" << errors_;
+    const std::string line = errors_.substr(next, errors_.find('\n', next) - next);
+    EXPECT_NE(line.find(" s so far, about "), std::string::npos) << line;
+    at = next;
+  }
+  ASSERT_EQ(run_apart({"check", "x.toml", "--out", "new", "--quiet"}), 1);
+  EXPECT_EQ(errors_.find("so far"), std::string::npos) << errors_;
+}
+
+// The verbs without bounds: with --json nothing else is on standard output, with --quiet no progress on standard error.
+TEST_F(Output, MapInspectAndRecommendHaveJsonAndQuiet) {
+  write("square.gltf", test::square().dump());
+  const std::vector<std::string> size = {"--set", "view.width_px=48", "--set", "view.height_px=27"};
+  using Words = std::vector<std::string>;
+  for (const auto& [words, begins, keys] : std::vector<std::tuple<Words, std::string, Words>>{
+           {{"map", "cube-room", "--from", "64", "--to", "128", "--rows", "2", "--placements", "2"},
+            "the phase diagram of cube-room (",
+            {"command", "exit_code", "scene", "text", "texel_sizes", "page", "csv"}},
+           {{"inspect", "square.gltf"}, "the picture of square.gltf (", {"triangles", "picture"}},
+           {{"recommend", "plate", "--views", "1", "--acne", "0.05", "--peter-panning", "0.05"},
+            "256 texels",
+            {"answer", "tried", "text"}}}) {
+    SCOPED_TRACE(words[0]);
+    Words command = words;
+    command.insert(command.end(), size.begin(), size.end());
+    command.emplace_back("--json");
+    const int code = run_apart(command);
+    EXPECT_LE(code, 1) << errors_;
+    EXPECT_NE(errors_.find(begins), std::string::npos) << errors_;
+    EXPECT_NE(errors_.find(" s so far"), std::string::npos) << errors_;
+    const nlohmann::json all = nlohmann::json::parse(output_);
+    for (const std::string& key : keys) EXPECT_TRUE(all.contains(key)) << key;
+    command.emplace_back("--quiet");
+    EXPECT_EQ(run_apart(command), code);
+    EXPECT_EQ(errors_.find("so far"), std::string::npos) << errors_;
+    nlohmann::json first = all, again = nlohmann::json::parse(output_);
+    for (nlohmann::json* one : {&first, &again}) one->erase("command");
+    EXPECT_EQ(first, again);
+  }
+  ASSERT_EQ(
+      run_apart({"map", "cube-room", "--from", "64", "--to", "128", "--rows", "2", "--placements", "2", "--json"}), 0);
+  const nlohmann::json map = nlohmann::json::parse(output_);
+  EXPECT_EQ(map["texel_sizes"][0]["resolution"], 64);
+  EXPECT_EQ(map["texel_sizes"][1]["resolution"], 128);
+  EXPECT_TRUE(map["texel_sizes"][0].contains("usable_m"));
+}
+
 // Both streams into one pipe: every line is one line of one of them.
 TEST_F(Output, LinesAreNeverMixed) {
   write("x.toml", two_points + "[[law]]\nname = \"x\"\nmeasured = \"acne\"\nat_most = 0\n");
   EXPECT_EQ(run({"check", "x.toml", "--out", "out"}), 1);
   const std::regex known(
-      "|\\[[12]/2\\] map\\.resolution = (32|64) \\(.* s so far, about \\d+ s left\\)|note: .*|(broken|held): .*|"
+      "|(\\[[12]/2\\] map\\.resolution = (32|64)|the report( is written)?) \\(.* s so far, about \\d+ s left\\)|note: "
+      ".*|(broken|held): .*|"
       "  (point|worst pixel|reproduce|  ).*|  .*|law  samples .*|x  .*  BROKEN|\\(predicted and measured: "
       ".*\\)|x\\.toml: .*; 2 points measured; the report is "
       "out/report.html");
