@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "compare/store/metrics.h"
+#include "compare/store/number_text.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
 #include "technique/setting_rules.h"
@@ -144,7 +145,7 @@ std::string swept_text(const Experiment& experiment, int64_t id) {
   std::vector<std::string> choice;
   const std::vector<size_t> at = digits(part, id - first_of_part(experiment, part));
   for (size_t i = 0; i < at.size(); ++i)
-    choice.push_back(fmt::format("{} = {}", part.swept[i].name, part.swept[i].values[at[i]]));
+    choice.push_back(fmt::format("{} = {}", part.swept[i].name, setting_text(part.swept[i].values[at[i]])));
   return fmt::format("{}", fmt::join(choice, ", "));
 }
 

@@ -65,7 +65,8 @@ struct Experiment {
   // [sweep].
   std::map<std::string, std::string> locations;
   std::string sweep_location;
-  std::vector<Experiment> parts;  // if there are parts, all points belong to them, one part after the other
+  std::vector<std::string> notes;  // what is most likely a mistake of the file, one sentence each; of the parts too
+  std::vector<Experiment> parts;   // if there are parts, all points belong to them, one part after the other
 };
 
 // A sweep with more points than this is taken for a mistake in the file.
@@ -104,7 +105,7 @@ int64_t point_count(const Experiment& experiment);
 // its scene. Throws Error(usage) as at_point() does.
 std::vector<Settings> points(const Experiment& experiment);
 
-// The settings that distinguish the point: "map.resolution = 512, filter.kind = box". Empty without a sweep.
+// The settings that distinguish the point, for people: "map.resolution = 512, filter.kind = box". Empty without a sweep.
 std::string swept_text(const Experiment& experiment, int64_t id);
 
 // The error of a point, with the information that a user needs to find it: the place of the setting at fault (or of the

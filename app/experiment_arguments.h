@@ -1,10 +1,13 @@
 // Shared by the verbs that measure: the experiment with its overrides.
 #pragma once
+#include <fmt/format.h>
+
 #include <string>
 
 #include "app/experiment.h"
 #include "app/experiment_file.h"
 #include "app/verbs.h"
+#include "scenes/text.h"
 
 namespace noonmark {
 
@@ -12,6 +15,7 @@ inline Experiment experiment_from(const std::string& path, const ExperimentArgum
   Experiment experiment = path.empty() ? Experiment{} : load_experiment(path);
   if (!arguments.parts.empty()) choose_parts(experiment, arguments.parts);
   for (const std::string& assignment : arguments.sets) apply_override(experiment, assignment);
+  for (const std::string& note : experiment.notes) fmt::print(stderr, "warning: {}\n", printable(note));
   return experiment;
 }
 

@@ -106,6 +106,7 @@ class Reader : private SettingsReader {
   void read_parts(const toml::node& node) {
     if (!node.is_array() || !node.is_array_of_tables()) fail(node, "parts are written as [[part]], one for each");
     std::vector<Experiment> parts;
+    std::vector<std::string> notes;
     for (const toml::node& element : *node.as_array()) {
       Experiment part = Reader(experiment_).read(*element.as_table());
       for (const Experiment& other : parts) {
@@ -114,9 +115,11 @@ class Reader : private SettingsReader {
           for (const Law& there : other.laws)
             if (there.name == law.name) fail(element, fmt::format("two laws have the name '{}'", law.name));
       }
+      notes.insert(notes.end(), part.notes.begin(), part.notes.end());
       parts.push_back(std::move(part));
     }
     experiment_.parts = std::move(parts);
+    experiment_.notes = std::move(notes);
   }
 
   void fix(const std::string& name, const toml::node& value) {
@@ -257,8 +260,9 @@ class Reader : private SettingsReader {
     return static_cast<int>(value);
   }
   double fraction(const toml::node& node, const std::string& name) const {
-    const double value = number(node, name);
-    if (value < 0 || value > 1) fail(node, fmt::format("{} = {} must be a fraction, 0 ... 1", name, value));
+    const double value = share(node, name);
+    if (value > 1) fail(node, fmt::format("{} = {}", name, above_every_share(value, written(node, value))));
+    if (value < 0) fail(node, fmt::format("{} = {} must be a share, 0 ... 1", name, written(node, value)));
     return value;
   }
   void read_biases(const toml::node& node, const std::string& name) {

@@ -103,8 +103,9 @@ const std::vector<ExperimentKey>& phase_keys() {
 const std::vector<ExperimentKey>& bound_keys() {
   static const std::vector<ExperimentKey> keys = {
       required({"metric", Kind::pattern, "A metric, a quantity of the curve, or a pattern of names (aliasing*)."}),
-      {"max", Kind::number, "The largest value that is allowed, in the metric's unit."},
-      {"min", Kind::number, "The smallest value that is allowed."},
+      {"max", Kind::limit,
+       "The largest value that is allowed, in the metric's unit; a share also in percent: \"0.5%\"."},
+      {"min", Kind::limit, "The smallest value that is allowed."},
       {"join", Kind::choice, "What is compared when several points match.", {"worst", "mean", "median"}},
       {"placement", Kind::choice, "Which placement of the grid is judged.", {"worst", "first"}},
       {"level", Kind::choice, "warn: a broken bound is a warning.", {"error", "warn"}},

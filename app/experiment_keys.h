@@ -17,7 +17,8 @@ struct ExperimentKey {
     choice,      // one of `choices`
     flag,        // true or false
     number,      // finite, at least `least`
-    fraction,    // 0 ... 1
+    fraction,    // 0 ... 1, or as text in percent: "0.5%"
+    limit,       // a number; of a share also as text in percent
     whole,       // least ... most
     quantity,    // the name of a metric or of a quantity of the curve
     quantities,  // a list of them

@@ -108,6 +108,9 @@ Json condition_form(const Setting& row) {
   return described(any_of({value, {{"type", "array"}, {"items", value}, {"minItems", 1}}}), help_of(row));
 }
 
+// A share in percent.
+Json percent_form() { return {{"type", "string"}, {"pattern", "^[0-9.]+([eE][+-]?[0-9]+)? *%$"}}; }
+
 Json form_of(const ExperimentKey& key) {
   Json form;
   switch (key.kind) {
@@ -125,7 +128,10 @@ Json form_of(const ExperimentKey& key) {
       if (key.least > -1e300) form["minimum"] = key.least;
       break;
     case Kind::fraction:
-      form = {{"type", "number"}, {"minimum", 0}, {"maximum", 1}};
+      form = any_of({{{"type", "number"}, {"minimum", 0}, {"maximum", 1}}, percent_form()});
+      break;
+    case Kind::limit:
+      form = any_of({{{"type", "number"}}, percent_form()});
       break;
     case Kind::whole:
       form = {{"type", "integer"}, {"minimum", key.least}, {"maximum", key.most}};

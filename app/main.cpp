@@ -20,6 +20,7 @@
 #include "app/failure.h"
 #include "app/phase_diagram.h"
 #include "app/retract.h"
+#include "app/share_text.h"
 #include "app/terminal.h"
 #include "app/threads.h"
 #include "app/verbs.h"
@@ -64,7 +65,17 @@ auto number(const char* range, Holds holds) {
     return fmt::format("'{}' is not a number {}", text, range);
   };
 }
-const auto fraction = number("from 0 to 1", [](double value) { return value >= 0 && value <= 1; });
+// For CLI::Option::transform: a share as "0.005" or "0.5%" becomes its number.
+const auto as_share = CLI::Validator(
+    [](std::string& text) -> std::string {
+      const std::optional<double> value = share_from(text);
+      if (!value || *value < 0)
+        return fmt::format("'{}' is not a share: a number from 0 to 1, or a percentage such as 0.5%", text);
+      if (*value > 1) return above_every_share(*value, text);
+      text = fmt::format("{}", *value);
+      return "";
+    },
+    "");
 const auto above_zero = number("above 0", [](double value) { return value > 0 && std::isfinite(value); });
 
 std::string not_empty(const std::string& path) { return path.empty() ? "the path is empty" : ""; }
@@ -232,9 +243,9 @@ int run(int argc, char** argv) {
                   "Write the values of this run to the baseline, instead of comparing with it");
   check
       ->add_option("--baseline-times", checking.baseline_times,
-                   "Keep and compare times too: a time may differ by this share of the time before (0.2: 20 %)")
-      ->check(fraction)
-      ->type_name("FRACTION");
+                   "Keep and compare times too: a time may differ by this share of the time before (0.2 or 20%)")
+      ->transform(as_share)
+      ->type_name("SHARE");
 
   CLI::App* render =
       app.add_subcommand("render", "Measure one point and write its pictures, its ladder and all numbers behind it");
@@ -261,11 +272,11 @@ int run(int argc, char** argv) {
       ->check(not_empty);
   with_set(map);
   const auto share = [](double& to, const char* name, const char* what, CLI::App* verb) {
-    verb->add_option(name, to, what)->check(fraction)->type_name("FRACTION");
+    verb->add_option(name, to, what)->transform(as_share)->type_name("SHARE");
   };
   share(phase.acne_bound, "--acne",
-        "The most acne of a usable pair, as a fraction of the counted receivers (default: 0.001)", map);
-  share(phase.peter_panning_bound, "--peter-panning", "The most Peter Panning of a usable pair (default: 0.001)", map);
+        "The most acne of a usable pair, as a share of the counted receivers: 0.001 or 0.1% (default: 0.1%)", map);
+  share(phase.peter_panning_bound, "--peter-panning", "The most Peter Panning of a usable pair (default: 0.1%)", map);
   map->add_option("--from", phase.coarsest, "The coarsest texels: resolution at the present extent (default: 128)")
       ->check(whole_number(4, 16384, "from 4 to 16384"));
   map->add_option("--to", phase.finest, "The finest texels (default: 8192)")
@@ -295,10 +306,11 @@ int run(int argc, char** argv) {
       ->check(not_empty);
   with_set(recommend);
   const auto limit_of = [&](std::optional<double>& to, const char* name, const char* help) {
-    recommend->add_option(name, to, help)->check(fraction)->type_name("FRACTION");
+    recommend->add_option(name, to, help)->transform(as_share)->type_name("SHARE");
   };
-  limit_of(recommending.acne, "--acne", "The most acne, as a fraction of the counted receivers (default: 0.001)");
-  limit_of(recommending.peter_panning, "--peter-panning", "The most Peter Panning (default: 0.001)");
+  limit_of(recommending.acne, "--acne",
+           "The most acne, as a share of the counted receivers: 0.001 or 0.1% (default: 0.1%)");
+  limit_of(recommending.peter_panning, "--peter-panning", "The most Peter Panning (default: 0.1%)");
   limit_of(
       recommending.error, "--error",
       "The most error (default: what pays: the least product of cost and error). The cheapest settings are sought");

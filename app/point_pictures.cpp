@@ -11,6 +11,7 @@
 
 #include "app/pictures.h"
 #include "app/point_files.h"
+#include "compare/judge/bounds.h"
 #include "compare/judge/recommendation.h"
 #include "compare/ladder/flicker.h"
 #include "scenes/digest.h"
@@ -81,7 +82,20 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const Res
   const std::vector<PointRecord>& points = results.points;
   std::vector<int64_t> ids;
   if (points.empty() || pictures == "none") return ids;
-  if (pictures == "first") return {points.front().id};
+  const auto add = [&](int64_t id) {
+    if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+  };
+  // A failure is seen at its own point.
+  const auto add_broken = [&] {
+    size_t more = most_broken_shown;
+    for (const BoundResult& bound : results.bounds)
+      if (breaks(bound) && find_point(points, bound.point) && more > 0) add(bound.point), --more;
+  };
+  if (pictures == "first") {
+    ids = {points.front().id};
+    add_broken();
+    return ids;
+  }
   if (pictures == "all") {
     for (const PointRecord& point : points) ids.push_back(point.id);
     return ids;
@@ -95,13 +109,13 @@ std::vector<int64_t> points_with_pictures(const std::string& pictures, const Res
                           [&](const PointRecord& a, const PointRecord& b) { return badness(a) < badness(b); });
   if (pictures == "extremes" && best != worst) ids.push_back(best->id);
   ids.push_back(worst->id);
-  if (const int64_t id = worst_instant(points).id; id >= 0 && std::find(ids.begin(), ids.end(), id) == ids.end())
-    ids.push_back(id);
+  if (const int64_t id = worst_instant(points).id; id >= 0) add(id);
+  add_broken();
   // Points of different parts have no common answer.
   if (!points.front().part.empty()) return ids;
   const Recommendation found = recommend(results);
   if (found.outcome != Recommendation::Outcome::found) return ids;
-  if (const int64_t id = found.choice.first().id; std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+  add(found.choice.first().id);
   return ids;
 }
 

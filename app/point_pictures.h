@@ -17,8 +17,10 @@ namespace noonmark {
 
 // Ids of the points, selected by the experiment's `pictures`. `worst` and `extremes` select by error, and of a motion the
 // frame with the largest flicker too (worst_instant); they need all points; an error that is not finite is the worst. Both
-// also select the first point of the recommended choice, because the report's first screen shows it. results: with the
+// also select the first point of the recommended choice, because the report's first screen shows it. But for `none`, every
+// value selects points with a broken bound too, at most most_broken_shown of them. results: with the
 // verdicts of the bounds, which the recommendation reads.
+inline constexpr size_t most_broken_shown = 3;
 std::vector<int64_t> points_with_pictures(const std::string& pictures, const Results& results);
 
 // The point with the largest flicker, and points of its part that differ in nothing but the frame and its time: those about

@@ -19,6 +19,7 @@ void PromiseReader::read_bounds(const toml::node& node) {
 
 void PromiseReader::read_bound(const toml::table& table) {
   Bound bound;
+  const toml::node *max = nullptr, *min = nullptr;  // read when the metric is known
   for (const Item& item : items(table)) {
     if (item.key == "metric") {
       bound.metric = string(*item.node, "metric");
@@ -27,9 +28,9 @@ void PromiseReader::read_bound(const toml::table& table) {
       if (!experiment_.curve_enabled && std::all_of(named.begin(), named.end(), of_curve))
         fail(*item.node, fmt::format("'{}' is read off the bias curve, and curve.enabled is false", bound.metric));
     } else if (item.key == "max")
-      bound.max = number(*item.node, "max");
+      max = item.node;
     else if (item.key == "min")
-      bound.min = number(*item.node, "min");
+      min = item.node;
     else if (item.key == "join")
       bound.join = one_of(*item.node, "join", key_choices("bound", "join"));
     else if (item.key == "placement")
@@ -42,6 +43,24 @@ void PromiseReader::read_bound(const toml::table& table) {
       unknown(item, "key", key_names("bound"), "bound.");
   }
   if (bound.metric.empty()) fail(table, "a [[bound]] needs a metric");
+  const std::vector<QuantityInfo> named = quantities_named(bound.metric);
+  const bool of_shares =
+      std::all_of(named.begin(), named.end(), [](const QuantityInfo& info) { return info.unit == "fraction"; });
+  const auto limit = [&](const toml::node& node, const char* key, const char* what) {
+    if (!of_shares) {
+      if (node.is_string() && node.as_string()->get().ends_with('%'))
+        fail(node, fmt::format("{} = '{}': {} is no share, so it has no percent", key, node.as_string()->get(),
+                               bound.metric));
+      return number(node, key);
+    }
+    const double value = share(node, key);
+    if (value > 1)
+      experiment_.notes.push_back(fmt::format("{}: the bound on {} can never {}: {} = {}", location_text(node.source()),
+                                              bound.metric, what, key, above_every_share(value, written(node, value))));
+    return value;
+  };
+  if (max) bound.max = limit(*max, "max", "be broken");
+  if (min) bound.min = limit(*min, "min", "hold");
   at(table.source(), [&] { check_bound(bound); });
   experiment_.bounds.push_back(std::move(bound));
 }

@@ -12,6 +12,7 @@
 #include "app/experiment.h"
 #include "app/toml_writer.h"
 #include "compare/report/findings.h"
+#include "compare/store/number_text.h"
 #include "compare/store/quantities.h"
 
 namespace noonmark {
@@ -101,7 +102,7 @@ std::string condition_text(const PointRecord& point, const AdviceRequest& reques
   for (const auto& first : all.front()) {
     const std::string& name = first.first;
     if (std::any_of(all.begin(), all.end(), [&](const auto& other) { return other.at(name) != first.second; }))
-      words.push_back(fmt::format("{} = {}", name, setting_of(point, name)));
+      words.push_back(fmt::format("{} = {}", name, setting_text(setting_of(point, name))));
   }
   return fmt::format("{}", fmt::join(words, ", "));
 }
@@ -131,9 +132,9 @@ std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
   } else if (nearest.nearest) {
     // Of the bounds only a share is used up while searching.
     const auto enough = [](double bound, double left) { return std::max(bound, left / searched_share); };
-    lines.push_back(fmt::format("Larger bounds: from about --acne {:.3g} --peter-panning {:.3g} on these settings do.",
-                                enough(request.curve.acne_bound, nearest.nearest->acne),
-                                enough(request.curve.peter_panning_bound, nearest.nearest->peter_panning)));
+    lines.push_back(fmt::format("Larger bounds: from about --acne {} --peter-panning {} on these settings do.",
+                                percent(enough(request.curve.acne_bound, nearest.nearest->acne)),
+                                percent(enough(request.curve.peter_panning_bound, nearest.nearest->peter_panning))));
   }
   if (advice.least_resolution)
     lines.push_back(constant_text(*advice.least_resolution));

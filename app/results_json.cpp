@@ -42,6 +42,8 @@ Json point_of(const PointRecord& point, const RunInfo& info) {
                            {"y", point.worst.y},
                            {"error", number_json(point.worst.error)},
                            {"cause", point.worst.cause}};
+  for (const PointRecord::WorstOf& worst : point.worst_of)
+    json["worst_pixels"][worst.metric] = {{"x", worst.x}, {"y", worst.y}, {"size", number_json(worst.size)}};
   return json;
 }
 
@@ -92,11 +94,14 @@ Json answer_of(const Results& results) {
   if (!first.part.empty()) json["part"] = first.part;
   json["points"] = Json::array();
   for (const PointRecord* point : found.choice.points) json["points"].push_back(point->id);
-  json["settings"] = settings_of(first, choice_settings(results.info));
+  std::vector<std::string> chosen = choice_settings(results.info);
+  if (found.bias) std::erase(chosen, found.bias->parameter);  // the answer's bias is below
+  json["settings"] = settings_of(first, chosen);
   if (found.bias)
     json["bias"] = {{"parameter", found.bias->parameter},
                     {"unit", found.bias->unit},
                     {"value", found.bias->value},
+                    {"as_set", found.bias->as_set},
                     {"usable_from", found.bias->window.low},
                     {"usable_to", found.bias->window.high}};
   json["cost"] = {{"metric", results.info.cost}, {"value", number_json(found.cost.middle)}};

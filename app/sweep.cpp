@@ -15,6 +15,7 @@
 #include "app/build_facts.h"
 #include "app/clock.h"
 #include "app/definition.h"
+#include "app/failing_pixels.h"
 #include "app/identity.h"
 #include "app/image_file.h"
 #include "app/judging.h"
@@ -144,23 +145,6 @@ PointPictures pictures_of(Workbench& bench, const Measurement& m, int64_t id, co
   return kept;
 }
 
-// The points at which a bound or a law is furthest off, each once and only the first few: a summary is read in a minute.
-std::vector<const PointRecord*> points_of_broken(const Results& results) {
-  constexpr size_t most = 3;
-  std::vector<const PointRecord*> points;
-  const auto add = [&](int64_t id) {
-    const PointRecord* point = find_point(results.points, id);
-    if (point && point->worst.x >= 0 && points.size() < most &&
-        std::find(points.begin(), points.end(), point) == points.end())
-      points.push_back(point);
-  };
-  for (const BoundResult& bound : results.bounds)
-    if (!bound.held) add(bound.point);
-  for (const LawResult& law : results.laws)
-    if (!law.held && law.worst >= 0) add(law.samples[static_cast<size_t>(law.worst)].point);
-  return points;
-}
-
 bool is_motion(const PictureRecord& picture) { return picture.name == motion_picture; }
 
 bool has_motion(const PointPictures& point) {
@@ -173,17 +157,6 @@ void remove_motion(PointPictures& point, const std::string& out) {
   std::copy_if(point.pictures.begin(), point.pictures.end(), std::back_inserter(old.pictures), is_motion);
   remove_pictures(old, out);
   std::erase_if(point.pictures, is_motion);
-}
-
-SummaryPicture draw_worst_pixel(const Measurement& m, const PointRecord& point, const std::string& name,
-                                const std::string& out) {
-  const std::string file = fmt::format("{}{:04}.png", summary_picture, point.id);
-  write_png(out + "/" + file, pixel_picture(m, point.worst.x, point.worst.y));
-  return {file,
-          fmt::format("Point {} ({}): the pixel with the largest error, ({}, {}), is framed; error {:.4g}, cause {}. "
-                      "Left the truth, in the middle the shadow map, right the causes; {} x {} pixels, enlarged.",
-                      point.id, name, point.worst.x, point.worst.y, point.worst.error, point.worst.cause, crop_px,
-                      crop_px)};
 }
 
 const Settings& point_at(const std::vector<Settings>& planned, int64_t id) { return planned[static_cast<size_t>(id)]; }
@@ -377,7 +350,7 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
     const Instant instant =
         options.shard ? Instant{} : worst_instant(outcome.results.points);  // of all shares together
     size_t undrawn_pictures = shown.size() + (instant.frames.size() > 2 ? instant.frames.size() : 0) +
-                              (options.worst_pixels ? points_of_broken(outcome.results).size() : 0);
+                              (options.worst_pixels ? failing_pixels(outcome.results).size() : 0);
     for (int64_t id : shown) {
       progress.shown.set_left(progress.pictures, undrawn_pictures);
       --undrawn_pictures;
@@ -423,16 +396,24 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   if (!options.shard) judge(experiment, outcome.results);
   store.set_bounds(outcome.results.bounds);
   store.set_laws(outcome.results.laws);
-  if (options.worst_pixels && writes_pictures(experiment) && !outcome.interrupted)
-    for (const PointRecord* point : points_of_broken(outcome.results)) {
-      const auto id = static_cast<size_t>(point->id);
-      progress.shown.say(fmt::format("the worst pixel of point {}", id));
-      room.require_room_for(id);
-      scenes.require_unchanged(bench, planned[id]);
-      outcome.worst_pixels.push_back(draw_worst_pixel(bench.measure(planned[id], std::nullopt), *point,
-                                                      name_of_point(experiment, point->id), folder.path()));
-      progress.shown.finished(progress.pictures, fmt::format("the worst pixel of point {} is drawn", id));
+  if (options.worst_pixels && writes_pictures(experiment) && !outcome.interrupted) {
+    std::optional<Measurement> m;
+    const std::vector<FailingPixel> broken_pixels = failing_pixels(outcome.results);
+    progress.shown.set_left(progress.pictures, broken_pixels.size());
+    for (const FailingPixel& failing : broken_pixels) {
+      const auto id = static_cast<size_t>(failing.point->id);
+      if (!m || m->record.id != failing.point->id) {
+        progress.shown.say(fmt::format("the worst pixel of point {}", id));
+        room.require_room_for(id);
+        scenes.require_unchanged(bench, planned[id]);
+        m.reset();  // freed before the next is made
+        m.emplace(bench.measure(planned[id], std::nullopt));
+        m->record.id = failing.point->id;
+      }
+      outcome.worst_pixels.push_back(draw(*m, failing, name_of_point(experiment, failing.point->id), folder.path()));
+      progress.shown.finished_small(progress.pictures, fmt::format("the worst pixel of point {} is drawn", id));
     }
+  }
   progress.report_alone();
   write_report(outcome.results, folder.path());
   progress.shown.finished(progress.report, "the report is written");

@@ -20,7 +20,7 @@ struct SweepOptions {
   bool quiet = false;             // no progress
   std::optional<Shard> shard{};   // measure only this share of the points, and judge nothing
   std::vector<int64_t> points{};  // the share's, in the order to measure them (split); at least one
-  bool worst_pixels = false;      // draw the worst pixel of points where a bound or a law is broken, for summary.md
+  bool worst_pixels = false;      // draw what fails where a bound or a law is broken, for summary.md
 };
 
 struct SweepOutcome {

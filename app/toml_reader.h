@@ -15,6 +15,7 @@
 
 #include "app/experiment.h"
 #include "app/experiment_keys.h"
+#include "app/share_text.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
 #include "technique/settings.h"
@@ -98,6 +99,18 @@ class TomlReader {
     const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
     if (!value || !std::isfinite(*value)) fail(node, fmt::format("{} must be a finite number", name));
     return *value;
+  }
+  // A share: a number, or a text in percent ("0.5%").
+  double share(const toml::node& node, const std::string& name) const {
+    if (!node.is_string()) return number(node, name);
+    const std::string text = node.as_string()->get();
+    const std::optional<double> value = text.ends_with('%') ? share_from(text) : std::nullopt;
+    if (!value) fail(node, fmt::format("{} = '{}' must be a number, or a text such as \"0.5%\"", name, text));
+    return *value;
+  }
+  // As the file has it, for messages.
+  static std::string written(const toml::node& node, double value) {
+    return node.is_string() ? node.as_string()->get() : fmt::format("{}", value);
   }
   bool boolean(const toml::node& node, const std::string& name) const {
     if (!node.is_boolean()) fail(node, fmt::format("{} must be true or false", name));

@@ -78,7 +78,9 @@ Checked check_one(const ListedExperiment& listed, const ExperimentArguments& arg
   const bool held = all_held(results) && (!compared || compared->held());
   entry.report = "report.html";
   entry.numbers = worst_numbers(results);
-  entry.words = outcome.interrupted ? "stopped before its end" : verdict_words(results, comparison);
+  const std::string broken = broken_in_words(results);
+  entry.words = outcome.interrupted ? "stopped before its end"
+                                    : (broken.empty() ? "" : broken + "; ") + verdict_words(results, comparison);
   if (!outcome.interrupted) entry.verdict = held ? IndexEntry::Verdict::held : IndexEntry::Verdict::broken;
   if (const std::string picture = picture_of_index(results); !picture.empty()) {
     try {

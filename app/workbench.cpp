@@ -77,8 +77,11 @@ PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, cons
   PointRecord record;
   record.settings = settings_map(m.settings);
   const Bias bias(m.settings.bias);
-  record.metrics = measure_ladder({m.ladder, m.receivers, m.frame, m.probe, bias, lookup.edge_distance_texels,
-                                   occluders, moves_casters(m.settings.map, bias)});
+  const MeasureInput input{m.ladder,  m.receivers,
+                           m.frame,   m.probe,
+                           bias,      lookup.edge_distance_texels,
+                           occluders, moves_casters(m.settings.map, bias)};
+  record.metrics = measure_ladder(input);
   record.metrics.merge(
       measure_laws({m.ladder, m.scene, m.receivers, m.camera, m.frame, m.settings.map.format, m.probe}));
   record.metrics.insert(soundness.begin(), soundness.end());
@@ -92,6 +95,7 @@ PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, cons
   add_time(record, "tap", lookup.tap_stage);
   record.causes = m.ladder.brought;
   record.worst = worst_pixel(m.ladder);
+  record.worst_of = worst_pixels(input);
   return record;
 }
 

@@ -11,6 +11,7 @@
 
 #include "compare/judge/conditions.h"
 #include "compare/ladder/numbers.h"
+#include "compare/store/number_text.h"
 #include "compare/store/quantities.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
@@ -98,12 +99,21 @@ std::string name_of(const BaselinePoint& point, const std::set<std::string>& nam
   if (!point.part.empty()) words.push_back(fmt::format("part '{}'", point.part));
   for (const std::string& name : names)
     if (const auto at = point.settings.find(name); at != point.settings.end())
-      words.push_back(fmt::format("{} = {}", name, at->second));
+      words.push_back(fmt::format("{} = {}", name, setting_text(at->second)));
   return words.empty() ? "the only point" : fmt::format("{}", fmt::join(words, ", "));
 }
 
-std::string value_text(double value) {
-  return std::isfinite(value) ? fmt::format("{}", rounded(value)) : std::string(not_measured);
+std::string_view unit_of(const std::string& name) {
+  for (const Metric& row : metrics_table())
+    if (row.name == name) return row.unit;
+  for (const CurveQuantity& row : curve_quantities())
+    if (row.name == name) return row.unit;
+  return "";
+}
+
+// other: what the value is compared with, from which it must be told.
+std::string value_text(double value, double other, std::string_view unit) {
+  return std::isfinite(value) ? quantity_text(value, unit, digits_to_tell(value, other)) : std::string(not_measured);
 }
 
 class Comparison {
@@ -152,11 +162,13 @@ class Comparison {
     const bool larger = change > 0;
     bool worse = now.better == Better::unknown || larger == (now.better == Better::smaller);
     if (was != is) worse = was;
+    const std::string_view unit = unit_of(name);
     std::string text = fmt::format("{}: {} at {}; {} before, {} now", worse ? "worse" : "better", name, point,
-                                   value_text(before), value_text(now.value));
+                                   value_text(before, now.value, unit), value_text(now.value, before, unit));
+    // Of a share the difference is in percent too, so the relative change would read as another difference.
     if (was && is)
-      text += fmt::format(" ({:+.4g}{})", change,
-                          before == 0 ? "" : fmt::format(", {:+.3g}%", 100 * change / std::abs(before)));
+      text += fmt::format(" ({}{}{})", change > 0 ? "+" : "", quantity_text(change, unit),
+                          before == 0 ? "" : fmt::format(", {:.4g} times as large", now.value / before));
     if (worse && was && is && now.better == Better::unknown) text += "; no bound says which side is better";
     (worse ? found_.worse : found_.better).push_back(std::move(text));
   }

@@ -12,6 +12,7 @@
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
 #include "compare/ladder/numbers.h"
+#include "compare/store/number_text.h"
 #include "scenes/error.h"
 #include "scenes/text.h"
 #include "technique/settings.h"
@@ -124,12 +125,28 @@ BoundResult evaluate(std::span<const PointRecord> points, const Bound& bound) {
   return result;
 }
 
+// The bias at which a bound was judged, where a curve shows that others are possible: "bias.constant = 2 texel". Empty
+// without a curve.
+std::string bias_text(const PointRecord& point) {
+  if (!point.curve) return "";
+  const std::string value = setting_of(point, point.curve->parameter);
+  return value.empty()
+             ? ""
+             : fmt::format("{} = {} {}", point.curve->parameter, setting_text(value), setting_of(point, "bias.unit"));
+}
+
+// Limits are typed by a person, so they keep more digits than what is found.
+constexpr int limit_digits = 9;
+
 std::string point_text(const PointRecord& point, std::span<const std::string> swept) {
   std::vector<std::string> parts;
   for (const std::string& name : swept) {
     const auto setting = point.settings.find(name);
-    if (setting != point.settings.end()) parts.push_back(fmt::format("{} = {}", name, setting->second));
+    if (setting != point.settings.end()) parts.push_back(fmt::format("{} = {}", name, setting_text(setting->second)));
   }
+  if (const std::string bias = bias_text(point);
+      !bias.empty() && std::find(swept.begin(), swept.end(), point.curve->parameter) == swept.end())
+    parts.push_back(bias);
   return fmt::format("point {}{}{}", point.id, parts.empty() ? "" : ": ", fmt::join(parts, ", "));
 }
 
@@ -236,13 +253,14 @@ std::string_view verdict_of(const BoundResult& bound) {
 }
 
 std::string bound_text(const BoundResult& bound) {
+  const auto limit = [unit = bound_unit(bound)](double value) { return quantity_text(value, unit, limit_digits); };
   std::string text;
   if (bound.min && bound.max)
-    text = fmt::format("{} <= {} <= {}", *bound.min, bound.metric, *bound.max);
+    text = fmt::format("{} <= {} <= {}", limit(*bound.min), bound.metric, limit(*bound.max));
   else if (bound.max)
-    text = fmt::format("{} <= {}", bound.metric, *bound.max);
+    text = fmt::format("{} <= {}", bound.metric, limit(*bound.max));
   else
-    text = fmt::format("{} >= {}", bound.metric, bound.min.value_or(not_a_number));
+    text = fmt::format("{} >= {}", bound.metric, limit(bound.min.value_or(not_a_number)));
   std::string_view word = " where ";
   for (const auto& [name, values] : bound.where) {
     text += fmt::format("{}{} = {}", word, name, fmt::join(values, " | "));
@@ -254,12 +272,50 @@ std::string bound_text(const BoundResult& bound) {
   return how.empty() ? text : fmt::format("{} ({})", text, fmt::join(how, ", "));
 }
 
+std::string_view bound_unit(const BoundResult& bound) {
+  for (const Metric& row : metrics_table())
+    if (row.name == bound.metric) return row.unit;
+  for (const CurveQuantity& row : curve_quantities())
+    if (row.name == bound.metric) return row.unit;
+  return "fraction";  // the cause of a rung on top of R5
+}
+
+std::optional<double> broken_limit(const BoundResult& bound) {
+  if (bound.held || !std::isfinite(bound.found)) return std::nullopt;
+  if (bound.max && bound.found > *bound.max) return bound.max;
+  if (bound.min && bound.found < *bound.min) return bound.min;
+  return std::nullopt;
+}
+
+int found_digits(const BoundResult& bound, int least) {
+  const std::optional<double> limit = broken_limit(bound);
+  return limit ? digits_to_tell(bound.found, *limit, least) : least;
+}
+
+std::optional<PointRecord::WorstOf> failing_pixel(const BoundResult& bound, const PointRecord& point) {
+  // Too little of something is at no pixel.
+  if (bound.held || !bound.max || !(bound.found > *bound.max)) return std::nullopt;
+  return worst_pixel_of(point, bound.metric);
+}
+
+std::string failing_pixel_text(const BoundResult& bound, const PointRecord& point) {
+  const std::optional<PointRecord::WorstOf> worst = failing_pixel(bound, point);
+  if (!worst) return "";
+  const bool error = worst->metric == "error" || worst->metric == "wrong";
+  return fmt::format("worst pixel by {}{}: x = {}, y = {} (row 0 on top), {} {}{}",
+                     error ? fmt::format("|{} - R1|", judged_rung(point)) : worst->metric,
+                     bound.placement == "worst" ? ", at placement 0" : "", worst->x, worst->y,
+                     error ? "error" : worst->metric,
+                     quantity_text(worst->size, find_quantity(worst->metric, {&point, 1}).unit),
+                     error && !point.worst.cause.empty() ? ", " + point.worst.cause : "");
+}
+
 std::string_view placement_text(const BoundResult& bound) {
   return bound.placement.empty() ? "" : bound.placement == "worst" ? "worst placement" : "placement 0";
 }
 
 std::string found_text(const BoundResult& bound) {
-  return std::isnan(bound.found) ? std::string(not_measured) : fmt::format("{}", bound.found);
+  return quantity_text(bound.found, bound_unit(bound), found_digits(bound));
 }
 
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept) {
@@ -284,10 +340,8 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
     text += fmt::format("  it is read off the bias curve, but this point has no curve: {}\n", why_no_curve(*point));
   if (point) {
     text += fmt::format("  {}\n", point_text(*point, swept));
-    if (point->worst.x >= 0)
-      text += fmt::format("  worst pixel by |{} - R1|: x = {}, y = {} (row 0 on top), error {}{}{}\n",
-                          judged_rung(*point), point->worst.x, point->worst.y, point->worst.error,
-                          point->worst.cause.empty() ? "" : ", ", point->worst.cause);
+    if (const std::string worst = failing_pixel_text(bound, *point); !worst.empty())
+      text += fmt::format("  {}\n", worst);
   }
   if (!bound.reproduce.empty()) text += fmt::format("  reproduce: {}\n", bound.reproduce);
   return text;

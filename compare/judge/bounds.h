@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "compare/judge/conditions.h"
+#include "compare/store/number_text.h"
 #include "compare/store/quantities.h"
 #include "compare/store/records.h"
 
@@ -57,14 +58,29 @@ std::string_view verdict_of(const BoundResult& bound);
 std::vector<BoundResult> evaluate_bounds(std::span<const PointRecord> points, std::span<const Bound> bounds,
                                          const std::function<std::string(const PointRecord&)>& reproduce);
 
-// "acne <= 0.01 where map.resolution = 512 | 1024 (mean)"
+// "acne <= 1% where map.resolution = 512 | 1024 (mean)"
 std::string bound_text(const BoundResult& bound);
 
 // "worst placement", "placement 0"; empty if the points have one placement each.
 std::string_view placement_text(const BoundResult& bound);
 
-// The value found with all its digits, or "not measured".
+// The unit of the bound's metric (Metric::unit).
+std::string_view bound_unit(const BoundResult& bound);
+
+// The limit beyond which the found value is. Empty if the bound holds, or if the value is not finite.
+std::optional<double> broken_limit(const BoundResult& bound);
+
+// With so many digits the found value does not read as the limit that it breaks.
+int found_digits(const BoundResult& bound, int least = people_digits);
+
+// The value found, for people ("0.8347%"), or "not measured".
 std::string found_text(const BoundResult& bound);
+
+// The worst pixel of the bound's own metric at the point, as rendered. Empty if the metric has no pixel (a time, a window),
+// and if the bound is not broken by too much of it.
+std::optional<PointRecord::WorstOf> failing_pixel(const BoundResult& bound, const PointRecord& point);
+// "worst pixel by acne: x = 12, y = 34 (row 0 on top), acne 66.67%"; empty if there is none.
+std::string failing_pixel_text(const BoundResult& bound, const PointRecord& point);
 
 // One line for a bound that held. For a broken bound also the point, the value found, the value allowed, the worst
 // pixel and the command that reproduces it. point: the worst point, or null. swept: the settings that name the point;

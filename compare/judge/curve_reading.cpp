@@ -29,9 +29,14 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   return t == 0 ? y[after - 1] : y[after - 1] + t * (y[after] - y[after - 1]);
 }
 
+// Whether the metric is the error against a light that has no size, which is the error against its centre.
+bool is_hard_error(const PointRecord& point, const std::string& metric) {
+  return metric == "error_soft" && metric_of(point, "light_size") == 0;
+}
+
 // The metric from the point's curve. Empty if the curve has no series of it.
 std::optional<double> value_of_curve(const PointRecord& point, const std::string& metric, double bias_depth) {
-  const bool no_size = metric == "error_soft" && metric_of(point, "light_size") == 0;
+  const bool no_size = is_hard_error(point, metric);
   for (const std::string& name :
        {metric + "_worst", metric, std::string(no_size ? "error_worst" : ""), std::string(no_size ? "error" : "")})
     if (const auto value = name.empty() ? std::nullopt : curve_value(*point.curve, name, bias_depth)) return *value;
@@ -81,9 +86,9 @@ bool has_curve_of(const PointRecord& point, const std::string& metric) {
 double metric_at(const PointRecord& point, const std::string& metric, std::optional<double> bias_depth) {
   if (bias_depth && point.curve)
     if (const std::optional<double> value = value_of_curve(point, metric, *bias_depth)) return *value;
-  const std::string worst = metric + "_worst";
-  if (has_placements(point) && point.metrics.contains(worst))
-    return std::max(metric_of(point, worst), metric_of(point, metric));
+  if (has_placements(point))
+    for (const std::string& worst : {metric + "_worst", std::string(is_hard_error(point, metric) ? "error_worst" : "")})
+      if (point.metrics.contains(worst)) return std::max(metric_of(point, worst), metric_of(point, metric));
   return metric_of(point, metric);
 }
 

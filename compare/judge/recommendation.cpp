@@ -160,14 +160,36 @@ std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& resul
   return BiasChoice{first.curve->parameter, setting_of(first, "bias.unit"), value, *window, narrow};
 }
 
+std::optional<BiasChoice> set_bias(const Choice& choice, const Results& results) {
+  if (choice.points.size() != results.points.size() || !meets_all(choice, results.bounds, std::nullopt)) return {};
+  if (std::none_of(results.bounds.begin(), results.bounds.end(),
+                   [&](const BoundResult& bound) { return speaks_of(bound, choice.first()); }))
+    return {};
+  const std::optional<BiasWindow> window = joined_window(choice);
+  if (!window) return {};
+  const PointRecord& first = choice.first();
+  const std::string& parameter = first.curve->parameter;
+  const std::string text = setting_of(first, parameter);
+  const std::optional<double> value = number_of(text);
+  // With the parameter among the conditions there is no one bias.
+  if (!value || std::any_of(choice.points.begin(), choice.points.end(),
+                            [&](const PointRecord* point) { return setting_of(*point, parameter) != text; }))
+    return {};
+  constexpr double rounding = 1e-12;  // of the ends, which were converted from window depth
+  if (*value < window->low * (1 - rounding) || *value > window->high * (1 + rounding)) return {};
+  const bool narrow = *value < window->low * bias_margin || *value * bias_margin > window->high;
+  return BiasChoice{parameter, setting_of(first, "bias.unit"), *value, *window, narrow, true};
+}
+
 std::optional<Recommendation> good_choice(const Choice& choice, const Results& results) {
   if (!has_criterion(choice, results)) return std::nullopt;
   Recommendation candidate{Outcome::found, choice, joined_interval(choice, results.info.cost), {}, {}, {}};
   std::optional<double> bias;
   if (has_curves(choice)) {
-    candidate.bias = choose_bias(choice, results, results.bounds);
+    candidate.bias = set_bias(choice, results);
+    if (!candidate.bias) candidate.bias = choose_bias(choice, results, results.bounds);
     if (!candidate.bias) return std::nullopt;
-    bias = candidate.bias->value;
+    bias = candidate.bias->read_at();
   } else if (!meets_all(choice, results.bounds, std::nullopt)) {
     return std::nullopt;
   }

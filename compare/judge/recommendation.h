@@ -26,6 +26,11 @@ struct BiasChoice {
   double value = 0;     // a short decimal
   BiasWindow window;    // usable under every condition
   bool narrow = false;  // the window is too narrow for bias_margin; the value is in its middle half
+  // The points were rendered with it, and it is kept because it is good enough (set_bias). narrow: it is closer than
+  // bias_margin to an end of the window.
+  bool as_set = false;
+  // Where numbers of the answer are read: as rendered, or at the value.
+  std::optional<double> read_at() const { return as_set ? std::nullopt : std::optional(value); }
 };
 
 // How far a bias that is not narrow keeps from the ends of its window: "the bias keeps at least 5% from both ends". A
@@ -61,6 +66,11 @@ struct Recommendation {
 std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& results,
                                       const std::vector<BoundResult>& bounds);
 
+// The bias that was set, if the results are of this one choice, a bound speaks of it, every bound holds as rendered, and
+// the bias lies in the joined window. Such results compare nothing: they judge what was set. So a report of settings that
+// hold their bounds speaks of their own bias, and not of another one that would hold too.
+std::optional<BiasChoice> set_bias(const Choice& choice, const Results& results);
+
 // The biases at which a curve of the choice has an entry or its best bias, in bias.unit, within low ... high, and the
 // two ends. Every point must have a curve.
 std::vector<double> curve_biases(const Choice& choice, double low, double high);
@@ -68,7 +78,7 @@ std::vector<double> curve_biases(const Choice& choice, double low, double high);
 // The choice at its best bias, or nothing if it is not good enough or there is no criterion for it. A choice is good
 // enough if every bound that applies
 // to it holds under every condition and, if it has curves, the joined window is not empty. Bounds on values of the curve
-// are checked at the bias that would be set (choose_bias), other bounds as rendered. A value that is not finite, also a
+// are checked at the bias that would be set (set_bias, otherwise choose_bias), other bounds as rendered. A value that is not finite, also a
 // cost or an error, is never good enough.
 std::optional<Recommendation> good_choice(const Choice& choice, const Results& results);
 

@@ -78,7 +78,7 @@ std::vector<ComparedGroup> compared_groups(const Results& results) {
 }
 
 Joined value_of(const ComparedChoice& one, const std::string& metric, AtBias at) {
-  return joined_at(one.choice, metric, at == AtBias::best ? one.bias : std::nullopt);
+  return joined_at(one.choice, metric, at == AtBias::best ? one.read_at() : std::nullopt);
 }
 
 bool follows_bias(const ComparedChoice& one, const std::string& metric) {

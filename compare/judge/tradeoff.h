@@ -26,6 +26,8 @@ struct ComparedChoice {
   std::optional<double> bias;
   std::optional<BiasWindow> usable;    // the joined window
   std::optional<Recommendation> good;  // the choice is good enough
+  // Where its numbers are read at its bias: as rendered if that is the bias that was set (BiasChoice::as_set).
+  std::optional<double> read_at() const { return good && good->bias ? good->bias->read_at() : bias; }
 };
 ComparedChoice at_best_bias(const Choice& choice, const Results& results);
 

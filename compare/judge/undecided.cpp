@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 
+#include "compare/store/number_text.h"
 #include "compare/store/quantities.h"
 
 namespace noonmark {
@@ -43,7 +44,8 @@ std::string undecided_note(const BoundResult& bound, const PointRecord& point) {
   if (std::find(causes.begin(), causes.end(), bound.metric) == causes.end()) return "";
   const double undecided = metric_of(point, bound.placement == "worst" ? "undecided_worst" : "undecided");
   if (!(bound.found + undecided > *bound.max)) return "";
-  return fmt::format("it would be broken if all that is undecided there, {:.3g}, were {}", undecided, bound.metric);
+  return fmt::format("it would be broken if all that is undecided there, {}, were {}",
+                     quantity_text(undecided, "fraction"), bound.metric);
 }
 
 }  // namespace noonmark

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "compare/ladder/distance.h"
 #include "compare/ladder/numbers.h"
@@ -16,6 +18,21 @@ namespace {
 // occluder and so no distance to it.
 bool in_gap(const Ladder& ladder, size_t i) {
   return is_counted(ladder, i) && ladder[Cause::peter_panning][i] != 0 && ladder.truth()[i] == 0;
+}
+
+// The gap along a receiver that lies in one: the light's way from P to the occluder, projected onto the surface. An
+// occluder that is farther away than the bias can reach makes no gap. At the edge of its shadow a steep receiver can
+// still be lit, because its depth changes by as much within the taps (law 1).
+double gap_m(const MeasureInput& in, size_t i) {
+  const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
+  const double reach = panning_reach_m(in, i, in.frame.to_light(in.receivers.position[i]));
+  const double distance = in.occluder_distance_m[i];
+  // A dark receiver without an occluder is a contradiction. It makes the metric not finite, so it is noticed.
+  return distance > reach && std::isfinite(distance) ? 0 : distance * std::sqrt(1 - cosine * cosine);
+}
+
+bool is_aliased(const Ladder& ladder, size_t i) {
+  return ladder[Cause::aliasing_dark][i] != 0 || ladder[Cause::aliasing_light][i] != 0;
 }
 
 // The largest distance in the picture from an aliased pixel to the nearest pixel whose truth is the answer that the map
@@ -110,17 +127,8 @@ std::map<std::string, double> measure_ladder(const MeasureInput& in) {
     const double aliasing = static_cast<double>(ladder[Cause::aliasing_dark][i]) + ladder[Cause::aliasing_light][i];
     aliasing_squares += aliasing * aliasing;
     if (ladder.truth()[i] != 0) panning_lit += std::abs(static_cast<double>(ladder[Cause::peter_panning][i]));
-    if (in_gap(ladder, i)) {
-      // The gap along the receiver: the light's way from P to the occluder, projected onto the surface. An occluder
-      // that is farther away than the bias can reach makes no gap. At the edge of its shadow a steep receiver can still
-      // be lit, because its depth changes by as much within the taps (law 1).
-      const double cosine = std::clamp(static_cast<double>(in.probe.n_dot_l[i]), 0.0, 1.0);
-      const double reach = panning_reach_m(in, i, in.frame.to_light(in.receivers.position[i]));
-      const double distance = in.occluder_distance_m[i];
-      // A dark receiver without an occluder is a contradiction. It makes the metric not finite, so it is noticed.
-      if (!(distance > reach) || !std::isfinite(distance)) raise(gap, distance * std::sqrt(1 - cosine * cosine));
-    }
-    if (ladder[Cause::aliasing_dark][i] != 0 || ladder[Cause::aliasing_light][i] != 0) {
+    if (in_gap(ladder, i)) raise(gap, gap_m(in, i));
+    if (is_aliased(ladder, i)) {
       ++aliased;
       raise(edge_max, in.edge_distance_texels[i]);
       edge_sum += in.edge_distance_texels[i];
@@ -187,6 +195,47 @@ PointRecord::Worst worst_pixel(const Ladder& ladder) {
     }
   }
   return worst;
+}
+
+std::vector<PointRecord::WorstOf> worst_pixels(const MeasureInput& in) {
+  const Ladder& ladder = in.ladder;
+  using PartOfPixel = std::function<double(size_t)>;
+  std::vector<std::pair<PointRecord::WorstOf, PartOfPixel>> all;
+  const auto add = [&](const std::string& metric, PartOfPixel part) {
+    all.push_back({{metric, -1, -1, 0}, std::move(part)});
+  };
+  const auto step = [&](Cause cause, size_t i) { return std::abs(static_cast<double>(ladder[cause][i])); };
+  const auto soft = [&](size_t i) { return std::abs(static_cast<double>(ladder.shown()[i]) - ladder.soft_truth()[i]); };
+  for (size_t c = 1; c < ladder.causes.size(); ++c)
+    add(ladder.causes[c].name,
+        [&image = ladder.causes[c].step](size_t i) { return std::abs(static_cast<double>(image[i])); });
+  add("error_soft", soft);
+  add("aliasing", [&](size_t i) { return step(Cause::aliasing_dark, i) + step(Cause::aliasing_light, i); });
+  add("coverage", [&](size_t i) { return step(Cause::coverage_dark, i) + step(Cause::coverage_light, i); });
+  add("peter_panning_lit", [&](size_t i) { return ladder.truth()[i] != 0 ? step(Cause::peter_panning, i) : 0; });
+  add("undecided_taps", [&](size_t i) { return static_cast<double>(ladder.doubt[i]); });
+  add("peter_panning_gap_m", [&](size_t i) { return in_gap(ladder, i) ? gap_m(in, i) : 0; });
+  add("edge_displacement_texels",
+      [&](size_t i) { return is_aliased(ladder, i) ? static_cast<double>(in.edge_distance_texels[i]) : 0; });
+
+  const auto width = static_cast<size_t>(std::max(1, ladder.flags.width));
+  for (size_t i = 0; i < ladder.flags.size(); ++i) {
+    if (!is_counted(ladder, i)) continue;
+    // Almost all pixels are right: none of the parts above can be other than 0 there.
+    if (soft(i) == 0 && ladder.doubt[i] == 0 &&
+        std::all_of(ladder.causes.begin(), ladder.causes.end(), [i](const auto& cause) { return cause.step[i] == 0; }))
+      continue;
+    for (auto& [worst, part] : all) {
+      const double here = std::isnan(worst.size) ? 0 : part(i);
+      if (here <= worst.size || std::isnan(worst.size)) continue;  // a NaN is the worst
+      worst.x = static_cast<int>(i % width), worst.y = static_cast<int>(i / width);
+      worst.size = here;
+    }
+  }
+  std::vector<PointRecord::WorstOf> found;
+  for (auto& [worst, part] : all)
+    if (worst.x >= 0) found.push_back(std::move(worst));
+  return found;
 }
 
 }  // namespace noonmark

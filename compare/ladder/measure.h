@@ -43,4 +43,8 @@ Image<uint8_t> peter_panning_mask(const Ladder& ladder);
 // The counted receiver with the largest error: |R5 - R1|, or that of the rung on top of R5. x = -1 if there is no counted receiver.
 PointRecord::Worst worst_pixel(const Ladder& ladder);
 
+// The worst pixel of each metric of measure_ladder() that is a mean or a maximum over the counted pixels and is above 0;
+// of several the first from the top. `error` and `wrong` have worst_pixel().
+std::vector<PointRecord::WorstOf> worst_pixels(const MeasureInput& in);
+
 }  // namespace noonmark

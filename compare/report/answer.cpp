@@ -12,6 +12,7 @@
 #include "compare/judge/poor_view.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
+#include "compare/report/broken.h"
 #include "compare/report/findings.h"
 #include "compare/report/laws.h"
 #include "compare/report/recommendation_box.h"
@@ -64,15 +65,14 @@ Where where_text(const Results& results, const std::vector<bool>& chosen, const 
           list.empty() ? "" : "<ul class=\"rules\">" + list + "</ul>"};
 }
 
-bool window_fails(const PointRecord& point) {
-  return point.curve && (!point.curve->window_min_depth || !point.curve->window_max_depth);
-}
+// The window is the one that the recommendation uses: of all placements if there are several.
+bool window_fails(const PointRecord& point) { return point.curve && !usable_window(*point.curve); }
 bool has_usable_bias(const PointRecord& point) { return point.curve && !window_fails(point) && bias_as_set(point); }
 bool set_too_small(const PointRecord& point) {
-  return has_usable_bias(point) && *bias_as_set(point) < *point.curve->window_min_depth;
+  return has_usable_bias(point) && *bias_as_set(point) < usable_window(*point.curve)->low;
 }
 bool set_too_large(const PointRecord& point) {
-  return has_usable_bias(point) && *bias_as_set(point) > *point.curve->window_max_depth;
+  return has_usable_bias(point) && *bias_as_set(point) > usable_window(*point.curve)->high;
 }
 
 std::string window_items(const Results& results) {
@@ -169,10 +169,15 @@ std::string bounds_section(const Results& results) {
                            html(fmt::format("{}", fmt::join(values, " | "))));
     const std::string_view unit = unit_of(bound.metric, results);
     std::string limit;
-    if (bound.max) limit += fmt::format("at most {}", quantity(*bound.max, unit));
-    if (bound.min) limit += fmt::format("{}at least {}", limit.empty() ? "" : ", ", quantity(*bound.min, unit));
-    std::string found = bound.points == 0 ? "no point matches" : quantity(bound.found, unit);
-    if (bound.point >= 0) found += fmt::format(" at <a href=\"#p{0}\">point {0}</a>", bound.point);
+    const int digits = found_digits(bound, report_digits);
+    if (bound.max) limit += fmt::format("at most {}", quantity(*bound.max, unit, digits));
+    if (bound.min) limit += fmt::format("{}at least {}", limit.empty() ? "" : ", ", quantity(*bound.min, unit, digits));
+    std::string found = bound.points == 0 ? "no point matches" : quantity(bound.found, unit, digits);
+    if (bound.point >= 0) {
+      const std::string name = fmt::format("point {}", bound.point);
+      found +=
+          " at " + (bound.held ? fmt::format("<a href=\"#p{}\">{}</a>", bound.point, name) : failure_link(bound, name));
+    }
     rows += fmt::format(
         "<tr class=\"{}\"><td>{}</td><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
         breaks(bound) ? "broken"
@@ -184,7 +189,15 @@ std::string bounds_section(const Results& results) {
         html(metric_label(bound.metric)), limit, found,
         html(bound.join) + (bound.placement.empty() ? "" : fmt::format(", {}", placement_text(bound))),
         where.empty() ? fmt::format("all ({})", bound.points) : fmt::format("{} ({})", where, bound.points));
-    if (!bound.held && !bound.reproduce.empty())
+    if (bound.held) continue;
+    if (const PointRecord* point = find_point(results.points, bound.point)) {
+      const std::string bias = set_bias_phrase(*point), worst = failing_pixel_text(bound, *point);
+      if (!bias.empty() || !worst.empty())
+        rows += fmt::format("<tr class=\"command\"><td></td><td colspan=\"5\">{}{}{}</td></tr>\n",
+                            bias.empty() ? "" : "With " + html(bias), bias.empty() || worst.empty() ? "" : "; ",
+                            worst.empty() ? "" : failure_link(bound, html(worst)));
+    }
+    if (!bound.reproduce.empty())
       rows += fmt::format("<tr class=\"command\"><td></td><td colspan=\"5\">See it: <code>{}</code></td></tr>\n",
                           html(bound.reproduce));
   }
@@ -198,7 +211,11 @@ std::string bounds_section(const Results& results) {
 
 std::string verdict_line(const Results& results) {
   std::string out;
-  const auto judge = [&](const auto& list, const char* noun, const char* alone, const auto& is_broken) {
+  // Bounds are judged as rendered. The page also shows other biases, so it is said which one.
+  const bool other_biases = std::any_of(results.points.begin(), results.points.end(),
+                                        [](const PointRecord& point) { return point.curve.has_value(); });
+  const char* const as_set = other_biases ? ", with the bias as set" : "";
+  const auto judge = [&](const auto& list, const char* noun, const char* alone, const char* at, const auto& is_broken) {
     if (list.empty()) return;
     const auto broken = std::count_if(list.begin(), list.end(), is_broken);
     const auto kept = std::count_if(list.begin(), list.end(), [](const auto& one) { return one.held; });
@@ -207,14 +224,15 @@ std::string verdict_line(const Results& results) {
                              : warned ? fmt::format("{} of {} {}s hold, the others warn", kept, list.size(), noun)
                              : list.size() == 1 ? std::string(alone)
                                                 : fmt::format("All {} {}s hold", list.size(), noun);
-    out += fmt::format("{}<span class=\"pill {}\">{}</span>", out.empty() ? "" : " ", broken ? "broken" : "held", text);
+    out += fmt::format("{}<span class=\"pill {}\">{}{}</span>", out.empty() ? "" : " ", broken ? "broken" : "held",
+                       text, at);
   };
   if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty()) {
     // If the numbers are not sound, the verdicts on them have no meaning.
     out = "<span class=\"pill broken\">Not sound: the measurement contradicts itself</span>";
   } else {
-    judge(results.bounds, "bound", "The bound holds", breaks);
-    judge(results.laws, "law", "The law holds", [](const LawResult& law) { return !law.held; });
+    judge(results.bounds, "bound", "The bound holds", as_set, breaks);
+    judge(results.laws, "law", "The law holds", "", [](const LawResult& law) { return !law.held; });
   }
   if (out.empty()) out = "<span class=\"pill none\">No bounds were set</span>";
   if (static_cast<int64_t>(results.points.size()) < results.planned_points)

@@ -10,6 +10,7 @@
 
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
+#include "compare/report/broken.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/laws.h"
 #include "compare/report/phase_section.h"
@@ -19,6 +20,7 @@
 #include "compare/report/text.h"
 #include "compare/store/curve_fields.h"
 #include "compare/store/metrics.h"
+#include "compare/store/number_text.h"
 #include "compare/store/quantities.h"
 
 namespace noonmark::report {
@@ -83,13 +85,16 @@ json chart_data(const Results& results, const ShownPoints& shown) {
   data["swept"] = json::array();
   for (const std::string& name : results.info.swept) {
     const std::vector<std::string> values = values_of(shown.results, name);
+    std::vector<std::string> texts;  // of the values, for people
+    for (const std::string& value : values) texts.push_back(setting_text(value));
     bool numeric = !values.empty();
     for (const std::string& value : values) numeric = numeric && number_of(value);
     data["swept"].push_back({{"name", name},
                              {"label", setting_label(name)},
                              {"unit", setting_unit(name)},
                              {"numeric", numeric},
-                             {"values", values}});
+                             {"values", values},
+                             {"texts", texts}});
   }
   data["metrics"] = json::array();
   for (const Metric& metric : metrics_of(results.points))
@@ -126,11 +131,18 @@ json chart_data(const Results& results, const ShownPoints& shown) {
     for (const auto& [name, value] : point.metrics) metrics[name] = value_of(value);
     json entry{{"id", point.id}, {"settings", settings}, {"metrics", metrics}};
     entry["phrase"] = settings_phrase(point, results.info.swept);
+    if (const std::vector<std::string> names = without_curve_parameter(point, results.info.swept);
+        names.size() < results.info.swept.size())
+      entry["phrase_at_bias"] = settings_phrase(point, names);
+    if (json failures = failures_of(point, results); !failures.empty()) entry["failures"] = std::move(failures);
     if (!point.part.empty()) entry["part"] = point.part;
     if (point.curve) entry["curve"] = curve_of(point, entries);
     if (const auto bias = biases.find(point.id); bias != biases.end()) entry["at"] = at_bias(point, bias->second);
     for (const std::string& word : settings_of_command(point))
       if (!common.contains(word)) entry["set"].push_back(word);
+    for (const PointRecord::WorstOf& worst : point.worst_of)
+      if (find_quantity(worst.metric, {&point, 1}).unit == "fraction")
+        entry["worst_of"][worst.metric] = {{"x", worst.x}, {"y", worst.y}, {"size", value_of(worst.size)}};
     if (point.worst.x >= 0)
       entry["worst"] = {{"x", point.worst.x},
                         {"y", point.worst.y},

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "compare/judge/curve_reading.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/rules.h"
 #include "compare/store/curve_fields.h"
@@ -35,7 +36,19 @@ std::vector<size_t> pareto_front(std::span<const CostAndError> points) {
   return front;
 }
 
-std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points) {
+namespace {
+
+// With the bias, in bias.unit, as the point's curve gives it; otherwise as rendered.
+double share_of(const PointRecord& point, const std::string& cause, std::optional<double> bias) {
+  if (bias && point.curve)
+    if (const std::optional<double> value = curve_value(*point.curve, cause, *bias / parameter_per_depth(point)))
+      return *value;
+  return metric_of(point, cause);
+}
+
+}  // namespace
+
+std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points, std::optional<double> bias) {
   std::vector<CauseShare> shares;
   double sum = 0;
   std::vector<std::string> names;
@@ -49,7 +62,7 @@ std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points)
     CauseShare share{name, 0, 0};
     size_t finite = 0;
     for (const PointRecord* point : points) {
-      const double value = metric_of(*point, share.name);
+      const double value = share_of(*point, share.name, bias);
       if (!std::isfinite(value)) continue;
       share.mean += value;
       ++finite;

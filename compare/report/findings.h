@@ -1,5 +1,6 @@
 // Computes the report's conclusions from the results: pure functions over records, without HTML.
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -26,6 +27,7 @@ struct CauseShare {
   double share = 0;  // its part of the sum over all causes
 };
 // The causes of the error, the largest first, also those that rungs brought. Causes that are 0 everywhere are left out.
-std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points);
+// bias: in bias.unit; what the points' curves give is read there, all else as rendered.
+std::vector<CauseShare> cause_shares(std::span<const PointRecord* const> points, std::optional<double> bias = {});
 
 }  // namespace noonmark

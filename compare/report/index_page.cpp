@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/report/broken.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/text.h"
 #include "compare/store/quantities.h"
@@ -70,6 +71,8 @@ std::string worst_numbers(const Results& results) {
   }
   return out;
 }
+
+std::string broken_in_words(const Results& results) { return report::broken_words(results); }
 
 std::string picture_of_index(const Results& results) {
   const PointRecord* chosen = nullptr;

@@ -14,7 +14,7 @@ struct IndexEntry {
   std::string experiment;  // path as given
   std::string title;
   std::string report;     // the report's path below the index page; empty if there is none
-  std::string words;      // the verdict in words, or why nothing was judged
+  std::string words;      // what is broken, with its value, then the verdict; or why nothing was judged
   std::string numbers;    // the worst numbers in words; may be empty
   std::string thumbnail;  // bytes of a PNG file; may be empty
 };
@@ -22,6 +22,9 @@ struct IndexEntry {
 // "error at most 3.1 %, acne at most 0.2 %": the largest error, acne and Peter Panning over all points. Values that are
 // not finite are said.
 std::string worst_numbers(const Results& results);
+
+// "Acne 0.83 % (at most 0.5 %) at resolution 2048 texels": the first broken bound. Empty if none is broken.
+std::string broken_in_words(const Results& results);
 
 // The path of a picture that stands for the results: what the map showed at the point with the largest error of those
 // with pictures. Empty if there is none.

@@ -92,7 +92,8 @@ std::string live_figure(const Results& results, const std::function<std::string(
   }
   head["point"] = point->id;
   head["marks"] = marks_of(*point, recommendation);
-  const std::string phrase = settings_phrase(*point, results.info.swept);
+  // The picture is at every bias, so the one that was set is not its name.
+  const std::string phrase = settings_phrase(*point, without_curve_parameter(*point, results.info.swept));
   return fmt::format(
       "<figure class=\"chart js-only\" id=\"live-picture\"><div class=\"controls\"></div>"
       "<canvas width=\"{0}\" height=\"{1}\" role=\"img\" aria-label=\"The picture at the chosen bias\"></canvas>"

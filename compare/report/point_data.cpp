@@ -39,8 +39,13 @@ nlohmann::json at_bias(const PointRecord& point, double bias) {
                      {"depth", depth},
                      // The bias may lie on an end of the window, and its depth was rounded twice.
                      {"usable", window && depth >= window->low * (1 - 1e-12) && depth <= window->high * (1 + 1e-12)}};
+  // At the bias that was set the rendered numbers are exact; the curve is linear between its entries.
+  const bool as_set = number_of(setting_of(point, point.curve->parameter)) == bias;
   for (const char* metric : curve_metrics)
-    if (const std::optional<double> value = curve_value(*point.curve, metric, depth); value && std::isfinite(*value))
+    if (as_set && std::isfinite(metric_of(point, metric)))
+      out["metrics"][metric] = metric_of(point, metric);
+    else if (const std::optional<double> value = curve_value(*point.curve, metric, depth);
+             value && std::isfinite(*value))
       out["metrics"][metric] = *value;
   return out;
 }

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/recommendation.h"
+#include "compare/report/broken.h"
 #include "compare/report/findings.h"
 #include "compare/report/sections.h"
 #include "compare/report/speed.h"
@@ -28,8 +30,29 @@ std::string point_links(const Choice& choice) {
   constexpr size_t most = 4;
   std::string out = choice.points.size() == 1 ? "point " : "points ";
   for (size_t i = 0; i < std::min(most, choice.points.size()); ++i)
-    out += fmt::format("{}<a href=\"#p{}\">{}</a>", i ? ", " : "", choice.points[i]->id, choice.points[i]->id);
+    out += fmt::format("{}<a href=\"#p{}\" data-show=\"recommended\">{}</a>", i ? ", " : "", choice.points[i]->id,
+                       choice.points[i]->id);
   return out + (choice.points.size() > most ? " …" : "");
+}
+
+// Opens the card of the choice's first point at the recommended bias, also where a bound is broken at the bias as set.
+std::string recommended_link(const Choice& choice, const std::string& inner) {
+  return fmt::format("<a href=\"#p{}\" data-show=\"recommended\">{}</a>", choice.first().id, inner);
+}
+
+// The swept settings that are chosen, but for the parameter of the curve, whose bias is the answer's own.
+std::vector<std::string> chosen_settings(const Recommendation& found, const Results& results) {
+  const std::vector<std::string> names = choice_settings(results.info);
+  return found.bias ? without_curve_parameter(found.choice.first(), names) : names;
+}
+
+std::string chosen_phrase(const Recommendation& found, const Results& results) {
+  return settings_phrase(found.choice.first(), chosen_settings(found, results));
+}
+
+size_t bound_count(const Results& results) {
+  return static_cast<size_t>(
+      std::count_if(results.bounds.begin(), results.bounds.end(), [](const auto& bound) { return !bound.warns; }));
 }
 
 std::string conditions_text(const Results& results, const Choice& choice) {
@@ -76,9 +99,9 @@ std::string noise_text(const CostNoise& noise, const Results& results) {
 
 }  // namespace
 
-std::string cause_sentence(std::span<const PointRecord* const> points) {
+std::string cause_sentence(std::span<const PointRecord* const> points, std::optional<double> bias) {
   std::string out;
-  const std::vector<CauseShare> shares = cause_shares(points);
+  const std::vector<CauseShare> shares = cause_shares(points, bias);
   for (size_t i = 0; i < std::min<size_t>(shares.size(), 3); ++i)
     out += fmt::format("{}<span class=\"cause\">{}{} ({:.0f}{}%)</span>", i ? ", " : "", swatch(shares[i].name),
                        html(metric_label(shares[i].name)), 100 * shares[i].share, "\u202f");
@@ -95,17 +118,16 @@ std::string cheapest_of_parts(const Results& results, const ShownPoints& shown) 
   if (best.window != ComparedChoice::Window::usable) return "";
   std::unordered_set<int64_t> on_page;
   for (const PointRecord& point : shown.results.points) on_page.insert(point.id);
-  const std::string name = html(ChoiceNames(results).of(best.choice)), of = GroupNames(results, shown.groups).of(group);
+  const std::string name = html(ChoiceNames(results).of(best.choice, AtBias::best)),
+                    of = GroupNames(results, shown.groups).of(group);
   const PointRecord* const point = point_on_page(best, error_shown_first(results), on_page);
   return fmt::format(" Of the {} choices{} the cheapest that is good enough is {}.", group.choices.size(),
                      of.empty() ? "" : " for " + html(of),
                      point ? fmt::format("<a href=\"#p{}\">{}</a>", point->id, name) : name);
 }
 
-std::string answer_sentence(const Results& results, const ShownPoints& shown) {
-  if (results.points.empty()) return "No point was measured.";
-  if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
-    return "Nothing was measured: " + html(poor_view_note(results.points)) + ".";
+// What to set, or what is known instead.
+static std::string what_to_set(const Results& results, const ShownPoints& shown) {
   // Points of different parts are not meant to be compared, so none of them is an answer.
   if (!results.points.front().part.empty()) {
     const auto kept = [](const auto& list) {
@@ -130,14 +152,28 @@ std::string answer_sentence(const Results& results, const ShownPoints& shown) {
     case Recommendation::Outcome::found:
       break;
   }
-  const std::string settings = settings_phrase(found.choice.first(), choice_settings(results.info));
-  return fmt::format("Set <a href=\"#p{}\">{}</a>{}: the cheapest setting that is good enough{}. Its error is {}.",
-                     found.choice.first().id, html(settings.empty() ? "this point" : settings),
-                     found.bias ? fmt::format(" and {} {}", html(found.bias->parameter),
-                                              html(bias_in_unit(found.bias->value, found.bias->unit)))
-                                : "",
-                     results.info.over.empty() ? "" : " under all conditions",
-                     quantity(found.error.worst, find_metric(results.info.accuracy).unit));
+  const char* const conditions = results.info.over.empty() ? "" : " under all conditions";
+  const std::string error = quantity(found.error.worst, find_metric(results.info.accuracy).unit);
+  const std::string bias =
+      found.bias ? html(fmt::format("{} {}", found.bias->parameter, bias_in_unit(found.bias->value, found.bias->unit)))
+                 : "";
+  if (found.bias && found.bias->as_set)
+    return fmt::format("What is set is good enough{}: {} with {}. Its error is {}.", conditions,
+                       bound_count(results) == 1 ? "the bound holds" : "all bounds hold",
+                       recommended_link(found.choice, bias), error);
+  const std::string settings = chosen_phrase(found, results);
+  return fmt::format(
+      "Set {}{}: the cheapest setting that is good enough{}. Its error is {}.",
+      recommended_link(found.choice, settings.empty() ? found.bias ? bias : "this point" : html(settings)),
+      settings.empty() || bias.empty() ? "" : " and " + bias, conditions, error);
+}
+
+std::string answer_sentence(const Results& results, const ShownPoints& shown) {
+  if (results.points.empty()) return "No point was measured.";
+  if (std::all_of(results.points.begin(), results.points.end(), nothing_judged))
+    return "Nothing was measured: " + html(poor_view_note(results.points)) + ".";
+  const std::string broken = broken_sentence(results);
+  return (broken.empty() ? "" : broken + " ") + what_to_set(results, shown);
 }
 
 std::string recommendation_box(const Results& results) {
@@ -160,49 +196,69 @@ std::string recommendation_box(const Results& results) {
         "None has a usable bias window and meets every bound that applies to it. Sweep a higher resolution, a smaller "
         "extent or another part of the bias, or loosen a bound.</p></div>\n",
         results.info.over.empty() ? "" : " under all conditions");
-  const std::vector<std::string> chosen = choice_settings(results.info);
+  const std::vector<std::string> chosen = chosen_settings(found, results);
   std::string rows;
   for (const std::string& name : chosen)
     rows += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", html(name),
                         html(settings_phrase(found.choice.first(), {name}).substr(setting_label(name).size() + 1)));
   std::string more;
   if (found.bias) {
-    const auto& [parameter, unit, value, window, narrow] = *found.bias;
+    const auto& [parameter, unit, value, window, narrow, as_set] = *found.bias;
     rows += fmt::format("<div class=\"key\"><dt>{}</dt><dd>{}</dd></div>\n", html(parameter), bias_of(found, value));
     rows += fmt::format("<div><dt>usable from</dt><dd>{}</dd></div>\n<div><dt>to</dt><dd>{}</dd></div>\n",
                         bias_of(found, window.low), bias_of(found, window.high));
-    if (narrow)
+    if (narrow && as_set)
+      more = fmt::format(
+          " The bias is closer than {:.0f}\u202f% to an end of its window, so a small change of the scene can break "
+          "it.",
+          100 * (bias_margin - 1));
+    else if (narrow)
       more = fmt::format(
           " Its window is narrower than a margin of {:.0f}\u202f% to both ends, so a small change of the "
           "scene can break it.",
           100 * (bias_margin - 1));
     else if (window.low > 0)
-      more = fmt::format(" Its window is a factor {} wide; the bias keeps {:.0f}\u202f% from its ends.",
+      more = fmt::format(" Its window is a factor {} wide; the bias keeps at least {:.0f}\u202f% from its ends.",
                          number(window.high / window.low), 100 * (bias_margin - 1));
   }
-  const std::string causes = cause_sentence(found.choice.points);
+  const std::string causes =
+      cause_sentence(found.choice.points, found.bias ? found.bias->read_at() : std::optional<double>());
+  const bool kept = found.bias && found.bias->as_set;
   const Recommendation accurate = recommend_accurate(results);
   std::string other;
-  if (&accurate.choice.first() != &found.choice.first())
+  if (const std::string phrase = accurate.choice.points.empty() ? "" : chosen_phrase(accurate, results);
+      &accurate.choice.first() != &found.choice.first())
     other = fmt::format(
-        "<p>The most accurate setting that is good enough: {}{}, for {} ({}).</p>\n",
-        html(settings_phrase(accurate.choice.first(), chosen)),
-        accurate.bias ? fmt::format(", {} {}", html(accurate.bias->parameter), bias_of(accurate, accurate.bias->value))
+        "<p>The most accurate setting that is good enough: {}{}{}, for {} ({}).</p>\n", html(phrase),
+        phrase.empty() || !accurate.bias ? "" : ", ",
+        accurate.bias ? fmt::format("{} {}", html(accurate.bias->parameter), bias_of(accurate, accurate.bias->value))
                       : "",
         cost_and_error(accurate, results), point_links(accurate.choice));
   return fmt::format(
-      "<div class=\"recommend held\"><h3>What to set</h3><p>The cheapest setting that is good enough{} has {}.{}</p>\n"
-      "<dl>{}</dl>\n{}{}<p class=\"small\">It is {}: the least <i>{}</i> among the settings of which {}; among equal "
-      "costs "
-      "the least <i>{}</i>.{} <a href=\"#cost\">Speed against accuracy</a> compares by other costs and "
+      "<div class=\"recommend {}\"><h3>{}</h3><p>{}{}{} has {}.{}</p>\n"
+      "<dl>{}</dl>\n{}{}<p class=\"small\">It is {}: {}.{} <a href=\"#cost\">Speed against accuracy</a> compares by "
+      "other costs and "
       "errors.</p></div>\n",
-      conditions_text(results, found.choice), cost_and_error(found, results), more, rows,
-      causes.empty() ? "" : fmt::format("<p>Largest causes there, with the bias as rendered: {}.</p>\n", causes), other,
-      point_links(found.choice), html(metric_label(results.info.cost)),
-      !found.bias              ? "every bound holds"
-      : results.bounds.empty() ? "the bias window is not empty"
-                               : "the bias window is not empty and every bound holds at that bias",
-      html(error_label(results.info.accuracy)), noise_text(found.noise, results));
+      // Green beside a broken bound would read as its verdict.
+      std::any_of(results.bounds.begin(), results.bounds.end(), breaks) ? "none" : "held",
+      kept ? "What is set" : "What to set",
+      kept ? "What is set is good enough" : "The cheapest setting that is good enough",
+      conditions_text(results, found.choice), kept ? ". It" : "", cost_and_error(found, results), more, rows,
+      causes.empty() ? ""
+                     : fmt::format("<p>Largest causes there{}: {}.</p>\n",
+                                   !found.bias          ? ""
+                                   : found.bias->as_set ? ", with this bias, as set"
+                                                        : ", with this bias (causes that no curve gives: as rendered)",
+                                   causes),
+      other, point_links(found.choice),
+      kept ? "every bound holds with the bias that is set, which lies in the usable window"
+           : fmt::format("the least <i>{}</i> among the settings of which {}; among equal costs the least <i>{}</i>",
+                         html(metric_label(results.info.cost)),
+                         !found.bias              ? "every bound holds"
+                         : results.bounds.empty() ? "the bias window is not empty"
+                                                  : "the bias window is not empty and every bound holds at that bias",
+                         html(error_label(results.info.accuracy))),
+      noise_text(found.noise, results));
 }
 
 }  // namespace noonmark::report

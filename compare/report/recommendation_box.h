@@ -1,5 +1,6 @@
 // "What to set": the recommendation as the first words of the report.
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 
@@ -8,12 +9,13 @@
 
 namespace noonmark::report {
 
-// The answer as one sentence of HTML, for the first screen.
+// The answer for the first screen, as HTML: first what is broken, then what to set.
 std::string answer_sentence(const Results& results, const ShownPoints& shown);
 
 std::string recommendation_box(const Results& results);
 
 // The three largest causes of error over the points, with their colours: "Acne (60 %), Aliasing (30 %)".
-std::string cause_sentence(std::span<const PointRecord* const> points);
+// bias: in bias.unit, where they are read; without one as rendered.
+std::string cause_sentence(std::span<const PointRecord* const> points, std::optional<double> bias = {});
 
 }  // namespace noonmark::report

@@ -8,11 +8,13 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "compare/judge/curve_reading.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/data.h"
 #include "compare/report/findings.h"
 #include "compare/report/rules.h"
 #include "compare/report/text.h"
+#include "compare/store/number_text.h"
 #include "compare/store/quantities.h"
 
 namespace noonmark::report {
@@ -38,7 +40,8 @@ std::string swept_head(const Results& results) {
 
 std::string swept_cells(const Results& results, const PointRecord& point) {
   std::string out = fmt::format("<th scope=\"row\">{}</th>", point_link(point));
-  for (const std::string& name : results.info.swept) out += fmt::format("<td>{}</td>", html(setting_of(point, name)));
+  for (const std::string& name : results.info.swept)
+    out += fmt::format("<td>{}</td>", html(setting_text(setting_of(point, name))));
   return out;
 }
 
@@ -79,9 +82,9 @@ std::string bias_section(const Results& results, const ShownPoints& shown) {
     if (!point.curve) continue;
     ++count;
     const BiasCurve& curve = *point.curve;
-    const bool usable = curve.window_min_depth && curve.window_max_depth;
+    const std::optional<DepthWindow> usable = usable_window(curve);
     rows += fmt::format("<tr{}>{}", usable ? "" : " class=\"broken\"", swept_cells(results, point));
-    rows += usable ? bias_cell(*curve.window_min_depth, curve) + bias_cell(*curve.window_max_depth, curve)
+    rows += usable ? bias_cell(usable->low, curve) + bias_cell(usable->high, curve)
                    : "<td colspan=\"6\" class=\"fails first\">none: no bias is good enough</td>";
     rows += bias_cell(curve.best_bias_depth, curve);
     rows += fmt::format("<td>{}</td><td class=\"first\">{} … {}</td>", cell(curve.best_error, "fraction"),
@@ -101,8 +104,9 @@ std::string bias_section(const Results& results, const ShownPoints& shown) {
   out += fmt::format(
       "<p>Too little bias leaves acne; too much detaches shadows. The usable window is every bias that keeps acne "
       "within {} and "
-      "Peter Panning within {} of the counted receivers.{}</p>\n",
+      "Peter Panning within {} of the counted receivers{}.{}</p>\n",
       quantity(first->acne_bound, "fraction"), quantity(first->peter_panning_bound, "fraction"),
+      first->placements > 1 ? ", at every placement of the grid" : "",
       alike ? fmt::format(" Varied: <code>{}</code>; made: {}.", html(first->parameter), html(first->made)) : "");
   out += shown.note;
   if (const size_t drawn = drawn_biases(*first, curve_entries(shown.results)).size(); drawn < first->bias_depth.size())
@@ -115,7 +119,7 @@ std::string bias_section(const Results& results, const ShownPoints& shown) {
   std::string head =
       "<thead><tr>" + swept_head(results) +
       "<th class=\"first\" colspan=\"3\">Window from</th><th class=\"first\" colspan=\"3\">Window to</th>"
-      "<th class=\"first\" colspan=\"4\">Best bias</th><th class=\"first\">Within 10\u202f%<br>of the best</th>";
+      "<th class=\"first\" colspan=\"4\">Least error at</th><th class=\"first\">Within 10\u202f%<br>of the least</th>";
   if (!alike) head += "<th>Parameter</th><th>Made</th>";
   head += "</tr>\n<tr class=\"units\"><td></td>";
   for (size_t i = 0; i < results.info.swept.size(); ++i) head += "<td></td>";
@@ -167,11 +171,11 @@ std::string sweep_section(const Results& results, const ShownPoints& shown) {
     for (const std::string& value : values) {
       const auto& [sum, worst, best_sum, finite, of, curves] = trends[value];
       const double none = std::nan("");
-      rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                          html(value), cell(finite ? sum / static_cast<double>(finite) : none, "fraction"),
-                          cell(finite ? worst : none, "fraction"),
-                          curves ? cell(best_sum / static_cast<double>(curves), "fraction") : "–",
-                          finite == of ? fmt::format("{}", of) : fmt::format("{} ({} not finite)", of, of - finite));
+      rows += fmt::format(
+          "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", html(setting_text(value)),
+          cell(finite ? sum / static_cast<double>(finite) : none, "fraction"), cell(finite ? worst : none, "fraction"),
+          curves ? cell(best_sum / static_cast<double>(curves), "fraction") : "–",
+          finite == of ? fmt::format("{}", of) : fmt::format("{} ({} not finite)", of, of - finite));
     }
     const std::string unit = setting_unit(name);
     out += fmt::format("<h3>{}</h3>\n", html(name));
@@ -221,12 +225,16 @@ std::string budget_section(const Results& results, const ShownPoints& shown) {
     // Percent of the bar, because flex factors that sum to less than 1 would not fill it.
     for (const auto& [name, value] : sizes)
       parts += fmt::format("<i class=\"c-{}\" style=\"flex-grow:{:.4f}\"></i>", name, 100 * value / sum);
-    const std::string phrase = settings_phrase(point, results.info.swept);
+    const auto phrase = [&](const std::vector<std::string>& names) {
+      const std::string text = settings_phrase(point, names);
+      return html(text.empty() ? fmt::format("point {}", point.id) : text);
+    };
+    const std::vector<std::string>&swept = results.info.swept, at_bias = without_curve_parameter(point, swept);
     rows += fmt::format(
         "<div class=\"row\" data-point=\"{1}\" title=\"{0}\"><span class=\"name\"><a href=\"#p{1}\">{2}</a></span>"
         "<span class=\"track\"><span class=\"bar\" style=\"--size:{3:.5f}\">{4}</span></span><span "
         "class=\"value\">{5}</span></div>\n",
-        html(told), point.id, html(phrase.empty() ? fmt::format("point {}", point.id) : phrase),
+        html(told), point.id, at_bias.size() == swept.size() ? phrase(swept) : by_bias(phrase(swept), phrase(at_bias)),
         largest > 0 ? sum / largest : 0, parts, quantity(metric_of(point, "error"), "fraction"));
   }
   return fmt::format(

@@ -11,6 +11,7 @@
 #include "compare/judge/curve_reading.h"
 #include "compare/report/findings.h"
 #include "compare/report/text.h"
+#include "compare/store/number_text.h"
 #include "compare/store/quantities.h"
 #include "technique/settings.h"
 
@@ -117,13 +118,10 @@ struct Axes {
 };
 
 json entry_data(const ComparedChoice& one, const Axes& axes, const ChoiceNames& names) {
-  json out{{"name", names.of(one.choice)},
-           {"conditions", one.choice.points.size()},
-           {"window", text_of(one.window)},
-           {"good", one.good.has_value()},
-           {"bias", bias_data(one)},
-           {"cause", dominating_cause(one)},
-           {"set_cause", dominating_cause(one, AtBias::as_set)}};
+  json out{{"name", names.of(one.choice)},           {"name_at_bias", names.of(one.choice, AtBias::best)},
+           {"conditions", one.choice.points.size()}, {"window", text_of(one.window)},
+           {"good", one.good.has_value()},           {"bias", bias_data(one)},
+           {"cause", dominating_cause(one)},         {"set_cause", dominating_cause(one, AtBias::as_set)}};
   for (const std::string& cost : axes.costs) {
     const Joined value = value_of(one, cost);
     json& numbers = out["costs"][cost] = {or_null(value.worst), or_null(value.mean)};
@@ -138,9 +136,13 @@ json group_data(const ComparedGroup& group, const Results& results, const Axes& 
                 const std::unordered_set<int64_t>& shown_ids) {
   const std::vector<Property> properties = properties_of(group, results);
   json out{{"choices", group.choices.size()}, {"entries", json::array()}, {"properties", json::array()}};
-  for (const Property& property : properties)
+  for (const Property& property : properties) {
+    json texts = json::array();
+    for (const std::string& value : property.values)
+      texts.push_back(property.setting.empty() ? value : setting_text(value));
     out["properties"].push_back(
-        {{"label", property.setting.empty() ? "part" : setting_label(property.setting)}, {"values", property.values}});
+        {{"label", property.setting.empty() ? "part" : setting_label(property.setting)}, {"values", std::move(texts)}});
+  }
   for (size_t i = 0; i < group.choices.size(); ++i) {
     const ComparedChoice& one = group.choices[i];
     const PointRecord* const point = point_on_page(one, axes.error_first, shown_ids);
@@ -218,11 +220,14 @@ ChoiceNames::ChoiceNames(const Results& results) {
   }
 }
 
-std::string ChoiceNames::of(const Choice& choice) const {
+std::string ChoiceNames::of(const Choice& choice, AtBias at) const {
   const PointRecord& point = choice.first();
   std::string name = point.part;
   if (const auto found = differing_.find(point.part); found != differing_.end())
-    name += (name.empty() ? "" : ", ") + settings_phrase(point, found->second);
+    if (const std::string phrase =
+            settings_phrase(point, at == AtBias::best ? without_curve_parameter(point, found->second) : found->second);
+        !phrase.empty())
+      name += (name.empty() ? "" : ", ") + phrase;
   return name.empty() ? fmt::format("point {}", point.id) : name;
 }
 

@@ -44,7 +44,8 @@ class GroupNames {
 class ChoiceNames {
  public:
   explicit ChoiceNames(const Results& results);
-  std::string of(const Choice& choice) const;
+  // best: without the setting that the curves of the choice vary, because its own bias is said beside the name.
+  std::string of(const Choice& choice, AtBias at = AtBias::as_set) const;
 
  private:
   std::map<std::string, std::vector<std::string>> differing_;  // by part

@@ -32,14 +32,14 @@ struct Plane {
   std::string error_text(const ComparedChoice& one, AtBias at) const {
     return quantity(value_of(one, error, at).worst, find_metric(error).unit);
   }
-  std::string link(const ComparedChoice& one) const {
-    const std::string name = html(names.of(one.choice));
+  std::string link(const ComparedChoice& one, AtBias at) const {
+    const std::string name = html(names.of(one.choice, at));
     const PointRecord* const point = point_on_page(one, error, shown_ids);
     return point ? fmt::format("<a href=\"#p{}\">{}</a>", point->id, name) : name;
   }
   // "filter box (10.7 MB, 0.2 %)"
   std::string with_numbers(const ComparedChoice& one, AtBias at) const {
-    return fmt::format("<b>{}</b> ({}, {})", link(one), cost_text(one), error_text(one, at));
+    return fmt::format("<b>{}</b> ({}, {})", link(one, at), cost_text(one), error_text(one, at));
   }
   // What is good enough is so at its best bias, which is said where the page shows the bias as set.
   std::string good_one(const ComparedChoice& one) const {
@@ -136,8 +136,9 @@ std::string row(const ComparedChoice& one, const Plane& plane, bool recommended,
   const std::string cause = dominating_cause(one, at);
   return fmt::format(
       "<tr{}><th scope=\"row\">{}{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n",
-      recommended ? " class=\"recommended\"" : "", plane.link(one), recommended ? " <small>recommended</small>" : "",
-      cost_cell(one, plane.cost), cell(value_of(one, plane.error, at).worst, find_metric(plane.error).unit),
+      recommended ? " class=\"recommended\"" : "", plane.link(one, at),
+      recommended ? " <small>recommended</small>" : "", cost_cell(one, plane.cost),
+      cell(value_of(one, plane.error, at).worst, find_metric(plane.error).unit),
       span_cell(one, plane.error, find_metric(plane.error).unit), bias_cell(one, at),
       cause.empty() ? "–" : swatch(cause) + html(metric_label(cause)));
 }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "compare/judge/bounds.h"
+#include "compare/judge/curve_reading.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "compare/judge/machines.h"
@@ -17,6 +18,7 @@
 #include "compare/judge/undecided.h"
 #include "compare/report/escape.h"
 #include "compare/store/metrics.h"
+#include "compare/store/number_text.h"
 #include "compare/store/quantities.h"
 
 namespace noonmark {
@@ -32,10 +34,8 @@ void add_heading(std::string& text, const std::vector<std::string>& names) {
   add_row(text, std::vector<std::string>(names.size(), "---"));
 }
 
-// Four digits are enough for this page. The store has all digits.
-std::string short_or_missing(std::optional<double> value) {
-  if (!value) return "–";
-  return std::isnan(*value) ? std::string(not_measured) : fmt::format("{:.4g}", *value);
+std::string short_or_missing(std::optional<double> value, std::string_view unit = "") {
+  return value ? quantity_text(*value, unit) : "–";
 }
 
 // "3 bounds", "the law"
@@ -116,10 +116,10 @@ std::string bounds_table(const Results& results) {
     if (const PointRecord* point = find_point(results.points, bound.point))
       for (const std::string& name : results.info.swept) {
         const auto setting = point->settings.find(name);
-        if (setting != point->settings.end()) at.push_back(fmt::format("{} = {}", name, setting->second));
+        if (setting != point->settings.end()) at.push_back(fmt::format("{} = {}", name, setting_text(setting->second)));
       }
     add_row(text, {breaks(bound) ? "**broken**" : std::string(verdict_of(bound)), markdown(bound_text(bound)),
-                   bound.points == 0 ? "–" : short_or_missing(bound.found), fmt::format("{}", bound.points),
+                   bound.points == 0 ? "–" : found_text(bound), fmt::format("{}", bound.points),
                    markdown(fmt::format("{}", fmt::join(at, ", ")))});
   }
   for (const BoundResult& bound : results.bounds) {
@@ -166,31 +166,33 @@ std::string best_table(const Results& results) {
   heading.push_back(markdown(results.info.cost));
   const std::string parameter = markdown(curve_parameter(results));
   heading.push_back(fmt::format("usable {} (depth)", parameter));
-  heading.push_back(fmt::format("best {} (depth)", parameter));
+  // Not the recommended one, which keeps away from the ends of the window.
+  heading.push_back(fmt::format("{} of least error (depth)", parameter));
   for (const char* name : {"(m)", "(texels)", "error there"}) heading.emplace_back(name);
   add_heading(text, heading);
   for (const PointRecord* point : order) {
     std::vector<std::string> cells;
     for (const std::string& name : results.info.swept) {
       const auto setting = point->settings.find(name);
-      cells.push_back(markdown(setting == point->settings.end() ? "–" : setting->second));
+      cells.push_back(markdown(setting == point->settings.end() ? "–" : setting_text(setting->second)));
     }
     for (const std::string& name : {std::string("error"), std::string("acne"), std::string("peter_panning"),
                                     std::string("aliasing"), results.info.cost})
-      cells.push_back(short_or_missing(quantity(*point, name)));
-    const std::optional<double> min = quantity(*point, "window_min_depth"), max = quantity(*point, "window_max_depth");
-    cells.push_back(min && max     ? fmt::format("{} … {}", short_or_missing(min), short_or_missing(max))
+      cells.push_back(short_or_missing(quantity(*point, name), find_metric(name).unit));
+    const std::optional<DepthWindow> window = point->curve ? usable_window(*point->curve) : std::nullopt;
+    cells.push_back(window         ? fmt::format("{} … {}", number_text(window->low), number_text(window->high))
                     : point->curve ? "none"
                                    : "–");
-    for (const char* name : {"best_bias_depth", "best_bias_m", "best_bias_texels", "best_error"})
+    for (const char* name : {"best_bias_depth", "best_bias_m", "best_bias_texels"})
       cells.push_back(short_or_missing(quantity(*point, name)));
+    cells.push_back(short_or_missing(quantity(*point, "best_error"), "fraction"));
     add_row(text, cells);
   }
 
   const auto with_curve = std::count_if(results.points.begin(), results.points.end(),
                                         [](const PointRecord& p) { return p.curve.has_value(); });
   const auto without_window = std::count_if(results.points.begin(), results.points.end(),
-                                            [](const PointRecord& p) { return p.curve && !p.curve->window_min_depth; });
+                                            [](const PointRecord& p) { return p.curve && !usable_window(*p.curve); });
   if (without_window > 0)
     text += fmt::format("\nAt {} of {} points no bias keeps both acne and Peter Panning within the curve's bounds.\n",
                         without_window, with_curve);

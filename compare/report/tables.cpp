@@ -11,6 +11,7 @@
 #include "compare/report/sections.h"
 #include "compare/report/text.h"
 #include "compare/store/metrics.h"
+#include "compare/store/number_text.h"
 #include "compare/store/quantities.h"
 #include "technique/settings.h"
 
@@ -74,7 +75,7 @@ std::string pictures_section(const Results& results, const std::function<std::st
                         phrase.empty() ? "" : ": " + html(phrase));
     if (point.worst.x >= 0)
       sets += fmt::format("<p class=\"small\">Worst pixel: ({}, {}) from the top left, wrong by {}{}.</p>\n",
-                          point.worst.x, point.worst.y, number(point.worst.error),
+                          point.worst.x, point.worst.y, quantity(point.worst.error, "fraction"),
                           point.worst.cause.empty() ? "" : ", " + html(metric_label(point.worst.cause)));
     sets += "<div class=\"stage\">\n";
     for (const PictureRecord& record : point.pictures) sets += picture(record, read_file);
@@ -129,7 +130,7 @@ std::string points_section(const Results& results, const ShownPoints& shown) {
     if (parts) out += fmt::format("<td class=\"text\">{0}</td>", html(point.part));
     for (const std::string& name : results.info.swept) {
       const std::string value = setting_of(point, name);
-      out += fmt::format("<td>{}</td>", html(value));
+      out += fmt::format("<td>{}</td>", html(setting_text(value)));
     }
     for (const Metric* metric : columns) {
       const std::string name(metric->name);

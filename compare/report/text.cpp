@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "compare/report/escape.h"
 #include "compare/report/rules.h"
+#include "compare/store/number_text.h"
 #include "compare/store/quantities.h"
 #include "scenes/text.h"
 #include "technique/settings.h"
@@ -27,6 +29,12 @@ std::string grouped(double whole) {
   return digits;
 }
 
+// Whole numbers below 100 000 are whole, larger numbers have four significant digits.
+double few_digits(double value) {
+  if (!std::isfinite(value) || (std::abs(value) < 1e5 && value == std::round(value))) return value;
+  return std::strtod(fmt::format("{:.{}e}", value, people_digits - 1).c_str(), nullptr);
+}
+
 const Setting* row_of(const std::string& name) {
   for (const Setting& row : settings_table())
     if (row.name == name) return &row;
@@ -34,7 +42,7 @@ const Setting* row_of(const std::string& name) {
 }
 
 std::string value_phrase(const std::string& value, const std::string& unit) {
-  std::string out = value.empty() ? "unknown" : value;
+  std::string out = value.empty() ? "unknown" : setting_text(value);
   if (!unit.empty() && number_of(value)) out += fmt::format("{}{}", thin_space, unit);
   return out;
 }
@@ -88,13 +96,14 @@ std::string base64(std::string_view bytes) {
   return out;
 }
 
-std::string number(double value) {
+std::string number(double value, int digits) {
   if (!std::isfinite(value)) return "not finite";
   const double size = std::abs(value);
   if (size == 0) return "0";
-  if (size >= 999.5 && size < 1e9) return grouped(value);
+  const int places = digits - 1 - static_cast<int>(std::floor(std::log10(size)));  // after the point
+  if (size >= 999.5 && size < 1e9 && (places <= 0 || value == std::round(value))) return grouped(few_digits(value));
   if (size >= 1e-4 && size < 1e9) {
-    std::string text = fmt::format("{:.{}f}", value, std::max(0, 2 - static_cast<int>(std::floor(std::log10(size)))));
+    std::string text = fmt::format("{:.{}f}", value, std::max(0, places));
     while (text.find('.') != std::string::npos && (text.back() == '0' || text.back() == '.')) {
       const bool point = text.back() == '.';
       text.pop_back();
@@ -102,7 +111,7 @@ std::string number(double value) {
     }
     return text;
   }
-  const std::string text = fmt::format("{:.2e}", value);
+  const std::string text = fmt::format("{:.{}e}", value, digits - 1);
   const size_t e = text.find('e');
   std::string mantissa = text.substr(0, e), power;
   while (mantissa.back() == '0') mantissa.pop_back();
@@ -118,14 +127,14 @@ std::string_view head_unit(std::string_view unit) {
   return unit == "count" ? "" : unit;
 }
 
-std::string cell(double value, std::string_view unit) {
+std::string cell(double value, std::string_view unit, int digits) {
   if (!std::isfinite(value)) return "not finite";
-  if (unit == "count") return grouped(value);
-  return number(unit == "fraction" ? 100 * value : unit == "bytes" ? 1e-6 * value : value);
+  if (unit == "count") return grouped(std::round(few_digits(value)));
+  return number(unit == "fraction" ? 100 * value : unit == "bytes" ? 1e-6 * value : value, digits);
 }
 
-std::string quantity(double value, std::string_view unit) {
-  const std::string text = cell(value, unit);
+std::string quantity(double value, std::string_view unit, int digits) {
+  const std::string text = cell(value, unit, digits);
   const std::string_view shown = head_unit(unit);
   return shown.empty() || !std::isfinite(value) ? text : fmt::format("{}{}{}", text, thin_space, shown);
 }
@@ -159,6 +168,11 @@ std::string settings_phrase(const PointRecord& point, const std::vector<std::str
                        value_phrase(setting_of(point, name), unit));
   }
   return out;
+}
+
+std::vector<std::string> without_curve_parameter(const PointRecord& point, std::vector<std::string> names) {
+  if (point.curve) std::erase(names, point.curve->parameter);
+  return names;
 }
 
 std::string rule_phrase(const Rule& rule) {

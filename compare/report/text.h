@@ -20,15 +20,18 @@ std::string html(std::string_view text);
 std::string script_json(const nlohmann::json& value);
 std::string base64(std::string_view bytes);
 
-// Three significant digits: "0.0123", "12.3", "1234", "12 345", "1.2×10⁻⁷"; "not finite".
-std::string number(double value);
+// Significant digits of the report's numbers. Whole numbers below 100 000 are whole, larger ones have four digits.
+inline constexpr int report_digits = 3;
+
+// "0.0123", "12.3", "1234", "12 345", "1.2×10⁻⁷"; "not finite".
+std::string number(double value, int digits = report_digits);
 // A number with its unit, as in a sentence: fractions in percent ("0.42 %"), bytes in MB (10⁶), counts as whole
 // numbers.
-std::string quantity(double value, std::string_view unit);
+std::string quantity(double value, std::string_view unit, int digits = report_digits);
 // The same of a median with its interval: "4.1 ms (3.9 … 4.4)". Only the value if both ends are the value.
 std::string quantity(const Interval& interval, std::string_view unit);
 // The number without its unit, and the unit for a table's head ("%", "ms", "").
-std::string cell(double value, std::string_view unit);
+std::string cell(double value, std::string_view unit, int digits = report_digits);
 std::string_view head_unit(std::string_view unit);
 
 // "map.resolution" -> "resolution", "filter.kind" -> "filter", "map.extent_m" -> "extent".
@@ -37,6 +40,9 @@ std::string setting_label(const std::string& name);
 std::string setting_unit(const std::string& name);
 // "resolution 512 texels, extent 10 m, filter box"
 std::string settings_phrase(const PointRecord& point, const std::vector<std::string>& names);
+// The names without the setting that the point's curve varies, if it has a curve: where a bias of the curve is said, the
+// bias of the point would be a second one.
+std::vector<std::string> without_curve_parameter(const PointRecord& point, std::vector<std::string> names);
 // "resolution at most 512 texels and filter none"
 std::string rule_phrase(const Rule& rule);
 // "0.0021 depth = 0.0137 m = 0.7 texels"

@@ -125,6 +125,8 @@ void compare_both(Database& db, JoinedStore& joined) {
     for (Statement rows(db, differing_rows(table, "*")); rows.step();) found(rows.integer(0), "the bias curve");
   for (Statement rows(db, differing_rows("finished", "t.point, " + shared_fields("t"))); rows.step();)
     found(rows.integer(0), "the part or the worst pixel");
+  for (Statement rows(db, differing_rows("worst_pixels", "*")); rows.step();)
+    found(rows.integer(0), "the worst pixel of a metric");
   joined.differing = static_cast<int64_t>(first.size());
   for (auto& [point, one] : first) {
     if (joined.differences.size() == most_differences_named) break;

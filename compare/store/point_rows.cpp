@@ -70,6 +70,8 @@ void add_rows(Database& db, const PointRecord& point) {
   add_numbers(db, "times", point.id, point.times);
   if (point.curve) add_curve(db, point.id, *point.curve);
   add_pictures(db, point.id, point);
+  Table<PointRecord::WorstOf>::Insert worst(db, worst_pixels_table());
+  for (size_t i = 0; i < point.worst_of.size(); ++i) worst.row({point.id, static_cast<int64_t>(i)}, point.worst_of[i]);
 }
 
 }  // namespace noonmark

@@ -181,6 +181,22 @@ PlacedNames placed_names(std::string_view name) {
   return {};
 }
 
+std::optional<PointRecord::WorstOf> worst_pixel_of(const PointRecord& point, std::string_view metric) {
+  for (std::string_view suffix : {"_worst_shown", "_worst", "_mean", "_p95"})
+    if (const std::string_view stem = metric.substr(0, metric.size() - std::min(suffix.size(), metric.size()));
+        metric.ends_with(suffix) && !placed_names(stem).largest.empty()) {
+      metric = stem;
+      break;
+    }
+  if (metric == "error" || metric == "wrong") {
+    if (point.worst.x < 0 || point.worst.error == 0) return std::nullopt;
+    return PointRecord::WorstOf{std::string(metric), point.worst.x, point.worst.y, point.worst.error};
+  }
+  for (const PointRecord::WorstOf& worst : point.worst_of)
+    if (worst.metric == metric) return worst;
+  return std::nullopt;
+}
+
 std::optional<double> number_of(const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

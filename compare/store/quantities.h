@@ -59,6 +59,10 @@ PlacedNames placed_names(std::string_view name);
 // Whether the point was measured at several placements of the map's grid.
 bool has_placements(const PointRecord& point);
 
+// The pixel of the picture that is worst by a metric, as rendered; of a metric over all placements (acne_worst) that of
+// the metric itself. Empty if no pixel is.
+std::optional<PointRecord::WorstOf> worst_pixel_of(const PointRecord& point, std::string_view metric);
+
 // The metric, or NaN if the point has no metric of that name.
 double metric_of(const PointRecord& point, const std::string& name);
 // The setting's canonical text, or empty.

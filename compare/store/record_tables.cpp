@@ -136,6 +136,14 @@ const Table<ImageRecord>& images_table() {
   return table;
 }
 
+const Table<PointRecord::WorstOf>& worst_pixels_table() {
+  using W = PointRecord::WorstOf;
+  static const Table<W> table(
+      "worst_pixels", {"point", "i"},
+      {column("metric", &W::metric), column("x", &W::x), column("y", &W::y), column("size", &W::size)});
+  return table;
+}
+
 const Table<BoundResult>& bounds_table() {
   using B = BoundResult;
   static const Table<B> table(
@@ -215,7 +223,8 @@ std::string record_tables() {
   for (const CurveSeries& one : curve_series()) series += fmt::format(", {} REAL", one.name);
   series += ", PRIMARY KEY (point, i)) WITHOUT ROWID;\n";
   return curves_table().create() + series + curve_windows_table().create() + pictures_table().create() +
-         images_table().create() + bounds_table().create() + laws_table().create() + law_samples_table().create();
+         images_table().create() + worst_pixels_table().create() + bounds_table().create() + laws_table().create() +
+         law_samples_table().create();
 }
 
 }  // namespace noonmark

@@ -100,6 +100,14 @@ struct PointRecord : PointPictures {
     double error = 0;
     std::string cause;
   } worst;  // the worst pixel; row 0 on top
+  // The pixel with the largest part of a metric that is a mean or a maximum over the picture, as rendered. Metrics that
+  // are 0, and numbers that no pixel has (times, counts, windows), have none.
+  struct WorstOf {
+    std::string metric;
+    int x = -1, y = -1;  // row 0 on top
+    double size = 0;     // in the metric's unit
+  };
+  std::vector<WorstOf> worst_of;
   // Where and when the point was measured. The points of a joined store can be of several machines (compare/store/join.h).
   struct Machine {
     std::string host;        // its name

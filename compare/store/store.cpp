@@ -130,6 +130,9 @@ std::map<int64_t, PointRecord> load_points(Database& db) {
   images_table().read(db, [&](std::span<const int64_t> key, ImageRecord image) {
     points.at(key[0]).images.push_back(std::move(image));
   });
+  worst_pixels_table().read(db, [&](std::span<const int64_t> key, PointRecord::WorstOf worst) {
+    points.at(key[0]).worst_of.push_back(std::move(worst));
+  });
   load_curves(db, points);
   load_causes(db, points);
   return points;

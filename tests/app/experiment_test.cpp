@@ -282,6 +282,41 @@ RC_GTEST_PROP(ExperimentProperty, PointsAreTheProductOfTheLists, ()) {
   RC_ASSERT(static_cast<int64_t>(different.size()) == product);
 }
 
+TEST(Experiment, SharesAreReadInPercentToo) {
+  const auto bound_of = [](const std::string& max) {
+    return parse_experiment("scene = \"plate\"\n[[bound]]\nmetric = \"acne\"\nmax = " + max, "x.toml");
+  };
+  EXPECT_EQ(bound_of("\"0.5%\"").bounds.at(0).max, 0.005);
+  EXPECT_EQ(bound_of("\"0.1 %\"").bounds.at(0).max, 0.001) << "the double of 0.001 itself";
+  EXPECT_EQ(bound_of("\"1e-1%\"").bounds.at(0).max, 0.001);
+  EXPECT_EQ(bound_of("\"0.5%\"").notes.size(), 0u);
+  const Experiment curve = parse_experiment(
+      "scene = \"plate\"\n[curve]\nacne_bound = \"0.3%\"\n[phase]\npeter_panning_bound = \"2%\"", "x.toml");
+  EXPECT_EQ(curve.curve.acne_bound, 0.003);
+  EXPECT_EQ(curve.phase.peter_panning_bound, 0.02);
+}
+
+TEST(Experiment, ALimitAboveEveryShareIsWarnedOf) {
+  const auto notes_of = [](const std::string& limit, const char* metric) {
+    return parse_experiment(std::string("scene = \"plate\"\n[[bound]]\nmetric = \"") + metric + "\"\n" + limit,
+                            "x.toml")
+        .notes;
+  };
+  ASSERT_EQ(notes_of("max = 5", "acne").size(), 1u);
+  EXPECT_EQ(
+      notes_of("max = 5", "acne").front(),
+      "x.toml:4:7: the bound on acne can never be broken: max = 5 is above every share, which is at most 1 (100%); "
+      "did you mean 0.05 or \"5%\"?");
+  EXPECT_EQ(notes_of("max = \"500%\"", "acne").size(), 1u);
+  EXPECT_EQ(notes_of("max = 1", "acne").size(), 0u);
+  EXPECT_EQ(notes_of("max = 5", "peter_panning_gap_m").size(), 0u) << "metres";
+  const Experiment parts = parse_experiment(
+      "[[part]]\nname = \"a\"\n[[part.bound]]\nmetric = \"acne\"\nmax = 5\n[[part]]\nname = \"b\"\n"
+      "[[part.bound]]\nmetric = \"acne\"\nmax = 2",
+      "x.toml");
+  EXPECT_EQ(parts.notes.size(), 2u) << "each once";
+}
+
 struct Mistake {
   std::string toml;
   std::string place;  // line:column
@@ -301,7 +336,10 @@ TEST(Experiment, EveryMistakeNamesItsPlaceAndWhatWasMeant) {
       {"phase = 3", "1:9", "[phase] must be a table"},
       {"[phase]\nenabeld = true", "2:1", "did you mean 'phase.enabled'?"},
       {"[phase]\nenabled = 1", "2:11", "phase.enabled must be true or false"},
-      {"[phase]\nacne_bound = 2", "2:14", "phase.acne_bound = 2 must be a fraction"},
+      {"[phase]\nacne_bound = 2", "2:14",
+       "phase.acne_bound = 2 is above every share, which is at most 1 (100%); did you mean 0.02 or \"2%\"?"},
+      {"[curve]\nacne_bound = \"0.5 percent\"", "2:14", "must be a number, or a text such as \"0.5%\""},
+      {"[[bound]]\nmetric = \"map_bytes\"\nmax = \"5%\"", "3:7", "map_bytes is no share"},
       {"[phase]\nplacements = 65", "2:14", "phase.placements must be an integer, 1 ... 64"},
       {"[phase]\ntexel_sizes = 1", "2:15", "phase.texel_sizes must be an integer, 2 ... 200"},
       {"[phase]\nwidth_px = 3.5", "2:12", "phase.width_px must be an integer, 1 ... 8192"},
@@ -353,7 +391,8 @@ TEST(Experiment, EveryMistakeNamesItsPlaceAndWhatWasMeant) {
       {"[plot]\nmetric = [\"acne\"]", "2:1", "did you mean 'plot.metrics'?"},
       {"[curve]\nenabeld = true", "2:1", "did you mean 'curve.enabled'?"},
       {"[curve]\nenabled = 1", "2:11", "true or false"},
-      {"[curve]\nacne_bound = 2", "2:14", "0 ... 1"},
+      {"[curve]\nacne_bound = 2", "2:14", "did you mean 0.02"},
+      {"[curve]\nacne_bound = -1", "2:14", "0 ... 1"},
       {"[curve]\nbias_depth = [0.1, 0.1]", "2:14", "ascend"},
       {"[curve]\nbias_depth = [-0.1, 0.1]", "2:14", "0 or more"},
       {"[[bound]]\nmax = 1", "1:1", "needs a metric"},

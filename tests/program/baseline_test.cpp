@@ -33,7 +33,7 @@ TEST_F(ProgramBaseline, SaysWhatIsWorse) {
   const size_t value = first.find("\"error\": ") + 9;
   write("b.json", first.substr(0, value) + "0.000001" + first.substr(first.find('\n', value)));
   EXPECT_EQ(check({}), 1) << output_;
-  EXPECT_TRUE(says("worse: error at map.resolution = 64; 1e-06 before, ")) << output_;
+  EXPECT_TRUE(says("worse: error at map.resolution = 64; 0.0001% before, ")) << output_;
   EXPECT_NE(text("out/junit.xml").find("failures=\"1\""), std::string::npos) << text("out/junit.xml");
   EXPECT_NE(text("out/summary.md").find("**Worse.**"), std::string::npos) << text("out/summary.md");
   write("b.json", first.substr(0, value) + "0.9" + first.substr(first.find('\n', value)));

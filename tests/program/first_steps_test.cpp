@@ -41,7 +41,7 @@ TEST_F(FirstSteps, AnInitializedExperimentRunsAtOnce) {
   ASSERT_EQ(run({"run", "exp/first.toml", "--out", "out", "--set", "view.width_px=64", "--set", "view.height_px=36"}),
             0)
       << output_;
-  EXPECT_TRUE(says("16 points measured")) << output_;
+  EXPECT_TRUE(says("4 points measured")) << output_;
   EXPECT_FALSE(says("has no effect")) << "it sets something in vain: " << output_;
   EXPECT_TRUE(fs::exists(folder_ / "out/report.html"));
 }

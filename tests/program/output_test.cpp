@@ -186,7 +186,7 @@ TEST_F(Output, TheSummaryShowsTheWorstPixel) {
   ASSERT_EQ(run({"check", "x.toml", "--out", "out"}), 1) << output_;
   const std::string summary = text("out/summary.md");
   std::smatch link;
-  ASSERT_TRUE(std::regex_search(summary, link, std::regex("!\\[[^\\]]*\\]\\((worst-pixel-p\\d{4}\\.png)\\)")))
+  ASSERT_TRUE(std::regex_search(summary, link, std::regex("!\\[[^\\]]*\\]\\((worst-pixel-p\\d{4}-[a-z_]+\\.png)\\)")))
       << summary;
   const std::string png = text("out/" + link[1].str());
   EXPECT_EQ(png.substr(1, 3), "PNG");

@@ -107,6 +107,19 @@ TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
   EXPECT_EQ(run({"check", "out/recommended.toml"}), 0) << output_;
 }
 
+// What recommend says is what the report of its file says: the bias in the file.
+TEST_F(Recommend, TheReportOfItsAnswerSpeaksOfItsBias) {
+  width_ = 96, height_ = 54;
+  ASSERT_EQ(recommend("cube-room", {"--views", "2", "--acne", "0.5%", "--peter-panning", "0.5%"}), 0) << output_;
+  ASSERT_EQ(run({"check", "out/recommended.toml", "--json", "--quiet", "--out", "judged"}), 0) << output_;
+  const json answer = json::parse(output_).at("experiments").at(0).at("answer");
+  EXPECT_EQ(answer.at("bias").at("value"), bias());
+  EXPECT_EQ(answer.at("bias").at("as_set"), true);
+  EXPECT_EQ(answer.at("bias").at("parameter"), found()["answer"]["bias"]["parameter"]);
+  const std::string page = text("judged/report.html");
+  EXPECT_NE(page.find("What is set is good enough under all conditions: all bounds hold with "), std::string::npos);
+}
+
 TEST_F(Recommend, AnswersForOnePartOfAnExperiment) {
   write("parts.toml",
         "[map]\nresolution = 128\n[filter]\nkind = \"none\"\n[[part]]\nname = \"a\"\nscene = \"plate\"\n"
@@ -144,9 +157,10 @@ TEST_F(Recommend, NamesThePixelTheCauseAndTheWaysOut) {
   // What it says of the bounds is true.
   const size_t at = output_.find("--acne ");
   double acne = 0, peter_panning = 0;
-  ASSERT_EQ(std::sscanf(output_.c_str() + at, "--acne %lf --peter-panning %lf", &acne, &peter_panning), 2) << output_;
-  EXPECT_EQ(recommend("cube-room", {"--views", "1", "--acne", fmt::format("{}", 1.01 * acne), "--peter-panning",
-                                    fmt::format("{}", 1.01 * peter_panning), "--set", "map.resolution=64", "--set",
+  ASSERT_EQ(std::sscanf(output_.c_str() + at, "--acne %lf%% --peter-panning %lf%%", &acne, &peter_panning), 2)
+      << output_;
+  EXPECT_EQ(recommend("cube-room", {"--views", "1", "--acne", fmt::format("{}%", 1.01 * acne), "--peter-panning",
+                                    fmt::format("{}%", 1.01 * peter_panning), "--set", "map.resolution=64", "--set",
                                     "filter.kind=none", "--set", "bias.constant=0.1"}),
             0)
       << output_;

@@ -93,7 +93,7 @@ pixel 1: acne
 pixel 2: peter_panning
 pixel 3: aliasing_dark
 free of acne from a bias of 0.125 on
-acne <= 0.01: broken
+acne <= 1%: broken
 ")
   if(NOT output STREQUAL expected)
     message(FATAL_ERROR "the consumer said\n${output}instead of\n${expected}")

@@ -101,6 +101,7 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
                     {"map", "images/p0003-map.png", "It's \"the\" map.", "fedcba9876543210"}};
   point.images = {{"images/p0003-ladder.exr", "00000000000000ff"}, {"images/p0003-map.exr", "00000000000000fe"}};
   point.worst = {12, 34, 2.0 / 3, "acne"};
+  point.worst_of = {{"acne", 56, 78, 0.5}, {"peter_panning_gap_m", 9, 10, 1.0 / 3 + static_cast<double>(id)}};
   return point;
 }
 
@@ -230,7 +231,11 @@ inline bool same(const PointRecord& a, const PointRecord& b) {
              a.images.begin(), a.images.end(), b.images.begin(), b.images.end(),
              [](const ImageRecord& x, const ImageRecord& y) { return x.path == y.path && x.digest == y.digest; }) &&
          a.worst.x == b.worst.x && a.worst.y == b.worst.y && same(a.worst.error, b.worst.error) &&
-         a.worst.cause == b.worst.cause;
+         a.worst.cause == b.worst.cause &&
+         std::equal(a.worst_of.begin(), a.worst_of.end(), b.worst_of.begin(), b.worst_of.end(),
+                    [](const auto& x, const auto& y) {
+                      return x.metric == y.metric && x.x == y.x && x.y == y.y && same(x.size, y.size);
+                    });
 }
 
 inline bool same(const PhaseDiagram& a, const PhaseDiagram& b) {

@@ -3,7 +3,11 @@
 (function() {
 'use strict';
 var page = window.noonmarkPage, kit = page.kit, make = kit.make, data = page.data;
-var state = {left: 'truth', right: 'classes', divide: 50, zoom: 1, worst: 'error'};
+// bias: 'set' where the card shows a broken bound, which was judged with the bias as set; null: that of the page.
+var state = {left: 'truth', right: 'classes', divide: 50, zoom: 1, worst: 'error', bias: null};
+function mode() {
+  return state.bias || page.bias;
+}
 var title = make('h2', {id: 'card-title', tabindex: '-1'}), inner = make('div', {class: 'card-inner'});
 function button(label, act, more) {
   return make('button', Object.assign({type: 'button', on: {click: act}}, more || {}), label);
@@ -66,24 +70,64 @@ function named(list, name) {
   })[0];
 }
 
-// Where the worst pixel is, in parts of the picture: of the error as the record says, of a cause from the live picture.
+function labelOf(metric) {
+  return kit.causeLabel[metric] || kit.measureLabel(metric);
+}
+function failureOf(p) {
+  return (p.failures || []).filter(function(f) {
+    return f.metric === state.worst && f.x !== undefined;
+  })[0];
+}
+// Where the worst pixel is: with the bias as set as the record says, at the recommended one in the live picture.
 function worstOf(p) {
+  var live = page.live && page.live.data.point === p.id && page.live;
+  if (mode() === 'recommended' && p.at && live) {
+    var found = live.worst(state.worst, p.at.depth);
+    return found && {
+      live: true,
+      x: found.x,
+      y: found.y,
+      text: 'Wrong by ' + kit.shown(found.error, 'fraction') + ', ' + labelOf(found.cause) +
+          ', in the live picture at the recommended bias.'
+    };
+  }
+  var failure = failureOf(p);
+  if (failure)
+    return {x: failure.x, y: failure.y, text: failure.label + ' ' + failure.size + ' there, with the bias as set.'};
   if (state.worst === 'error')
     return p.worst && {
       x: p.worst.x,
       y: p.worst.y,
-      text: 'Wrong by ' + kit.shown(Number(p.worst.error), '') +
-          (p.worst.cause ? ', ' + (kit.causeLabel[p.worst.cause] || p.worst.cause) : '') + ', with the bias as set.'
+      text: 'Wrong by ' + kit.shown(Number(p.worst.error), 'fraction') +
+          (p.worst.cause ? ', ' + labelOf(p.worst.cause) : '') + ', with the bias as set.'
     };
-  var live = page.live, depth = page.bias === 'recommended' && p.at ? p.at.depth : (p.curve || {}).set_bias_depth;
-  var found = live.worst(state.worst, depth);
-  return found && {
-    live: true,
-    x: found.x,
-    y: found.y,
-    text: 'Wrong by ' + kit.shown(found.error, '') + ', ' + (kit.causeLabel[state.worst] || state.worst) +
-        ', in the live picture at ' + kit.digits(depth) + ' depth.'
+  var of = (p.worst_of || {})[state.worst];
+  return of && {
+    x: of.x,
+    y: of.y,
+    text: labelOf(state.worst) + ' ' + kit.shown(Number(of.size), 'fraction') + ' there, with the bias as set.'
   };
+}
+// What the worst pixel can be worst of, with a label for each.
+function worstChoices(p) {
+  var names = ['error'].concat(
+      (p.failures || [])
+          .filter(function(f) {
+            return f.x !== undefined;
+          })
+          .map(function(f) {
+            return f.metric;
+          }),
+      Object.keys(p.worst_of || {}));
+  if (mode() === 'recommended' && page.live && page.live.data.point === p.id)
+    names = ['error'].concat(page.live.data.causes.slice(1));
+  return names
+      .filter(function(name, i) {
+        return names.indexOf(name) === i;
+      })
+      .map(function(name) {
+        return [name, name === 'error' ? 'error' : labelOf(name)];
+      });
 }
 
 function stage(p) {
@@ -94,9 +138,8 @@ function stage(p) {
         'No picture of this point was kept. The command below renders it; pictures = "all" in the experiment keeps those of every point.'));
     return box;
   }
-  var follow =
-      page.bias === 'recommended' && named(list, 'map at the recommended bias') ? ' at the recommended bias' : '';
-  if (page.bias === 'recommended' && p.at)
+  var follow = mode() === 'recommended' && named(list, 'map at the recommended bias') ? ' at the recommended bias' : '';
+  if (mode() === 'recommended' && p.at)
     box.append(make(
         'p', {class: 'small'},
         follow ? 'At the recommended bias from the live picture; the other pictures are of the bias as set.' :
@@ -208,18 +251,16 @@ function stage(p) {
         },
         {'aria-label': 'Larger'})
   ]);
-  var live = page.live && page.live.data.point === p.id;
-  if (live)
-    controls.append(kit.picker(
-        'Worst pixel of', [['error', 'error']].concat(page.live.data.causes.slice(1).map(function(c) {
-          return [c, kit.causeLabel[c] || c];
-        })),
-        state.worst, function(c) {
-          state.worst = c;
-          mark();
-        }));
-  else
+  var choices = worstChoices(p);
+  if (choices.every(function(c) {
+        return c[0] !== state.worst;
+      }))
     state.worst = 'error';
+  if (choices.length > 1)
+    controls.append(kit.picker('Worst pixel of', choices, state.worst, function(c) {
+      state.worst = c;
+      mark();
+    }));
   a.addEventListener('load', mark);
   box.append(controls, view, said, cuts);
   show();
@@ -233,7 +274,7 @@ function stage(p) {
 
 function commandOf(p) {
   var list = data.command.concat(p.set || []);
-  if (page.bias === 'recommended' && p.at) {
+  if (mode() === 'recommended' && p.at) {
     list = list.filter(function(word) {
       return word.replace(/^'/, '').indexOf(p.at.parameter + '=') !== 0;
     });
@@ -292,29 +333,53 @@ function numbers(p) {
 
 function verdict(p) {
   var text = [];
+  (p.failures || []).forEach(function(f) {
+    text.push(f.text.charAt(0).toUpperCase() + f.text.slice(1) + '.');
+  });
   if (p.part) text.push('Part ' + p.part + '.');
   if (p.at)
     text.push(
-        (page.bias === 'recommended' ? 'Shown' : 'Recommended') + ' at ' + p.at.parameter + ' ' + p.at.text +
+        (mode() === 'recommended' ? 'Shown' : 'Recommended') + ' at ' + p.at.parameter + ' ' + p.at.text +
         (p.at.usable ? ', which is usable.' : ', the best that there is: no bias is usable.'));
-  if (p.curve)
+  if (p.curve) {
+    var placed = p.curve.placements > 1, low = placed ? p.curve.window_min_worst_depth : p.curve.window_min_depth,
+        high = placed ? p.curve.window_max_worst_depth : p.curve.window_max_depth;
     text.push(
-        p.curve.window_min_depth === undefined ? 'Its usable window is empty.' :
-                                                 'Usable from ' + kit.digits(p.curve.window_min_depth) + ' to ' +
-                kit.digits(p.curve.window_max_depth) + ' depth.');
+        typeof low !== 'number' ? 'Its usable window is empty.' :
+                                  'Usable from ' + kit.digits(low) + ' to ' + kit.digits(high) + ' depth' +
+                (placed ? ' at every placement of the grid.' : '.'));
+  }
   return make('p', {}, text.join(' '));
 }
 
 var shownStage = null;
 function fill() {
   var p = kit.byId[page.selected];
-  title.textContent = 'Point ' + p.id + (p.phrase ? ': ' + p.phrase : '');
+  title.textContent = kit.nameOf(p, mode());
   inner.textContent = '';
+  if (p.at)
+    inner.append(make('div', {class: 'controls'}, [
+      'Bias ',
+      kit.segments(
+          [['set', 'As set'], ['recommended', 'Recommended']], mode(),
+          function(chosen) {
+            state.bias = chosen;
+            fill();
+          })
+    ]));
   shownStage = stage(p);
   inner.append(verdict(p), shownStage, command(p), numbers(p));
 }
-page.open = function(id) {
+// how: 'recommended' shows the recommended bias, the name of a metric the bound on it that is broken at this point.
+// Without it a point with a broken bound shows its failure, another one the bias of the page.
+page.open = function(id, how) {
   if (!kit.byId[id]) return;
+  var broken = (kit.byId[id].failures || []).map(function(f) {
+    return f.metric;
+  });
+  var metric = how === 'recommended' ? undefined : broken.indexOf(how) >= 0 ? how : broken[0];
+  state.bias = how === 'recommended' ? 'recommended' : metric ? 'set' : null;
+  state.worst = metric || 'error';
   page.select(id);
   fill();
   kit.hideTip();
@@ -323,6 +388,7 @@ page.open = function(id) {
   title.focus();
 };
 page.onBias.push(function() {
+  state.bias = null;
   if (card.open) fill();
 });
 card.addEventListener('keydown', function(event) {
@@ -344,7 +410,7 @@ document.addEventListener('click', function(event) {
   var link = event.target.closest && event.target.closest('a[href^="#p"]'), id = link && /^#p(\d+)$/.exec(link.hash);
   if (!id || !kit.byId[id[1]]) return;
   event.preventDefault();
-  page.open(+id[1]);
+  page.open(+id[1], link.dataset.show || link.dataset.failure);
 });
 document.querySelectorAll('.budget .row').forEach(function(row) {
   row.addEventListener('click', function(event) {

@@ -541,7 +541,7 @@ function controls() {
       .forEach(function(s) {
         self.controls.append(kit.picker(
             s.label, s.values.map(function(v) {
-              return [v, v + (s.unit && s.unit !== 'bias.unit' ? kit.thin + s.unit : '')];
+              return [v, kit.valueText(s, v) + (s.unit && s.unit !== 'bias.unit' ? kit.thin + s.unit : '')];
             }),
             kit.byId[state.id].settings[s.name], function(v) {
               var wanted = Object.assign({}, kit.byId[state.id].settings);

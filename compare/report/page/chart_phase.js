@@ -27,7 +27,7 @@ function pointsTip(event, place) {
   kit.showTip(
       event, place.points.map(function(id) {
         var p = kit.byId[id];
-        return ['Point ' + id + (p.phrase ? ': ' + p.phrase : ''), kit.shown(kit.value(p, 'error'), 'fraction')];
+        return [kit.nameOf(p), kit.shown(kit.value(p, 'error'), 'fraction')];
       }),
       'Texel ' + millimetres(place.t) + ', bias ' + millimetres(place.b) + '; error');
 }

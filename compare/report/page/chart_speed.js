@@ -18,6 +18,10 @@ function errorOf(entry) {
   if (page.bias === 'recommended' || entry.window === 'no_curve' || !of.at_bias) return of;
   return {v: of.set, span: of.span, counts: of.set_counts, at_bias: false};
 }
+// At its own bias a choice is not named after the bias as set.
+function nameOf(entry) {
+  return page.bias === 'set' ? entry.name : entry.name_at_bias || entry.name;
+}
 function causeOf(entry) {
   return page.bias === 'set' ? entry.set_cause : entry.cause;
 }
@@ -92,7 +96,7 @@ function tip(event, row) {
   if (cause) rows.push(['largest cause', kit.causeLabel[cause] || cause, cause]);
   rows.push(['good enough', e.good ? 'yes' : e.window === 'no_curve' ? 'no, or no criterion' : 'no']);
   if (many) rows.push(['conditions', String(e.conditions)]);
-  kit.showTip(event, rows, e.name);
+  kit.showTip(event, rows, nameOf(e));
 }
 
 var shownRows = [];
@@ -187,7 +191,7 @@ self.plot.before(side);
 function describe(entry) {
   var of = errorOf(entry);
   return [
-    kit.make('b', {}, entry.name),
+    kit.make('b', {}, nameOf(entry)),
     ': ' + costText(entry.costs[state.cost]) + ', ' +
         kit.measureLabel(state.error).toLowerCase() + ' ' + kit.shown(of.v[0], kit.measureUnit(state.error)) +
         (of.at_bias ? ' at ' + entry.bias.parameter + ' ' + entry.bias.value : ' as rendered') +
@@ -233,7 +237,7 @@ function tell(rows, missing) {
         'On the front, from the cheapest: ' +
         front.slice(0, 5)
             .map(function(r) {
-              return r.entry.name;
+              return nameOf(r.entry);
             })
             .join('; ') +
         (front.length > 5 ? ' … (' + front.length + ')' : '') + '.');

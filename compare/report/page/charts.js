@@ -45,7 +45,8 @@ function digits(v) {
         String(Math.floor(Math.log10(a))).replace(/./g, function(c) {
           return c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c];
         });
-  return String(+v.toPrecision(a >= 1000 ? Math.ceil(Math.log10(a) + 1e-12) : 3));
+  if (a >= 1000) return String(a < 1e5 && v === Math.round(v) ? v : +v.toPrecision(4));
+  return String(+v.toPrecision(3));
 }
 function shown(v, unit) {
   return !finite(v)       ? 'not finite' :
@@ -58,6 +59,20 @@ function value(point, measure) {
   var at = page.bias === 'recommended' && point.at && point.at.metrics;
   if (at && measure in at) return at[measure];
   return measure in point.metrics ? point.metrics[measure] : NaN;
+}
+// A value of a swept setting, with few digits. Points are matched by the value itself.
+function valueText(swept, value) {
+  var i = swept.values.indexOf(value);
+  return i >= 0 ? swept.texts[i] : value;
+}
+// What distinguishes the point: with the bias as set, or with its recommended one in its place.
+function phraseOf(p, mode) {
+  if ((mode || page.bias) !== 'recommended' || !p.at || p.phrase_at_bias === undefined) return p.phrase || '';
+  return (p.phrase_at_bias ? p.phrase_at_bias + ', ' : '') + p.at.parameter + ' ' + p.at.text;
+}
+function nameOf(p, mode) {
+  var phrase = phraseOf(p, mode);
+  return 'Point ' + p.id + (phrase ? ': ' + phrase : '');
 }
 function measureLabel(m) {
   return m === 'best_error' ? 'Error at the best bias' : metricOf[m] ? metricOf[m].label : m;
@@ -219,7 +234,7 @@ function pointTip(event, d, measure) {
     if (m !== measure && m in p.metrics)
       rows.push([measureLabel(m), shown(value(p, m), measureUnit(m)), m === 'error' || m === data.cost ? '' : m]);
   });
-  showTip(event, rows, 'Point ' + p.id + (p.phrase ? ': ' + p.phrase : ''));
+  showTip(event, rows, nameOf(p));
 }
 function picker(label, options, chosen, changed) {
   var select = make(
@@ -323,7 +338,7 @@ function tellApart(names) {
       rest.forEach(function(s) {
         self.controls.append(picker(
             s.label, [['', 'all']].concat(s.values.map(function(v) {
-              return [v, v];
+              return [v, valueText(s, v)];
             })),
             '', function(v) {
               chosen[s.name] = v;
@@ -340,7 +355,7 @@ function tellApart(names) {
         s.values.forEach(function(v, i) {
           var e = k === 0 ? key(colour(s, v), [1, 0], 'circle') :
                             key('var(--soft)', dashes[i % dashes.length], shapes[i % shapes.length]);
-          e.append(v);
+          e.append(valueText(s, v));
           box.append(e);
         });
       });
@@ -399,6 +414,8 @@ page.kit = {
   digits: digits,
   shown: shown,
   value: value,
+  nameOf: nameOf,
+  valueText: valueText,
   measureLabel: measureLabel,
   measureUnit: measureUnit,
   measures: measures,

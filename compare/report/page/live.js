@@ -167,14 +167,15 @@ function start(bytes) {
     set(held[0]);
     return address;
   }
-  // The pixel that is most wrong by a cause; null if there is none.
+  // The pixel that is most wrong by a cause, or by 'error' by any; null if there is none.
   function worst(name, d) {
     var now = answersAt(d / live.depth_per_unit), wanted = live.causes.indexOf(name), found = null;
     for (var i = 0; i < pixels; ++i) {
       var k = now.shown[i];
-      if (k < 0 || flags[i] & ambiguous || cause[k] !== wanted) continue;
+      if (k < 0 || flags[i] & ambiguous || !cause[k] || (name !== 'error' && cause[k] !== wanted)) continue;
       var error = Math.abs(lit[k] / live.taps - (flags[i] & truthLit ? 1 : 0));
-      if (!found || error > found.error) found = {x: i % live.width, y: Math.floor(i / live.width), error: error};
+      if (!found || error > found.error)
+        found = {x: i % live.width, y: Math.floor(i / live.width), error: error, cause: live.causes[cause[k]]};
     }
     return found;
   }

@@ -37,6 +37,9 @@ data.swept.forEach(function(s) {
     help: s.name,
     value: function(p) {
       return p.settings[s.name];
+    },
+    show: function(v) {
+      return kit.valueText(s, v);
     }
   });
 });
@@ -90,7 +93,7 @@ var scroll = make(
 function cell(c, p) {
   var v = c.value(p),
       shown = v === undefined ? '–' :
-      !c.metric               ? String(v) :
+      !c.metric               ? String(c.show ? c.show(v) : v) :
       kit.finite(v)           ? kit.digits(c.scale * v) :
                                 'not finite';
   var td = make(c === columns[0] ? 'th' : 'td', v === undefined ? {} : {'data-v': v});

@@ -139,16 +139,16 @@ TEST(Bounds, TheWorstPlacementIsJudgedUnlessTheBoundSaysOtherwise) {
   mean.metric = "acne_mean";
   const BoundResult named = ask_placed(mean);
   expect(named, false, 0.2, 0);
-  EXPECT_EQ(bound_text(named), "acne_mean <= 0.15") << "the bound names what it is about";
+  EXPECT_EQ(bound_text(named), "acne_mean <= 15%") << "the bound names what it is about";
 
-  EXPECT_EQ(bound_text(ask_placed(at_most(0.5))), "acne <= 0.5 (worst placement)");
-  EXPECT_EQ(bound_text(ask_placed(at_most(0.5, "mean"))), "acne <= 0.5 (mean, worst placement)");
-  EXPECT_EQ(bound_text(ask_placed(first)), "acne <= 0.3 (placement 0)");
+  EXPECT_EQ(bound_text(ask_placed(at_most(0.5))), "acne <= 50% (worst placement)");
+  EXPECT_EQ(bound_text(ask_placed(at_most(0.5, "mean"))), "acne <= 50% (mean, worst placement)");
+  EXPECT_EQ(bound_text(ask_placed(first)), "acne <= 30% (placement 0)");
   const std::vector<PointRecord> points = placed_points();
   EXPECT_NE(describe(ask_placed(at_most(0.45)), &points[0])
-                .find("found 0.5 (worst of 2 points, at the worst placement of the grid)"),
+                .find("found 50% (worst of 2 points, at the worst placement of the grid)"),
             std::string::npos);
-  EXPECT_EQ(bound_text(ask({0.1}, at_most(0.5))), "acne <= 0.5") << "a point with one placement";
+  EXPECT_EQ(bound_text(ask({0.1}, at_most(0.5))), "acne <= 50%") << "a point with one placement";
 }
 
 TEST(Bounds, OpenGlsOwnPictureOfAPlacementCountsToo) {
@@ -197,7 +197,7 @@ TEST(Bounds, WhereChoosesThePoints) {
   const BoundResult result = ask({0.1, 0.9, 0.2, 0.9, 0.15}, bound);
   expect(result, true, 0.2, 2);
   EXPECT_EQ(result.points, 3);
-  EXPECT_EQ(bound_text(result), "acne <= 0.2 where filter.kind = none and map.resolution = 256 | 1024");
+  EXPECT_EQ(bound_text(result), "acne <= 20% where filter.kind = none and map.resolution = 256 | 1024");
 }
 
 TEST(Bounds, QuantitiesOfTheCurveCanBeBounded) {
@@ -230,7 +230,16 @@ TEST(Bounds, TheCauseOfARungCanBeBounded) {
   points[0].metrics["leak"] = 0.25;
   const BoundResult broken = evaluate_bounds(points, std::span(&leak, 1), command_of).at(0);
   expect(broken, false, 0.25, 0);
-  EXPECT_NE(describe(broken, &points[0]).find("worst pixel by |R6 - R1|"), std::string::npos);
+  EXPECT_EQ(describe(broken, &points[0]).find("worst pixel"), std::string::npos) << "none of the leak is known";
+  points[0].worst_of.push_back({"leak", 7, 8, 0.75});
+  EXPECT_NE(describe(broken, &points[0]).find("worst pixel by leak: x = 7, y = 8 (row 0 on top), leak 75%"),
+            std::string::npos)
+      << describe(broken, &points[0]);
+  Bound error = at_most(0);
+  error.metric = "error";
+  EXPECT_NE(describe(evaluate_bounds({&points[0], 1}, std::span(&error, 1), command_of).at(0), &points[0])
+                .find("worst pixel by |R6 - R1|: x = 12, y = 34 (row 0 on top), error 66.67%, acne"),
+            std::string::npos);
   points.push_back(sample_point(1));  // without the rung
   expect(evaluate_bounds(points, std::span(&leak, 1), command_of).at(0), false, nan_value, 1);
 }
@@ -277,11 +286,11 @@ TEST(Bounds, ABrokenBoundSaysWhereAndHowToSeeIt) {
   const BoundResult result = evaluate_bounds(points, std::span(&bound, 1), command_of).at(0);
   const std::vector<std::string> swept = {"map.resolution"};
   EXPECT_EQ(describe(result, &points[1], swept),
-            "broken: acne <= 0.4; found 0.5 (worst of 2 points)\n"
-            "  point 1: map.resolution = 512\n"
-            "  worst pixel by |R5 - R1|: x = 12, y = 34 (row 0 on top), error 0.6666666666666666, acne\n"
+            "broken: acne <= 40%; found 50% (worst of 2 points)\n"
+            "  point 1: map.resolution = 512, bias.constant = 0 depth\n"
+            "  worst pixel by acne: x = 56, y = 78 (row 0 on top), acne 50%\n"
             "  reproduce: render 1\n");
-  EXPECT_EQ(describe(ask({0.1}, bound), &points[0], swept), "held: acne <= 0.4; found 0.1 (worst of 1 point)\n");
+  EXPECT_EQ(describe(ask({0.1}, bound), &points[0], swept), "held: acne <= 40%; found 10% (worst of 1 point)\n");
 }
 
 // The definition: a bound holds exactly if every value is finite and none is beyond the limit.
@@ -316,7 +325,7 @@ TEST(Junit, HasOneCasePerBoundAndCountsTheBroken) {
   EXPECT_EQ(count(xml, "<failure "), 2u);
   EXPECT_NE(xml.find("tests=\"3\" failures=\"2\" errors=\"0\""), std::string::npos) << xml;
   EXPECT_NE(xml.find("timestamp=\"2025-01-31T12:00:00\""), std::string::npos) << "the schema forbids a time zone";
-  EXPECT_NE(xml.find("name=\"acne &lt;= 0.4 #2\""), std::string::npos) << "names must be unique";
+  EXPECT_NE(xml.find("name=\"acne &lt;= 40% #2\""), std::string::npos) << "names must be unique";
   EXPECT_NE(xml.find("reproduce: render 1"), std::string::npos);
 }
 
@@ -361,10 +370,10 @@ TEST(Summary, OrdersByErrorAndKeepsTheTableWhole) {
   results.points[2].curve->window_min_depth = results.points[2].curve->window_max_depth = std::nullopt;
   const std::string text = to_summary(results);
   const std::string best = text.substr(text.find("## Best"));
-  EXPECT_LT(best.find("| 1024 | a\\|b\\`&lt;script> | 0.01 |"), best.find("| 512 | none | 0.02 |")) << best;
-  EXPECT_LT(best.find("| 512 | none | 0.02 |"), best.find("| 256 | none | not measured |")) << best;
+  EXPECT_LT(best.find("| 1024 | a\\|b\\`&lt;script> | 1% |"), best.find("| 512 | none | 2% |")) << best;
+  EXPECT_LT(best.find("| 512 | none | 2% |"), best.find("| 256 | none | not measured |")) << best;
   EXPECT_NE(best.find("At 1 of 3 points no bias"), std::string::npos) << best;
-  EXPECT_NE(text.find("    broken: acne <= 0.2; found 0.3"), std::string::npos) << text;
+  EXPECT_NE(text.find("    broken: acne <= 20%; found 30%"), std::string::npos) << text;
 }
 
 TEST(Bounds, AWarningDoesNotBreakTheVerdict) {
@@ -378,10 +387,10 @@ TEST(Bounds, AWarningDoesNotBreakTheVerdict) {
   ASSERT_EQ(results.bounds.size(), 1u);
   EXPECT_FALSE(results.bounds[0].held);
   EXPECT_FALSE(breaks(results.bounds[0]));
-  EXPECT_TRUE(describe(results.bounds[0], points.data()).starts_with("warning: acne <= 0.01"));
+  EXPECT_TRUE(describe(results.bounds[0], points.data()).starts_with("warning: acne <= 1%"));
   const std::string junit = to_junit(results);
   EXPECT_NE(junit.find("failures=\"0\""), std::string::npos) << junit;
-  EXPECT_NE(junit.find("<skipped message=\"warning: found 0.1\">"), std::string::npos) << junit;
+  EXPECT_NE(junit.find("<skipped message=\"warning: found 10%\">"), std::string::npos) << junit;
   const std::string summary = to_summary(results);
   EXPECT_NE(summary.find("**Held: 0 of 1 bounds over 1 point.** 1 warning."), std::string::npos) << summary;
   EXPECT_NE(summary.find("| warning | acne"), std::string::npos) << summary;

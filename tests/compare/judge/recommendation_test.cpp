@@ -9,6 +9,7 @@
 #include <random>
 
 #include "compare/judge/curve_reading.h"
+#include "compare/judge/tradeoff.h"
 #include "compare/ladder/numbers.h"
 
 namespace noonmark {
@@ -133,6 +134,45 @@ TEST(Recommend, AsksBoundsOfTheCurveAtTheBiasThatWouldBeSet) {
   EXPECT_EQ(recommend(results).outcome, Outcome::none_holds);  // dark and light errors are 0.25 each
   results.bounds[0].max = 0.5;
   EXPECT_EQ(recommend(results).outcome, Outcome::found);
+}
+
+// One choice is no comparison: the results judge what was set. If that holds, no other bias is the answer.
+TEST(Recommend, KeepsTheBiasThatWasSetIfItHolds) {
+  Results results;
+  results.points = {point_with(0, 1, 0.2, 0.75)};  // rendered with 0.25; the least error is at 0.5
+  results.points[0].metrics["acne"] = 0.0625;
+  results.bounds = {{.metric = "acne", .max = 0.25, .min = {}, .where = {}, .join = "worst", .reproduce = ""}};
+  Recommendation found = recommend(results);
+  ASSERT_EQ(found.outcome, Outcome::found);
+  EXPECT_TRUE(found.bias->as_set);
+  EXPECT_EQ(found.bias->value, 0.25);
+  EXPECT_EQ(found.error.worst, 0.5) << "as rendered, and not as the curve has it between its entries";
+  EXPECT_FALSE(found.bias->narrow);
+  const std::vector<ComparedGroup> groups = compared_groups(results);
+  EXPECT_EQ(groups.at(0).choices.at(0).bias, 0.25);
+  EXPECT_EQ(value_of(groups.at(0).choices.at(0), "error").worst, 0.5);
+  results.points[0].curve->window_min_depth = 0.245;  // closer than the margin
+  EXPECT_TRUE(recommend(results).bias->narrow);
+
+  const auto another = [&](const char* why) {
+    const Recommendation other = recommend(results);
+    ASSERT_EQ(other.outcome, Outcome::found) << why;
+    EXPECT_FALSE(other.bias->as_set) << why;
+    EXPECT_NE(other.bias->value, 0.25) << why;
+  };
+  results.points[0].curve->window_min_depth = 0.3;
+  another("it is outside the window");
+  results.points[0].curve->window_min_depth = 0.2;
+  results.points[0].metrics["acne"] = 0.5;
+  another("it breaks the bound");
+  results.points[0].metrics["acne"] = 0.0625;
+  results.bounds.clear();
+  another("nothing says that it is good enough");
+  results.bounds = {{.metric = "acne", .max = 0.25, .min = {}, .where = {}, .join = "worst", .reproduce = ""}};
+  results.points.push_back(results.points[0]);
+  results.points[1].id = 1;
+  results.points[1].settings["map.resolution"] = "4096";
+  another("choices are compared, each at its best bias");
 }
 
 TEST(Recommend, ABoundSpeaksOnlyOfThePointsItNames) {

@@ -100,6 +100,45 @@ TEST(Measure, GivesSharesOfTheCountedReceivers) {
   for (const auto& [name, value] : expected) EXPECT_DOUBLE_EQ(found.at(name), value) << name;
 }
 
+// A bound on one cause points to a pixel of that cause, and not to one that is more wrong by another.
+TEST(WorstPixels, EachMetricHasItsOwn) {
+  Picture p(4, 2);
+  p.rungs(0, 0, {1, 1, 1, 0, 0, 0});
+  p.step(0, 0, Cause::aliasing_dark, -1);
+  p.edge.at(0, 0) = 0.5f;
+  p.rungs(1, 0, {1, 1, 1, 1, 0.75f, 0.75f});
+  p.step(1, 0, Cause::acne, -0.25f);
+  p.rungs(3, 1, {1, 1, 1, 1, 0.5f, 0.5f});
+  p.step(3, 1, Cause::acne, -0.5f);
+  p.rungs(2, 1, {0, 0, 0, 1, 1, 1});
+  p.step(2, 1, Cause::aliasing_light, 0.25f);
+  p.edge.at(2, 1) = 2;
+  p.rungs(0, 1, {1, 1, 1, 1, 0, 0});
+  p.step(0, 1, Cause::acne, -1);
+  p.ladder.flags.at(0, 1) |= flag_ambiguous;  // not counted
+  const auto at = [&](const std::string& metric) {
+    for (const PointRecord::WorstOf& worst : p.worst())
+      if (worst.metric == metric) return worst;
+    return PointRecord::WorstOf{};
+  };
+  EXPECT_EQ(worst_pixel(p.ladder).x, 0) << "the aliased one is the most wrong";
+  const auto expect = [&](const std::string& metric, int x, int y, double size) {
+    EXPECT_EQ(at(metric).x, x) << metric;
+    EXPECT_EQ(at(metric).y, y) << metric;
+    EXPECT_EQ(at(metric).size, size) << metric;
+  };
+  expect("acne", 3, 1, 0.5);
+  expect("aliasing_dark", 0, 0, 1);
+  expect("aliasing_light", 2, 1, 0.25);
+  expect("aliasing", 0, 0, 1);
+  expect("edge_displacement_texels", 2, 1, 2);
+  EXPECT_EQ(at("peter_panning").x, -1) << "no pixel has any";
+  EXPECT_EQ(at("filter").x, -1);
+  p.step(1, 1, Cause::acne, nan_float);  // worse than any number
+  EXPECT_EQ(at("acne").x, 1);
+  EXPECT_TRUE(std::isnan(at("acne").size));
+}
+
 TEST(Measure, EdgeDisplacementIsFromAliasedPixelsOnly) {
   Picture p(5, 4);
   // A shadow of two columns that is wrongly lit in one pixel, and a lit pixel far away that is wrongly dark.

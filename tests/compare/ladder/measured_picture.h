@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "compare/ladder/measure.h"
 #include "scenes/receivers.h"
@@ -41,6 +42,9 @@ struct Picture {
     return measure_ladder({ladder, receivers, frame, probe, bias, edge, occluder});
   }
   double metric(const char* name) const { return metrics().at(name); }
+  std::vector<PointRecord::WorstOf> worst() const {
+    return worst_pixels({ladder, receivers, frame, probe, bias, edge, occluder});
+  }
 
   Ladder ladder;
   ReceiverImage receivers;

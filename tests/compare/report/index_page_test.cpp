@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "compare/report/text.h"
 #include "tests/compare/report/sample.h"
 
 namespace noonmark {
@@ -59,6 +60,17 @@ TEST(IndexPage, SaysTheWorstNumbersAndWhatIsNotFinite) {
   EXPECT_EQ(picture_of_index(results), "images/p0026-truth.png");
   EXPECT_EQ(picture_of_index(Results{}), "");
   EXPECT_EQ(worst_numbers(Results{}), "");
+}
+
+TEST(IndexPage, NamesTheBrokenBoundAndItsValue) {
+  Results results = sample_results();
+  results.bounds = {
+      {.metric = "error", .max = 1, .join = "worst", .held = true, .found = 0.5, .point = 0, .points = 32},
+      {.metric = "acne", .max = 0.005, .join = "worst", .found = 0.0083, .point = 3, .points = 32}};
+  EXPECT_EQ(broken_in_words(results), "Acne 0.83\u202f% (at most 0.5\u202f%) at " +
+                                          report::settings_phrase(results.points[3], results.info.swept));
+  results.bounds[1].held = true;
+  EXPECT_EQ(broken_in_words(results), "");
 }
 
 }  // namespace

@@ -187,6 +187,19 @@
   }));
   await drawn();
   saw.card.with_pictures = card_now();
+  function failure() {
+    return {
+      words: card.querySelector('.card-inner > p').textContent,
+      pixel: card.querySelector('.card-pictures [role=status]').textContent,
+      chosen: all('.card-pictures select', card)
+                  .map(function(list) {
+                    return list.value;
+                  })
+                  .pop(),
+      bias: card.querySelector('.card-inner .segments [aria-pressed=true]').textContent
+    };
+  }
+  saw.card.failure = failure();
   card.dispatchEvent(new KeyboardEvent('keydown', {key: '+', bubbles: true}));
   var divide = card.querySelector('input[type=range]');
   divide.value = 20;
@@ -194,6 +207,12 @@
   saw.card.zoomed = card_now();
   page_bias('recommended');
   saw.card.recommended = card_now();
+  card.close();
+  await click(all('tr[data-point="18"] td', table)[1]);
+  saw.card.failure_by_row = failure();
+  card.close();
+  window.noonmarkPage.open(18, 'recommended');
+  saw.card.asked_recommended = failure().bias;
   page_bias('set');
   function page_bias(mode) {
     window.noonmarkPage.setBias(mode);

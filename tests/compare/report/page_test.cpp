@@ -31,9 +31,36 @@ class Page : public Browser {
     results.points[3].metrics["error"] = std::numeric_limits<double>::quiet_NaN();
     results.points[4].metrics["error"] = 0;
     results.points[26].pictures.push_back({"map", "images/p0018-map.png", "The map of another."});
+    results.points[18].worst_of = {{"acne", 56, 78, 0.5}};
+    results.bounds.push_back({.metric = "acne",
+                              .max = 0.005,
+                              .where = {},
+                              .join = "worst",
+                              .held = false,
+                              .found = 0.0083,
+                              .point = 18,
+                              .points = 32,
+                              .reproduce = "render 18"});
     open(render_report(results, sample_picture), "page_probe.js");
   }
 };
+
+// A click on a broken point shows what breaks there: the bound, the pixel of its own metric, and the bias that was judged,
+// whatever bias the page shows.
+TEST_F(Page, AClickOnABrokenPointShowsTheFailure) {
+  for (const char* how : {"failure", "failure_by_row"}) {
+    const json& seen = saw_["card"][how];
+    EXPECT_EQ(seen["words"].get<std::string>().find(
+                  "Broken: Acne is 0.83\u202f% where at most 0.5\u202f% is allowed, with bias.constant "),
+              0u)
+        << seen["words"];
+    EXPECT_EQ(seen["pixel"], "Worst pixel (56, 78) from the top left. Acne 50\u202f% there, with the bias as set.")
+        << how;
+    EXPECT_EQ(seen["chosen"], "acne") << how;
+    EXPECT_EQ(seen["bias"], "As set") << how << ": the page is at the recommended bias";
+  }
+  EXPECT_EQ(saw_["card"]["asked_recommended"], "Recommended") << "the answer's own link shows its bias";
+}
 
 TEST_F(Page, ChartsHaveTheirMarks) {
   // 4 resolutions, 4 extents, 2 filters: 32 points, of which one has no error.

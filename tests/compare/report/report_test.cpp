@@ -38,8 +38,8 @@ TEST(ReportText, NumbersReadAsPeopleWriteThem) {
   EXPECT_EQ(number(12.345), "12.3");
   EXPECT_EQ(number(0.00123456), "0.00123");
   EXPECT_EQ(number(1234.4), "1234");
-  EXPECT_EQ(number(742657), "742\u202f657");
-  EXPECT_EQ(number(-1234567), "-1\u202f234\u202f567");
+  EXPECT_EQ(number(742657), "742\u202f700");
+  EXPECT_EQ(number(-1234567), "-1\u202f235\u202f000");
   EXPECT_EQ(number(1.2e-7), "1.2×10⁻⁷");
   EXPECT_EQ(number(-3e12), "-3×10¹²");
   EXPECT_EQ(number(not_a_number), "not finite");

@@ -1,0 +1,30 @@
+// Numbers for people: at most four significant digits, and shares in percent. Whole numbers below 100 000 are whole. JSON,
+// CSV and the store hold the exact values.
+//
+//   number_text(0.083472391);                      // "0.08347"
+//   quantity_text(0.0083472391, "fraction");       // "0.8347%"
+//   setting_text("24.784620536051,27.98850570,0"); // "24.78,27.99,0"
+//
+// The report has its own typography (compare/report/text.h) with the same rules.
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace noonmark {
+
+inline constexpr int people_digits = 4;
+
+// "not measured" if the value is NaN.
+std::string number_text(double value, int digits = people_digits);
+
+// With its unit (Metric::unit): "0.8347%", "4.194 MB", "12.3 m", "16384".
+std::string quantity_text(double value, std::string_view unit, int digits = people_digits);
+
+// How many digits show that the two values differ, at least `least`: a found value that breaks a limit must not read as
+// the limit. `least` if they are equal or one of them is not finite.
+int digits_to_tell(double a, double b, int least = people_digits);
+
+// The value of a setting, or of several with commas between them, where its exact text is not needed to name the point.
+std::string setting_text(std::string_view value);
+
+}  // namespace noonmark

@@ -1,0 +1,50 @@
+// The report's first words: of which point, bias and bound they speak.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "compare/report/report.h"
+#include "tests/compare/report/page_text.h"
+#include "tests/compare/report/sample.h"
+
+namespace noonmark {
+namespace {
+
+// The answer names its bias, and not the bias with which its point was rendered too.
+TEST(Answer, OneBiasIsSaidOfAnAnswer) {
+  Results results = sample_results();
+  results.info.swept.push_back("bias.constant");
+  for (PointRecord& point : results.points) point.settings["bias.constant"] = point.id % 2 ? "0" : "0.005";
+  const std::string body = without_scripts(render_report(results, sample_picture));
+  const auto between = [&](const std::string& from, const std::string& to) {
+    const size_t at = body.find(from);
+    return at == std::string::npos ? "" : body.substr(at, body.find(to, at) - at);
+  };
+  const std::string said = between("<p class=\"said\">", "</p>"),
+                    box = between("<div class=\"recommend ", "</div>\n<p");
+  EXPECT_NE(said.find("and bias.constant "), std::string::npos) << said;
+  EXPECT_EQ(said.find("bias constant"), std::string::npos) << said;
+  EXPECT_NE(box.find("<dt>bias.constant</dt>"), std::string::npos) << box;
+  EXPECT_EQ(box.find("<dt>bias.constant</dt>"), box.rfind("<dt>bias.constant</dt>")) << "the swept one is there too";
+  EXPECT_EQ(body.find("Largest causes there, with the bias as rendered"), std::string::npos);
+  EXPECT_NE(body.find("Largest causes there, with this bias"), std::string::npos);
+  EXPECT_NE(body.find("All 2 bounds hold, with the bias as set"), std::string::npos) << "bounds are judged as rendered";
+}
+
+TEST(Answer, WhatIsBrokenComesFirstWithItsBias) {
+  Results results = sample_results();
+  results.bounds.push_back(
+      {.metric = "acne", .max = 0.005, .join = "worst", .found = 0.0083, .point = 18, .points = 32});
+  results.points[18].worst_of = {{"acne", 56, 78, 0.5}};
+  const std::string body = without_scripts(render_report(results, sample_picture));
+  const size_t said = body.find(
+      "<p class=\"said\">Acne is 0.83\u202f% where at most 0.5\u202f% is allowed, at <a "
+      "href=\"#p18\" data-failure=\"acne\">");
+  ASSERT_NE(said, std::string::npos) << body.substr(body.find("<p class=\"said\">"), 300);
+  EXPECT_LT(body.find(" as set.", said), body.find(" Set <a", said));
+  EXPECT_NE(body.find("worst pixel by acne: x = 56, y = 78"), std::string::npos);
+  EXPECT_EQ(body.find("recommend held"), std::string::npos) << "green beside the broken bound";
+}
+
+}  // namespace
+}  // namespace noonmark
