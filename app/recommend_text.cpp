@@ -291,7 +291,7 @@ std::string advice_experiment(const Advice& advice, const std::string& folder) {
 }
 
 std::string advice_engines(const std::vector<EngineAdvice>& engines) {
-  std::string text = "The recommended settings in other engines. Written by noonmark recommend.\n";
+  std::string text = "These settings in other engines, and what each cannot express. Made by Noonmark.\n";
   for (const EngineAdvice& engine : engines) {
     text += fmt::format("\n{} ({})\n", engine.engine, engine.version);
     for (const std::string& line : engine.lines) text += fmt::format("    {}\n", line);

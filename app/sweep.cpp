@@ -15,6 +15,7 @@
 #include "app/build_facts.h"
 #include "app/clock.h"
 #include "app/definition.h"
+#include "app/experiment_engines.h"
 #include "app/failing_pixels.h"
 #include "app/identity.h"
 #include "app/image_file.h"
@@ -261,10 +262,11 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   };
   for (const std::string& repaired : store.repair_phases(as_planned))
     fmt::print(stderr, "note: {}\n", printable(repaired));
-  store.set_info(
+  RunInfo info =
       run_info(experiment, folder.path(), options, bench.device(), tracer,
-               bench.scene(point_at(planned, wanted.front()).scene), scenes.notes(), survey.idle.dead_sweeps()),
-      total);
+               bench.scene(point_at(planned, wanted.front()).scene), scenes.notes(), survey.idle.dead_sweeps());
+  info.engines = experiment_engines(bench, experiment, planned.front());
+  store.set_info(info, total);
 
   const std::vector<int64_t> before = store.finished();
   if (const std::string text = kept.text(wanted.size(), folder.path()); !text.empty() && !options.quiet)

@@ -172,7 +172,9 @@ struct RunInfo {
   std::vector<std::string> over;                 // those of them that are conditions (compare/judge/choices.h)
   std::string cost = "texel_work";               // the metric by which answers are ranked
   std::string accuracy = "error_soft";           // the metric that answers make small
-  std::vector<std::string> plot;                 // metrics the experiment asks to plot
+  // What to type into other engines: the text of recommend's engines.txt. Empty if there is no one choice of settings.
+  std::string engines;
+  std::vector<std::string> plot;  // metrics the experiment asks to plot
   std::string scene_name;
   uint64_t triangles = 0;
   std::vector<std::string> scene_notes;  // one line for each note of a scene (Scene::notes)
