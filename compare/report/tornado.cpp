@@ -136,7 +136,7 @@ std::string to_tornado_page(const Tornado& tornado) {
 <title>What each setting does around the recommendation · Noonmark</title>
 <style>
 body{font:14px/1.4 system-ui,sans-serif;margin:1rem;max-width:70rem;background:Canvas;color:CanvasText}
-svg{width:100%;height:auto;font-size:13px;fill:CanvasText}.end{text-anchor:end}.tick{text-anchor:middle}.name{font-weight:600}
+.scroll{overflow-x:auto}svg{width:100%;min-width:44rem;height:auto;font-size:13px;fill:CanvasText}.end{text-anchor:end}.tick{text-anchor:middle}.name{font-weight:600}
 .half{fill:#4477aa}.twice{fill:#c98a1b}.broken{fill-opacity:.35;stroke:#d03434;stroke-width:1.5}
 .grid{stroke:#8884}.base{stroke:CanvasText;stroke-width:1.5}.none{fill-opacity:.75}
 table{border-collapse:collapse}th,td{border:1px solid #8886;padding:.3rem .5rem;text-align:left;vertical-align:top}
@@ -146,10 +146,12 @@ table{border-collapse:collapse}th,td{border:1px solid #8886;padding:.3rem .5rem;
       "<p>{} As recommended it is <b>{}</b>. Blue: half of the setting. Ochre: double. ✗ and a red edge: a bound "
       "breaks there.</p>\n",
       html(what_it_is(tornado)), html(report::quantity(tornado.error, "fraction")));
-  text += chart(tornado);
+  text += "<div class=\"scroll\">" + chart(tornado) + "</div>\n";
   text +=
       "<h2>The "
-      "numbers</h2><table><thead><tr><th>Setting</th><th>Recommended</th><th>Half</th><th>Error</th><th>Double</th>"
+      "numbers</h2><div "
+      "class=\"scroll\"><table><thead><tr><th>Setting</th><th>Recommended</th><th>Half</th><th>Error</th><th>Double</"
+      "th>"
       "<th>Error</th><th>The bounds hold from</th><th>Error</th><th>to</th><th>Error</th></tr></thead><tbody>\n";
   for (const TornadoRow& row : tornado.rows)
     text += fmt::format(
@@ -161,7 +163,7 @@ table{border-collapse:collapse}th,td{border:1px solid #8886;padding:.3rem .5rem;
         html(row.twice.value), html(tornado_error(row.twice)), row.low_open ? "at most " : "", html(row.low.value),
         html(tornado_error(row.low)), row.high_open ? "at least " : "", html(row.high.value),
         html(tornado_error(row.high)));
-  return text + "</tbody></table></body></html>\n";
+  return text + "</tbody></table></div></body></html>\n";
 }
 
 }  // namespace noonmark
