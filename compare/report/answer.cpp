@@ -10,6 +10,7 @@
 #include "compare/judge/machines.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
+#include "compare/judge/recommendation.h"
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
 #include "compare/report/broken.h"
@@ -241,14 +242,28 @@ std::string verdict_line(const Results& results) {
   return "<p class=\"verdict\">" + out + "</p>\n";
 }
 
+namespace {
+
+// Points of different parts are not meant to be compared, so none of them is the answer.
+bool has_answer(const Results& results) {
+  return !results.points.empty() && results.points.front().part.empty() &&
+         recommend(results).outcome == Recommendation::Outcome::found;
+}
+
+}  // namespace
+
+const char* answer_label(const Results& results) { return has_answer(results) ? "Answer" : "Findings"; }
+
 std::string answer_section(const Results& results) {
-  if (results.points.empty())
-    return "<section id=\"answer\"><h2>The answer</h2>"
-           "<p>No point was measured.</p></section>\n";
-  // Points of different parts are not meant to be compared, so none of them is the cheapest.
-  if (!results.points.front().part.empty())
-    return "<section id=\"answer\"><h2>The answer</h2>" + laws_table(results) + bounds_section(results) +
-           "<ul class=\"findings\">\n" + health_items(results) + "</ul></section>\n";
+  if (results.points.empty()) return "";
+  const std::string head =
+      fmt::format("<section id=\"answer\"><h2>{}</h2>", has_answer(results) ? "The answer" : "What was found");
+  if (!results.points.front().part.empty()) {
+    std::string found = laws_table(results) + bounds_section(results);
+    if (const std::string items = health_items(results); !items.empty())
+      found += "<ul class=\"findings\">\n" + items + "</ul>";
+    return found.empty() ? "" : head + found + "</section>\n";
+  }
   std::vector<const PointRecord*> all;
   for (const PointRecord& point : results.points) all.push_back(&point);
   std::string items = window_items(results);
@@ -256,7 +271,7 @@ std::string answer_section(const Results& results) {
     items += item("note", fmt::format("Largest causes of error over {}, with the bias as rendered: {}.",
                                       all.size() == 1 ? "this point" : "all points", causes));
   items += health_items(results);
-  return "<section id=\"answer\"><h2>The answer</h2><div class=\"answer\">" + recommendation_box(results) +
+  return head + "<div class=\"answer\">" + recommendation_box(results) +
          "<div class=\"breaks\"><h3>What breaks</h3><ul class=\"findings\">\n" + items + "</ul></div></div>\n" +
          bounds_section(results) + laws_table(results) + "</section>\n";
 }

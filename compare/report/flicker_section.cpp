@@ -182,23 +182,26 @@ std::string flicker_section(const Results& results, bool strips_on_first_screen)
   size_t frames = 0;
   for (const Strip& strip : strips) {
     frames += strip.frames.size();
-    table += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td><a href=\"#p{}\">{}</a></td>{}</tr>\n",
-                         html(strip.name), strip.frames.size(), cell(strip.mean, "fraction"), strip.worst->id,
-                         html(frame_of(*strip.worst)), numbers_of_point(*strip.worst));
+    table += fmt::format(
+        "<tr><th class=\"text\" scope=\"row\">{}</th><td>{}</td><td>{}</td><td><a href=\"#p{}\">{}</a></td>{}</tr>\n",
+        html(strip.name), strip.frames.size(), cell(strip.mean, "fraction"), strip.worst->id,
+        html(frame_of(*strip.worst)), numbers_of_point(*strip.worst));
   }
   if (frames <= most_frame_rows) {
     for (const Strip& strip : strips)
       for (const PointRecord* point : strip.frames)
-        rows += fmt::format("<tr><th scope=\"row\">{}</th><td><a href=\"#p{}\">{}</a></td>{}</tr>\n", html(strip.name),
-                            point->id, html(frame_of(*point)), numbers_of_point(*point));
+        rows += fmt::format("<tr><th class=\"text\" scope=\"row\">{}</th><td><a href=\"#p{}\">{}</a></td>{}</tr>\n",
+                            html(strip.name), point->id, html(frame_of(*point)), numbers_of_point(*point));
     rows = fmt::format(
-        "<details><summary>Every frame ({})</summary><div class=\"scroll tall\"><table class=\"numbers\"><thead><tr>"
-        "<th>Choice</th><th>Frame</th>{}</tr></thead><tbody>\n{}</tbody></table></div></details>\n",
+        "<details class=\"more\"><summary>Every frame ({})</summary><div class=\"scroll tall\"><table "
+        "class=\"numbers\"><thead><tr>"
+        "<th class=\"text\">Choice</th><th>Frame</th>{}</tr></thead><tbody>\n{}</tbody></table></div></details>\n",
         frames, head_of_numbers(), rows);
   }
   return fmt::format(
       "<section id=\"motion\"><h2>Motion</h2>\n{}"
-      "<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th>Choice</th><th>Frames</th><th>Mean flicker "
+      "<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th class=\"text\">Choice</th><th>Frames</th><th>Mean "
+      "flicker "
       "<small>%</small></th><th>Worst frame</th>{}</tr></thead><tbody>\n{}</tbody></table></div>\n{}</section>\n",
       strips_on_first_screen ? "<p>The strips of all choices are at the top of this page.</p>\n"
                              : flicker_strips(results),

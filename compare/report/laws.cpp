@@ -56,8 +56,9 @@ std::string laws_table(const Results& results) {
   for (const LawResult& law : results.laws) {
     const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
     rows += fmt::format(
-        "<tr class=\"{}\"><td>{}</td><th scope=\"row\">{}{}<br><code>{}</code></th><td>{}</td><td>{}</td><td>{}</td>"
-        "<td>{}</td></tr>\n{}",
+        "<tr class=\"{}\"><td>{}</td><th scope=\"row\">{}{}<br><code>{}</code></th><td class=\"number\">{}</td><td "
+        "class=\"number\">{}</td>"
+        "<td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n{}",
         law.held ? "held" : "broken", law.held ? "✓ holds" : "✗ broken", html(law.name),
         sentence(law.says) + sentence(law.found), html(law_text(law)), law.samples.size(), html(predicted_text(law)),
         worst ? number(worst->measured) : "–", html(ratio_text(law)), broken_rows(law));
@@ -71,8 +72,10 @@ std::string laws_table(const Results& results) {
         "worst. All samples are judged; <code>results.sqlite</code> has them.</p>\n",
         most_whole_points);
   return out +
-         "<div class=\"scroll\"><table class=\"bounds laws\"><thead><tr><th>Verdict</th><th>Law</th><th>Samples</th>"
-         "<th>Predicted</th><th>Measured</th><th>Measured / predicted</th></tr></thead><tbody>\n" +
+         "<div class=\"scroll\"><table class=\"bounds laws\"><thead><tr><th>Verdict</th><th>Law</th><th "
+         "class=\"number\">Samples</th>"
+         "<th class=\"number\">Predicted</th><th class=\"number\">Measured</th><th class=\"number\">Measured / "
+         "predicted</th></tr></thead><tbody>\n" +
          rows +
          "</tbody></table></div>\n<p class=\"small\">Predicted and measured are from the sample that is furthest "
          "off.</p>\n";

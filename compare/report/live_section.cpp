@@ -101,9 +101,9 @@ std::string live_figure(const Results& results, const std::function<std::string(
       "<input type=\"range\" aria-label=\"Bias, on a logarithmic scale\"></div>"
       "<p class=\"facts\" aria-live=\"polite\"></p><div class=\"legend\"></div>"
       "<figcaption><a href=\"#p{2}\">Point {2}</a>{3}, at every bias: each pixel has the light and the cause that "
-      "OpenGL's picture has with that bias, exactly; only the grey of the shading is rounded. {0} × {1} pixels, "
-      "measured "
-      "for themselves. The marks are those of the full picture.</figcaption></figure>\n"
+      "OpenGL's picture has with that bias, exactly; only the grey of the shading is rounded. At the bias as set it is "
+      "the point's own picture; at others {0} × {1} pixels, measured for themselves. The marks are those of the own "
+      "picture.</figcaption></figure>\n"
       "<script type=\"application/json\" id=\"live-data\">{4}</script>\n",
       head.value("width", 0), head.value("height", 0), point->id, phrase.empty() ? "" : ": " + html(phrase),
       script_json(head));

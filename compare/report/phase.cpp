@@ -123,7 +123,7 @@ std::string render_phase(const PhaseDiagram& d) {
                                      {"causes", causes},
                                      {"phases", {report::phase_data(d)}}},
                             .causes = {cause_colors.begin(), cause_colors.end()},
-                            .scripts = {"charts", "chart_phase", "page"},
+                            .scripts = {"charts", "chart_phase", "save", "page"},
                             .version = d.version});
 }
 

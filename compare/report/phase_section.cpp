@@ -46,7 +46,8 @@ std::string table(const PhaseDiagram& d) {
                     std::isfinite(row.last_acne_m) ? metres(row.last_acne_m) : "more");
   }
   return fmt::format(
-      "<details{}><summary>The same as a table</summary>\n<div class=\"scroll\"><table class=\"numbers\"><thead>"
+      "<details class=\"more\"{}><summary>The same as a table</summary>\n<div class=\"scroll\"><table "
+      "class=\"numbers\"><thead>"
       "<tr><th>Resolution</th><th>Texel</th><th>Usable from</th><th>to</th><th>In the mean from</th><th>to</th>"
       "<th>Least error at</th><th>Error, worst</th><th>mean</th><th>No acne from</th></tr></thead><tbody>\n{}"
       "</tbody></table></div></details>\n",
@@ -114,7 +115,7 @@ std::string points_of(const PhaseDiagram& d, const ShownPoints& shown) {
   text += "</p>\n";
   if (rows.empty()) return text;
   return text +
-         "<details><summary>The sweep's points on the diagram</summary>\n<div class=\"scroll\"><table "
+         "<details class=\"more\"><summary>The sweep's points on the diagram</summary>\n<div class=\"scroll\"><table "
          "class=\"numbers\"><thead><tr><th>Point</th><th class=\"text\">Settings</th><th>Texel</th><th>Bias</th>"
          "<th>Usable at the nearest texel size</th><th class=\"text\">Its bias is</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div></details>\n";

@@ -49,7 +49,7 @@ using ReadFile = std::function<std::string(const std::string& path)>;
 
 struct Section {
   const char* id;
-  const char* label;  // in the page's head
+  const char* label;  // in the page's head; null: answer_label()
   std::string (*html)(const Results&, const ShownPoints&, const ReadFile&);
   bool compares;  // compares all points with each other, which has no meaning across parts
 };
@@ -74,17 +74,18 @@ bool opens_with_speed(const Results& results, const ShownPoints& shown) {
          report::has_speed_chart(results, shown);
 }
 std::string motion(const Results& results, const ShownPoints&, const ReadFile&) {
-  return report::flicker_section(results, opens_with_motion(results));
+  return report::has_flicker(results) ? report::flicker_section(results, opens_with_motion(results)) : "";
 }
 std::string speed(const Results& results, const ShownPoints& shown, const ReadFile&) {
   return report::speed_section(results, shown, opens_with_speed(results, shown));
 }
 constexpr Section all_sections[] = {
     {"phase", "Diagram", by_point<report::phase_section>, false},
-    {"answer", "Answer", plain<report::answer_section>, false},
+    {"answer", nullptr, plain<report::answer_section>, false},
+    {"engines", "Engines", plain<report::engines_section>, false},
     {"motion", "Motion", motion, false},
     {"bias", "Bias", by_point<report::bias_section>, true},
-    {"sweep", "Resolution", by_point<report::sweep_section>, true},
+    {"sweep", "Sweep", by_point<report::sweep_section>, true},
     {"budget", "Causes", by_point<report::budget_section>, true},
     {"cost", "Speed", speed, false},
     {"pictures", "Pictures", pictures, false},
@@ -93,19 +94,26 @@ constexpr Section all_sections[] = {
     {"making", "Making", plain<report::making_section>, false},
 };
 
-std::vector<Section> sections_of(const Results& results) {
+struct ShownSection {
+  std::string id, label, html;
+};
+
+// A section without content is left out, in the page's head too.
+std::vector<ShownSection> sections_of(const Results& results, const ShownPoints& shown, const ReadFile& read_file) {
   const bool parts = !results.points.empty() && !results.points.front().part.empty();
-  std::vector<Section> sections;
-  for (const Section& section : all_sections)
-    if ((!parts || !section.compares) && (section.id != std::string_view("phase") || !results.phases.empty()) &&
-        (section.id != std::string_view("motion") || report::has_flicker(results)))
-      sections.push_back(section);
+  std::vector<ShownSection> sections;
+  for (const Section& section : all_sections) {
+    if (parts && section.compares) continue;
+    const std::string label = section.label ? section.label : report::answer_label(results);
+    if (std::string html = section.html(results, shown, read_file); !html.empty())
+      sections.push_back({section.id, label, std::move(html)});
+  }
   return sections;
 }
 
-std::string navigation(const Results& results) {
+std::string navigation(const std::vector<ShownSection>& sections) {
   std::string links;
-  for (const Section& section : sections_of(results))
+  for (const ShownSection& section : sections)
     links += fmt::format("<a href=\"#{}\">{}</a>", section.id, section.label);
   return links;
 }
@@ -119,7 +127,7 @@ std::string first_screen(const Results& results, const ShownPoints& shown, const
   if (diagram) figures += "<div>" + report::first_diagram() + "</div>\n";
   if (opens_with_speed(results, shown)) figures = "<div>" + report::speed_chart() + "</div>\n";
   if (opens_with_motion(results)) figures = "<div>" + report::flicker_strips(results) + "</div>\n";
-  return fmt::format("<div class=\"first\">\n{}<p class=\"said\">{}{}</p>\n<div class=\"{}\">{}</div></div>\n",
+  return fmt::format("<div class=\"first-screen\">\n{}<p class=\"said\">{}{}</p>\n<div class=\"{}\">{}</div></div>\n",
                      report::verdict_line(results), report::answer_sentence(results, shown),
                      report::has_flicker(results) ? " " + report::flicker_sentence(results) : "",
                      live && diagram   ? "side-by-side two"
@@ -135,19 +143,20 @@ std::string render_report(const Results& results,
   const std::string& given = !results.info.title.empty() ? results.info.title : results.info.scene_name;
   const ShownPoints shown = report::shown_points(results);
   const std::string title = report::html(given.empty() ? "Shadow-map errors" : given);
-  std::string sections = first_screen(results, shown, read_file);
-  for (const Section& section : sections_of(results)) sections += section.html(results, shown, read_file);
+  const std::vector<ShownSection> sections = sections_of(results, shown, read_file);
+  std::string body = first_screen(results, shown, read_file);
+  for (const ShownSection& section : sections) body += section.html;
   std::vector<CauseColor> causes;
   for (const CauseColor& color : causes_of(results.points)) causes.push_back(color);
   return report::fill_page(
       {.title = title,
        .subtitle = subtitle(results),
-       .navigation = navigation(results),
-       .sections = sections,
+       .navigation = navigation(sections),
+       .sections = body,
        .data = report::chart_data(results, shown),
        .causes = causes,
        .scripts = {"charts", "keyboard", "chart_bias", "chart_sweep", "speed_marks", "chart_speed", "chart_laws",
-                   "chart_phase", "live", "bias_choice", "card", "points_table", "page"},
+                   "chart_phase", "live", "bias_choice", "save", "align", "card", "points_table", "page"},
        .version = results.info.version});
 }
 

@@ -3,6 +3,7 @@
 #include "compare/report/sections.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,21 +28,23 @@ std::string folded(const std::string& title, size_t rows, const std::string& inn
 
 std::string point_link(const PointRecord& point) { return fmt::format("<a href=\"#p{0}\">{0}</a>", point.id); }
 
+using Classes = std::map<std::string, std::string>;
+
 // Head cells and row cells for the swept settings, which distinguish the points.
-std::string swept_head(const Results& results) {
+std::string swept_head(const Results& results, const Classes& classes) {
   std::string out = "<th>Point</th>";
   for (const std::string& name : results.info.swept) {
     const std::string unit = setting_unit(name);
-    out += fmt::format("<th title=\"{}\">{}{}</th>", html(name), html(setting_label(name)),
+    out += fmt::format("<th{} title=\"{}\">{}{}</th>", classes.at(name), html(name), html(setting_label(name)),
                        unit.empty() ? "" : fmt::format(" <small>{}</small>", html(unit)));
   }
   return out;
 }
 
-std::string swept_cells(const Results& results, const PointRecord& point) {
+std::string swept_cells(const Results& results, const PointRecord& point, const Classes& classes) {
   std::string out = fmt::format("<th scope=\"row\">{}</th>", point_link(point));
   for (const std::string& name : results.info.swept)
-    out += fmt::format("<td>{}</td>", html(setting_text(setting_of(point, name))));
+    out += fmt::format("<td{}>{}</td>", classes.at(name), html(setting_text(setting_of(point, name))));
   return out;
 }
 
@@ -62,6 +65,17 @@ std::string chart_place(const std::string& name, const std::string& caption) {
       name, caption);
 }
 
+std::map<std::string, std::string> text_classes(const Results& results) {
+  std::map<std::string, std::string> classes;
+  for (const std::string& name : results.info.swept) {
+    const std::vector<std::string> values = values_of(results, name);
+    const bool numbers = std::all_of(values.begin(), values.end(),
+                                     [](const std::string& value) { return number_of(value).has_value(); });
+    classes[name] = numbers ? "" : " class=\"text\"";
+  }
+  return classes;
+}
+
 std::string by_bias(const std::string& as_set, const std::string& recommended) {
   return fmt::format("<span class=\"as-set\">{}</span><span class=\"as-recommended\">{}</span>", as_set, recommended);
 }
@@ -69,6 +83,7 @@ std::string by_bias(const std::string& as_set, const std::string& recommended) {
 std::string swatch(const std::string& cause) { return fmt::format("<i class=\"sw c-{}\"></i>", html(cause)); }
 
 std::string bias_section(const Results& results, const ShownPoints& shown) {
+  const Classes classes = text_classes(results);
   std::string rows;
   size_t count = 0;
   const BiasCurve* first = nullptr;
@@ -83,7 +98,7 @@ std::string bias_section(const Results& results, const ShownPoints& shown) {
     ++count;
     const BiasCurve& curve = *point.curve;
     const std::optional<DepthWindow> usable = usable_window(curve);
-    rows += fmt::format("<tr{}>{}", usable ? "" : " class=\"broken\"", swept_cells(results, point));
+    rows += fmt::format("<tr{}>{}", usable ? "" : " class=\"broken\"", swept_cells(results, point, classes));
     rows += usable ? bias_cell(usable->low, curve) + bias_cell(usable->high, curve)
                    : "<td colspan=\"6\" class=\"fails first\">none: no bias is good enough</td>";
     rows += bias_cell(curve.best_bias_depth, curve);
@@ -94,13 +109,13 @@ std::string bias_section(const Results& results, const ShownPoints& shown) {
           fmt::format("<td class=\"text\">{}</td><td class=\"text\">{}</td>", html(curve.parameter), html(curve.made));
     rows += "</tr>\n";
   }
+  if (!first) return "";  // the findings say why
   std::string out = "<section id=\"bias\"><h2>Error against bias</h2>\n";
   for (const PointRecord& point : results.points) {
     if (why_no_curve(point).empty()) continue;
     out += fmt::format("<p class=\"small\">Some points have no curve: {}.</p>\n", why_no_curve(point));
     break;
   }
-  if (!first) return out + "<p>No bias curve was measured.</p></section>\n";
   out += fmt::format(
       "<p>Too little bias leaves acne; too much detaches shadows. The usable window is every bias that keeps acne "
       "within {} and "
@@ -117,7 +132,7 @@ std::string bias_section(const Results& results, const ShownPoints& shown) {
         drawn, first->bias_depth.size());
   out += chart_place("bias", "Share of counted receivers by cause against the bias; the usable window is shaded.");
   std::string head =
-      "<thead><tr>" + swept_head(results) +
+      "<thead><tr>" + swept_head(results, classes) +
       "<th class=\"first\" colspan=\"3\">Window from</th><th class=\"first\" colspan=\"3\">Window to</th>"
       "<th class=\"first\" colspan=\"4\">Least error at</th><th class=\"first\">Within 10\u202f%<br>of the least</th>";
   if (!alike) head += "<th>Parameter</th><th>Made</th>";
@@ -134,17 +149,10 @@ std::string bias_section(const Results& results, const ShownPoints& shown) {
 }
 
 std::string sweep_section(const Results& results, const ShownPoints& shown) {
-  std::string out = "<section id=\"sweep\"><h2>Error against resolution and extent</h2>\n";
-  const auto swept = [&](const std::string& name) {
-    return std::find(results.info.swept.begin(), results.info.swept.end(), name) != results.info.swept.end() &&
-           values_of(results, name).size() > 1;
-  };
-  if (!swept("map.resolution")) out += "<p class=\"small\">Resolution was not swept.</p>\n";
-  if (!swept("map.extent_m") && !swept("map.extent_scale"))
-    out += "<p class=\"small\">The frustum's extent was not swept.</p>\n";
-  out +=
-      "<p class=\"small\">The tables are of the error against the hard truth (R1). The charts offer the others.</p>\n";
-  out += shown.note;
+  std::string out =
+      "<p class=\"small\">The tables are of the error against the hard truth (R1). The charts offer the others.</p>\n" +
+      shown.note;
+  std::vector<std::string> labels;
   size_t charts = 0;
   for (const std::string& name : results.info.swept) {
     const std::vector<std::string> values = values_of(results, name);
@@ -152,6 +160,7 @@ std::string sweep_section(const Results& results, const ShownPoints& shown) {
         !std::all_of(values.begin(), values.end(), [](const auto& v) { return number_of(v).has_value(); }))
       continue;
     ++charts;
+    labels.push_back(html(setting_label(name)));
     // Mean and worst over all other settings: the chart's trend in numbers.
     struct Trend {
       double sum = 0, worst = 0, best_sum = 0;
@@ -178,7 +187,7 @@ std::string sweep_section(const Results& results, const ShownPoints& shown) {
           finite == of ? fmt::format("{}", of) : fmt::format("{} ({} not finite)", of, of - finite));
     }
     const std::string unit = setting_unit(name);
-    out += fmt::format("<h3>{}</h3>\n", html(name));
+    out += fmt::format("<div class=\"swept\"><h3>{}</h3>\n", html(name));
     out += chart_place(fmt::format("sweep-{}", charts),
                        fmt::format("Error against {}; one line for each combination of the other swept settings.",
                                    html(setting_label(name))));
@@ -186,15 +195,15 @@ std::string sweep_section(const Results& results, const ShownPoints& shown) {
         "<div class=\"scroll fit\"><table class=\"numbers small-table\"><thead><tr><th>{}{}</th><th>Mean error "
         "<small>%</small></th>"
         "<th>Worst error <small>%</small></th><th>Mean error at best bias "
-        "<small>%</small></th><th>Points</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+        "<small>%</small></th><th>Points</th></tr></thead><tbody>\n{}</tbody></table></div></div>\n",
         html(setting_label(name)), unit.empty() ? "" : fmt::format(" <small>{}</small>", html(unit)), rows);
   }
-  return out + "</section>\n";
+  if (labels.empty()) return "";
+  return fmt::format("<section id=\"sweep\"><h2>Error against {}</h2>\n{}</section>\n", fmt::join(labels, ", "), out);
 }
 
 std::string budget_section(const Results& results, const ShownPoints& shown) {
-  if (results.points.empty())
-    return "<section id=\"budget\"><h2>The error budget</h2>\n<p>No point was measured.</p></section>\n";
+  if (results.points.empty()) return "";
   const std::vector<CauseColor> causes = causes_of(results.points);
   double largest = 0;
   for (const PointRecord& point : shown.results.points) {
@@ -205,6 +214,10 @@ std::string budget_section(const Results& results, const ShownPoints& shown) {
         sum += value;
     largest = std::max(largest, sum);
   }
+  // What every point shares does not tell the rows apart.
+  std::vector<std::string> differing;
+  for (const std::string& name : results.info.swept)
+    if (values_of(results, name).size() > 1) differing.push_back(name);
   std::string legend, rows;
   for (const CauseColor& cause : causes)
     if (is_part(cause.name))
@@ -229,12 +242,13 @@ std::string budget_section(const Results& results, const ShownPoints& shown) {
       const std::string text = settings_phrase(point, names);
       return html(text.empty() ? fmt::format("point {}", point.id) : text);
     };
-    const std::vector<std::string>&swept = results.info.swept, at_bias = without_curve_parameter(point, swept);
+    const std::vector<std::string> at_bias = without_curve_parameter(point, differing);
     rows += fmt::format(
         "<div class=\"row\" data-point=\"{1}\" title=\"{0}\"><span class=\"name\"><a href=\"#p{1}\">{2}</a></span>"
         "<span class=\"track\"><span class=\"bar\" style=\"--size:{3:.5f}\">{4}</span></span><span "
         "class=\"value\">{5}</span></div>\n",
-        html(told), point.id, at_bias.size() == swept.size() ? phrase(swept) : by_bias(phrase(swept), phrase(at_bias)),
+        html(told), point.id,
+        at_bias.size() == differing.size() ? phrase(differing) : by_bias(phrase(differing), phrase(at_bias)),
         largest > 0 ? sum / largest : 0, parts, quantity(metric_of(point, "error"), "fraction"));
   }
   return fmt::format(

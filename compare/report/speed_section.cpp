@@ -135,7 +135,8 @@ std::string bias_cell(const ComparedChoice& one, AtBias at) {
 std::string row(const ComparedChoice& one, const Plane& plane, bool recommended, AtBias at) {
   const std::string cause = dominating_cause(one, at);
   return fmt::format(
-      "<tr{}><th scope=\"row\">{}{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"text\">{}</td></tr>\n",
+      "<tr{}><th class=\"text\" scope=\"row\">{}{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td "
+      "class=\"text\">{}</td></tr>\n",
       recommended ? " class=\"recommended\"" : "", plane.link(one, at),
       recommended ? " <small>recommended</small>" : "", cost_cell(one, plane.cost),
       cell(value_of(one, plane.error, at).worst, find_metric(plane.error).unit),
@@ -180,9 +181,10 @@ std::string front_table(const ComparedGroup& group, const std::string& name, con
                                : "<tbody class=\"as-set\">\n" + set.rows +
                                      "</tbody><tbody class=\"as-recommended\">\n" + best.rows + "</tbody>";
   return fmt::format(
-      "<details{}><summary>{}</summary>\n<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th>Choice</th>"
+      "<details class=\"more\"{}><summary>{}</summary>\n<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th "
+      "class=\"text\">Choice</th>"
       "<th>{} <small>{}</small></th><th>{} <small>{}</small></th><th>Over the usable window</th><th>Bias</th>"
-      "<th>Largest cause</th></tr></thead>{}</table></div>\n</details>\n",
+      "<th class=\"text\">Largest cause</th></tr></thead>{}</table></div>\n</details>\n",
       open && std::max(set.count, best.count) <= open_rows ? " open" : "", at_both(set.summary, best.summary),
       html(metric_label(plane.cost)), head_unit(find_metric(plane.cost).unit), html(error_label(plane.error)),
       head_unit(find_metric(plane.error).unit), rows);
@@ -193,8 +195,8 @@ std::string front_table(const ComparedGroup& group, const std::string& name, con
 std::string speed_chart() {
   return chart_place("cost",
                      "Each choice at the bias that is chosen at the top: as set, or its best one. The bar is the error "
-                     "over its usable window. The line is the Pareto "
-                     "front. Choices of equal cost stand side by side.");
+                     "over its usable window; where choices cost the same, that of the first. The line is the Pareto "
+                     "front. Choices of equal cost and nearly equal error share one mark.");
 }
 
 bool has_speed_chart(const Results& results, const ShownPoints& shown) {
@@ -202,10 +204,9 @@ bool has_speed_chart(const Results& results, const ShownPoints& shown) {
 }
 
 std::string speed_section(const Results& results, const ShownPoints& shown, bool on_first_screen) {
+  if (!has_speed_chart(results, shown)) return "";
   std::string out = "<section id=\"cost\"><h2>Speed against accuracy</h2>\n";
   const std::vector<std::string> costs = costs_of(results), errors = errors_of(results);
-  if (!has_speed_chart(results, shown))
-    return out + "<p>No point has both a finite cost and a finite error.</p></section>\n";
   Plane plane{results, costs.front(), error_shown_first(results), ChoiceNames(results), {}};
   for (const PointRecord& point : shown.results.points) plane.shown_ids.insert(point.id);
   const size_t first = group_shown_first(shown.groups);

@@ -81,9 +81,9 @@ std::string pictures_section(const Results& results, const std::function<std::st
     for (const PictureRecord& record : point.pictures) sets += picture(record, read_file);
     sets += "</div></div>\n";
   }
-  std::string out = "<section id=\"pictures\"><h2>Pictures</h2>\n";
-  if (sets.empty()) return out + "<p>No pictures were kept.</p></section>\n";
-  out +=
+  if (sets.empty()) return "";
+  std::string out =
+      "<section id=\"pictures\"><h2>Pictures</h2>\n"
       "<p class=\"js-only small\">Flip with <kbd>←</kbd> <kbd>→</kbd> or the number keys.</p>\n<div "
       "class=\"legend\">\n";
   for (const CauseColor& color : causes_of(results.points))
@@ -94,9 +94,19 @@ std::string pictures_section(const Results& results, const std::function<std::st
   return out + "</div>\n<div class=\"picture-picker js-only\"></div>\n" + sets + "</section>\n";
 }
 
+std::string engines_section(const Results& results) {
+  if (results.info.engines.empty()) return "";
+  return fmt::format(
+      "<section id=\"engines\"><h2>In other engines</h2>\n<p>The settings of this experiment in each engine's own "
+      "fields, "
+      "and what an engine cannot express.</p>\n<details class=\"glossary\"><summary>What to type</summary>\n"
+      "<pre class=\"engines\">{}</pre></details></section>\n",
+      html(results.info.engines));
+}
+
 std::string points_section(const Results& results, const ShownPoints& shown) {
+  if (results.points.empty()) return "";
   std::string out = fmt::format("<section id=\"points\"><h2>{}</h2>\n", shown.note.empty() ? "Every point" : "Points");
-  if (results.points.empty()) return out + "<p>No point was measured.</p></section>\n";
   const std::vector<Metric> metrics = metrics_of(results.points);
   std::vector<const Metric*> columns;
   std::string same;
@@ -114,10 +124,11 @@ std::string points_section(const Results& results, const ShownPoints& shown) {
   out += "<p class=\"js-only small\">Click a head to sort, a row for the point's card.</p>\n";
   out += "<div class=\"points-place js-only\"></div>\n<noscript>";
   out += "<div class=\"scroll tall\"><table class=\"numbers\"><thead><tr><th>Point</th>";
-  if (parts) out += "<th>Part</th>";
+  if (parts) out += "<th class=\"text\">Part</th>";
+  const std::map<std::string, std::string> classes = text_classes(results);
   for (const std::string& name : results.info.swept) {
     const std::string unit = setting_unit(name);
-    out += fmt::format("<th title=\"{}\">{}{}</th>", html(name), html(setting_label(name)),
+    out += fmt::format("<th{} title=\"{}\">{}{}</th>", classes.at(name), html(name), html(setting_label(name)),
                        unit.empty() ? "" : fmt::format(" <small>{}</small>", html(unit)));
   }
   for (const Metric* metric : columns)
@@ -130,7 +141,7 @@ std::string points_section(const Results& results, const ShownPoints& shown) {
     if (parts) out += fmt::format("<td class=\"text\">{0}</td>", html(point.part));
     for (const std::string& name : results.info.swept) {
       const std::string value = setting_of(point, name);
-      out += fmt::format("<td>{}</td>", html(setting_text(value)));
+      out += fmt::format("<td{}>{}</td>", classes.at(name), html(setting_text(value)));
     }
     for (const Metric* metric : columns) {
       const std::string name(metric->name);
@@ -144,6 +155,7 @@ std::string points_section(const Results& results, const ShownPoints& shown) {
     out += "</tr>\n";
   }
   out += "</tbody></table></div></noscript>\n";
+  out += "<p class=\"small only-print\">Paper has room for the first columns; results.csv has all.</p>\n";
   if (!same.empty()) out += fmt::format("<p class=\"small\">The same at every point: {}.</p>\n", same);
   return out + "</section>\n";
 }
@@ -163,13 +175,18 @@ std::string meaning_section(const Results& results) {
         "<p>{}, a picture on top of the ladder, is judged in place of the rung below it. Its step is the "
         "cause {}.</p>\n",
         html(cause->rung), html(metric_label(cause->name)));
-  out += "<dl class=\"terms\">\n";
-  for (const Metric& metric : metrics_of(results.points))
-    out += fmt::format("<div><dt>{} <code>{}</code>{}</dt><dd>{}</dd></div>\n", html(metric_label(metric.name)),
-                       html(metric.name),
-                       head_unit(metric.unit).empty() ? "" : fmt::format(" <small>{}</small>", head_unit(metric.unit)),
-                       html(metric.help));
-  out += "</dl>\n";
+  const std::vector<Metric> metrics = metrics_of(results.points);
+  std::string terms;
+  for (const Metric& metric : metrics)
+    terms += fmt::format(
+        "<div><dt>{} <code>{}</code>{}</dt><dd>{}</dd></div>\n", html(metric_label(metric.name)), html(metric.name),
+        head_unit(metric.unit).empty() ? "" : fmt::format(" <small>{}</small>", head_unit(metric.unit)),
+        html(metric.help));
+  if (!terms.empty())
+    out += fmt::format(
+        "<details class=\"glossary\"><summary>Each of the {} metrics in a sentence</summary><dl class=\"terms\">\n{}"
+        "</dl></details>\n",
+        metrics.size(), terms);
   std::string swept;
   for (const std::string& name : results.info.swept)
     for (const Setting& row : settings_table())
@@ -177,7 +194,9 @@ std::string meaning_section(const Results& results) {
         swept += fmt::format("<div><dt><code>{}</code>{}</dt><dd>{} Range: {}.</dd></div>\n", html(name),
                              row.unit.empty() ? "" : fmt::format(" <small>{}</small>", html(row.unit)), html(row.help),
                              html(row.range_text()));
-  if (!swept.empty()) out += "<h3>The swept settings</h3><dl class=\"terms\">\n" + swept + "</dl>\n";
+  if (!swept.empty())
+    out += "<details class=\"glossary\"><summary>The swept settings</summary><dl class=\"terms\">\n" + swept +
+           "</dl></details>\n";
   return out + "</section>\n";
 }
 
@@ -211,7 +230,7 @@ std::string making_section(const Results& results) {
     for (const auto& [name, value] : results.points.front().settings)
       if (std::find(info.swept.begin(), info.swept.end(), name) == info.swept.end()) fixed += pair(name, value);
   if (!fixed.empty())
-    out += "<details><summary>The settings that were not swept</summary><dl class=\"made\">\n" + fixed +
+    out += "<details class=\"more\"><summary>The settings that were not swept</summary><dl class=\"made\">\n" + fixed +
            "</dl></details>\n";
   return out + "</section>\n";
 }

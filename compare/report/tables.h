@@ -10,6 +10,8 @@ namespace noonmark::report {
 
 // read_file: as for render_report().
 std::string pictures_section(const Results& results, const std::function<std::string(const std::string&)>& read_file);
+// What to type into other engines (RunInfo::engines); empty without.
+std::string engines_section(const Results& results);
 std::string points_section(const Results& results, const ShownPoints& shown);
 std::string meaning_section(const Results& results);
 std::string making_section(const Results& results);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/report/text.h"
 #include "tests/program/fixture.h"
 
 namespace noonmark::acceptance {
@@ -104,7 +105,14 @@ TEST_F(Recommend, KeepsTheBiasAndTheConditionsOfAnExperiment) {
   EXPECT_NE(text("out/recommended.html").find("map.resolution"), std::string::npos);
   EXPECT_EQ(found()["answer"]["bias"]["parameter"], "bias.tan");
   EXPECT_EQ(found()["verified"]["conditions"], 2);
-  EXPECT_EQ(run({"check", "out/recommended.toml"}), 0) << output_;
+  EXPECT_EQ(run({"check", "out/recommended.toml", "--out", "checked"}), 0) << output_;
+  // The report has the same text for the engines, for the same settings, also when it is made again from the store.
+  const std::string engines = "<pre class=\"engines\">" + report::html(text("out/engines.txt")) + "</pre>";
+  EXPECT_NE(text("checked/report.html").find(engines), std::string::npos) << engines;
+  EXPECT_EQ(run({"report", "checked"}), 0) << output_;
+  EXPECT_NE(text("checked/report.html").find(engines), std::string::npos);
+  EXPECT_EQ(run({"run", "mine.toml", "--out", "swept"}), 0) << output_;
+  EXPECT_EQ(text("swept/report.html").find("<pre class=\"engines\">"), std::string::npos) << "no one choice to type";
 }
 
 // What recommend says is what the report of its file says: the bias in the file.

@@ -223,7 +223,8 @@ var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width)
       size: p.points.length > 1 ? 120 : 70
     };
   });
-  // The tip's name, on a rim in the page's colour.
+  // The tip's name, on a rim in the page's colour, within the plot.
+  var half = 100;  // of its width, in pixels
   if (tip)
     [4, 0].forEach(function(rim) {
       marks.push({
@@ -231,10 +232,10 @@ var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width)
         interactive: false,
         encode: {
           enter: {
-            x: {scale: 'x', value: tip.b},
+            x: {value: half > w / 2 ? w / 2 : Math.max(half, Math.min(w - half, px(tip.b)))},
             y: {scale: 'y', value: tip.t},
             dy: {value: py(tip.t) < 40 ? 34 : -14},
-            align: {value: px(tip.b) < 120 ? 'left' : px(tip.b) > w - 120 ? 'right' : 'center'},
+            align: {value: 'center'},
             text: {value: 'usable up to ' + kit.digits(1000 * tip.t) + '\u202fmm a texel'},
             fontWeight: {value: 600},
             fill: {value: 'var(--ink)'},
@@ -278,6 +279,8 @@ var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width)
           scale: 'x',
           title: 'constant bias along the light',
           values: kit.logTicks(low, high),
+          labelOverlap: true,
+          labelSeparation: 6,
           encode: {labels: {update: {text: {signal: metre}}}}
         },
         {

@@ -96,10 +96,14 @@ function tip(event, row) {
   if (cause) rows.push(['largest cause', kit.causeLabel[cause] || cause, cause]);
   rows.push(['good enough', e.good ? 'yes' : e.window === 'no_curve' ? 'no, or no criterion' : 'no']);
   if (many) rows.push(['conditions', String(e.conditions)]);
+  if (row.others.length) rows.push(['here too', row.others.slice(0, 6).map(name).join('; ') + (row.others.length > 6 ? ' …' : '')]);
   kit.showTip(event, rows, nameOf(e));
 }
+function name(row) {
+  return nameOf(row.entry);
+}
 
-var shownRows = [];
+var shownRows = [], shownMarks = [];
 var self = kit.chart('cost', function(width) {
   var left = 64, right = 12, w = width - left - right, height = width < 520 ? 300 : 420;
   var entries = group().entries, rows = rowsOf(entries), all = [];
@@ -108,9 +112,10 @@ var self = kit.chart('cost', function(width) {
     all = all.concat([r.v], r.span || []);
   });
   var floor = kit.logFloor(all);
-  tell(rows, entries.length - rows.length);
   self.plot.textContent = '';
+  shownMarks = [];
   if (!rows.length || !floor) {
+    tell(rows, entries.length - rows.length);
     self.plot.append(kit.make(
         'p', {class: 'small'}, rows.length ? 'The value is 0 at every choice.' : 'No choice has finite values.'));
     return null;
@@ -118,15 +123,30 @@ var self = kit.chart('cost', function(width) {
   function height_of(v) {
     return v > 0 ? v : floor.zero;
   }
-  var x = kit.speed.spread(rows, w);
+  var x = kit.speed.place(rows, w);
   rows.forEach(function(r) {
     r.y = height_of(r.v);
     if (r.span) r.bottom = height_of(r.span[0]), r.top = height_of(r.span[1]);
   });
   var front = kit.speed.frontOf(rows), last = front[front.length - 1];
+  function rank(r) {
+    return r.id === state.id ? 0 : r.entry.recommended ? 1 : front.indexOf(r) >= 0 ? 2 : r.counts ? 3 : 4;
+  }
+  function before(a, b) {
+    return rank(a) - rank(b) || a.v - b.v;
+  }
+  var marks = shownMarks = kit.speed.together(rows, function(r) {
+    return height * Math.log(floor.high / r.y) / Math.log(floor.high / floor.low);
+  }, before);
   function only(test) {
     return rows.filter(test);
   }
+  tell(rows, entries.length - rows.length);
+  // Bars of one cost would lie on each other, so there the first choice has its bar.
+  var barred = {};
+  rows.slice().sort(before).forEach(function(r) {
+    if (r.span && !(r.x in barred)) barred[r.x] = r;
+  });
   return {
     tip: tip,
     spec: {
@@ -135,10 +155,10 @@ var self = kit.chart('cost', function(width) {
       padding: {left: left, right: right, top: 10, bottom: 46},
       autosize: 'none',
       data: [
-        {name: 'rows', values: rows}, {
+        {name: 'rows', values: marks}, {
           name: 'spans',
           values: only(function(r) {
-            return r.span;
+            return barred[r.x] === r;
           })
         },
         {
@@ -243,7 +263,18 @@ function tell(rows, missing) {
         (front.length > 5 ? ' … (' + front.length + ')' : '') + '.');
   notes.textContent = text.join(' ');
   words.textContent = '';
-  if (chosen) words.append.apply(words, (chosen.recommended ? ['Recommended: '] : []).concat(describe(chosen)));
+  if (!chosen) return;
+  words.append.apply(words, (chosen.recommended ? ['Recommended: '] : []).concat(describe(chosen)));
+  // The choices that share its mark, because a pointer cannot tell them apart.
+  var mark = shownMarks.filter(function(m) {
+    return m.entry === chosen;
+  })[0];
+  if (!mark || !mark.others.length) return;
+  words.append(' At the same cost with nearly the same error: ');
+  mark.others.forEach(function(r, i) {
+    words.append(i ? '; ' : '', kit.make('a', {href: '#p' + r.id}, nameOf(r.entry)));
+  });
+  words.append('.');
 }
 // The picture that the page has of one of the choice's points.
 function picture(entry) {
@@ -293,6 +324,9 @@ function legend() {
   }
   symbol(path(kit.speed.cross, 'none', 'var(--bad)'), 'at no usable bias');
   symbol('<line x1="13" x2="13" y1="0" y2="12" stroke="var(--soft)" stroke-width="1.6"/>', 'over the usable window');
+  symbol(
+      '<circle cx="6" cy="6" r="4" fill="var(--grid)" stroke="var(--ink)"/><text x="12" y="9.5" font-size="10" fill="var(--soft)">+2</text>',
+      'several at one place');
   if (g.entries.some(function(e) {
         return e.costs[state.cost].length > 2;
       }))
@@ -349,7 +383,7 @@ self.plot.addEventListener('keydown', function(event) {
   var way = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0;
   if (!way || !shownRows.length) return;
   var order = shownRows.slice().sort(function(a, b) {
-    return a.px - b.px;
+    return a.px - b.px || a.v - b.v;
   }),
       at = order.findIndex(function(r) {
         return state.id === null ? r.entry.recommended : r.id === state.id;

@@ -112,7 +112,8 @@ function measures() {
 // Ticks of a logarithmic axis: powers of ten, and 2 and 5 between them if there is room.
 function logTicks(low, high) {
   var decades = Math.log10(high / low),
-      steps = decades < 1.2 ? [1, 1.5, 2, 3, 5, 7] :
+      steps = decades < 0.4 ? [1, 1.2, 1.4, 1.6, 1.8, 2, 2.5, 3, 3.5, 4, 4.5, 5, 6, 7, 8, 9] :
+      decades < 1.2 ? [1, 1.5, 2, 3, 5, 7] :
       decades < 4           ? [1, 2, 5] :
                               [1],
       out = [];
@@ -123,8 +124,14 @@ function logTicks(low, high) {
     });
   return out;
 }
+// An expression of Vega for the labels of an axis: "0.5 %", "1.5 M", "16 384".
 function axisLabel(unit) {
-  return unit === 'fraction' ? 'format(datum.value * 100, \'~r\') + \'\u202f%\'' : 'format(datum.value, \'~r\')';
+  if (unit === 'fraction') return 'format(datum.value * 100, \'~r\') + \'\u202f%\'';
+  function scaled(power, letter) {
+    return 'datum.value >= 1e' + power + ' ? format(datum.value / 1e' + power + ', \'~r\') + \'\u202f' + letter + '\' : ';
+  }
+  return scaled(9, 'G') + scaled(6, 'M') + 'datum.value >= 1e4 ? replace(format(datum.value, \',~r\'), ' +
+      'regexp(\',\', \'g\'), \'\u202f\') : format(datum.value, \'~r\')';
 }
 
 var config = {

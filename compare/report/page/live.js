@@ -98,19 +98,55 @@ function start(bytes) {
     return kit.digits(d) + ' depth = ' + kit.digits(d * live.m_per_depth) +
         ' m = ' + kit.digits(d * live.texels_per_depth) + ' texels';
   }
+  // The point's own picture, in full size, is of the bias as set. It is shown at that bias, and the live one on top of it at
+  // every other.
+  var choices = [], whole = make('img', {class: 'whole', hidden: ''});
+  canvas.before(whole);
+  function wholeOf(wanted) {
+    return document.querySelector(
+        '.pictures[data-point="' + live.point + '"] figure[data-name="' + (wanted === 'causes' ? 'classes' : wanted) +
+        '"] img');
+  }
+  function isAt(mark) {  // a mark may have been converted from another unit
+    return Math.abs(depth - mark) <= 1e-9 * Math.abs(mark);
+  }
+  function showWhole() {
+    var found = isAt(live.marks.set) && wholeOf(kind);
+    whole.hidden = !found;
+    canvas.hidden = Boolean(found);
+    if (!found) return false;
+    if (whole.src !== found.src) whole.src = found.src;
+    whole.alt = found.alt;
+    return true;
+  }
+  function tell(words, values) {
+    facts.textContent = '';
+    facts.append(
+        make('b', {}, live.parameter), ' ' + text(depth) + words + ' · error ',
+        make('b', {}, kit.shown(values.error, 'fraction')), ' · acne ',
+        make('b', {}, kit.shown(values.acne, 'fraction')), ' · Peter Panning ',
+        make('b', {}, kit.shown(values.peter_panning, 'fraction')));
+  }
   function draw() {
+    slider.setAttribute('aria-valuetext', text(depth));
+    choices.forEach(function(c) {
+      c.button.setAttribute('aria-pressed', String(isAt(c.depth)));
+    });
+    var now = paint();
+    if (showWhole())
+      tell(', as set', kit.byId[live.point].metrics);
+    else
+      tell('', now);
+  }
+  // The live picture. Returns its numbers.
+  function paint() {
     var now = answersAt(depth / live.depth_per_unit), image = context.createImageData(live.width, live.height);
     for (var i = 0; i < pixels; ++i) {
       image.data.set(colourOf(i, now.shown[i]), 4 * i);
       image.data[4 * i + 3] = 255;
     }
     context.putImageData(image, 0, 0);
-    slider.setAttribute('aria-valuetext', text(depth));
-    facts.textContent = '';
-    facts.append(
-        make('b', {}, live.parameter), ' ' + text(depth) + ' · error ', make('b', {}, kit.shown(now.error, 'fraction')),
-        ' · acne ', make('b', {}, kit.shown(now.acne, 'fraction')), ' · Peter Panning ',
-        make('b', {}, kit.shown(now.peter_panning, 'fraction')));
+    return now;
   }
   function set(d) {
     depth = d;
@@ -132,7 +168,9 @@ function start(bytes) {
     function go() {
       set(live.marks[m[0]]);
     }
-    controls.append(make('button', {type: 'button', on: {click: go}}, m[1]));
+    var button = make('button', {type: 'button', on: {click: go}}, m[1]);
+    choices.push({depth: live.marks[m[0]], button: button});
+    controls.append(button);
     marks.append(make('i', {class: 'mark ' + m[0], style: 'left:' + 100 * positionOf(live.marks[m[0]]) / steps + '%'}));
   });
   if (live.marks.window) {
@@ -150,9 +188,6 @@ function start(bytes) {
     if (p && p.at) return p.at.depth;
     return 'recommended' in live.marks ? live.marks.recommended : 'best' in live.marks ? live.marks.best : depth;
   }
-  addEventListener('beforeprint', function() {
-    set(best());
-  });
   function follow() {
     set(page.bias === 'set' && 'set' in live.marks ? live.marks.set : best());
   }
@@ -161,7 +196,8 @@ function start(bytes) {
   function pictureAt(d, wanted) {
     var held = [depth, kind];
     kind = wanted;
-    set(d);
+    depth = d;
+    paint();
     var address = canvas.toDataURL();
     kind = held[1];
     set(held[0]);
@@ -179,7 +215,11 @@ function start(bytes) {
     }
     return found;
   }
-  follow();
+  // The page opens with the picture of full size.
+  if (wholeOf(kind) && 'set' in live.marks)
+    set(live.marks.set);
+  else
+    follow();
   page.live = {
     data: live,
     answersAt: answersAt,

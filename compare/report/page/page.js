@@ -106,10 +106,10 @@ function scrollable() {
   });
 }
 
-// Nothing is folded on paper.
+// On paper nothing is folded but what is left out there (style.css), and tables of more numbers than a chart beside them has.
 var unfolded = [];
 addEventListener('beforeprint', function() {
-  unfolded = Array.prototype.slice.call(document.querySelectorAll('details:not([open])'));
+  unfolded = Array.prototype.slice.call(document.querySelectorAll('details:not([open]):not(.glossary):not(.more)'));
   unfolded.forEach(function(d) {
     d.open = true;
   });

@@ -35,6 +35,7 @@ data.swept.forEach(function(s) {
     label: s.label,
     unit: s.unit,
     help: s.name,
+    text: !s.numeric,
     value: function(p) {
       return p.settings[s.name];
     },
@@ -81,7 +82,7 @@ var heads = columns.map(function(c, i) {
       },
       c.label);
   if (c.unit) button.append(' ', make('small', {}, c.unit));
-  return make('th', {scope: 'col'}, button);
+  return make('th', {scope: 'col', class: c.text ? 'text' : ''}, button);
 });
 heads.forEach(function(h) {
   head.append(h);
@@ -116,6 +117,7 @@ function more(n) {
     if (p.id === page.selected) tr.className = 'selected';
     body.append(tr);
   }
+  kit.align(scroll.querySelector('table'));
 }
 function compare(a, b) {
   var c = columns[sorted.column], x = c.value(a), y = c.value(b), m = +x, n = +y, sign = sorted.down ? -1 : 1;

@@ -1,4 +1,4 @@
-// What the chart of cost against error is drawn from: shapes, the front, places side by side, and Vega's marks.
+// What the chart of cost against error is drawn from: shapes, the front, places, and Vega's marks.
 (function() {
 'use strict';
 var kit = window.noonmarkPage.kit;
@@ -34,47 +34,39 @@ function frontOf(rows) {
   return front;
 }
 
-// Marks of equal cost would hide each other, so they stand side by side, the most accurate on the left, at most half-way
-// to the next cost. Returns the scale of x; each row gets its place `px`.
-function spread(rows, w) {
-  var columns = [], step = 14;
-  rows.slice()
-      .sort(function(a, b) {
-        return a.x - b.x || a.v - b.v;
-      })
-      .forEach(function(r) {
-        var last = columns[columns.length - 1];
-        if (last && last.x === r.x)
-          last.rows.push(r);
-        else
-          columns.push({x: r.x, rows: [r]});
-      });
-  var low = Infinity, high = -Infinity;
+// Each choice stands at its cost. Returns the scale of x; each row gets its place `px`, and that of its interval.
+function place(rows, w) {
+  var low = Infinity, high = -Infinity, room = 14;
   rows.forEach(function(r) {
     low = Math.min(low, r.low), high = Math.max(high, r.high);
   });
-  var log = low > 0, same = low === high;
-  function room(column) {
-    return Math.min(0.2 * w, 10 + step * column.rows.length / 2);
-  }
-  var from = same ? 0 : room(columns[0]), to = same ? w : w - room(columns[columns.length - 1]);
-  var domain = !same ? [low, high] : log ? [low / 2, high * 2] : [low - 1, high + 1];
-  function place(x) {
+  var log = low > 0, same = low === high, domain = [low, high];
+  if (same) domain = log ? [low / 2, high * 2] : [low - 1, high + 1];
+  function at(x) {
     var t = log ? Math.log(x / domain[0]) / Math.log(domain[1] / domain[0]) : (x - domain[0]) / (domain[1] - domain[0]);
-    return from + t * (to - from);
+    return room + t * (w - 2 * room);
   }
-  columns.forEach(function(column, i) {
-    column.px = place(column.x);
-    var left = i ? (column.px - place(columns[i - 1].x)) / 2 : column.px,
-        right = i + 1 < columns.length ? (place(columns[i + 1].x) - column.px) / 2 : w - column.px;
-    var n = column.rows.length, apart = Math.min(step, 2 * (Math.min(left, right) - 2) / n);
-    column.rows.forEach(function(r, k) {
-      var moved = Math.max(0, apart) * (k - (n - 1) / 2);
-      r.px = column.px + moved;
-      r.pxLow = place(r.low) + moved, r.pxHigh = place(r.high) + moved;
-    });
+  rows.forEach(function(r) {
+    r.px = at(r.x), r.pxLow = at(r.low), r.pxHigh = at(r.high);
   });
-  return {name: 'x', type: log ? 'log' : 'linear', zero: false, nice: false, domain: domain, range: [from, to]};
+  return {name: 'x', type: log ? 'log' : 'linear', zero: false, nice: false, domain: domain, range: [room, w - room]};
+}
+
+// Marks of equal cost whose errors are nearly equal would hide each other. Such choices share one mark, at the place of the
+// first of them by `before`; its `others` are the rest. y(row): where the row stands, in pixels. Returns the rows with marks.
+function together(rows, y, before) {
+  var least = 11, marks = [];
+  rows.slice().sort(before).forEach(function(r) {
+    var mark = marks.filter(function(m) {
+      return m.x === r.x && Math.abs(y(m) - y(r)) < least;
+    })[0];
+    r.others = [];
+    if (mark)
+      mark.others.push(r);
+    else
+      marks.push(r);
+  });
+  return marks;
 }
 
 function markAt(size, more) {
@@ -187,6 +179,25 @@ function marksOf(w, floor) {
         }
       }
     },
+    {
+      type: 'text',
+      name: 'counts',
+      from: {data: 'rows'},
+      interactive: false,
+      encode: {
+        enter: {
+          x: {field: 'px'},
+          y: {scale: 'y', field: 'y'},
+          dx: {signal: 'datum.px > ' + (w - 34) + ' ? -9 : 9'},
+          align: {signal: 'datum.px > ' + (w - 34) + ' ? \'right\' : \'left\''},
+          baseline: {value: 'bottom'},
+          dy: {value: -2},
+          fontSize: {value: 11},
+          text: {signal: 'length(datum.others) ? \'+\' + length(datum.others) : \'\''},
+          fill: {value: 'var(--soft)'}
+        }
+      }
+    },
     ring('best', 'var(--good)'), ring('chosen', 'var(--accent)'),
     {type: 'text', from: {data: 'best'}, interactive: false, encode: {enter: label}}
   ].concat(kit.zeroLabel(floor));
@@ -197,7 +208,8 @@ kit.speed = {
   cross: cross,
   disc: disc,
   frontOf: frontOf,
-  spread: spread,
+  place: place,
+  together: together,
   marksOf: marksOf
 };
 })();

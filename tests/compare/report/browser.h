@@ -28,13 +28,13 @@ inline std::string output_of(const std::string& command) {
 class Browser : public testing::Test {
  protected:
   // Opens the page and runs a probe in it (a file beside this one), which leaves what it saw. Without a browser the test
-  // is skipped, with this reason. window: "WIDTH,HEIGHT" in CSS pixels. Tests of one process that open the same page
+  // is skipped, with this reason. window: "WIDTH,HEIGHT" in CSS pixels; Chromium's windows have at least 500, so a
+  // narrower page stands in a frame of that width. Tests of one process that open the same page
   // share one start of the browser, because a start takes two seconds of processor time; see TOGETHER in
   // tests/CMakeLists.txt.
   void open(std::string page, const char* probe, const std::string& window = "1200,900") {
-    std::string browser = output_of("command -v chromium || command -v chromium-browser || command -v google-chrome");
-    if (browser.empty()) GTEST_SKIP() << "there is no chromium, so the scripts of the page are not tested";
-    browser.pop_back();
+    const std::string browser = name_of_browser();
+    if (browser.empty()) GTEST_SKIP() << why_skipped;
     const auto insert = [&](const std::string& before, const std::string& script) {
       const size_t at = page.rfind(before);
       ASSERT_NE(at, std::string::npos);
@@ -47,7 +47,8 @@ class Browser : public testing::Test {
            "addEventListener('securitypolicyviolation', function(e) { errors.push(e.violatedDirective); });"
            "function leave(saw) { var probe = document.createElement('pre'); probe.id = 'probe';"
            "probe.textContent = JSON.stringify(saw).replace(/[<>&]/g, function(c) {"
-           "return '\\\\u00' + c.charCodeAt(0).toString(16); }); document.body.append(probe); }"
+           "return '\\\\u00' + c.charCodeAt(0).toString(16); }); document.body.append(probe);"
+           "if (parent !== window) parent.postMessage(probe.textContent, '*'); }"
            "['error', 'warn'].forEach(function(k) { console[k] = function(what) { errors.push(String(what)); }; });");
     static std::map<std::string, nlohmann::json> seen;
     if (const auto known = seen.find(window + page); known != seen.end()) {
@@ -55,17 +56,21 @@ class Browser : public testing::Test {
       EXPECT_EQ(saw_["errors"], nlohmann::json::array()) << "errors of the page's scripts";
       return;
     }
-    folder_ = std::filesystem::path(testing::TempDir()) / ("noonmark-page-" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_);
-    const std::string file = (folder_ / "report.html").string();
+    make_folder();
+    std::string file = (folder_ / "report.html").string();
     write_file_atomically(file, page);
-    const std::string dom = output_of(
-        "HOME='" + folder_.string() + "' timeout 100 '" + browser +
-        "' --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --window-size=" + window +
-        " "
-        "--virtual-time-budget=10000 --user-data-dir='" +
-        (folder_ / "profile").string() + "' --dump-dom 'file://" + file + "' 2>'" + (folder_ / "browser.txt").string() +
-        "'");
+    if (const int width = std::stoi(window); width < 500) {
+      file = (folder_ / "frame.html").string();
+      write_file_atomically(file,
+                            "<!doctype html><body><iframe src=\"report.html\" style=\"border:0;height:900px;width:" +
+                                std::to_string(width) +
+                                "px\"></iframe><script>addEventListener('message', function(e) { var probe = "
+                                "document.createElement('pre'); probe.id = 'probe'; probe.textContent = e.data; "
+                                "document.body.append(probe); });</script></body>");
+    }
+    const std::string dom =
+        output_of(command(browser) + " --window-size=" + window + " --virtual-time-budget=10000 --dump-dom 'file://" +
+                  file + "' 2>'" + (folder_ / "browser.txt").string() + "'");
     const std::string head = "<pre id=\"probe\">";
     const size_t begin = dom.rfind(head);
     ASSERT_NE(begin, std::string::npos) << "the scripts of the page stopped; the output of the browser: "
@@ -74,11 +79,40 @@ class Browser : public testing::Test {
     seen[window + page] = saw_;
     EXPECT_EQ(saw_["errors"], nlohmann::json::array()) << "errors of the page's scripts";
   }
+  // The bytes of the PDF that the browser prints. Without a browser the test is skipped.
+  std::string printed(const std::string& page) {
+    const std::string browser = name_of_browser();
+    const auto skip = [] { GTEST_SKIP() << why_skipped; };
+    if (browser.empty()) return skip(), "";
+    make_folder();
+    const std::string file = (folder_ / "report.html").string(), pdf = (folder_ / "report.pdf").string();
+    write_file_atomically(file, page);
+    output_of(command(browser) + " --print-to-pdf='" + pdf + "' --virtual-time-budget=10000 'file://" + file +
+              "' 2>&1");
+    return read_file(pdf);
+  }
   void TearDown() override {
     std::error_code ignored;
     if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
   }
   int marks(const char* chart, const char* kind) const { return saw_["charts"].at(chart).at(kind); }
+
+  static constexpr const char* why_skipped = "there is no chromium, so the page is not tested in a browser";
+  static std::string name_of_browser() {
+    std::string name = output_of("command -v chromium || command -v chromium-browser || command -v google-chrome");
+    if (!name.empty()) name.pop_back();
+    return name;
+  }
+  void make_folder() {
+    folder_ = std::filesystem::path(testing::TempDir()) / ("noonmark-page-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  // The start of a command that runs the browser without a window.
+  std::string command(const std::string& browser) const {
+    return "HOME='" + folder_.string() + "' timeout 100 '" + browser +
+           "' --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --user-data-dir='" +
+           (folder_ / "profile").string() + "'";
+  }
 
   std::filesystem::path folder_;
   nlohmann::json saw_;

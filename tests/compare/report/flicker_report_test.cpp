@@ -49,7 +49,8 @@ TEST(FlickerSection, HasAStripForEachChoiceAndABarForEachFrame) {
   EXPECT_TRUE(holds_text(html, "y=\"0.000\" width=\"300.00\" height=\"30.000\" fill=\"rgb(0,114,178)\"")) << html;
   EXPECT_TRUE(holds_text(html, "no point of the world changes in any frame"));
   EXPECT_TRUE(holds_text(html, "at most " + report::quantity(0.04, "fraction") + ", at frame 1")) << html;
-  EXPECT_EQ(times_of(html, "<tr><th scope=\"row\">"), 2u + 6u);  // a row for each choice, and one for each frame
+  EXPECT_EQ(times_of(html, "<tr><th class=\"text\" scope=\"row\">"),
+            2u + 6u);  // a row for each choice, and one for each frame
   EXPECT_FALSE(holds_text(html, "<script"));
   EXPECT_FALSE(holds_text(html, "nan"));
 }

@@ -94,8 +94,8 @@ TEST(Report, DoesNotComparePointsOfDifferentParts) {
   const std::string page = render_report(results, sample_picture);
   for (const char* text : {"What to set", "id=\"bias\"", "href=\"#bias\"", "bias curve.</p>"})
     EXPECT_EQ(page.find(text), std::string::npos) << text;
-  for (const char* text :
-       {"id=\"answer\"", "id=\"points\"", "href=\"#points\"", "<th>Part</th>", ">two</td>", "2 parts", "id=\"cost\""})
+  for (const char* text : {"id=\"answer\"", "id=\"points\"", "href=\"#points\"", "<th class=\"text\">Part</th>",
+                           ">two</td>", "2 parts", "id=\"cost\""})
     EXPECT_NE(page.find(text), std::string::npos) << text;
 }
 
@@ -115,7 +115,7 @@ TEST(Report, EscapesWhateverTextTheResultsHold) {
   RunInfo& info = results.info;
   for (std::string* text : {&info.title, &info.experiment, &info.command, &info.commit, &info.version, &info.started,
                             &info.host_cpu, &info.gl_vendor, &info.gl_renderer, &info.gl_version, &info.gl_timer,
-                            &info.embree_version, &info.embree_isa, &info.scene_name})
+                            &info.embree_version, &info.embree_isa, &info.scene_name, &info.engines})
     *text = evil;
   info.libraries[evil] = evil;
   info.swept.push_back(evil);
@@ -316,11 +316,16 @@ TEST(Report, SmallAndEmptySweepsStillMakeAPage) {
   results.points.resize(1);
   results.points[0].pictures.clear();
   const std::string one = render_report(results, sample_picture);
-  EXPECT_NE(one.find("Resolution was not swept."), std::string::npos);
-  EXPECT_NE(one.find("extent was not swept."), std::string::npos);
+  EXPECT_EQ(one.find("not swept."), std::string::npos) << "a section that has nothing to show is left out";
+  for (const char* left_out : {"sweep", "pictures", "motion", "engines"}) {
+    EXPECT_EQ(one.find(fmt::format("<section id=\"{}\"", left_out)), std::string::npos) << left_out;
+    EXPECT_EQ(one.find(fmt::format("<a href=\"#{}\"", left_out)), std::string::npos) << left_out;
+  }
+  EXPECT_NE(one.find("<section id=\"bias\""), std::string::npos);
   EXPECT_NE(one.find("Incomplete: 1 of 32 points"), std::string::npos);
   const std::string none = render_report(Results{}, sample_picture);
   EXPECT_NE(none.find("No point was measured."), std::string::npos);
+  EXPECT_EQ(none.find("<section id=\"answer\""), std::string::npos);
   EXPECT_NO_THROW(embedded_data(none));
 }
 

@@ -22,12 +22,20 @@
   function datum(path) {
     return path.__data__.datum;
   }
+  // The rows of all marks, also of those that share one.
+  function all_rows() {
+    return choices().reduce(function(list, p) {
+      return list.concat([datum(p)], datum(p).others);
+    }, []);
+  }
   function observe() {
     return {
-      choices: choices().length,
-      crosses: choices()
-                   .filter(function(p) {
-                     return p.getAttribute('fill') === 'transparent';
+      choices: choices().reduce(function(sum, p) {
+        return sum + 1 + datum(p).others.length;
+      }, 0),
+      crosses: all_rows()
+                   .filter(function(r) {
+                     return !r.counts;
                    })
                    .length,
       bars: all('.span-bars line').length,
@@ -44,9 +52,9 @@
                  })
                  .length,
       titles: texts('.role-axis-title text'),
-      shapes: choices()
-                  .map(function(p) {
-                    return datum(p).shape;
+      shapes: all_rows()
+                  .map(function(r) {
+                    return r.shape;
                   })
                   .filter(function(s, i, list) {
                     return list.indexOf(s) === i;
@@ -72,25 +80,45 @@
       return +row.dataset.point;
     });
   }
-  // Where a mark stands, in pixels of the plot.
+  // Where a mark stands, in pixels of the window.
   function places() {
     return choices().map(function(p) {
-      var d = datum(p);
-      return [d.px, d.y];
+      var box = p.getBoundingClientRect();
+      return [box.left + box.width / 2, box.top + box.height / 2];
     });
   }
 
   saw.first = observe();
+  // All cost the same here.
+  saw.at_one_cost = Math.max.apply(null, places().map(function(p) {
+    return p[0];
+  })) - Math.min.apply(null, places().map(function(p) {
+    return p[0];
+  }));
   saw.apart = places().every(function(a, i, list) {
     return list.every(function(b, j) {
-      return i === j || a[0] !== b[0];
+      return i === j || Math.abs(a[1] - b[1]) > 8;
     });
   });
+  saw.counts = texts('.counts text').filter(Boolean);
+  saw.shared = choices()
+                   .map(function(p) {
+                     return datum(p).others.length;
+                   })
+                   .filter(Boolean)
+                   .map(function(n) {
+                     return '+' + n;
+                   });
+  // Axes of large numbers.
+  saw.ticks = texts('.role-axis-label text');
   saw.words = figure.querySelector('.facts').textContent;
   saw.legend = figure.querySelector('.legend').textContent;
   saw.options =
       {compare: await set('Compare'), cost: await set('Cost'), error: await set('Error'), shape: await set('Shape')};
 
+  // Once it is selected, a choice that shared a mark is the first of it.
+  window.noonmarkPage.select(18);
+  await later();
   var target = choices().filter(function(p) {
     return datum(p).id === 18;
   })[0];
@@ -102,10 +130,9 @@
   saw.chosen_rings = all('.chosen-ring path').length;
   saw.picture = all('.beside img').length;
   saw.clicked_words = figure.querySelector('.facts').textContent;
-  var order = choices()
-                  .map(datum)
+  var order = all_rows()
                   .sort(function(a, b) {
-                    return a.px - b.px;
+                    return a.px - b.px || a.v - b.v;
                   })
                   .map(function(d) {
                     return d.id;
