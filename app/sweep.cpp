@@ -197,7 +197,8 @@ bool add_times(Workbench& bench, ResultStore& store, const std::vector<Settings>
   };
   std::optional<std::vector<TimeMetrics>> times = time_passes(bench, timed, go_on);
   if (!times) return false;
-  progress.shown.finished(progress.rounds, "times of map and lookup: the last round");
+  progress.shown.finished(progress.rounds,
+                          fmt::format("times of map and lookup: round {0} of {0}", time_rounds(timed)));
   std::map<int64_t, TimeMetrics> of_points;
   for (size_t i = 0; i < wanted.size(); ++i) of_points[wanted[i]] = std::move((*times)[i]);
   store.set_metrics(of_points);

@@ -212,12 +212,10 @@ ResultStore ResultStore::open(const std::string& path) {
   return ResultStore(std::move(db));
 }
 
-std::string ResultStore::experiment_file(const std::string& path) {
-  try {
-    return Database(path, Database::Mode::existing).ask("SELECT value FROM info WHERE key = 'file'").value_or("");
-  } catch (const Error&) {
-    return "";
-  }
+std::string ResultStore::experiment_file(const std::string& path) try {
+  return Database(path, Database::Mode::existing).ask("SELECT value FROM info WHERE key = 'file'").value_or("");
+} catch (const Error&) {
+  return "";
 }
 
 std::vector<int64_t> ResultStore::finished() const {

@@ -90,8 +90,8 @@ TEST_F(Output, ProgressCoversTheWholeRun) {
   size_t at = 0;
   for (const char* step : {"the phase diagram (", "[1/2] map.resolution = 32 (", "[2/2] map.resolution = 64 (",
                            "times of map and lookup (", "times of map and lookup: round 1 of 9 (",
-                           "times of map and lookup: the last round (", "pictures of point ",
-                           "the worst pixel of point ", "the report (", "the report is written ("}) {
+                           "times of map and lookup: round 9 of 9 (", "pictures of point ", "the worst pixel of point ",
+                           "the report (", "the report is written ("}) {
     const size_t next = errors_.find(step, at);
     ASSERT_NE(next, std::string::npos) << step << " is missing, or comes too early:\n" << errors_;
     const std::string line = errors_.substr(next, errors_.find('\n', next) - next);

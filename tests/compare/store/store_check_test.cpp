@@ -152,5 +152,33 @@ TEST_F(StoreCheck, SaysOfDamageWhatSqliteFound) {
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
+// A point is found by the digest of its scene, so the scenes of two fingerprints may differ.
+TEST_F(StoreCheck, ResumesWhateverTheContentsOfItsScenes) {
+  const std::string scene = "scene street.glb (45;0) = ", before = checked_fingerprint + scene + "a1\n",
+                    after = checked_fingerprint + scene + "b2\nscene yard.glb (45;0) = c3\n";
+  ResultStore(path, before, Existing::resume).add(sample_point(1));
+  ResultStore store(path, after, Existing::resume);
+  EXPECT_EQ(store.finished(), std::vector<int64_t>{1});
+  store.set_plan(after, "");
+  EXPECT_EQ(store.fingerprint(), after);
+  store.set_plan(before, "");
+  EXPECT_EQ(store.fingerprint(), before + "scene yard.glb (45;0) = c3\n") << "of points that were set aside";
+}
+
+TEST_F(StoreCheck, SaysWhoseResultsItHoldsAsFarAsItCanBeRead) {
+  EXPECT_EQ(ResultStore::experiment_file(path), "");
+  fresh();
+  EXPECT_EQ(ResultStore::experiment_file(path), "") << "no run has said it yet";
+  RunInfo info = sample_info();
+  info.file = "../x.toml";
+  fresh().set_info(info, 1);
+  EXPECT_EQ(ResultStore::experiment_file(path), "../x.toml");
+  sqlite::Database(path, sqlite::Database::Mode::existing).execute("PRAGMA user_version = 99");
+  EXPECT_EQ(ResultStore::experiment_file(path), "../x.toml") << "of another version";
+  write_file_atomically(
+      path, "no database, but as long as the head of one has to be, which is a hundred bytes or more ......");
+  EXPECT_EQ(ResultStore::experiment_file(path), "");
+}
+
 }  // namespace
 }  // namespace noonmark
