@@ -54,7 +54,7 @@ std::string atlas() {
     row.entry.driver = "scene.theta_deg";
     row.entry.cure = "a bias by the slope";
     row.report = "grazing/report.html";
-    row.command = "noonmark check experiments/atlas/a-file-with-quite-a-long-name-without-spaces.toml";
+    row.command = "noonmark check mine/a-file-with-quite-a-long-name-without-spaces.toml";
     for (const char* technique : {"constant", "slope", "receiver plane", "normal offset", "texel plane"})
       row.cells.push_back({.technique = technique});
   }
@@ -79,7 +79,7 @@ std::string tornado() {
 std::string index() {
   IndexEntry entry;
   entry.verdict = IndexEntry::Verdict::broken;
-  entry.experiment = "experiments/a_folder_with_a_long_name/an_experiment_with_a_very_long_name_without_spaces.toml";
+  entry.experiment = "mine_in_a_folder_with_a_long_name/an_experiment_with_a_very_long_name_without_spaces.toml";
   entry.title = "An experiment";
   entry.report = "report.html";
   entry.words = "1 of 2 bounds held";
