@@ -56,13 +56,17 @@ std::string atlas() {
     row.report = "grazing/report.html";
     row.command = "noonmark check mine/a-file-with-quite-a-long-name-without-spaces.toml";
     for (const char* technique : {"constant", "slope", "receiver plane", "normal offset", "texel plane"})
-      row.cells.push_back({.technique = technique});
+      row.cells.emplace_back().technique = technique;
   }
   return to_atlas_page(rows, "0.1.0");
 }
 
 std::string tornado() {
-  Tornado around{.error = 0.001, .held = true, .accuracy = "error", .placements = 64, .conditions = 2};
+  Tornado around;
+  around.error = 0.001;
+  around.held = true;
+  around.accuracy = "error";
+  around.placements = 64;
   for (const char* setting : {"map.resolution", "bias.constant"}) {
     TornadoRow& row = around.rows.emplace_back();
     row.setting = setting;
@@ -127,9 +131,9 @@ TEST_P(Width, NoPageScrollsSideways) {
 }
 INSTANTIATE_TEST_SUITE_P(Layout, Width,
                          testing::Combine(testing::Values("400,900", "1280,900"), testing::ValuesIn(pages)),
-                         [](const auto& info) {
-                           return std::string(std::get<1>(info.param).name) +
-                                  (std::string(std::get<0>(info.param)) == "400,900" ? "400" : "1280");
+                         [](const auto& test) {
+                           return std::string(std::get<1>(test.param).name) +
+                                  (std::string(std::get<0>(test.param)) == "400,900" ? "400" : "1280");
                          });
 
 // A live picture of 2 x 1 pixels (compare/ladder/live_picture.h): both are lit from the bias 0.001 on.
@@ -211,12 +215,15 @@ TEST_F(Layout, EachChartIsSaved) {
       EXPECT_TRUE(file["svg"]) << name;
       EXPECT_EQ(file["variables"], 0) << name << ": outside of the page its variables have no value";
       EXPECT_GT(file["marks"], 5) << name;
-      if (name == "noonmark-bias.svg")
+      if (name == "noonmark-bias.svg") {
         EXPECT_NE(file["text"].get<std::string>().find("Acne"), std::string::npos) << "legend";
+      }
     } else {
       ++png;
       EXPECT_TRUE(file["png"]) << name;
-      if (name != "noonmark-live-picture.png") EXPECT_GT(file["size"], 4000) << name;
+      if (name != "noonmark-live-picture.png") {
+        EXPECT_GT(file["size"], 4000) << name;
+      }
     }
   }
   EXPECT_EQ(png, saw_["charts"].get<size_t>());
