@@ -23,12 +23,12 @@ std::string what_to_install(const std::string& why) {
   const std::string path = why.substr(0, why.find(": "));
   const std::string library = path.substr(path.rfind('/') + 1);  // npos + 1 is 0
   if (library == image_module_file)
-    return "it belongs beside the program, or in lib/noonmark where bin/ is installed; build or install again";
+    return "it belongs in lib/noonmark, beside the program's folder; build or install again";
   if (library.starts_with("libOpenImageIO")) return "on Debian, apt install libopenimageio2.4";
   return fmt::format("{} is a library that OpenImageIO needs; install the package that contains it", library);
 }
 
-// The loader searches the program's RUNPATH, which names places beside the program (app/CMakeLists.txt).
+// The loader searches the program's RUNPATH, which names a place relative to the program (app/CMakeLists.txt).
 template <class Function>
 Function* load(const char* name) {
   void* const module = dlopen(image_module_file, RTLD_NOW | RTLD_LOCAL);  // never closed

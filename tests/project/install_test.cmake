@@ -1,9 +1,10 @@
 # Tests an installed Noonmark as another project and a user use it. STEP is one of:
 #   prefix    installs the build into WORK/prefix and checks the files; the other steps need it
+#   runpath   no binary, built or installed, searches libraries in a folder that depends on where it is started
 #   program   the installed program does what the built one does, and writes pictures
 #   consumer  tests/project/consumer configures, builds and runs against it
 #   headers   every installed header compiles, every component links, and what app/ includes is among them
-#   cmake -DSTEP=... -DSOURCE=... -DBUILD=... -DWORK=... -DPROGRAM=... -DBUILD_TYPE=... -DGENERATOR=... -DCXX=... -DCXX_FLAGS=... -P
+#   cmake -DSTEP=... -DSOURCE=... -DBUILD=... -DWORK=... -DPROGRAM=... -DREADELF=... -DBUILD_TYPE=... -DGENERATOR=... -DCXX=... -DCXX_FLAGS=... -P
 cmake_minimum_required(VERSION 3.25)
 set(prefix ${WORK}/prefix)
 
@@ -47,6 +48,37 @@ if(STEP STREQUAL "prefix")
     execute_process(COMMAND grep -arlE "(^|[^A-Za-z0-9._}/-])${pattern}(/|$)" ${places} OUTPUT_VARIABLE found)
     if(found)
       message(SEND_ERROR "these name ${folder}, which need not be there when they are used:\n${found}")
+    endif()
+  endforeach()
+
+elseif(STEP STREQUAL "runpath")
+  if(NOT READELF)
+    message("SKIPPED: there is no readelf")
+    return()
+  endif()
+  # The loader takes an empty element for the current folder, and a relative one from there on.
+  set(element "(/[^:]*|[$]ORIGIN(/[^:]*)?)")
+  file(GLOB_RECURSE files ${BUILD}/* ${prefix}/*)
+  list(FILTER files EXCLUDE REGEX "/CMakeFiles/|[.](o|a|gch)$")
+  set(with_path)
+  foreach(file ${files})
+    file(READ ${file} magic LIMIT 4 HEX)
+    if(NOT magic STREQUAL "7f454c46")  # ELF
+      continue()
+    endif()
+    run("readelf of ${file}" ${READELF} -d ${file})
+    string(REGEX MATCHALL "\\((RPATH|RUNPATH)\\)[^\n]*" lines "${output}")
+    foreach(line ${lines})
+      string(REGEX REPLACE ".*\\[(.*)\\].*" "\\1" path "${line}")
+      list(APPEND with_path ${file})
+      if(NOT path MATCHES "^${element}(:${element})*$")
+        message(SEND_ERROR "${file} has the library path '${path}'")
+      endif()
+    endforeach()
+  endforeach()
+  foreach(file ${PROGRAM} ${prefix}/bin/noonmark)
+    if(NOT file IN_LIST with_path)
+      message(SEND_ERROR "${file} names no folder for its picture library")
     endif()
   endforeach()
 
