@@ -65,7 +65,7 @@ std::string findings_text(const Results& results, const BaselineComparison* comp
     text += describe(bound, find_point(results.points, bound.point), results.info.swept);
   if (!results.laws.empty()) text += (results.bounds.empty() ? "" : "\n") + law_table(results.laws);
   for (const LawResult& law : results.laws)
-    if (!law.found.empty()) text += fmt::format("found: {}\n", law.found);
+    if (!law.found.empty()) text += fmt::format("found: {}\n", printable(law.found));
   if (compared)
     for (const auto* lines : {&compared->worse, &compared->better, &compared->notes})
       for (const std::string& line : *lines) text += printable(line) + "\n";

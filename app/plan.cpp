@@ -74,7 +74,7 @@ void print_plan(const Experiment& experiment, const std::optional<Shard>& shard)
     std::string text = part.part.empty() ? "" : "  " + part.part;
     for (const Swept& swept : part.swept)
       text += fmt::format("  {} = {}", swept.name, find_setting(swept.name).get(planned[i]));
-    fmt::print("{:5}{}  ({})\n", i, text, bytes_text(memory[i].bytes()));
+    fmt::print("{:5}{}  ({})\n", i, printable(text), bytes_text(memory[i].bytes()));
   }
   for (const Settings& point : planned) all_taps += taps(point);
   if (listed.empty()) {

@@ -122,7 +122,7 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
   clear_abandoned_files(out);
   remove_earlier_advice(out);
   Progress progress(arguments.quiet);  // without a remaining time: what is found decides what is tried next
-  const auto say = [&](const std::string& step) { progress.say(step); };
+  const auto say = [&](const std::string& step) { progress.say(printable(step)); };
   Advice advice = search(bench, request, say);
   if (advice.answer && options.around)
     advice.around = settings_around(bench, answer_under_conditions(advice),
@@ -138,7 +138,7 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
   if (arguments.json)
     fmt::print("{}", advice_json(advice, engines));
   else
-    for (const std::string& line : advice_text(advice)) fmt::print("{}\n", line);
+    for (const std::string& line : advice_text(advice)) fmt::print("{}\n", printable(line));
   if (!advice.answer) return 1;
   write_file_atomically(out + "/recommended.toml", advice_experiment(advice, out));
   write_file_atomically(out + "/engines.txt", advice_engines(engines));
@@ -151,7 +151,8 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
       fmt::print("  {} ({})\n", engine.engine, engine.version);
       for (const std::string& line : engine.lines) fmt::print("    {}\n", line);
     }
-    if (const std::string note = notes_line(bench.scene(first.scene)); !note.empty()) fmt::print("note: {}\n", note);
+    if (const std::string note = notes_line(bench.scene(first.scene)); !note.empty())
+      fmt::print("note: {}\n", printable(note));
     std::set<std::string> fitted;  // conditions may be lights that stand elsewhere
     for (const Settings& condition : request.conditions)
       fitted.insert(map_fit_note(bench.scene(condition.scene), condition));

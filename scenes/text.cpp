@@ -57,6 +57,11 @@ std::string counted(size_t count, std::string_view what) {
 
 std::string printable(std::string_view text, Lines lines) {
   std::string shown;
+  const size_t begin = lines == Lines::one ? text.find_first_not_of(' ') : std::string_view::npos;
+  if (begin != std::string_view::npos && text.substr(begin).starts_with("::")) {
+    shown = std::string(begin, ' ') + "\\x3a";
+    text.remove_prefix(begin + 1);
+  }
   while (!text.empty()) {
     const size_t length = utf8_length(text);
     const std::string_view character = text.substr(0, std::max<size_t>(length, 1));

@@ -20,7 +20,9 @@ enum class Lines { one, many };  // many: line breaks (\n) and tabs stay
 // "1 point", "3 points"
 std::string counted(size_t count, std::string_view what);
 
-// Replaces control characters, and bytes that are not UTF-8, by \xNN; leaves everything else as it is.
+// Replaces control characters, and bytes that are not UTF-8, by \xNN; leaves everything else as it is. Also replaced, of
+// one line, is the first of two colons with which it begins: a CI server takes "::error file=..." for a command of the
+// program whose log it reads.
 std::string printable(std::string_view text, Lines lines = Lines::one);
 
 // Whether text ends so, letters of ASCII in either case: file systems and tools write .GLTF too. ending: in lower case.

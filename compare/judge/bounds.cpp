@@ -319,7 +319,7 @@ std::string found_text(const BoundResult& bound) {
 }
 
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept) {
-  std::string text = fmt::format("{}: {}", verdict_of(bound), bound_text(bound));
+  std::string text = fmt::format("{}: {}", verdict_of(bound), printable(bound_text(bound)));
   if (bound.points == 0) return text + "\n  no finished point matches it; change its where, or the swept values\n";
   text += fmt::format("; found {} ({} of {} point{}{}{})\n", found_text(bound), bound.join, bound.points,
                       bound.points == 1 ? "" : "s", bound.placement.empty() ? "" : ", at ",
@@ -339,9 +339,9 @@ std::string describe(const BoundResult& bound, const PointRecord* point, std::sp
       !why_no_curve(*point).empty())
     text += fmt::format("  it is read off the bias curve, but this point has no curve: {}\n", why_no_curve(*point));
   if (point) {
-    text += fmt::format("  {}\n", point_text(*point, swept));
+    text += fmt::format("  {}\n", printable(point_text(*point, swept)));
     if (const std::string worst = failing_pixel_text(bound, *point); !worst.empty())
-      text += fmt::format("  {}\n", worst);
+      text += fmt::format("  {}\n", printable(worst));
   }
   if (!bound.reproduce.empty()) text += fmt::format("  reproduce: {}\n", bound.reproduce);
   return text;

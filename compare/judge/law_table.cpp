@@ -8,6 +8,7 @@
 
 #include "compare/judge/laws.h"
 #include "compare/store/quantities.h"
+#include "scenes/text.h"
 
 namespace noonmark {
 namespace {
@@ -54,16 +55,16 @@ std::string ratio_text(const LawResult& law) {
 
 std::string law_table(std::span<const LawResult> laws) {
   size_t width = 3;
-  for (const LawResult& law : laws) width = std::min(widest_name, std::max(width, law.name.size()));
+  for (const LawResult& law : laws) width = std::min(widest_name, std::max(width, printable(law.name).size()));
   std::string text = fmt::format("{:<{}}  {:>7}  {:>12}  {:>10}  {:>16}  {}\n", "law", width, "samples", "predicted",
                                  "measured", "ratio", "verdict");
   for (const LawResult& law : laws) {
     const LawResult::Sample* worst = law.worst < 0 ? nullptr : &law.samples[static_cast<size_t>(law.worst)];
-    text += fmt::format("{:<{}}  {:>7}  {:>12}  {:>10}  {:>16}  {}\n", law.name, width, law.samples.size(),
+    text += fmt::format("{:<{}}  {:>7}  {:>12}  {:>10}  {:>16}  {}\n", printable(law.name), width, law.samples.size(),
                         predicted_text(law), worst ? short_number(worst->measured) : "-", ratio_text(law),
                         law.held ? "holds" : "BROKEN");
     if (law.held) continue;
-    text += fmt::format("    {}\n", law_text(law));
+    text += fmt::format("    {}\n", printable(law_text(law)));
     if (!worst)
       text += "    no finished point matches it; change its where, or the swept values\n";
     else

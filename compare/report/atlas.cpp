@@ -8,6 +8,7 @@
 #include <map>
 
 #include "compare/report/escape.h"
+#include "compare/report/links.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/text.h"
 
@@ -102,19 +103,19 @@ std::string to_atlas_page(std::span<const AtlasRow> rows, const std::string& ver
   text += "<th>Other techniques</th></tr></thead><tbody>\n";
   for (const AtlasRow& row : rows) {
     const AtlasEntry& entry = row.entry;
-    text += fmt::format("<tr><td><b><a href=\"{}\">{}</a></b>{}<br>cause: {}; swept: {}<br>cure: {}", html(row.report),
-                        html(entry.failure), row.held ? "" : " <b>(a bound or law is broken)</b>", html(entry.cause),
-                        html(entry.driver), html(entry.cure));
+    text += fmt::format("<tr><td><b><a href=\"{}\">{}</a></b>{}<br>cause: {}; swept: {}<br>cure: {}",
+                        report::file_address(row.report), html(entry.failure),
+                        row.held ? "" : " <b>(a bound or law is broken)</b>", html(entry.cause), html(entry.driver),
+                        html(entry.cure));
     if (!entry.note.empty()) text += "<br>" + html(entry.note);
     text += laws_html(row);
     if (!entry.thread.empty())
-      text += fmt::format("<br><a href=\"{}\">{}</a>: {}", html(entry.thread), html(thread_text(entry.thread)),
-                          html(entry.answer));
+      text += fmt::format("<br>{}: {}", report::web_link(entry.thread, thread_text(entry.thread)), html(entry.answer));
     text += fmt::format("<br><code>{}</code></td><td>{}</td>", html(row.command),
                         row.picture.empty()
                             ? "–"
                             : fmt::format("<img loading=\"lazy\" src=\"{}\" alt=\"causes at the worst point of {}\">",
-                                          html(row.picture), html(entry.failure)));
+                                          report::file_address(row.picture), html(entry.failure)));
     for (const std::string& technique : techniques) text += cell_html(row, find_cell(row, technique));
     text += "<td>";
     for (const AtlasCell* cell : others_of(row, techniques))

@@ -6,9 +6,9 @@
 
 namespace noonmark {
 
-// A cell of CSV that holds text, quoted if RFC 4180 requires it. An apostrophe is added before a text that a
-// spreadsheet would treat as a formula: it begins with = + - @, a tab or a line break, and is not a number ("-5,4,5" is
-// not one).
+// A cell of CSV that holds text, quoted if RFC 4180 requires it. It is one line: control characters are printable()
+// (scenes/text.h). An apostrophe is added before a text that a spreadsheet would treat as a formula: it begins with
+// = + - @ and is not a number ("-5,4,5" is not one).
 std::string csv_text(std::string_view text);
 
 // One line of Markdown, also for a table's cell. No part of it is read as markup.
@@ -20,7 +20,8 @@ std::string markdown_block(std::string_view lines);
 // The entity for a character that HTML and XML can read as markup (& < > " '); "" for other characters.
 std::string_view markup_entity(std::string_view character);
 
-// XML 1.0, for text and for attributes. Control characters and characters that XML cannot hold become U+FFFD.
+// XML 1.0, for text and for attributes. Line breaks and tabs become references; other control characters, and characters
+// that XML cannot hold, U+FFFD. A name is made printable() first, so that it is one line in a log of the server.
 std::string xml_text(std::string_view text);
 
 }  // namespace noonmark

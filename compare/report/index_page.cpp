@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "compare/report/broken.h"
+#include "compare/report/links.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/text.h"
 #include "compare/store/quantities.h"
@@ -16,17 +17,6 @@ namespace {
 
 using report::html;
 using Verdict = IndexEntry::Verdict;
-
-// A folder's name may hold any byte; in an address only letters, digits and a few signs stand for themselves (RFC 3986).
-std::string address(const std::string& path) {
-  std::string out;
-  for (const char c : path) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       std::string_view("-._~/").find(c) != std::string_view::npos;
-    out += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return out;
-}
 
 size_t count(const std::vector<IndexEntry>& entries, Verdict verdict) {
   return static_cast<size_t>(
@@ -46,7 +36,8 @@ std::string row(const IndexEntry& entry) {
   return fmt::format(
       "<tr class=\"{}\"><td>{}</td><th "
       "scope=\"row\">{}<br><small>{}</small></th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-      kind, mark, entry.report.empty() ? name : fmt::format("<a href=\"{}\">{}</a>", html(address(entry.report)), name),
+      kind, mark,
+      entry.report.empty() ? name : fmt::format("<a href=\"{}\">{}</a>", report::file_address(entry.report), name),
       html(entry.experiment), html(entry.words), html(entry.numbers),
       entry.thumbnail.empty() ? "–"
                               : fmt::format("<img class=\"thumb\" alt=\"What the shadow map showed in {}\" "

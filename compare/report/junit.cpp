@@ -1,7 +1,6 @@
 #include "compare/report/junit.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -11,6 +10,7 @@
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "compare/report/escape.h"
+#include "scenes/text.h"
 
 namespace noonmark {
 namespace {
@@ -33,7 +33,7 @@ std::string to_junit(const Results& results, const BaselineComparison* baseline)
       std::count_if(results.bounds.begin(), results.bounds.end(), breaks) +
       std::count_if(results.laws.begin(), results.laws.end(), [](const LawResult& l) { return !l.held; }) +
       (baseline && !baseline->held() ? 1 : 0);
-  const std::string suite = results.info.title.empty() ? "noonmark" : results.info.title;
+  const std::string suite = results.info.title.empty() ? "noonmark" : printable(results.info.title);
 
   std::string xml(head);
   xml += fmt::format(
@@ -47,23 +47,23 @@ std::string to_junit(const Results& results, const BaselineComparison* baseline)
       {"commit", results.info.commit},           {"version", results.info.version},
       {"gl_renderer", results.info.gl_renderer}, {"embree_isa", results.info.embree_isa}};
   for (const auto& [name, value] : properties)
-    xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, xml_text(value));
+    xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, xml_text(printable(value)));
   xml += "    </properties>\n";
 
   std::set<std::string> taken;  // CI servers identify a testcase by its name, so names must differ
   const auto testcase = [&](const std::string& title, bool held, bool warns, std::string_view type, const auto& message,
                             const auto& text) {
-    std::string name = title;
-    for (int copy = 2; !taken.insert(name).second; ++copy) name = fmt::format("{} #{}", title, copy);
+    std::string name = printable(title);
+    for (int copy = 2; !taken.insert(name).second; ++copy) name = fmt::format("{} #{}", printable(title), copy);
     xml += fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"0\"", xml_text(suite), xml_text(name));
     if (held)
       xml += "/>\n";
     else if (warns)
       xml += fmt::format(">\n      <skipped message=\"warning: {}\">{}</skipped>\n    </testcase>\n",
-                         xml_text(message()), xml_text(text()));
+                         xml_text(printable(message())), xml_text(text()));
     else
       xml += fmt::format(">\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n",
-                         xml_text(message()), type, xml_text(text()));
+                         xml_text(printable(message())), type, xml_text(text()));
   };
   for (const BoundResult& bound : results.bounds)
     testcase(
@@ -82,7 +82,11 @@ std::string to_junit(const Results& results, const BaselineComparison* baseline)
     testcase(
         "no value is worse than in the baseline", baseline->held(), false, "baseline",
         [&] { return baseline_verdict(*baseline); },
-        [&] { return fmt::format("{}\n", fmt::join(baseline->worse, "\n")); });
+        [&] {
+          std::string lines;
+          for (const std::string& line : baseline->worse) lines += printable(line) + "\n";
+          return lines;
+        });
   if (incomplete)
     xml += fmt::format(
         "    <testcase classname=\"{}\" name=\"the sweep is complete\" time=\"0\">\n      <error "
@@ -92,14 +96,14 @@ std::string to_junit(const Results& results, const BaselineComparison* baseline)
 }
 
 std::string to_junit(const Unjudged& unjudged) {
-  const std::string suite = xml_text(unjudged.experiment);
+  const std::string suite = xml_text(printable(unjudged.experiment));
   return fmt::format(
       "{0}  <testsuite name=\"{1}\" package=\"noonmark\" id=\"0\" tests=\"1\" failures=\"0\" errors=\"1\" time=\"0\" "
       "timestamp=\"{2}\" hostname=\"localhost\">\n    <properties>\n      <property name=\"command\" value=\"{3}\"/>\n"
       "    </properties>\n    <testcase classname=\"{1}\" name=\"the experiment can be judged\" time=\"0\">\n"
       "      <error message=\"{4}\" type=\"exit code {5}\"/>\n    </testcase>\n{6}",
-      head, suite, xml_text(timestamp(unjudged.started)), xml_text(unjudged.command), xml_text(unjudged.why),
-      unjudged.exit_code, foot);
+      head, suite, xml_text(timestamp(unjudged.started)), xml_text(printable(unjudged.command)),
+      xml_text(printable(unjudged.why)), unjudged.exit_code, foot);
 }
 
 }  // namespace noonmark

@@ -1,0 +1,15 @@
+// Addresses in the pages. Names, folders and addresses come from files of unknown origin, and a browser runs an address
+// such as javascript:... as code. So every link that is not an anchor of the page itself goes through these functions.
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace noonmark::report {
+
+// A link to an address of the web (http or https). Any other address is written as text, without a link.
+std::string web_link(std::string_view address, std::string_view text);
+
+// The address of a file beside the page, for href and src. path: relative to the page, any bytes.
+std::string file_address(std::string_view path);
+
+}  // namespace noonmark::report
