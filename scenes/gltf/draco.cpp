@@ -105,6 +105,15 @@ std::string note_of_bounds(const Document& document, int accessor, std::span<con
 
 bool is_draco(const tinygltf::Primitive& primitive) { return primitive.extensions.contains(extension); }
 
+std::string draco_key(const tinygltf::Primitive& primitive) {
+  const tinygltf::Value& from = primitive.extensions.at(extension);
+  std::string key = fmt::format("{}", from.Get("bufferView").GetNumberAsInt());
+  const tinygltf::Value& attributes = from.Get("attributes");
+  for (const std::string& name : attributes.Keys())
+    key += fmt::format(" {}:{}{}", name.size(), name, attributes.Get(name).GetNumberAsInt());
+  return key + ";";
+}
+
 DracoMesh decode_draco(const Document& document, Buffers& buffers, int mesh, size_t primitive_index) {
   const tinygltf::Model& model = document.model;
   const tinygltf::Primitive& primitive = model.meshes[static_cast<size_t>(mesh)].primitives[primitive_index];

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "scenes/gltf/accessor.h"
@@ -15,6 +16,8 @@ struct DracoMesh {
 };
 
 bool is_draco(const tinygltf::Primitive& primitive);
+// Equal for primitives whose compressed data are the same.
+std::string draco_key(const tinygltf::Primitive& primitive);
 
 // Throws Error(file) if the data cannot be decoded, have more than max_triangles, or do not match the primitive's
 // accessors.

@@ -50,6 +50,17 @@ Alpha alpha_of_png(const std::string& file, std::span<const uint8_t> bytes, cons
     out = {1, 1, {255}};
     return out;
   }
+  // Of the header, which libpng has checked, the texels may not take more bits than the whole file can be unpacked to.
+  constexpr double most_unpacked = 1032;  // bytes from one: 258 bytes take at least two bits (RFC 1951, section 3.2)
+  constexpr size_t depth_at = 24, colour_type_at = 25;
+  constexpr uint8_t grey_alpha = 4, red_green_blue_alpha = 6;
+  const uint8_t type = bytes[colour_type_at];
+  const int samples = type == grey_alpha ? 2 : type == red_green_blue_alpha ? 4 : 1;  // at least
+  if (static_cast<double>(texels) * samples * bytes[depth_at] / 8 > most_unpacked * static_cast<double>(bytes.size()))
+    refuse(file, place,
+           fmt::format("is a damaged PNG: it has {} bytes, too few for {} x {} texels", bytes.size(), image.width,
+                       image.height),
+           mask_remedy);
   image.format = PNG_FORMAT_RGBA;
   const double needed = static_cast<double>(texels) * 5;
   if (const AvailableMemory available = available_memory(); needed > static_cast<double>(available.bytes))

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "scenes/gltf/accessor.h"
 #include "scenes/gltf/draco.h"
@@ -45,14 +46,33 @@ uint64_t triangles_of(int mode, uint64_t corners) {
   return corners < 3 ? 0 : mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners - 2;
 }
 
-std::vector<Drawable> drawables(const tinygltf::Model& model, const tinygltf::Mesh& mesh) {
+// All that decides what a primitive draws, as text: equal for primitives that draw the same.
+std::string what_is_drawn(const tinygltf::Primitive& primitive) {
+  std::string text = fmt::format("{} {}", primitive.mode, primitive.material);
+  const auto add = [&](const std::map<std::string, int>& attributes) {
+    for (const auto& [name, accessor] : attributes) text += fmt::format(" {}:{}{}", name.size(), name, accessor);
+    text += ";";
+  };
+  add(primitive.attributes);
+  if (is_draco(primitive)) text += draco_key(primitive);
+  for (const auto& target : primitive.targets) add(target);
+  return text;
+}
+
+// repeated: counts the primitives that are left out because another of the mesh draws the same.
+std::vector<Drawable> drawables(const tinygltf::Model& model, const tinygltf::Mesh& mesh, uint64_t& repeated) {
   std::vector<Drawable> out;
+  std::set<std::string> drawn;
   for (size_t i = 0; i < mesh.primitives.size(); ++i) {
     const tinygltf::Primitive& primitive = mesh.primitives[i];
     const auto position = primitive.attributes.find("POSITION");
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) continue;
     const tinygltf::Material& material = material_of(model, primitive);
     if (masked_out(material)) continue;
+    if (mesh.primitives.size() > 1 && !drawn.insert(what_is_drawn(primitive)).second) {
+      ++repeated;
+      continue;
+    }
     Drawable d{i, position->second, indices_of(primitive), primitive.mode, is_draco(primitive)};
     if (d.indices != -1 || !d.draco)
       d.corners = model.accessors[static_cast<size_t>(d.indices == -1 ? d.positions : d.indices)].count;
@@ -352,11 +372,12 @@ SceneSize count_geometry(const Document& document, const Placement& placement) {
   const tinygltf::Model& model = document.model;
   std::map<int, std::vector<Drawable>> meshes;
   SceneSize count;
+  uint64_t repeated = 0;
   for (const PlacedNode& placed : placement.nodes) {
     const tinygltf::Node& node = model.nodes[placed.node];
     if (!draws(node, placed)) continue;
     const auto [mesh, fresh] = meshes.try_emplace(node.mesh);
-    if (fresh) mesh->second = drawables(model, model.meshes[static_cast<size_t>(node.mesh)]);
+    if (fresh) mesh->second = drawables(model, model.meshes[static_cast<size_t>(node.mesh)], repeated);
     const uint64_t instances = instance_count(document, placed.node);
     for (const Drawable& drawable : mesh->second) {
       // Each count is below 2^53, and the sum is at most 2^26 before one is added, so there is no overflow.
@@ -390,7 +411,10 @@ uint64_t append_geometry(const Document& document, Buffers& buffers, const Place
   }
   const tinygltf::Model& model = document.model;
   std::vector<std::vector<Drawable>> meshes;
-  for (const tinygltf::Mesh& mesh : model.meshes) meshes.push_back(drawables(model, mesh));
+  uint64_t repeated = 0;
+  for (const tinygltf::Mesh& mesh : model.meshes) meshes.push_back(drawables(model, mesh, repeated));
+  if (repeated > 0)
+    scene.notes.push_back(counted(repeated, "primitive") + " that another of the mesh repeats, drawn once");
   Appender appender(document, buffers, placement, masks, scene);
   for (const PlacedNode& placed : placement.nodes) {
     const tinygltf::Node& node = model.nodes[placed.node];

@@ -12,6 +12,7 @@ namespace noonmark::gltf {
 // - triangles, strips and fans. Points and lines are left out, because they have no area that casts a shadow;
 // - positions with their morph targets (morph.h), moved by the node's transform or by its skin's joints (skin.h), once
 //   for each instance of the node (instances.h), read from Draco's data if there are any (draco.h);
+// - a primitive once, if others of its mesh have the same data, mode and material. Scene::notes says how many have;
 // - no primitive that its material masks completely (MASK, no base colour texture, alpha below the cutoff);
 // - of a primitive that a texture masks, what the mask shows (masks.h), cut out of its triangles. Without `masks` the
 //   texture is not read, and the primitive is drawn completely;

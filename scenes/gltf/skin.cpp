@@ -35,7 +35,12 @@ glm::dmat4 SkinnedVertices::world_from_mesh(uint32_t vertex) const {
     }
   }
   if (!(total > 0))
-    refuse(file_, place_, fmt::format("vertex {} has no joint, because its weights are 0", vertex), skin_remedy);
+    refuse(
+        file_, place_,
+        fmt::format("vertex {} under a skin has no weights (their sum is 0), so glTF gives it no place: the sum has to "
+                    "be 1 (glTF 2.0, section 3.7.3.3)",
+                    vertex),
+        "give its vertices joints and weights, or take the skin from the node");
   return sum / total;
 }
 
@@ -78,7 +83,10 @@ std::vector<std::pair<int, int>> Skins::attribute_pairs(int mesh, size_t primiti
     }
     pairs.emplace_back(joints, found->second);
   }
-  if (pairs.empty()) refuse(document_.file, place, "a mesh under a skin without JOINTS_0 and WEIGHTS_0", skin_remedy);
+  if (pairs.empty())
+    refuse(document_.file, place,
+           "a mesh under a skin without JOINTS_0 and WEIGHTS_0, which it has to have (glTF 2.0, section 3.7.3.3)",
+           "give its vertices joints and weights, or take the skin from the node");
   return pairs;
 }
 

@@ -1,5 +1,6 @@
 // load_gltf on materials that mask by a texture: what stays of their triangles, and what each broken mask is told.
 #include <png.h>
+#include <zlib.h>
 
 #include <cmath>
 
@@ -26,6 +27,18 @@ std::string png(int width, int height, const std::vector<int>& alpha, bool with_
   EXPECT_NE(png_image_write_to_memory(&image, out.data(), &bytes, 0, pixels.data(), 0, nullptr), 0) << image.message;
   out.resize(bytes);
   return out;
+}
+
+// One texel, under a header that declares another size. The header's checksum is right (PNG specification, section 5.3).
+std::string declared(uint32_t width, uint32_t height) {
+  std::string bytes = png(1, 1, {0});
+  const auto put = [&](size_t at, uint32_t value) {
+    for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(value >> (24 - 8 * i) & 255);
+  };
+  put(16, width), put(20, height);
+  const auto* const head = reinterpret_cast<const Bytef*>(bytes.data() + 12);  // "IHDR" and its 13 bytes
+  put(29, static_cast<uint32_t>(crc32(0, head, 17)));
+  return bytes;
 }
 
 class GltfMask : public ::testing::Test {
@@ -228,6 +241,11 @@ TEST_F(GltfMask, EachBrokenMaskIsToldWhereItIs) {
   told("images[0].uri: 'absent.png' cannot be found", [](json& d) { d["images"][0]["uri"] = "absent.png"; });
   told("images[0]: is a damaged PNG",
        [](json& d) { d["images"][0]["uri"] = "data:image/png;base64," + base64(left_half.substr(0, 50)); });
+  const std::string bomb = declared(30000, 20000);
+  EXPECT_LT(bomb.size(), 200u);
+  told(
+      "images[0]: is a damaged PNG: it has " + std::to_string(bomb.size()) + " bytes, too few for 30000 x 20000 texels",
+      [&](json& d) { d["images"][0]["uri"] = "data:image/png;base64," + base64(bomb); });
   told("images[0].uri: holds text that is not base64",
        [](json& d) { d["images"][0]["uri"] = "data:image/png;base64,?"; });
   told("images[0]: has neither a uri nor a bufferView", [](json& d) { d["images"][0] = json::object(); });

@@ -49,6 +49,30 @@ TEST_F(GltfNotes, ListedRootsAreDrawnOnceWhereTheirParentsPutThem) {
   EXPECT_TRUE(noted(alone, "1 root of the scene that has parents"));
 }
 
+// Otherwise a small file could ask for the drawing of one surface a hundred thousand times.
+TEST_F(GltfNotes, APrimitiveThatItsMeshRepeatsIsDrawnOnce) {
+  json d = square();
+  auto& primitives = d["meshes"][0]["primitives"];
+  const json once = primitives[0];
+  for (int i = 0; i < 1000; ++i) primitives.push_back(once);
+  Scene s = load(d);
+  EXPECT_EQ(s.triangles.size(), 2u);
+  EXPECT_TRUE(noted(s, "1000 primitives that another of the mesh repeats, drawn once"));
+  // What differs in anything that is drawn stays.
+  d["materials"] = {json::object(), {{"doubleSided", true}}};
+  primitives = json::array({once, once, once, once});
+  primitives[0]["material"] = 0;
+  primitives[1]["material"] = 1;
+  primitives[2]["mode"] = 5;
+  s = load(d);
+  EXPECT_GE(s.triangles.size(), 6u);
+  EXPECT_FALSE(noted(s, "repeats"));
+  // Another node may show the same mesh.
+  d["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 3}}});
+  d["scenes"][0]["nodes"] = {0, 1};
+  EXPECT_EQ(load(d).triangles.size(), 2 * s.triangles.size());
+}
+
 TEST_F(GltfNotes, WhatIsLeftOutIsSaid) {
   EXPECT_EQ(load(square()).notes, std::vector<std::string>());
   json d = square();

@@ -127,11 +127,13 @@ TEST_F(GltfPose, BrokenSkinsAreRefused) {
     attributes(d)["WEIGHTS_0"] = add_floats(d, values, "VEC4", 4);
   };
   expect([](json& d) { attributes(d).erase("WEIGHTS_0"); }, "JOINTS_0 without its weights");
-  expect([](json& d) { attributes(d).erase("WEIGHTS_0"), attributes(d).erase("JOINTS_0"); }, "without JOINTS_0");
+  expect([](json& d) { attributes(d).erase("WEIGHTS_0"), attributes(d).erase("JOINTS_0"); },
+         "a mesh under a skin without JOINTS_0 and WEIGHTS_0, which it has to have");
   expect([](json& d) { attributes(d)["JOINTS_0"] = 0; }, "JOINTS_0: accessors[0] is not a list of 4 joints");
   expect([](json& d) { attributes(d)["JOINTS_0"] = 99; }, "JOINTS_0: accessors[99] is not a list");
   expect([](json& d) { attributes(d)["WEIGHTS_0"] = -1; }, "WEIGHTS_0: should be an integer");
-  expect([&](json& d) { weights(d, std::vector<float>(16, 0)); }, "vertex 0 has no joint");
+  expect([&](json& d) { weights(d, std::vector<float>(16, 0)); },
+         "vertex 0 under a skin has no weights (their sum is 0), so glTF gives it no place");
   expect([&](json& d) { weights(d, std::vector<float>(16, -1)); }, "vertex 0 has a weight of -1");
   expect([&](json& d) { weights(d, std::vector<float>(16, 0.25)); }, "vertex 0 follows joint 9 of 2");
   expect([](json& d) { d["nodes"][0]["skin"] = 1; }, "nodes[0].skin: 1 refers beyond");
