@@ -1,5 +1,6 @@
 // The lookup against a second implementation on the host, which uses the numbers of the probe and the map.
 #include <set>
+#include <tuple>
 
 #include "technique/setting_rules.h"
 #include "tests/gl/lookup_host.h"
@@ -8,57 +9,80 @@ namespace noonmark::gl {
 namespace {
 
 constexpr LightKind kinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
-constexpr const char* kind_names[] = {"directional", "spot", "point"};
+const std::string kind_names[] = {"directional", "spot", "point"};
 
 // How far a sampler's blended result may be from the exact weights. llvmpipe blends in floats: a place among up to 1024
 // texels is rounded three times on each of both axes, each time by at most 2^-15 of a texel (seen: 1e-5). GPUs keep 8
 // bits of a texel's fraction: half of 2^-8 more on each axis.
 double sampler_error(const DeviceInfo& info) { return 6 * 0x1p-15 + (info.software ? 0 : 2 * 0x1p-9); }
 
-TEST_F(GlLookupTest, EqualsTheHost) {
-  std::mt19937 random(1978);
+// Random scenes and settings, in parts: most of the time goes into compiling a shader for each settings.
+constexpr int parts_of_a_kind = 4, settings_of_a_part = 36;
+struct Draw {
+  Scene scene;
+  std::vector<Settings> settings;
+};
+Draw draw(LightKind kind, int part) {
+  std::seed_seq seed{1978, static_cast<int>(kind), part};
+  std::mt19937 random(seed);
+  Draw drawn{random_scene(random, kind), {}};
+  for (int j = 0; j < settings_of_a_part; ++j) drawn.settings.push_back(random_settings(random, kind));
+  return drawn;
+}
+
+class GlLookupOnHostTest : public GlLookupTest, public testing::WithParamInterface<std::tuple<LightKind, int>> {};
+
+TEST_P(GlLookupOnHostTest, EqualsTheHost) {
+  const auto [kind, part] = GetParam();
+  const Draw drawn = draw(kind, part);
+  const ReceiverImage receivers = load(drawn.scene, 83, 61);
   double worst_blend = 0;
-  std::set<std::string> parts_met, references_met;
-  std::set<std::string> filters_met;
-  for (const LightKind kind : kinds) {
-    Met met;
-    for (int k = 0; k < 4; ++k) {
-      const Scene scene = random_scene(random, kind);
-      const ReceiverImage receivers = load(scene, 83, 61);
-      for (int j = 0; j < 36; ++j) {
-        const Settings settings = random_settings(random, kind);
-        const LightFrame frame = make_light_frame(scene, settings);
-        const ShadowMap map = renderer.render_map(frame, settings);
-        const LookupProbe probe = renderer.probe(frame, settings);
-        const Image<double> host = lookup_on_host(probe, receivers, renderer.read_map(map), settings, met);
-        const Image<float> gpu = renderer.lookup(map, frame, settings);
-        const double allowed = probe.pattern.bilinear() ? sampler_error(renderer.info()) : 0;
-        for (const BiasPart& part : bias_parts())
-          if (settings.bias[part.name] != 0) parts_met.emplace(part.name);
+  Met met;
+  for (const Settings& settings : drawn.settings) {
+    const LightFrame frame = make_light_frame(drawn.scene, settings);
+    const ShadowMap map = renderer.render_map(frame, settings);
+    const LookupProbe probe = renderer.probe(frame, settings);
+    const Image<double> host = lookup_on_host(probe, receivers, renderer.read_map(map), settings, met);
+    const Image<float> gpu = renderer.lookup(map, frame, settings);
+    const double allowed = probe.pattern.bilinear() ? sampler_error(renderer.info()) : 0;
+    ASSERT_EQ(gpu.size(), host.size());
+    size_t different = 0, first = 0;
+    for (size_t i = gpu.size(); i-- > 0;) {
+      const double off = std::abs(gpu[i] - host[i]);
+      if (probe.pattern.bilinear()) worst_blend = std::max(worst_blend, off);
+      if (!(off <= allowed)) ++different, first = i;
+      ASSERT_TRUE(gpu[i] >= 0 && gpu[i] <= 1) << gpu[i];
+    }
+    EXPECT_EQ(different, 0u) << describe(settings) << ": first at index " << first << ", shader " << gpu[first]
+                             << ", host " << host[first];
+  }
+  constexpr size_t enough = 1000;
+  EXPECT_GT(met.lit, enough);
+  EXPECT_GT(met.dark, enough);
+  EXPECT_GT(met.fractions, enough);
+  EXPECT_GT(met.outside + (kind == LightKind::point ? enough + 1 : 0), enough);
+  EXPECT_GT(met.beyond_far, enough);
+  EXPECT_GT(met.background, enough);
+  RecordProperty("worst_blend", std::to_string(worst_blend));
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, GlLookupOnHostTest,
+                         testing::Combine(testing::ValuesIn(kinds), testing::Range(0, parts_of_a_kind)),
+                         [](const testing::TestParamInfo<std::tuple<LightKind, int>>& info) {
+                           return kind_names[static_cast<int>(std::get<0>(info.param))] +
+                                  std::to_string(std::get<1>(info.param));
+                         });
+
+TEST(GlLookupDraws, HaveEveryPartOfABiasReferenceAndFilter) {
+  std::set<std::string> parts_met, references_met, filters_met;
+  for (const LightKind kind : kinds)
+    for (int part = 0; part < parts_of_a_kind; ++part)
+      for (const Settings& settings : draw(kind, part).settings) {
+        for (const BiasPart& one : bias_parts())
+          if (settings.bias[one.name] != 0) parts_met.emplace(one.name);
         references_met.insert(settings.bias.reference);
         filters_met.insert(settings.filter.kind);
-        ASSERT_EQ(gpu.size(), host.size());
-        size_t different = 0, first = 0;
-        for (size_t i = gpu.size(); i-- > 0;) {
-          const double off = std::abs(gpu[i] - host[i]);
-          if (probe.pattern.bilinear()) worst_blend = std::max(worst_blend, off);
-          if (!(off <= allowed)) ++different, first = i;
-          ASSERT_TRUE(gpu[i] >= 0 && gpu[i] <= 1) << gpu[i];
-        }
-        EXPECT_EQ(different, 0u) << kind_names[static_cast<int>(kind)] << " " << describe(settings)
-                                 << ": first at index " << first << ", shader " << gpu[first] << ", host "
-                                 << host[first];
       }
-    }
-    constexpr size_t enough = 1000;
-    EXPECT_GT(met.lit, enough);
-    EXPECT_GT(met.dark, enough);
-    EXPECT_GT(met.fractions, enough);
-    EXPECT_GT(met.outside + (kind == LightKind::point ? enough + 1 : 0), enough);
-    EXPECT_GT(met.beyond_far, enough);
-    EXPECT_GT(met.background, enough);
-  }
-  RecordProperty("worst_blend", std::to_string(worst_blend));
   EXPECT_EQ(parts_met.size(), bias_parts().size());
   EXPECT_EQ(references_met.size(), tap_references().size());
   EXPECT_EQ(filters_met.size(), find_setting("filter.kind").choices.size());
