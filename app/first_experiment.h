@@ -14,7 +14,7 @@ namespace noonmark {
 // - Light: the file's. Without one a sun, or in a closed room, which no sun reaches, a point light.
 // - A floor if the model has no ground (has_ground) and stands in the open.
 // - A directional light's map is fitted to the view.
-// - The sweep: three resolutions and four constant biases in texels, which mean the same at each resolution.
+// - The sweep: four resolutions and four constant biases in texels, which mean the same at each resolution.
 std::string first_experiment(const Model& model, const std::string& path);
 
 }  // namespace noonmark

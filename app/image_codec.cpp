@@ -52,6 +52,8 @@ void encode(const ImageToEncode& image, Output& bytes) {
   OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
   if (image.channel_names) {
     spec.attribute("compression", "zip:1");
+    // Without it OpenImageIO writes the time, so that equal pictures would be files of different bytes.
+    spec.attribute("DateTime", "");
     spec.channelnames.assign(image.channel_names, image.channel_names + image.channels);
   } else {
     spec.attribute("oiio:ColorSpace", "sRGB");

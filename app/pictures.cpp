@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 
 #include "app/view_colors.h"
 #include "app/view_frustum.h"
@@ -163,13 +164,16 @@ Image<Color> motion_frame(const Measurement& m) {
 
 Image<Color> lit_picture(const Measurement& m) {
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
-  return greys(m, shaded_frame(m.receivers, m.frame, camera, m.ladder.truth()));
+  const Image<float> frame = shaded_frame(m.receivers, m.frame, camera, m.ladder.truth());
+  return paint(m, [&](size_t i) { return m.ladder.flags[i] & flag_facing ? grey(frame[i]) : facing_away; });
 }
 
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
                                           const std::string& stem) {
   std::vector<PictureRecord> records;
   const auto add = [&](const std::string& name, const std::string& caption, const Image<Color>& picture) {
+    if (std::find(std::begin(picture_names), std::end(picture_names), name) == std::end(picture_names))
+      throw std::logic_error(name + " is not in picture_names");
     const std::string file = fmt::format("{}-{}.png", stem, name);
     const std::string digest = write_png(folder + "/" + file, picture);
     records.push_back({name, relative + "/" + file, caption, digest});

@@ -1,12 +1,18 @@
 // The PNGs of a measured point, for people. app/point_files.h writes the files for other programs.
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/image_file.h"
 #include "app/workbench.h"
 
 namespace noonmark {
+
+// Each picture of a point that write_pictures() may write.
+inline constexpr std::string_view picture_names[] = {
+    "truth", "soft-truth", "map",          "classes",           "difference", "flicker",
+    "depth", "frustum",    "shaded-truth", "shaded-soft-truth", "shaded-map", "shaded-difference"};
 
 // Writes the point's PNGs as <folder>/<stem>-<name>.png. The paths in the records begin with `relative`, not `folder`.
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
@@ -17,7 +23,8 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
 // whole factor.
 Image<Color> motion_frame(const Measurement& m);
 
-// Grey clay with the true shadow (R1): the picture "shaded-truth" alone.
+// Grey clay with the true shadow (R1). What faces away from the light is blue, so that it is told from what faces the
+// light and is in shadow, which is dark grey.
 Image<Color> lit_picture(const Measurement& m);
 
 // The surroundings of one pixel, enlarged: the truth, what the map showed, and why it is wrong, beside each other. The pixel

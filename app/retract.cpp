@@ -19,8 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view options_with_a_value[] = {"--set",     "--part",     "--threads",        "--out",  "--point",
-                                                     "--picture", "--baseline", "--baseline-times", "--shard"};
+constexpr std::string_view options_with_a_value[] = {
+    "--set",   "--part", "--threads", "--out", "--point", "--picture",       "--baseline",  "--baseline-times",
+    "--shard", "--acne", "--from",    "--to",  "--rows",  "--peter-panning", "--placements"};
 
 // Sorts the words as far as possible: the words that are neither options nor values of options, and every --out.
 struct Words {
@@ -62,9 +63,16 @@ MeantFolders meant_folders(std::span<const std::string> words, const std::vector
   auto at = std::find_if(sorted.plain.begin(), sorted.plain.end(), is_verb);
   if (at == sorted.plain.end()) at = sorted.plain.begin();
   const std::string verb = is_verb(*at) ? *at : nearest_name(*at, verbs);
+  const std::vector<std::string> paths(at + 1, sorted.plain.end());
+  if (verb == "render" || verb == "map" || verb == "inspect") {
+    const std::string subject = paths.empty() ? "" : paths.front();
+    for (const std::string& out : sorted.outs) meant.outputs.push_back(outputs_of(verb, subject, out));
+    if (sorted.outs.empty() && (verb == "render" || !subject.empty()))
+      meant.outputs.push_back(outputs_of(verb, subject, ""));
+    return meant;
+  }
   if (verb != "check" && verb != "run") return meant;
   meant.judges = verb == "check";
-  const std::vector<std::string> paths(at + 1, sorted.plain.end());
 
   if (sorted.outs.empty()) sorted.outs.emplace_back();
   for (const std::string& out : sorted.outs) {
@@ -81,6 +89,13 @@ MeantFolders meant_folders(std::span<const std::string> words, const std::vector
 }
 
 void retract_verdicts(const MeantFolders& meant, const Failure& failure, const std::string& command) {
+  for (const VerbOutputs& outputs : meant.outputs) {
+    try {
+      retract(outputs);
+    } catch (const Error& error) {
+      tell({failure.exit_code, printable(error.what())});
+    }
+  }
   for (const MeantFolder& one : meant.folders) {
     std::error_code none;
     if (!fs::exists(fs::path(one.path) / "junit.xml", none) && !fs::exists(fs::path(one.path) / "summary.md", none))

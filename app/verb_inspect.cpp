@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include "app/default_folder.h"
 #include "app/experiment_arguments.h"
 #include "app/model_report.h"
 #include "app/pictures.h"
 #include "app/progress.h"
 #include "app/results_folder.h"
+#include "app/verb_outputs.h"
 #include "app/verbs.h"
 #include "app/workbench.h"
 #include "scenes/text.h"
@@ -13,12 +13,14 @@
 namespace noonmark {
 
 int verb_inspect(const std::string& model, ExperimentArguments arguments) {
+  const VerbOutputs outputs = outputs_of("inspect", model, arguments.out);
+  retract(outputs);
   // A picture that is quick to make. A finer map changes nothing in it, because its shadow is the truth.
   arguments.sets.insert(arguments.sets.begin(), {"view.width_px=960", "view.height_px=540"});
   arguments.sets.push_back("scene.name=" + model);
   const Settings settings = points(experiment_from("", arguments)).at(0);
   const ModelReport report = inspect_model(settings);
-  const std::string out = arguments.out.empty() ? default_folder(model, "inspect-") : arguments.out;
+  const std::string& out = outputs.folder;
   require_room_to_start(true);
   Workbench bench(gl::DebugMode::log);
   require_memory(bench.memory(settings, false, false), bench.memory_of_program(true), "this picture");
@@ -27,7 +29,7 @@ int verb_inspect(const std::string& model, ExperimentArguments arguments) {
   progress.say(fmt::format("the picture of {}", model));
   const Measurement m = bench.measure(settings, std::nullopt);
   make_output_folder(out);
-  const std::string picture = out + "/view.png";
+  const std::string picture = out + "/" + outputs.files.front();
   write_png(picture, lit_picture(m));
   progress.finished(picture_drawn, "the picture is drawn");
   progress.end_line();
@@ -36,7 +38,10 @@ int verb_inspect(const std::string& model, ExperimentArguments arguments) {
     return 0;
   }
   fmt::print("{}", report_text(report));
-  fmt::print("\n{} shows it with its true shadow. Next: noonmark init {}\n", printable(picture), shell_quoted(model));
+  fmt::print(
+      "\n{} shows it with its true shadow: dark grey is in shadow, blue faces away from the light.\n"
+      "Next: noonmark init {}\n",
+      printable(picture), shell_quoted(model));
   return 0;
 }
 

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/build_facts.h"
-#include "app/default_folder.h"
 #include "app/experiment_arguments.h"
 #include "app/phase_diagram.h"
 #include "app/progress.h"
 #include "app/results_folder.h"
+#include "app/verb_outputs.h"
 #include "app/verbs.h"
 #include "app/workbench.h"
 #include "scenes/error.h"
@@ -54,6 +54,8 @@ std::string map_json(const PhaseDiagram& diagram, const std::string& out) {
 }  // namespace
 
 int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentArguments arguments) {
+  const VerbOutputs outputs = outputs_of("map", scene, arguments.out);
+  retract(outputs);
   if (options.coarsest >= options.finest)
     throw Error(ErrorKind::usage, fmt::format("the coarsest resolution ({}) is not below the finest ({}); set --from "
                                               "and --to",
@@ -62,7 +64,7 @@ int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentAr
   arguments.sets.insert(arguments.sets.begin(), {"view.width_px=640", "view.height_px=360"});
   arguments.sets.push_back("scene.name=" + scene);
   const Settings given = points(experiment_from("", arguments)).at(0);
-  const std::string out = arguments.out.empty() ? default_folder(scene, "map-") : arguments.out;
+  const std::string& out = outputs.folder;
   Workbench bench(gl::DebugMode::log);
   const Scene& loaded = bench.scene(given.scene);
   const Settings settings = phase_settings(given, loaded);

@@ -6,6 +6,7 @@
 #include "app/pictures.h"
 #include "app/point_files.h"
 #include "app/results_folder.h"
+#include "app/verb_outputs.h"
 #include "app/verbs.h"
 #include "app/workbench.h"
 #include "compare/judge/interval.h"
@@ -141,9 +142,11 @@ void print_ladder(const Measurement& m, const char* clock) {
 }  // namespace
 
 int verb_render(const std::string& path, long point, const std::string& picture, const ExperimentArguments& arguments) {
+  const VerbOutputs outputs = outputs_of("render", path, arguments.out);
+  retract(outputs);
   const Experiment experiment = experiment_from(path, arguments);
   const Settings settings = the_point(experiment, point);
-  const std::string out = arguments.out.empty() ? "out/render" : arguments.out;
+  const std::string& out = outputs.folder;
   std::optional<RungOnTop> given;
   if (!picture.empty()) {  // before anything is written or measured
     require_room_to_start(true);
@@ -169,7 +172,7 @@ int verb_render(const std::string& path, long point, const std::string& picture,
   write_images(m, out, ".", "");
   write_file_atomically(out + "/point.json", point_json(m, arguments.command));
   print_ladder(m, gl::text_of(bench.device().times));
-  if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", note);
+  if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", printable(note));
   if (const std::string note = map_fit_note(m.scene, settings); !note.empty())
     fmt::print("  note: {}\n", printable(note));
   for (const IdleSetting& idle : idle_settings(m.frame.kind, settings))

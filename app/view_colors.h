@@ -31,6 +31,9 @@ inline Color depth_grey(double depth) {
 
 inline constexpr Color paper{12, 12, 14};  // around an unfolded cube
 
+// What faces away from the light, where a grey would be taken for a shadow: a dark blue, which no grey clay has.
+inline constexpr Color facing_away{48, 62, 104};
+
 // Lines of the light's frustum, in Okabe and Ito's hues like the causes' colours.
 inline constexpr Color near_line{0, 158, 115}, far_line{213, 94, 0}, side_line{0, 114, 178}, cone_line{230, 159, 0},
     light_mark{204, 121, 167};

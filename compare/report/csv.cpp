@@ -37,11 +37,10 @@ std::vector<std::string> names(std::vector<std::string> known, const std::set<st
 }
 
 std::vector<Column> columns(const Results& results) {
-  std::set<std::string> present_settings, present_metrics, present_times;
+  std::set<std::string> present_settings, present_metrics;
   for (const PointRecord& point : results.points) {
     for (const auto& [name, text] : point.settings) present_settings.insert(name);
     for (const auto& [name, value] : point.metrics) present_metrics.insert(name);
-    for (const auto& [name, value] : point.times) present_times.insert(name);
   }
   std::vector<std::string> settings, metrics;
   std::set<std::string> clocked;  // metrics that are times
@@ -80,14 +79,11 @@ std::vector<Column> columns(const Results& results) {
                     }});
   for (const RecordField& field : record_fields())
     if (!field.group.empty() && field.group != machine_group) field_column(field);
-  // A time that is also a metric has its column already.
-  for (const std::string& name : present_times)
-    if (!clocked.contains(name))
-      at_the_end.push_back({name, [name](const PointRecord& p) { return look_up(p.times, name); }});
   list.insert(list.end(), at_the_end.begin(), at_the_end.end());
-  // After the times: two runs of the same program on the same data differ in these columns and in no other.
+  // After the times, the kind of machine. The host and its clock stand in the store alone.
   for (const RecordField& field : record_fields())
-    if (field.group == machine_group) field_column(field);
+    if (field.group == machine_group && field.name != "machine_host" && field.name != "machine_clock")
+      field_column(field);
   return list;
 }
 

@@ -40,7 +40,6 @@ std::string subtitle(const Results& results) {
     swept += fmt::format("{}{} ({})", swept.empty() ? "" : " × ", report::html(report::setting_label(name)),
                          values_of(results, name).size());
   if (!swept.empty()) out += " · " + swept;
-  if (!info.started.empty()) out += " · " + report::html(info.started);
   return out;
 }
 

@@ -203,7 +203,7 @@ std::string meaning_section(const Results& results) {
 std::string making_section(const Results& results) {
   const RunInfo& info = results.info;
   std::string out = "<section id=\"making\"><h2>How it was made</h2>\n<dl class=\"made\">\n";
-  out += pair("Command", info.command) + pair("Experiment", info.experiment) + pair("Started", info.started);
+  out += pair("Command", info.command) + pair("Experiment", info.experiment);
   out += pair("Noonmark", info.version + (info.commit.empty() ? "" : ", commit " + info.commit));
   out +=
       pair("Scene",

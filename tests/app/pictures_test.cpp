@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/point_files.h"
+#include "app/view_colors.h"
 #include "compare/report/cause_colors.h"
 #include "compare/store/metrics.h"
 #include "tests/app/read_image.h"
@@ -176,6 +177,18 @@ TEST_F(Pictures, ClassesShowTheColoursOfTheLegend) {
   const Image<Color> truth = read_png(folder.file("p-truth.png")), map = read_png(folder.file("p-map.png"));
   EXPECT_GT(truth[0].r, map[0].r);  // lit, and falsely dark in the map
   EXPECT_EQ(truth[1], map[1]);
+}
+
+// Both are unlit: what is in shadow, and what faces away from the light.
+TEST_F(Pictures, TheLitPictureTellsFacingAwayFromShadow) {
+  ladder.flags.pixels = {1, 1, 1, 1, 0, 0};
+  ladder[Rung::truth].pixels = {1, 1, 0, 1, 0, 0};
+  const Image<Color> picture = lit_picture(measurement());
+  const auto is_grey = [](const Color& c) { return c.r == c.g && c.g == c.b; };
+  EXPECT_TRUE(is_grey(picture[2])) << "in shadow";
+  EXPECT_EQ(picture[4], facing_away);
+  EXPECT_FALSE(is_grey(facing_away));
+  EXPECT_EQ(picture[5], named("background"));
 }
 
 // A rung on top of R5 brings its cause: its colour in the picture of the classes, its numbers and its description in

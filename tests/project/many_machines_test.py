@@ -7,6 +7,7 @@ Exit code 77: something that the test needs is missing.
             killed and requeued
   matrix    the steps of examples/ci/matrix.yml
 """
+import contextlib
 import csv
 import os
 import re
@@ -113,8 +114,8 @@ def compare_with_one_run(merged):
         expect(not different and set(here) == set(there), f"point {here.get('point')}: {different[:5]}")
     expect((work / "joined/report.html").stat().st_size > 100000, "the report is written")
     expect(testcases("joined") == testcases("one"), "junit.xml is that of one run")
-    with open(work / "joined/results.csv") as file:
-        hosts = {row["machine_host"] for row in csv.DictReader(file)}
+    with contextlib.closing(sqlite3.connect(work / "joined/results.sqlite")) as joined:
+        hosts = {host for host, in joined.execute("SELECT machine_host FROM points")}
     expect(hosts == {socket.gethostname()}, f"the hosts are recorded: {hosts}")
     store = (work / "joined/results.sqlite").read_bytes()
     expect(str(work).encode() not in store, "no path of the host is in the merged store")
