@@ -300,8 +300,12 @@ Experiment parse_experiment(std::string_view toml, const std::string& path) {
     const toml::table root = toml::parse(toml, path);
     return Reader(path).read(root);
   } catch (const toml::parse_error& error) {
-    throw Error(ErrorKind::usage, fmt::format("{}:{}:{}: {}", path, error.source().begin.line,
-                                              error.source().begin.column, error.description()));
+    const bool named_before = error.description().find("existing string 'scene' as table") != std::string_view::npos;
+    throw Error(ErrorKind::usage, fmt::format("{}:{}:{}: {}{}", path, error.source().begin.line,
+                                              error.source().begin.column, error.description(),
+                                              named_before ? "; write name = \"...\" below [scene], in place of "
+                                                             "scene = \"...\" above"
+                                                           : ""));
   }
 }
 

@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "app/build_facts.h"
+#include "app/command_line_error.h"
 #include "app/experiment.h"
 #include "app/failure.h"
 #include "app/phase_diagram.h"
@@ -37,7 +38,7 @@ constexpr const char* exit_codes =
     "otherwise what has to change:\n"
     "2 the command line or the experiment (wrong usage; a point too large for memory; a results' folder that\n"
     "  cannot be used); 3 a file (a bad scene or picture, or one too large for memory; damaged results; a full disk);\n"
-    "4 the machine (no usable OpenGL, ray tracer or picture library, no memory or threads left for them);\n"
+    "4 the machine (no usable OpenGL, ray tracer or picture library, no memory, threads or open files left);\n"
     "5 Noonmark: a defect; 6 nothing: the sweep is incomplete. Of several experiments, the largest code is returned.";
 
 std::string joined(int argc, char** argv) {
@@ -80,12 +81,12 @@ const auto above_zero = number("above 0", [](double value) { return value > 0 &&
 
 std::string not_empty(const std::string& path) { return path.empty() ? "the path is empty" : ""; }
 
-// CLI11 writes to C++ streams. This writes its text through stdio, like all other output.
-int say(const CLI::App& app, const CLI::Error& result) {
+// What was asked for, help or the version. CLI11 writes to C++ streams; this writes its text through stdio, like all other
+// output.
+int say(const CLI::App& app, const CLI::Success& asked) {
   std::ostringstream output, errors;
-  const int exit_code = app.exit(result, output, errors);
+  const int exit_code = app.exit(asked, output, errors);
   std::fputs(output.str().c_str(), stdout);
-  std::fputs(errors.str().c_str(), stderr);
   return exit_code;
 }
 
@@ -182,7 +183,7 @@ int run(int argc, char** argv) {
     verb->footer(exit_codes);
   };
   const auto with_out = [&](CLI::App* verb, const char* what) {
-    verb->add_option("--out", arguments.out, what)->type_name("FOLDER");
+    verb->add_option("--out", arguments.out, what)->check(not_empty)->type_name("FOLDER");
   };
   const auto with_overwrite = [&](CLI::App* verb) {
     verb->add_flag("--overwrite", arguments.overwrite,
@@ -368,7 +369,7 @@ int run(int argc, char** argv) {
   CLI::App* merge = app.add_subcommand(
       "merge", "Join the results of an experiment's shares (--shard) and judge the whole, as check does");
   merge->add_option("out", merging.out, "Folder for the joined results")->required()->check(not_empty);
-  merge->add_option("shares", merging.shares, "The shares' folders (OUT/share-*)")->required()->check(not_empty);
+  merge->add_option("shares", merging.shares, "The shares' folders (OUT/share-*)")->check(not_empty);
   merge->add_flag("--overwrite", merging.overwrite, "Replace results that were measured in the folder, not joined");
   merge->add_flag("--json", merging.json, "Print the results as JSON: verdict, bounds, laws, answer and every point");
   merge->footer(exit_codes);
@@ -383,13 +384,14 @@ int run(int argc, char** argv) {
 
   std::vector<std::string_view> verbs;
   for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   const auto retract = [&](const Failure& failure) {
-    const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     retract_verdicts(meant_folders(words, verbs), failure, arguments.command);
   };
   try {
     if (argc < 2) return first_steps();
     refuse_unknown(argv[1], verbs);
+    refuse_empty_values(words);
     app.parse(argc, argv);
     require_one_output(arguments, dry_run || checking.dry_run);
     std::optional<ThreadLimit> limit;
@@ -415,9 +417,9 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& asked) {
     return say(app, asked);
   } catch (const CLI::ParseError& error) {
-    say(app, error);
-    retract({static_cast<int>(ErrorKind::usage), printable(error.what())});
-    return static_cast<int>(ErrorKind::usage);
+    const Failure failure{static_cast<int>(ErrorKind::usage), printable(command_line_error(app, error))};
+    retract(failure);
+    return tell(failure);
   } catch (...) {
     retract(current_failure());
     throw;

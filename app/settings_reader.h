@@ -97,6 +97,7 @@ class SettingsReader : protected TomlReader {
         read_settings(*item.node->as_table(), item.key, use);
         continue;
       }
+      if (name == "scene.scene") fail(*item.node, "in [scene] the scene is named by the key 'name'");
       at(item.where, [&] { find_setting(name); });
       use(name, *item.node);
     }

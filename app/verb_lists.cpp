@@ -26,9 +26,9 @@ int verb_report(const std::string& folder) {
   const std::string store = folder + "/results.sqlite";
   std::error_code none;
   if (std::filesystem::status(store, none).type() == std::filesystem::file_type::not_found)
-    throw Error(ErrorKind::file, fmt::format("{}: there are no results here (no results.sqlite); give the folder that "
-                                             "noonmark run or check wrote",
-                                             folder));
+    throw Error(ErrorKind::usage, fmt::format("{}: there are no results here (no results.sqlite); give the folder that "
+                                              "noonmark run or check wrote",
+                                              folder));
   const Results results = ResultStore::open(store).load();
   write_report(results, folder);
   fmt::print("{} of {}; the report is {}/report.html\n", results.points.size(),

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/judging.h"
@@ -8,11 +9,22 @@
 #include "app/verbs.h"
 #include "compare/judge/machines.h"
 #include "scenes/error.h"
+#include "scenes/shell_words.h"
 #include "scenes/text.h"
 
 namespace noonmark {
 
 int verb_merge(const MergeOptions& options) {
+  std::error_code none;
+  if (options.shares.empty())
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: {}; give the folder of the joined results and the folders that noonmark run --shard "
+                            "wrote (noonmark merge {} OUT/share-*)",
+                            options.out,
+                            std::filesystem::exists(options.out + "/results.sqlite", none)
+                                ? "no shares are given"
+                                : "there are no results here (no results.sqlite)",
+                            shell_quoted(options.out)));
   const ResultsFolder out(options.out, "");
   Merged merged = merge_stores(options.shares, out, options.overwrite);
   const Results& results = merged.results;

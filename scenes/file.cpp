@@ -17,14 +17,16 @@
 
 #include "scenes/digest.h"
 #include "scenes/error.h"
+#include "scenes/system_error.h"
 
 namespace noonmark {
 namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& path, std::string_view what, int error_number, std::string_view next) {
-  throw Error(ErrorKind::file, fmt::format("{}: {}: {}; {}", path, what, std::strerror(error_number), next));
+[[noreturn]] void fail(const std::string& path, std::string_view what, int error_number, const char* next) {
+  throw Error(kind_of_failure(error_number), fmt::format("{}: {}: {}; {}", path, what, std::strerror(error_number),
+                                                         advice_on_failure(error_number, next)));
 }
 
 // "results.csv" + ".noonmark-4711-0.tmp": process and attempt.

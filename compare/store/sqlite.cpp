@@ -10,6 +10,7 @@
 
 #include "scenes/digest.h"
 #include "scenes/error.h"
+#include "scenes/system_error.h"
 
 namespace noonmark::sqlite {
 namespace {
@@ -64,8 +65,10 @@ Database::Database(const std::string& path, Mode mode) : path_(path), mode_(mode
   if (code != SQLITE_OK) {
     // A failed open leaves a handle that must be closed here, because the destructor does not run.
     const std::string what = handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
+    const int system = handle_ ? sqlite3_system_errno(handle_) : 0;
     sqlite3_close(handle_);
-    throw Error(ErrorKind::file, fmt::format("{}: cannot be opened: {}; {}", path, what, advice(code, way_out())));
+    throw Error(kind_of_failure(system), fmt::format("{}: cannot be opened: {}; {}", path, what,
+                                                     advice_on_failure(system, advice(code, way_out()).c_str())));
   }
   sqlite3_extended_result_codes(handle_, 1);
   sqlite3_busy_timeout(handle_, busy_timeout_ms);
@@ -116,8 +119,9 @@ std::optional<std::string> Database::ask(const std::string& sql) {
 }
 
 void Database::fail(int code, std::string_view doing) const {
-  throw Error(ErrorKind::file,
-              fmt::format("{}: {}: {}; {}", path_, doing, sqlite3_errmsg(handle_), advice(code, way_out())));
+  const int system = (code & 0xff) == SQLITE_CANTOPEN ? sqlite3_system_errno(handle_) : 0;
+  throw Error(kind_of_failure(system), fmt::format("{}: {}: {}; {}", path_, doing, sqlite3_errmsg(handle_),
+                                                   advice_on_failure(system, advice(code, way_out()).c_str())));
 }
 
 Transaction::~Transaction() {

@@ -128,8 +128,12 @@ TEST_F(Messages, OneIsSingular) {
 TEST_F(Messages, AReportSaysWhatIsWrongWithTheResults) {
   for (const char* folder : {"absent", "empty"}) {
     fs::create_directories(folder_ / "empty");
-    EXPECT_EQ(run({"report", folder}), 3);
-    EXPECT_TRUE(says(std::string(folder) + ": there are no results here")) << output_;
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"report", folder}, {"merge", folder}, {"merge", "joined", folder}}) {
+      EXPECT_EQ(run(words), 2) << words[0];
+      EXPECT_TRUE(says(std::string(folder) + ": there are no results here (no results.sqlite); give the folder"))
+          << output_;
+    }
   }
   const std::string experiment = write("x.toml", one_point);
   ASSERT_EQ(run({"run", experiment, "--out", "out"}), 0) << output_;

@@ -141,7 +141,7 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAWrongCommandLine) {
            {{"check", experiment, "--threads", "0", "--out", "out"}, "--threads"},
            {{"check", experiment, "--threads", "many", "--out=out"}, "--threads"},
            {{"check", "--out", "out", experiment, "--foo"}, "--foo"},
-           {{"check", "--foo", "7", "--out", "out", "--", experiment}, "not expected"},
+           {{"check", "--foo", "7", "--out", "out", "--", experiment}, "no option"},
            {{"check", experiment, "--out", "out", "--set"}, "--set"},
            {{"check", experiment, "--out", "other", "--out", "out"}, "--out"},
            {{"check", "--out", "out"}, "experiments"},

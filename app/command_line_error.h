@@ -1,0 +1,22 @@
+// What is wrong with a command line, in one line with the nearest name for a misspelt option.
+//
+//   } catch (const CLI::ParseError& error) {
+//     fmt::print(stderr, "noonmark: {}\n", printable(command_line_error(app, error)));
+#pragma once
+#include <span>
+#include <string>
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace noonmark {
+
+// app: that has parsed the command line and thrown the error.
+std::string command_line_error(const CLI::App& app, const CLI::ParseError& error);
+
+// Throws Error(usage) for a word such as "--out=". CLI11 would take the next word for the value.
+void refuse_empty_values(std::span<const std::string> words);
+
+}  // namespace noonmark

@@ -1,0 +1,127 @@
+// Mistakes on the command line, and names that look like a line of a log.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <sstream>
+
+#include "tests/program/fixture.h"
+
+namespace noonmark::acceptance {
+namespace {
+
+using Words = std::vector<std::string>;
+
+class CommandLine : public Program {};
+
+TEST_F(CommandLine, AnUnknownOptionOfEachVerbNamesTheNearest) {
+  const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
+      {"run", "--overwite", "--overwrite"},   {"check", "--basline", "--baseline"},
+      {"render", "--pont", "--point"},        {"map", "--plcements", "--placements"},
+      {"recommend", "--budgt", "--budget"},   {"init", "--overwite", "--overwrite"},
+      {"inspect", "--jsn", "--json"},         {"report", "--hlp", "--help"},
+      {"merge", "--overwite", "--overwrite"}, {"scenes", "--hlp", "--help"},
+      {"settings", "--hlp", "--help"},        {"schema", "--hlp", "--help"},
+      {"doctor", "--hlp", "--help"}};
+  for (const auto& [verb, wrong, right] : cases) {
+    SCOPED_TRACE(verb);
+    const bool has_subject = verb != "scenes" && verb != "settings" && verb != "schema" && verb != "doctor";
+    for (const std::string& word : {wrong, wrong + "=7"}) {
+      EXPECT_EQ(run(has_subject ? Words{verb, "x", word} : Words{verb, word}), 2);
+      EXPECT_EQ(output_, "noonmark: " + verb + " has no option '" + wrong + "'; did you mean '" + right +
+                             "'? (noonmark " + verb + " --help lists what there is)\n");
+    }
+  }
+  EXPECT_EQ(run({"map", "plate", "--plcements", "3"}), 2);
+  EXPECT_TRUE(says("did you mean '--placements'?")) << output_;
+  EXPECT_EQ(run({"render", "a.toml", "b.toml"}), 2);
+  EXPECT_TRUE(says("render has no use for 'b.toml'")) << output_;
+}
+
+// A shell makes an empty value of a variable that is not set.
+TEST_F(CommandLine, AnEmptyOutIsRefused) {
+  write("x.toml", one_point);
+  for (const char* verb : {"run", "check", "render", "map", "recommend", "init", "inspect"}) {
+    SCOPED_TRACE(verb);
+    EXPECT_EQ(run({verb, "x.toml", "--out", ""}), 2);
+    EXPECT_TRUE(says("--out: the path is empty")) << output_;
+    EXPECT_EQ(run({verb, "--out=", "x.toml"}), 2);
+    EXPECT_TRUE(says("--out has no value")) << output_;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  }
+}
+
+TEST_F(CommandLine, ASceneBesideATableOfItsSettingsIsNamedThere) {
+  write("x.toml", "scene = \"x.glb\"\n[scene]\nmasks = false\n");
+  EXPECT_EQ(run({"run", "x.toml"}), 2);
+  EXPECT_TRUE(says("x.toml:2:1: ") && says("write name = \"...\" below [scene], in place of scene = \"...\" above"))
+      << output_;
+  write("x.toml", "[scene]\nmasks = false\nscene = \"x.glb\"\n");
+  EXPECT_EQ(run({"run", "x.toml"}), 2);
+  EXPECT_TRUE(says("x.toml:3:") && says("in [scene] the scene is named by the key 'name'")) << output_;
+}
+
+// The limit meets the experiment's file, the store or a picture, as it is lower or higher.
+TEST_F(CommandLine, TooManyOpenFilesAreTheMachines) {
+  write("x.toml", "scene = \"plate\"\npictures = \"first\"\n[view]\nwidth_px = 48\nheight_px = 27\n");
+  int met = 0;
+  for (rlim_t most = 5; most <= 8; ++most) {
+    fs::remove_all(folder_ / "out");
+    const int code = run({"run", "x.toml", "--out", "out"}, [&] {
+      const rlimit limit{most, most};
+      setrlimit(RLIMIT_NOFILE, &limit);
+    });
+    EXPECT_TRUE(code == 0 || code == 4) << most << ": " << output_;
+    if (code == 0) continue;
+    EXPECT_TRUE(says("raise the limit (ulimit -n)")) << most << ": " << output_;
+    ++met;
+  }
+  EXPECT_GE(met, 2);
+}
+
+// A server reads commands from the lines of a log: GitHub takes "::error file=..." at the beginning of one.
+class Forged : public CommandLine {
+ protected:
+  static void expect_none(const std::string& what, const std::string& text) {
+    std::istringstream lines(text);
+    bool named = false;
+    for (std::string line; std::getline(lines, line);) {
+      const size_t first = line.find_first_not_of(" \t\r|>*\"");
+      EXPECT_FALSE(first != std::string::npos && line.compare(first, 2, "::") == 0) << what << ": " << line;
+      named = named || line.find("::error") != std::string::npos || line.find(":error") != std::string::npos;
+    }
+    EXPECT_TRUE(named) << what << " shows no name: " << text.substr(0, 2000);
+  }
+};
+
+TEST_F(Forged, NoLineOfOutputOrResultsIsACommand) {
+  const std::string forged = "\\n::error file=x::forged";
+  const std::string model = "m\n::error file=x::forged.gltf";
+  write(model, R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+  const std::string file = "::error title=x::y.toml";
+  write(file, "title = \"t" + forged +
+                  "\"\npictures = \"none\"\n[view]\nwidth_px = 48\nheight_px = 27\n[[part]]\nname = \"p" + forged +
+                  "\"\n[part.sweep]\nscene.name = [\"m" + forged +
+                  ".gltf\", \"plate\"]\n[[part.bound]]\nmetric = \"residual\"\nmax = -1\n[[part.law]]\nname = \"l" +
+                  forged + "\"\nmeasured = \"acne\"\nequals = \"acne + 1\"\nwithin = 0.001\n");
+  EXPECT_EQ(run({"check", file, "--out", "out"}), 1) << output_;
+  expect_none("the output of check", output_);
+  for (const char* result : {"results.csv", "summary.md"}) expect_none(result, text(std::string("out/") + result));
+  const std::string junit = text("out/junit.xml");
+  expect_none("junit.xml", junit);
+  for (size_t at = junit.find("&#10;"); at != std::string::npos; at = junit.find("&#10;", at + 1))
+    EXPECT_NE(junit.compare(at + 5, 2, "::"), 0) << junit.substr(at, 80);
+  EXPECT_EQ(run({"check", file, "--dry-run"}), 0) << output_;
+  expect_none("the plan", output_);
+  EXPECT_EQ(run({"inspect", model, "--out", "m"}), 0) << output_;
+  expect_none("inspect", output_);
+  EXPECT_EQ(run({"check", file, "--out", "out", "--a\n::error file=x::b"}), 2);
+  expect_none("a wrong option", output_);
+  expect_none("junit.xml of a wrong option", text("out/junit.xml"));
+  expect_none("summary.md of a wrong option", text("out/summary.md"));
+}
+
+}  // namespace
+}  // namespace noonmark::acceptance
