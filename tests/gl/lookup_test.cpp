@@ -17,7 +17,7 @@ const std::string kind_names[] = {"directional", "spot", "point"};
 double sampler_error(const DeviceInfo& info) { return 6 * 0x1p-15 + (info.software ? 0 : 2 * 0x1p-9); }
 
 // Random scenes and settings, in parts: most of the time goes into compiling a shader for each settings.
-constexpr int parts_of_a_kind = 4, settings_of_a_part = 36;
+constexpr int parts_of_a_kind = 6, settings_of_a_part = 24;
 struct Draw {
   Scene scene;
   std::vector<Settings> settings;
