@@ -1,8 +1,8 @@
 // Where a verb puts its files without --out: one rule for all verbs, so that two files never share a folder.
 //
-//   default_folder("tests/shadows.toml")                            // "out/tests/shadows"
-//   default_folder("tests/helmet.toml", "recommend-")               // "out/tests/recommend-helmet"
-//   default_folder("out/tests/recommend-helmet/recommended.toml")   // "out/tests/recommend-helmet/recommended": beside it
+//   default_folder("checks/shadows.toml")                            // "out/checks/shadows"
+//   default_folder("checks/helmet.toml", "recommend-")               // "out/checks/recommend-helmet"
+//   default_folder("out/checks/recommend-helmet/recommended.toml")   // "out/checks/recommend-helmet/recommended": beside it
 #pragma once
 #include <string>
 #include <string_view>
@@ -13,7 +13,7 @@ namespace noonmark {
 // its whole path. A file that is itself below out/ has its folder beside it. before_name: of the verb.
 std::string default_folder(const std::string& file, std::string_view before_name = "");
 
-// The same of a folder of files: out/tests for tests, out for the working folder.
+// The same of a folder of files: out/checks for checks, out for the working folder.
 std::string default_folder_of_folder(const std::string& folder);
 
 }  // namespace noonmark

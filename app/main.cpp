@@ -195,7 +195,7 @@ int run(int argc, char** argv) {
   run->add_option("experiment", experiment, "The experiment's TOML file")->required()->check(not_empty);
   with_choices(run);
   with_out(run,
-           "Folder for the results (default: out/shadows for shadows.toml, out/tests/shadows for tests/shadows.toml)");
+           "Folder for the results (default: out/shadows for shadows.toml, out/checks/shadows for checks/shadows.toml)");
   with_overwrite(run);
   std::string shard;
   const auto with_shard = [&](CLI::App* verb) {
@@ -226,7 +226,7 @@ int run(int argc, char** argv) {
   check->add_option("experiments", paths, "TOML files, or folders of them")->required()->check(not_empty);
   with_choices(check);
   with_out(check,
-           "Folder for the results (default: out/shadows for shadows.toml, out/tests/shadows for tests/shadows.toml); "
+           "Folder for the results (default: out/shadows for shadows.toml, out/checks/shadows for checks/shadows.toml); "
            "several "
            "experiments get a subfolder each");
   with_overwrite(check);
@@ -293,7 +293,7 @@ int run(int argc, char** argv) {
   with_json(map, "Print the usable biases of each texel size as JSON");
   map->footer(exit_codes);
   with_out(map,
-           "Folder for the files (default: out/map-<name of the scene>, or out/tests/map-helmet for tests/helmet.glb)");
+           "Folder for the files (default: out/map-<name of the scene>, or out/checks/map-helmet for checks/helmet.glb)");
 
   RecommendOptions recommending;
   CLI::App* recommend = app.add_subcommand(
@@ -340,7 +340,7 @@ int run(int argc, char** argv) {
       ->check(whole_number(1, 1024, "from 1 to 1024"));
   recommend->footer(exit_codes);
   with_out(recommend,
-           "Folder for the files (default: out/recommend-<name>, or out/tests/recommend-helmet for tests/helmet.toml)");
+           "Folder for the files (default: out/recommend-<name>, or out/checks/recommend-helmet for checks/helmet.toml)");
 
   std::string model;
   const auto with_model = [&](CLI::App* verb) {
@@ -360,7 +360,7 @@ int run(int argc, char** argv) {
   with_json(inspect, "Print the same as JSON");
   with_set(inspect);
   with_out(inspect,
-           "Folder for the picture (default: out/inspect-<name>, or out/tests/inspect-helmet for tests/helmet.glb)");
+           "Folder for the picture (default: out/inspect-<name>, or out/checks/inspect-helmet for checks/helmet.glb)");
 
   CLI::App* report = app.add_subcommand("report", "Write report.html and results.csv again from stored results");
   report->add_option("folder", folder, "The results' folder")->required()->check(not_empty);

@@ -18,8 +18,8 @@ struct SweepProgress {
   // unmeasured: the ids of the points that will be measured, in their order. diagrams: those that will be. timed: the ids of
   // the points whose times will be measured. drawn: how many points will get pictures that are not drawn with the point.
   struct Ahead {
-    std::vector<int64_t> unmeasured, timed;
-    std::vector<const PhasePlan*> diagrams;
+    std::vector<int64_t> unmeasured = {}, timed = {};
+    std::vector<const PhasePlan*> diagrams = {};
     size_t drawn = 0;
   };
   SweepProgress(const Experiment& experiment, const std::vector<Settings>& planned, const Ahead& ahead, bool quiet);

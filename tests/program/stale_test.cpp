@@ -136,8 +136,7 @@ TEST_F(Stale, TheVerdictOfAnEarlierRunDoesNotOutliveAWrongCommandLine) {
     EXPECT_NE(text(folder + "/junit.xml").find(why), std::string::npos) << text(folder + "/junit.xml");
     EXPECT_NE(text(folder + "/summary.md").find("Not judged"), std::string::npos);
   };
-  using Words = std::vector<std::string>;
-  for (const auto& [words, why] : std::vector<std::pair<Words, std::string>>{
+  for (const auto& [words, why] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{"check", experiment, "--threads", "0", "--out", "out"}, "--threads"},
            {{"check", experiment, "--threads", "many", "--out=out"}, "--threads"},
            {{"check", "--out", "out", experiment, "--foo"}, "--foo"},
