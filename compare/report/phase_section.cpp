@@ -100,13 +100,12 @@ std::string points_of(const PhaseDiagram& d, const ShownPoints& shown) {
   }
   if (d.points.empty()) return "";
   std::string text = fmt::format(
-      "<p>{} of the {} point{} of {} {} on the diagram, as rings; {} of them {} a bias that is usable at every "
-      "placement "
-      "of the grid. A point lies at the width of its texel and its constant bias; what lies outside its own map is not "
-      "on the diagram.",
+      "<p>{} of the {} point{} of {} {} on the diagram, as rings; with the bias as set, {} of them {} usable at every "
+      "placement of the grid. A ring lies at the width of its point's texel and {}; what lies outside its own map is "
+      "not on the diagram.",
       on, d.points.size(), d.points.size() == 1 ? "" : "s",
       d.part.empty() ? "this sweep" : fmt::format("part {}", html(d.part)), on == 1 ? "is" : "are", usable,
-      usable == 1 ? "has" : "have");
+      usable == 1 ? "is" : "are", by_bias("its constant bias as set", "its recommended constant bias"));
   if (on < d.points.size())
     text += fmt::format(
         " The diagram is of {}. Points with other settings are not on it, because other texel sizes and biases are "
@@ -116,8 +115,8 @@ std::string points_of(const PhaseDiagram& d, const ShownPoints& shown) {
   if (rows.empty()) return text;
   return text +
          "<details class=\"more\"><summary>The sweep's points on the diagram</summary>\n<div class=\"scroll\"><table "
-         "class=\"numbers\"><thead><tr><th>Point</th><th class=\"text\">Settings</th><th>Texel</th><th>Bias</th>"
-         "<th>Usable at the nearest texel size</th><th class=\"text\">Its bias is</th></tr></thead><tbody>\n" +
+         "class=\"numbers\"><thead><tr><th>Point</th><th class=\"text\">Settings</th><th>Texel</th><th>Bias as set</th>"
+         "<th>Usable at the nearest texel size</th><th class=\"text\">That is</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div></details>\n";
 }
 

@@ -29,7 +29,7 @@ function pointsTip(event, place) {
         var p = kit.byId[id];
         return [kit.nameOf(p), kit.shown(kit.value(p, 'error'), 'fraction')];
       }),
-      'Texel ' + millimetres(place.t) + ', bias ' + millimetres(place.b) + '; error');
+      'Texel ' + metres(place.t) + ', bias ' + metres(place.b) + '; error');
 }
 function choose(place) {
   page.select(place.points[0]);
@@ -63,8 +63,8 @@ function place() {
   });
 }
 place();
-function millimetres(m) {
-  return kit.digits(1000 * m) + ' mm';
+function metres(m) {
+  return m < 1 ? kit.digits(1000 * m) + '\u202fmm' : kit.digits(m) + '\u202fm';
 }
 var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width) {
   var left = 74, right = 66, w = width - left - right, h = Math.round(Math.min(520, Math.max(300, w * 0.56)));
@@ -236,7 +236,7 @@ var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width)
             y: {scale: 'y', value: tip.t},
             dy: {value: py(tip.t) < 40 ? 34 : -14},
             align: {value: 'center'},
-            text: {value: 'usable up to ' + kit.digits(1000 * tip.t) + '\u202fmm a texel'},
+            text: {value: 'usable up to ' + metres(tip.t) + ' a texel'},
             fontWeight: {value: 600},
             fill: {value: 'var(--ink)'},
             stroke: {value: rim ? 'var(--card)' : 'transparent'},
@@ -315,7 +315,7 @@ var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width)
         });
         kit.showTip(
             event, rows,
-            row.resolution + ' texels of ' + millimetres(row.texel_m) + ', bias ' + millimetres(phase.bias_m[i]));
+            row.resolution + ' texels of ' + metres(row.texel_m) + ', bias ' + metres(phase.bias_m[i]));
       });
       view.addEventListener('mouseout', kit.hideTip);
       view.addEventListener('click', function(event, item) {
@@ -347,7 +347,7 @@ function ringsOf(cell) {
 }
 function wordsOf(cell) {
   var row = phase.rows[cell.row], i = cell.bias, b = phase.bias_m[i], out = '';
-  out = row.resolution + ' texels of ' + millimetres(row.texel_m) + ', bias ' + millimetres(b) + ': ' +
+  out = row.resolution + ' texels of ' + metres(row.texel_m) + ', bias ' + metres(b) + ': ' +
       (row.usable && b >= row.usable[0] && b <= row.usable[1] ? 'usable' : 'not usable') + ', error ' +
       kit.shown(row.error[i], 'fraction') + ' in the mean, ' + kit.shown(row.error_worst[i], 'fraction') + ' at worst';
   causes.forEach(function(c) {
