@@ -5,11 +5,14 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <string_view>
 
 #include "scenes/error.h"
+#include "scenes/system_error.h"
 
 namespace noonmark::gl {
 namespace {
@@ -22,7 +25,10 @@ constexpr const char* what_to_install = "on Debian, apt install libegl1 libegl-m
 void require_libraries() {
   const auto opens = [](const char* name) { return dlopen(name, RTLD_LAZY | RTLD_LOCAL) != nullptr; };
   const auto fail = [] {
-    throw Error(ErrorKind::device, fmt::format("OpenGL cannot be loaded: {}; {}", dlerror(), what_to_install));
+    const std::string why = dlerror();  // its only word of the reason is the system's text
+    const int error_number = why.ends_with(std::strerror(EMFILE)) ? EMFILE : 0;
+    throw Error(ErrorKind::device,
+                fmt::format("OpenGL cannot be loaded: {}; {}", why, advice_on_failure(error_number, what_to_install)));
   };
   if (!opens("libEGL.so.1")) fail();
   if (!opens("libOpenGL.so.0") && !opens("libGL.so.1")) fail();
