@@ -20,7 +20,7 @@ using Kind = ExperimentKey::Kind;
 
 Json reference(const std::string& name) { return {{"$ref", "#/definitions/" + name}}; }
 
-Json any_of(std::initializer_list<Json> forms) { return {{"anyOf", Json(std::vector<Json>(forms))}}; }
+Json any_of(std::initializer_list<Json> allowed) { return {{"anyOf", Json(std::vector<Json>(allowed))}}; }
 
 bool is_number(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -199,9 +199,9 @@ Json table_of(std::string_view table, bool in_part = false) {
 
 // One of these keys, or with `at_least_one` also several.
 Json needs(std::initializer_list<const char*> keys, const char* how) {
-  std::vector<Json> forms;
-  for (const char* key : keys) forms.push_back({{"required", {key}}});
-  return {{how, forms}};
+  std::vector<Json> required;
+  for (const char* key : keys) required.push_back({{"required", {key}}});
+  return {{how, required}};
 }
 
 // The file, or a part: its keys, and the tables of the settings.

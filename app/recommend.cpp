@@ -369,7 +369,10 @@ class Search {
   void verify(Tried& tried, Advice& advice) {
     say_("verifying at 64 other placements");
     const Verified verified = verify_at_fresh_placements(bench_, settings_of(*tried.worst), request_.curve,
-                                                         request_.accuracy, request_.error);
+                                                         request_.accuracy, request_.error, [&](int done, int of) {
+                                                           if (done % 16 == 0 && done < of)
+                                                             say_(fmt::format("verified at {} of {}", done, of));
+                                                         });
     advice.placements = searched_placements * searched_placements;
     advice.verified = verified.placements;
     advice.worst_acne = verified.worst_acne, advice.worst_peter_panning = verified.worst_peter_panning;

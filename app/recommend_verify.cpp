@@ -33,7 +33,8 @@ Settings fresh(Workbench& bench, Settings settings, int i, std::mt19937_64& rand
 }  // namespace
 
 Verified verify_at_fresh_placements(Workbench& bench, const Settings& settings, const CurveOptions& bounds,
-                                    const std::string& accuracy, std::optional<double> most) {
+                                    const std::string& accuracy, std::optional<double> most,
+                                    const std::function<void(int, int)>& done) {
   Verified verified;
   std::mt19937_64 random(64);
   for (int i = 0; i < fresh_placements * fresh_placements && !verified.broken; ++i) {
@@ -44,6 +45,7 @@ Verified verify_at_fresh_placements(Workbench& bench, const Settings& settings, 
     verified.worst_peter_panning = std::max(verified.worst_peter_panning, panning);
     verified.worst_error = std::max(verified.worst_error, error);
     ++verified.placements;
+    done(verified.placements, fresh_placements * fresh_placements);
     if (!(acne <= bounds.acne_bound && panning <= bounds.peter_panning_bound) || (most && !(error <= *most)))
       verified.broken = std::move(shown);
   }

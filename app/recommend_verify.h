@@ -1,5 +1,6 @@
 // The last step of a recommendation: OpenGL renders the settings at placements of the map's grid that were not searched.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -16,8 +17,9 @@ struct Verified {
 
 // 64 placements: for a flat map half a step between those of 8 x 8, for a cube random turns, the same in every run.
 // `accuracy` names the metric of worst_error. `most` is the largest value that this metric may have at each placement;
-// without it the metric is only reported. Throws Error.
+// without it the metric is only reported. done(n, of): n placements are rendered. Throws Error.
 Verified verify_at_fresh_placements(Workbench& bench, const Settings& settings, const CurveOptions& bounds,
-                                    const std::string& accuracy, std::optional<double> most);
+                                    const std::string& accuracy, std::optional<double> most,
+                                    const std::function<void(int, int)>& done);
 
 }  // namespace noonmark

@@ -320,6 +320,7 @@ std::string found_text(const BoundResult& bound) {
 
 std::string describe(const BoundResult& bound, const PointRecord* point, std::span<const std::string> swept) {
   std::string text = fmt::format("{}: {}", verdict_of(bound), printable(bound_text(bound)));
+  if (!bound.part.empty()) text += fmt::format(" in part {}", printable(bound.part));
   if (bound.points == 0) return text + "\n  no finished point matches it; change its where, or the swept values\n";
   text += fmt::format("; found {} ({} of {} point{}{}{})\n", found_text(bound), bound.join, bound.points,
                       bound.points == 1 ? "" : "s", bound.placement.empty() ? "" : ", at ",

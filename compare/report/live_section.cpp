@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "compare/judge/bounds.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/judge/recommendation.h"
 #include "compare/report/deflate.h"
@@ -26,7 +27,13 @@ const ImageRecord* live_image(const PointRecord& point) {
   return nullptr;
 }
 
+// The point that the head of the page speaks of: of the first broken bound, or else the recommended one; or else the
+// first that has a live picture.
 const PointRecord* point_to_show(const Results& results, const Recommendation& recommendation) {
+  for (const BoundResult& bound : results.bounds)
+    if (const PointRecord* point = breaks(bound) ? find_point(results.points, bound.point) : nullptr;
+        point && live_image(*point))
+      return point;
   const PointRecord* first = nullptr;
   for (const PointRecord& point : results.points) {
     if (!live_image(point)) continue;

@@ -62,6 +62,12 @@ std::string conditions_text(const Results& results, const Choice& choice) {
   return fmt::format(" under all {} conditions ({})", choice.points.size(), html(names));
 }
 
+// Where points have many placements of the map's grid, the error is that of the worst one; the points' own columns have
+// the placement of the settings.
+std::string_view at_worst_placement(const Recommendation& found) {
+  return found.error.at && has_placements(*found.error.at) ? ", at the worst placement of the map's grid" : "";
+}
+
 // "a cost of 4.2 MB (Map bytes) and an error of 0.1 % (Error against the light's size)"
 std::string cost_and_error(const Recommendation& found, const Results& results) {
   std::string over;
@@ -70,10 +76,10 @@ std::string cost_and_error(const Recommendation& found, const Results& results) 
                        quantity(found.error.mean, find_metric(results.info.accuracy).unit),
                        quantity(found.error.p95, find_metric(results.info.accuracy).unit), found.error.at->id,
                        found.error.at->id);
-  return fmt::format("a cost of <b>{}</b> (<i>{}</i>) and an error of <b>{}</b> (<i>{}</i>){}",
+  return fmt::format("a cost of <b>{}</b> (<i>{}</i>) and an error of <b>{}</b> (<i>{}</i>{}){}",
                      quantity(found.cost, find_metric(results.info.cost).unit), html(metric_label(results.info.cost)),
                      quantity(found.error.worst, find_metric(results.info.accuracy).unit),
-                     html(error_label(results.info.accuracy)), over);
+                     html(error_label(results.info.accuracy)), at_worst_placement(found), over);
 }
 
 // What the noise of times means for the answer.
@@ -158,14 +164,14 @@ static std::string what_to_set(const Results& results, const ShownPoints& shown)
       found.bias ? html(fmt::format("{} {}", found.bias->parameter, bias_in_unit(found.bias->value, found.bias->unit)))
                  : "";
   if (found.bias && found.bias->as_set)
-    return fmt::format("What is set is good enough{}: {} with {}. Its error is {}.", conditions,
+    return fmt::format("What is set is good enough{}: {} with {}. Its error is {}{}.", conditions,
                        bound_count(results) == 1 ? "the bound holds" : "all bounds hold",
-                       recommended_link(found.choice, bias), error);
+                       recommended_link(found.choice, bias), error, at_worst_placement(found));
   const std::string settings = chosen_phrase(found, results);
   return fmt::format(
-      "Set {}{}: the cheapest setting that is good enough{}. Its error is {}.",
+      "Set {}{}: the cheapest setting that is good enough{}. Its error is {}{}.",
       recommended_link(found.choice, settings.empty() ? found.bias ? bias : "this point" : html(settings)),
-      settings.empty() || bias.empty() ? "" : " and " + bias, conditions, error);
+      settings.empty() || bias.empty() ? "" : " and " + bias, conditions, error, at_worst_placement(found));
 }
 
 std::string answer_sentence(const Results& results, const ShownPoints& shown) {

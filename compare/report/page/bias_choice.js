@@ -20,9 +20,9 @@ page.setBias = function(mode) {
 };
 if (!any) return;
 var box = kit.make('div', {class: 'bias-choice', role: 'group', 'aria-label': 'Bias of all figures'}, 'Bias');
-box.append(kit.segments([['set', 'As set'], ['recommended', 'Recommended']], 'recommended', page.setBias));
+box.append(kit.segments([['set', 'As set'], ['recommended', 'Recommended']], page.bias, page.setBias));
 document.querySelector('nav').append(box);
-apply('recommended');
+apply(page.bias);
 
 // ---- the bars of the budget
 var rows = Array.prototype.slice.call(document.querySelectorAll('.budget .row')), size = 0, bars = [];
