@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "tests/support/sample_results.h"
+#include "checks/support/sample_results.h"
 
 namespace noonmark {
 namespace {
@@ -25,12 +25,12 @@ class DefaultFolder : public testing::Test {
 
 TEST_F(DefaultFolder, IsThePathBelowTheWorkingFolder) {
   EXPECT_EQ(default_folder("shadows.toml"), "out/shadows");
-  EXPECT_EQ(default_folder("tests/a/shadows.toml"), "out/tests/a/shadows");
-  EXPECT_EQ(default_folder("./tests/../tests//shadows.toml"), "out/tests/shadows");
-  EXPECT_EQ(default_folder((here / "tests/shadows.toml").string()), "out/tests/shadows");
+  EXPECT_EQ(default_folder("checks/a/shadows.toml"), "out/checks/a/shadows");
+  EXPECT_EQ(default_folder("./checks/../checks//shadows.toml"), "out/checks/shadows");
+  EXPECT_EQ(default_folder((here / "checks/shadows.toml").string()), "out/checks/shadows");
   EXPECT_EQ(default_folder("a.b.toml"), "out/a.b");
   EXPECT_EQ(default_folder("out.toml"), "out/out");
-  EXPECT_EQ(default_folder("tests/helmet.glb", "recommend-"), "out/tests/recommend-helmet");
+  EXPECT_EQ(default_folder("checks/helmet.glb", "recommend-"), "out/checks/recommend-helmet");
   EXPECT_EQ(default_folder("cube-room", "map-"), "out/map-cube-room");
 }
 
@@ -53,9 +53,9 @@ TEST_F(DefaultFolder, IsTheSameThroughALinkToTheWorkingFolder) {
 }
 
 TEST_F(DefaultFolder, OfAFolderIsItsOwnPath) {
-  EXPECT_EQ(default_folder_of_folder("tests"), "out/tests");
-  EXPECT_EQ(default_folder_of_folder("tests/"), "out/tests");
-  EXPECT_EQ(default_folder_of_folder("tests.d/a"), "out/tests.d/a");
+  EXPECT_EQ(default_folder_of_folder("checks"), "out/checks");
+  EXPECT_EQ(default_folder_of_folder("checks/"), "out/checks");
+  EXPECT_EQ(default_folder_of_folder("checks.d/a"), "out/checks.d/a");
   EXPECT_EQ(default_folder_of_folder("."), "out");
   EXPECT_EQ(default_folder_of_folder("./"), "out");
   EXPECT_EQ(default_folder_of_folder(here.string()), "out");

@@ -68,9 +68,9 @@ TEST_P(GlLookupOnHostTest, EqualsTheHost) {
 
 INSTANTIATE_TEST_SUITE_P(Lights, GlLookupOnHostTest,
                          testing::Combine(testing::ValuesIn(kinds), testing::Range(0, parts_of_a_kind)),
-                         [](const testing::TestParamInfo<std::tuple<LightKind, int>>& info) {
-                           return kind_names[static_cast<int>(std::get<0>(info.param))] +
-                                  std::to_string(std::get<1>(info.param));
+                         [](const testing::TestParamInfo<std::tuple<LightKind, int>>& test) {
+                           return kind_names[static_cast<int>(std::get<0>(test.param))] +
+                                  std::to_string(std::get<1>(test.param));
                          });
 
 TEST(GlLookupDraws, HaveEveryPartOfABiasReferenceAndFilter) {

@@ -167,7 +167,7 @@ TEST(MaskedTruth, OfATapUnderALinearMaskIsWrongNowhereAndInDoubtHardlyAnywhere) 
       if (truth.ambiguous[i]) continue;
       for (int tap = 0; tap < probe.taps(); ++tap) {
         const glm::dvec3 place = frame.tap_place(frame.to_light(receivers.position[i]), probe.offset(i, tap));
-        const glm::dvec3 above = frame.to_world({place.x, place.y, 0}), x = above - above.y / to_light.y * to_light;
+        const glm::dvec3 on_ray = frame.to_world({place.x, place.y, 0}), x = on_ray - on_ray.y / to_light.y * to_light;
         if (std::max(std::abs(x.x), std::abs(x.z)) > 3.99) continue;  // beside the floor
         const uint8_t bits = lookup.taps.bits(i, tap);
         const bool occluded = occluded_by_texture(x, to_light, mask);

@@ -80,7 +80,9 @@ void expect_as_in_double(const Scene& scene, const Camera& camera, bool expects_
     ++(margin > 0 ? shown : hidden);
   }
   EXPECT_GT(shown, 500);
-  if (expects_hidden) EXPECT_GT(hidden, 500);
+  if (expects_hidden) {
+    EXPECT_GT(hidden, 500);
+  }
   EXPECT_LT(ambiguous, 60);
 }
 

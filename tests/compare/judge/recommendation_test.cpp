@@ -155,10 +155,10 @@ TEST(Recommend, KeepsTheBiasThatWasSetIfItHolds) {
   EXPECT_TRUE(recommend(results).bias->narrow);
 
   const auto another = [&](const char* why) {
-    const Recommendation other = recommend(results);
-    ASSERT_EQ(other.outcome, Outcome::found) << why;
-    EXPECT_FALSE(other.bias->as_set) << why;
-    EXPECT_NE(other.bias->value, 0.25) << why;
+    const Recommendation changed = recommend(results);
+    ASSERT_EQ(changed.outcome, Outcome::found) << why;
+    EXPECT_FALSE(changed.bias->as_set) << why;
+    EXPECT_NE(changed.bias->value, 0.25) << why;
   };
   results.points[0].curve->window_min_depth = 0.3;
   another("it is outside the window");

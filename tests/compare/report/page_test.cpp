@@ -121,9 +121,10 @@ TEST_F(Page, ChartsAreReadByKeyboard) {
   EXPECT_EQ(keys["card"].get<std::string>().find(point), 0u) << keys["card"] << " of " << point;
 }
 
-// The table and the budget follow the bias that is chosen at the top.
+// The table and the budget follow the bias that is chosen at the top. A bound of this sample is broken, so the page opens
+// at the bias as set, of which its head speaks.
 TEST_F(Page, OneBiasIsInAllFigures) {
-  EXPECT_EQ(saw_["bias_choice"], json({"recommended", "set"}));
+  EXPECT_EQ(saw_["bias_choice"], json({"set", "recommended", "set"}));
   const json &recommended = saw_["at_recommended"], &set = saw_["as_set"], &point = saw_["data_of_5"];
   EXPECT_EQ(set["error"], point["metrics"]["error"]);
   EXPECT_EQ(recommended["error"], point["at"]["metrics"]["error"]);
