@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "checks/support/sample_results.h"
+#include "tests/support/sample_results.h"
 
 namespace noonmark {
 namespace {
