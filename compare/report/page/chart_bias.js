@@ -416,6 +416,7 @@ function build(width) {
             return width > 600 || /^1(0*|e.*)$/.test(String(v).replace(/^0?\.?0*/, ''));
           }),
           labelOverlap: true,
+          labelSeparation: 6,
           title: curve.parameter + ' (' + state.unit + ')',
           encode: {labels: {update: {text: {signal: kit.axisLabel('')}}}}
         }

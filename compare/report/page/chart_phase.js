@@ -116,16 +116,16 @@ var self = kit.chart(number ? 'phase-' + (number + 1) : 'phase', function(width)
     return from < to ? [{b: from * factor, t: from}, {b: to * factor, t: to}] : [];
   }
   var acne = phase.acne_bound, panning = phase.peter_panning_bound, lines = [
-    {name: 'acne_worst', points: border('acne_worst', acne, true), stroke: '#a8320a', dash: [1, 0], width: 2.4},
-    {name: 'acne_mean', points: border('acne', acne, true), stroke: '#a8320a', dash: [6, 4], width: 1.5},
+    {name: 'acne_worst', points: border('acne_worst', acne, true), stroke: 'var(--border-acne)', dash: [1, 0], width: 2.4},
+    {name: 'acne_mean', points: border('acne', acne, true), stroke: 'var(--border-acne)', dash: [6, 4], width: 1.5},
     {
       name: 'panning_worst',
       points: border('peter_panning_worst', panning, false),
-      stroke: '#003d8f',
+      stroke: 'var(--border-panning)',
       dash: [1, 0],
       width: 2.4
     },
-    {name: 'panning_mean', points: border('peter_panning', panning, false), stroke: '#003d8f', dash: [6, 4], width: 1.5},
+    {name: 'panning_mean', points: border('peter_panning', panning, false), stroke: 'var(--border-panning)', dash: [6, 4], width: 1.5},
     {name: 'law', points: law(phase.law_at_bound), stroke: 'var(--ink)', dash: [9, 3, 2, 3], width: 1.3},
     {name: 'steepest', points: law(phase.law_steepest), stroke: 'var(--ink)', dash: [1.5, 3.5], width: 1.3}
   ];
@@ -441,10 +441,10 @@ if (self) {
     return '<line x1="0" x2="26" y1="5" y2="5" stroke="' + colour + '" stroke-width="' + width +
         '" stroke-dasharray="' + dash + '"/>';
   }
-  key(stroke('#a8320a', '1 0', 2.4), 'acne at its bound, worst placement');
-  key(stroke('#a8320a', '6 4', 1.5), 'acne, mean');
-  key(stroke('#003d8f', '1 0', 2.4), 'Peter Panning at its bound, worst placement');
-  key(stroke('#003d8f', '6 4', 1.5), 'Peter Panning, mean');
+  key(stroke('var(--border-acne)', '1 0', 2.4), 'acne at its bound, worst placement');
+  key(stroke('var(--border-acne)', '6 4', 1.5), 'acne, mean');
+  key(stroke('var(--border-panning)', '1 0', 2.4), 'Peter Panning at its bound, worst placement');
+  key(stroke('var(--border-panning)', '6 4', 1.5), 'Peter Panning, mean');
   if (kit.finite(phase.law_at_bound)) key(stroke('var(--ink)', '9 3 2 3', 1.3), 'law 1: acne at its bound');
   if (kit.finite(phase.law_steepest)) key(stroke('var(--ink)', '1.5 3.5', 1.3), 'law 1: the steepest lit plane');
   key('<path d="M2 10L12 0M10 10L20 0M18 10L26 2" stroke="var(--ink)" stroke-opacity=".6" fill="none"/>',
