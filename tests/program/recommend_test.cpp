@@ -62,7 +62,8 @@ TEST_F(Recommend, AFilterOnlyWhereTheLightHasASize) {
   EXPECT_NE(setting("filter.kind"), "none");
 }
 
-TEST_F(Recommend, HoldsAnErrorWithTheLeastWorkAndABudgetWithTheLeastError) {
+TEST_F(Recommend, HoldsAnErrorWithTheLeastWork) {
+  width_ = 112, height_ = 63;  // for its time: it is the longest search of all
   ASSERT_EQ(recommend("cube-room", {"--views", "1", "--error", "0.001"}), 0) << output_;
   EXPECT_LE(found()["answer"]["error"], 0.001);
   EXPECT_LE(found()["verified"]["worst_error"], 0.001) << "at every placement that was rendered";
@@ -72,6 +73,9 @@ TEST_F(Recommend, HoldsAnErrorWithTheLeastWorkAndABudgetWithTheLeastError) {
         other["why_not"].get<std::string>().find("rendered at another placement") == std::string::npos) {
       EXPECT_GT(other["error"], 0.001) << other.dump(1);
     }
+}
+
+TEST_F(Recommend, HoldsABudgetWithTheLeastError) {
   ASSERT_EQ(recommend("cube-room", {"--views", "1", "--budget", "500000"}), 0) << output_;
   EXPECT_LE(found()["answer"]["texel_work"], 500000);
 }
