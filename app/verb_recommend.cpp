@@ -121,7 +121,7 @@ int verb_recommend(const std::string& what, const RecommendOptions& options, Exp
   make_output_folder(out);
   clear_abandoned_files(out);
   remove_earlier_advice(out);
-  Progress progress(arguments.quiet);  // without a remaining time: what is found decides what is tried next
+  Progress progress(arguments.quiet);  // shows no remaining time, because each result decides what is tried next
   const auto say = [&](const std::string& step) { progress.say(printable(step)); };
   Advice advice = search(bench, request, say);
   if (advice.answer && options.around)

@@ -122,8 +122,8 @@ class LightView {
   double ray_error_m() const { return ray_error_m_; }
 
   // How far the start of a receiver's ray is moved to find out whether R1 is sure: the float error, and the distance by
-  // which the border of a cut mask may lie elsewhere. The start is moved along two axes across the ray. A border that
-  // comes from the distance d, in any direction, is met within sqrt(2) d along one of them.
+  // which the border of a cut mask may be off. The start is moved along two axes across the ray. A border at the distance
+  // d in any direction crosses one of these axes within sqrt(2) d; hence the factor.
   double start_error_m() const { return ray_error_m_ + std::numbers::sqrt2 * scene_->mask_error_m; }
 
   const Scene& scene() const { return *scene_; }

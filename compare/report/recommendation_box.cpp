@@ -245,7 +245,7 @@ std::string recommendation_box(const Results& results) {
       "<dl>{}</dl>\n{}{}<p class=\"small\">It is {}: {}.{} <a href=\"#cost\">Speed against accuracy</a> compares by "
       "other costs and "
       "errors.</p></div>\n",
-      // Green beside a broken bound would read as its verdict.
+      // Not green while a bound is broken: a reader would take the colour for the verdict.
       std::any_of(results.bounds.begin(), results.bounds.end(), breaks) ? "none" : "held",
       kept ? "What is set" : "What to set",
       kept ? "What is set is good enough" : "The cheapest setting that is good enough",

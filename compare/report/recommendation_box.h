@@ -15,7 +15,7 @@ std::string answer_sentence(const Results& results, const ShownPoints& shown);
 std::string recommendation_box(const Results& results);
 
 // The three largest causes of error over the points, with their colours: "Acne (60 %), Aliasing (30 %)".
-// bias: in bias.unit, where they are read; without one as rendered.
+// bias: the bias, in bias.unit, at which the causes are read off the curves; without it, the causes as rendered.
 std::string cause_sentence(std::span<const PointRecord* const> points, std::optional<double> bias = {});
 
 }  // namespace noonmark::report

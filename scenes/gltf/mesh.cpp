@@ -262,7 +262,7 @@ class Appender {
     uncut_.clear();
   }
 
-  // The corners of the triangle come first among the piece's; the others are in pieces_.
+  // piece: three indices. 0, 1 and 2 are the corners of the triangle that was cut, larger ones new vertices in pieces_.
   void append_piece(const Drawable& drawable, const glm::uvec3& piece, const glm::uvec3& triangle,
                     const glm::vec3 (&corner)[3], VertexMap& map) {
     glm::uvec3 made;
