@@ -15,18 +15,18 @@
 #include <string>
 #include <system_error>
 
-#include "app/build_facts.h"
-#include "app/command_line_error.h"
-#include "app/experiment.h"
-#include "app/failure.h"
-#include "app/phase_diagram.h"
-#include "app/retract.h"
-#include "app/share_text.h"
-#include "app/terminal.h"
-#include "app/threads.h"
-#include "app/verbs.h"
-#include "scenes/error.h"
-#include "scenes/text.h"
+#include "app/definition/experiment.h"
+#include "app/definition/share_text.h"
+#include "app/sweep/retract.h"
+#include "app/verbs/command_line_error.h"
+#include "app/verbs/verbs.h"
+#include "base/build_facts.h"
+#include "base/error.h"
+#include "base/failure.h"
+#include "base/terminal.h"
+#include "base/text.h"
+#include "base/threads.h"
+#include "measure/phase_diagram.h"
 #include "technique/placements.h"
 #include "technique/settings.h"
 
@@ -194,8 +194,9 @@ int run(int argc, char** argv) {
   CLI::App* run = app.add_subcommand("run", "Measure every point of an experiment and write its report");
   run->add_option("experiment", experiment, "The experiment's TOML file")->required()->check(not_empty);
   with_choices(run);
-  with_out(run,
-           "Folder for the results (default: out/shadows for shadows.toml, out/checks/shadows for checks/shadows.toml)");
+  with_out(
+      run,
+      "Folder for the results (default: out/shadows for shadows.toml, out/checks/shadows for checks/shadows.toml)");
   with_overwrite(run);
   std::string shard;
   const auto with_shard = [&](CLI::App* verb) {
@@ -225,10 +226,11 @@ int run(int argc, char** argv) {
       app.add_subcommand("check", "Run experiments and judge their bounds and laws: the exit code is the verdict");
   check->add_option("experiments", paths, "TOML files, or folders of them")->required()->check(not_empty);
   with_choices(check);
-  with_out(check,
-           "Folder for the results (default: out/shadows for shadows.toml, out/checks/shadows for checks/shadows.toml); "
-           "several "
-           "experiments get a subfolder each");
+  with_out(
+      check,
+      "Folder for the results (default: out/shadows for shadows.toml, out/checks/shadows for checks/shadows.toml); "
+      "several "
+      "experiments get a subfolder each");
   with_overwrite(check);
   with_shard(check);
   CheckOptions checking;
@@ -236,14 +238,14 @@ int run(int argc, char** argv) {
                   "Only print each experiment's points, the memory that each takes, and an estimate of the time");
   with_output(check);
   check
-      ->add_option("--baseline", checking.baseline,
+      ->add_option("--baseline", checking.baseline.file,
                    "Compare the values that bounds and [plot] name with this file: exit code 1 if one is worse")
       ->check(not_empty)
       ->type_name("FILE");
-  check->add_flag("--update-baseline", checking.update_baseline,
+  check->add_flag("--update-baseline", checking.baseline.update,
                   "Write the values of this run to the baseline, instead of comparing with it");
   check
-      ->add_option("--baseline-times", checking.baseline_times,
+      ->add_option("--baseline-times", checking.baseline.times,
                    "Keep and compare times too: a time may differ by this share of the time before (0.2 or 20%)")
       ->transform(as_share)
       ->type_name("SHARE");
@@ -292,8 +294,9 @@ int run(int argc, char** argv) {
       ->check(whole_number(1, 1024, "from 1 to 1024"));
   with_json(map, "Print the usable biases of each texel size as JSON");
   map->footer(exit_codes);
-  with_out(map,
-           "Folder for the files (default: out/map-<name of the scene>, or out/checks/map-helmet for checks/helmet.glb)");
+  with_out(
+      map,
+      "Folder for the files (default: out/map-<name of the scene>, or out/checks/map-helmet for checks/helmet.glb)");
 
   RecommendOptions recommending;
   CLI::App* recommend = app.add_subcommand(
@@ -339,8 +342,9 @@ int run(int argc, char** argv) {
                    "Number of threads (default: one for each core); no result depends on it")
       ->check(whole_number(1, 1024, "from 1 to 1024"));
   recommend->footer(exit_codes);
-  with_out(recommend,
-           "Folder for the files (default: out/recommend-<name>, or out/checks/recommend-helmet for checks/helmet.toml)");
+  with_out(
+      recommend,
+      "Folder for the files (default: out/recommend-<name>, or out/checks/recommend-helmet for checks/helmet.toml)");
 
   std::string model;
   const auto with_model = [&](CLI::App* verb) {

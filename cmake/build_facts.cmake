@@ -1,10 +1,10 @@
-# noonmark_build_facts(TARGET): compiles the definition of app/build_facts.h into TARGET.
+# noonmark_build_facts(TARGET): compiles the definition of base/build_facts.h into TARGET.
 function(noonmark_build_facts target)
   # Versions as each folder's find_package or pkg_check_modules left them: name, folder, variable.
   set(libraries)
   foreach(row "Embree raytrace embree_VERSION" "libepoxy gl EPOXY_VERSION" "GLM . glm_VERSION" "OpenImageIO app OPENIMAGEIO_VERSION"
               "tinygltf scenes TinyGLTF_VERSION" "Draco scenes draco_VERSION" "meshoptimizer scenes meshoptimizer_VERSION" "CLI11 app CLI11_VERSION" "toml++ app tomlplusplus_VERSION"
-              "nlohmann-json . nlohmann_json_VERSION" "spdlog . spdlog_VERSION" "fmt . fmt_VERSION" "SQLite . SQLite3_VERSION"
+              "nlohmann-json . nlohmann_json_VERSION" "fmt . fmt_VERSION" "SQLite . SQLite3_VERSION"
               "oneTBB . TBB_VERSION")
     separate_arguments(row)
     list(POP_FRONT row name folder variable)

@@ -23,7 +23,7 @@ foreach(library ${LIBRARIES})
   string(APPEND rows "${row}")
 endforeach()
 file(CONFIGURE OUTPUT "${SOURCE}" @ONLY CONTENT [[
-#include "app/build_facts.h"
+#include "base/build_facts.h"
 
 namespace noonmark {
 namespace {

@@ -6,7 +6,7 @@
 # single pointer (null, alignment, object-size, vptr, pointer-overflow) are left to that preset: they take half of
 # the time to compile, and a null or wild pointer stops AddressSanitizer too.
 set(NOONMARK_SANITIZE -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=null,alignment,object-size,vptr,pointer-overflow)
-set(NOONMARK_SANITIZED_LIBRARIES noonmark_scenes)
+set(NOONMARK_SANITIZED_LIBRARIES noonmark_base noonmark_scenes)
 
 # noonmark_sanitized(OUT item...): the items with the names of the sanitized libraries; other names stay as they are.
 function(noonmark_sanitized out)

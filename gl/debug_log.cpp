@@ -2,9 +2,8 @@
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
-#include "scenes/error.h"
+#include "base/error.h"
 
 namespace noonmark::gl {
 namespace {
@@ -48,9 +47,9 @@ void DebugLog::receive(unsigned type, unsigned severity, const char* message) {
   if (mode_ == DebugMode::fatal && error) {
     if (first_error_.empty()) first_error_ = message;
   } else if (error) {
-    spdlog::error("OpenGL: {}", message);
+    fmt::print(stderr, "OpenGL: error: {}\n", message);
   } else if (severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM) {
-    spdlog::warn("OpenGL: {}", message);
+    fmt::print(stderr, "OpenGL: warning: {}\n", message);
   }
 }
 

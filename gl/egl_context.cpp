@@ -11,8 +11,8 @@
 #include <string>
 #include <string_view>
 
-#include "scenes/error.h"
-#include "scenes/system_error.h"
+#include "base/error.h"
+#include "base/system_error.h"
 
 namespace noonmark::gl {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <stdexcept>
 
+#include "base/error.h"
 #include "gl/renderer.h"
 #include "gl_shaders.h"
-#include "scenes/error.h"
 #include "technique_files.h"
 
 namespace noonmark::gl {

@@ -7,8 +7,8 @@
 #include <cctype>
 #include <limits>
 
+#include "base/error.h"
 #include "gl/renderer_impl.h"
-#include "scenes/error.h"
 
 namespace noonmark::gl {
 namespace {

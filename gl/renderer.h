@@ -1,3 +1,6 @@
+// gl/: the technique as OpenGL runs it. May include base, scenes and technique; raytrace and gl do not know each other, so
+// that an error in one cannot hide in the other. OpenGL's types stay inside this folder. This is its only public header.
+//
 // The OpenGL side of the measurement: it draws shadow maps and looks them up as an engine does.
 //
 //   gl::Renderer renderer(gl::DebugMode::fatal);
@@ -17,7 +20,7 @@
 #include <span>
 #include <string>
 
-#include "scenes/image.h"
+#include "base/image.h"
 #include "scenes/receivers.h"
 #include "scenes/scene.h"
 #include "technique/evidence.h"

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/error.h"
 #include "gl/bias_text.h"
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
 #include "gl/tap_table.h"
-#include "scenes/error.h"
 #include "technique/bias.h"
 #include "technique/setting_rules.h"
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "base/error.h"
 #include "gl/renderer_impl.h"
-#include "scenes/error.h"
 #include "technique/bias.h"
 
 namespace noonmark::gl {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "base/error.h"
 #include "gl/renderer_impl.h"
-#include "scenes/error.h"
 
 namespace noonmark::gl {
 namespace {

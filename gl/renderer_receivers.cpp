@@ -6,9 +6,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/error.h"
 #include "gl/renderer_impl.h"
 #include "scenes/camera_frame.h"
-#include "scenes/error.h"
 
 namespace noonmark::gl {
 namespace {

@@ -6,7 +6,7 @@
 #include <regex>
 #include <sstream>
 
-#include "scenes/error.h"
+#include "base/error.h"
 
 namespace noonmark::gl {
 namespace {

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <limits>
 
+#include "base/address_space.h"
+#include "base/error.h"
 #include "raytrace/vertex_rounding.h"
-#include "scenes/address_space.h"
-#include "scenes/error.h"
 
 namespace noonmark {
 namespace {

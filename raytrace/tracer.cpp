@@ -5,13 +5,13 @@
 #include <optional>
 #include <string>
 
+#include "base/error.h"
 #include "raytrace/area_light.h"
 #include "raytrace/light_view.h"
 #include "raytrace/packets.h"
 #include "raytrace/shadow_start.h"
 #include "raytrace/stage_watch.h"
 #include "raytrace/traced_scene.h"
-#include "scenes/error.h"
 
 namespace noonmark::raytrace {
 namespace {

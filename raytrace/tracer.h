@@ -1,3 +1,7 @@
+// raytrace/: the truth, by Embree's rays and by scan conversion in double. May include base, scenes and technique, and not
+// gl. Embree's types stay inside this folder. Begin here; raytrace/lookup_tracer.h and placement_tracer.h are the
+// truth of the taps.
+//
 // The truth by rays: what is lit, how certain that is, and the exact shadow map.
 //
 //   raytrace::Tracer tracer(scene);

@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "base/error.h"
 #include "scenes/camera_frame.h"
-#include "scenes/error.h"
 #include "scenes/view_clip.h"
 
 namespace noonmark {

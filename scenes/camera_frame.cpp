@@ -6,7 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
-#include "scenes/error.h"
+#include "base/error.h"
 
 namespace noonmark {
 

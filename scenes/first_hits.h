@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/image.h"
 #include "scenes/camera_frame.h"
-#include "scenes/image.h"
 #include "scenes/scene.h"
 
 namespace noonmark {

@@ -6,13 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
 #include "scenes/builtin.h"
-#include "scenes/error.h"
 #include "scenes/floor.h"
 #include "scenes/gltf/gltf.h"
-#include "scenes/memory.h"
 #include "scenes/remesh.h"
-#include "scenes/text.h"
+#include "scenes/scene_size.h"
 
 namespace noonmark {
 namespace {

@@ -8,7 +8,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "scenes/image.h"
+#include "base/image.h"
 #include "scenes/scene.h"
 
 namespace noonmark {

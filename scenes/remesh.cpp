@@ -11,6 +11,8 @@
 #include <tuple>
 #include <utility>
 
+#include "scenes/scene_size.h"
+
 namespace noonmark {
 namespace {
 

@@ -6,9 +6,9 @@
 //   Scene again = remeshed(make_scene(settings), MeshForm::split);
 //   Scene far = remeshed(scene, MeshForm::tiles, {.turn_deg = 17, .move_m = {300, 0, 0}});
 #pragma once
-#include "scenes/memory.h"
 #include "scenes/scene.h"
 #include "scenes/scene_settings.h"
+#include "scenes/scene_size.h"
 
 namespace noonmark {
 

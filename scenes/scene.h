@@ -1,3 +1,7 @@
+// scenes/: what is looked at: triangles, camera and light, built in or read from glTF, and the receivers of a picture.
+// May include base. Knows no shadow map and no setting of one. Begin here, then scenes/library.h (a scene by its name)
+// and scenes/receivers.h.
+//
 // The types of a scene. The project's conventions are defined here and nowhere else.
 //
 //   Scene scene = make_scene(settings.scene);        // a built-in name or a .gltf/.glb path (scenes/library.h)

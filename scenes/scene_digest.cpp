@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "scenes/digest.h"
+#include "base/digest.h"
 
 namespace noonmark {
 namespace {

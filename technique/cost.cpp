@@ -57,7 +57,7 @@ int weight_operations(const Filter& filter, int size) {
     for (int x = 0; x <= size; x += 2) {
       const Counted left = weight(x), right = weight(x + 1);
       const Counted across = left + right, up = below + above;  // written twice there; a compiler makes each once
-      across * up;
+      across* up;
       right / across;
       above / up;
     }

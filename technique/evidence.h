@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "scenes/image.h"
+#include "base/image.h"
 #include "technique/bias_parts.h"
 #include "technique/tap_pattern.h"
 

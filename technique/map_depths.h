@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenes/image.h"
+#include "base/image.h"
 #include "technique/texel_set.h"
 
 namespace noonmark {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scenes/error.h"
+#include "base/error.h"
 
 namespace noonmark::setting_rows {
 

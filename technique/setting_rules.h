@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/error.h"
+#include "base/error.h"
 #include "scenes/scene.h"
 #include "technique/settings.h"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "scenes/error.h"
-#include "scenes/text.h"
+#include "base/error.h"
+#include "base/text.h"
 #include "technique/filters.h"
 #include "technique/light_kind.h"
 #include "technique/placements.h"
@@ -438,6 +438,12 @@ const Setting& find_setting(std::string_view name) {
   const std::string near = nearest_name(name, names);
   throw Error(ErrorKind::usage, fmt::format("there is no setting '{}'{} (noonmark settings lists them)", name,
                                             near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+std::map<std::string, std::string> settings_map(const Settings& settings) {
+  std::map<std::string, std::string> map;
+  for (const Setting& row : settings_table()) map[std::string(row.name)] = row.get(settings);
+  return map;
 }
 
 }  // namespace noonmark

@@ -1,3 +1,7 @@
+// technique/: what is judged, as plain data and arithmetic that the shaders and the host share: settings, biases, filters,
+// the light's frame, and what gl and raytrace hand to compare. May include base and scenes. Draws nothing and traces
+// nothing. Begin here, then technique/technique.h (a point's settings, resolved once).
+//
 // Every setting of a measurement. A setting is a struct member with a default here and one row in the table of
 // settings.cpp: name, unit, range, help, the stages that read it, when it is idle, and the settings that it conflicts
 // with. The command line, the experiment file, the sweep, the result store and the report all read that row. To add a
@@ -11,6 +15,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -124,7 +129,7 @@ struct Settings {
   TruthSettings truth;
 };
 
-// The stages of a measurement (app/stages.h), in their order.
+// The stages of a measurement (measure/stages.h), in their order.
 enum class Stage : uint8_t { scene = 1, view = 2, truth = 4, map = 8, lookup = 16, ladder = 32 };
 
 struct Stages {
@@ -173,6 +178,9 @@ struct Setting {
 };
 
 std::span<const Setting> settings_table();
+
+// Every setting by its row's name, in canonical text: PointRecord::settings.
+std::map<std::string, std::string> settings_map(const Settings& settings);
 
 // Throws Error(usage) that suggests the nearest name.
 const Setting& find_setting(std::string_view name);

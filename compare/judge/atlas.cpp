@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

@@ -1,5 +1,5 @@
 // The atlas of failures: for one known failure and one technique, whether the technique holds, and where it stops. The
-// rows are experiments with an [atlas] section (app/atlas_reader.h); their parts are the techniques.
+// rows are experiments with an [atlas] section (app/definition/atlas_reader.h); their parts are the techniques.
 //
 //   AtlasCell cell = judge_technique(entry, "texel plane", points_of_that_part);
 #pragma once
@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

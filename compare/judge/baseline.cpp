@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/error.h"
+#include "base/text.h"
 #include "compare/judge/conditions.h"
 #include "compare/ladder/numbers.h"
-#include "compare/store/number_text.h"
-#include "compare/store/quantities.h"
-#include "scenes/error.h"
-#include "scenes/text.h"
+#include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
 #include "technique/settings.h"
 
 namespace noonmark {

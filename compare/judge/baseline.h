@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "compare/judge/bounds.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

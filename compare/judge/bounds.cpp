@@ -8,13 +8,13 @@
 #include <limits>
 #include <numeric>
 
+#include "base/error.h"
+#include "base/text.h"
 #include "compare/judge/no_flicker.h"
 #include "compare/judge/poor_view.h"
 #include "compare/judge/undecided.h"
 #include "compare/ladder/numbers.h"
-#include "compare/store/number_text.h"
-#include "scenes/error.h"
-#include "scenes/text.h"
+#include "compare/results/number_text.h"
 #include "technique/settings.h"
 
 namespace noonmark {

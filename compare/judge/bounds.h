@@ -1,3 +1,6 @@
+// compare/judge/: whether it is good enough: bounds, laws, baselines, soundness of the renderer, the cheapest choice. May
+// include what compare/ladder may, and the ladder.
+//
 // Bounds: checks the limits that an experiment asserts against the finished points.
 //
 //   auto results = evaluate_bounds(points, bounds, [&](const PointRecord& p) { return command_for(p); });
@@ -14,9 +17,9 @@
 #include <vector>
 
 #include "compare/judge/conditions.h"
-#include "compare/store/number_text.h"
-#include "compare/store/quantities.h"
-#include "compare/store/records.h"
+#include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

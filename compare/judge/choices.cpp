@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "compare/judge/curve_reading.h"
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 #include "technique/settings.h"
 
 namespace noonmark {

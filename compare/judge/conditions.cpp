@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scenes/error.h"
+#include "base/error.h"
 #include "technique/settings.h"
 
 namespace noonmark {

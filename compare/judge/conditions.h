@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

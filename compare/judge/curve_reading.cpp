@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "compare/ladder/numbers.h"
-#include "compare/store/curve_fields.h"
-#include "compare/store/quantities.h"
+#include "compare/results/curve_fields.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

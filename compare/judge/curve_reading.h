@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

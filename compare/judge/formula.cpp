@@ -10,7 +10,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "scenes/error.h"
+#include "base/error.h"
 
 namespace noonmark {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text.h"
 #include "compare/judge/laws.h"
-#include "compare/store/quantities.h"
-#include "scenes/text.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

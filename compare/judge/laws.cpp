@@ -7,12 +7,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.h"
+#include "base/text.h"
 #include "compare/judge/formula.h"
 #include "compare/ladder/numbers.h"
-#include "compare/store/metrics.h"
-#include "compare/store/quantities.h"
-#include "scenes/error.h"
-#include "scenes/text.h"
+#include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
 #include "technique/settings.h"
 
 namespace noonmark {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "compare/judge/conditions.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

@@ -8,9 +8,9 @@
 #include <set>
 #include <tuple>
 
+#include "base/text.h"
 #include "compare/judge/conditions.h"
-#include "compare/store/metrics.h"
-#include "scenes/text.h"
+#include "compare/results/metrics.h"
 
 namespace noonmark {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "compare/judge/conditions.h"
 #include "compare/judge/curve_reading.h"
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "compare/judge/choices.h"
 #include "compare/judge/interval.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

@@ -11,7 +11,7 @@
 #include "compare/ladder/numbers.h"
 #include "compare/ladder/probe_errors.h"
 #include "compare/ladder/receiver_taps.h"
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

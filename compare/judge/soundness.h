@@ -14,7 +14,7 @@
 
 #include "compare/ladder/ladder.h"
 #include "compare/ladder/probe_errors.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 #include "scenes/receivers.h"
 #include "technique/light_frame.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "compare/judge/curve_reading.h"
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

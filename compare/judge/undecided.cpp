@@ -6,8 +6,8 @@
 #include <array>
 #include <string_view>
 
-#include "compare/store/number_text.h"
-#include "compare/store/quantities.h"
+#include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

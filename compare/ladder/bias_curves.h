@@ -19,7 +19,7 @@
 
 #include "compare/ladder/ladder.h"
 #include "compare/ladder/threshold_sums.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 #include "scenes/receivers.h"
 #include "technique/light_frame.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 
-#include "scenes/image.h"
+#include "base/image.h"
 
 namespace noonmark {
 

@@ -22,7 +22,7 @@
 #include <string>
 #include <string_view>
 
-#include "scenes/image.h"
+#include "base/image.h"
 
 namespace noonmark {
 

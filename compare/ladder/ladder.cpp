@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "compare/ladder/receiver_taps.h"
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

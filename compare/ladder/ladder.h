@@ -1,3 +1,6 @@
+// compare/ladder/: why a pixel is wrong: rungs, causes, metrics, bias curves, flicker, law 1's bias. Pure functions of
+// images and evidence. May include base, scenes, technique and compare/results; no store, no ray, no OpenGL.
+//
 // The ladder: why each pixel is wrong. Every cause is defined here, and nowhere else.
 //
 //   Ladder ladder = climb({truth, probe, taps, exact_map, settings.map, bias, r4, r5});
@@ -40,8 +43,8 @@
 #include <string_view>
 #include <vector>
 
-#include "compare/store/records.h"
-#include "scenes/image.h"
+#include "base/image.h"
+#include "compare/results/records.h"
 #include "technique/bias.h"
 #include "technique/evidence.h"
 #include "technique/map_address.h"

@@ -1,10 +1,10 @@
-// The metrics of one point: pure functions of the ladder's images. Names and meanings: compare/store/metrics.h.
+// The metrics of one point: pure functions of the ladder's images. Names and meanings: compare/results/metrics.h.
 #pragma once
 #include <map>
 #include <string>
 
 #include "compare/ladder/ladder.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 #include "scenes/receivers.h"
 #include "technique/light_frame.h"
 

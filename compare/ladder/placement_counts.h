@@ -29,7 +29,7 @@
 
 #include "compare/ladder/ladder.h"
 #include "compare/ladder/tap_threshold.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 #include "technique/placements.h"
 
 namespace noonmark {

@@ -20,8 +20,8 @@
 #include "compare/report/rules.h"
 #include "compare/report/sections.h"
 #include "compare/report/text.h"
-#include "compare/store/metrics.h"
-#include "compare/store/quantities.h"
+#include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark::report {
 namespace {

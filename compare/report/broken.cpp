@@ -8,7 +8,7 @@
 
 #include "compare/judge/bounds.h"
 #include "compare/report/text.h"
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark::report {
 namespace {

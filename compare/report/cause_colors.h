@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 

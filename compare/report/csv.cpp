@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "compare/report/escape.h"
-#include "compare/store/metrics.h"
-#include "compare/store/quantities.h"
-#include "compare/store/record_fields.h"
+#include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
+#include "compare/results/record_fields.h"
 #include "technique/settings.h"
 
 namespace noonmark {

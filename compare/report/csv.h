@@ -2,13 +2,13 @@
 #pragma once
 #include <string>
 
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 
 // The format is RFC 4180: a heading, then one row per point in order of id. Lines end with CRLF. Fields with a comma, a
 // quote or a line break are quoted. The columns have the order of their tables: `point`, every setting, every metric
-// that is not a time, the quantities of the bias curve (compare/store/quantities.h), the worst pixel, the metrics that are
+// that is not a time, the quantities of the bias curve (compare/results/quantities.h), the worst pixel, the metrics that are
 // times, and the kind of machine at the end. All columns before the first time are deterministic: two runs of one
 // experiment on one machine give the same bytes, all of them if no times are measured. When, where and how long the
 // program worked stands in the store alone. Numbers are the shortest decimals that read back as the same double, or `nan`, `inf` and `-inf`. An empty

@@ -18,10 +18,10 @@
 #include "compare/report/rules.h"
 #include "compare/report/speed.h"
 #include "compare/report/text.h"
-#include "compare/store/curve_fields.h"
-#include "compare/store/metrics.h"
-#include "compare/store/number_text.h"
-#include "compare/store/quantities.h"
+#include "compare/results/curve_fields.h"
+#include "compare/results/metrics.h"
+#include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark::report {
 namespace {

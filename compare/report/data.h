@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "compare/report/shown.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark::report {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "scenes/text.h"
+#include "base/text.h"
 
 namespace noonmark {
 namespace {

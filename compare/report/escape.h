@@ -1,5 +1,5 @@
 // Writes text of unknown origin safely, with one function for each format. The function for HTML is report::html
-// (compare/report/text.h), the one for a terminal is printable() (scenes/text.h).
+// (compare/report/text.h), the one for a terminal is printable() (base/text.h).
 #pragma once
 #include <string>
 #include <string_view>
@@ -7,7 +7,7 @@
 namespace noonmark {
 
 // A cell of CSV that holds text, quoted if RFC 4180 requires it. It is one line: control characters are printable()
-// (scenes/text.h). An apostrophe is added before a text that a spreadsheet would treat as a formula: it begins with
+// (base/text.h). An apostrophe is added before a text that a spreadsheet would treat as a formula: it begins with
 // = + - @ and is not a number ("-5,4,5" is not one).
 std::string csv_text(std::string_view text);
 

@@ -8,8 +8,8 @@
 #include "compare/judge/curve_reading.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/rules.h"
-#include "compare/store/curve_fields.h"
-#include "compare/store/quantities.h"
+#include "compare/results/curve_fields.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 std::vector<size_t> pareto_front(std::span<const CostAndError> points) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compare/judge/interval.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

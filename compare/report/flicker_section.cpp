@@ -10,7 +10,7 @@
 #include "compare/ladder/flicker.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/text.h"
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark::report {
 namespace {

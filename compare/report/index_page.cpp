@@ -10,7 +10,7 @@
 #include "compare/report/links.h"
 #include "compare/report/page_parts.h"
 #include "compare/report/text.h"
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

@@ -6,11 +6,11 @@
 #include <set>
 #include <string_view>
 
+#include "base/text.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "compare/report/escape.h"
-#include "scenes/text.h"
 
 namespace noonmark {
 namespace {

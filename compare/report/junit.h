@@ -3,7 +3,7 @@
 #include <string>
 
 #include "compare/judge/baseline.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark::report {
 

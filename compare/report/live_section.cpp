@@ -14,7 +14,7 @@
 #include "compare/judge/recommendation.h"
 #include "compare/report/deflate.h"
 #include "compare/report/text.h"
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark::report {
 

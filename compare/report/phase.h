@@ -1,4 +1,4 @@
-// A phase diagram for its readers: as words, as a page of its own, and as CSV. compare/store/phase_record.h says what it
+// A phase diagram for its readers: as words, as a page of its own, and as CSV. compare/results/phase_record.h says what it
 // is.
 //
 //   write(dir + "/phase.html", render_phase(diagram));
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/store/phase_record.h"
+#include "compare/results/phase_record.h"
 
 namespace noonmark {
 

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/shell_words.h"
 #include "compare/judge/curve_reading.h"
 #include "compare/report/text.h"
-#include "compare/store/quantities.h"
-#include "scenes/shell_words.h"
+#include "compare/results/quantities.h"
 #include "technique/settings.h"
 
 namespace noonmark::report {

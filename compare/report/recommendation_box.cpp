@@ -14,7 +14,7 @@
 #include "compare/report/sections.h"
 #include "compare/report/speed.h"
 #include "compare/report/text.h"
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark::report {
 namespace {

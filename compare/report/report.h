@@ -1,3 +1,6 @@
+// compare/report/: how results are shown: HTML, CSV, JUnit, Markdown. Turns records into text and nothing else. May include
+// what compare/judge may, and the judge; no store.
+//
 // The report: one HTML file without other files. It works offline, because a Content-Security-Policy in it forbids
 // every request. Every number in it can be read without JavaScript, and the same results always give the same bytes.
 //
@@ -6,7 +9,7 @@
 #include <functional>
 #include <string>
 
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

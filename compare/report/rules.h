@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

@@ -15,8 +15,8 @@
 #include "compare/report/findings.h"
 #include "compare/report/rules.h"
 #include "compare/report/text.h"
-#include "compare/store/number_text.h"
-#include "compare/store/quantities.h"
+#include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark::report {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "compare/judge/tradeoff.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark::report {
 

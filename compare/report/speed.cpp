@@ -11,8 +11,8 @@
 #include "compare/judge/curve_reading.h"
 #include "compare/report/findings.h"
 #include "compare/report/text.h"
-#include "compare/store/number_text.h"
-#include "compare/store/quantities.h"
+#include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
 #include "technique/settings.h"
 
 namespace noonmark::report {

@@ -17,9 +17,9 @@
 #include "compare/judge/soundness.h"
 #include "compare/judge/undecided.h"
 #include "compare/report/escape.h"
-#include "compare/store/metrics.h"
-#include "compare/store/number_text.h"
-#include "compare/store/quantities.h"
+#include "compare/results/metrics.h"
+#include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
 
 namespace noonmark {
 namespace {

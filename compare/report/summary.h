@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "compare/judge/baseline.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

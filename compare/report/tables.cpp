@@ -10,9 +10,9 @@
 #include "compare/report/cause_colors.h"
 #include "compare/report/sections.h"
 #include "compare/report/text.h"
-#include "compare/store/metrics.h"
-#include "compare/store/number_text.h"
-#include "compare/store/quantities.h"
+#include "compare/results/metrics.h"
+#include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
 #include "technique/settings.h"
 
 namespace noonmark::report {

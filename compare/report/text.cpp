@@ -8,11 +8,11 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "compare/report/escape.h"
 #include "compare/report/rules.h"
-#include "compare/store/number_text.h"
-#include "compare/store/quantities.h"
-#include "scenes/text.h"
+#include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
 #include "technique/settings.h"
 
 namespace noonmark::report {

@@ -6,7 +6,7 @@
 
 #include "compare/judge/interval.h"
 #include "compare/report/rules.h"
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark::report {
 

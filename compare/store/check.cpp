@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "compare/store/schema.h"
 #include "compare/store/sqlite.h"
-#include "scenes/error.h"
 
 namespace noonmark {
 namespace {

@@ -7,13 +7,13 @@
 #include <map>
 #include <string_view>
 
-#include "compare/store/metrics.h"
-#include "compare/store/record_fields.h"
+#include "base/error.h"
+#include "compare/results/metrics.h"
+#include "compare/results/record_fields.h"
 #include "compare/store/record_tables.h"
 #include "compare/store/schema.h"
 #include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
-#include "scenes/error.h"
 
 namespace noonmark {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "compare/store/phase_record.h"
+#include "compare/results/phase_record.h"
 
 namespace noonmark {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <map>
 
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 
 namespace noonmark {
 

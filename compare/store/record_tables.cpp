@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "compare/store/curve_fields.h"
-#include "compare/store/quantities.h"
-#include "compare/store/record_fields.h"
+#include "compare/results/curve_fields.h"
+#include "compare/results/quantities.h"
+#include "compare/results/record_fields.h"
 
 namespace noonmark {
 namespace {

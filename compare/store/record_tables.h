@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "compare/store/records.h"
+#include "compare/results/records.h"
 #include "compare/store/table.h"
 
 namespace noonmark {

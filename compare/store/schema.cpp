@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <string_view>
 
-#include "compare/store/metrics.h"
+#include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
+#include "compare/results/record_fields.h"
 #include "compare/store/phase_tables.h"
-#include "compare/store/quantities.h"
-#include "compare/store/record_fields.h"
 #include "compare/store/record_tables.h"
 #include "technique/settings.h"
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
+#include "base/digest.h"
+#include "base/error.h"
 #include "compare/store/sqlite.h"
-#include "scenes/digest.h"
-#include "scenes/error.h"
 
 namespace noonmark {
 namespace {

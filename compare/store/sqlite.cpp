@@ -8,9 +8,9 @@
 #include <limits>
 #include <utility>
 
-#include "scenes/digest.h"
-#include "scenes/error.h"
-#include "scenes/system_error.h"
+#include "base/digest.h"
+#include "base/error.h"
+#include "base/system_error.h"
 
 namespace noonmark::sqlite {
 namespace {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "base/error.h"
 #include "compare/store/check.h"
 #include "compare/store/fingerprint.h"
 #include "compare/store/journal.h"
@@ -19,7 +20,6 @@
 #include "compare/store/schema.h"
 #include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
-#include "scenes/error.h"
 
 namespace noonmark {
 namespace {

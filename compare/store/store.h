@@ -1,3 +1,6 @@
+// compare/store/: the results on disk, as SQLite. May include base, technique (the rows of the settings are columns) and
+// compare/results. Nothing that computes knows it.
+//
 // results.sqlite: the only store of a sweep. It is written point by point, so that a sweep that was killed can resume.
 //
 //   ResultStore store("out/results.sqlite", fingerprint, Existing::resume);
@@ -26,9 +29,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
+#include "compare/results/records.h"
 #include "compare/store/join.h"
-#include "compare/store/records.h"
-#include "scenes/error.h"
 
 namespace noonmark {
 
@@ -48,7 +51,7 @@ struct OtherResults : Error {
 
 class ResultStore {
  public:
-  // fingerprint: what every result depends on beside its point's settings (app/identity.h), as lines of "name = value".
+  // fingerprint: what every result depends on beside its point's settings (app/sweep/identity.h), as lines of "name = value".
   // The folder must exist. Throws OtherResults if the store's fingerprint differs in more than scenes, with the first line that
   // differs. Throws Error(usage) for the store of another version, and Error(file)
   // for a file that is damaged, is no store, or cannot be written.
@@ -89,7 +92,7 @@ class ResultStore {
   // again.
   void set_pictures(int64_t point, const PointPictures& pictures);
   // Gives points in the store more metrics, or other values of those that they have: times are measured after all points
-  // (app/pass_times.h). All in one transaction.
+  // (measure/pass_times.h). All in one transaction.
   void set_metrics(const std::map<int64_t, std::map<std::string, double>>& of_points);
   // Replaces the stored facts of the run.
   void set_info(const RunInfo& info, int64_t planned_points);

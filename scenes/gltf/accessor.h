@@ -11,7 +11,7 @@
 
 #include "scenes/gltf/buffers.h"
 #include "scenes/gltf/document.h"
-#include "scenes/memory.h"
+#include "scenes/scene_size.h"
 
 namespace noonmark::gltf {
 

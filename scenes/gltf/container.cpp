@@ -4,8 +4,8 @@
 
 #include <fstream>
 
+#include "base/text.h"
 #include "scenes/gltf/error.h"
-#include "scenes/text.h"
 
 namespace noonmark::gltf {
 namespace {

@@ -14,12 +14,12 @@
 #include <string_view>
 #include <utility>
 
+#include "base/memory.h"
 #include "scenes/gltf/container.h"
 #include "scenes/gltf/error.h"
 #include "scenes/gltf/json.h"
 #include "scenes/gltf/precheck.h"
 #include "scenes/gltf/structure.h"
-#include "scenes/memory.h"
 
 namespace noonmark::gltf {
 namespace {

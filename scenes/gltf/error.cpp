@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "scenes/error.h"
-#include "scenes/text.h"
+#include "base/error.h"
+#include "base/text.h"
 
 namespace noonmark::gltf {
 

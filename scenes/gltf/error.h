@@ -8,7 +8,7 @@ namespace noonmark::gltf {
 // Throws Error(file) "file: place: what; remedy". place is a JSON path such as accessors[3].count, or empty.
 [[noreturn]] void refuse(std::string_view file, std::string_view place, std::string_view what, std::string_view remedy);
 
-// Text from a file in a form that a message may show: one line as in scenes/text.h, at most 80 bytes of it.
+// Text from a file in a form that a message may show: one line as in base/text.h, at most 80 bytes of it.
 std::string printable(std::string_view text);
 
 }  // namespace noonmark::gltf

@@ -13,9 +13,9 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view read_extensions[] = {
-    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_animation_pointer",   "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",     "KHR_mesh_quantization",   "KHR_meshopt_compression", "KHR_node_visibility",
-    "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "KHR_animation_pointer",
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",    "KHR_node_visibility",     "KHR_texture_transform",
 };
 
 // The other extensions of the Khronos registry (ratified, vendor and archived ones) that change only shading, textures,

@@ -8,8 +8,9 @@
 #include <string_view>
 #include <utility>
 
+#include "base/memory.h"
 #include "scenes/gltf/error.h"
-#include "scenes/memory.h"
+#include "scenes/scene_size.h"
 
 namespace noonmark::gltf {
 namespace {

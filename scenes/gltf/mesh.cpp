@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "base/memory.h"
 #include "scenes/gltf/accessor.h"
 #include "scenes/gltf/draco.h"
 #include "scenes/gltf/error.h"
@@ -16,7 +17,7 @@
 #include "scenes/gltf/morph.h"
 #include "scenes/gltf/notes.h"
 #include "scenes/gltf/skin.h"
-#include "scenes/memory.h"
+#include "scenes/scene_size.h"
 
 namespace noonmark::gltf {
 namespace {

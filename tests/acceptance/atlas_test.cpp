@@ -8,11 +8,11 @@
 #include <fstream>
 #include <set>
 
-#include "app/experiment_file.h"
-#include "app/workbench.h"
+#include "app/definition/experiment_file.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/laws.h"
 #include "compare/report/escape.h"
+#include "measure/workbench.h"
 
 namespace noonmark::acceptance {
 namespace {

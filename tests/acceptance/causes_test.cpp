@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "scenes/file.h"
+#include "base/file.h"
 #include "scenes/shapes.h"
 #include "tests/support/measured.h"
 

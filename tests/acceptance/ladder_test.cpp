@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "compare/store/metrics.h"
+#include "compare/results/metrics.h"
 #include "scenes/builtin.h"
 #include "tests/support/measured.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "app/workbench.h"
+#include "measure/workbench.h"
 #include "tests/support/measured.h"
 
 namespace noonmark::acceptance {

@@ -10,8 +10,8 @@
 #include <numbers>
 #include <vector>
 
+#include "base/error.h"
 #include "compare/judge/no_flicker.h"
-#include "scenes/error.h"
 #include "tests/support/measured.h"
 
 namespace noonmark::acceptance {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/error.h"
 #include "compare/ladder/law_bias.h"
-#include "scenes/error.h"
 #include "tests/support/measured.h"
 
 namespace noonmark::acceptance {

@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/judging.h"
-#include "app/sweep.h"
-#include "app/workbench.h"
-#include "scenes/error.h"
+#include "app/sweep/judging.h"
+#include "app/sweep/sweep.h"
+#include "base/error.h"
+#include "measure/workbench.h"
 #include "tests/acceptance/planted_defect.h"
 
 namespace noonmark::planted {

@@ -1,5 +1,5 @@
 // A measurement with a defect planted in its OpenGL part: the truth is computed from the settings, but the renderer
-// gets something else. The Workbench measures, with stages (app/stages.h) of which some are replaced.
+// gets something else. The Workbench measures, with stages (measure/stages.h) of which some are replaced.
 //
 //   Figures sound = measure(settings), broken = measure(settings, {.drawn_map = [](auto& frame, auto& map) { ... }});
 #pragma once
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/workbench.h"
+#include "measure/workbench.h"
 
 namespace noonmark::planted {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "app/pass_times.h"
-#include "compare/store/metrics.h"
+#include "compare/results/metrics.h"
+#include "measure/pass_times.h"
 #include "tests/support/measured.h"
 
 namespace noonmark::acceptance {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "app/recommend_around.h"
+#include "app/advise/recommend_around.h"
 #include "tests/support/measured.h"
 
 namespace noonmark::acceptance {

@@ -11,8 +11,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "app/workbench.h"
 #include "compare/ladder/receiver_taps.h"
+#include "measure/workbench.h"
 #include "scenes/scene_digest.h"
 #include "tests/support/benchmark.h"
 

@@ -12,12 +12,12 @@
 #include <string>
 #include <unordered_set>
 
-#include "app/experiment_file.h"
-#include "app/results_folder.h"
-#include "app/stages.h"
-#include "app/sweep.h"
+#include "app/definition/experiment_file.h"
+#include "app/sweep/results_folder.h"
+#include "app/sweep/sweep.h"
+#include "base/error.h"
+#include "measure/stages.h"
 #include "raytrace/light_view.h"
-#include "scenes/error.h"
 #include "technique/setting_rules.h"
 #include "tests/raytrace/bare_rays.h"
 #include "tests/support/benchmark.h"

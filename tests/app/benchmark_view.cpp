@@ -7,8 +7,8 @@
 
 #include <string>
 
-#include "app/experiment_file.h"
-#include "app/stages.h"
+#include "app/definition/experiment_file.h"
+#include "measure/stages.h"
 #include "tests/support/benchmark.h"
 
 namespace noonmark {

@@ -1,4 +1,4 @@
-#include "app/default_folder.h"
+#include "app/definition/default_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "app/engines/engine.h"
-#include "app/engines/engine_settings.h"
-#include "scenes/file.h"
+#include "app/advise/engines/engine.h"
+#include "app/advise/engines/engine_settings.h"
+#include "base/file.h"
 #include "scenes/library.h"
 #include "technique/filters.h"
 #include "technique/setting_rules.h"

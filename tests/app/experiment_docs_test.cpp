@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "app/experiment.h"
-#include "app/experiment_file.h"
-#include "scenes/error.h"
-#include "scenes/file.h"
+#include "app/definition/experiment.h"
+#include "app/definition/experiment_file.h"
+#include "base/error.h"
+#include "base/file.h"
 
 namespace noonmark {
 namespace {

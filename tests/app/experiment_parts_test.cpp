@@ -1,10 +1,10 @@
 // Experiment files with parts, phase diagrams and laws.
 #include <gtest/gtest.h>
 
-#include "app/experiment.h"
-#include "app/experiment_file.h"
-#include "app/idle_notes.h"
-#include "scenes/error.h"
+#include "app/definition/experiment.h"
+#include "app/definition/experiment_file.h"
+#include "app/definition/idle_notes.h"
+#include "base/error.h"
 
 namespace noonmark {
 namespace {

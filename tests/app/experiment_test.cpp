@@ -1,5 +1,5 @@
 // Experiment files: the points that they give, and the errors, which must name the place and suggest what was meant.
-#include "app/experiment.h"
+#include "app/definition/experiment.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,9 +9,9 @@
 #include <fstream>
 #include <set>
 
-#include "app/experiment_file.h"
-#include "scenes/error.h"
-#include "scenes/file.h"
+#include "app/definition/experiment_file.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "tests/support/sample_results.h"
 
 namespace noonmark {

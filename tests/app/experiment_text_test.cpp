@@ -1,5 +1,5 @@
 // An experiment as the text of a file (--print-config): read again, it is the same experiment.
-#include "app/experiment_text.h"
+#include "app/definition/experiment_text.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <tuple>
 
-#include "app/definition.h"
-#include "app/experiment_file.h"
-#include "scenes/error.h"
+#include "app/definition/definition.h"
+#include "app/definition/experiment_file.h"
+#include "base/error.h"
 
 namespace noonmark {
 namespace {
@@ -129,7 +129,8 @@ RC_GTEST_PROP(ExperimentTextProperty, EveryValueComesBack, ()) {
 TEST(ExperimentDefinition, NamesScenesFromTheFolderOfTheExperiment) {
   EXPECT_EQ(scene_path_in("/home/ann/models/a.glb", "/home/ann/sets/x.toml"), "../models/a.glb");
   EXPECT_EQ(scene_path_in("/home/ann/sets/a.glb", "/home/ann/sets/x.toml"), "a.glb");
-  EXPECT_EQ(scene_path_in("/data/a.glb", "/home/ann/sets/x.toml"), "/data/a.glb");  // the root alone is no common folder
+  EXPECT_EQ(scene_path_in("/data/a.glb", "/home/ann/sets/x.toml"),
+            "/data/a.glb");  // the root alone is no common folder
   EXPECT_EQ(scene_path_in("/data/a.glb", "sets/x.toml"), "/data/a.glb");
   EXPECT_EQ(scene_path_in("sets/models/a.glb", "sets/x.toml"), "models/a.glb");
 }

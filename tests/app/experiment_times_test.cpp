@@ -1,9 +1,9 @@
 // Times are measured if the key `times` says so, or if a plot, a bound, an answer or a law names a time.
 #include <gtest/gtest.h>
 
-#include "app/experiment.h"
-#include "app/experiment_file.h"
-#include "scenes/error.h"
+#include "app/definition/experiment.h"
+#include "app/definition/experiment_file.h"
+#include "base/error.h"
 
 namespace noonmark {
 namespace {

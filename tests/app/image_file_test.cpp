@@ -1,5 +1,5 @@
 // Image files, read back with OpenImageIO as another program would read them.
-#include "app/image_file.h"
+#include "app/pictures/image_file.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -12,9 +12,9 @@
 #include <random>
 #include <set>
 
-#include "scenes/digest.h"
-#include "scenes/error.h"
-#include "scenes/file.h"
+#include "base/digest.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "tests/app/read_image.h"
 #include "tests/support/sample_results.h"
 

@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <string>
 
-#include "app/pictures.h"
-#include "app/workbench.h"
+#include "app/pictures/pictures.h"
 #include "compare/ladder/live_picture.h"
 #include "compare/report/report.h"
+#include "measure/workbench.h"
 #include "tests/app/read_image.h"
 #include "tests/compare/report/browser.h"
 #include "tests/compare/report/sample.h"

@@ -1,12 +1,13 @@
 // How much memory is available, and the estimate of what a point needs. tests/program/memory_test.cpp measures what a
 // point really needs.
-#include "scenes/memory.h"
+#include "base/memory.h"
 
 #include <gtest/gtest.h>
 
-#include "app/memory_estimate.h"
-#include "scenes/error.h"
+#include "base/error.h"
+#include "measure/memory_estimate.h"
 #include "scenes/library.h"
+#include "scenes/scene_size.h"
 #include "tests/scenes/gltf/files.h"
 
 namespace noonmark {

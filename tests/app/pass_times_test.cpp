@@ -1,11 +1,11 @@
 // The order of the samples of times, and who shares them, with a clock that the test makes.
-#include "app/pass_times.h"
+#include "measure/pass_times.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "app/stage_keys.h"
+#include "measure/stage_keys.h"
 
 namespace noonmark {
 namespace {

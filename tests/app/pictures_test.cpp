@@ -1,5 +1,5 @@
 // The pictures, images and point.json of a measurement that is written by hand.
-#include "app/pictures.h"
+#include "app/pictures/pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/point_files.h"
-#include "app/view_colors.h"
+#include "app/pictures/point_files.h"
+#include "app/pictures/view_colors.h"
 #include "compare/report/cause_colors.h"
-#include "compare/store/metrics.h"
+#include "compare/results/metrics.h"
 #include "tests/app/read_image.h"
 #include "tests/support/sample_results.h"
 

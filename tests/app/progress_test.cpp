@@ -1,10 +1,10 @@
 // Progress counts the whole of a run: its remaining time is that of everything that is still to do.
-#include "app/progress.h"
+#include "base/progress.h"
 
 #include <gtest/gtest.h>
 
-#include "app/experiment_file.h"
-#include "app/sweep_progress.h"
+#include "app/definition/experiment_file.h"
+#include "app/sweep/sweep_progress.h"
 
 namespace noonmark {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "app/image_file.h"
+#include "app/pictures/image_file.h"
 
 namespace noonmark {
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <set>
 
-#include "app/identity.h"
-#include "scenes/error.h"
+#include "app/sweep/identity.h"
+#include "base/error.h"
 #include "scenes/gltf/gltf.h"
 #include "scenes/scene_digest.h"
 #include "tests/scenes/gltf/files.h"

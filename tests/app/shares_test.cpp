@@ -1,5 +1,5 @@
 // The split of an experiment into shares.
-#include "app/shares.h"
+#include "app/sweep/shares.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,9 +9,9 @@
 #include <map>
 #include <set>
 
-#include "app/experiment_file.h"
-#include "app/stage_keys.h"
-#include "scenes/error.h"
+#include "app/definition/experiment_file.h"
+#include "base/error.h"
+#include "measure/stage_keys.h"
 
 namespace noonmark {
 namespace {

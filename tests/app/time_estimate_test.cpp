@@ -1,10 +1,10 @@
 // The fit behind the estimate of a sweep's time. The estimate itself is a time, which no test may assert.
-#include "app/time_estimate.h"
+#include "app/sweep/time_estimate.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <rapidcheck/gtest.h>
 
 namespace noonmark {
 namespace {

@@ -1,11 +1,11 @@
 // The check before toml++: what it accepts and what it refuses, at every kind of place in a TOML text.
-#include "app/toml_text.h"
+#include "app/definition/toml_text.h"
 
 #include <gtest/gtest.h>
 
-#include "app/experiment.h"
-#include "app/experiment_file.h"
-#include "scenes/error.h"
+#include "app/definition/experiment.h"
+#include "app/definition/experiment_file.h"
+#include "base/error.h"
 
 namespace noonmark {
 namespace {

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <random>
 
-#include "app/view_colors.h"
-#include "app/view_frustum.h"
-#include "app/view_map.h"
-#include "app/view_shading.h"
+#include "app/pictures/view_colors.h"
+#include "app/pictures/view_frustum.h"
+#include "app/pictures/view_map.h"
+#include "measure/view_shading.h"
 #include "scenes/library.h"
 
 namespace noonmark {

@@ -1,16 +1,16 @@
 // The input is the text of an experiment file. It must be refused with an Error(usage) that names the place, or give an
-// experiment. Then its points, commands and fingerprint must be as app/experiment.h says, and each bound and each law
+// experiment. Then its points, commands and fingerprint must be as app/definition/experiment.h says, and each bound and each law
 // must give one verdict.
 #include <algorithm>
 #include <filesystem>
 #include <set>
 
-#include "app/experiment.h"
-#include "app/experiment_file.h"
+#include "app/definition/experiment.h"
+#include "app/definition/experiment_file.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/laws.h"
-#include "scenes/error.h"
-#include "scenes/file.h"
 #include "technique/setting_rules.h"
 #include "tests/fuzz/names.h"
 #include "tests/fuzz/targets.h"

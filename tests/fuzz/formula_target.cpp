@@ -7,10 +7,10 @@
 #include <limits>
 #include <sstream>
 
+#include "base/error.h"
 #include "compare/judge/formula.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
-#include "scenes/error.h"
 #include "tests/fuzz/names.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/sample_results.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "scenes/error.h"
+#include "base/error.h"
 #include "scenes/gltf/gltf.h"
 #include "tests/fuzz/json_mutator.h"
 #include "tests/fuzz/targets.h"

@@ -13,12 +13,12 @@
 #include <cstring>
 #include <filesystem>
 
-#include "app/workbench.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "compare/judge/soundness.h"
-#include "compare/store/metrics.h"
+#include "compare/results/metrics.h"
+#include "measure/workbench.h"
 #include "scenes/builtin.h"
-#include "scenes/error.h"
-#include "scenes/file.h"
 #include "scenes/library.h"
 #include "tests/fuzz/choices.h"
 #include "tests/fuzz/targets.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "compare/store/metrics.h"
-#include "compare/store/quantities.h"
+#include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
 #include "technique/settings.h"
 
 namespace noonmark::fuzz {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <set>
 
-#include "scenes/file.h"
+#include "base/file.h"
 #include "tests/fuzz/targets.h"
 
 namespace noonmark::fuzz {

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
+#include "base/file.h"
 #include "compare/judge/bounds.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
@@ -18,8 +20,6 @@
 #include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
 #include "compare/store/store.h"
-#include "scenes/error.h"
-#include "scenes/file.h"
 #include "tests/compare/report/sample.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/sample_results.h"

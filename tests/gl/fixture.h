@@ -5,8 +5,8 @@
 #include <bit>
 #include <random>
 
+#include "base/error.h"
 #include "gl/renderer.h"
-#include "scenes/error.h"
 #include "scenes/shapes.h"
 #include "tests/support/kind_thrown.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 #include "tests/laws/support.h"
 
 namespace noonmark::acceptance {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "compare/store/store.h"
-#include "scenes/text.h"
 #include "tests/program/fixture.h"
 
 namespace noonmark::acceptance {

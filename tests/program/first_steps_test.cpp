@@ -1,9 +1,9 @@
 // The first steps with a model of one's own: inspect, init, and the program without arguments.
 #include <nlohmann/json.hpp>
 
-#include "app/experiment.h"
-#include "app/experiment_file.h"
-#include "app/first_experiment.h"
+#include "app/definition/experiment.h"
+#include "app/definition/experiment_file.h"
+#include "app/definition/first_experiment.h"
 #include "scenes/shapes.h"
 #include "tests/program/fixture.h"
 #include "tests/scenes/gltf/files.h"

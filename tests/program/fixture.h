@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/file.h"
+#include "base/file.h"
 
 namespace noonmark::acceptance {
 

@@ -4,8 +4,8 @@
 #include <regex>
 #include <set>
 
-#include "app/experiment.h"
-#include "app/experiment_file.h"
+#include "app/definition/experiment.h"
+#include "app/definition/experiment_file.h"
 #include "tests/program/fixture.h"
 
 namespace noonmark::acceptance {

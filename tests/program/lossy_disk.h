@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/file.h"
+#include "base/file.h"
 #include "tests/program/disk_trace.h"
 
 namespace noonmark::test {

@@ -7,10 +7,10 @@
 #include <limits>
 #include <regex>
 
-#include "app/experiment.h"
-#include "app/experiment_file.h"
-#include "app/memory_estimate.h"
-#include "app/workbench.h"
+#include "app/definition/experiment.h"
+#include "app/definition/experiment_file.h"
+#include "measure/memory_estimate.h"
+#include "measure/workbench.h"
 #include "tests/program/fixture.h"
 #include "tests/scenes/gltf/files.h"
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/image_file.h"
+#include "app/pictures/image_file.h"
 #include "tests/program/fixture.h"
 #include "tests/support/measured.h"
 

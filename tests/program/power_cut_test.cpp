@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <random>
 
+#include "base/error.h"
 #include "compare/store/store.h"
-#include "scenes/error.h"
 #include "tests/program/fixture.h"
 #include "tests/program/lossy_disk.h"
 #include "tests/support/sample_results.h"

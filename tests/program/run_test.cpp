@@ -8,8 +8,8 @@
 
 #include <set>
 
+#include "base/file.h"
 #include "scenes/builtin.h"
-#include "scenes/file.h"
 #include "tests/program/fixture.h"
 #include "tests/support/measured.h"
 

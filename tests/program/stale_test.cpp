@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "base/digest.h"
 #include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
 #include "compare/store/store.h"
-#include "scenes/digest.h"
 #include "tests/program/fixture.h"
 #include "tests/support/sample_results.h"
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <regex>
 
-#include "app/experiment.h"
-#include "app/experiment_file.h"
+#include "app/definition/experiment.h"
+#include "app/definition/experiment_file.h"
 #include "tests/program/fixture.h"
 
 namespace noonmark::acceptance {

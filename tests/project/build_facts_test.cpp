@@ -1,4 +1,4 @@
-#include "app/build_facts.h"
+#include "base/build_facts.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/file.h"
+#include "base/file.h"
 #include "technique/settings.h"
 
 namespace noonmark {

@@ -133,8 +133,8 @@ acne <= 1%: broken
 
 elseif(STEP STREQUAL "headers")
   file(GLOB_RECURSE headers RELATIVE ${prefix}/include/noonmark ${prefix}/include/noonmark/*.h)
-  # scenes/digest.h needs fmt, which is linked privately.
-  set(not_installed scenes/digest.h)
+  # base/digest.h needs fmt, which is linked privately.
+  set(not_installed base/digest.h)
   file(GLOB sources ${SOURCE}/app/*.h ${SOURCE}/app/*.cpp)
   foreach(source ${sources})
     file(STRINGS ${source} lines REGEX "^#include \"(scenes|technique|gl|raytrace|compare)/")

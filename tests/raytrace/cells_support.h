@@ -52,7 +52,8 @@ inline CellsAndRays compare_cells(const Scene& scene, int count, uint32_t seed, 
     const Tracer tracer(scene, use_cells);
     StageTime hard, soft;
     const ReceiverTruth truth = tracer.receiver_truth(receivers, frame, sun(sun_deg, 0.1), &hard, &soft);
-    const raytrace::LookupTruth lookup = tracer.lookup_truth(receivers, truth, probe_of(receivers, frame, filter), frame, {});
+    const raytrace::LookupTruth lookup =
+        tracer.lookup_truth(receivers, truth, probe_of(receivers, frame, filter), frame, {});
     rays = {hard.rays, soft.rays, lookup.texel_stage.rays, lookup.tap_stage.rays};
     return std::pair(truth, lookup);
   };

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "base/error.h"
 #include "raytrace/tracer.h"
-#include "scenes/error.h"
 
 namespace noonmark {
 namespace {

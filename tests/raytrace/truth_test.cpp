@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "base/error.h"
 #include "raytrace/embree_scene.h"
 #include "raytrace/light_view.h"
-#include "scenes/error.h"
 #include "scenes/gltf/gltf.h"
 #include "tests/raytrace/fixture.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "base/error.h"
 #include "scenes/camera_frame.h"
-#include "scenes/error.h"
 #include "scenes/library.h"
 #include "scenes/receivers.h"
 #include "scenes/shapes.h"

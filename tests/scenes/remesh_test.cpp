@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "scenes/library.h"
+#include "scenes/scene_size.h"
 
 namespace noonmark {
 namespace {

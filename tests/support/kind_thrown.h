@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "scenes/error.h"
+#include "base/error.h"
 
 namespace noonmark {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/workbench.h"
+#include "measure/workbench.h"
 #include "scenes/library.h"
 
 namespace noonmark::acceptance {

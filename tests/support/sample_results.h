@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
-#include "compare/store/metrics.h"
-#include "compare/store/records.h"
+#include "compare/results/metrics.h"
+#include "compare/results/records.h"
 #include "technique/settings.h"
 
 namespace noonmark {

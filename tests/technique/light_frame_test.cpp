@@ -8,8 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "base/error.h"
 #include "scenes/builtin.h"
-#include "scenes/error.h"
 #include "scenes/library.h"
 #include "technique/casters.h"
 #include "technique/sun.h"

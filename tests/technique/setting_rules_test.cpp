@@ -165,7 +165,7 @@ TEST(Settings, ThoseThatChangeNothingAreNamed) {
   EXPECT_EQ(idle(LightKind::spot, {{"scene.name", "a.glb"}, {"scene.animation", "1"}, {"scene.time_s", "2"}}), "");
 }
 
-// The result of a stage is used again while its key stays the same (app/workbench.cpp).
+// The result of a stage is used again while its key stays the same (measure/workbench.cpp).
 TEST(Settings, TheKeyOfAStageChangesWithWhatItReadsAndNothingElse) {
   const auto key = [](const Settings& s, Stage stage) { return settings_key(s, {stage}); };
   const std::pair<const char*, Stages> expected[] = {{"scene.theta_deg", {Stage::scene}},

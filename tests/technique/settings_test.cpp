@@ -12,8 +12,8 @@
 #include <map>
 #include <set>
 
-#include "scenes/error.h"
-#include "scenes/text.h"
+#include "base/error.h"
+#include "base/text.h"
 #include "technique/filters.h"
 #include "technique/setting_rules.h"
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
+#include "base/error.h"
 #include "scenes/builtin.h"
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
-#include "scenes/error.h"
 #include "scenes/library.h"
 #include "scenes/shapes.h"
 #include "technique/light_frame.h"

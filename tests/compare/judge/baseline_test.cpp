@@ -6,9 +6,9 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"
-#include "scenes/error.h"
 #include "tests/support/kind_thrown.h"
 #include "tests/support/sample_results.h"
 

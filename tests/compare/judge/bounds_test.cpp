@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "base/error.h"
 #include "compare/report/junit.h"
 #include "compare/report/summary.h"
-#include "compare/store/quantities.h"
-#include "scenes/error.h"
+#include "compare/results/quantities.h"
 #include "tests/support/sample_results.h"
 
 namespace noonmark {
@@ -341,7 +341,7 @@ TEST(Junit, EscapesWhatXmlCannotHold) {
   Results results = judged({0.1}, {at_most(1)});
   results.info.title = "a<b>&\"c\"\x01 \xff \xc3\xa4 \xed\xa0\x80 \xf4\x90\x80\x80 \xef\xbf\xbf\n\xe2\x82";
   const std::string xml = to_junit(results);
-  // Bytes that are no text and control characters as a terminal shows them (scenes/text.h), so that no name begins a
+  // Bytes that are no text and control characters as a terminal shows them (base/text.h), so that no name begins a
   // line; U+FFFF, which XML forbids, as U+FFFD.
   EXPECT_NE(
       xml.find("a&lt;b&gt;&amp;&quot;c&quot;\\x01 \\xff \xc3\xa4 \\xed\\xa0\\x80 \\xf4\\x90\\x80\\x80 \xef\xbf\xbd"

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.h"
 #include "compare/judge/formula.h"
 #include "compare/judge/law_table.h"
 #include "compare/judge/laws.h"
 #include "compare/ladder/numbers.h"
-#include "scenes/error.h"
 
 namespace noonmark {
 namespace {

@@ -9,10 +9,10 @@
 #include <random>
 #include <set>
 
+#include "base/error.h"
 #include "compare/ladder/law_metrics.h"
 #include "compare/ladder/numbers.h"
-#include "compare/store/metrics.h"
-#include "scenes/error.h"
+#include "compare/results/metrics.h"
 #include "scenes/receivers.h"
 #include "tests/compare/ladder/measured_picture.h"
 
@@ -225,7 +225,7 @@ TEST(WorstPixel, IsTheFirstOfTheLargestErrors) {
 }
 
 TEST(MetricsTable, NamesWhatIsMeasured) {
-  const std::set<std::string> times = {"map_ms",    "map_low_ms",    "map_high_ms",     // app/pass_times.h
+  const std::set<std::string> times = {"map_ms",    "map_low_ms",    "map_high_ms",     // measure/pass_times.h
                                        "lookup_ms", "lookup_low_ms", "lookup_high_ms",  //
                                        "shadow_ms", "shadow_low_ms", "shadow_high_ms"};
   const std::set<std::string_view> units = {"fraction", "m",     "m2",    "depth", "texels", "pixels",

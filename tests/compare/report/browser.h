@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "scenes/file.h"
+#include "base/file.h"
 
 namespace noonmark {
 

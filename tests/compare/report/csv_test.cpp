@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "compare/store/quantities.h"
-#include "scenes/text.h"
+#include "base/text.h"
+#include "compare/results/quantities.h"
 #include "tests/support/sample_results.h"
 
 namespace noonmark {

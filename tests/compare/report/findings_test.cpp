@@ -12,7 +12,7 @@
 #include "compare/ladder/numbers.h"
 #include "compare/report/rules.h"
 #include "compare/report/text.h"
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 #include "tests/compare/report/sample.h"
 
 namespace noonmark {

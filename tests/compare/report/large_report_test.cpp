@@ -17,7 +17,7 @@
 #include "compare/report/report.h"
 #include "compare/report/rules.h"
 #include "compare/report/shown.h"
-#include "compare/store/quantities.h"
+#include "compare/results/quantities.h"
 #include "tests/compare/report/sample.h"
 
 namespace noonmark {

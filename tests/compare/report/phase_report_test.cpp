@@ -26,7 +26,8 @@ TEST(Report, OpensWithThePhaseDiagrams) {
   for (const char* words : {
            "At 256 texels, each 10 mm wide, a constant bias from 4 mm to 16 mm keeps acne and Peter Panning each "
            "within",
-           "3 of the 4 points of part room &amp; &lt;hall&gt; are on the diagram, as rings; with the bias as set, 2 of them are",
+           "3 of the 4 points of part room &amp; &lt;hall&gt; are on the diagram, as rings; with the bias as set, 2 of "
+           "them are",
            "1 with filter.kind = box",
            "<a href=\"#p2\">2</a>",
            "too large",

@@ -20,7 +20,7 @@
 #include "compare/report/sections.h"
 #include "compare/report/summary.h"
 #include "compare/report/text.h"
-#include "compare/store/metrics.h"
+#include "compare/results/metrics.h"
 #include "tests/compare/report/page_text.h"
 #include "tests/compare/report/sample.h"
 #include "tests/support/sample_results.h"

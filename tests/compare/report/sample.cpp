@@ -7,8 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "base/error.h"
 #include "compare/report/cause_colors.h"
-#include "scenes/error.h"
 #include "technique/settings.h"
 
 namespace noonmark {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "compare/report/report.h"
-#include "compare/store/metrics.h"
+#include "compare/results/metrics.h"
 #include "tests/compare/report/page_text.h"
 #include "tests/compare/report/sample.h"
 

@@ -7,7 +7,7 @@
 #include <regex>
 #include <string>
 
-#include "scenes/file.h"
+#include "base/file.h"
 
 namespace noonmark {
 namespace {

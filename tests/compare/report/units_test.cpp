@@ -7,7 +7,7 @@
 #include "compare/report/report.h"
 #include "compare/report/summary.h"
 #include "compare/report/text.h"
-#include "compare/store/metrics.h"
+#include "compare/results/metrics.h"
 #include "tests/compare/report/sample.h"
 
 namespace noonmark {

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <string>
 
+#include "base/error.h"
+#include "base/file.h"
 #include "compare/store/check.h"
 #include "compare/store/sqlite.h"
 #include "compare/store/store.h"
-#include "scenes/error.h"
-#include "scenes/file.h"
 #include "tests/support/kind_thrown.h"
 #include "tests/support/sample_results.h"
 

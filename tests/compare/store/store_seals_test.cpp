@@ -1,10 +1,10 @@
 // The store notices a change of its rows, in every cell.
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
 #include "compare/store/store.h"
-#include "scenes/error.h"
 #include "tests/support/sample_results.h"
 
 namespace noonmark {

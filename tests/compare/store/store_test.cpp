@@ -11,12 +11,12 @@
 #include <bit>
 #include <fstream>
 
-#include "compare/store/quantities.h"
-#include "compare/store/record_fields.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "compare/results/quantities.h"
+#include "compare/results/record_fields.h"
 #include "compare/store/seals.h"
 #include "compare/store/sqlite.h"
-#include "scenes/error.h"
-#include "scenes/file.h"
 #include "tests/support/kind_thrown.h"
 #include "tests/support/sample_results.h"
 

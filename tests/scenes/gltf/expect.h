@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "scenes/error.h"
+#include "base/error.h"
 #include "scenes/gltf/gltf.h"
 
 namespace noonmark::test {

@@ -1,0 +1,96 @@
+// Babylon.js. Both biases act on the caster's vertex. With a filter that compares in hardware the bias is added to the
+// clip depth, which spans 2 in WebGL (in WebGPU the shader halves the bias), so a bias of 2 is the whole window depth.
+// Without such a filter the shader stores a depth that is linear between the near and the far plane and adds the bias
+// to it; a point light stores the distance divided by near + far.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/advise/engines/engine.h"
+
+namespace noonmark {
+namespace {
+
+double typed_depth(double metres, const AdvicePlace& place) {
+  if (place.kind() == LightKind::point) return metres / (place.frame.near_m + place.frame.far_m);
+  return place.filter.scale == 2 ? 2 * metres * place.depth_slope : metres / place.range_m();
+}
+
+std::vector<EngineKnob> knobs(LightKind kind) {
+  return {{"shadowGenerator.bias", "shadowGenerator.bias = {};", BiasForm::constant, BiasTarget::caster,
+           kind == LightKind::point
+               ? "distance divided by (near + far), away from the light"
+               : "clip depth (2 is the whole map) with PCF, otherwise share of near to far; away from the light",
+           typed_depth},
+          {"shadowGenerator.normalBias", "shadowGenerator.normalBias = {};", BiasForm::tangent, BiasTarget::caster,
+           "m against the normal, multiplied by sin(theta)", [](double metres, const AdvicePlace&) { return metres; }}};
+}
+
+EngineFilter filter(const AdvicePlace& place) {
+  const EngineFilter none{{"shadowGenerator.filter = BABYLON.ShadowGenerator.FILTER_NONE;"},
+                          "FILTER_NONE, one nearest tap",
+                          0.5,
+                          filter_is(place, "none")};
+  if (place.kind() == LightKind::point) return none;  // a cube map has no PCF
+  const auto pcf = [](const char* quality, const char* what, double reach, bool same) {
+    return EngineFilter{
+        {"shadowGenerator.usePercentageCloserFiltering = true;",
+         fmt::format("shadowGenerator.filteringQuality = BABYLON.ShadowGenerator.QUALITY_{};", quality)},
+        what,
+        reach,
+        same,
+        2};
+  };
+  return nearest_reach(place, {none, pcf("LOW", "one linear fetch", 1, filter_is(place, "hardware")),
+                               pcf("MEDIUM", "Castano's kernel of 3 x 3", 2, filter_is(place, "castano", 3)),
+                               pcf("HIGH", "Castano's kernel of 5 x 5", 3, filter_is(place, "castano", 5))});
+}
+
+std::vector<std::string> map_lines(const AdvicePlace& place) {
+  const CulledFaces cull = place.settings.map.cull;
+  std::vector<std::string> lines = {
+      fmt::format("const shadowGenerator = new BABYLON.ShadowGenerator({}, light);", place.frame.resolution),
+      fmt::format("light.shadowMinZ = {};", number(place.frame.near_m)),
+      fmt::format("light.shadowMaxZ = {};", number(place.frame.far_m)),
+      fmt::format("shadowGenerator.forceBackFacesOnly = {};", cull == CulledFaces::front)};
+  lines.push_back(fmt::format("light.position = new BABYLON.Vector3({});", numbers(place.frame.origin_m)));
+  if (place.kind() != LightKind::point)
+    lines.push_back(fmt::format("light.direction = new BABYLON.Vector3({});", numbers(place.frame.forward)));
+  if (place.kind() == LightKind::directional)
+    lines.push_back(fmt::format("light.shadowFrustumSize = {};", number(place.frame.extent_m)));
+  if (place.kind() == LightKind::spot)
+    lines.push_back(fmt::format("light.shadowAngleScale = {};  // the map's angle divided by light.angle",
+                                number(std::atan(place.frame.tan_half_fov) / std::atan(place.cone_tan))));
+  return lines;
+}
+
+std::vector<std::string> limits(const AdvicePlace& place) {
+  std::vector<std::string> said = {
+      "The format of the map is chosen by the engine: a half float colour without PCF, a depth texture with it."};
+  if (place.kind() != LightKind::point)
+    said.push_back(
+        "The light's position and direction are those of a right-handed scene (scene.useRightHandedSystem).");
+  if (place.settings.map.cull != CulledFaces::front)
+    said.push_back("map.cull: shadowGenerator can only force back faces; otherwise each material's own culling holds.");
+  if (place.kind() == LightKind::point)
+    said.push_back(
+        "A point light has no PCF here: its cube map is read by one tap, or by 4 Poisson taps in the world.");
+  return said;
+}
+
+}  // namespace
+
+Engine babylon_js() {
+  return {
+      "Babylon.js",
+      "9.34",
+      "@babylonjs/core Shaders/ShadersInclude/shadowMapVertexMetric, shadowMapVertexNormalBias and shadowMapFragment",
+      "//",
+      knobs,
+      filter,
+      map_lines,
+      limits,
+      {"map.cull", "map.fov_deg"}};
+}
+
+}  // namespace noonmark

@@ -1,0 +1,87 @@
+// Bevy. Both biases move the place that the receiver is looked up at. The depth bias is in metres towards the light. The
+// normal bias is in texels along the normal, which the engine multiplies by sqrt(2) for the diagonal of a texel.
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "app/advise/engines/engine.h"
+
+namespace noonmark {
+namespace {
+
+// The texel that the engine takes: of a spot light from the light's cone, and of a point light from a face of the cube.
+double engine_texel_m(const AdvicePlace& place) {
+  if (place.kind() == LightKind::spot) return 2 * place.distance_m * place.cone_tan / place.frame.resolution;
+  if (place.kind() == LightKind::point) return 2 * place.distance_m / place.frame.resolution;
+  return place.texel_m;
+}
+
+std::vector<EngineKnob> knobs(LightKind) {
+  return {{"shadow_depth_bias", "shadow_depth_bias: {},", BiasForm::constant, BiasTarget::compared_depth,
+           "m towards the light", [](double metres, const AdvicePlace&) { return metres; }},
+          {"shadow_normal_bias", "shadow_normal_bias: {},", BiasForm::normal, BiasTarget::place_looked_up,
+           "sqrt(2) texels along the normal", [](double metres, const AdvicePlace& place) {
+             return metres / (std::numbers::sqrt2 * engine_texel_m(place));
+           }}};
+}
+
+EngineFilter filter(const AdvicePlace& place) {
+  const auto method = [](const char* name, const char* what, double reach, bool same) {
+    return EngineFilter{{fmt::format("ShadowFilteringMethod::{}", name)}, what, reach, same};
+  };
+  const bool point = place.kind() == LightKind::point;
+  return nearest_reach(
+      place, {method("Hardware2x2", "Hardware2x2, one linear fetch", 1, filter_is(place, "hardware")),
+              method("Gaussian", "Gaussian, Castano's kernel of 5 x 5", 3, !point && filter_is(place, "castano", 5))});
+}
+
+std::vector<std::string> map_lines(const AdvicePlace& place) {
+  const bool point = place.kind() == LightKind::point;
+  std::vector<std::string> lines = {
+      fmt::format("{}LightShadowMap {{ size: {} }}", point ? "Point" : "Directional", place.frame.resolution),
+      "shadow_maps_enabled: true,"};
+  if (place.kind() == LightKind::directional) {
+    lines.push_back(
+        fmt::format("CascadeShadowConfigBuilder {{ num_cascades: 1, maximum_distance: {}, ..default() }}.build()",
+                    number(place.frame.extent_m)));
+    return lines;
+  }
+  lines.push_back(fmt::format("range: {},", number(place.frame.far_m)));
+  lines.push_back(fmt::format("shadow_map_near_z: {},", number(place.frame.near_m)));
+  if (!point) lines.push_back(fmt::format("outer_angle: {},", number(std::atan(place.cone_tan))));
+  return lines;
+}
+
+std::vector<std::string> limits(const AdvicePlace& place) {
+  std::vector<std::string> said = {"map.format: the map is always a 32 bit float with reversed depth."};
+  if (place.kind() == LightKind::directional)
+    said.push_back(
+        fmt::format("map.extent_m = {}, near and far: the engine fits the map around the visible part of each cascade. "
+                    "maximum_distance must be changed until its diameter is this extent; shadow_normal_bias is right "
+                    "at that width.",
+                    number(place.frame.extent_m)));
+  else
+    said.push_back(
+        "shadow_depth_bias is in metres along the ray, not along the axis of the map; on the axis both are the same.");
+  if (place.kind() == LightKind::point)
+    said.push_back(
+        "A point light's Gaussian kernel has 8 taps within 0.003 of the distance, not within a number of texels: it "
+        "reaches further in texels on a finer map.");
+  return said;
+}
+
+}  // namespace
+
+Engine bevy() {
+  return {"Bevy",
+          "0.20-dev (4805ca7)",
+          "bevy crates/bevy_pbr/src/render/shadows.wesl, shadow_sampling.wesl and light.rs",
+          "//",
+          knobs,
+          filter,
+          map_lines,
+          limits,
+          {}};
+}
+
+}  // namespace noonmark

@@ -1,0 +1,112 @@
+// What the files of engines share. A file gives the fields of its engine; engine_settings.cpp turns the settings into
+// numbers for them.
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/advise/engines/engine_settings.h"
+#include "technique/bias_parts.h"
+
+namespace noonmark {
+
+// How the depth that a part gains on a plane depends on the slope theta and on the azimuth phi (law 35). c, s and t are
+// the cosine, sine and tangent of theta; A = |cos phi| + |sin phi|.
+enum class BiasForm {
+  constant,           // 1
+  slope,              // 1 - c
+  normal,             // 1 / c: along the normal
+  tangent,            // t: along the normal by the sine, or a depth by the tangent
+  turned,             // (1 - c) / c: along the normal by 1 - N.L
+  turned_sideways,    // (1 - c) s t: `turned` without its component along the light
+  sideways,           // s t: `normal` without its component along the light
+  axes,               // A t
+  polygon_factor,     // max(|cos phi|, |sin phi|) t, for each texel
+  polygon_resolution  // 1, for each least step of the map's format
+};
+
+// Throws std::logic_error if the part has no form yet.
+BiasForm form_of(const BiasPart& part);
+
+// The depth that one metre of the form gains at this slope along a texel axis (A = 1); for polygon_factor one texel,
+// and for polygon_resolution one step. theta_rad: 0 to less than pi / 2.
+double gain(BiasForm form, double theta_rad);
+
+// A part of the bias that acts, in metres at the place of the advice; a polygon offset has no unit.
+struct AdvisedPart {
+  const BiasPart* part;
+  BiasForm form;
+  double amount = 0;                       // metres
+  double set = 0;                          // as in the settings
+  double floor = 0, cap = 0;               // metres; cap: infinity without a cap
+  double depth_m(double theta_rad) const;  // along the light, on a plane; needs `step_m` for a polygon offset
+  double step_m = 1;                       // metres of one texel or of one step of the format
+};
+
+// The filter of an engine that is nearest to the recommended one.
+struct EngineFilter {
+  std::vector<std::string> lines;
+  std::string what;  // its kernel, for a sentence
+  double reach_texels = 0.5;
+  bool same = false;  // it has the same taps and weights
+  double scale = 1;   // the factor by which the engine multiplies its bias because of this filter
+};
+
+// The recommendation at one place of the light, in double, because the settings are double.
+struct AdvicePlace {
+  const Settings& settings;
+  const LightFrame& frame;
+  double distance_m = 0;     // spot and point: along the axis of the map's tile
+  double texel_m = 0;        // of the map there
+  double depth_slope = 0;    // window depth for each metre there
+  double cone_tan = 1;       // spot: tangent of half the light's cone
+  double reach_texels = 0;   // of the recommended filter
+  EngineFilter filter = {};  // of the engine
+
+  LightKind kind() const { return frame.kind; }
+  double range_m() const { return frame.far_m - frame.near_m; }
+  // The window depth for each metre of a perspective map with this near and far, along the axis.
+  double perspective_slope(double near_m, double far_m) const;
+};
+
+// A number of an engine that is a part of the bias.
+struct EngineKnob {
+  std::string field;  // "LightShadow.bias"
+  std::string line;   // what to type, with {} for the number
+  BiasForm form;
+  BiasTarget target;
+  std::string unit;  // for people
+  std::function<double(double metres, const AdvicePlace&)> typed;
+};
+
+struct Engine {
+  std::string name, version, source;
+  std::string comment;  // what begins a comment in the engine's language
+  std::vector<EngineKnob> (*knobs)(LightKind);
+  EngineFilter (*filter)(const AdvicePlace&);
+  std::vector<std::string> (*map_lines)(const AdvicePlace&);
+  std::vector<std::string> (*limits)(const AdvicePlace&);  // sentences that do not depend on the parts of the bias
+  std::vector<std::string_view> maps;  // further settings of the map that map_lines() expresses: "map.cull"
+};
+
+Engine three_js();
+Engine babylon_js();
+Engine godot();
+Engine bevy();
+Engine filament();
+Engine unity_urp();
+
+// OpenGL has no fields: the application's shader computes each part. So it has no knobs.
+EngineAdvice opengl_advice(const AdvicePlace& place, const std::vector<AdvisedPart>& parts);
+std::vector<EngineField> opengl_fields();
+
+// The number with 6 significant digits, as the engines' languages read it.
+std::string number(double value);
+std::string numbers(glm::dvec3 values);  // "1, 2, 3"
+std::string place_name(BiasTarget target);
+// The filter whose reach is nearest to the recommended one. None may be the same: then `same` is false.
+EngineFilter nearest_reach(const AdvicePlace& place, std::vector<EngineFilter> offered);
+bool filter_is(const AdvicePlace& place, std::string_view kind, int size = 0);  // size 0: any
+
+}  // namespace noonmark

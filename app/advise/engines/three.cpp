@@ -1,0 +1,93 @@
+// three.js. The bias is added to the receiver's window depth in the fragment shader (getShadow), so it is negative
+// towards the light. The normal bias moves the receiver's vertex along its normal, in metres at every distance.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/advise/engines/engine.h"
+
+namespace noonmark {
+namespace {
+
+// A point light's map holds the perspective depth along the axis of each face; Noonmark's holds the distance. Along
+// that axis both measure the same metres.
+double depth_slope(const AdvicePlace& place) {
+  return place.kind() == LightKind::point ? place.perspective_slope(place.frame.near_m, place.frame.far_m)
+                                          : place.depth_slope;
+}
+
+std::vector<EngineKnob> knobs(LightKind) {
+  return {{"LightShadow.bias", "light.shadow.bias = {};", BiasForm::constant, BiasTarget::compared_depth,
+           "window depth, added to the receiver's: negative towards the light",
+           [](double metres, const AdvicePlace& place) { return -metres * depth_slope(place); }},
+          {"LightShadow.normalBias", "light.shadow.normalBias = {};", BiasForm::normal, BiasTarget::place_looked_up,
+           "m along the normal", [](double metres, const AdvicePlace&) { return metres; }}};
+}
+
+// PCFShadowMap: 5 taps of a Vogel disk, rotated at each pixel. Each tap is a linear fetch of 2 x 2 texels. The distance
+// of the outermost tap from the centre is sqrt(0.9) of the radius. Its fetch reads texels up to one texel further away.
+EngineFilter filter(const AdvicePlace& place) {
+  if (filter_is(place, "none"))
+    return {{"renderer.shadowMap.type = THREE.BasicShadowMap;"}, "one nearest tap", 0.5, true};
+  const double radius = std::max(0.0, place.reach_texels - 1) / std::sqrt(0.9);
+  return {{"renderer.shadowMap.type = THREE.PCFShadowMap;", fmt::format("light.shadow.radius = {};", number(radius))},
+          "PCFShadowMap, 5 taps of a rotated disk, each blended over 2 x 2 texels",
+          1 + std::sqrt(0.9) * radius,
+          filter_is(place, "hardware")};  // radius 0: all five taps are one linear fetch
+}
+
+std::vector<std::string> map_lines(const AdvicePlace& place) {
+  const MapSettings& map = place.settings.map;
+  std::vector<std::string> lines = {
+      fmt::format("light.shadow.mapSize.set({0}, {0});", place.frame.resolution),
+      fmt::format("light.shadow.camera.near = {};", number(place.frame.near_m)),
+      fmt::format("light.shadow.camera.far = {};", number(place.frame.far_m)),
+      fmt::format("material.shadowSide = THREE.{};", map.cull == CulledFaces::none   ? "DoubleSide"
+                                                     : map.cull == CulledFaces::back ? "FrontSide"
+                                                                                     : "BackSide")};
+  const std::string half = number(place.frame.extent_m / 2);
+  lines.push_back(fmt::format("light.position.set({});", numbers(place.frame.origin_m)));
+  if (place.kind() != LightKind::point)
+    lines.push_back(fmt::format("light.target.position.set({});",
+                                numbers(place.frame.origin_m + place.frame.far_m * place.frame.forward)));
+  if (place.kind() == LightKind::directional) {
+    lines.push_back(fmt::format("light.shadow.camera.left = -{0}; light.shadow.camera.right = {0};", half));
+    lines.push_back(fmt::format("light.shadow.camera.bottom = -{0}; light.shadow.camera.top = {0};", half));
+  }
+  if (place.kind() == LightKind::spot) {
+    const double focus = std::atan(place.frame.tan_half_fov) / std::atan(place.cone_tan);
+    lines.push_back(fmt::format("light.angle = {};", number(std::atan(place.cone_tan))));
+    lines.push_back(fmt::format("light.shadow.focus = {};", number(focus)));
+  }
+  return lines;
+}
+
+std::vector<std::string> limits(const AdvicePlace& place) {
+  std::vector<std::string> said;
+  if (place.kind() != LightKind::directional)
+    said.push_back("light.shadow.normalBias has the same metres at every distance, bias in texels grows with it.");
+  if (place.kind() == LightKind::spot)
+    said.push_back("light.distance must be 0 or the far plane, because three.js takes it as the far plane of the map.");
+  if (place.kind() == LightKind::point)
+    said.push_back(
+        "A point light's map holds the depth along the axis of each face, not the distance: light.shadow.bias is exact "
+        "along that axis. The disk of taps lies across the ray.");
+  return said;
+}
+
+}  // namespace
+
+Engine three_js() {
+  return {"three.js",
+          "0.187",
+          "three.js src/renderers/shaders/ShaderChunk/shadowmap_pars_fragment.glsl.js and shadowmap_vertex.glsl.js",
+          "//",
+          knobs,
+          filter,
+          map_lines,
+          limits,
+          {"map.cull", "map.fov_deg"}};
+}
+
+}  // namespace noonmark

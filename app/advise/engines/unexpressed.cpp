@@ -1,0 +1,115 @@
+#include "app/advise/engines/unexpressed.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace noonmark {
+namespace {
+
+// Two forms that differ in the slope can be made equal at one slope only. 45 degrees is halfway between a surface
+// that is square to the light and one along it.
+constexpr double equal_at_rad = std::numbers::pi / 4;
+
+// What to type so that a plane at 45 degrees gains this depth: by the field that grows with the slope, if there is one.
+std::string instead(double depth_m, const std::vector<EngineKnob>& knobs, const AdvicePlace& place) {
+  const EngineKnob* best = nullptr;
+  for (const EngineKnob& knob : knobs) {
+    if (knob.form == BiasForm::polygon_factor || knob.form == BiasForm::polygon_resolution) continue;
+    if (!best || (best->form == BiasForm::constant && knob.form != BiasForm::constant)) best = &knob;
+  }
+  if (!best) return "The engine has no field that can replace it.";
+  const double metres = depth_m / gain(best->form, equal_at_rad);
+  return fmt::format(
+      "Instead, add {} to {}: on a plane at 45 degrees this gives the same {} m along the light (law 35), at other "
+      "slopes it gives more or less.",
+      number(best->typed(metres, place)), best->field, number(depth_m));
+}
+
+std::string of_the_field(const AdvisedPart& part, const EngineKnob& knob) {
+  return fmt::format(
+      "bias.{} acts on {}, {} on {}. On planes both give the same depth along the light. Near edges they differ: an "
+      "offset along the normal moves a shadow's outline, and a moved caster can let light pass at the foot of a thin "
+      "wall.",
+      part.part->name, place_name(part.part->acts_on), knob.field, place_name(knob.target));
+}
+
+}  // namespace
+
+std::vector<std::string> unexpressed_part(const AdvisedPart& part, const EngineKnob* knob,
+                                          const std::vector<EngineKnob>& knobs, const AdvicePlace& place) {
+  const std::string_view name = part.part->name;
+  std::vector<std::string> said;
+  if (!knob)
+    said.push_back(fmt::format("bias.{} = {} has no field of its form. {}", name, number(part.set),
+                               instead(part.depth_m(equal_at_rad), knobs, place)));
+  else if (knob->target != part.part->acts_on)
+    said.push_back(of_the_field(part, *knob));
+  if (part.floor > 0)
+    said.push_back(
+        fmt::format("bias.{}_floor: the engine has no least value of a part. A constant bias of {} m along the light "
+                    "gives at least "
+                    "as much where the floor acts, on surfaces that are nearly square to the light.",
+                    name, number(part.floor)));
+  if (std::isfinite(part.cap))
+    said.push_back(fmt::format(
+        "bias.{}_cap: the engine has no greatest value of a part. Where the bias would exceed {} m, shadows begin "
+        "further from their occluders than recommended.",
+        name, number(part.cap)));
+  return said;
+}
+
+std::vector<std::string> unexpressed_reference(const std::vector<EngineKnob>& knobs, const AdvicePlace& place) {
+  const std::string& reference = place.settings.bias.reference;
+  if (!tap_reference(reference).plane) return {};
+  // Law 1 with A = sqrt(2), the azimuth that needs most.
+  const double needed_m = place.reach_texels * place.texel_m * std::numbers::sqrt2 * std::tan(equal_at_rad);
+  std::string said = fmt::format(
+      "bias.reference = {}: every tap is compared with one depth, the receiver's own. So the bias must cover the whole "
+      "kernel (law 1: k w A tan(theta), k = {} texels), which the recommended bias need not. {}",
+      reference, number(place.reach_texels), instead(needed_m, knobs, place));
+  if (place.settings.bias.plane_cap) said += " bias.plane_cap has no meaning then.";
+  return {said};
+}
+
+std::vector<std::string> unexpressed_filter(const AdvicePlace& place) {
+  if (place.filter.same) return {};
+  std::string said = fmt::format(
+      "filter.kind = {} reaches k = {} texels. The nearest filter here is {}, which reaches {} texels.",
+      place.settings.filter.kind, number(place.reach_texels), place.filter.what, number(place.filter.reach_texels));
+  if (place.filter.reach_texels > place.reach_texels)
+    said += fmt::format(" Law 1 needs a bias in proportion to k: multiply the bias by {}, or acne can appear.",
+                        number(place.filter.reach_texels / place.reach_texels));
+  return {said};
+}
+
+std::vector<std::string> unexpressed_map(const AdvicePlace& place, const std::vector<std::string_view>& expressed) {
+  constexpr std::string_view rows[] = {"map.snap",        "map.shift_u_texels", "map.shift_v_texels",
+                                       "map.wrap",        "map.cull",           "map.lit_beyond_far",
+                                       "map.depth_clamp", "map.pancake",        "map.turn_deg",
+                                       "map.fov_deg",     "light.radius_m",     "light.angular_diameter_deg"};
+  const Settings defaults;
+  std::vector<std::string> said;
+  for (std::string_view name : rows) {
+    const Setting& row = find_setting(name);
+    if (row.get(place.settings) == row.get(defaults)) continue;
+    if (row.why_idle && !row.why_idle(place.settings, place.kind()).empty()) continue;
+    if (std::find(expressed.begin(), expressed.end(), name) != expressed.end()) continue;
+    said.push_back(
+        fmt::format("{} = {} is not set by the lines above; the engine decides it.", name, row.get(place.settings)));
+  }
+  return said;
+}
+
+std::vector<std::string> unexpressed_distance(const AdvicePlace& place) {
+  if (place.frame.uniform()) return {};
+  return {fmt::format(
+      "On a {} light a texel is wider and a step of depth is longer at a greater distance. The numbers hold at {} m "
+      "from the light along the axis{}, where a texel is {} m wide.",
+      kind_of_light(place.kind()).name(), number(place.distance_m),
+      place.kind() == LightKind::point ? " of a face of the cube" : "", number(place.texel_m))};
+}
+
+}  // namespace noonmark

@@ -1,0 +1,104 @@
+// Unity, Universal Render Pipeline. Both biases move the caster's vertices, in texels of the map, multiplied by a factor
+// of the soft shadows' quality. For a spot light the engine takes half the texel at the far plane at every distance. A
+// polygon offset with factor 2.5 and units 1 is always on.
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "app/advise/engines/engine.h"
+
+namespace noonmark {
+namespace {
+
+constexpr double greatest = 10;       // of both biases in the inspector
+constexpr double fixed_factor = 2.5;  // of the polygon offset that is always on
+constexpr double fixed_units = 1;
+
+double engine_texel_m(const AdvicePlace& place) {
+  if (place.kind() == LightKind::directional) return place.texel_m;
+  const double tangent = place.kind() == LightKind::spot ? place.cone_tan : 1;
+  return tangent * place.frame.far_m / place.frame.resolution;
+}
+
+std::vector<EngineKnob> knobs(LightKind kind) {
+  const auto typed = [](double metres, const AdvicePlace& place) {
+    return metres / (place.filter.scale * engine_texel_m(place));
+  };
+  const std::string texels =
+      kind == LightKind::directional ? "texels" : "half texels of the far plane, at every distance";
+  std::vector<EngineKnob> all = {{"Shadows > Depth Bias", "Light > Shadows > Bias: Custom, Depth: {}",
+                                  BiasForm::constant, BiasTarget::caster,
+                                  texels + " away from the light, times the factor of the soft shadows", typed}};
+  if (kind != LightKind::point)  // a point light's normal bias is set to 0 by the engine
+    all.push_back({"Shadows > Normal Bias", "Light > Shadows > Bias: Custom, Normal: {}", BiasForm::turned,
+                   BiasTarget::caster,
+                   texels + " against the normal, times 1 - N.L, times the factor of the soft shadows", typed});
+  return all;
+}
+
+EngineFilter filter(const AdvicePlace& place) {
+  const auto soft = [](const char* quality, const char* what, double reach, bool same, double scale) {
+    return EngineFilter{{fmt::format("Light > Shadow Type: Soft Shadows, Soft Shadows Quality: {}", quality)},
+                        what,
+                        reach,
+                        same,
+                        scale};
+  };
+  const EngineFilter hard{
+      {"Light > Shadow Type: Hard Shadows"}, "Hard Shadows, one linear fetch", 1, filter_is(place, "hardware")};
+  return nearest_reach(
+      place, {hard, soft("Low", "Soft Shadows Low, 4 linear fetches", 1.5, false, 1.5),
+              soft("Medium", "Soft Shadows Medium, a tent over 5 x 5 texels", 3, filter_is(place, "tent", 5), 2.5),
+              soft("High", "Soft Shadows High, a tent over 7 x 7 texels", 4, filter_is(place, "tent", 7), 3.5)});
+}
+
+std::vector<std::string> map_lines(const AdvicePlace& place) {
+  if (place.kind() == LightKind::directional)
+    return {fmt::format("URP Asset > Lighting > Main Light > Shadow Resolution: {}", place.frame.resolution),
+            "URP Asset > Shadows > Cascade Count: 1",
+            fmt::format("URP Asset > Shadows > Max Distance: {}", number(place.frame.extent_m))};
+  return {fmt::format("URP Asset > Lighting > Additional Lights > Shadow Resolution Tier: {}", place.frame.resolution),
+          fmt::format("Light > Emission > Range: {}", number(place.frame.far_m)),
+          fmt::format("Light > Shadows > Near Plane: {}", number(place.frame.near_m))};
+}
+
+std::vector<std::string> limits(const AdvicePlace& place) {
+  std::vector<std::string> said = {
+      fmt::format("The engine always draws the map with a polygon offset of factor {} and units {}, which adds {} m "
+                  "along the light at 45 degrees to the recommended bias. No field switches it off.",
+                  number(fixed_factor), number(fixed_units), number(fixed_factor * place.texel_m)),
+      fmt::format("Depth and Normal are at most {}.", number(greatest)), "map.format: the map has 16 bits of depth."};
+  if (place.kind() == LightKind::directional)
+    said.insert(
+        said.end(),
+        {fmt::format("map.extent_m = {0}, near and far: the engine fits the map around what the camera sees. Change "
+                     "Max Distance until the map is {0} m wide; then a texel is as wide as recommended.",
+                     number(place.frame.extent_m)),
+         "The engine always moves vertices before the near plane onto it (map.pancake). A large triangle across the "
+         "near plane gets other depths by that, also behind the plane."});
+  else
+    said.push_back(fmt::format("The unit of both biases is {} m at every distance, while a texel grows with it.",
+                               number(engine_texel_m(place))));
+  if (place.kind() == LightKind::point)
+    said.push_back(
+        "A point light has no normal bias. The engine widens the faces of the cube by a guard angle, so its texel and "
+        "its depth bias are a little greater than computed for 90 degrees.");
+  return said;
+}
+
+}  // namespace
+
+Engine unity_urp() {
+  return {"Unity URP",
+          "17",
+          "Unity Graphics com.unity.render-pipelines.universal Runtime/ShadowUtils.cs (GetShadowBias, "
+          "RenderShadowSlice), ShaderLibrary/Shadows.hlsl (ApplyShadowBias) and Shaders/ShadowCasterPass.hlsl",
+          "//",
+          knobs,
+          filter,
+          map_lines,
+          limits,
+          {}};
+}
+
+}  // namespace noonmark

@@ -1,0 +1,77 @@
+#include "app/advise/recommend_judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compare/judge/curve_reading.h"
+#include "compare/judge/recommendation.h"
+#include "compare/results/quantities.h"
+
+namespace noonmark {
+namespace {
+
+// The settings whose values differ among the points.
+std::vector<std::string> differing(const std::vector<PointRecord>& points) {
+  std::vector<std::string> names;
+  for (const auto& [name, text] : points.front().settings)
+    for (const PointRecord& point : points)
+      if (setting_of(point, name) != text) {
+        names.push_back(name);
+        break;
+      }
+  return names;
+}
+
+void set_bias(Settings& settings, const BiasChoice& bias) {
+  find_setting(bias.parameter).set(settings, fmt::format("{}", bias.value));
+}
+
+}  // namespace
+
+Settings settings_of(const PointRecord& point) {
+  Settings settings;
+  for (const Setting& row : settings_table()) row.set(settings, setting_of(point, std::string(row.name)));
+  return settings;
+}
+
+void judge_bias(Workbench& bench, Tried& tried, std::vector<PointRecord> points, const CurveOptions& searched,
+                const std::string& accuracy) {
+  tried.bias.reset();
+  tried.worst.reset();
+  tried.nearest.reset();
+  tried.why_not.clear();
+  Results results;
+  results.info.accuracy = accuracy;
+  results.info.over = differing(points);
+  results.planned_points = static_cast<int64_t>(points.size());
+  results.points = std::move(points);
+  const auto failing = std::find_if(results.points.begin(), results.points.end(),
+                                    [](const PointRecord& p) { return p.curve && !usable_window(*p.curve); });
+  if (failing != results.points.end()) {
+    tried.nearest = nearest_bias(*failing, searched);
+    tried.why_not = why_no_window(*failing, *tried.nearest);
+    tried.worst = *failing;
+    return;
+  }
+  const std::vector<Recommendation> good = good_choices(results);
+  if (good.empty()) {
+    tried.why_not =
+        results.points.front().curve ? "no bias is usable under every condition" : why_no_curve(results.points.front());
+    tried.worst = results.points.front();
+    return;
+  }
+  tried.bias = good.front().bias;
+  set_bias(tried.settings, *tried.bias);
+  tried.error = 0;
+  for (const PointRecord& point : results.points) {
+    Settings there = settings_of(point);
+    there.map.placements = 1;
+    set_bias(there, *tried.bias);
+    const PointRecord shown = bench.measure(there, std::nullopt).record;
+    const double error = metric_of(shown, accuracy);
+    if (!tried.worst || !(error <= tried.error)) tried.error = error, tried.worst = shown;
+  }
+}
+
+}  // namespace noonmark

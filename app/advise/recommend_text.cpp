@@ -1,0 +1,380 @@
+#include "app/advise/recommend_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/definition/experiment.h"
+#include "app/definition/toml_writer.h"
+#include "compare/report/findings.h"
+#include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
+
+namespace noonmark {
+namespace {
+
+std::string percent(double share) { return fmt::format("{:.3g}%", 100 * share); }
+
+std::string filter_text(const FilterSettings& filter) {
+  if (filter.kind == "none") return "no filter";
+  if (filter.kind == "castano") return fmt::format("the filter castano {0} x {0}", filter.whole("size"));
+  return fmt::format("the filter {}", filter.kind);
+}
+
+std::string settings_text(const Tried& tried) {
+  std::string text =
+      fmt::format("a map of {0} x {0} texels, {1}", tried.settings.map.resolution, filter_text(tried.settings.filter));
+  if (tried.settings.bias.reference != "own_depth")
+    text += fmt::format(", bias.reference = {}", tried.settings.bias.reference);
+  if (const double offset = tried.settings.bias["normal_offset_axes"]; offset > 0)
+    text += fmt::format(", bias.normal_offset_axes = {:g} texels", offset);
+  if (tried.settings.map.cull != MapSettings().cull)
+    text += fmt::format(", map.cull = {}", find_setting("map.cull").get(tried.settings));
+  if (tried.bias) text += fmt::format(", and {} = {:g} {}", tried.bias->parameter, tried.bias->value, tried.bias->unit);
+  return text;
+}
+
+std::string causes_text(const PointRecord& point) {
+  const PointRecord* only[] = {&point};
+  const std::vector<CauseShare> shares = cause_shares(only);
+  std::string text;
+  for (size_t i = 0; i < std::min<size_t>(shares.size(), 2); ++i) {
+    std::string name = shares[i].name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += fmt::format("{}{} ({:.0f}%)", i ? ", then " : "", name, 100 * shares[i].share);
+  }
+  return text;
+}
+
+std::string bounds_text(const CurveOptions& bounds, double share = 1) {
+  return fmt::format("acne within {} and Peter Panning within {}", percent(share * bounds.acne_bound),
+                     percent(share * bounds.peter_panning_bound));
+}
+
+// The dearest of the settings that cost less than the answer.
+const Tried* next_cheaper(const Advice& advice) {
+  const Tried* found = nullptr;
+  for (const Tried& tried : advice.tried)
+    if (tried.cost < advice.answer->cost) found = &tried;
+  return found;
+}
+
+// Whether the scene needs a shadow map at all.
+std::string needed_text(const Advice& advice) {
+  if (advice.shadowed == 0)
+    return "No shadow map is needed here: in no view that was searched is anything in shadow that faces the light, so "
+           "the picture is right without one. If the scene moves, or if other views show shadows, the settings below "
+           "make none where there are none.";
+  const std::string without =
+      fmt::format("Without shadows {} of the picture that faces the light would be wrong, in the worst view",
+                  percent(advice.shadowed));
+  const double with = advice.answer->error;
+  if (with >= advice.shadowed)
+    return fmt::format("{}; this map leaves {}, so it does not pay.", without, percent(with));
+  if (advice.request.error && advice.shadowed <= *advice.request.error)
+    return fmt::format("{}. That is within the error of {} that is allowed, so the scene needs no shadow map.", without,
+                       percent(*advice.request.error));
+  return fmt::format("{}; this map leaves {}, so it removes {:.0f}% of that error.", without, percent(with),
+                     100 * (1 - with / advice.shadowed));
+}
+
+std::string constant_text(int least_resolution) {
+  return least_resolution > 0 ? fmt::format(
+                                    "One constant bias and no filter would keep both bounds from some {} texels on, "
+                                    "under the first condition alone.",
+                                    least_resolution)
+                              : fmt::format(
+                                    "One constant bias and no filter keep both bounds at no resolution up to {}, under "
+                                    "the first condition.",
+                                    -least_resolution);
+}
+
+// The conditions that this one differs in from the others: "view.eye_m = 1,2,3". Empty if there is one condition.
+std::string condition_text(const PointRecord& point, const AdviceRequest& request) {
+  std::vector<std::string> words;
+  std::vector<std::map<std::string, std::string>> all;
+  for (const Settings& condition : request.conditions) all.push_back(settings_map(condition));
+  for (const auto& first : all.front()) {
+    const std::string& name = first.first;
+    if (std::any_of(all.begin(), all.end(), [&](const auto& other) { return other.at(name) != first.second; }))
+      words.push_back(fmt::format("{} = {}", name, setting_text(setting_of(point, name))));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+// The cheapest of the settings that were screened and are more accurate than the answer. Null if it has an error or a budget
+// to keep, because then they are no choice.
+const Tried* next_better(const Advice& advice) {
+  if (advice.request.error || advice.request.budget) return nullptr;
+  for (const Tried& tried : advice.tried)  // by cost
+    if (tried.bias && tried.cost > advice.answer->cost && tried.error < advice.answer->error) return &tried;
+  return nullptr;
+}
+
+// What would have to change, from what was tried: one sentence for each way.
+std::vector<std::string> ways_out(const Advice& advice, const Tried& nearest) {
+  const AdviceRequest& request = advice.request;
+  std::vector<std::string> lines;
+  if (nearest.bias && request.error) {
+    const int times = *request.error > 0 ? static_cast<int>(std::ceil(nearest.error / *request.error)) : 0;
+    if (times == 0)
+      lines.push_back("A map of texels cannot have an error of 0%: allow a larger --error.");
+    else
+      lines.push_back(fmt::format(
+          "A larger --error: {} holds with these settings. Or finer texels: errors fall as their width on average (law "
+          "5), so some {} texels, or an extent {} times smaller.",
+          percent(nearest.error), times * nearest.settings.map.resolution, times));
+  } else if (nearest.nearest) {
+    // Of the bounds only a share is used up while searching.
+    const auto enough = [](double bound, double left) { return std::max(bound, left / searched_share); };
+    lines.push_back(fmt::format("Larger bounds: from about --acne {} --peter-panning {} on these settings do.",
+                                percent(enough(request.curve.acne_bound, nearest.nearest->acne)),
+                                percent(enough(request.curve.peter_panning_bound, nearest.nearest->peter_panning))));
+  }
+  if (advice.least_resolution)
+    lines.push_back(constant_text(*advice.least_resolution));
+  else if (!nearest.bias)
+    lines.push_back(
+        fmt::format("Finer texels: a resolution above {}, or a smaller extent.", advice.request.resolutions.back()));
+  if (request.levels.empty())
+    lines.push_back("Another kind of bias: the experiment gives one; without it all kinds are tried.");
+  if (!nearest.bias)
+    lines.push_back(
+        "Or the mesh: parts that are closed, and that stand further apart than the bias that its slopes need.");
+  return lines;
+}
+
+std::vector<std::string> nothing_works(const Advice& advice) {
+  std::vector<std::string> lines;
+  lines.push_back(
+      fmt::format("Nothing that was tried keeps {}{} under all conditions.", bounds_text(advice.request.curve),
+                  advice.request.error ? fmt::format(" and the error within {}", percent(*advice.request.error)) : ""));
+  const std::optional<Tried>& nearest = advice.nearest;
+  if (!nearest) return lines;
+  lines.push_back(fmt::format("Nearest came {}: {}.", settings_text(*nearest), nearest->why_not));
+  if (nearest->worst && nearest->worst->worst.x >= 0) {
+    const std::string where = condition_text(*nearest->worst, advice.request);
+    lines.push_back(fmt::format(
+        "Its worst pixel is x = {}, y = {} (row 0 on top, of {} x {}{}), by {}.", nearest->worst->worst.x,
+        nearest->worst->worst.y, setting_of(*nearest->worst, "view.width_px"),
+        setting_of(*nearest->worst, "view.height_px"), where.empty() ? "" : "; " + where, nearest->worst->worst.cause));
+  }
+  lines.push_back("What would have to change:");
+  for (const std::string& way : ways_out(advice, *nearest)) lines.push_back("- " + way);
+  return lines;
+}
+
+// For each level of the bias below the answer's: why it does not do.
+std::vector<std::string> lesser_levels(const Advice& advice) {
+  std::vector<std::string> lines;
+  for (const BiasLevel& level : advice.request.levels) {
+    if (level.name == advice.answer->level) break;
+    int finest = 0;
+    bool any_window = false;
+    for (const Tried& tried : advice.tried) {
+      if (tried.level != level.name) continue;
+      finest = std::max(finest, tried.settings.map.resolution);
+      any_window = any_window || tried.bias;
+    }
+    if (finest && !any_window)
+      lines.push_back(fmt::format(
+          "With {} nothing up to {} texels keeps {:.0f}% of both bounds under all conditions{}.", level.name, finest,
+          100 * searched_share, finest < advice.request.resolutions.back() ? ", and finer ones could not win" : ""));
+    else if (finest)
+      for (const Tried& tried : advice.tried)
+        if (tried.level == level.name && tried.bias) {
+          lines.push_back(fmt::format("With {} the first that keeps the bounds is {}; {}.", level.name,
+                                      settings_text(tried), tried.why_not));
+          break;
+        }
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::vector<std::string> advice_text(const Advice& advice) {
+  if (!advice.answer) return nothing_works(advice);
+  const Tried& answer = *advice.answer;
+  std::vector<std::string> lines;
+  if (advice.shadowed == 0) lines.push_back(needed_text(advice));
+  lines.push_back(fmt::format("Set {}.", settings_text(answer)));
+  if (answer.bias)
+    lines.push_back(fmt::format(
+        "{} keeps {} from {:.3g} to {:.3g} {} under {} condition{} and at all {} placements of the map's grid that "
+        "were "
+        "searched{}. That is {:.0f}% of the bounds, because conditions that were not searched may be a little worse.",
+        answer.bias->parameter, bounds_text(advice.request.curve, searched_share), answer.bias->window.low,
+        answer.bias->window.high, answer.bias->unit, advice.conditions, advice.conditions == 1 ? "" : "s",
+        advice.placements,
+        answer.bias->narrow ? "; that is narrow, so a small change of the scene can break it"
+                            : "; " + margin_text(*answer.bias),
+        100 * searched_share));
+  lines.push_back(
+      fmt::format("Verified: OpenGL rendered it under the worst condition at {} other placements, {} pixels wide; the "
+                  "worst of them "
+                  "has {} acne, {} Peter Panning and {} error.",
+                  advice.verified, std::min(advice.request.width_px, answer.settings.view.width_px),
+                  percent(advice.worst_acne), percent(advice.worst_peter_panning), percent(advice.worst_error)));
+  if (answer.worst) {
+    const std::string causes = causes_text(*answer.worst);
+    lines.push_back(fmt::format("The error that is left ({}) is {}{}.", advice.request.accuracy, percent(answer.error),
+                                causes.empty() ? "" : ", most of it " + causes));
+  }
+  if (advice.shadowed > 0) lines.push_back(needed_text(advice));
+  lines.push_back(
+      fmt::format("It costs {:.3g} million texels written and texture instructions a frame.", answer.cost / 1e6));
+  if (const Tried* cheaper = next_cheaper(advice))
+    lines.push_back(fmt::format("The next cheaper is {} ({:.3g} million): {}.", settings_text(*cheaper),
+                                cheaper->cost / 1e6, cheaper->why_not));
+  else
+    lines.push_back(fmt::format("Nothing cheaper was tried: the smallest map among the choices has {} texels a side.",
+                                advice.request.resolutions.front()));
+  if (const Tried* better = next_better(advice))
+    lines.push_back(fmt::format("More accurate, as far as it was screened, is {} ({:.3g} million): {}.",
+                                settings_text(*better), better->cost / 1e6, better->why_not));
+  if (advice.least_resolution)
+    lines.push_back(constant_text(*advice.least_resolution) +
+                    fmt::format(" The bias of this answer keeps them at {} texels, under all conditions.",
+                                answer.settings.map.resolution));
+  for (std::string& line : lesser_levels(advice)) lines.push_back(std::move(line));
+  if (advice.around)
+    for (std::string& line : tornado_text(*advice.around)) lines.push_back(std::move(line));
+  return lines;
+}
+
+std::string advice_experiment(const Advice& advice, const std::string& folder) {
+  const Tried& answer = *advice.answer;
+  std::vector<std::map<std::string, std::string>> conditions;
+  for (const Settings& condition : advice.request.conditions) conditions.push_back(settings_map(condition));
+  const auto is_condition = [&](const std::string& name) {
+    return std::any_of(conditions.begin(), conditions.end(),
+                       [&](const auto& other) { return other.at(name) != conditions.front().at(name); });
+  };
+  Settings settings = answer.settings;
+  settings.map.placements = advice.placements ? static_cast<int>(std::lround(std::sqrt(advice.placements))) : 1;
+  std::string scene = settings.scene.name;
+  if (std::error_code none; std::filesystem::is_regular_file(scene, none))
+    scene = std::filesystem::proximate(scene, folder);
+  std::string text = fmt::format("# Written by noonmark recommend. noonmark check judges it.\n\n[scene]\nname = {}\n",
+                                 toml_string(scene));
+  std::string over, group = "scene";
+  for (const Setting& row : settings_table()) {
+    const std::string name(row.name), value = row.get(settings);
+    const size_t dot = name.find('.');
+    if (is_condition(name)) {
+      std::vector<std::string> values;
+      for (const auto& condition : conditions)
+        if (const std::string one = toml_value(row, condition.at(name));
+            std::find(values.begin(), values.end(), one) == values.end())
+          values.push_back(one);
+      over += fmt::format("{} = [{}]\n", name, fmt::join(values, ", "));
+    } else if (name != "scene.name" && value != row.get(Settings())) {
+      if (name.substr(0, dot) != group) text += fmt::format("\n[{}]\n", group = name.substr(0, dot));
+      text += fmt::format("{} = {}\n", name.substr(dot + 1), toml_value(row, value));
+    }
+  }
+  if (!over.empty()) text += "\n[over]\n" + over;
+  text += fmt::format("\n[curve]\nacne_bound = {}\npeter_panning_bound = {}\n", advice.request.curve.acne_bound,
+                      advice.request.curve.peter_panning_bound);
+  for (const auto& [metric, max] : {std::pair("acne", advice.request.curve.acne_bound),
+                                    std::pair("peter_panning", advice.request.curve.peter_panning_bound)})
+    text += fmt::format("\n[[bound]]\nmetric = \"{}\"\nmax = {}\n", metric, max);
+  if (advice.request.error)
+    text += fmt::format("\n[[bound]]\nmetric = \"{}\"\nmax = {}\n", advice.request.accuracy, *advice.request.error);
+  return text;
+}
+
+std::string advice_engines(const std::vector<EngineAdvice>& engines) {
+  std::string text = "These settings in other engines, and what each cannot express. Made by Noonmark.\n";
+  for (const EngineAdvice& engine : engines) {
+    text += fmt::format("\n{} ({})\n", engine.engine, engine.version);
+    for (const std::string& line : engine.lines) text += fmt::format("    {}\n", line);
+    for (const std::string& sentence : engine.cannot) text += fmt::format("  - {}\n", sentence);
+    text += fmt::format("  Source: {}\n", engine.source);
+  }
+  return text;
+}
+
+namespace {
+
+nlohmann::json around_json(const Tornado& tornado) {
+  using nlohmann::json;
+  const auto of = [](const TornadoEnd& end) {
+    json one{{"value", end.value}, {"held", end.held}};
+    if (end.why_not.empty())
+      one["error"] = end.error;
+    else
+      one["why_not"] = end.why_not;
+    return one;
+  };
+  json rows = json::array();
+  for (const TornadoRow& row : tornado.rows) {
+    json low = of(row.low), high = of(row.high);
+    low["open"] = row.low_open, high["open"] = row.high_open;
+    rows.push_back({{"setting", row.setting},
+                    {"unit", row.unit},
+                    {"value", row.value},
+                    {"half", of(row.half)},
+                    {"double", of(row.twice)},
+                    {"usable_from", low},
+                    {"usable_to", high}});
+  }
+  return {{"error", tornado.error},           {"held", tornado.held},
+          {"accuracy", tornado.accuracy},     {"conditions", tornado.conditions},
+          {"placements", tornado.placements}, {"settings", rows}};
+}
+
+}  // namespace
+
+std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& engines) {
+  using nlohmann::json;
+  const auto of = [](const Tried& tried) {
+    json one{{"settings", settings_map(tried.settings)}, {"bias_kind", tried.level}, {"texel_work", tried.cost}};
+    if (tried.bias) {
+      one["error"] = tried.error;
+      one["bias"] = {{"parameter", tried.bias->parameter}, {"unit", tried.bias->unit},
+                     {"value", tried.bias->value},         {"from", tried.bias->window.low},
+                     {"to", tried.bias->window.high},      {"narrow", tried.bias->narrow}};
+    }
+    if (!tried.why_not.empty()) one["why_not"] = tried.why_not;
+    return one;
+  };
+  json all;
+  all["text"] = advice_text(advice);
+  all["accuracy"] = advice.request.accuracy;
+  all["answer"] = advice.answer ? of(*advice.answer) : json();
+  all["wrong_without_shadows"] = advice.shadowed;
+  if (advice.nearest) {
+    all["nearest"] = of(*advice.nearest);
+    if (advice.nearest->worst)
+      all["nearest"]["worst"] = {{"x", advice.nearest->worst->worst.x},
+                                 {"y", advice.nearest->worst->worst.y},
+                                 {"cause", advice.nearest->worst->worst.cause}};
+  }
+  if (advice.answer)
+    all["verified"] = {{"conditions", advice.conditions},
+                       {"searched_placements", advice.placements},
+                       {"rendered_placements", advice.verified},
+                       {"worst_acne", advice.worst_acne},
+                       {"worst_peter_panning", advice.worst_peter_panning},
+                       {"worst_error", advice.worst_error}};
+  if (advice.around) all["around"] = around_json(*advice.around);
+  all["engines"] = json::array();
+  for (const EngineAdvice& engine : engines)
+    all["engines"].push_back({{"engine", engine.engine},
+                              {"version", engine.version},
+                              {"lines", engine.lines},
+                              {"cannot", engine.cannot},
+                              {"source", engine.source}});
+  all["tried"] = json::array();
+  for (const Tried& tried : advice.tried) all["tried"].push_back(of(tried));
+  return all.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace noonmark

@@ -1,0 +1,24 @@
+// The recommendation for its readers: as sentences, as an experiment file, and as JSON.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "app/advise/engines/engine_settings.h"
+#include "app/advise/recommend.h"
+
+namespace noonmark {
+
+// Sentences, one in each element.
+std::vector<std::string> advice_text(const Advice& advice);
+
+// An experiment that `noonmark check` passes: the answer's settings, the conditions, the placements and the bounds.
+// There must be an answer. folder: where the file will stand; the path of a scene's file is relative to it.
+std::string advice_experiment(const Advice& advice, const std::string& folder);
+
+// What to type into other engines, and what each cannot express. There must be an answer.
+std::string advice_engines(const std::vector<EngineAdvice>& engines);
+
+// Everything that was found, one object. engines: empty without an answer.
+std::string advice_json(const Advice& advice, const std::vector<EngineAdvice>& engines);
+
+}  // namespace noonmark

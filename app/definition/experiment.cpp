@@ -1,0 +1,253 @@
+#include "app/definition/experiment.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "compare/results/metrics.h"
+#include "compare/results/number_text.h"
+#include "technique/setting_rules.h"
+
+namespace noonmark {
+namespace {
+
+// The values of point `index`, as one index into each swept list. The last index changes fastest.
+std::vector<size_t> digits(const Experiment& experiment, int64_t index) {
+  std::vector<size_t> result(experiment.swept.size());
+  for (size_t i = result.size(); i-- > 0;) {
+    const auto count = static_cast<int64_t>(experiment.swept[i].values.size());
+    result[i] = static_cast<size_t>(index % count);
+    index /= count;
+  }
+  return result;
+}
+
+// The id of the part's first point.
+int64_t first_of_part(const Experiment& experiment, const Experiment& part) {
+  int64_t first = 0;
+  for (const Experiment& other : experiment.parts) {
+    if (&other == &part) break;
+    first += point_count(other);
+  }
+  return first;
+}
+
+}  // namespace
+
+void apply_override(Experiment& experiment, std::string_view assignment) {
+  const size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos || equals == 0)
+    throw Error(ErrorKind::usage,
+                fmt::format("--set {}: write it as name=value, such as map.resolution=2048", assignment));
+  const std::string_view given = assignment.substr(0, equals);
+  const std::string name(given == "scene" ? "scene.name" : given);
+  try {
+    find_setting(name).set(experiment.base, assignment.substr(equals + 1));
+  } catch (const Error& error) {
+    throw Error(ErrorKind::usage, fmt::format("--set {}: {}", assignment, error.what()));
+  }
+  experiment.locations[name] = fmt::format("--set {}", assignment);
+  std::erase_if(experiment.swept, [&](const Swept& swept) { return swept.name == name; });
+  for (Experiment& part : experiment.parts) apply_override(part, assignment);
+  if (std::find(experiment.overridden.begin(), experiment.overridden.end(), name) == experiment.overridden.end())
+    experiment.overridden.push_back(name);
+}
+
+void choose_parts(Experiment& experiment, const std::vector<std::string>& names) {
+  if (experiment.parts.empty())
+    throw Error(ErrorKind::usage, fmt::format("--part {}: {} has no parts", names.at(0), experiment.path));
+  const auto chosen = [&](std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  std::vector<std::string_view> known;
+  for (const Experiment& part : experiment.parts) known.push_back(part.part);
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string near = nearest_name(name, known);
+    throw Error(ErrorKind::usage, fmt::format("--part {}: {} has no such part{}", name, experiment.path,
+                                              near.empty() ? fmt::format("; it has '{}'", fmt::join(known, "', '"))
+                                                           : fmt::format("; did you mean '{}'?", near)));
+  }
+  std::erase_if(experiment.parts, [&](const Experiment& part) { return !chosen(part.part); });
+  experiment.chosen = names;
+}
+
+const Experiment& part_of_point(const Experiment& experiment, int64_t id) {
+  for (const Experiment& part : experiment.parts) {
+    const int64_t count = point_count(part);
+    if (id < count) return part;
+    id -= count;
+  }
+  return experiment;
+}
+
+namespace {
+
+// The names of the swept settings that are wanted, of all parts, each once.
+template <class Wanted>
+std::vector<std::string> names_of(const Experiment& experiment, const Wanted& wanted) {
+  std::vector<std::string> names;
+  for (const Swept& swept : experiment.swept)
+    if (wanted(swept)) names.push_back(swept.name);
+  for (const Experiment& part : experiment.parts)
+    for (const std::string& name : names_of(part, wanted))
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
+}  // namespace
+
+std::string time_asked_for(const Experiment& experiment) {
+  std::vector<std::string> names = experiment.plot;
+  names.push_back(experiment.cost);
+  names.push_back(experiment.accuracy);
+  for (const Bound& bound : experiment.bounds) names.push_back(bound.metric);
+  for (const Law& law : experiment.laws)
+    for (const std::string& name : metric_names(law)) names.push_back(name);
+  for (const Experiment& part : experiment.parts) names.push_back(time_asked_for(part));
+
+  for (const std::string& name : names)
+    for (const Metric& row : metrics_table())
+      if (row.name == name && row.unit == "ms") return name;
+  return "";
+}
+
+bool times_measured(const Experiment& experiment) {
+  return experiment.times.value_or(!time_asked_for(experiment).empty());
+}
+
+std::vector<std::string> swept_names(const Experiment& experiment) {
+  return names_of(experiment, [](const Swept&) { return true; });
+}
+
+std::vector<std::string> condition_names(const Experiment& experiment) {
+  return names_of(experiment, [](const Swept& swept) { return swept.condition; });
+}
+
+int64_t point_count(const Experiment& experiment) {
+  int64_t count = experiment.parts.empty() ? 1 : 0;
+  for (const Experiment& part : experiment.parts) count += point_count(part);
+  for (const Swept& swept : experiment.swept) {
+    count *= static_cast<int64_t>(swept.values.size());
+    // Each list fits in memory, so the product stays far from overflow when it is checked at every step.
+    if (count > max_points)
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("{}: the sweep has more than {} points; sweep fewer values",
+                      experiment.sweep_location.empty() ? experiment.path : experiment.sweep_location, max_points));
+  }
+  return count;
+}
+
+std::string swept_text(const Experiment& experiment, int64_t id) {
+  const Experiment& part = part_of_point(experiment, id);
+  std::vector<std::string> choice;
+  const std::vector<size_t> at = digits(part, id - first_of_part(experiment, part));
+  for (size_t i = 0; i < at.size(); ++i)
+    choice.push_back(fmt::format("{} = {}", part.swept[i].name, setting_text(part.swept[i].values[at[i]])));
+  return fmt::format("{}", fmt::join(choice, ", "));
+}
+
+Error error_of_point(const Experiment& experiment, int64_t id, const Error& error) {
+  if (experiment.path.empty()) return error;  // a point given only by the command line has no name and no place
+  const Experiment& part = part_of_point(experiment, id);
+  std::string place = part.sweep_location;
+  if (const auto* conflict = dynamic_cast<const SettingConflict*>(&error)) {
+    // The file can give any of the settings that the message names.
+    const std::string what = error.what();
+    const auto named = part.locations.find(conflict->setting());
+    size_t first = std::string::npos;
+    if (named != part.locations.end())
+      place = named->second;
+    else
+      for (const auto& [name, where] : part.locations)
+        if (const size_t found = what.find(name); found < first) {
+          first = found;
+          place = where;
+        }
+  }
+  const std::string choice = swept_text(experiment, id);
+  return Error(error.kind(), fmt::format("{}: {}point {}{}: {}", place.empty() ? experiment.path : place,
+                                         part.part.empty() ? "" : fmt::format("part '{}', ", part.part), id,
+                                         choice.empty() ? "" : fmt::format(" ({})", choice), error.what()));
+}
+
+std::vector<Settings> points(const Experiment& experiment) {
+  std::vector<Settings> all;
+  const auto add = [&](const Experiment& part) {
+    const int64_t count = point_count(part);
+    for (int64_t index = 0; index < count; ++index) {
+      Settings settings = part.base;
+      const std::vector<size_t> at = digits(part, index);
+      for (size_t i = 0; i < at.size(); ++i)
+        find_setting(part.swept[i].name).set(settings, part.swept[i].values[at[i]]);
+      at_point(experiment, static_cast<int64_t>(all.size()), [&] { validate(settings); });
+      all.push_back(std::move(settings));
+    }
+  };
+  all.reserve(static_cast<size_t>(point_count(experiment)));
+  if (experiment.parts.empty()) add(experiment);
+  for (const Experiment& part : experiment.parts) add(part);
+  return all;
+}
+
+std::string reproduce_command(const Experiment& experiment, const PointRecord& point) {
+  std::string command = "noonmark render " + shell_quoted(experiment.path);
+  const auto add = [&](const std::string& name) {
+    const auto setting = point.settings.find(name);
+    if (setting != point.settings.end()) command += " --set " + shell_quoted(name + "=" + setting->second);
+  };
+  for (const std::string& name : experiment.overridden) add(name);
+  for (const std::string& name : experiment.chosen) command += " --part " + shell_quoted(name);
+  if (!experiment.parts.empty()) return command + fmt::format(" --point {}", point.id);
+  for (const Swept& swept : experiment.swept) add(swept.name);
+  return command;
+}
+
+namespace {
+
+// Everything that determines the points of one experiment, or of one part.
+std::string points_text(const Experiment& experiment) {
+  std::string text;
+  for (const Setting& row : settings_table()) {
+    const auto swept = std::find_if(experiment.swept.begin(), experiment.swept.end(),
+                                    [&](const Swept& s) { return s.name == row.name; });
+    if (swept == experiment.swept.end()) text += fmt::format("{} = {}\n", row.name, row.get(experiment.base));
+  }
+  // The order of the sweep is included, because it gives the points their ids.
+  for (const Swept& swept : experiment.swept)
+    text += fmt::format("sweep {} = [{}]\n", swept.name, fmt::join(swept.values, " | "));
+  text += fmt::format("curve.enabled = {}\n", experiment.curve_enabled);
+  if (experiment.curve_enabled) {
+    const auto& [acne_bound, peter_panning_bound, bias_depth] =
+        experiment.curve;  // must name every member, otherwise it does not compile
+    text += fmt::format("curve.acne_bound = {}\ncurve.peter_panning_bound = {}\n", acne_bound, peter_panning_bound);
+    text += bias_depth.empty() ? "curve.bias_depth = auto\n"
+                               : fmt::format("curve.bias_depth = [{}]\n", fmt::join(bias_depth, ", "));
+  }
+  return text;
+}
+
+// The lines of a part, each with the part's name.
+std::string in_part(const std::string& part, const std::string& lines) {
+  std::string text;
+  for (size_t begin = 0; begin < lines.size();) {
+    const size_t end = lines.find('\n', begin);
+    text += fmt::format("part '{}': {}\n", part, lines.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string fingerprint(const Experiment& experiment, std::span<const std::pair<std::string, std::string>> more) {
+  std::string text;
+  for (const auto& [name, value] : more) text += fmt::format("{} = {}\n", name, value);
+  if (experiment.parts.empty()) text += points_text(experiment);
+  for (const Experiment& part : experiment.parts) text += in_part(part.part, points_text(part));
+  return text + fmt::format("times = {}\npictures = {}\n", times_measured(experiment), experiment.pictures);
+}
+
+}  // namespace noonmark

@@ -1,0 +1,355 @@
+#include "app/definition/experiment_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "app/definition/atlas_reader.h"
+#include "app/definition/experiment.h"
+#include "app/definition/experiment_keys.h"
+#include "app/definition/promise_reader.h"
+#include "app/definition/settings_reader.h"
+#include "app/definition/toml_text.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/shell_words.h"
+#include "compare/results/quantities.h"
+#include "scenes/builtin.h"
+#include "scenes/library.h"
+#include "technique/placements.h"
+
+namespace noonmark {
+namespace {
+
+class Reader : private SettingsReader {
+ public:
+  explicit Reader(const std::string& path) : SettingsReader(path), promises_(path, experiment_) {
+    experiment_.path = path;
+  }
+  // Reads a part, which starts with the settings that stand outside the parts.
+  explicit Reader(const Experiment& defaults)
+      : SettingsReader(defaults.path), experiment_(defaults), promises_(defaults.path, experiment_), in_part_(true) {}
+
+  Experiment read(const toml::table& root) {
+    for (const Item& item : items(root)) {
+      if (in_part_ && item.key == "name")
+        experiment_.part = string(*item.node, "name");
+      else if (!in_part_ && item.key == "title")
+        experiment_.title = string(*item.node, "title");
+      else if (!in_part_ && item.key == "pictures")
+        experiment_.pictures = one_of(*item.node, "pictures", key_choices("root", "pictures"));
+      else if (!in_part_ && item.key == "times")
+        times_ = item.node;
+      else if (!in_part_ && item.key == "plot")
+        read_plot(table(*item.node, "[plot]"));
+      else if (!in_part_ && item.key == "atlas")
+        experiment_.atlas = read_atlas_entry(table(*item.node, "[atlas]"), path());
+      else if (!in_part_ && item.key == "part")
+        parts_ = item.node;
+      else if (item.key == "scene" && item.node->is_string())
+        fix("scene.name", *item.node);
+      else if (item.key == "sweep")
+        sweep_ = &table(*item.node, "[sweep]");
+      else if (item.key == "over")
+        over_ = &table(*item.node, "[over]");
+      else if (!in_part_ && item.key == "answer")
+        read_answer(table(*item.node, "[answer]"));
+      else if (item.key == "curve")
+        read_curve(table(*item.node, "[curve]"));
+      else if (item.key == "phase")
+        read_phase(table(*item.node, "[phase]"));
+      else if (item.key == "let")
+        promises_.read_let(table(*item.node, "[let]"));
+      else if (item.key == "bound")
+        bounds_ = item.node;
+      else if (item.key == "law")
+        laws_ = item.node;
+      else if (is_group(item.key))
+        read_settings(table(*item.node, "[" + item.key + "]"), item.key,
+                      [this](const auto&... value) { fix(value...); });
+      else
+        unknown(item, "key", root_keys(), in_part_ ? "part." : "");
+    }
+    if (in_part_ && experiment_.part.empty()) fail(root, "a [[part]] needs a name");
+    if (parts_) {
+      for (const toml::node* inside :
+           {static_cast<const toml::node*>(sweep_), static_cast<const toml::node*>(over_), bounds_, laws_})
+        if (inside) fail(*inside, "in a file with parts, sweep, over, bounds and laws must stand inside a [[part]]");
+      experiment_.sweep_location = location_text(parts_->source());
+      read_parts(*parts_);
+      if (times_) read_times(*times_);
+      points(experiment_);
+      return std::move(experiment_);
+    }
+    // These are read last, because they depend on the fixed settings, which may stand anywhere in the file.
+    read_sweeps();
+    if (bounds_) promises_.read_bounds(*bounds_);
+    if (laws_) promises_.read_laws(*laws_);
+    if (times_) read_times(*times_);
+    if (!in_part_) points(experiment_);
+    return std::move(experiment_);
+  }
+
+ private:
+  std::vector<std::string_view> root_keys() const {
+    std::vector<std::string_view> names = groups();
+    for (std::string_view key : key_names("root", in_part_)) names.push_back(key);
+    return names;
+  }
+
+  // ---- [[part]]
+
+  void read_parts(const toml::node& node) {
+    if (!node.is_array() || !node.is_array_of_tables()) fail(node, "parts are written as [[part]], one for each");
+    std::vector<Experiment> parts;
+    std::vector<std::string> notes;
+    for (const toml::node& element : *node.as_array()) {
+      Experiment part = Reader(experiment_).read(*element.as_table());
+      for (const Experiment& other : parts) {
+        if (other.part == part.part) fail(element, fmt::format("two parts have the name '{}'", part.part));
+        for (const Law& law : part.laws)
+          for (const Law& there : other.laws)
+            if (there.name == law.name) fail(element, fmt::format("two laws have the name '{}'", law.name));
+      }
+      notes.insert(notes.end(), part.notes.begin(), part.notes.end());
+      parts.push_back(std::move(part));
+    }
+    experiment_.parts = std::move(parts);
+    experiment_.notes = std::move(notes);
+  }
+
+  void fix(const std::string& name, const toml::node& value) {
+    const Setting& row = find_setting(name);
+    row.set(experiment_.base, canonical(row, value));
+    give(name, value);
+  }
+
+  void give(const std::string& name, const toml::node& value) {
+    given_.insert(name);
+    experiment_.locations[name] = location_text(value.source());
+  }
+
+  // ---- [sweep] [over]
+
+  void read_sweeps() {
+    for (const toml::table* table : {over_, sweep_}) {
+      if (!table) continue;
+      experiment_.sweep_location = location_text(table->source());
+      read_settings(*table, "", [this, table](const std::string& name, const toml::node& value) {
+        sweep(name, value, table == over_);
+      });
+    }
+    std::stable_sort(sweep_order_.begin(), sweep_order_.end());
+    std::vector<Swept> ordered;
+    for (const auto& [is_choice, line, column, index] : sweep_order_)
+      ordered.push_back(std::move(experiment_.swept[index]));
+    experiment_.swept = std::move(ordered);
+  }
+
+  void sweep(const std::string& name, const toml::node& value, bool condition) {
+    const Setting& row = find_setting(name);
+    Swept swept{name, {}, condition};
+    std::set<std::string> seen;
+    const auto add = [&](const toml::node& node, const std::string& text) {
+      if (!seen.insert(text).second) fail(node, fmt::format("{} = {} is swept twice; drop one of the two", name, text));
+      swept.values.push_back(text);
+    };
+    for (const Swept& other : experiment_.swept)
+      if (other.name == name)
+        fail(value, fmt::format("{} is swept twice; keep one of the two lists ([over] or [sweep])", name));
+    if (given_.contains(name)) fail(value, fmt::format("{} is both fixed and swept; drop one of the two", name));
+
+    if (const toml::table* range_table = value.as_table()) {
+      if (row.type != ValueType::integer && row.type != ValueType::real)
+        fail(value, fmt::format("{} has no ranges; list its values", name));
+      for (double v : range(*range_table, name)) add(value, at(value.source(), [&] { return range_text(row, v); }));
+    } else {
+      if (!value.is_array())
+        fail(value, fmt::format("[{}] {} must be a list or a range; fixed values go into their own table",
+                                condition ? "over" : "sweep", name));
+      for (const toml::node* node : list(value, name)) add(*node, canonical(row, *node));
+    }
+    give(name, value);
+    const toml::source_position place = value.source().begin;
+    sweep_order_.emplace_back(!condition, place.line, place.column, experiment_.swept.size());
+    experiment_.swept.push_back(std::move(swept));
+  }
+
+  // Read last, because it depends on what the file asks for.
+  void read_times(const toml::node& node) {
+    experiment_.times = boolean(node, "times");
+    if (const std::string asked = time_asked_for(experiment_); !asked.empty() && !*experiment_.times)
+      fail(node, fmt::format("times = false, but the experiment asks for {}", asked));
+  }
+
+  // ---- [plot] [answer] [curve] [phase]
+
+  void read_plot(const toml::table& table) {
+    for (const Item& item : items(table)) {
+      if (item.key != "metrics") unknown(item, "key", key_names("plot"), "plot.");
+      for (const toml::node* node : list(*item.node, "plot.metrics")) {
+        const std::string name = string(*node, "plot.metrics");
+        at(node->source(), [&] { find_quantity(name); });
+        if (std::find(experiment_.plot.begin(), experiment_.plot.end(), name) != experiment_.plot.end())
+          fail(*node, fmt::format("plot.metrics names '{}' twice", name));
+        experiment_.plot.push_back(name);
+      }
+    }
+  }
+
+  void read_answer(const toml::table& table) {
+    const auto metric = [this](const toml::node& node, const std::string& name) {
+      const std::string text = string(node, name);
+      at(node.source(), [&] { find_metric(text); });
+      return text;
+    };
+    for (const Item& item : items(table)) {
+      if (item.key == "cost")
+        experiment_.cost = metric(*item.node, "answer.cost");
+      else if (item.key == "accuracy")
+        experiment_.accuracy = metric(*item.node, "answer.accuracy");
+      else
+        unknown(item, "key", key_names("answer"), "answer.");
+    }
+  }
+
+  void read_curve(const toml::table& table) {
+    CurveOptions& curve = experiment_.curve;
+    for (const Item& item : items(table)) {
+      const std::string name = "curve." + item.key;
+      if (item.key == "enabled")
+        experiment_.curve_enabled = boolean(*item.node, name);
+      else if (item.key == "acne_bound")
+        curve.acne_bound = fraction(*item.node, name);
+      else if (item.key == "peter_panning_bound")
+        curve.peter_panning_bound = fraction(*item.node, name);
+      else if (item.key == "bias_depth")
+        read_biases(*item.node, name);
+      else
+        unknown(item, "key", key_names("curve"), "curve.");
+    }
+  }
+  void read_phase(const toml::table& table) {
+    PhaseRequest& phase = experiment_.phase;
+    phase.enabled = true;
+    for (const Item& item : items(table)) {
+      const std::string name = "phase." + item.key;
+      if (item.key == "enabled")
+        phase.enabled = boolean(*item.node, name);
+      else if (item.key == "acne_bound")
+        phase.acne_bound = fraction(*item.node, name);
+      else if (item.key == "peter_panning_bound")
+        phase.peter_panning_bound = fraction(*item.node, name);
+      else if (item.key == "placements")
+        phase.placements = integer(*item.node, name, 1, Placements::most);
+      else if (item.key == "texel_sizes")
+        phase.texel_sizes = integer(*item.node, name, 2, most_phase_rows);
+      else if (item.key == "width_px")
+        phase.width_px = integer(*item.node, name, 1, 8192);
+      else
+        unknown(item, "key", key_names("phase"), "phase.");
+    }
+  }
+  int integer(const toml::node& node, const std::string& name, int least, int most) const {
+    const int64_t value = node.is_integer() ? node.as_integer()->get() : int64_t{least} - 1;
+    if (value < least || value > most) fail(node, fmt::format("{} must be an integer, {} ... {}", name, least, most));
+    return static_cast<int>(value);
+  }
+  double fraction(const toml::node& node, const std::string& name) const {
+    const double value = share(node, name);
+    if (value > 1) fail(node, fmt::format("{} = {}", name, above_every_share(value, written(node, value))));
+    if (value < 0) fail(node, fmt::format("{} = {} must be a share, 0 ... 1", name, written(node, value)));
+    return value;
+  }
+  void read_biases(const toml::node& node, const std::string& name) {
+    std::vector<double>& biases = experiment_.curve.bias_depth;
+    biases.clear();
+    if (const toml::table* range_table = node.as_table()) {
+      biases = range(*range_table, name);
+    } else {
+      for (const toml::node* element : list(node, name)) biases.push_back(number(*element, name));
+    }
+    if (!std::is_sorted(biases.begin(), biases.end(), std::less_equal<>()) || biases.front() < 0)
+      fail(node, fmt::format("{} must be 0 or more and ascend, each value once", name));
+    if (biases.front() != 0) biases.insert(biases.begin(), 0.0);  // a curve starts without a bias
+  }
+
+  Experiment experiment_;
+  PromiseReader promises_;
+  bool in_part_ = false;
+  std::set<std::string> given_;  // the settings that this part of the file gives
+  const toml::node* times_ = nullptr;
+  const toml::node* parts_ = nullptr;
+  const toml::node* laws_ = nullptr;
+  const toml::table *sweep_ = nullptr, *over_ = nullptr;
+  const toml::node* bounds_ = nullptr;
+  // Whether it is a choice, line, column, index into experiment_.swept. Conditions come first, because scene, view and
+  // light are the most costly to change from point to point.
+  std::vector<std::tuple<bool, uint32_t, uint32_t, size_t>> sweep_order_;
+};
+
+}  // namespace
+
+Experiment parse_experiment(std::string_view toml, const std::string& path) {
+  check_toml_text(toml, path);
+  try {
+    const toml::table root = toml::parse(toml, path);
+    return Reader(path).read(root);
+  } catch (const toml::parse_error& error) {
+    const bool named_before = error.description().find("existing string 'scene' as table") != std::string_view::npos;
+    throw Error(ErrorKind::usage, fmt::format("{}:{}:{}: {}{}", path, error.source().begin.line,
+                                              error.source().begin.column, error.description(),
+                                              named_before ? "; write name = \"...\" below [scene], in place of "
+                                                             "scene = \"...\" above"
+                                                           : ""));
+  }
+}
+
+namespace {
+
+// Far larger than any experiment that a person or a script writes. A device can be endless.
+constexpr uint64_t max_experiment_bytes = uint64_t{1} << 24;
+
+// Whether the text has only white space and comments. Then the file was most likely cut short, and a user does not want
+// the default settings measured.
+bool says_nothing(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // a byte order mark
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    const size_t first = text.substr(0, end).find_first_not_of(" \t\r");
+    if (first != std::string_view::npos && text[first] != '#') return false;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return true;
+}
+
+}  // namespace
+
+Experiment load_experiment(const std::string& path) {
+  if (names_file(path))
+    throw Error(ErrorKind::usage,
+                fmt::format("{} is a model, not an experiment; noonmark init {} writes a first experiment for it", path,
+                            shell_quoted(path)));
+  for (const BuiltinScene& scene : builtin_scenes())
+    if (path == scene.name && !std::filesystem::exists(path))
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("{0} is a built-in scene, not an experiment; noonmark render --set scene.name={0} renders "
+                      "it, and noonmark map {0} and noonmark recommend {0} take its name",
+                      path));
+  std::string text;
+  try {
+    text = read_file(path, max_experiment_bytes);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::usage, error.what());
+  }
+  if (says_nothing(text))
+    throw Error(ErrorKind::usage, fmt::format("{}: is empty; name at least a scene (scene = \"cube-room\")", path));
+  return parse_experiment(text, path);
+}
+
+}  // namespace noonmark

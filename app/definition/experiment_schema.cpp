@@ -1,0 +1,254 @@
+#include "app/definition/experiment_schema.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/definition/experiment_keys.h"
+#include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
+#include "scenes/builtin.h"
+#include "technique/setting_json.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = ExperimentKey::Kind;
+
+Json reference(const std::string& name) { return {{"$ref", "#/definitions/" + name}}; }
+
+Json any_of(std::initializer_list<Json> allowed) { return {{"anyOf", Json(std::vector<Json>(allowed))}}; }
+
+bool is_number(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+Json form_of(const Setting& row) {
+  Json form;
+  switch (row.type) {
+    case ValueType::integer:
+    case ValueType::real:
+      form["type"] = row.type == ValueType::integer ? "integer" : "number";
+      if (std::isfinite(row.min)) form["minimum"] = row.min;
+      if (std::isfinite(row.max)) form["maximum"] = row.max;
+      break;
+    case ValueType::flag:
+      form["type"] = "boolean";
+      break;
+    case ValueType::choice: {
+      Json words = Json::array();
+      for (std::string_view choice : row.choices) {
+        words.push_back(choice);
+        if (is_number(choice)) words.push_back(std::stoll(std::string(choice)));  // format = 16
+      }
+      form["enum"] = words;
+      break;
+    }
+    case ValueType::text:
+      form = {{"type", "string"}, {"minLength", 1}};
+      break;
+    case ValueType::point:
+      form = any_of({{{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}},
+                     {{"type", "string"}, {"pattern", "^[^,]+,[^,]+,[^,]+$"}}});
+      break;
+  }
+  if (row.may_be_auto) form = any_of({form, {{"const", "auto"}}});
+  if (row.name == "scene.name") {
+    Json names = Json::array();
+    for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
+    form = any_of({{{"enum", names}}, {{"type", "string"}, {"pattern", "\\.([gG][lL][tT][fF]|[gG][lL][bB])$"}}});
+  }
+  return form;
+}
+
+Json described(Json form, const std::string& help) {
+  form["description"] = help;
+  return form;
+}
+
+std::string help_of(const Setting& row) { return row.help + " " + row.range_with_unit(); }
+
+Json closed(Json properties) {
+  return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+}
+
+// The settings as a table: "map": {"resolution": ...}, and for tables of settings of all groups also "map.resolution",
+// which TOML writes as a quoted key.
+template <class Form>
+Json settings_tables(const Form& form, bool quoted_names) {
+  std::map<std::string, Json> groups;
+  std::vector<std::string> order;
+  Json flat = Json::object();
+  for (const Setting& row : settings_table()) {
+    const size_t dot = row.name.find('.');
+    const std::string group(row.name.substr(0, dot)), name(row.name.substr(dot + 1));
+    if (!groups.contains(group)) order.push_back(group);
+    groups[group][name] = form(row);
+    flat[std::string(row.name)] = form(row);
+  }
+  Json all = quoted_names ? flat : Json::object();
+  for (const std::string& group : order) all[group] = closed(groups[group]);
+  return all;
+}
+
+Json swept_form(const Setting& row) {
+  const Json list = {{"type", "array"},
+                     {"items", reference("setting " + std::string(row.name))},
+                     {"minItems", 1},
+                     {"uniqueItems", true}};
+  const bool has_range = row.type == ValueType::integer || row.type == ValueType::real;
+  return described(has_range ? any_of({list, reference("range")}) : list, help_of(row));
+}
+
+Json condition_form(const Setting& row) {
+  const Json value = reference("setting " + std::string(row.name));
+  return described(any_of({value, {{"type", "array"}, {"items", value}, {"minItems", 1}}}), help_of(row));
+}
+
+// A share in percent.
+Json percent_form() { return {{"type", "string"}, {"pattern", "^[0-9.]+([eE][+-]?[0-9]+)? *%$"}}; }
+
+Json form_of(const ExperimentKey& key) {
+  Json form;
+  switch (key.kind) {
+    case Kind::text:
+      form = {{"type", "string"}};
+      break;
+    case Kind::choice:
+      form["enum"] = key.choices;
+      break;
+    case Kind::flag:
+      form = {{"type", "boolean"}};
+      break;
+    case Kind::number:
+      form = {{"type", "number"}};
+      if (key.least > -1e300) form["minimum"] = key.least;
+      break;
+    case Kind::fraction:
+      form = any_of({{{"type", "number"}, {"minimum", 0}, {"maximum", 1}}, percent_form()});
+      break;
+    case Kind::limit:
+      form = any_of({{{"type", "number"}}, percent_form()});
+      break;
+    case Kind::whole:
+      form = {{"type", "integer"}, {"minimum", key.least}, {"maximum", key.most}};
+      break;
+    case Kind::quantity:
+      form = reference("quantity");
+      break;
+    case Kind::quantities:
+      form = {{"type", "array"}, {"items", reference("quantity")}, {"minItems", 1}, {"uniqueItems", true}};
+      break;
+    case Kind::pattern:
+      form = any_of({reference("quantity"), {{"type", "string"}, {"pattern", "[*?]"}}});
+      break;
+    case Kind::metric:
+      form = reference("metric");
+      break;
+    case Kind::formula:
+      form = {{"type", Json::array({"string", "number"})}};
+      break;
+    case Kind::formulas:
+      form = {{"type", "object"}, {"additionalProperties", {{"type", {"string", "number"}}}}};
+      break;
+    case Kind::setting: {
+      Json names = Json::array();
+      for (const Setting& row : settings_table()) names.push_back(row.name);
+      form["enum"] = names;
+      break;
+    }
+    case Kind::sweep:
+      form = reference("sweep");
+      break;
+    case Kind::conditions:
+      form = reference("conditions");
+      break;
+    case Kind::limits:
+      form = {
+          {"type", "object"}, {"propertyNames", reference("metric")}, {"additionalProperties", {{"type", "number"}}}};
+      break;
+    case Kind::amounts:
+      form = any_of(
+          {{{"type", "array"}, {"items", {{"type", "number"}, {"minimum", 0}}}, {"minItems", 1}}, reference("range")});
+      break;
+    case Kind::table:
+      form = reference(std::string(key.name));
+      break;
+    case Kind::tables:
+      form = {{"type", "array"}, {"items", reference(std::string(key.name))}, {"minItems", 1}};
+      break;
+  }
+  return described(std::move(form), std::string(key.help));
+}
+
+// in_part: of the table "root", the keys of a part.
+Json table_of(std::string_view table, bool in_part = false) {
+  Json properties = Json::object(), required = Json::array();
+  for (const ExperimentKey& key : experiment_keys(table)) {
+    if (!(in_part ? key.in_part : key.in_root)) continue;
+    properties[std::string(key.name)] = form_of(key);
+    if (key.required) required.push_back(key.name);
+  }
+  Json form = closed(std::move(properties));
+  if (!required.empty()) form["required"] = required;
+  return form;
+}
+
+// One of these keys, or with `at_least_one` also several.
+Json needs(std::initializer_list<const char*> keys, const char* how) {
+  std::vector<Json> required;
+  for (const char* key : keys) required.push_back({{"required", {key}}});
+  return {{how, required}};
+}
+
+// The file, or a part: its keys, and the tables of the settings.
+Json experiment_table(bool in_part) {
+  Json form = table_of("root", in_part);
+  const Json groups =
+      settings_tables([](const Setting& row) { return reference("setting " + std::string(row.name)); }, false);
+  for (const auto& [group, settings] : groups.items()) form["properties"][group] = settings;
+  form["properties"]["scene"] = any_of({groups["scene"], reference("setting scene.name")});
+  return form;
+}
+
+}  // namespace
+
+std::string experiment_schema() {
+  const Settings defaults;
+  Json definitions = Json::object();
+  for (const Setting& row : settings_table()) {
+    Json form = described(form_of(row), help_of(row));
+    if (const std::string text = row.get(defaults); text != "inf") form["default"] = setting_json(row, text);
+    definitions["setting " + std::string(row.name)] = form;
+  }
+  Json metrics = Json::array(), quantities = Json::array();
+  for (const Metric& metric : metrics_table()) metrics.push_back(metric.name);
+  quantities = metrics;
+  for (const CurveQuantity& quantity : curve_quantities()) quantities.push_back(quantity.name);
+  definitions["metric"] = {{"enum", metrics}};
+  definitions["quantity"] = {{"enum", quantities}};
+  definitions["sweep"] = closed(settings_tables(swept_form, true));
+  definitions["conditions"] = closed(settings_tables(condition_form, true));
+  for (const char* table : {"plot", "answer", "atlas", "curve", "phase", "bound", "law", "range"})
+    definitions[table] = table_of(table);
+  definitions["bound"].update(needs({"max", "min"}, "anyOf"));
+  definitions["atlas"]["dependencies"] = {{"thread", {"answer"}}, {"answer", {"thread"}}};
+  definitions["law"].update(needs({"equals", "at_most", "at_least"}, "oneOf"));
+  definitions["part"] = experiment_table(true);
+
+  Json schema = {
+      {"$schema", "http://json-schema.org/draft-07/schema#"},
+      {"title", "A Noonmark experiment"},
+      {"description", "What to measure, and what to expect of the results. docs/experiment.md explains it."}};
+  schema.update(experiment_table(false));
+  // In a file with parts these stand inside a part.
+  schema["if"] = {{"required", {"part"}}};
+  schema["then"] = {{"not", needs({"sweep", "over", "bound", "law"}, "anyOf")}};
+  schema["definitions"] = definitions;
+  return readable_json(schema) + "\n";
+}
+
+}  // namespace noonmark

@@ -1,0 +1,203 @@
+#include "app/pictures/image_file.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+
+#include "app/pictures/animated_png.h"
+#include "app/pictures/image_codec.h"
+#include "base/digest.h"
+#include "base/error.h"
+#include "base/file.h"
+
+namespace noonmark {
+namespace {
+
+// why: the loader's message, "/usr/lib/libX.so.1: cannot open shared object file: ...".
+std::string what_to_install(const std::string& why) {
+  const std::string path = why.substr(0, why.find(": "));
+  const std::string library = path.substr(path.rfind('/') + 1);  // npos + 1 is 0
+  if (library == image_module_file)
+    return "it belongs in lib/noonmark, beside the program's folder; build or install again";
+  if (library.starts_with("libOpenImageIO")) return "on Debian, apt install libopenimageio2.4";
+  return fmt::format("{} is a library that OpenImageIO needs; install the package that contains it", library);
+}
+
+// The loader searches the program's RUNPATH, which names a place relative to the program (app/CMakeLists.txt).
+template <class Function>
+Function* load(const char* name) {
+  void* const module = dlopen(image_module_file, RTLD_NOW | RTLD_LOCAL);  // never closed
+  void* const function = module ? dlsym(module, name) : nullptr;
+  if (!function) {
+    const char* const said = dlerror();
+    const std::string why = said ? said : image_module_file;
+    throw Error(ErrorKind::device,
+                fmt::format("pictures cannot be read or written: {}; {}", why, what_to_install(why)));
+  }
+  return reinterpret_cast<Function*>(function);
+}
+
+EncodeImage& encoder() {
+  static EncodeImage* const function = load<EncodeImage>(image_module_function);
+  return *function;
+}
+
+DecodeGrey& decoder() {
+  static DecodeGrey* const function = load<DecodeGrey>(image_module_decoder);
+  return *function;
+}
+
+// libpng prints a line of its own about a damaged file. Errors that are thrown say the same, so until this object ends,
+// the standard error goes nowhere.
+class Quiet {
+ public:
+  Quiet() : kept_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)) {
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    if (kept_ >= 0) dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+  ~Quiet() {
+    if (kept_ < 0) return;
+    dup2(kept_, STDERR_FILENO);
+    close(kept_);
+  }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+ private:
+  int kept_;
+};
+
+// rows(first, count, pixels) writes rows of the image; take(offset, bytes) takes bytes of the file.
+template <class Rows, class Take>
+void encode(ImageToEncode image, const Rows& rows, const Take& take) {
+  struct Call {
+    const Rows& rows;
+    const Take& take;
+    std::string why;
+    std::exception_ptr failure;  // of rows() or of take(); it must not pass through the library
+    bool attempt(const std::function<void()>& what) {
+      try {
+        what();
+        return true;
+      } catch (...) {
+        failure = std::current_exception();
+        return false;
+      }
+    }
+  } call{rows, take, "", {}};
+  image.context = &call;
+  image.rows = [](void* context, int first, int count, void* pixels) {
+    Call& c = *static_cast<Call*>(context);
+    return c.attempt([&] { c.rows(first, count, pixels); });
+  };
+  image.write = [](void* context, uint64_t offset, const char* bytes, size_t count) {
+    Call& c = *static_cast<Call*>(context);
+    return c.attempt([&] { c.take(offset, std::string_view(bytes, count)); });
+  };
+  image.fail = [](void* context, const char* why) { static_cast<Call*>(context)->why = why; };
+  encoder()(image);
+  if (call.failure) std::rethrow_exception(call.failure);
+  if (!call.why.empty()) throw Error(ErrorKind::file, fmt::format("cannot write {}: {}", image.path, call.why));
+}
+
+// Returns the digest of the file.
+template <class Rows>
+std::string write(const ImageToEncode& image, const Rows& rows) {
+  AtomicFile file(image.path);
+  encode(image, rows, [&](uint64_t offset, std::string_view bytes) { file.write_at(offset, bytes); });
+  std::string digest = file.digest();
+  file.keep();
+  return digest;
+}
+
+ImageToEncode colours(const std::string& path, const Image<Color>& picture) {
+  return {path.c_str(), picture.width, picture.height, 3, nullptr, {}, {}, {}, {}};
+}
+
+auto rows_of(const Image<Color>& picture) {
+  return [&picture](int first, int count, void* pixels) {
+    std::copy_n(&picture.at(0, first), static_cast<size_t>(count) * static_cast<size_t>(picture.width),
+                static_cast<Color*>(pixels));
+  };
+}
+
+}  // namespace
+
+void require_image_files() { encoder(); }
+
+Image<float> read_grey(const std::string& path, int width, int height) {
+  Image<float> picture(width, height);
+  constexpr uint64_t of_a_pixel = 64, of_the_head = uint64_t{16} << 20;  // more than any picture of three floats
+  const std::string bytes = read_file(path, of_the_head + of_a_pixel * picture.size());
+  const char* const format = bytes.starts_with("\x89PNG\r\n\x1a\n")  ? "png"
+                             : bytes.starts_with("\x76\x2f\x31\x01") ? "exr"
+                                                                     : nullptr;
+  if (!format)
+    throw Error(ErrorKind::file, fmt::format("{}: is neither a PNG nor an EXR file; write one of these", path));
+  struct Result {
+    Image<float>& picture;
+    std::string why;
+  } result{picture, ""};
+  DecodeGrey& decode = decoder();
+  const Quiet quiet;
+  decode({format, bytes.data(), bytes.size(), width, height}, &result,
+         [](void* context, const float* pixels, const char* why) {
+           Result& into = *static_cast<Result*>(context);
+           if (pixels)
+             std::copy_n(pixels, into.picture.size(), into.picture.pixels.begin());
+           else
+             into.why = why;
+         });
+  if (!result.why.empty()) throw Error(ErrorKind::file, fmt::format("{}: {}", path, result.why));
+  return picture;
+}
+
+std::string write_png(const std::string& path, const Image<Color>& picture) {
+  return write(colours(path, picture), rows_of(picture));
+}
+
+std::string write_animated_png(const std::string& path, const std::vector<Image<Color>>& frames, int frame_ms) {
+  std::vector<std::string> files;
+  for (const Image<Color>& frame : frames) {
+    std::string& file = files.emplace_back();
+    encode(colours(path, frame), rows_of(frame), [&](uint64_t offset, std::string_view bytes) {
+      file.resize(std::max(file.size(), static_cast<size_t>(offset) + bytes.size()));
+      bytes.copy(&file[static_cast<size_t>(offset)], bytes.size());
+    });
+  }
+  const std::string animated = animated_png(files, frame_ms);
+  write_file_atomically(path, animated);
+  return digest_of(animated);
+}
+
+std::string write_exr(const std::string& path, const LargeImage& image) {
+  std::vector<const char*> names;
+  for (const std::string& name : image.channels) names.push_back(name.c_str());
+  return write({path.c_str(), image.width, image.height, static_cast<int>(names.size()), names.data(), {}, {}, {}, {}},
+               [&](int first, int count, void* pixels) { image.rows(first, count, static_cast<float*>(pixels)); });
+}
+
+std::string write_exr(const std::string& path, const std::vector<Channel>& channels) {
+  LargeImage image{{}, channels.at(0).values.width, channels.at(0).values.height, {}};
+  for (const Channel& channel : channels) {
+    image.channels.push_back(channel.name);
+    if (channel.values.width != image.width || channel.values.height != image.height)
+      throw std::logic_error("channels of one image differ in size");
+  }
+  image.rows = [&](int first, int count, float* pixels) {
+    const size_t begin = static_cast<size_t>(first) * static_cast<size_t>(image.width);
+    const size_t size = static_cast<size_t>(count) * static_cast<size_t>(image.width);
+    for (size_t c = 0; c < channels.size(); ++c)
+      for (size_t i = 0; i < size; ++i) pixels[i * channels.size() + c] = channels[c].values[begin + i];
+  };
+  return write_exr(path, image);
+}
+
+}  // namespace noonmark

@@ -1,0 +1,232 @@
+#include "app/pictures/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "app/pictures/view_colors.h"
+#include "app/pictures/view_frustum.h"
+#include "app/pictures/view_map.h"
+#include "compare/report/cause_colors.h"
+#include "compare/results/quantities.h"
+#include "measure/view_shading.h"
+
+namespace noonmark {
+namespace {
+
+// The receivers as grey clay under the light: ambient 0.15, the rest from the cosine and the visibility.
+double clay(const Measurement& m, size_t i, double visibility) {
+  return 0.15 + 0.75 * std::max(0.0f, m.probe.n_dot_l[i]) * visibility;
+}
+
+Image<Color> paint(const Measurement& m, const std::function<Color(size_t)>& facing_color) {
+  Image<Color> picture(m.receivers.width(), m.receivers.height(), named_color("background"));
+  for (size_t i = 0; i < picture.size(); ++i) {
+    if (m.receivers.primitive[i] == no_primitive) continue;
+    picture[i] = facing_color(i);
+  }
+  return picture;
+}
+
+Image<Color> shaded(const Measurement& m, const Image<float>& visibility) {
+  return paint(m, [&](size_t i) {
+    const bool facing = m.ladder.flags[i] & flag_facing;
+    return Color(encoded(clay(m, i, facing ? visibility[i] : 0)));
+  });
+}
+
+Color color_of(const Ladder& ladder, size_t cause) {
+  if (cause < cause_count) return named_color(ladder.causes[cause].name);
+  const auto [r, g, b] = ladder.brought[cause - cause_count].color;
+  return {r, g, b};
+}
+
+// Each wrong pixel in the colour of its cause, over the grey of right pixels. The strength of the colour is the size of
+// the error. The arguments of std::min have this order so that NaN gets the full strength.
+Image<Color> classes(const Measurement& m) {
+  return paint(m, [&](size_t i) {
+    if (!(m.ladder.flags[i] & flag_facing)) return named_color("attached");
+    if (m.ladder.flags[i] & flag_ambiguous) return named_color("ambiguous");
+    // A little shading makes the shapes visible.
+    const float shade = 0.72f + 0.28f * m.probe.n_dot_l[i];
+    const glm::vec3 right = shade * glm::vec3(named_color(m.ladder.truth()[i] != 0 ? "lit" : "shadowed"));
+    if (m.ladder.cause[i] == static_cast<uint8_t>(Cause::none)) return Color(right + 0.5f);
+    const float wrong = std::abs(m.ladder.shown()[i] - m.ladder.truth()[i]);
+    return Color(
+        glm::mix(right, glm::vec3(color_of(m.ladder, m.ladder.cause[i])), 0.25f + 0.75f * std::min(1.0f, wrong)) +
+        0.5f);
+  });
+}
+
+// Too dark in the colour of acne, too light in the colour of Peter Panning, grey where right.
+Image<Color> difference(const Measurement& m) {
+  const glm::vec3 dark(named_color("acne")), light(named_color("peter_panning")), right(named_color("lit"));
+  return paint(m, [&](size_t i) {
+    if (!(m.ladder.flags[i] & flag_facing)) return named_color("attached");
+    const float signed_error = m.ladder.shown()[i] - m.ladder.truth()[i];
+    return Color(glm::mix(right, signed_error < 0 ? dark : light, std::min(1.0f, std::abs(signed_error))) + 0.5f);
+  });
+}
+
+// The truth in light greys, so that lines are visible on it.
+Image<Color> frustum(const Measurement& m, const CameraFrame& camera) {
+  Image<Color> picture = paint(m, [&](size_t i) {
+    const bool facing = m.ladder.flags[i] & flag_facing;
+    return grey(0.35 + 0.5 * clay(m, i, facing ? m.ladder.truth()[i] : 0));
+  });
+  draw_frustum(picture, m.frame, camera, m.receivers);
+  return picture;
+}
+
+Image<Color> greys(const Measurement& m, const Image<float>& frame) {
+  return paint(m, [&](size_t i) { return grey(frame[i]); });
+}
+
+// What changes from this frame of a motion to the next although the truth does not. A pixel without flicker is grey, one
+// that is not counted is dark.
+Image<Color> changes(const Measurement& m) {
+  const Flicker& flicker = *m.flicker;
+  return paint(m, [&](size_t i) {
+    if (!flicker.points.counted[i]) return named_color("attached");
+    glm::vec3 color(0.72f * glm::vec3(named_color(flicker.now[i] > 0.5f ? "lit" : "shadowed")));
+    const float change = std::abs(flicker.next[i] - flicker.now[i]);
+    if (change == 0) return Color(color + 0.5f);
+    glm::vec3 mixed(0);
+    for (size_t c = 0; c < flicker_classes; ++c)
+      mixed += flicker.parts[c][i] / change * glm::vec3(flicker_colors[c].r, flicker_colors[c].g, flicker_colors[c].b);
+    return Color(glm::clamp(glm::mix(color, mixed, 0.4f + 0.6f * std::min(1.0f, change)), 0.0f, 255.0f));
+  });
+}
+
+// Pictures of one size beside each other.
+Image<Color> beside(std::initializer_list<Image<Color>> pictures) {
+  const int width = pictures.begin()->width, height = pictures.begin()->height,
+            count = static_cast<int>(pictures.size());
+  Image<Color> row(count * width + (count - 1) * crop_gap, height, Color(255));
+  int left = 0;
+  for (const Image<Color>& picture : pictures) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) row.at(left + x, y) = picture.at(x, y);
+    left += width + crop_gap;
+  }
+  return row;
+}
+
+// Each pixel of the result is the mean of `by` x `by` pixels; what is left over at the right and below is cut off.
+Image<Color> reduced(const Image<Color>& picture, int by) {
+  Image<Color> small(picture.width / by, picture.height / by);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      glm::ivec3 sum(by * by / 2);
+      for (int v = 0; v < by; ++v)
+        for (int u = 0; u < by; ++u) sum += glm::ivec3(picture.at(x * by + u, y * by + v));
+      small.at(x, y) = Color(sum / (by * by));
+    }
+  return small;
+}
+
+// Copies the surroundings of (x, y) to `to`, from column `left` on, and frames the pixel.
+void enlarge(const Image<Color>& from, int x, int y, Image<Color>& to, int left) {
+  constexpr Color frame{255, 255, 255}, outer{0, 0, 0};
+  constexpr int middle = crop_px / 2;
+  for (int v = 0; v < crop_px * crop_scale; ++v)
+    for (int u = 0; u < crop_px * crop_scale; ++u) {
+      const int column = x + u / crop_scale - middle, row = y + v / crop_scale - middle;
+      const bool inside = column >= 0 && row >= 0 && column < from.width && row < from.height;
+      Color color = inside ? from.at(column, row) : Color(0);
+      // Two lines around the pixel, white and black, so that they show on any colour.
+      const int near = std::max(std::abs(2 * u + 1 - crop_px * crop_scale), std::abs(2 * v + 1 - crop_px * crop_scale));
+      if (near > crop_scale && near <= crop_scale + 4) color = frame;
+      if (near > crop_scale + 4 && near <= crop_scale + 8) color = outer;
+      to.at(left + u, v) = color;
+    }
+}
+
+}  // namespace
+
+Image<Color> pixel_picture(const Measurement& m, int x, int y) {
+  constexpr int side = crop_px * crop_scale;
+  Image<Color> picture(3 * side + 2 * crop_gap, side, Color(255));
+  enlarge(shaded(m, m.ladder.truth()), x, y, picture, 0);
+  enlarge(shaded(m, m.ladder.shown()), x, y, picture, side + crop_gap);
+  enlarge(classes(m), x, y, picture, 2 * (side + crop_gap));
+  return picture;
+}
+
+Image<Color> motion_frame(const Measurement& m) {
+  constexpr int widest = 480;  // 24 frames of both pictures are then a few MB
+  const int by = (m.receivers.width() + widest - 1) / widest;
+  return beside({reduced(shaded(m, m.ladder.shown()), by), reduced(changes(m), by)});
+}
+
+Image<Color> lit_picture(const Measurement& m) {
+  const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
+  const Image<float> frame = shaded_frame(m.receivers, m.frame, camera, m.ladder.truth());
+  return paint(m, [&](size_t i) { return m.ladder.flags[i] & flag_facing ? grey(frame[i]) : facing_away; });
+}
+
+std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,
+                                          const std::string& stem) {
+  std::vector<PictureRecord> records;
+  const auto add = [&](const std::string& name, const std::string& caption, const Image<Color>& picture) {
+    if (std::find(std::begin(picture_names), std::end(picture_names), name) == std::end(picture_names))
+      throw std::logic_error(name + " is not in picture_names");
+    const std::string file = fmt::format("{}-{}.png", stem, name);
+    const std::string digest = write_png(folder + "/" + file, picture);
+    records.push_back({name, relative + "/" + file, caption, digest});
+  };
+  const Light light = effective_light(m.scene, m.settings);
+  const bool sized = m.frame.light().disc_radius(light) > 0;
+  const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
+  const auto shaded_with = [&](const Image<float>& visibility) {
+    return shaded_frame(m.receivers, m.frame, camera, visibility);
+  };
+  add("truth", "The truth: one exact shadow ray for each pixel (R1).", shaded(m, m.ladder.truth()));
+  if (sized) add("soft-truth", "The truth of the light with its size (R0).", shaded(m, m.ladder.soft_truth()));
+  const std::string& judged = m.ladder.rungs.back().name;
+  const bool given = !m.ladder.brought.empty();  // the judged picture is not the shadow map's
+  add("map", fmt::format("What the {} showed ({}).", given ? "given picture" : "shadow map", judged),
+      shaded(m, m.ladder.shown()));
+  add("classes", "Why each wrong pixel is wrong.", classes(m));
+  add("difference",
+      fmt::format("{} minus truth: too dark is orange, too light is blue.", given ? "Given picture" : "Map"),
+      difference(m));
+  if (m.flicker)
+    add("flicker",
+        fmt::format("What the shadow map shows at the points of frame {0} (left), what that of frame {1} shows at the "
+                    "same points of the world (middle), and what changed although the truth did not (right): the grid "
+                    "moved (orange), depths were re-rounded (pink), the kernel turned (blue), "
+                    "or the map's edge passed (green).",
+                    m.settings.view.motion.frame, m.settings.view.motion.frame + 1),
+        beside({shaded(m, m.flicker->now), shaded(m, m.flicker->next), changes(m)}));
+  add("depth",
+      m.frame.map_shape() == MapShape::cube
+          ? "The cube map unfolded, as it looks from outside: bright is near in metres, black is empty."
+          : "The shadow map itself as the light sees it: bright is near in metres, black is empty.",
+      map_picture(m.stored_rows, m.frame));
+  add("frustum", std::string(m.frame.light().frustum_caption()), frustum(m, camera));
+  const Image<float> truth = shaded_with(m.ladder.truth()), map = shaded_with(m.ladder.shown());
+  add("shaded-truth", "Grey clay as a renderer shows it (Blinn-Phong), with the true shadow (R1).", greys(m, truth));
+  if (sized)
+    add("shaded-soft-truth", "Grey clay with the true shadow of the light with its size (R0).",
+        greys(m, shaded_with(m.ladder.soft_truth())));
+  add("shaded-map",
+      fmt::format("Grey clay as a renderer shows it, with the {} shadow ({}).", given ? "given picture's" : "map's",
+                  judged),
+      greys(m, map));
+  Image<Color> apart(map.width, map.height);
+  for (size_t i = 0; i < apart.size(); ++i)
+    apart[i] = difference_color(std::abs(static_cast<double>(map[i]) - truth[i]));
+  const double rmse = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
+  add("shaded-difference",
+      fmt::format("The absolute difference of the two shaded pictures in linear light, from dark (0) to bright (1). "
+                  "Its root mean square over the receivers is {}.",
+                  std::isnan(rmse) ? std::string(not_measured) : fmt::format("{:.4g}", rmse)),
+      apart);
+  return records;
+}
+
+}  // namespace noonmark

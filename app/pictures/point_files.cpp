@@ -1,0 +1,257 @@
+#include "app/pictures/point_files.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "app/pictures/image_file.h"
+#include "base/build_facts.h"
+#include "compare/results/curve_fields.h"
+#include "compare/results/quantities.h"
+#include "compare/results/record_fields.h"
+#include "scenes/camera_frame.h"
+#include "technique/map_address.h"
+#include "technique/setting_json.h"
+
+namespace noonmark {
+namespace {
+
+template <class T, class Get>
+Image<float> channel_of(const Image<T>& source, const Get& get) {
+  Image<float> values(source.width, source.height);
+  for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(get(source[i]));
+  return values;
+}
+
+// Calls visit(i, texel) for every pixel that shows a surface, with the texel that its middle tap reads (for a box the tap
+// at P); {-1, -1} for the border.
+void each_read(const Measurement& m, const auto& visit) {
+  for (size_t i = 0; i < m.receivers.primitive.size(); ++i)
+    if (m.receivers.primitive[i] != no_primitive)
+      visit(i, wrapped(m.probe.middle_texel(i), m.frame.map_size(), m.settings.map.wrap));
+}
+
+// The stored map at these texels. Unlike m.stored_map, it has those of receivers that do not face the light too.
+MapDepths stored_where_read(const Measurement& m) {
+  const auto texels = std::make_shared<TexelSet>(m.frame.map_size());
+  each_read(m, [&](size_t, glm::ivec2 read) {
+    if (read.x >= 0) texels->add(read);
+  });
+  texels->close();
+  MapDepths map(texels, MapDepths::unknown);
+  constexpr int band = 256;  // rows
+  for (int first = 0; first < map.size().y; first += band) {
+    const Image<float> rows = m.stored_rows(first, std::min(band, map.size().y - first));
+    for (int row = 0; row < rows.height; ++row)
+      texels->each_in_row(first + row, [&](int x, size_t index) { map.depth[index] = rows.at(x, row); });
+  }
+  return map;
+}
+
+// The depth that the middle tap reads. NaN where there is no receiver.
+Image<float> depth_read(const Measurement& m, const MapDepths& map) {
+  Image<float> values(m.receivers.width(), m.receivers.height(), std::numeric_limits<float>::quiet_NaN());
+  each_read(m, [&](size_t i, glm::ivec2 read) { values[i] = read.x < 0 ? border_depth : map.at(read); });
+  return values;
+}
+
+// The stored and the exact map, with the highest v on top.
+LargeImage map_image(const Measurement& m) {
+  const glm::ivec2 size = m.frame.map_size();
+  return {{"depth.stored", "depth.exact"}, size.x, size.y, [&m, size](int first, int count, float* pixels) {
+            const Image<float> stored = m.stored_rows(size.y - first - count, count);
+            std::vector<float> exact(static_cast<size_t>(size.x));
+            for (int y = 0; y < count; ++y) {
+              m.exact_map.copy_row(size.y - 1 - first - y, exact.data());
+              for (int x = 0; x < size.x; ++x, pixels += 2) {
+                pixels[0] = stored.at(x, count - 1 - y);
+                pixels[1] = exact[static_cast<size_t>(x)];
+              }
+            }
+          }};
+}
+
+nlohmann::json vector_json(glm::dvec3 v) { return {v.x, v.y, v.z}; }
+
+nlohmann::json fact_json(double value) { return value; }
+nlohmann::json fact_json(std::string_view value) { return value; }
+nlohmann::json fact_json(glm::dvec2 v) { return {v.x, v.y}; }
+nlohmann::json fact_json(glm::dvec3 v) { return vector_json(v); }
+
+nlohmann::json matrix_rows(const glm::dmat4& matrix) {
+  nlohmann::json rows;
+  for (int row = 0; row < 4; ++row) rows.push_back({matrix[0][row], matrix[1][row], matrix[2][row], matrix[3][row]});
+  return rows;
+}
+
+nlohmann::json curve_json(const BiasCurve& curve) {
+  nlohmann::json json;
+  for (const CurveField& field : curve_fields()) json[field.name] = nullptr;  // stays null if the curve has no value
+  each_field(curve, [&](std::string_view name, const auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+      json[name] = number_json(value);
+    else
+      json[name] = value;
+  });
+  for (const CurveSeries& series : curve_series()) json[series.name] = curve.*series.values;
+  return json;
+}
+
+nlohmann::ordered_json light_json(const Measurement& m) {
+  const LightFrame& f = m.frame;
+  const Light light = effective_light(m.scene, m.settings);
+  nlohmann::ordered_json json = {{"kind", f.light().name()},
+                                 {"origin_m", vector_json(f.origin_m)},
+                                 {"right", vector_json(f.right)},
+                                 {"up", vector_json(f.up)},
+                                 {"forward", vector_json(f.forward)}};
+  for (const LightFact& fact : f.light().facts(f, light))
+    std::visit([&](const auto& value) { json[fact.name] = fact_json(value); }, fact.value);
+  json["near_m"] = f.near_m;
+  json["far_m"] = f.far_m;
+  constexpr const char* depths[] = {// in the order of TileDepth
+                                    "(z - near_m) / (far_m - near_m), z along forward",
+                                    "far_m * (z - near_m) / (z * (far_m - near_m)), z along forward",
+                                    "distance / far_m"};
+  json["depth"] = depths[static_cast<size_t>(f.tile(0).depth)];
+  json["resolution"] = f.resolution;
+  json["faces"] = f.tiles;
+  json["map"] = {{"width", f.map_size().x},
+                 {"height", f.map_size().y},
+                 {"rows", f.tiles == 1 ? "map.exr has the map's highest v on top"
+                                       : "map.exr has the faces +X -X +Y -Y +Z -Z from the bottom up, each with its "
+                                         "highest t on top: row y of map.exr is row height - 1 - y of the map, and "
+                                         "row j of face f is the map's row f * resolution + j"}};
+  if (f.tiles == 1) {
+    json["clip_from_world_rows"] = matrix_rows(f.clip_from_world(0));
+    return json;
+  }
+  nlohmann::ordered_json faces = nlohmann::ordered_json::array();
+  for (int face = 0; face < f.tiles; ++face)
+    faces.push_back(nlohmann::ordered_json(matrix_rows(f.clip_from_world(face))));
+  json["clip_from_world_rows_of_faces"] = faces;
+  return json;
+}
+
+// Appended as text, because scene.mesh = tiles makes each triangle a part, and a part as a JSON value takes 400 bytes
+// in memory.
+void append_parts(const std::vector<Part>& parts, size_t text_after, std::string& text) {
+  constexpr size_t most_of_part = 100;  // with numbers of ten digits, without the name
+  size_t size = text.size() + text_after + 64;
+  for (const Part& part : parts) size += most_of_part + part.name.size();
+  text.reserve(size);
+  if (parts.empty()) return;
+  text += ",\n  \"parts\": [";
+  const char* before = "\n";
+  for (const Part& part : parts) {
+    fmt::format_to(std::back_inserter(text),
+                   "{}    {{\n      \"name\": {},\n      \"first_primitive\": {},\n      \"primitives\": {}\n    }}",
+                   before, readable_json(part.name), part.first_triangle, part.triangle_count);
+    before = ",\n";
+  }
+  text += "\n  ]";
+}
+
+}  // namespace
+
+std::vector<ImageRecord> write_images(const Measurement& m, const std::string& folder, const std::string& relative,
+                                      const std::string& prefix) {
+  std::vector<ImageRecord> records;
+  const auto write = [&](const std::string& name, const auto& image) {
+    const std::string digest = write_exr(folder + "/" + prefix + name, image);
+    records.push_back({relative + "/" + prefix + name, digest});
+  };
+  std::vector<Channel> channels;
+  const auto add = [&](std::string name, Image<float> values) {
+    channels.push_back({std::move(name), std::move(values)});
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    add(fmt::format("P.{}", "XYZ"[axis]),
+        channel_of(m.receivers.position, [&](const glm::vec3& p) { return p[axis]; }));
+    add(fmt::format("N.{}", "XYZ"[axis]), channel_of(m.receivers.normal, [&](const glm::vec3& n) { return n[axis]; }));
+  }
+  // A float holds an index exactly up to 2^24. -1 where there is no surface.
+  add("primitive", channel_of(m.receivers.primitive, [](uint32_t p) { return p == no_primitive ? -1.0 : p; }));
+  for (const Ladder::RungImage& rung : m.ladder.rungs) add(rung.name, rung.lit);
+  add("depth.reference", m.probe.reference);
+  add("depth.stored", depth_read(m, stored_where_read(m)));
+  add("depth.exact", depth_read(m, m.exact_map));
+  add("cause", channel_of(m.ladder.cause, [](uint8_t c) { return c; }));
+  add("flags", channel_of(m.ladder.flags, [](uint8_t f) { return f; }));
+  for (size_t c = 1; c < m.ladder.causes.size(); ++c)
+    add(fmt::format("step.{}", m.ladder.causes[c].name), m.ladder.causes[c].step);
+  write("ladder.exr", channels);
+  channels.clear();
+  write("map.exr", map_image(m));
+  return records;
+}
+
+std::string point_json(const Measurement& m, const std::string& command) {
+  nlohmann::ordered_json json;
+  json["noonmark"] = {{"version", build_facts().version}, {"commit", build_facts().commit}};
+  json["command"] = command;
+  json["scene"] = {{"name", m.scene.name},
+                   {"triangles", m.scene.triangles.size()},
+                   {"vertices", m.scene.positions.size()},
+                   {"notes", m.scene.notes}};
+  for (const Setting& row : settings_table())
+    json["settings"][std::string(row.name)] = setting_json(row, row.get(m.settings));
+  for (const Metric& metric : metrics_of({&m.record, 1})) {
+    const auto found = m.record.metrics.find(std::string(metric.name));
+    if (found != m.record.metrics.end()) json["metrics"][std::string(metric.name)] = number_json(found->second);
+  }
+  for (const auto& [name, value] : m.record.times) json["times"][name] = number_json(value);
+  for (const RecordField& field : record_fields())
+    if (!field.group.empty())
+      json[std::string(field.group)][std::string(field.key())] =
+          with_value(field, m.record, [](const auto& value) -> nlohmann::json {
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+              return number_json(value);
+            else
+              return value;
+          });
+
+  const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
+  json["camera"] = {{"projection", m.camera.projection == Projection::perspective ? "perspective" : "orthographic"},
+                    {"eye_m", vector_json(camera.eye_m)},
+                    {"right", vector_json(camera.right)},
+                    {"up", vector_json(camera.up)},
+                    {"forward", vector_json(camera.forward)},
+                    {"half_width", camera.half_width},
+                    {"half_height", camera.half_height},
+                    {"near_m", m.camera.near_m.value()},
+                    {"far_m", m.camera.far_m.value()},
+                    {"clip_from_world_rows", matrix_rows(camera.clip_from_world())}};
+  json["light"] = light_json(m);
+  json["primitive"] =
+      "index of the triangle, counted from 0 in the order in which the scene's parts are drawn; of a file, triangles "
+      "without an area are left out before counting (scene.notes says how many); -1 where there is no surface";
+  std::string text = readable_json(json);
+  json.clear();
+  for (const Ladder::CauseImage& cause : m.ladder.causes) json["causes"].push_back(cause.name);
+  if (!m.ladder.brought.empty()) {
+    for (const Ladder::RungImage& rung : m.ladder.rungs) json["rungs"].push_back(rung.name);
+    for (const RungCause& cause : m.ladder.brought)
+      json["rungs_on_top"].push_back({{"name", cause.rung},
+                                      {"cause", cause.name},
+                                      {"label", cause.label},
+                                      {"help", cause.help},
+                                      {"color", cause.color}});
+  }
+  json["flags"] = {
+      {"facing", flag_facing}, {"outside", flag_outside}, {"ambiguous", flag_ambiguous}, {"undecided", flag_undecided}};
+  if (m.record.curve) json["bias_curve"] = curve_json(*m.record.curve);
+  const std::string rest = readable_json(json);
+  text.resize(text.size() - std::string_view("\n}").size());  // the object continues
+  append_parts(m.scene.parts, rest.size(), text);
+  text += ',';
+  text.append(rest, 1);  // without the opening brace
+  text += '\n';
+  return text;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,63 @@
+// app/pictures/: images of a measured point, and the codecs that read and write them. May include measure and compare;
+// knows no experiment.
+//
+// The pictures and images of a sweep's points: selects the points that have them, and checks that their files are the
+// ones that were written.
+//
+//   for (int64_t id : points_with_pictures(experiment.pictures, results))
+//     if (!why_not_as_written(*find_point(results.points, id), out).empty()) keep_pictures(measurement, id, out);
+#pragma once
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/pictures/image_file.h"
+#include "compare/results/records.h"
+#include "measure/workbench.h"
+
+namespace noonmark {
+
+// Ids of the points, selected by the experiment's `pictures`. `worst` and `extremes` select by error, and of a motion the
+// frame with the largest flicker too (worst_instant); they need all points; an error that is not finite is the worst. Both
+// also select the first point of the recommended choice, because the report's first screen shows it. But for `none`, every
+// value selects points with a broken bound too, at most most_broken_shown of them. results: with the
+// verdicts of the bounds, which the recommendation reads.
+inline constexpr size_t most_broken_shown = 3;
+std::vector<int64_t> points_with_pictures(const std::string& pictures, const Results& results);
+
+// The point with the largest flicker, and points of its part that differ in nothing but the frame and its time: those about
+// it, in the order of time. Nothing if no point flickers.
+inline constexpr size_t most_motion_frames = 24;
+struct Instant {
+  int64_t id = -1;
+  std::vector<int64_t> frames;  // at most most_motion_frames, `id` among them
+};
+Instant worst_instant(const std::vector<PointRecord>& points);
+
+// Writes the point's picture of this name, an animated PNG. frames: motion_frame() (app/pictures/pictures.h) of each frame.
+inline constexpr const char* motion_picture = "motion";
+PictureRecord keep_motion(const std::vector<Image<Color>>& frames, int64_t id, const std::string& out);
+
+// Writes the point's files below out/images. The record must be in the store.
+PointPictures keep_pictures(const Measurement& m, int64_t id, const std::string& out);
+
+// Writes the point's live picture as out/images/p0003-live.bin.
+ImageRecord keep_live_picture(const LivePicture& picture, int64_t id, const std::string& out);
+
+// Gives picture files the names of their points' new ids, in the records and on the disk. Each pair: the id before, and the
+// record with its id now and the paths before. A file that is lost stays lost (why_not_as_written finds it).
+void move_pictures(const std::vector<std::pair<int64_t, PointRecord*>>& moved, const std::string& out);
+
+// Removes the files of a point that has no pictures any more.
+void remove_pictures(const PointPictures& pictures, const std::string& out);
+
+// "out/images/p0003-map.png is not the file that was written", for the first file that is lost or changed; otherwise
+// empty.
+std::string why_not_as_written(const PointRecord& point, const std::string& out);
+
+// For the report: returns the bytes of the picture or the image with this path. It must have the digest that one of the
+// points has for it, and a picture must be a PNG. Throws Error(file).
+std::string read_picture(const std::string& out, const std::string& path, const std::vector<PointRecord>& points);
+
+}  // namespace noonmark

@@ -1,0 +1,112 @@
+#include "app/pictures/view_map.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "app/pictures/view_colors.h"
+
+namespace noonmark {
+namespace {
+
+constexpr int largest_side = 1024;  // the longer side of the picture, in pixels
+constexpr int largest_cell = 512;
+constexpr float outside_cross = 2;  // not a window depth
+
+// The cell of a face in the cross, and the world directions of right and up in its picture.
+struct CrossCell {
+  int column, row;
+  glm::dvec3 right, up;
+};
+constexpr int cross_columns = 4, cross_rows = 3;
+const std::array<CrossCell, 6>& cross_cells() {
+  static const std::array<CrossCell, 6> cells = {{{2, 1, {0, 0, -1}, {0, 1, 0}},
+                                                  {0, 1, {0, 0, 1}, {0, 1, 0}},
+                                                  {1, 0, {1, 0, 0}, {0, 0, -1}},
+                                                  {1, 2, {1, 0, 0}, {0, 0, 1}},
+                                                  {1, 1, {1, 0, 0}, {0, 1, 0}},
+                                                  {3, 1, {-1, 0, 0}, {0, 1, 0}}}};
+  return cells;
+}
+
+// The least of the texels in [first, last) of each pixel. Pixel k of n covers texels from k N / n on.
+struct Span {
+  int first, last;
+};
+Span covered(int pixel, int pixels, int texels) {
+  const auto at = [&](int k) { return static_cast<int>(static_cast<long>(k) * texels / pixels); };
+  return {at(pixel), std::max(at(pixel + 1), at(pixel) + 1)};
+}
+
+// The arguments of std::min have this order so that a NaN is kept, which is drawn black.
+Image<float> shrunk(const MapRows& map, int resolution, int side) {
+  Image<float> out(side, side, 1);
+  constexpr int most_texels = 1 << 22;  // that are read at a time: 16 MiB
+  const int at_a_time = std::max(1, most_texels / resolution * side / resolution);
+  for (int first = 0; first < side; first += at_a_time) {
+    const int end = std::min(side, first + at_a_time), first_row = covered(first, side, resolution).first;
+    const Image<float> rows = map(first_row, covered(end - 1, side, resolution).last - first_row);
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < side; ++x) {
+        const Span across = covered(x, side, resolution), along = covered(y, side, resolution);
+        float nearest = rows.at(across.first, along.first - first_row);
+        for (int j = along.first; j < along.last; ++j)
+          for (int i = across.first; i < across.last; ++i) nearest = std::min(nearest, rows.at(i, j - first_row));
+        out.at(x, side - 1 - y) = nearest;  // row 0 of the picture is the highest v
+      }
+  }
+  return out;
+}
+
+}  // namespace
+
+Image<float> cube_cross(const MapRows& map, int resolution, int cell, float outside) {
+  cell = std::min(cell, resolution);
+  Image<float> cross(cross_columns * cell, cross_rows * cell, outside);
+  for (int face = 0; face < 6; ++face) {
+    const CrossCell& to = cross_cells()[static_cast<size_t>(face)];
+    const CubeFace& from = cube_face(face);
+    const Image<float> texels = map(face * resolution, resolution);
+    // Both have the same two axes of the world, so one of each pair of products is 0, the other 1 or -1.
+    const glm::ivec2 x_step(glm::dot(to.right, from.right), glm::dot(to.right, from.up));
+    const glm::ivec2 y_step(glm::dot(to.up, from.right), glm::dot(to.up, from.up));
+    for (int y = 0; y < cell; ++y)
+      for (int x = 0; x < cell; ++x) {
+        const Span across = covered(x, cell, resolution), along = covered(y, cell, resolution);
+        float nearest = std::numeric_limits<float>::infinity();
+        for (int b = along.first; b < along.last; ++b)
+          for (int a = across.first; a < across.last; ++a) {
+            // Converts from the face's middle in half texels, and back.
+            const glm::ivec2 twice = (2 * a + 1 - resolution) * x_step + (2 * b + 1 - resolution) * y_step;
+            const glm::ivec2 texel = (twice + resolution - 1) / 2;
+            nearest = std::min(nearest, texels.at(texel.x, texel.y));
+          }
+        cross.at(to.column * cell + x, (to.row + 1) * cell - 1 - y) = nearest;
+      }
+  }
+  return cross;
+}
+
+Image<Color> map_picture(const MapRows& stored, const LightFrame& frame) {
+  const Image<float> depth = frame.map_shape() == MapShape::cube
+                                 ? cube_cross(stored, frame.resolution, largest_cell, outside_cross)
+                                 : shrunk(stored, frame.resolution, std::min(frame.resolution, largest_side));
+  double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+  const auto metres = [&](float d) { return frame.tile(0).depth_of_window(static_cast<double>(d)); };
+  for (float d : depth.pixels) {
+    if (!(d < 1)) continue;
+    nearest = std::min(nearest, metres(d));
+    farthest = std::max(farthest, metres(d));
+  }
+  const double span = farthest > nearest ? farthest - nearest : 1;
+  Image<Color> picture(depth.width, depth.height, named_color("background"));
+  for (size_t i = 0; i < depth.size(); ++i) {
+    if (depth[i] == outside_cross)
+      picture[i] = paper;
+    else if (!(depth[i] >= 1))
+      picture[i] = depth_grey((metres(depth[i]) - nearest) / span);
+  }
+  return picture;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,30 @@
+// Draws a shadow map as a picture. Near is bright. Brightness follows metres and not window depth, because a
+// perspective map has almost all window depths near 1.
+#pragma once
+#include <functional>
+
+#include "app/pictures/image_file.h"
+#include "base/image.h"
+#include "technique/light_frame.h"
+
+namespace noonmark {
+
+// Rows of a map's image, from the lowest v on: (first row, number of rows). A large map is read in parts.
+using MapRows = std::function<Image<float>(int, int)>;
+
+// A cube map's image (six faces one above the other) unfolded into a horizontal cross of 4 x 3 cells, as the cube looks
+// from outside:
+//
+//          +Y
+//      -X  +Z  +X  -Z
+//          -Y
+//
+// Cells have `cell` pixels a side, at most the map's resolution. Each pixel is the least of the texels that it covers.
+// Row 0 is the top. The area outside the cross is `outside`.
+Image<float> cube_cross(const MapRows& map, int resolution, int cell, float outside);
+
+// stored: window depths as the lookup's sampler returns them, of the size LightFrame::map_size(). Cleared texels get
+// the background's colour.
+Image<Color> map_picture(const MapRows& stored, const LightFrame& frame);
+
+}  // namespace noonmark

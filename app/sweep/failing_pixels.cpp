@@ -1,0 +1,57 @@
+#include "app/sweep/failing_pixels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/pictures/image_file.h"
+#include "app/pictures/pictures.h"
+#include "app/sweep/results_folder.h"
+#include "compare/judge/bounds.h"
+#include "compare/results/number_text.h"
+#include "compare/results/quantities.h"
+
+namespace noonmark {
+
+std::vector<FailingPixel> failing_pixels(const Results& results) {
+  constexpr size_t most = 3;
+  std::vector<FailingPixel> found;
+  const auto add = [&](FailingPixel one) {
+    const auto same = [&](const FailingPixel& other) {
+      return other.point == one.point && other.pixel.metric == one.pixel.metric;
+    };
+    if (found.size() < most && std::none_of(found.begin(), found.end(), same)) found.push_back(std::move(one));
+  };
+  for (const BoundResult& bound : results.bounds) {
+    const PointRecord* point = bound.held ? nullptr : find_point(results.points, bound.point);
+    if (const auto pixel = point ? failing_pixel(bound, *point) : std::nullopt)
+      add({point, *pixel, bound_text(bound), true});
+  }
+  for (const LawResult& law : results.laws) {
+    if (law.held || law.worst < 0) continue;
+    const PointRecord* point = find_point(results.points, law.samples[static_cast<size_t>(law.worst)].point);
+    if (const auto pixel = point ? worst_pixel_of(*point, "error") : std::nullopt)
+      add({point, *pixel, law.name, false});
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.point->id < b.point->id; });
+  return found;
+}
+
+SummaryPicture draw(const Measurement& m, const FailingPixel& failing, const std::string& name,
+                    const std::string& out) {
+  const PointRecord& point = *failing.point;
+  const PointRecord::WorstOf& pixel = failing.pixel;
+  const bool error = pixel.metric == "error" || pixel.metric == "wrong";
+  const std::string file = fmt::format("{}{:04}-{}.png", summary_picture, point.id, pixel.metric);
+  write_png(out + "/" + file, pixel_picture(m, pixel.x, pixel.y));
+  return {
+      file,
+      fmt::format("Point {} ({}), {} {}: the pixel with the largest {}, ({}, {}), is framed; {} {}{}. Left the truth, "
+                  "in the middle the shadow map, right the causes; {} x {} pixels, enlarged.",
+                  point.id, name, failing.of_bound ? "broken bound" : "broken law", failing.broken,
+                  error ? "error" : pixel.metric, pixel.x, pixel.y, error ? "error" : pixel.metric,
+                  quantity_text(pixel.size, find_quantity(pixel.metric, {&point, 1}).unit),
+                  error ? ", cause " + point.worst.cause : "", crop_px, crop_px)};
+}
+
+}  // namespace noonmark

@@ -1,0 +1,95 @@
+#include "app/sweep/judging.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "app/pictures/point_pictures.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "compare/judge/bounds.h"
+#include "compare/judge/law_table.h"
+#include "compare/judge/laws.h"
+#include "compare/judge/soundness.h"
+#include "compare/report/csv.h"
+#include "compare/report/report.h"
+
+namespace noonmark {
+
+void judge(const Experiment& experiment, Results& results) {
+  const auto reproduce = [&](const PointRecord& point) { return reproduce_command(experiment, point); };
+  const auto judge_part = [&](const Experiment& part, std::span<const PointRecord> points) {
+    for (BoundResult& bound : evaluate_bounds(points, part.bounds, reproduce)) {
+      bound.part = part.part;
+      results.bounds.push_back(std::move(bound));
+    }
+    for (LawResult& law : evaluate_laws(points, part.laws, reproduce)) {
+      law.part = part.part;
+      results.laws.push_back(std::move(law));
+    }
+  };
+  results.bounds.clear();
+  results.laws.clear();
+  if (experiment.parts.empty()) return judge_part(experiment, results.points);
+  for (const Experiment& part : experiment.parts) {
+    const auto in_part = [&](const PointRecord& point) { return point.part == part.part; };
+    const auto begin = std::find_if(results.points.begin(), results.points.end(), in_part);
+    const auto end = std::find_if_not(begin, results.points.end(), in_part);  // parts are stored one after the other
+    judge_part(part, {begin, end});
+  }
+}
+
+std::string verdict_words(const Results& results, const BaselineComparison* compared) {
+  size_t bounds_held = 0, warnings = 0, laws_held = 0;
+  for (const BoundResult& bound : results.bounds) {
+    bounds_held += bound.held;
+    warnings += !bound.held && bound.warns;
+  }
+  for (const LawResult& law : results.laws) laws_held += law.held;
+  std::string verdict;
+  if (!results.bounds.empty())
+    verdict = fmt::format("{} of {} held", bounds_held, counted(results.bounds.size(), "bound"));
+  if (warnings > 0) verdict += fmt::format(", {}", counted(warnings, "warning"));
+  if (!results.laws.empty())
+    verdict += fmt::format("{}{} of {} {}", verdict.empty() ? "" : ", ", laws_held, counted(results.laws.size(), "law"),
+                           results.laws.size() == 1 ? "holds" : "hold");
+  if (compared) verdict += (verdict.empty() ? "" : ", ") + baseline_verdict(*compared);
+  return verdict.empty() ? "nothing is promised" : verdict;
+}
+
+std::string findings_text(const Results& results, const BaselineComparison* compared) {
+  std::string text;
+  for (const BoundResult& bound : results.bounds)
+    text += describe(bound, find_point(results.points, bound.point), results.info.swept);
+  if (!results.laws.empty()) text += (results.bounds.empty() ? "" : "\n") + law_table(results.laws);
+  for (const LawResult& law : results.laws)
+    if (!law.found.empty()) text += fmt::format("found: {}\n", printable(law.found));
+  if (compared)
+    for (const auto* lines : {&compared->worse, &compared->better, &compared->notes})
+      for (const std::string& line : *lines) text += printable(line) + "\n";
+  return text;
+}
+
+bool all_held(const Results& results) {
+  return std::none_of(results.bounds.begin(), results.bounds.end(), breaks) &&
+         std::all_of(results.laws.begin(), results.laws.end(), [](const LawResult& law) { return law.held; });
+}
+
+void require_sound(const Results& results) {
+  if (const std::vector<Unsound> unsound = find_unsound(results.points); !unsound.empty())
+    throw Error(ErrorKind::defect,
+                fmt::format("{}; the results are stored, but do not trust them, and report this with the output of "
+                            "noonmark doctor",
+                            text_of(unsound.front())));
+}
+
+void write_report(const Results& results, const std::string& out) {
+  write_file_atomically(out + "/results.csv", to_csv(results));
+  write_file_atomically(out + "/report.html", render_report(results, [&](const std::string& path) {
+                          return read_picture(out, path, results.points);
+                        }));
+}
+
+}  // namespace noonmark

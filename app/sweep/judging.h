@@ -1,0 +1,35 @@
+// What follows from the stored points of an experiment: the verdict, and the files that show it. A sweep and a joined store
+// use the same.
+//
+//   judge(experiment, results);
+//   write_report(results, "out/cube-room");
+//   require_sound(results);
+#pragma once
+#include <string>
+
+#include "app/definition/experiment.h"
+#include "compare/judge/baseline.h"
+#include "compare/results/records.h"
+
+namespace noonmark {
+
+// Judges every part's bounds and laws on that part's points.
+void judge(const Experiment& experiment, Results& results);
+
+// "3 of 3 bounds held, 2 of 2 laws hold". compared: the comparison with a baseline, or null.
+std::string verdict_words(const Results& results, const BaselineComparison* compared = nullptr);
+
+// The bounds and laws, each with what was found, one or more lines each.
+std::string findings_text(const Results& results, const BaselineComparison* compared = nullptr);
+
+// Whether no bound and no law is broken. A bound that only warns breaks nothing.
+bool all_held(const Results& results);
+
+// Throws Error(defect) at the first point with a metric beyond its limit in compare/judge/soundness.h. Points without a
+// facing receiver are not checked.
+void require_sound(const Results& results);
+
+// Writes report.html and results.csv from the contents of the results' folder.
+void write_report(const Results& results, const std::string& out);
+
+}  // namespace noonmark

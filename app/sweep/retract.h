@@ -1,0 +1,40 @@
+// Removes the verdict of an earlier run if this run fails before it opens its results' folder. That happens if the
+// command line is wrong, if threads do not start, or if two experiments have the same results' folder. Of `render`, `map`
+// and `inspect` it removes the files of an earlier run (app/sweep/verb_outputs.h).
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/sweep/verb_outputs.h"
+#include "base/failure.h"
+
+namespace noonmark {
+
+// The results' folders that the words of a command line (without the program) name, even if the words are wrong in
+// other ways: the value of --out, and the default folders of the experiments. verbs: all verbs. Empty unless the verb
+// is `check`, `run`, `render`, `map` or `inspect`, or a misspelling of one, and the command would have measured
+// something.
+struct MeantFolder {
+  std::string path;
+  std::vector<std::string> experiments;  // those that may be meant; the first is named. Empty: none is known
+};
+struct MeantFolders {
+  bool judges = false;  // the verb is `check`
+  std::vector<MeantFolder> folders;
+  std::vector<VerbOutputs> outputs;  // of the other verbs
+};
+MeantFolders meant_folders(std::span<const std::string> words, const std::vector<std::string_view>& verbs);
+
+// Removes those outputs, and junit.xml and summary.md from those folders that have one. If the verb is `check`, it
+// writes new ones with the reason why nothing was judged. It does not touch a folder into which another run is writing,
+// or one that holds the results of an experiment that is not meant. Never throws an Error.
+void retract_verdicts(const MeantFolders& meant, const Failure& failure, const std::string& command);
+
+// Writes junit.xml and summary.md with the reason why an experiment was not judged, because a CI server that finds no
+// verdict may show that of the run before. Prints which files cannot be written.
+void write_unjudged(const std::string& out, const std::string& experiment, const Failure& failure,
+                    const std::string& command);
+
+}  // namespace noonmark

@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+
+#include "app/pictures/pictures.h"
+#include "app/sweep/results_folder.h"
+#include "app/sweep/verb_outputs.h"
+#include "app/verbs/experiment_arguments.h"
+#include "app/verbs/model_report.h"
+#include "app/verbs/verbs.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "measure/workbench.h"
+
+namespace noonmark {
+
+int verb_inspect(const std::string& model, ExperimentArguments arguments) {
+  const VerbOutputs outputs = outputs_of("inspect", model, arguments.out);
+  retract(outputs);
+  // A picture that is quick to make. A finer map changes nothing in it, because its shadow is the truth.
+  arguments.sets.insert(arguments.sets.begin(), {"view.width_px=960", "view.height_px=540"});
+  arguments.sets.push_back("scene.name=" + model);
+  const Settings settings = points(experiment_from("", arguments)).at(0);
+  const ModelReport report = inspect_model(settings);
+  const std::string& out = outputs.folder;
+  require_room_to_start(true);
+  Workbench bench(gl::DebugMode::log);
+  require_memory(bench.memory(settings, false, false), bench.memory_of_program(true), "this picture");
+  Progress progress(arguments.quiet);
+  const Progress::Work picture_drawn = progress.add(1, 2.0);
+  progress.say(fmt::format("the picture of {}", model));
+  const Measurement m = bench.measure(settings, std::nullopt);
+  make_output_folder(out);
+  const std::string picture = out + "/" + outputs.files.front();
+  write_png(picture, lit_picture(m));
+  progress.finished(picture_drawn, "the picture is drawn");
+  progress.end_line();
+  if (arguments.json) {
+    fmt::print("{}", report_json(report, picture));
+    return 0;
+  }
+  fmt::print("{}", report_text(report));
+  fmt::print(
+      "\n{} shows it with its true shadow: dark grey is in shadow, blue faces away from the light.\n"
+      "Next: noonmark init {}\n",
+      printable(picture), shell_quoted(model));
+  return 0;
+}
+
+}  // namespace noonmark

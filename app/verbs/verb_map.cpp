@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/sweep/results_folder.h"
+#include "app/sweep/verb_outputs.h"
+#include "app/verbs/experiment_arguments.h"
+#include "app/verbs/verbs.h"
+#include "base/build_facts.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "measure/phase_diagram.h"
+#include "measure/workbench.h"
+#include "scenes/library.h"
+
+namespace noonmark {
+namespace {
+
+// What the page and the CSV say of each texel size, and where they are. docs/experiment.md describes the keys.
+std::string map_json(const PhaseDiagram& diagram, const std::string& out) {
+  using Json = nlohmann::ordered_json;
+  const auto number = [](double value) {
+    return std::isfinite(value) ? Json(value) : Json(std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
+  };
+  Json rows = Json::array();
+  for (const PhaseRow& row : diagram.rows) {
+    const BiasInterval usable = diagram.usable(row);
+    Json one{
+        {"resolution", row.resolution}, {"texel_m", number(row.texel_m)}, {"last_acne_m", number(row.last_acne_m)}};
+    one["usable_m"] = usable.empty() ? Json() : Json{number(usable.from), number(usable.to)};
+    rows.push_back(std::move(one));
+  }
+  const Json all{{"noonmark", diagram.version},
+                 {"command", diagram.command},
+                 {"exit_code", 0},
+                 {"scene", diagram.scene},
+                 {"light", diagram.light},
+                 {"technique", diagram.technique},
+                 {"placements", diagram.placements},
+                 {"acne_bound", diagram.acne_bound},
+                 {"peter_panning_bound", diagram.peter_panning_bound},
+                 {"text", phase_words(diagram)},
+                 {"texel_sizes", std::move(rows)},
+                 {"notes", diagram.notes.empty() ? Json::array() : Json{diagram.notes}},
+                 {"page", out + "/phase.html"},
+                 {"csv", out + "/phase.csv"}};
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+int verb_map(const std::string& scene, const PhaseOptions& options, ExperimentArguments arguments) {
+  const VerbOutputs outputs = outputs_of("map", scene, arguments.out);
+  retract(outputs);
+  if (options.coarsest >= options.finest)
+    throw Error(ErrorKind::usage, fmt::format("the coarsest resolution ({}) is not below the finest ({}); set --from "
+                                              "and --to",
+                                              options.coarsest, options.finest));
+  // A smaller picture than a point's: the diagram has hundreds of points' worth of texel sizes and placements.
+  arguments.sets.insert(arguments.sets.begin(), {"view.width_px=640", "view.height_px=360"});
+  arguments.sets.push_back("scene.name=" + scene);
+  const Settings given = points(experiment_from("", arguments)).at(0);
+  const std::string& out = outputs.folder;
+  Workbench bench(gl::DebugMode::log);
+  const Scene& loaded = bench.scene(given.scene);
+  const Settings settings = phase_settings(given, loaded);
+  Settings coarse = settings;
+  coarse.map.resolution = options.coarsest;  // no map is drawn, and none is kept
+  coarse.map.placements = options.placements;
+  require_memory(bench.memory(coarse, false, false), bench.memory_of_program(false), "this diagram");
+  Progress progress(arguments.quiet);
+  const Progress::Work rows = progress.add(static_cast<size_t>(options.rows), 1.0);
+  progress.say(fmt::format("the phase diagram of {}", loaded.name));
+  PhaseDiagram diagram = bench.phase(settings, options, nullptr, [&](int done) {
+    progress.finished_small(rows, fmt::format("{} of {} texel sizes", done, options.rows));
+  });
+  progress.end_line();
+  describe_phase(diagram, settings, loaded);
+  diagram.command = arguments.command;
+  diagram.version = build_facts().version;
+  diagram.notes = notes_line(loaded);
+  if (const std::string note = map_fit_note(loaded, settings); !note.empty())
+    diagram.notes += (diagram.notes.empty() ? "" : "; ") + note;
+  make_output_folder(out);
+  clear_abandoned_files(out);
+  write_file_atomically(out + "/phase.html", render_phase(diagram));
+  write_file_atomically(out + "/phase.csv", phase_csv(diagram));
+  if (arguments.json) {
+    fmt::print("{}", map_json(diagram, out));
+    return 0;
+  }
+  for (const std::string& sentence : phase_words(diagram)) fmt::print("{}\n", sentence);
+  if (!diagram.notes.empty()) fmt::print("note: {}\n", printable(diagram.notes));
+  fmt::print("\n{0}/phase.html and {0}/phase.csv are written\n", printable(out));
+  return 0;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/sweep/judging.h"
+#include "app/sweep/merge.h"
+#include "app/sweep/results_json.h"
+#include "app/verbs/verbs.h"
+#include "base/error.h"
+#include "base/shell_words.h"
+#include "base/text.h"
+#include "compare/judge/machines.h"
+
+namespace noonmark {
+
+int verb_merge(const MergeOptions& options) {
+  std::error_code none;
+  if (options.shares.empty())
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: {}; give the folder of the joined results and the folders that noonmark run --shard "
+                            "wrote (noonmark merge {} OUT/share-*)",
+                            options.out,
+                            std::filesystem::exists(options.out + "/results.sqlite", none)
+                                ? "no shares are given"
+                                : "there are no results here (no results.sqlite)",
+                            shell_quoted(options.out)));
+  const ResultsFolder out(options.out, "");
+  Merged merged = merge_stores(options.shares, out, options.overwrite);
+  const Results& results = merged.results;
+  const MachineNotes machines = machine_notes(results);
+  for (const std::string& text : machines.machines) fmt::print(stderr, "note: {}\n", printable(text));
+  for (const std::string& text : machines.warnings) fmt::print(stderr, "warning: {}\n", printable(text));
+  for (const std::string& text : merged.notes) fmt::print(stderr, "note: {}\n", printable(text));
+  for (const std::string& text : merged.missing) fmt::print(stderr, "{}\n", printable(text));
+  const int exit_code = !merged.missing.empty() ? static_cast<int>(ErrorKind::incomplete) : all_held(results) ? 0 : 1;
+  if (options.json) {
+    SweepOutcome outcome;
+    outcome.results = merged.results;
+    outcome.interrupted = !merged.missing.empty();
+    outcome.kept = static_cast<int64_t>(results.points.size());
+    outcome.scenes.resize(static_cast<size_t>(results.planned_points));
+    fmt::print("{}", results_text(options.command, exit_code,
+                                  {results_json(outcome, {.experiment = merged.experiment.path,
+                                                          .folder = options.out,
+                                                          .exit_code = exit_code,
+                                                          .judges = true})}));
+  } else {
+    fmt::print("{}{}: {}; {} of {} from {}{}; the report is {}/report.html\n", findings_text(results),
+               printable(merged.experiment.path), verdict_words(results), results.points.size(),
+               counted(static_cast<size_t>(results.planned_points), "point"), counted(options.shares.size(), "store"),
+               merged.shared > 0 ? fmt::format(" ({} in more than one, and alike)", merged.shared) : "",
+               printable(options.out));
+  }
+  require_sound(results);
+  return exit_code;
+}
+
+}  // namespace noonmark

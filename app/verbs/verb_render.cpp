@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+
+#include "app/pictures/given_picture.h"
+#include "app/pictures/pictures.h"
+#include "app/pictures/point_files.h"
+#include "app/sweep/results_folder.h"
+#include "app/sweep/verb_outputs.h"
+#include "app/verbs/experiment_arguments.h"
+#include "app/verbs/verbs.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "compare/judge/interval.h"
+#include "compare/judge/no_flicker.h"
+#include "compare/judge/poor_view.h"
+#include "compare/judge/undecided.h"
+#include "compare/results/metrics.h"
+#include "compare/results/quantities.h"
+#include "measure/pass_times.h"
+#include "measure/workbench.h"
+#include "scenes/library.h"
+#include "technique/bias.h"
+#include "technique/casters.h"
+#include "technique/placements.h"
+#include "technique/setting_rules.h"
+
+namespace noonmark {
+namespace {
+
+// Bytes: the picture and its step as floats, and both as channels of ladder.exr, interleaved and encoded.
+constexpr double per_given_pixel = 2 * sizeof(float) * 4;
+
+Settings the_point(const Experiment& experiment, long point) {
+  const std::vector<Settings> all = points(experiment);
+  if (point < 0 && all.size() > 1)
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{} has {} points, but render measures one; give --point 0 ... {}, or --set the swept settings",
+                    experiment.path, all.size(), all.size() - 1));
+  if (point >= static_cast<long>(all.size()))
+    throw Error(ErrorKind::usage, fmt::format("there is no point {}; the last one is {}", point, all.size() - 1));
+  return all[static_cast<size_t>(std::max(point, 0L))];
+}
+
+// "over 64 placements of the grid            mean      worst        p95", and a line for each metric.
+void print_placements(const Measurement& m) {
+  const std::map<std::string, double>& metrics = m.record.metrics;
+  if (!metrics.contains("error_mean")) return;
+  const int side = m.settings.map.placements;
+  fmt::print("\n  {:<32}{:>12}{:>12}{:>12}\n", fmt::format("over {} placements of the grid", side * side), "mean",
+             "worst", "p95");
+  constexpr std::string_view ending = "_mean";
+  for (const Metric& metric : metrics_table()) {
+    if (!metric.of_placements || !metric.name.ends_with(ending)) continue;
+    const std::string name(metric.name.substr(0, metric.name.size() - ending.size()));
+    fmt::print("  {:<32}{:>11.5f}%{:>11.5f}%{:>11.5f}%\n", name, 100 * metrics.at(name + "_mean"),
+               100 * metrics.at(name + "_worst"), 100 * metrics.at(name + "_p95"));
+  }
+  std::vector<double> worst;
+  for (const PlacementFact& fact : m.frame.light().placement_facts(m.frame, Placements(side), 0))
+    worst.push_back(metrics.at(fmt::format("worst_{}", fact.name)));
+  fmt::print("  the worst is {}; OpenGL shows {:.5f}% error there\n", m.frame.light().placement_text(worst),
+             100 * metrics.at("error_worst_shown"));
+}
+
+// "from frame 3 to frame 4", and a line for each metric.
+void print_flicker(const Measurement& m) {
+  if (!m.flicker) return;
+  const int frame = m.settings.view.motion.frame;
+  fmt::print("\n  {:<32}{:>11.0f} points\n", fmt::format("from frame {} to frame {}", frame, frame + 1),
+             m.record.metrics.at("flicker_points"));
+  if (const std::string why = why_no_flicker(m.record); !why.empty()) fmt::print("  {}\n", why);
+  for (const Metric& metric : metrics_table())
+    if (const auto found = m.record.metrics.find(std::string(metric.name));
+        metric.of_motion && metric.unit == "fraction" && found != m.record.metrics.end())
+      fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * found->second);
+}
+
+// clock: what the times come from.
+void print_ladder(const Measurement& m, const char* clock) {
+  const auto value = [&](const char* name) { return m.record.metrics.at(name); };
+  fmt::print("{}: {:.0f} receivers, {:.0f} face the light, {:.0f} counted", printable(m.scene.name), value("receivers"),
+             value("facing"), value("counted"));
+  if (value("facing") > 0) fmt::print(" ({:.4f}% ambiguous)", 100 * value("ambiguous"));
+  fmt::print("\n");
+  if (const std::string poor = why_poor_view(m.record); !poor.empty()) fmt::print("\n  {}\n", poor);
+  if (nothing_judged(m.record)) return;
+  if (!m.record.causes.empty())
+    fmt::print(
+        "\n  {} is judged in place of R5: error and wrong are its own;\n"
+        "  the causes other than {} are those of the settings' technique (R0 to R5)\n",
+        judged_rung(m.record), m.record.causes.front().name);
+  fmt::print("\n  {:<32}{:>12}\n", "share of counted receivers", "");
+  for (const Metric& metric : metrics_of({&m.record, 1}))
+    if (metric.unit == "fraction" && metric.name != "ambiguous" && metric.name != "contract" && !metric.of_placements &&
+        !metric.of_motion)  // printed otherwise
+      fmt::print("  {:<32}{:>11.5f}%\n", metric.name, 100 * m.record.metrics.at(std::string(metric.name)));
+  print_placements(m);
+  print_flicker(m);
+  fmt::print("\n");
+  if (const std::string doubt = undecided_note({&m.record, 1}); !doubt.empty()) fmt::print("  {}\n\n", doubt);
+  for (const char* name : {"peter_panning_gap_m", "edge_displacement_texels", "edge_displacement_pixels", "residual",
+                           "tap_residual", "rounding_excess"})
+    fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);
+  for (const char* name : {"map_ms", "lookup_ms"}) {
+    const Interval time = interval_of(m.record, name);
+    fmt::print("  {:<32}{:>12.5g} ms ({:.5g} ... {:.5g}; {})\n", name, time.middle, time.low, time.high, clock);
+  }
+  if (!m.record.causes.empty())
+    fmt::print("\n  no bias curve: no bias changes the given picture\n");
+  else if (const std::string why = why_no_curve(m.record); !why.empty())
+    fmt::print("\n  no bias curve: {}\n", why);
+  if (!m.record.curve) return;
+  const BiasCurve& c = *m.record.curve;
+  const char* there = m.frame.uniform() ? "" : " (m and texels at the median receiver)";
+  if (c.window_min_depth)
+    fmt::print("\n  usable {}: {:.6g} ... {:.6g} depth = {:.4g} ... {:.4g} m = {:.4g} ... {:.4g} texels{}\n",
+               c.parameter, *c.window_min_depth, *c.window_max_depth, *c.window_min_depth * c.m_per_depth,
+               *c.window_max_depth * c.m_per_depth, *c.window_min_depth * c.texels_per_depth,
+               *c.window_max_depth * c.texels_per_depth, there);
+  else
+    fmt::print("\n  no {} keeps acne within {:g} and Peter Panning within {:g}\n", c.parameter, c.acne_bound,
+               c.peter_panning_bound);
+  if (c.acne_free_bias_depth && c.parameter == "bias.constant") {
+    fmt::print("  free of acne from: {:.6g} depth = {:.4g} m{}", *c.acne_free_bias_depth,
+               *c.acne_free_bias_depth * c.m_per_depth, m.frame.uniform() ? "" : " at the median receiver");
+    // The law's bias in the parameter's own unit, which each receiver converts to depth by itself. The law does not
+    // include the effect of other parts of the bias.
+    const Bias bias(m.settings.bias);
+    if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset() ||
+        moves_casters(m.settings.map, bias))
+      fmt::print(", on top of the other parts");
+    else if (m.frame.uniform() || m.settings.bias.unit == BiasUnit::m)
+      fmt::print("; by law 1 the planes in the picture need {:.4g} m", value("acne_free_bias_law_m"));
+    else if (m.settings.bias.unit == BiasUnit::depth)
+      fmt::print("; by law 1 the planes in the picture need {:.4g} depth", value("acne_free_bias_law_depth"));
+    fmt::print("\n");
+  }
+  fmt::print("  best {}: {:.6g} depth (error {:.5f}%)\n", c.parameter, c.best_bias_depth, 100 * c.best_error);
+}
+
+}  // namespace
+
+int verb_render(const std::string& path, long point, const std::string& picture, const ExperimentArguments& arguments) {
+  const VerbOutputs outputs = outputs_of("render", path, arguments.out);
+  retract(outputs);
+  const Experiment experiment = experiment_from(path, arguments);
+  const Settings settings = the_point(experiment, point);
+  const std::string& out = outputs.folder;
+  std::optional<RungOnTop> given;
+  if (!picture.empty()) {  // before anything is written or measured
+    require_room_to_start(true);
+    given = given_picture(picture, settings.view);
+  }
+  make_output_folder(out);
+  clear_abandoned_files(out);
+  require_room_to_start(true);
+  Workbench bench(gl::DebugMode::log);
+  require_image_files();
+  const Experiment& part = part_of_point(experiment, std::max(point, 0L));
+  const bool curve = part.curve_enabled && !given;
+  MemoryEstimate memory =
+      at_point(experiment, std::max(point, 0L), [&] { return bench.memory(settings, curve, true); });
+  if (given)
+    memory.shares.push_back({"the given picture", "measure a smaller picture (view.width_px, view.height_px)",
+                             per_given_pixel * static_cast<double>(given->picture.size())});
+  require_memory(memory, bench.memory_of_program(true), "this point");
+  TimeMetrics times = time_passes(bench, settings);
+  Measurement m = bench.measure(settings, curve ? std::optional(part.curve) : std::nullopt, std::move(given));
+  m.record.metrics.merge(times);
+  write_pictures(m, out, ".", "point");
+  write_images(m, out, ".", "");
+  write_file_atomically(out + "/point.json", point_json(m, arguments.command));
+  print_ladder(m, gl::text_of(bench.device().times));
+  if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", printable(note));
+  if (const std::string note = map_fit_note(m.scene, settings); !note.empty())
+    fmt::print("  note: {}\n", printable(note));
+  for (const IdleSetting& idle : idle_settings(m.frame.kind, settings))
+    fmt::print("  note: {} has no effect {}\n", idle.name, idle.why);
+  if (!part.bounds.empty() || !part.laws.empty())
+    fmt::print("  note: render judges no bounds and no laws; noonmark check does\n");
+  fmt::print("\n{0}/point.json, {0}/ladder.exr, {0}/map.exr and {0}/point-*.png are written\n", printable(out));
+  return 0;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "app/definition/default_folder.h"
+#include "app/definition/experiment.h"
+#include "app/definition/experiment_text.h"
+#include "app/sweep/plan.h"
+#include "app/sweep/results_json.h"
+#include "app/sweep/sweep.h"
+#include "app/verbs/experiment_arguments.h"
+#include "app/verbs/verbs.h"
+#include "base/error.h"
+#include "base/text.h"
+
+namespace noonmark {
+
+int verb_run(const std::string& path, const ExperimentArguments& arguments, bool dry_run) {
+  const std::string out = (arguments.out.empty() ? default_folder(path) : arguments.out) +
+                          (arguments.shard ? "/" + arguments.shard->folder() : "");
+  const bool measures = !dry_run && !arguments.print_config;
+  // A folder that does not exist has no verdict. It is made only for an experiment that can be run.
+  std::error_code none;
+  const bool there = std::filesystem::is_directory(out, none);
+  EarlyFolder folder;
+  if (measures && there) folder.open(out, path);
+  const Experiment experiment = experiment_from(path, arguments);
+  if (arguments.print_config) {
+    fmt::print("{}", experiment_text(experiment));
+    return 0;
+  }
+  if (dry_run) {
+    print_plan(experiment, arguments.shard);
+    return 0;
+  }
+  std::vector<int64_t> share;
+  if (arguments.shard && (share = points_of_share(experiment, *arguments.shard)).empty()) {
+    fmt::print("{}", no_points_text(*arguments.shard));
+    return 0;
+  }
+  if (!there) folder.open(out, path);
+  const SweepOutcome outcome = run_sweep(experiment, folder.get(),
+                                         {.overwrite = arguments.overwrite,
+                                          .command = arguments.command,
+                                          .quiet = arguments.quiet,
+                                          .shard = arguments.shard,
+                                          .points = share});
+  const int exit_code = outcome.interrupted ? static_cast<int>(ErrorKind::incomplete) : 0;
+  if (arguments.json)
+    fmt::print("{}",
+               results_text(arguments.command, exit_code,
+                            {results_json(outcome, {.experiment = path, .folder = out, .exit_code = exit_code})}));
+  else if (outcome.interrupted)
+    fmt::print("{}\n", stopped_text(outcome));
+  else
+    fmt::print("{}{}; the report is {}/report.html\n",
+               arguments.shard ? fmt::format("share {}: ", arguments.shard->text()) : "", outcome.counts(),
+               printable(out));
+  return exit_code;
+}
+
+}  // namespace noonmark

@@ -1,0 +1,312 @@
+#include "compare/results/metrics.h"
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+namespace {
+
+constexpr Metric measured_once[] = {
+    {"error", "fraction", "Mean |R5 - R1| over the counted receivers: what the GPU shows compared with the hard truth.",
+     true},
+    {"error_soft", "fraction",
+     "Mean |R5 - R0|: what the GPU shows compared with the truth for the light with its size.", true},
+    {"wrong", "fraction", "Share of the counted receivers whose R5 differs from R1.", true},
+    {"light_size", "fraction", "Mean |R1 - R0|: the error of a hard shadow, which ignores the size of the light.",
+     true},
+    {"filter", "fraction",
+     "Mean |R2 - R1| without the taps whose truth is undecided at their exact place: the blur that the filter makes on "
+     "purpose.",
+     true},
+    {"displacement", "fraction",
+     "Mean |change of visibility| because the lookup is moved (normal offset), at the exact places of the taps: how "
+     "far shadows are moved.",
+     true},
+    {"aliasing", "fraction",
+     "Weight of the wrong taps that give the true answer for their texel's centre, but not for their exact place; dark "
+     "and light.",
+     true},
+    {"aliasing_dark", "fraction", "The part of aliasing that is too dark.", true},
+    {"aliasing_light", "fraction", "The part of aliasing that is too light.", true},
+    {"aliasing_rms", "fraction",
+     "Root mean square of aliasing over the receivers. A filter spreads jagged edges over more pixels, each less "
+     "wrong: that lowers this number and leaves the mean as it is.",
+     true},
+    {"acne", "fraction",
+     "Weight of the taps that are falsely dark although no shadow edge lies between the pixel and the texel's centre.",
+     true},
+    {"peter_panning", "fraction", "Weight of the taps that are falsely lit because the bias reaches past the occluder.",
+     true},
+    {"peter_panning_lit", "fraction",
+     "The part of peter_panning at receivers that are lit in truth. Without a filter and without a normal offset it is "
+     "0; anything else is a defect.",
+     true},
+    {"coverage", "fraction",
+     "Weight of the wrong taps outside the map, beyond its far plane, or whose blocker lies before its near plane.",
+     true},
+    {"coverage_dark", "fraction", "The part of coverage that is too dark.", true},
+    {"coverage_light", "fraction", "The part of coverage that is too light.", true},
+    {"precision", "fraction", "Mean |R5 - R4|: the error of the depth format, the rasteriser and float arithmetic.",
+     true},
+    {"undecided", "fraction",
+     "Error at taps whose truth changes within float error. It belongs to the filter or to one of the causes, and it "
+     "is not known to which.",
+     true},
+    {"undecided_taps", "fraction",
+     "Weight of the taps whose truth changes within float error, whether they are right or wrong.", true},
+    {"peter_panning_gap_m", "m",
+     "Largest width of a lit gap between an occluder and its shadow, along the light's trace on the surface (at a "
+     "corner it is wider than along the wall).",
+     true},
+    {"edge_displacement_texels", "texels",
+     "Largest distance from an aliased tap to the true shadow edge, across the light's rays, in texels there.", true},
+    {"edge_displacement_mean_texels", "texels", "Mean over the receivers of that distance, each with its farthest tap.",
+     true},
+    {"edge_displacement_pixels", "pixels",
+     "Largest distance in the picture from an aliased pixel to a pixel where its verdict is true. With a normal offset "
+     "it includes the displacement.",
+     true},
+    {"receivers", "count", "Number of pixels that see a surface.", false},
+    {"facing", "count", "Number of receivers that face the light.", false},
+    {"counted", "count",
+     "Number of facing receivers that are not ambiguous. Every fraction is a fraction of these, unless its text names "
+     "others.",
+     false},
+    {"clipped", "count",
+     "Number of pixels that see nothing because the camera's near or far plane cuts the surface off.", false},
+    {"culled", "count", "Number of pixels that see nothing but the backs of single-sided faces.", false},
+    {"scene_behind", "", "Share of the scene's vertices that lie behind the camera.", false},
+    {"attached", "count",
+     "Number of receivers that face away from the light. They are dark by shading and are left out of all errors.",
+     false},
+    {"lit", "fraction", "Share of the counted receivers that the light reaches (R1).", false},
+    {"ambiguous", "fraction",
+     "Share of the facing receivers whose truth R1 changes within float error. They are left out of all errors.",
+     false},
+    {"outside", "fraction", "Share of the counted receivers that fall outside the map or beyond its far plane.", true},
+    {"ambiguous_receivers", "count", "Number of facing receivers whose truth R1 changes within float error.", false},
+    {"undecided_receivers", "count", "Number of counted receivers with a tap whose truth changes within float error.",
+     false},
+    {"outside_receivers", "count", "Number of counted receivers outside the map or beyond its far plane.", false},
+    {"residual", "",
+     "Largest |(R5 - R0) - sum of the signed steps| over all facing receivers. Above 1e-6 it is a defect.", false},
+    {"tap_residual", "",
+     "Largest |(R4 - R2) - displacement - sum of the causes of the taps, undecided ones included| over all facing "
+     "receivers. Above 1e-6 it is a defect.",
+     false},
+    {"texel_m", "m",
+     "w: the width of a texel in the world. Under a spot or point light it grows with the distance; this is its value "
+     "at the median counted receiver.",
+     false},
+    {"map_range_m", "m", "Distance from the map's near plane to its far plane, along the light.", false},
+    {"depth_quantum_m", "m",
+     "q: one step of the map's depth format, along the light. Of 32f it is the largest step in [0,1], 2^-24 of the "
+     "range. Under a spot light steps grow with the distance; this is the largest at a counted receiver.",
+     false},
+    {"acne_free_bias_law_depth", "depth",
+     "The bias that law 1 requires, whatever the alignment of the texel grid: the largest requirement of a lit counted "
+     "receiver's own plane (flat maps: k |depth gradient per texel|_1), plus half a quantum. At a crease the "
+     "neighbouring face may require more.",
+     true},
+    {"acne_free_bias_law_m", "m",
+     "The same in metres of depth, for the receiver that requires most metres (directional: k w |gradient|_1).", true},
+    {"acne_free_bias_scene_law_depth", "depth",
+     "The same law over every face of the scene that is turned to the light. No receiver requires more.", true},
+    {"acne_free_bias_scene_law_m", "m", "The same over every face, in metres of depth.", true},
+    {"counted_area_m2", "m2",
+     "Area of the light's plane that the counted receivers cover. Under a spot or point light: the sum of their areas "
+     "across their light rays.",
+     false},
+    {"filter_area_m2", "m2", "The filter's blur as an area of the light's plane instead of a share of the picture.",
+     true},
+    {"displacement_area_m2", "m2", "Displacement as an area of the light's plane instead of a share of the picture.",
+     true},
+    {"aliasing_area_m2", "m2",
+     "Aliasing, dark and light, as an area of the light's plane instead of a share of the picture.", true},
+    {"acne_area_m2", "m2", "Acne as an area of the light's plane instead of a share of the picture.", true},
+    {"peter_panning_area_m2", "m2", "Peter Panning as an area of the light's plane instead of a share of the picture.",
+     true},
+    {"contract", "fraction",
+     "Share of the facing receivers at which R4, R5 or the lookup in the tie map is not, bit for bit, what the "
+     "technique's definition gives for the numbers read back (where a sampler blends taps: not within its rounding). "
+     "Above 0 it is a defect.",
+     false},
+    {"rounding_excess", "",
+     "Largest error of the numbers that the lookup computes (address, reference depth, N.L, and what bias and filter "
+     "need) against the light's frame in double, as a multiple of the largest error that float arithmetic can make. "
+     "Above 1 it is a defect.",
+     false},
+    {"address_error_texels", "texels",
+     "Largest distance in the map from the exact place where a receiver is looked up to the texel that the lookup "
+     "reads.",
+     false},
+    {"reference_error_m", "m", "Largest error of the lookup's reference depth, along the light.", false},
+    {"map_error_quanta", "",
+     "Median |stored - exact| depth of the texels that receivers fall into, in steps of the map's depth format.", true},
+    {"map_bits", "",
+     "Bits of the coarsest depth format that could have stored the depths that receivers look up: 16, 24 or 32.",
+     false},
+    {"shaded_rmse", "",
+     "Root mean square difference over the receivers of two shaded frames (Blinn-Phong clay, linear light, 1 is "
+     "white): one with the map's shadow (R5), one with the true shadow (R1).",
+     true},
+    {"texel_work", "count",
+     "Cost of the technique, the same on every machine: the texels of the map, each written once, and the texture "
+     "instructions of the lookups of all facing receivers.",
+     true},
+    {"traffic_bytes", "bytes",
+     "The same in bytes: those of the map, each written once, and of the texels that the lookups read, without a "
+     "cache.",
+     true},
+    {"map_bytes", "bytes", "Memory of the shadow map. A depth of 24 bits takes 4 bytes.", true},
+    {"map_texels", "count", "Number of texels of the shadow map, of a cube on all six faces.", true},
+    {"map_triangles", "count",
+     "Number of triangles that the rasteriser gets for the shadow map: those of the scene, once for each face of a "
+     "cube.",
+     true},
+    {"lookup_fetches", "count", "Number of texture instructions that the lookup of one receiver needs.", true},
+    {"lookup_texels", "count",
+     "Number of texels that these read: one each, or four where a comparison sampler blends. Neighbours may read the "
+     "same ones.",
+     true},
+    {"lookup_operations", "count",
+     "Number of operations (sum, product, division, root, minimum, maximum, comparison) that the lookup of one "
+     "receiver "
+     "needs for bias, references, weights and their sum. Its place in the map and the addresses of the taps are not "
+     "counted.",
+     true},
+};
+
+// Each has a median, and the two ends of its interval. They come from measure/pass_times.h.
+constexpr std::pair<std::string_view, std::string_view> timed[] = {
+    {"map", "the shadow map pass"},
+    {"lookup", "the lookup pass over the picture"},
+    {"shadow", "the shadow map pass and the lookup pass together"}};
+
+constexpr Metric from_frame_to_frame[] = {
+    {"flicker", "fraction",
+     "Mean |change of R5| from this frame to the next, over the world points that both frames see and whose truth R1 "
+     "is the same in both.",
+     true, false, true},
+    {"flicker_changed", "fraction", "Share of these points whose R5 changes at all.", true, false, true},
+    {"flicker_grid", "fraction", "The part of flicker that comes when the texels move, grow or turn in the world.",
+     true, false, true},
+    {"flicker_depth", "fraction",
+     "The part of flicker that comes when near and far move, so that depths are rounded anew and a bias in window "
+     "depth "
+     "is another one in metres.",
+     true, false, true},
+    {"flicker_kernel", "fraction",
+     "The part of flicker that comes when the filter's kernel turns with the pixel, or grows with the view distance.",
+     true, false, true},
+    {"flicker_coverage", "fraction",
+     "The part of flicker at points that one of the two maps does not hold with all taps of the filter: the map's edge "
+     "passes over them.",
+     true, false, true},
+    {"flicker_truth", "fraction",
+     "Share of the world points that both frames see whose truth R1 changes. They are left out of flicker.", true,
+     false, true},
+    {"flicker_points", "count", "Number of world points over which flicker is taken.", false, false, true},
+    {"flicker_outside", "count",
+     "Number of world points that face the light in this frame and that the next frame's picture does not hold, or its "
+     "camera's near or far plane cuts off. They are left out of flicker.",
+     false, false, true},
+    {"flicker_hidden", "count",
+     "Number of such points in the next frame's picture that a surface hides there, or of which its camera sees the "
+     "back, or of which rounding decides that.",
+     false, false, true},
+    {"flicker_unlit", "count",
+     "Number of such points that the next frame sees, and that face away from its light or whose truth there is "
+     "ambiguous.",
+     false, false, true},
+};
+
+constexpr Metric over_placements[] = {
+    {"error_worst_shown", "fraction",
+     "Mean |R5 - R1| at the placement of the texel grid with the largest error, as OpenGL renders it.", true, true},
+    {"worst_shift_u_texels", "texels",
+     "Of a flat map: the shift of that placement along the rows of texels, from the map of the settings. Add it to "
+     "map.shift_u_texels to render it.",
+     false, true},
+    {"worst_shift_v_texels", "texels", "The same along the columns.", false, true},
+    {"worst_turn_x_deg", "deg",
+     "Of a point light's cube: the first component of map.turn_deg of that placement. Set the three of them to render "
+     "it.",
+     false, true},
+    {"worst_turn_y_deg", "deg", "The second component.", false, true},
+    {"worst_turn_z_deg", "deg", "The third component.", false, true},
+    {"placement_disagreements", "count",
+     "Number of taps at which the truth of all placements differs from the ladder's own, at the placements that are "
+     "rendered too. Above 0 it is a defect.",
+     false, true},
+};
+
+// Mean, worst, best and 95th percentile over the placements of the texel grid of each of these.
+constexpr std::string_view placed[] = {"error",    "wrong",         "acne",           "peter_panning",
+                                       "aliasing", "aliasing_dark", "aliasing_light", "aliasing_rms",
+                                       "coverage", "coverage_dark", "coverage_light", "undecided"};
+
+struct MetricTable {
+  std::deque<std::string> texts;  // of the rows that are made here
+  std::vector<Metric> rows;
+};
+
+const MetricTable& table() {
+  static const MetricTable made = [] {
+    MetricTable t;
+    t.rows.assign(std::begin(measured_once), std::end(measured_once));
+    const auto text = [&](const std::string& made_text) -> std::string_view { return t.texts.emplace_back(made_text); };
+    for (const auto& [name, what] : timed) {
+      const std::string stem(name);
+      t.rows.push_back({text(stem + "_ms"), "ms",
+                        text("Time of " + std::string(what) +
+                             ", the median of nine samples: time of the GPU, or CPU time of the process if the "
+                             "renderer is software. Measured only if times are asked for (key times of the "
+                             "experiment)."),
+                        true});
+      t.rows.push_back({text(stem + "_low_ms"), "ms",
+                        text("The lower end of the interval of " + stem +
+                             "_ms: the second smallest sample. The interval holds the true median with 96%; two times "
+                             "differ only if their intervals do not overlap."),
+                        false});
+      t.rows.push_back(
+          {text(stem + "_high_ms"), "ms", text("The upper end of that interval: the second largest sample."), false});
+    }
+    for (std::string_view name : placed)
+      for (const auto& [ending, what] : {std::pair("mean", "Mean"), std::pair("worst", "Largest"),
+                                         std::pair("best", "Least"), std::pair("p95", "95th percentile")})
+        t.rows.push_back(
+            {text(std::string(name) + "_" + ending), "fraction",
+             text(std::string(what) + " over the placements of the texel grid (map.placements) of " +
+                  std::string(name) + ", on the exact map" +
+                  (std::string_view(ending) == "worst" ? ". The largest of all placements may be a tenth more." : ".")),
+             true, true});
+    t.rows.insert(t.rows.end(), std::begin(over_placements), std::end(over_placements));
+    t.rows.insert(t.rows.end(), std::begin(from_frame_to_frame), std::end(from_frame_to_frame));
+    return t;
+  }();
+  return made;
+}
+
+}  // namespace
+
+std::span<const Metric> metrics_table() { return table().rows; }
+
+const Metric& find_metric(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const Metric& metric : metrics_table()) {
+    if (metric.name == name) return metric;
+    names.push_back(metric.name);
+  }
+  const std::string near = nearest_name(name, names);
+  throw Error(ErrorKind::usage, "there is no metric '" + std::string(name) + "'" +
+                                    (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                                    " (noonmark settings lists the metrics)");
+}
+
+}  // namespace noonmark

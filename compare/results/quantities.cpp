@@ -1,0 +1,224 @@
+#include "compare/results/quantities.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "compare/results/curve_fields.h"
+#include "technique/settings.h"
+
+namespace noonmark {
+namespace {
+
+// A number that is computed from a curve, as a function and as SQL over the store's table `curves` as c. Each way to
+// compute a number is one function below, which gives both. Without a curve the SQL gives NULL.
+struct Expression {
+  std::function<std::optional<double>(const BiasCurve&)> value;
+  std::string sql;
+};
+
+// The field's number. No value if the field is empty.
+Expression number_of(const CurveField& field) {
+  return {[&field](const BiasCurve& curve) {
+            return std::visit(
+                [&](auto member) -> std::optional<double> {
+                  if constexpr (std::is_same_v<decltype(member), std::string BiasCurve::*>)
+                    return std::nullopt;
+                  else if constexpr (std::is_same_v<decltype(member), std::optional<double> BiasCurve::*>)
+                    return curve.*member;
+                  else
+                    return static_cast<double>(curve.*member);
+                },
+                field.member);
+          },
+          fmt::format("c.{}", field.name)};
+}
+
+Expression number_of(std::string_view name) {
+  for (const CurveField& field : curve_fields())
+    if (field.name == name) return number_of(field);
+  throw std::logic_error(fmt::format("the curve has no field {}", name));
+}
+
+Expression product(const Expression& a, const Expression& b) {
+  return {[a = a.value, b = b.value](const BiasCurve& curve) {
+            const std::optional<double> x = a(curve), y = b(curve);
+            return x && y ? std::optional(*x * *y) : std::nullopt;
+          },
+          fmt::format("({}) * {}", a.sql, b.sql)};
+}
+
+Expression width_of(const CurveWidth& width) {
+  const Expression from = number_of(width.from), to = number_of(width.to);
+  return {
+      [a = from.value, b = to.value, placed = width.of_placements](const BiasCurve& curve) -> std::optional<double> {
+        if (placed && curve.placements == 0) return std::nullopt;
+        const std::optional<double> x = a(curve), y = b(curve);
+        return x && y ? *y - *x : 0;
+      },
+      fmt::format("CASE WHEN c.point IS NULL{2} THEN NULL WHEN {0} IS NULL THEN 0 ELSE {1} - {0} END", from.sql, to.sql,
+                  width.of_placements ? " OR c.placements = 0" : "")};
+}
+
+constexpr std::string_view depth_ending = "_depth";
+
+std::vector<CurveQuantity> make_table() {
+  std::vector<CurveQuantity> table;
+  const auto add = [&](std::string_view name, std::string_view unit, std::string_view help, const Expression& number) {
+    const auto row = [&](const std::string& row_name, std::string_view row_unit, const Expression& e) {
+      table.push_back({row_name, std::string(row_unit), std::string(help), e.value, e.sql});
+    };
+    row(std::string(name), unit, number);
+    if (unit != "depth") return;
+    const std::string stem(name.substr(0, name.size() - depth_ending.size()));
+    row(stem + "_m", "m", product(number, number_of("m_per_depth")));
+    row(stem + "_texels", "texels", product(number, number_of("texels_per_depth")));
+  };
+  for (const CurveField& field : curve_fields()) {
+    if (!field.quantity) continue;
+    add(field.name, field.unit, field.help, number_of(field));
+    for (const CurveWidth& width : curve_widths())
+      if (width.to == field.name) add(width.name, width.unit, width.help, width_of(width));
+  }
+  return table;
+}
+
+}  // namespace
+
+std::span<const CurveQuantity> curve_quantities() {
+  static const std::vector<CurveQuantity> table = make_table();
+  return table;
+}
+
+std::vector<const RungCause*> brought_causes(std::span<const PointRecord> points) {
+  std::vector<const RungCause*> causes;
+  for (const PointRecord& point : points)
+    for (const RungCause& cause : point.causes)
+      if (std::none_of(causes.begin(), causes.end(), [&](const RungCause* c) { return c->name == cause.name; }))
+        causes.push_back(&cause);
+  return causes;
+}
+
+std::vector<Metric> metrics_of(std::span<const PointRecord> points) {
+  std::vector<Metric> metrics(metrics_table().begin(), metrics_table().end());
+  for (const RungCause* cause : brought_causes(points)) metrics.push_back({cause->name, "fraction", cause->help, true});
+  return metrics;
+}
+
+bool is_free_name(std::string_view name) {
+  if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != name.npos) return false;
+  const auto is_this = [&](const auto& row) { return row.name == name; };
+  return std::none_of(metrics_table().begin(), metrics_table().end(), is_this) &&
+         std::none_of(curve_quantities().begin(), curve_quantities().end(), is_this);
+}
+
+std::string_view judged_rung(const PointRecord& point) {
+  return point.causes.empty() ? std::string_view("R5") : std::string_view(point.causes.back().rung);
+}
+
+QuantityInfo find_quantity(std::string_view name, std::span<const PointRecord> points) {
+  std::vector<std::string_view> names;
+  for (const Metric& row : metrics_of(points)) {
+    if (row.name == name) return {row.name, row.unit, row.help, false};
+    names.push_back(row.name);
+  }
+  for (const CurveQuantity& row : curve_quantities()) {
+    if (row.name == name) return {row.name, row.unit, row.help, true};
+    names.push_back(row.name);
+  }
+  const std::string near = nearest_name(name, names);
+  throw Error(ErrorKind::usage, fmt::format("there is no metric '{}'{} (noonmark settings lists the metrics)", name,
+                                            near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+std::string why_no_curve(const PointRecord& point) {
+  if (point.curve) return "";
+  if (nothing_judged(point)) return "no pixel can be judged";
+  std::string why;
+  for (const BiasPart& part : bias_parts()) {
+    const auto amount = point.settings.find("bias." + std::string(part.name));
+    if (amount == point.settings.end() || amount->second == "0") continue;
+    if (part.no_curve.empty()) return "";
+    if (why.empty()) why = fmt::format("bias.{} {}; sweep it instead", part.name, part.no_curve);
+  }
+  return why;
+}
+
+std::optional<double> quantity(const PointRecord& point, std::string_view name) {
+  const auto found = point.metrics.find(std::string(name));
+  if (found != point.metrics.end()) return found->second;
+  if (!point.curve) return std::nullopt;
+  for (const CurveQuantity& row : curve_quantities())
+    if (row.name == name) return row.value(*point.curve);
+  return std::nullopt;
+}
+
+PlacedNames placed_names(std::string_view name) {
+  const std::string text(name);
+  const auto is_metric = [](const std::string& one) {
+    return std::any_of(metrics_table().begin(), metrics_table().end(),
+                       [&](const Metric& row) { return row.of_placements && row.name == one; });
+  };
+  if (is_metric(text + "_worst")) {
+    PlacedNames names{{text, text + "_worst"}, {text, text + "_best"}};
+    if (is_metric(text + "_worst_shown")) names.largest.push_back(text + "_worst_shown");
+    return names;
+  }
+  // "window_min_m" -> "window_min_worst_m"
+  const auto& table = curve_quantities();
+  for (std::string_view unit : {"_depth", "_m", "_texels"}) {
+    if (!name.ends_with(unit)) continue;
+    const std::string worst = fmt::format("{}_worst{}", name.substr(0, name.size() - unit.size()), unit);
+    if (std::any_of(table.begin(), table.end(), [&](const CurveQuantity& row) { return row.name == worst; }))
+      return {{worst}, {worst}};
+  }
+  return {};
+}
+
+std::optional<PointRecord::WorstOf> worst_pixel_of(const PointRecord& point, std::string_view metric) {
+  for (std::string_view suffix : {"_worst_shown", "_worst", "_mean", "_p95"})
+    if (const std::string_view stem = metric.substr(0, metric.size() - std::min(suffix.size(), metric.size()));
+        metric.ends_with(suffix) && !placed_names(stem).largest.empty()) {
+      metric = stem;
+      break;
+    }
+  if (metric == "error" || metric == "wrong") {
+    if (point.worst.x < 0 || point.worst.error == 0) return std::nullopt;
+    return PointRecord::WorstOf{std::string(metric), point.worst.x, point.worst.y, point.worst.error};
+  }
+  for (const PointRecord::WorstOf& worst : point.worst_of)
+    if (worst.metric == metric) return worst;
+  return std::nullopt;
+}
+
+std::optional<double> number_of(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+bool has_placements(const PointRecord& point) {
+  const std::string side = setting_of(point, "map.placements");
+  return !side.empty() && side != "1";
+}
+
+double metric_of(const PointRecord& point, const std::string& name) {
+  const auto found = point.metrics.find(name);
+  return found == point.metrics.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
+}
+
+std::string setting_of(const PointRecord& point, const std::string& name) {
+  const auto found = point.settings.find(name);
+  return found == point.settings.end() ? std::string() : found->second;
+}
+
+bool nothing_judged(const PointRecord& point) { return quantity(point, "counted") == 0.0; }
+
+}  // namespace noonmark

@@ -1,0 +1,85 @@
+// All numbers of a point that a bound, a column or a table can name: the metrics (metrics.h) and the quantities of the
+// bias curve.
+//
+//   std::optional<double> width = quantity(point, "window_width_depth");
+#pragma once
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compare/results/metrics.h"
+#include "compare/results/records.h"
+
+namespace noonmark {
+
+// Made from the rows of curve_fields() and curve_widths() (curve_fields.h): each number itself, and each depth also in
+// metres and in texels.
+struct CurveQuantity {
+  std::string name;
+  std::string unit;
+  std::string help;  // one sentence
+  // Empty if the curve has no such number, for example the ends of an empty window.
+  std::function<std::optional<double>(const BiasCurve&)> value;
+  std::string sql;  // the same as SQL over the store's table `curves` as c
+};
+std::span<const CurveQuantity> curve_quantities();
+
+struct QuantityInfo {
+  std::string_view name, unit, help;
+  bool of_curve = false;  // known only if the point has a curve
+};
+// points: their own causes (PointRecord::causes) have names too; the result refers to them. Throws Error(usage) that
+// suggests the nearest name.
+QuantityInfo find_quantity(std::string_view name, std::span<const PointRecord> points = {});
+
+// The causes that rungs on top of R5 brought at any of these points: each name once, in the order in which the points
+// have them. The pointers are to the points' own.
+std::vector<const RungCause*> brought_causes(std::span<const PointRecord> points);
+// metrics_table(), followed by the metrics of brought_causes(points), whose texts the rows refer to.
+std::vector<Metric> metrics_of(std::span<const PointRecord> points);
+// Whether a cause can have this name, as a metric and as a column: lower-case letters, digits and _, and no metric of
+// the table or quantity of the curve.
+bool is_free_name(std::string_view name);
+// The name of the rung that is judged: "R5", or that of the rung on top of it.
+std::string_view judged_rung(const PointRecord& point);
+
+// Empty if the point does not have it: its curve is off, its window is empty, or its metric was not recorded.
+std::optional<double> quantity(const PointRecord& point, std::string_view name);
+
+// The quantities of a point with map.placements that together say how large a quantity is at its worst placement: the
+// largest of `largest`, and how small at any: the least of `least`. The metric itself is among them, because OpenGL drew
+// it, and the others are those of the exact map. Empty if the quantity is measured once for all placements.
+struct PlacedNames {
+  std::vector<std::string> largest, least;
+};
+PlacedNames placed_names(std::string_view name);
+// Whether the point was measured at several placements of the map's grid.
+bool has_placements(const PointRecord& point);
+
+// The pixel of the picture that is worst by a metric, as rendered; of a metric over all placements (acne_worst) that of
+// the metric itself. Empty if no pixel is.
+std::optional<PointRecord::WorstOf> worst_pixel_of(const PointRecord& point, std::string_view metric);
+
+// The metric, or NaN if the point has no metric of that name.
+double metric_of(const PointRecord& point, const std::string& name);
+// The setting's canonical text, or empty.
+std::string setting_of(const PointRecord& point, const std::string& name);
+
+// The number that a setting's text is. Empty if it is not one, or not finite.
+std::optional<double> number_of(const std::string& text);
+
+// Whether no pixel could be judged, so that the point gives no information about the method. False for a record without
+// the number of counted receivers.
+bool nothing_judged(const PointRecord& point);
+
+// The text for a number that is NaN, because there was nothing to measure.
+inline constexpr std::string_view not_measured = "not measured";
+
+// The reason why a point has no bias curve, as the end of a sentence ("bias.normal_offset moves ..."). Empty if it has
+// a curve, and if its settings do not give the reason.
+std::string why_no_curve(const PointRecord& point);
+
+}  // namespace noonmark

@@ -1,0 +1,27 @@
+#include "compare/results/record_fields.h"
+
+namespace noonmark {
+namespace {
+
+using Worst = PointRecord::Worst;
+using Machine = PointRecord::Machine;
+
+constexpr RecordField fields_of_records[] = {
+    {"part", "", "", "The experiment's part; empty if it has no parts.", &PointRecord::part},
+    {"scene_digest", "", "", "The digest of the contents of the point's scene.", &PointRecord::scene_digest},
+    {"worst_x", "worst", "px", "The worst pixel's column.", &Worst::x},
+    {"worst_y", "worst", "px", "The worst pixel's row, 0 on top.", &Worst::y},
+    {"worst_error", "worst", "fraction", "Its error.", &Worst::error},
+    {"worst_cause", "worst", "", "Its cause.", &Worst::cause},
+    {"machine_host", "machine", "", "The name of the host that measured the point.", &Machine::host},
+    {"machine_cpu", "machine", "", "Its processor.", &Machine::cpu},
+    {"machine_driver", "machine", "", "Its OpenGL: vendor, renderer and version.", &Machine::driver},
+    {"machine_ray_tracer", "machine", "", "Its Embree: version and instruction set.", &Machine::ray_tracer},
+    {"machine_clock", "machine", "", "When the point was finished, by the host's clock (UTC).", &Machine::clock},
+};
+
+}  // namespace
+
+std::span<const RecordField> record_fields() { return fields_of_records; }
+
+}  // namespace noonmark

@@ -1,0 +1,164 @@
+#include "measure/flicker_stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "scenes/camera_fit.h"
+#include "scenes/camera_frame.h"
+#include "scenes/library.h"
+#include "technique/tap_pattern.h"
+
+namespace noonmark {
+namespace {
+
+// The pixel at which a camera sees a point, or no_pixel.
+constexpr uint32_t no_pixel = 0xffffffffu;
+uint32_t pixel_seen_at(const CameraFrame& camera, glm::dvec3 world, int width, int height) {
+  const glm::dvec3 p = camera.in_axes(world);
+  if (!(p.z >= *camera.camera.near_m) || !(p.z <= *camera.camera.far_m)) return no_pixel;
+  const double depth = camera.camera.projection == Projection::perspective ? p.z : 1;
+  const double x = std::floor((p.x / (depth * camera.half_width) + 1) / 2 * width);
+  const double y = std::floor((1 - p.y / (depth * camera.half_height)) / 2 * height);
+  if (!(x >= 0 && x < width && y >= 0 && y < height)) return no_pixel;
+  return static_cast<uint32_t>(y) * static_cast<uint32_t>(width) + static_cast<uint32_t>(x);
+}
+
+bool same_light(const LightFrame& a, const LightFrame& b) {
+  if (a.kind != b.kind || a.cos_half_cone != b.cos_half_cone) return false;
+  if (a.light().rays().have_one_direction()) return a.ray_direction == b.ray_direction;
+  return a.origin_m == b.origin_m && a.forward == b.forward;
+}
+
+// Whether two frames have the same map and the same lookup, bit for bit.
+bool same_map(const LightFrame& a, const LightFrame& b) {
+  return a.kind == b.kind && a.origin_m == b.origin_m && a.anchor_m == b.anchor_m &&
+         a.anchor_texels == b.anchor_texels && a.ray_direction == b.ray_direction && a.right == b.right &&
+         a.up == b.up && a.forward == b.forward && a.extent_m == b.extent_m && a.tan_half_fov == b.tan_half_fov &&
+         a.cos_half_cone == b.cos_half_cone && a.shift_texels == b.shift_texels && a.cube_axes == b.cube_axes &&
+         a.near_m == b.near_m && a.far_m == b.far_m && a.resolution == b.resolution;
+}
+
+// How far from the place looked up a tap may read, in texels of a flat map: its offset, the texel that it snaps to or
+// blends with, and a texel for parts of a bias that move the lookup.
+double reach_of_taps(const TapPattern& pattern) {
+  double reach = 0;
+  for (int variant = 0; variant < pattern.variants; ++variant)
+    for (int tap = 0; tap < pattern.taps; ++tap) {
+      const glm::vec3 o = glm::abs(pattern.offset(variant, tap));
+      reach = std::max<double>({reach, o.x, o.y});
+    }
+  return reach + 3;
+}
+
+// Whether the map holds a point of the world and all its taps.
+bool holds(const LightFrame& frame, glm::dvec3 world, double reach) {
+  const glm::dvec3 p = frame.to_light(world);
+  const double depth = frame.window_depth(p);
+  if (!(depth >= 0 && depth <= 1)) return false;
+  if (frame.map_shape() == MapShape::cube) return true;
+  const glm::dvec2 at = frame.map_texels(p);
+  return at.x >= reach && at.y >= reach && at.x <= frame.resolution - reach && at.y <= frame.resolution - reach;
+}
+
+bool same_place(const Camera& a, const Camera& b) {
+  return a.eye_m == b.eye_m && a.target_m == b.target_m && a.up == b.up && a.fov_y_deg == b.fov_y_deg &&
+         a.height_m == b.height_m && a.projection == b.projection;
+}
+
+// The scene of the next frame: its camera and light can differ from those of this frame, its triangles cannot.
+Scene still_scene(const Scene& now, const SceneSettings& next) {
+  Scene scene = make_scene(next);
+  if (scene.positions != now.positions || scene.triangles != now.triangles)
+    throw Error(
+        ErrorKind::usage,
+        "motion.time_s: the scene's triangles move from this frame to the next, and flicker is measured at points "
+        "that stand still; take a file whose animation moves only the camera or the light, or motion.time_s = 0");
+  return scene;
+}
+
+}  // namespace
+
+Settings next_frame(const Settings& settings) {
+  Settings next = settings;
+  ++next.view.motion.frame;
+  if (settings.view.motion.time_s != 0)
+    next.scene.time_s = settings.scene.time_s.value_or(0) + settings.view.motion.time_s;
+  return next;
+}
+
+Flicker trace_flicker(const FlickerInput& in) {
+  const ReceiverImage& receivers = in.view.receivers;
+  const int width = receivers.width(), height = receivers.height();
+  const Settings next = next_frame(in.point.settings);
+  std::optional<Scene> moved;
+  if (in.point.settings.view.motion.time_s != 0) moved = still_scene(*in.loaded.scene, next.scene);
+  const Scene& scene = moved ? *moved : *in.loaded.scene;
+  const LightFrame& now_frame = in.point.frame;
+  const LightFrame next_light = make_light_frame(scene, next);
+
+  // The receivers that count.
+  const Camera camera = effective_camera(scene, next.view);
+  const CameraFrame camera_frame = make_camera_frame(camera, width, height);
+  const bool still = same_place(camera, in.view.camera);
+  std::optional<raytrace::SeenReceivers> seen;
+  std::optional<ReceiverTruth> truth;
+  if (!still) seen = in.loaded.tracer->seen_by(receivers, camera);
+  if (!same_light(now_frame, next_light))
+    truth = in.loaded.tracer->receiver_truth(receivers, next_light, {effective_light(scene, next)});
+  const ReceiverTruth& before = in.truth.receivers;
+  const ReceiverTruth& after = truth ? *truth : before;
+  FlickerPoints points{Image<uint8_t>(width, height, 0), Image<uint8_t>(width, height, 0)};
+  const double reach = reach_of_taps(tap_pattern(next.filter));
+  Image<uint32_t> pixels(width, height, 0);
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    pixels[i] = static_cast<uint32_t>(i);
+    if (!before.facing[i] || before.ambiguous[i]) continue;
+    if (!still) {
+      const uint32_t pixel = pixel_seen_at(camera_frame, glm::dvec3(receivers.position[i]), width, height);
+      if (pixel == no_pixel) {
+        ++points.outside;
+        continue;
+      }
+      if (!seen->seen[i] || seen->ambiguous[i]) {
+        ++points.hidden;
+        continue;
+      }
+      pixels[i] = pixel;
+    }
+    if (!after.facing[i] || after.ambiguous[i]) {
+      ++points.unlit;
+      continue;
+    }
+    ++points.shared;
+    if (before.lit[i] != after.lit[i]) {
+      ++points.truth_changed;
+      continue;
+    }
+    points.counted[i] = 1;
+    const glm::dvec3 place(receivers.position[i]);
+    points.held[i] = holds(now_frame, place, reach) && holds(next_light, place, reach);
+  }
+
+  // The lookups, each of which differs from the one before in one respect.
+  const auto shown = [&](const Settings& settings, const LightFrame& frame) {
+    const PointSetup point{settings, frame};
+    MapStage map = in.stages.draw_map(in.renderer, scene, point);
+    return in.stages.look_up(in.renderer, *map.map, point);
+  };
+  Settings same_depths = next;
+  same_depths.map.near_m = now_frame.near_m;
+  same_depths.map.far_m = now_frame.far_m;
+  const LightFrame grid_frame = make_light_frame(scene, same_depths);
+  const Image<float> grid = same_map(grid_frame, now_frame) ? in.r5 : shown(same_depths, grid_frame);
+  const Image<float> depth = same_map(next_light, grid_frame) ? grid : shown(next, next_light);
+  Image<float> last = depth;
+  if (const TapPattern pattern = tap_pattern(next.filter); pattern.variants > 1 || pattern.scaled_by_view) {
+    in.renderer.load_receivers(receivers, camera.eye_m, &pixels);
+    last = shown(next, next_light);
+    in.renderer.load_receivers(receivers, in.view.camera.eye_m);
+  }
+  return flicker_of({in.r5, grid, depth, last}, std::move(points));
+}
+
+}  // namespace noonmark

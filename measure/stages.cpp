@@ -1,0 +1,202 @@
+#include "measure/stages.h"
+
+#include <algorithm>
+
+#include "compare/ladder/receiver_taps.h"
+#include "scenes/camera_fit.h"
+#include "scenes/library.h"
+#include "scenes/scene_digest.h"
+#include "technique/casters.h"
+#include "technique/tap_pattern.h"
+
+namespace noonmark {
+namespace {
+
+double scene_behind(const Scene& scene, const Camera& camera) {
+  const glm::dvec3 way = camera.target_m - camera.eye_m;
+  const auto behind = std::count_if(scene.positions.begin(), scene.positions.end(), [&](const glm::vec3& p) {
+    return glm::dot(glm::dvec3(p) - camera.eye_m, way) <= 0;
+  });
+  return static_cast<double>(behind) / static_cast<double>(scene.positions.size());
+}
+
+// Traces the truth of this strip's taps, which replaces that of another strip.
+void bring_taps(gl::Renderer& renderer, LookupStage& lookup, const PointSetup& point, PixelRange strip) {
+  lookup.taps = {};  // freed before the next is made, because it is large
+  if (!lookup.probe.holds(strip)) renderer.probe_strip(lookup.probe, point.frame, point.settings, strip);
+  lookup.taps = lookup.rays->trace_taps(lookup.probe, strip, lookup.edge_distance_texels, &lookup.tap_stage);
+  if (lookup.strips.size() == 1) lookup.rays.reset();  // not needed again
+}
+
+LookupEvidence evidence_of(const LookupStage& l, const TruthStage& truth, const ShownStage& shown, const Settings& s) {
+  return {truth.receivers, l.probe, l.taps, l.exact_depth, s.map, Bias(s.bias), shown.r4, shown.r5};
+}
+
+bool is_kept(size_t map_texels) { return map_texels * sizeof(float) <= most_kept_map_bytes; }
+
+// Frees the texture with which a cube is probed if it is large: the map has its size.
+void keep_small_index(gl::Renderer& renderer, const LightFrame& frame) {
+  const auto side = static_cast<size_t>(frame.resolution);
+  if (!is_kept(static_cast<size_t>(frame.tiles) * side * side)) renderer.forget_cube_index();
+}
+
+}  // namespace
+
+void keep_small(gl::Renderer& renderer, std::optional<gl::ShadowMap>& map) {
+  if (!map || is_kept(map->texels())) return;
+  map.reset();
+  renderer.release_deleted();
+}
+
+std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t kept_bytes) {
+  const auto width = static_cast<size_t>(settings.view.width_px), height = static_cast<size_t>(settings.view.height_px);
+  const size_t row_bytes = width * static_cast<size_t>(tap_pattern(settings.filter).taps) * bytes_per_tap(light);
+  const size_t rows = row_bytes * height <= kept_bytes
+                          ? height
+                          : std::clamp<size_t>(kept_bytes / strips_in_kept_taps / row_bytes, 1, height);
+  std::vector<PixelRange> strips;
+  for (size_t row = 0; row < height; row += rows) strips.push_back({row * width, std::min(row + rows, height) * width});
+  return strips;
+}
+
+void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const PointSetup& point,
+                   const EachStrip& each_strip) {
+  const ShownStage nothing;
+  const LookupEvidence evidence = evidence_of(lookup, truth, nothing, point.settings);
+  for (const PixelRange& strip : lookup.strips) {
+    if (lookup.rays) bring_taps(renderer, lookup, point, strip);
+    each_strip(evidence, strip);
+  }
+  keep_small_index(renderer, point.frame);
+}
+
+double polygon_offset_unit(gl::Renderer& renderer, const Settings& settings) {
+  return Bias(settings.bias).polygon_offset() ? renderer.polygon_offset_unit(settings.map.format) : 0;
+}
+
+SceneStage Pipeline::load_scene(gl::Renderer& renderer, const Settings& settings) {
+  auto scene = std::make_unique<Scene>(make_scene(settings.scene));
+  auto tracer = std::make_unique<raytrace::Tracer>(*scene);
+  renderer.load_scene(*scene);
+  std::string identity = scene_digest(*scene);
+  const uint64_t open_edges = tracer->open_edges();
+  return {std::move(scene), std::move(identity), std::move(tracer), open_edges};
+}
+
+// Draws again without the parts that can hide surfaces, and only if something could be hidden.
+ViewStage Pipeline::take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings) {
+  const Camera camera = effective_camera(scene, settings);
+  const int width = settings.width_px, height = settings.height_px;
+  const std::vector<uint32_t> unseen = unseen_backs(scene, camera);
+  const Image<uint32_t> seen = renderer.render_primitives(camera, width, height, unseen);
+  const auto pixels_more = [&](const Image<uint32_t>& more) {
+    double count = 0;
+    for (size_t i = 0; i < seen.size(); ++i) count += seen[i] == no_primitive && more[i] != no_primitive;
+    return count;
+  };
+  double clipped = 0, culled = 0;
+  if (std::find(seen.pixels.begin(), seen.pixels.end(), no_primitive) != seen.pixels.end()) {
+    if (!unseen.empty()) culled = pixels_more(renderer.render_primitives(camera, width, height));
+    const Camera fitted = with_fitted_depths(scene, camera, width, height);
+    if (*camera.near_m > *fitted.near_m || *camera.far_m < *fitted.far_m)
+      clipped = pixels_more(renderer.render_primitives(fitted, width, height, unseen));
+  }
+  return {camera,
+          resolve_receivers(scene, camera, seen),
+          {{"clipped", clipped}, {"culled", culled}, {"scene_behind", scene_behind(scene, camera)}}};
+}
+
+TruthStage Pipeline::trace_truth(const SceneStage& scene, const ViewStage& view, const PointSetup& point) {
+  TruthStage made;
+  made.receivers = scene.tracer->receiver_truth(
+      view.receivers, point.frame, {effective_light(*scene.scene, point.settings), point.settings.truth.standard_error},
+      &made.hard, &made.soft);
+  return made;
+}
+
+MapStage Pipeline::draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point) {
+  std::vector<glm::vec3> casters;
+  if (const Bias bias(point.settings.bias); moves_casters(point.settings.map, bias))
+    casters = caster_positions(scene, point.frame, point.settings.map, bias);
+  MapStage stage;
+  stage.map.emplace(renderer.render_map(point.frame, point.settings, nullptr, casters));
+  return stage;
+}
+
+LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
+                                     const TruthStage& truth, const PointSetup& point) {
+  const Settings& settings = point.settings;
+  const LightFrame& frame = point.frame;
+  const Bias bias(settings.bias);
+  std::vector<PixelRange> strips = strips_of(settings, frame.kind, kept_bytes_);
+  LookupProbe probe = renderer.probe(frame, settings, gl::ProbeTaps::none);
+  raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, frame, settings.map, bias,
+                                              polygon_offset_unit(renderer, settings));
+  StageTime texel_stage;
+  for (const PixelRange& strip : strips) {
+    renderer.probe_strip(probe, frame, settings, strip);
+    rays.ask(probe, strip, &texel_stage);
+  }
+  keep_small_index(renderer, frame);
+  MapDepths depth = rays.trace_map(&texel_stage);
+  return {.probe = std::move(probe),
+          .exact_depth = std::move(depth),
+          .exact_map = {},
+          .strips = std::move(strips),
+          .rays = std::move(rays),
+          .taps = {},
+          .edge_distance_texels = Image<float>(view.receivers.width(), view.receivers.height(), 0),
+          .texel_stage = texel_stage,
+          .tap_stage = {}};
+}
+
+Image<float> Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point) {
+  return renderer.lookup(map, point.frame, point.settings);
+}
+
+ShownStage Pipeline::show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
+                          const PointSetup& point) {
+  const MapSettings& settings = point.settings.map;
+  const MapShape shape = point.frame.map_shape();
+  ShownStage shown;
+  shown.r5 = look_up(renderer, *map.map, point);
+  shown.stored = renderer.read_map(*map.map, lookup.exact_depth.texels);
+  keep_small(renderer, map.map);
+
+  if (!lookup.exact_map) lookup.exact_map.emplace(renderer.upload_map(lookup.exact_depth, settings, shape));
+  shown.r4 = look_up(renderer, *lookup.exact_map, point);
+  keep_small(renderer, lookup.exact_map);
+
+  shown.ties = tie_map(evidence_of(lookup, truth, shown, point.settings));
+  std::optional<gl::ShadowMap> tie_map_on_device(renderer.upload_map(shown.ties, settings, shape));
+  shown.tie_lookup = look_up(renderer, *tie_map_on_device, point);
+  keep_small(renderer, tie_map_on_device);
+  return shown;
+}
+
+Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view,
+                               const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
+                               const BiasPart* varied, const EachStrip& each_strip) {
+  const LookupEvidence evidence = evidence_of(lookup, truth, shown, point.settings);
+  SoundnessCheck soundness(
+      {evidence, shown.stored, shown.ties, shown.tie_lookup, view.receivers, point.frame, view.camera.eye_m});
+  Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height()), {}, {}};
+  if (varied) climbed.counts.emplace(lookup.probe, *varied);
+  if (lookup.rays) lookup.tap_stage = {};
+  for (const PixelRange& strip : lookup.strips) {
+    if (lookup.rays) bring_taps(renderer, lookup, point, strip);
+    Climb climbing(evidence, strip, climbed.ladder);
+    if (climbed.counts) {
+      BiasCounts::Adding counting(*climbed.counts, evidence, shown.stored);
+      read_taps(evidence, strip, climbing, soundness, counting);
+    } else {
+      read_taps(evidence, strip, climbing, soundness);
+    }
+    if (each_strip) each_strip(evidence, strip);
+  }
+  keep_small_index(renderer, point.frame);
+  climbed.soundness = soundness.metrics();
+  return climbed;
+}
+
+}  // namespace noonmark

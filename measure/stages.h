@@ -1,0 +1,132 @@
+// measure/: one point, measured: gl, raytrace and compare joined, what consecutive points share, placements, flicker, phase
+// diagrams, times, and how much memory a point takes. Knows no experiment file, no store, no report. Begin here, then
+// measure/workbench.h.
+//
+// The stages of a measurement, each from named inputs to a small type:
+//
+//   scene → view → truth → map → lookup → shown → ladder
+//
+// Workbench::measure() alone joins them, and it keeps the results that consecutive points share. The settings' rows name
+// the stages that read them (technique/settings.h). A test replaces a stage by deriving from Pipeline, and measures
+// through the same Workbench:
+//
+//   struct FlippedMap : Pipeline { MapStage draw_map(...) override; };
+//   Workbench bench(gl::DebugMode::fatal, {}, std::make_unique<FlippedMap>());
+#pragma once
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/judge/soundness.h"
+#include "compare/ladder/bias_curves.h"
+#include "compare/ladder/ladder.h"
+#include "gl/renderer.h"
+#include "measure/memory_estimate.h"
+#include "raytrace/tracer.h"
+
+namespace noonmark {
+
+// The inputs of one point of a sweep.
+struct PointSetup {
+  const Settings& settings;
+  const LightFrame& frame;  // make_light_frame(), or a placement of it (technique/placements.h)
+};
+
+struct SceneStage {
+  std::unique_ptr<Scene> scene;  // the tracer refers to it
+  std::string identity;          // scene_digest
+  std::unique_ptr<raytrace::Tracer> tracer;
+  uint64_t open_edges = 0;
+};
+
+struct ViewStage {
+  Camera camera;
+  ReceiverImage receivers;
+  std::map<std::string, double> metrics;  // numbers of pixels that see nothing, by reason
+};
+
+struct TruthStage {
+  ReceiverTruth receivers;  // R1 and R0
+  StageTime hard, soft;
+};
+
+struct MapStage {
+  std::optional<gl::ShadowMap> map;  // none after show(), if the map is too large to be kept
+};
+
+// Frees the map if it is larger than what is kept (most_kept_map_bytes).
+void keep_small(gl::Renderer& renderer, std::optional<gl::ShadowMap>& map);
+
+// The lookup's inputs and their truth. The truth of the taps covers one strip of the picture at a time. If all taps fit
+// into one strip, the truth is kept and the rays are freed.
+struct LookupStage {
+  LookupProbe probe;                       // for a cube with the texels of the present strip
+  MapDepths exact_depth;                   // at the texels that the taps of facing receivers read
+  std::optional<gl::ShadowMap> exact_map;  // on the device, once show() has looked it up and if it is kept
+  std::vector<PixelRange> strips;
+  std::optional<raytrace::LookupTracer> rays;
+  TapTruth taps;  // of the present strip
+  Image<float> edge_distance_texels;
+  StageTime texel_stage, tap_stage;
+};
+
+// What OpenGL shows: the technique on its own map, on the exact map and on the tie map.
+struct ShownStage {
+  Image<float> r5, r4, tie_lookup;
+  MapDepths stored;  // the drawn map as the lookup's sampler returns it
+  MapDepths ties;
+};
+
+struct Climbed {
+  Ladder ladder;
+  std::map<std::string, double> soundness;  // compare/judge/soundness.h
+  std::optional<BiasCounts> counts;         // if a part is varied
+};
+
+using EachStrip = std::function<void(const LookupEvidence&, PixelRange)>;
+
+// The whole picture, if the truth of its taps takes at most kept_bytes. Otherwise strips of whole rows: as many as have
+// room for their taps in a sixteenth of that (strips_in_kept_taps), at least one.
+std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t kept_bytes);
+
+// Traces the taps of a lookup strip by strip. The evidence has no pictures of OpenGL: its r4 and r5 are empty.
+void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const PointSetup& point,
+                   const EachStrip& each_strip);
+
+// gl::Renderer::polygon_offset_unit, or 0 if the bias has no polygon offset.
+double polygon_offset_unit(gl::Renderer& renderer, const Settings& settings);
+
+// Each virtual method is one stage as the program runs it. What a stage is given must outlive its result.
+class Pipeline {
+ public:
+  // kept_bytes: the most memory for the truth of all taps (strips_of). It changes no result.
+  explicit Pipeline(size_t kept_bytes = most_kept_tap_bytes) : kept_bytes_(kept_bytes) {}
+  virtual ~Pipeline() = default;
+
+  // Also uploads the scene to the renderer. Throws Error.
+  virtual SceneStage load_scene(gl::Renderer& renderer, const Settings& settings);
+  virtual ViewStage take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings);
+  virtual TruthStage trace_truth(const SceneStage& scene, const ViewStage& view, const PointSetup& point);
+  // scene: as the renderer has it.
+  virtual MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point);
+  virtual LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
+                                     const TruthStage& truth, const PointSetup& point);
+  // One lookup of all receivers. show() calls it for each of its maps.
+  virtual Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point);
+  // map: has its map; afterwards it and the exact map on the device are kept only if they are small.
+  virtual ShownStage show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
+                          const PointSetup& point);
+  // Traces the taps strip by strip and books them. varied: the part of the bias that a curve varies, or null.
+  // each_strip: called for each strip while its taps are at hand, or empty.
+  virtual Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view,
+                               const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
+                               const BiasPart* varied, const EachStrip& each_strip = {});
+
+ private:
+  size_t kept_bytes_;
+};
+
+}  // namespace noonmark

@@ -1,0 +1,61 @@
+#include "measure/view_shading.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace noonmark {
+
+double clay_response(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye) {
+  const double cosine = glm::dot(normal, to_light);
+  if (!(cosine > 0)) return 0;
+  const glm::dvec3 sum = to_light + to_eye;
+  const double length = glm::length(sum);  // 0 if the eye looks straight into the light from behind the surface
+  const double highlight = length > 0 ? std::max(glm::dot(normal, sum) / length, 0.0) : 0;
+  return Clay::albedo * cosine + Clay::specular_strength * std::pow(highlight, Clay::specular_exponent);
+}
+
+namespace {
+
+double response(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera, size_t i) {
+  const glm::dvec3 p(receivers.position[i]);
+  const bool perspective = camera.camera.projection == Projection::perspective;
+  const glm::dvec3 to_eye = perspective ? glm::normalize(camera.eye_m - p) : -camera.forward;
+  return clay_response(glm::dvec3(receivers.normal[i]), light.direction_to_light(p), to_eye);
+}
+
+}  // namespace
+
+Image<float> shaded_frame(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera,
+                          const Image<float>& visibility) {
+  Image<float> frame(receivers.width(), receivers.height(), 0);
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, frame.size(), 8192), [&](const tbb::blocked_range<size_t>& range) {
+    for (size_t i = range.begin(); i < range.end(); ++i) {
+      if (receivers.primitive[i] == no_primitive) continue;
+      double color = Clay::ambient * Clay::albedo;
+      if (visibility[i] != 0)  // also for NaN
+        color += static_cast<double>(visibility[i]) * response(receivers, light, camera, i);
+      frame[i] = static_cast<float>(color);
+    }
+  });
+  return frame;
+}
+
+double shaded_rmse(const ReceiverImage& receivers, const LightFrame& light, const CameraFrame& camera,
+                   const Image<float>& visibility, const Image<float>& other) {
+  double sum = 0;  // in the pixels' order, so that it is the same on every machine
+  size_t count = 0;
+  for (size_t i = 0; i < receivers.primitive.size(); ++i) {
+    if (receivers.primitive[i] == no_primitive) continue;
+    ++count;
+    if (visibility[i] == other[i]) continue;  // equal visibility gives equal colours; NaN is never equal
+    const double d =
+        (static_cast<double>(visibility[i]) - static_cast<double>(other[i])) * response(receivers, light, camera, i);
+    sum += d * d;
+  }
+  return count == 0 ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(sum / static_cast<double>(count));
+}
+
+}  // namespace noonmark

@@ -1,0 +1,415 @@
+#include "measure/workbench.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <thread>
+
+#include "base/address_space.h"
+#include "base/error.h"
+#include "compare/judge/poor_view.h"
+#include "compare/ladder/law_metrics.h"
+#include "compare/ladder/measure.h"
+#include "compare/results/quantities.h"
+#include "measure/flicker_stage.h"
+#include "measure/placement_stage.h"
+#include "measure/stage_keys.h"
+#include "measure/view_shading.h"
+#include "scenes/camera_frame.h"
+#include "scenes/scene_size.h"
+#include "technique/casters.h"
+#include "technique/cost.h"
+#include "technique/setting_rules.h"
+
+namespace noonmark {
+namespace {
+
+// Of the file of a live picture. The page holds it as base64, with a third more bytes, and shall stay below 4 MB.
+constexpr size_t most_live_bytes = 2'000'000;
+
+// One value and the settings from which it was computed. The points of a sweep come in an order in which neighbours
+// share most settings, so it is enough to remember the last value.
+template <class T>
+class Remembered {
+ public:
+  bool has(const std::string& key) const { return value_ && key == key_; }
+
+  void forget() { value_.reset(); }
+  T* value() { return value_ ? &*value_ : nullptr; }
+
+  template <class Make>
+  T& get(const std::string& key, const Make& make) {
+    if (!value_ || key != key_) {
+      value_.reset();  // freed before the next is made, because these are large
+      value_.emplace(make());
+      key_ = key;
+    }
+    return *value_;
+  }
+
+ private:
+  std::string key_;
+  std::optional<T> value_;
+};
+
+void add_cost(PointRecord& record, const FrameCost& cost) {
+  record.metrics.insert({{"texel_work", static_cast<double>(cost.texel_work)},
+                         {"traffic_bytes", static_cast<double>(cost.traffic_bytes)},
+                         {"map_bytes", static_cast<double>(cost.map_bytes)},
+                         {"map_texels", static_cast<double>(cost.map_texels)},
+                         {"map_triangles", static_cast<double>(cost.map_triangles)},
+                         {"lookup_fetches", static_cast<double>(cost.lookup.fetches)},
+                         {"lookup_texels", static_cast<double>(cost.lookup.texels)},
+                         {"lookup_operations", static_cast<double>(cost.lookup.operations)}});
+}
+
+void add_time(PointRecord& record, const std::string& stage, const StageTime& time) {
+  record.times[stage + "_ms"] = time.milliseconds;
+  record.times[stage + "_rays"] = static_cast<double>(time.rays);
+}
+
+// The point's numbers and times, without its curve.
+PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, const ViewStage& view,
+                      const TruthStage& truth, const LookupStage& lookup,
+                      const std::map<std::string, double>& soundness) {
+  const Image<float> occluders = tracer.occluder_distance(m.receivers, m.frame, peter_panning_mask(m.ladder));
+  const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
+  PointRecord record;
+  record.settings = settings_map(m.settings);
+  const Bias bias(m.settings.bias);
+  const MeasureInput input{m.ladder,  m.receivers,
+                           m.frame,   m.probe,
+                           bias,      lookup.edge_distance_texels,
+                           occluders, moves_casters(m.settings.map, bias)};
+  record.metrics = measure_ladder(input);
+  record.metrics.merge(
+      measure_laws({m.ladder, m.scene, m.receivers, m.camera, m.frame, m.settings.map.format, m.probe}));
+  record.metrics.insert(soundness.begin(), soundness.end());
+  record.metrics.insert(view.metrics.begin(), view.metrics.end());
+  record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
+  add_cost(record, frame_cost(m.settings, m.frame.tiles, static_cast<int64_t>(record.metrics["facing"]),
+                              static_cast<int64_t>(m.scene.triangles.size())));
+  add_time(record, "hard_truth", truth.hard);
+  add_time(record, "soft_truth", truth.soft);
+  add_time(record, "texel", lookup.texel_stage);
+  add_time(record, "tap", lookup.tap_stage);
+  record.causes = m.ladder.brought;
+  record.worst = worst_pixel(m.ladder);
+  record.worst_of = worst_pixels(input);
+  return record;
+}
+
+Settings of_scene(const SceneSettings& scene) {
+  Settings settings;
+  settings.scene = scene;
+  return settings;
+}
+
+}  // namespace
+
+struct Workbench::Impl {
+  Impl(gl::DebugMode debug, gl::ShaderReplacements shaders, std::unique_ptr<Pipeline> all)
+      : renderer(debug, std::move(shaders)), stages(std::move(all)) {}
+
+  const SceneStage& load(const Settings& settings) {
+    const std::string key = scene_key_of(settings);
+    if (!scene.has(key)) forget_scene();
+    return scene.get(key, [&] { return stages->load_scene(renderer, settings); });
+  }
+
+  // The other stages depend on the scene; the rays of a lookup in strips even refer to its tracer.
+  void forget_scene() {
+    lookup.forget();
+    map.forget();
+    truth.forget();
+    view.forget();
+    curve.forget();
+    receivers_on_device.clear();
+  }
+
+  struct Looked {
+    const ViewStage& view;
+    const TruthStage& truth;
+  };
+  // The receivers, which are then on the device.
+  const ViewStage& see(const SceneStage& loaded, const Settings& settings) {
+    const std::string key = view_key_of(settings);
+    const ViewStage& seen = view.get(key, [&] { return stages->take_view(renderer, *loaded.scene, settings.view); });
+    if (receivers_on_device != key) {
+      renderer.load_receivers(seen.receivers, seen.camera.eye_m);
+      receivers_on_device = key;
+    }
+    return seen;
+  }
+  // The receivers and their truth.
+  Looked look(const SceneStage& loaded, const PointSetup& point) {
+    const ViewStage& seen = see(loaded, point.settings);
+    return {seen, truth.get(truth_key_of(point.settings), [&] { return stages->trace_truth(loaded, seen, point); })};
+  }
+
+  // The map of a point.
+  MapStage& drawn(const Scene& drawn_scene, const PointSetup& point) {
+    MapStage& stage =
+        map.get(map_key_of(point.settings), [&] { return stages->draw_map(renderer, drawn_scene, point); });
+    if (!stage.map) stage.map = stages->draw_map(renderer, drawn_scene, point).map;
+    return stage;
+  }
+
+  // Frees a map that was drawn again for pictures, and that has no room beside what a probe needs.
+  void free_large_map() {
+    if (MapStage* const kept = map.value()) keep_small(renderer, kept->map);
+  }
+
+  void add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen, const TruthStage& traced,
+                      const PointSetup& point);
+
+  LivePicture draw_live(const SceneStage& loaded, const Settings& settings);
+
+  gl::Renderer renderer;
+  std::unique_ptr<Pipeline> stages;
+  AvailableMemory space_at_start;
+  Remembered<SceneStage> scene;
+  Remembered<ViewStage> view;
+  Remembered<TruthStage> truth;
+  Remembered<MapStage> map;
+  Remembered<LookupStage> lookup;
+  Remembered<BiasCurve> curve;
+  std::string receivers_on_device;
+};
+
+namespace {
+
+size_t ray_threads() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
+
+// Bytes of address space. Compared with the peaks (VmPeak) of runs with 2, 4 and 16 threads on Debian 12, minus the
+// space that was used before and the points' own share.
+uint64_t room_to_start(bool pictures) {
+  constexpr uint64_t base = uint64_t{384} << 20;  // libraries, shaders; with 2 threads it is 973 MB in all [880e6]
+  // OpenImageIO: 402 MB on 2 cores [386e6]. It starts a thread for each core and some more, each with a stack and 64 MB
+  // for its allocations.
+  const uint64_t images = (uint64_t{240} << 20) + std::thread::hardware_concurrency() * (uint64_t{72} << 20);
+  return base + (pictures ? images : 0) + 2 * ray_threads() * address_space_of_a_thread;
+}
+
+}  // namespace
+
+void require_room_to_start(bool pictures) {
+  require_address_space(room_to_start(pictures), fmt::format("a measurement by {} threads", ray_threads()));
+}
+
+Workbench::Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders, std::unique_ptr<Pipeline> stages) {
+  require_room_to_start(false);
+  const AvailableMemory space = free_address_space();  // read before any of it is used
+  impl_ = std::make_unique<Impl>(debug, std::move(shaders), std::move(stages));
+  impl_->space_at_start = space;
+}
+Workbench::~Workbench() = default;
+
+const gl::DeviceInfo& Workbench::device() const { return impl_->renderer.info(); }
+
+const Scene& Workbench::scene(const SceneSettings& settings) { return *impl_->load(of_scene(settings)).scene; }
+
+const std::string& Workbench::scene_identity(const SceneSettings& settings) {
+  return impl_->load(of_scene(settings)).identity;
+}
+
+MemoryEstimate Workbench::memory(const Settings& settings, bool curve, bool pictures) {
+  validate(settings);
+  const SceneStage& loaded = impl_->load(settings);
+  const Scene& scene = *loaded.scene;
+  const LightFrame frame = make_light_frame(scene, settings);
+  return estimate_memory({settings, frame.kind, scene_size(scene), loaded.open_edges,
+                          outside_texels(scene, frame, settings.filter), curve, pictures});
+}
+
+AvailableMemory Workbench::memory_of_program(bool pictures) const {
+  return noonmark::memory_of_program(impl_->space_at_start, room_to_start(pictures));
+}
+
+// Adds the metrics over all placements. OpenGL renders the worst placement too: the counts are compared with it, and what
+// it shows there is a metric of its own.
+void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen,
+                                     const TruthStage& traced, const PointSetup& point) {
+  const int worst = worst_placement(placements.counts());
+  record.metrics.merge(placement_metrics(placements.counts(), placements.facts(worst)));
+  const LightFrame frame = placements.frame(worst);
+  const PointSetup moved{point.settings, frame};
+  const SceneStage& loaded = load(point.settings);
+  LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, moved);
+  MapStage drawn = stages->draw_map(renderer, *loaded.scene, moved);
+  const ShownStage shown = stages->show(renderer, drawn, asked, traced, moved);
+  const Climbed climbed = stages->climb_strips(
+      renderer, asked, seen, traced, shown, moved, nullptr,
+      [&](const LookupEvidence& evidence, PixelRange strip) { placements.compare(evidence, worst, strip); });
+  record.metrics["error_worst_shown"] = error_of(climbed.ladder);
+  record.metrics["placement_disagreements"] = static_cast<double>(placements.disagreements());
+  // A defect that only the worst placement shows makes the point unsound too.
+  std::map<std::string, double> there = climbed.soundness;
+  there["residual"] = climbed.ladder.residual;
+  there["tap_residual"] = climbed.ladder.tap_residual;
+  for (const SoundLimit& limit : sound_limits)
+    if (const auto value = there.find(limit.metric); value != there.end())
+      if (double& found = record.metrics[limit.metric]; !(value->second <= found)) found = value->second;
+  add_time(record, "placement", placements.time());
+}
+
+PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured,
+                              const RowDone& row_done) {
+  validate(settings);
+  const SceneStage& loaded = impl_->load(settings);
+  const LightFrame frame = make_light_frame(*loaded.scene, settings);
+  const auto [view, truth] = impl_->look(loaded, {settings, frame});
+  if (measured) return rejudged_phase(*measured, *loaded.scene, view, truth, settings, options);
+  return measure_phase(impl_->renderer, *loaded.tracer, *loaded.scene, view, truth, settings, options, row_done);
+}
+
+std::vector<PhasePlace> Workbench::places(const Settings& picture, std::span<const Settings> points) {
+  const SceneStage& loaded = impl_->load(picture);
+  const LightFrame frame = make_light_frame(*loaded.scene, picture);
+  const auto [view, truth] = impl_->look(loaded, {picture, frame});
+  // Each place reads medians over the receivers, and the points of a sweep share most of their maps.
+  std::map<std::string, PhasePlace> of_one_unit;
+  std::vector<PhasePlace> places;
+  for (const Settings& point : points) {
+    Settings one = point;
+    one.bias["constant"] = 1;
+    std::string key = find_setting("bias.unit").get(one);
+    for (const Setting& row : settings_table())
+      if (row.name.starts_with("map.")) key += " " + row.get(one);
+    auto known = of_one_unit.find(key);
+    if (known == of_one_unit.end())
+      known = of_one_unit.emplace(key, phase_place(*loaded.scene, view, truth, one)).first;
+    places.push_back({known->second.texel_m, known->second.bias_m * point.bias["constant"]});
+  }
+  return places;
+}
+
+// One attempt at a live picture, of the picture's size in the settings.
+LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings& settings) {
+  const LightFrame frame = make_light_frame(*loaded.scene, settings);
+  const PointSetup point{settings, frame};
+  const ViewStage seen = stages->take_view(renderer, *loaded.scene, settings.view);
+  const TruthStage traced = stages->trace_truth(loaded, seen, point);
+  renderer.load_receivers(seen.receivers, seen.camera.eye_m);
+  LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, point);
+  const MapDepths stored =
+      renderer.read_map(*stages->draw_map(renderer, *loaded.scene, point).map, asked.exact_depth.texels);
+  const BiasPart& varied = *curve_part(settings.bias);
+  LivePicture picture = empty_live_picture(seen.receivers.width(), seen.receivers.height());
+  picture.taps = asked.probe.taps();
+  picture.parameter = "bias." + std::string(varied.name);
+  picture.unit = find_setting("bias.unit").get(settings);
+  picture.scale = bias_scale(frame, seen.receivers, traced.receivers, settings.bias.unit);
+  for (size_t i = 0; i < picture.flags.size(); ++i)
+    if (seen.receivers.primitive[i] != no_primitive) picture.flags[i] = live_surface;
+  each_strip_of(renderer, asked, traced, point, [&](const LookupEvidence& evidence, PixelRange strip) {
+    add_live_strip(picture, evidence, stored, settings.bias, varied, strip);
+  });
+  return picture;
+}
+
+std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
+  validate(settings);
+  if (!why_no_live_picture(settings).empty()) return std::nullopt;
+  Impl& b = *impl_;
+  const SceneStage& loaded = b.load(settings);
+  // The picture needs a map and a lookup of its own. There may be no memory for two of each.
+  b.lookup.forget();
+  b.map.forget();
+  b.receivers_on_device.clear();
+  Settings small = settings;
+  const double shrink = std::min({1.0, static_cast<double>(most_live_width_px) / small.view.width_px,
+                                  static_cast<double>(most_live_height_px) / small.view.height_px});
+  for (double scale = shrink;; scale /= 2) {
+    small.view.width_px = std::max(1, static_cast<int>(settings.view.width_px * scale));
+    small.view.height_px = std::max(1, static_cast<int>(settings.view.height_px * scale));
+    LivePicture picture = b.draw_live(loaded, small);
+    if (live_file(picture).size() <= most_live_bytes || small.view.width_px * small.view.height_px == 1) return picture;
+  }
+}
+
+PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup) {
+  validate(settings);
+  Impl& b = *impl_;
+  const SceneStage& loaded = b.load(settings);
+  const LightFrame frame = make_light_frame(*loaded.scene, settings);
+  b.see(loaded, settings);
+  b.lookup.forget();  // there may be no memory for another map
+  b.map.forget();
+  PassTimes times;
+  std::vector<glm::vec3> casters;
+  if (const Bias bias(settings.bias); moves_casters(settings.map, bias))
+    casters = caster_positions(*loaded.scene, frame, settings.map, bias);
+  const gl::ShadowMap drawn = b.renderer.render_map(frame, settings, map ? &times.map_ms.emplace() : nullptr, casters);
+  if (lookup) b.renderer.lookup(drawn, frame, settings, &times.lookup_ms.emplace());
+  return times;
+}
+
+Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
+                               std::optional<RungOnTop> on_top) {
+  validate(settings);
+  Impl& b = *impl_;
+  const SceneStage& loaded = b.load(settings);
+  const Scene& scene = *loaded.scene;
+  const LightFrame frame = make_light_frame(scene, settings);
+  const PointSetup point{settings, frame};
+
+  const Impl::Looked looked = b.look(loaded, point);
+  const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
+  const TruthStage& truth = looked.truth;
+  if (!b.lookup.has(lookup_key_of(settings))) b.free_large_map();
+  LookupStage& lookup = b.lookup.get(lookup_key_of(settings), [&] {
+    return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, point);
+  });
+  MapStage& map = b.drawn(scene, point);
+  ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, point);
+
+  const BiasPart* const varied = curve_options && !on_top ? curve_part(settings.bias) : nullptr;
+  const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
+  const BiasPart* const unknown = varied && !b.curve.has(curve_key) ? varied : nullptr;
+  // Only for a curve that is not known yet.
+  const BiasScale scale =
+      unknown ? bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit) : BiasScale();
+  std::unique_ptr<PlacementStage> placements;
+  EachStrip each_strip;
+  if (settings.map.placements > 1) {
+    placements = make_placement_stage(
+        {*b.stages, b.renderer, *loaded.tracer, lookup.probe, view, truth, point}, unknown,
+        unknown ? placement_edges(biases_of(*curve_options), scale.depth_per_unit) : std::vector<float>());
+    each_strip = [&](const LookupEvidence& evidence, PixelRange strip) { placements->add(evidence, strip); };
+  }
+  Climbed climbed = b.stages->climb_strips(b.renderer, lookup, view, truth, shown, point, unknown, each_strip);
+  if (placements) placements->finish();
+  if (on_top) add_rung(climbed.ladder, std::move(*on_top));
+  Measurement m{{},
+                settings,
+                std::move(climbed.ladder),
+                frame,
+                view.camera,
+                scene,
+                view.receivers,
+                lookup.probe,
+                {},
+                std::move(shown.stored),
+                lookup.exact_depth,
+                {}};
+  m.record = record_of(m, *loaded.tracer, view, truth, lookup, climbed.soundness);
+  if (varied && !nothing_judged(m.record))
+    m.record.curve = b.curve.get(curve_key, [&] {
+      BiasCurve curve = summarise(*climbed.counts, scale, *curve_options);
+      climbed.counts.reset();  // large, and not needed again: freed before the curve is copied
+      if (placements) add_bands(curve, placements->counts(), scale.depth_per_unit);
+      return curve;
+    });
+  if (settings.view.motion.any()) {
+    m.flicker = trace_flicker({*b.stages, b.renderer, loaded, view, truth, point, shown.r5});
+    m.record.metrics.merge(measure_flicker(*m.flicker));
+  }
+  if (placements && !nothing_judged(m.record)) b.add_placements(m.record, *placements, view, truth, point);
+  m.stored_rows = [&b, &scene, frame, settings](int first_row, int count) {
+    return b.renderer.read_rows(*b.drawn(scene, {settings, frame}).map, first_row, count);
+  };
+  return m;
+}
+
+}  // namespace noonmark

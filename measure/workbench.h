@@ -1,0 +1,99 @@
+// Measures points: runs gl, raytrace and compare, and computes only once what consecutive points share.
+//
+//   Workbench bench(gl::DebugMode::log);
+//   Measurement m = bench.measure(settings, curve_options);
+//   save(m.record); write_pictures(m, ...);
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compare/ladder/flicker.h"
+#include "compare/ladder/live_picture.h"
+#include "compare/results/records.h"
+#include "measure/phase_diagram.h"
+#include "measure/stages.h"
+
+namespace noonmark {
+
+// One measured point with the images behind its numbers. The references are valid until the bench's next measurement.
+struct Measurement {
+  PointRecord record;  // without id and pictures
+  Settings settings;
+  Ladder ladder;
+  LightFrame frame;
+  Camera camera;
+  const Scene& scene;
+  const ReceiverImage& receivers;
+  const LookupProbe& probe;
+  std::optional<Flicker> flicker;  // from this frame to the next, if the settings have a motion
+  MapDepths stored_map;  // as the lookup's sampler returns it, at the texels that taps of facing receivers read
+  const MapDepths& exact_map;
+  // The whole stored map, by rows from the lowest v on: (first row, number of rows). It is read from the device, and a
+  // large map is drawn again for it.
+  std::function<Image<float>(int, int)> stored_rows;
+};
+
+// Milliseconds by gl::DeviceInfo::times. Empty: not asked for.
+struct PassTimes {
+  std::optional<double> map_ms, lookup_ms;
+};
+
+// Checks the address space that the driver, the rays and the image library need before the first point. Throws
+// Error(device) if there is not enough. Without this check a library would fail later and could not say why.
+// pictures: true if the run writes picture files.
+void require_room_to_start(bool pictures);
+
+class Workbench {
+ public:
+  // shaders: variants to measure in place of the program's own. stages: the program's; a test replaces some of them.
+  explicit Workbench(gl::DebugMode debug, gl::ShaderReplacements shaders = {},
+                     std::unique_ptr<Pipeline> stages = std::make_unique<Pipeline>());
+  ~Workbench();
+
+  // on_top: a picture that is judged in place of R5. curve: no curve if it is empty, if no part of the bias can have
+  // one (curve_part), or if there is a picture on top, because no bias changes that. The record has no metric that is a
+  // time: see measure/pass_times.h. Throws Error.
+  Measurement measure(const Settings& settings, const std::optional<CurveOptions>& curve,
+                      std::optional<RungOnTop> on_top = {});
+
+  // One sample of the time of each pass that is asked for. The images of the last measurement may be gone afterwards.
+  // Throws Error.
+  PassTimes time_passes(const Settings& settings, bool map, bool lookup);
+
+  // The phase diagram of the scene under these settings (phase_settings()). measured: one with the same rows, if there is
+  // one; then only what depends on the bounds is computed. Throws Error.
+  PhaseDiagram phase(
+      const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured = nullptr,
+      const RowDone& row_done = [](int) {});
+
+  // The places of points on a diagram that counts the receivers of `picture`: the points differ from it in texel size,
+  // in bias and in settings that move no receiver. Throws Error.
+  std::vector<PhasePlace> places(const Settings& picture, std::span<const Settings> points);
+
+  // The picture of these settings at every bias, for a page (compare/ladder/live_picture.h). It is measured for itself,
+  // with at most 320 x 180 pixels of the same view, and with fewer if its file would have more than 2 MB. Empty if the
+  // settings have no such picture. The images of the last measurement are gone afterwards. Throws Error.
+  std::optional<LivePicture> live_picture(const Settings& settings);
+
+  // The peak memory that measure() would take. pictures: whether its pictures and EXR files are written. Throws Error.
+  MemoryEstimate memory(const Settings& settings, bool curve, bool pictures);
+
+  // The memory with which such estimates are compared.
+  AvailableMemory memory_of_program(bool pictures) const;
+
+  const gl::DeviceInfo& device() const;
+  // The scene that the settings name. It is loaded if it is not the present one.
+  const Scene& scene(const SceneSettings& settings);
+  // scene_digest of that scene as it was loaded.
+  const std::string& scene_identity(const SceneSettings& settings);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace noonmark
