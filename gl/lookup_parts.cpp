@@ -20,7 +20,8 @@ ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, cons
           {"bias", bias_name}};
 }
 
-ShaderSlots lookup_slots(ProgramCache& programs, const LightFrame& frame, const Bias& bias, const Filter& filter) {
+ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique) {
+  const Filter& filter = *technique.filter;
   const std::string name(filter.name);
   std::string text;
   for (const FilterRead& read : filter.reads)
@@ -33,7 +34,7 @@ ShaderSlots lookup_slots(ProgramCache& programs, const LightFrame& frame, const 
         name);
   text += fmt::format("#include \"shaders/filter/{}.glsl\"\n", filter.shader);
 
-  ShaderSlots slots = receiver_slots(programs, frame, bias);
+  ShaderSlots slots = receiver_slots(programs, technique.frame, technique.bias);
   slots["filter"] = "filter " + name;
   programs.define(slots["filter"], text);
   return slots;

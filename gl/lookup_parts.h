@@ -2,10 +2,7 @@
 // technique/light_kind.h gives it. A filter names its file in its own row (technique/filters.cpp).
 #pragma once
 #include "gl/program.h"
-#include "technique/bias.h"
-#include "technique/filters.h"
-#include "technique/light_frame.h"
-#include "technique/settings.h"
+#include "technique/technique.h"
 
 namespace noonmark::gl {
 
@@ -19,7 +16,7 @@ ShaderSlots receiver_slots(ProgramCache& programs, const LightFrame& frame, cons
 //   float all_lit()                           its greatest value
 // If a formula gives the weights of the filter's taps, the text has before that file
 //   float filter_weight(int texel, float s)   the weight of texel 0 ... filter_size along one axis
-ShaderSlots lookup_slots(ProgramCache& programs, const LightFrame& frame, const Bias& bias, const Filter& filter);
+ShaderSlots lookup_slots(ProgramCache& programs, const Technique& technique);
 
 void set_filter_uniforms(Program& program, const Filter& filter, const FilterSettings& settings);
 

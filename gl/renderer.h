@@ -7,8 +7,8 @@
 //   renderer.load_scene(scene);
 //   ReceiverImage receivers = resolve_receivers(scene, camera, renderer.render_primitives(camera, 1280, 720));
 //   renderer.load_receivers(receivers, camera.eye_m);
-//   gl::ShadowMap map = renderer.render_map(frame, settings);
-//   Image<float> r5 = renderer.lookup(map, frame, settings);
+//   gl::ShadowMap map = renderer.render_map(technique);
+//   Image<float> r5 = renderer.lookup(map, technique);
 //
 // Conventions: scenes/scene.h. One Renderer owns one EGL context, which is current on the thread that made it. All
 // calls must come from that thread. Throws Error(device) for drivers and shaders, with the shader's file and line.
@@ -27,6 +27,7 @@
 #include "technique/light_frame.h"
 #include "technique/map_depths.h"
 #include "technique/settings.h"
+#include "technique/technique.h"
 
 namespace noonmark::gl {
 
@@ -107,8 +108,7 @@ class Renderer {
   // (DeviceInfo::times); the pass then runs twice, first without the clock, so that its shader is compiled, its memory is
   // in use and the caches hold what it reads. casters: the scene's vertices as they are drawn (technique/casters.h);
   // empty: the vertices of load_scene().
-  ShadowMap render_map(const LightFrame& frame, const Settings& settings, double* time_ms = nullptr,
-                       std::span<const glm::vec3> casters = {});
+  ShadowMap render_map(const Technique& technique, double* time_ms = nullptr, std::span<const glm::vec3> casters = {});
 
   // Uploads a map that was made elsewhere, such as the exact map of R4. Its format is 32-bit float depth, whatever
   // settings.format is; its wrap mode is the one of the settings. depth has the size LightFrame::map_size(), and
@@ -134,17 +134,16 @@ class Renderer {
   // The technique's result: the visibility of every receiver, in [0, 1]. Background pixels and receivers at or behind
   // the light have 0. time_ms: as in render_map. For filters that compare in hardware, OpenGL clamps the biased reference to [0, 1] if the format
   // of the map is fixed-point. So even with lit_beyond_far off, a receiver beyond far is lit where the map is empty.
-  Image<float> lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings,
-                      double* time_ms = nullptr);
+  Image<float> lookup(const ShadowMap& map, const Technique& technique, double* time_ms = nullptr);
 
   // The numbers that lookup computes before it compares. They do not depend on the contents of the map. Of the bias,
   // they depend only on the parts that move the lookup.
-  LookupProbe probe(const LightFrame& frame, const Settings& settings, ProbeTaps taps = ProbeTaps::all);
+  LookupProbe probe(const Technique& technique, ProbeTaps taps = ProbeTaps::all);
 
   // Replaces the taps that the probe holds by those of these pixels, which are whole rows of the picture. This is
   // needed for a cube only, because there the sampler chooses the texel of each tap. For a flat map every tap is known,
   // and this function does nothing.
-  void probe_strip(LookupProbe& probe, const LightFrame& frame, const Settings& settings, PixelRange strip);
+  void probe_strip(LookupProbe& probe, const Technique& technique, PixelRange strip);
 
   // Frees what the probes of a cube keep on the device: 4 bytes for each texel of the cube. The next probe makes it
   // again.

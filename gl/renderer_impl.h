@@ -98,15 +98,15 @@ struct Renderer::Impl {
 
   // Sets the uniforms of light, bias and receiver in a program that includes shaders/receiver.glsl, and binds the
   // receivers.
-  void set_receiver_uniforms(Program& program, const LightFrame& frame, const Settings& settings);
+  void set_receiver_uniforms(Program& program, const Technique& technique);
   // Uploads and binds the pattern for a program that includes shaders/pattern.glsl.
   void set_pattern(Program& program, const TapPattern& pattern);
   // The texels in a cube map that these taps of the receivers in those rows read: LookupProbe::cube_texel.
   struct Rows {
     int begin = 0, end = 0;
   };
-  std::vector<uint32_t> cube_texels(const LookupProbe& probe, const LightFrame& frame, const Settings& settings,
-                                    Rows rows, int tap_begin, int tap_end);
+  std::vector<uint32_t> cube_texels(const LookupProbe& probe, const Technique& technique, Rows rows, int tap_begin,
+                                    int tap_end);
 };
 
 // Reads all of level 0, beginning with row 0.

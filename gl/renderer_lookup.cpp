@@ -9,8 +9,6 @@
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
 #include "gl/tap_table.h"
-#include "technique/bias.h"
-#include "technique/setting_rules.h"
 
 namespace noonmark::gl {
 namespace {
@@ -49,7 +47,9 @@ void Renderer::load_receivers(const ReceiverImage& receivers, glm::dvec3 eye_m, 
   r.context->check("load_receivers");
 }
 
-void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& frame, const Settings& settings) {
+void Renderer::Impl::set_receiver_uniforms(Program& program, const Technique& technique) {
+  const LightFrame& frame = technique.frame;
+  const BiasUnit unit = technique.settings.bias.unit;
   if (!position_image.texture) throw std::logic_error("load_receivers comes before lookup and probe");
   const glm::vec3 light_position(frame.drawn_origin_m());
   const auto set = [&](const char* name, double value) { program.set_if_used(name, static_cast<float>(value)); };
@@ -58,8 +58,8 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
   const glm::dvec3 one_metre = frame.tile(0).forward;
   program.set_if_used("light_position", light_position);
   set("light_texel_m", frame.texel_m(one_metre));
-  program.set_if_used("bias_unit", static_cast<int>(settings.bias.unit));
-  set("light_bias_unit", frame.depth_per_bias_unit(settings.bias.unit, one_metre));
+  program.set_if_used("bias_unit", static_cast<int>(unit));
+  set("light_bias_unit", frame.depth_per_bias_unit(unit, one_metre));
   set("light_far_m", frame.far_m);
   if (frame.map_shape() == MapShape::flat) {
     const glm::dmat4 clip_from_world = frame.drawn_clip_from_world(frame.tile(0));
@@ -76,7 +76,7 @@ void Renderer::Impl::set_receiver_uniforms(Program& program, const LightFrame& f
     program.set_if_used("light_up", glm::vec3(frame.up));
   }
   if (frame.turned()) program.set_if_used("cube_axes", glm::mat3(frame.cube_axes));
-  set_bias_uniforms(program, Bias(settings.bias));
+  set_bias_uniforms(program, technique.bias);
   // The uniforms and images of the receivers.
   program.set_if_used("eye_m", eye_m);
   glBindTextureUnit(0, position_image.texture.id());
@@ -98,24 +98,22 @@ void Renderer::Impl::set_pattern(Program& program, const TapPattern& pattern) {
   program.set_if_used("scaled_by_view", pattern.scaled_by_view ? 1 : 0);
 }
 
-Image<float> Renderer::lookup(const ShadowMap& map, const LightFrame& frame, const Settings& settings,
-                              double* time_ms) {
+Image<float> Renderer::lookup(const ShadowMap& map, const Technique& technique, double* time_ms) {
   Impl& r = *impl_;
   r.context->make_current();
-  validate(settings, frame.kind);
+  const LightFrame& frame = technique.frame;
+  const TapPattern& pattern = technique.taps;
   if (frame.resolution != map.resolution() || (frame.map_shape() == MapShape::cube) != map.impl_->cube)
     throw Error(ErrorKind::defect,
                 fmt::format("lookup: the light's frame is for {} face(s) of {} texels, the map has "
                             "{} of {}",
                             frame.tiles, frame.resolution, map.impl_->cube ? 6 : 1, map.resolution()));
-  const TapPattern pattern = tap_pattern(settings.filter);
-  const Filter& filter = find_filter(settings.filter.kind);
-  const ShaderSlots slots = lookup_slots(r.programs, frame, Bias(settings.bias), filter);
+  const ShaderSlots slots = lookup_slots(r.programs, technique);
   Program& program = r.programs.get({"shaders/screen.vert", "shaders/lookup.frag"}, slots);
-  r.set_receiver_uniforms(program, frame, settings);
+  r.set_receiver_uniforms(program, technique);
   r.set_pattern(program, pattern);
-  set_filter_uniforms(program, filter, settings.filter);
-  program.set("lit_beyond_far", settings.map.lit_beyond_far ? 1 : 0);
+  set_filter_uniforms(program, *technique.filter, technique.settings.filter);
+  program.set("lit_beyond_far", technique.settings.map.lit_beyond_far ? 1 : 0);
   glBindTextureUnit(2, map.impl_->depth.id());
   if (pattern.bilinear()) {
     glSamplerParameteri(r.comparing.id(), GL_TEXTURE_WRAP_S, gl_wrap(map.impl_->wrap));

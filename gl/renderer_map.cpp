@@ -71,17 +71,18 @@ Texture Renderer::Impl::draw_cells(Program& program, const LightFrame& frame, Te
   return ordered;
 }
 
-ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings, double* time_ms,
-                               std::span<const glm::vec3> casters) {
+ShadowMap Renderer::render_map(const Technique& technique, double* time_ms, std::span<const glm::vec3> casters) {
   Impl& r = *impl_;
   r.context->make_current();
-  const int side = settings.map.resolution;
+  const LightFrame& frame = technique.frame;
+  const MapSettings& map = technique.settings.map;
+  const int side = map.resolution;
   if (frame.resolution != side)
     throw Error(ErrorKind::defect, fmt::format("render_map: the light's frame is for {} texels, the settings for {}",
                                                frame.resolution, side));
   const bool cube = frame.map_shape() == MapShape::cube;
-  const bool layered = cube && settings.map.cube_pass == CubePass::layered;
-  Texture depth = r.make_map_texture(gl_format(settings.map.format), side, cube, settings.map.wrap);
+  const bool layered = cube && map.cube_pass == CubePass::layered;
+  Texture depth = r.make_map_texture(gl_format(map.format), side, cube, map.wrap);
   Program& program = r.programs.get(
       !cube     ? ShaderStages{"shaders/scene.vert", "shaders/depth.frag"}
       : layered ? ShaderStages{"shaders/cube_layers.vert", "shaders/distance.frag", "shaders/cube_layers.geom"}
@@ -121,25 +122,25 @@ ShadowMap Renderer::render_map(const LightFrame& frame, const Settings& settings
     glVertexArrayVertexBuffer(r.scene_vertices.id(), 0, moved.id(), 0, sizeof(glm::vec3));
   }
   r.draw_into({}, depth.id(), side, side);  // all layers if it is a cube
-  const std::optional<Bias::PolygonOffset> offset = Bias(settings.bias).polygon_offset();
+  const std::optional<Bias::PolygonOffset> offset = technique.bias.polygon_offset();
   glDepthMask(GL_TRUE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
-  set_culling(settings.map.cull);
-  set_enabled(GL_DEPTH_CLAMP, settings.map.keeps_clipped());
+  set_culling(map.cull);
+  set_enabled(GL_DEPTH_CLAMP, map.keeps_clipped());
   // OpenGL ignores the offset if the shader writes its own depth, as it does for a cube.
   set_enabled(GL_POLYGON_OFFSET_FILL, offset.has_value());
   if (offset) glPolygonOffset(offset->factor, offset->units);
   if (time_ms || !frame.anchor_m) r.run(time_ms, cube && !layered ? std::function<void()>(draw_faces) : draw_once);
   if (frame.anchor_m)
-    depth = r.draw_cells(program, frame, std::move(depth), gl_format(settings.map.format), settings.map.wrap,
-                         [&] { r.draw_scene(program); });
+    depth =
+        r.draw_cells(program, frame, std::move(depth), gl_format(map.format), map.wrap, [&] { r.draw_scene(program); });
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_CLAMP);
   if (!casters.empty()) glVertexArrayVertexBuffer(r.scene_vertices.id(), 0, r.positions.id(), 0, sizeof(glm::vec3));
   r.detach(0);
   r.context->check("render_map");
-  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(depth), side, cube, settings.map.wrap));
+  return ShadowMap(std::make_unique<ShadowMap::Impl>(r.context, std::move(depth), side, cube, map.wrap));
 }
 
 double Renderer::polygon_offset_unit(DepthFormat format) {

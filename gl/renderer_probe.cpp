@@ -4,7 +4,6 @@
 
 #include "gl/lookup_parts.h"
 #include "gl/renderer_impl.h"
-#include "technique/setting_rules.h"
 
 namespace noonmark::gl {
 namespace {
@@ -33,16 +32,15 @@ Image<T> each(const Image<glm::vec4>& image, F&& part) {
 
 }  // namespace
 
-LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings, ProbeTaps taps) {
+LookupProbe Renderer::probe(const Technique& technique, ProbeTaps taps) {
   Impl& r = *impl_;
   r.context->make_current();
-  validate(settings, frame.kind);
+  const LightFrame& frame = technique.frame;
   const bool cube = frame.map_shape() == MapShape::cube;
   r.check_resolution(frame.resolution, cube);
-  const Bias bias(settings.bias);
   Program& program =
-      r.programs.get({"shaders/screen.vert", "shaders/probe.frag"}, receiver_slots(r.programs, frame, bias));
-  r.set_receiver_uniforms(program, frame, settings);
+      r.programs.get({"shaders/screen.vert", "shaders/probe.frag"}, receiver_slots(r.programs, frame, technique.bias));
+  r.set_receiver_uniforms(program, technique);
   const int width = r.position_image.width, height = r.position_image.height;
   r.require(r.probe_scalars, GL_RGBA32F, width, height);
   r.require(r.probe_texels, GL_RGBA32F, width, height);
@@ -53,9 +51,9 @@ LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings, P
   r.detach(3);
 
   LookupProbe probe;
-  probe.pattern = tap_pattern(settings.filter);
-  probe.tap_reference = &bias.reference();
-  probe.plane_cap = bias.plane_cap();
+  probe.pattern = technique.taps;
+  probe.tap_reference = &technique.bias.reference();
+  probe.plane_cap = technique.bias.plane_cap();
   const auto scalars = read_back<glm::vec4>(r.probe_scalars, GL_RGBA, GL_FLOAT);
   probe.reference = each<float>(scalars, [](glm::vec4 s) { return s.x; });
   probe.n_dot_l = each<float>(scalars, [](glm::vec4 s) { return s.y; });
@@ -72,23 +70,22 @@ LookupProbe Renderer::probe(const LightFrame& frame, const Settings& settings, P
     probe.cube_resolution = frame.resolution;
     const int middle = probe.middle_tap();
     probe.cube_middle = Image<uint32_t>(width, height);
-    probe.cube_middle.pixels = r.cube_texels(probe, frame, settings, {0, height}, middle, middle + 1);
-    if (taps == ProbeTaps::all) probe.cube_texel = r.cube_texels(probe, frame, settings, {0, height}, 0, probe.taps());
+    probe.cube_middle.pixels = r.cube_texels(probe, technique, {0, height}, middle, middle + 1);
+    if (taps == ProbeTaps::all) probe.cube_texel = r.cube_texels(probe, technique, {0, height}, 0, probe.taps());
   }
   r.context->check("probe");
   return probe;
 }
 
-void Renderer::probe_strip(LookupProbe& probe, const LightFrame& frame, const Settings& settings, PixelRange strip) {
-  if (frame.map_shape() == MapShape::flat) return;
+void Renderer::probe_strip(LookupProbe& probe, const Technique& technique, PixelRange strip) {
+  if (technique.frame.map_shape() == MapShape::flat) return;
   Impl& r = *impl_;
   const auto width = static_cast<size_t>(r.position_image.width);
   if (strip.first % width != 0 || strip.end % width != 0) throw std::logic_error("a strip is of whole rows");
   r.context->make_current();
   std::vector<uint32_t>().swap(probe.cube_texel);  // before the next one is made, because it is large
-  probe.cube_texel =
-      r.cube_texels(probe, frame, settings,
-                    {static_cast<int>(strip.first / width), static_cast<int>(strip.end / width)}, 0, probe.taps());
+  probe.cube_texel = r.cube_texels(
+      probe, technique, {static_cast<int>(strip.first / width), static_cast<int>(strip.end / width)}, 0, probe.taps());
   probe.cube_first = strip.first;
   r.context->check("probe");
 }
@@ -102,8 +99,9 @@ void Renderer::forget_cube_index() {
   release_deleted();
 }
 
-std::vector<uint32_t> Renderer::Impl::cube_texels(const LookupProbe& probe, const LightFrame& frame,
-                                                  const Settings& settings, Rows rows, int tap_begin, int tap_end) {
+std::vector<uint32_t> Renderer::Impl::cube_texels(const LookupProbe& probe, const Technique& technique, Rows rows,
+                                                  int tap_begin, int tap_end) {
+  const LightFrame& frame = technique.frame;
   if (cube_index_resolution != frame.resolution) {
     cube_index_resolution = 0;
     cube_index = {};  // first, so that memory never holds both
@@ -111,9 +109,9 @@ std::vector<uint32_t> Renderer::Impl::cube_texels(const LookupProbe& probe, cons
     check_memory("a cube map's index", frame.resolution, 6 * frame.resolution);
     cube_index_resolution = frame.resolution;
   }
-  Program& program = programs.get({"shaders/screen.vert", "shaders/probe_cube.frag"},
-                                  receiver_slots(programs, frame, Bias(settings.bias)));
-  set_receiver_uniforms(program, frame, settings);
+  Program& program =
+      programs.get({"shaders/screen.vert", "shaders/probe_cube.frag"}, receiver_slots(programs, frame, technique.bias));
+  set_receiver_uniforms(program, technique);
   set_pattern(program, probe.pattern);
   program.set("tap_begin", tap_begin);
   program.set("tap_count", tap_end - tap_begin);

@@ -7,7 +7,6 @@
 #include "scenes/camera_fit.h"
 #include "scenes/camera_frame.h"
 #include "scenes/library.h"
-#include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {
@@ -90,12 +89,13 @@ Settings next_frame(const Settings& settings) {
 Flicker trace_flicker(const FlickerInput& in) {
   const ReceiverImage& receivers = in.view.receivers;
   const int width = receivers.width(), height = receivers.height();
-  const Settings next = next_frame(in.point.settings);
+  const Settings next = next_frame(in.technique.settings);
   std::optional<Scene> moved;
-  if (in.point.settings.view.motion.time_s != 0) moved = still_scene(*in.loaded.scene, next.scene);
+  if (in.technique.settings.view.motion.time_s != 0) moved = still_scene(*in.loaded.scene, next.scene);
   const Scene& scene = moved ? *moved : *in.loaded.scene;
-  const LightFrame& now_frame = in.point.frame;
-  const LightFrame next_light = make_light_frame(scene, next);
+  const LightFrame& now_frame = in.technique.frame;
+  const Technique next_technique(scene, next);
+  const LightFrame& next_light = next_technique.frame;
 
   // The receivers that count.
   const Camera camera = effective_camera(scene, next.view);
@@ -109,7 +109,7 @@ Flicker trace_flicker(const FlickerInput& in) {
   const ReceiverTruth& before = in.truth.receivers;
   const ReceiverTruth& after = truth ? *truth : before;
   FlickerPoints points{Image<uint8_t>(width, height, 0), Image<uint8_t>(width, height, 0)};
-  const double reach = reach_of_taps(tap_pattern(next.filter));
+  const double reach = reach_of_taps(next_technique.taps);
   Image<uint32_t> pixels(width, height, 0);
   for (size_t i = 0; i < pixels.size(); ++i) {
     pixels[i] = static_cast<uint32_t>(i);
@@ -141,21 +141,20 @@ Flicker trace_flicker(const FlickerInput& in) {
   }
 
   // The lookups, each of which differs from the one before in one respect.
-  const auto shown = [&](const Settings& settings, const LightFrame& frame) {
-    const PointSetup point{settings, frame};
-    MapStage map = in.stages.draw_map(in.renderer, scene, point);
-    return in.stages.look_up(in.renderer, *map.map, point);
+  const auto shown = [&](const Technique& technique) {
+    MapStage map = in.stages.draw_map(in.renderer, scene, technique);
+    return in.stages.look_up(in.renderer, *map.map, technique);
   };
   Settings same_depths = next;
   same_depths.map.near_m = now_frame.near_m;
   same_depths.map.far_m = now_frame.far_m;
-  const LightFrame grid_frame = make_light_frame(scene, same_depths);
-  const Image<float> grid = same_map(grid_frame, now_frame) ? in.r5 : shown(same_depths, grid_frame);
-  const Image<float> depth = same_map(next_light, grid_frame) ? grid : shown(next, next_light);
+  const Technique on_grid(scene, same_depths);
+  const Image<float> grid = same_map(on_grid.frame, now_frame) ? in.r5 : shown(on_grid);
+  const Image<float> depth = same_map(next_light, on_grid.frame) ? grid : shown(next_technique);
   Image<float> last = depth;
-  if (const TapPattern pattern = tap_pattern(next.filter); pattern.variants > 1 || pattern.scaled_by_view) {
+  if (next_technique.taps.variants > 1 || next_technique.taps.scaled_by_view) {
     in.renderer.load_receivers(receivers, camera.eye_m, &pixels);
-    last = shown(next, next_light);
+    last = shown(next_technique);
     in.renderer.load_receivers(receivers, in.view.camera.eye_m);
   }
   return flicker_of({in.r5, grid, depth, last}, std::move(points));

@@ -1,6 +1,6 @@
 // The stage of a measurement that compares a frame of a motion ([motion]) with the next one.
 //
-//   if (settings.view.motion.any()) Flicker flicker = trace_flicker({stages, renderer, loaded, view, truth, point, r5});
+//   if (settings.view.motion.any()) Flicker flicker = trace_flicker({stages, renderer, loaded, view, truth, technique, r5});
 #pragma once
 #include "compare/ladder/flicker.h"
 #include "measure/stages.h"
@@ -15,7 +15,7 @@ struct FlickerInput {
   const SceneStage& loaded;
   const ViewStage& view;
   const TruthStage& truth;
-  const PointSetup& point;
+  const Technique& technique;
   const Image<float>& r5;
 };
 

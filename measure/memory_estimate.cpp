@@ -147,9 +147,10 @@ MemoryEstimate estimate_memory(const MemoryInput& input) {
   }};
 }
 
-double outside_texels(const Scene& scene, const LightFrame& frame, const FilterSettings& filter) {
+double outside_texels(const Scene& scene, const Technique& technique) {
+  const LightFrame& frame = technique.frame;
   if (frame.map_shape() == MapShape::cube) return 0;
-  const TapPattern pattern = tap_pattern(filter);
+  const TapPattern& pattern = technique.taps;
   double reach = 1;
   for (int variant = 0; variant < pattern.variants; ++variant)
     for (int tap = 0; tap < pattern.taps; ++tap) {

@@ -18,6 +18,7 @@
 #include "technique/light_frame.h"
 #include "technique/light_kind.h"
 #include "technique/settings.h"
+#include "technique/technique.h"
 
 namespace noonmark {
 
@@ -62,7 +63,7 @@ inline constexpr double estimate_factor = 3;
 
 // The number of texels beside a flat map that the scene reaches, including the kernel. 0 for a cube, which has no
 // outside.
-double outside_texels(const Scene& scene, const LightFrame& frame, const FilterSettings& filter);
+double outside_texels(const Scene& scene, const Technique& technique);
 
 // The memory that the whole program may hold, including what it already holds; an estimate is compared with it. The
 // limits of the machine and of control groups are read now. The limit of the address space is computed from the space

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/shell_words.h"
 #include "compare/ladder/law_bias.h"
 #include "measure/placement_stage.h"
 #include "technique/casters.h"
@@ -72,18 +73,17 @@ double acne_of(const Planes& planes, const TapPattern& pattern, double c) {
   return dark / (planes.counted * pattern.taps);
 }
 
-bool has_law(const Settings& settings) {
-  const Bias bias(settings.bias);
-  return !tap_reference(settings.bias.reference).plane && !bias.moves_lookup() && !moves_casters(settings.map, bias) &&
-         !bias.polygon_offset() && bias.compared().size() <= 1 && !tap_pattern(settings.filter).bilinear();
+bool has_law(const Technique& technique) {
+  const Bias& bias = technique.bias;
+  return !bias.reference().plane && !bias.moves_lookup() && !technique.moves_casters() && !bias.polygon_offset() &&
+         bias.compared().size() <= 1 && !technique.taps.bilinear();
 }
 
-void add_law(PhaseDiagram& diagram, const LightFrame& frame, const ViewStage& view, const TruthStage& truth,
-             const Settings& settings) {
+void add_law(PhaseDiagram& diagram, const ViewStage& view, const TruthStage& truth, const Technique& technique) {
   diagram.law_at_bound = diagram.law_steepest = std::numeric_limits<double>::quiet_NaN();
-  if (!has_law(settings)) return;
-  const TapPattern pattern = tap_pattern(settings.filter);
-  const Planes planes = planes_of(frame, view, truth.receivers, pattern);
+  if (!has_law(technique)) return;
+  const TapPattern& pattern = technique.taps;
+  const Planes planes = planes_of(technique.frame, view, truth.receivers, pattern);
   if (planes.lit.empty()) return;
   double steepest = 0;
   for (const LitPlane& plane : planes.lit)
@@ -235,14 +235,13 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
 
   for (int r = 0; r < options.rows; ++r) {
     settings.map.resolution = resolution_of(r);
-    const LightFrame frame = make_light_frame(scene, settings);
-    const PointSetup point{settings, frame};
-    const LookupProbe probe = renderer.probe(frame, settings, gl::ProbeTaps::none);
-    raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, frame, settings.map,
-                                                Bias(settings.bias), polygon_offset_unit(renderer, settings));
-    LatticeStage stage(renderer, tracer, probe, view, truth, point, &bias_part("constant"), edges);
+    const Technique technique(scene, settings);
+    const LookupProbe probe = renderer.probe(technique, gl::ProbeTaps::none);
+    raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, technique.frame, settings.map,
+                                                technique.bias, polygon_offset_unit(renderer, technique));
+    LatticeStage stage(renderer, tracer, probe, view, truth, technique, &bias_part("constant"), edges);
     double blurred = 0;
-    for (const PixelRange& strip : strips_of(settings, frame.kind, most_kept_tap_bytes)) {
+    for (const PixelRange& strip : strips_of(technique, most_kept_tap_bytes)) {
       const TapTruth taps = rays.trace_places(probe, strip);
       stage.add(taps, strip);
       blurred += filter_share(probe, taps, truth.receivers, strip);
@@ -254,11 +253,11 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
                   "set the view (view.eye_m, view.target_m) or the light");
     PhaseRow row = row_of(counts, edges.size(), blurred / static_cast<double>(counts.receivers()));
     row.resolution = settings.map.resolution;
-    row.texel_m = median_texel_m(frame, view, truth.receivers);
+    row.texel_m = median_texel_m(technique.frame, view, truth.receivers);
     row.last_acne_m = counts.acne_free_from();
     diagram.rows.push_back(std::move(row));
     diagram.receivers = static_cast<double>(counts.receivers());
-    if (r == 0) add_law(diagram, frame, view, truth, settings);
+    if (r == 0) add_law(diagram, view, truth, technique);
     row_done(r + 1);
   }
   return diagram;
@@ -272,7 +271,7 @@ PhaseDiagram rejudged_phase(const PhaseDiagram& measured, const Scene& scene, co
   Settings settings = given;
   settings.map.placements = options.placements;
   settings.map.resolution = diagram.rows.front().resolution;
-  add_law(diagram, make_light_frame(scene, settings), view, truth, settings);
+  add_law(diagram, view, truth, Technique(scene, settings));
   return diagram;
 }
 

@@ -13,11 +13,11 @@ constexpr size_t most_points = size_t{1} << 23;
 
 // Positions in the map at the placements (i, i); OpenGL itself computes them.
 std::vector<Image<glm::vec2>> positions_of(gl::Renderer& renderer, const Placements& placements,
-                                           const LookupProbe& probe, const PointSetup& point) {
+                                           const LookupProbe& probe, const Technique& technique) {
   std::vector<Image<glm::vec2>> positions = {probe.map_texels};
   for (int i = 1; i < placements.side(); ++i)
     positions.push_back(
-        renderer.probe(placements.frame(point.frame, i * placements.side() + i), point.settings).map_texels);
+        renderer.probe(technique.at(placements.frame(technique.frame, i * placements.side() + i))).map_texels);
   return positions;
 }
 
@@ -25,23 +25,23 @@ std::vector<Image<glm::vec2>> positions_of(gl::Renderer& renderer, const Placeme
 
 std::unique_ptr<PlacementStage> make_placement_stage(const PlacementInput& in, const BiasPart* part,
                                                      std::vector<float> edges) {
-  if (in.point.frame.light().placements_form_lattice())
-    return std::make_unique<LatticeStage>(in.renderer, in.tracer, in.probe, in.view, in.truth, in.point, part,
+  if (in.technique.frame.light().placements_form_lattice())
+    return std::make_unique<LatticeStage>(in.renderer, in.tracer, in.probe, in.view, in.truth, in.technique, part,
                                           std::move(edges));
   return std::make_unique<TurnStage>(in, part, std::move(edges));
 }
 
 LatticeStage::LatticeStage(gl::Renderer& renderer, const raytrace::Tracer& tracer, const LookupProbe& probe,
-                           const ViewStage& view, const TruthStage& truth, const PointSetup& point,
+                           const ViewStage& view, const TruthStage& truth, const Technique& technique,
                            const BiasPart* part, std::vector<float> edges)
-    : PlacementStage(point.frame,
-                     PlacementCounts(Placements(point.settings.map.placements), probe, part, std::move(edges))),
+    : PlacementStage(technique.frame,
+                     PlacementCounts(Placements(technique.settings.map.placements), probe, part, std::move(edges))),
       truth_(truth.receivers),
-      map_(point.settings.map),
-      bias_(point.settings.bias),
-      probe_(counts_.placements(), probe, positions_of(renderer, counts_.placements(), probe, point)),
-      rays_(tracer.placements(view.receivers, truth.receivers, point.frame, counts_.placements(), point.settings.map,
-                              Bias(point.settings.bias), polygon_offset_unit(renderer, point.settings))) {}
+      map_(technique.settings.map),
+      bias_(technique.bias),
+      probe_(counts_.placements(), probe, positions_of(renderer, counts_.placements(), probe, technique)),
+      rays_(tracer.placements(view.receivers, truth.receivers, technique.frame, counts_.placements(),
+                              technique.settings.map, technique.bias, polygon_offset_unit(renderer, technique))) {}
 
 template <class Visit>
 void LatticeStage::in_parts(PixelRange strip, size_t points, const Visit& visit) const {
@@ -102,8 +102,8 @@ void LatticeStage::compare(const LookupEvidence& evidence, int placement, PixelR
 }
 
 TurnStage::TurnStage(const PlacementInput& input, const BiasPart* part, std::vector<float> edges)
-    : PlacementStage(input.point.frame, PlacementCounts(Placements(input.point.settings.map.placements), input.probe,
-                                                        part, std::move(edges))),
+    : PlacementStage(input.technique.frame, PlacementCounts(Placements(input.technique.settings.map.placements),
+                                                            input.probe, part, std::move(edges))),
       in_(input),
       first_(counts_.empty_copy_of_one()) {}
 
@@ -113,11 +113,10 @@ void TurnStage::finish() {
   if (first_.receivers() == 0) return;  // nothing can be judged
   counts_.put(0, first_);
   for (int placement = 1; placement < counts_.placements().count(); ++placement) {
-    const LightFrame turned = frame(placement);
-    const PointSetup point{in_.point.settings, turned};
-    LookupStage lookup = in_.stages.prepare_lookup(in_.renderer, in_.tracer, in_.view, in_.truth, point);
+    const Technique turned = in_.technique.at(frame(placement));
+    LookupStage lookup = in_.stages.prepare_lookup(in_.renderer, in_.tracer, in_.view, in_.truth, turned);
     PlacementCounts one = counts_.empty_copy_of_one();
-    each_strip_of(in_.renderer, lookup, in_.truth, point,
+    each_strip_of(in_.renderer, lookup, in_.truth, turned,
                   [&](const LookupEvidence& evidence, PixelRange strip) { count(evidence, strip, one); });
     counts_.put(placement, one);
     for (const StageTime& stage : {lookup.texel_stage, lookup.tap_stage}) {

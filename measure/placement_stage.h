@@ -51,7 +51,7 @@ struct PlacementInput {
   const LookupProbe& probe;  // of placement 0
   const ViewStage& view;
   const TruthStage& truth;
-  const PointSetup& point;
+  const Technique& technique;
 };
 
 // The stage for the kind of light. part and edges: as for PlacementCounts.
@@ -63,7 +63,7 @@ class LatticeStage final : public PlacementStage {
  public:
   // All arguments must outlive the stage.
   LatticeStage(gl::Renderer& renderer, const raytrace::Tracer& tracer, const LookupProbe& probe, const ViewStage& view,
-               const TruthStage& truth, const PointSetup& point, const BiasPart* part, std::vector<float> edges);
+               const TruthStage& truth, const Technique& technique, const BiasPart* part, std::vector<float> edges);
 
   void add(const LookupEvidence& evidence, PixelRange strip) override {
     add(evidence.taps, strip);

@@ -7,7 +7,6 @@
 #include "scenes/library.h"
 #include "scenes/scene_digest.h"
 #include "technique/casters.h"
-#include "technique/tap_pattern.h"
 
 namespace noonmark {
 namespace {
@@ -21,15 +20,16 @@ double scene_behind(const Scene& scene, const Camera& camera) {
 }
 
 // Traces the truth of this strip's taps, which replaces that of another strip.
-void bring_taps(gl::Renderer& renderer, LookupStage& lookup, const PointSetup& point, PixelRange strip) {
+void bring_taps(gl::Renderer& renderer, LookupStage& lookup, const Technique& technique, PixelRange strip) {
   lookup.taps = {};  // freed before the next is made, because it is large
-  if (!lookup.probe.holds(strip)) renderer.probe_strip(lookup.probe, point.frame, point.settings, strip);
+  if (!lookup.probe.holds(strip)) renderer.probe_strip(lookup.probe, technique, strip);
   lookup.taps = lookup.rays->trace_taps(lookup.probe, strip, lookup.edge_distance_texels, &lookup.tap_stage);
   if (lookup.strips.size() == 1) lookup.rays.reset();  // not needed again
 }
 
-LookupEvidence evidence_of(const LookupStage& l, const TruthStage& truth, const ShownStage& shown, const Settings& s) {
-  return {truth.receivers, l.probe, l.taps, l.exact_depth, s.map, Bias(s.bias), shown.r4, shown.r5};
+LookupEvidence evidence_of(const LookupStage& l, const TruthStage& truth, const ShownStage& shown,
+                           const Technique& technique) {
+  return {truth.receivers, l.probe, l.taps, l.exact_depth, technique.settings.map, technique.bias, shown.r4, shown.r5};
 }
 
 bool is_kept(size_t map_texels) { return map_texels * sizeof(float) <= most_kept_map_bytes; }
@@ -48,9 +48,10 @@ void keep_small(gl::Renderer& renderer, std::optional<gl::ShadowMap>& map) {
   renderer.release_deleted();
 }
 
-std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t kept_bytes) {
-  const auto width = static_cast<size_t>(settings.view.width_px), height = static_cast<size_t>(settings.view.height_px);
-  const size_t row_bytes = width * static_cast<size_t>(tap_pattern(settings.filter).taps) * bytes_per_tap(light);
+std::vector<PixelRange> strips_of(const Technique& technique, size_t kept_bytes) {
+  const ViewSettings& view = technique.settings.view;
+  const auto width = static_cast<size_t>(view.width_px), height = static_cast<size_t>(view.height_px);
+  const size_t row_bytes = width * static_cast<size_t>(technique.taps.taps) * bytes_per_tap(technique.frame.kind);
   const size_t rows = row_bytes * height <= kept_bytes
                           ? height
                           : std::clamp<size_t>(kept_bytes / strips_in_kept_taps / row_bytes, 1, height);
@@ -59,19 +60,19 @@ std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, siz
   return strips;
 }
 
-void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const PointSetup& point,
+void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const Technique& technique,
                    const EachStrip& each_strip) {
   const ShownStage nothing;
-  const LookupEvidence evidence = evidence_of(lookup, truth, nothing, point.settings);
+  const LookupEvidence evidence = evidence_of(lookup, truth, nothing, technique);
   for (const PixelRange& strip : lookup.strips) {
-    if (lookup.rays) bring_taps(renderer, lookup, point, strip);
+    if (lookup.rays) bring_taps(renderer, lookup, technique, strip);
     each_strip(evidence, strip);
   }
-  keep_small_index(renderer, point.frame);
+  keep_small_index(renderer, technique.frame);
 }
 
-double polygon_offset_unit(gl::Renderer& renderer, const Settings& settings) {
-  return Bias(settings.bias).polygon_offset() ? renderer.polygon_offset_unit(settings.map.format) : 0;
+double polygon_offset_unit(gl::Renderer& renderer, const Technique& technique) {
+  return technique.bias.polygon_offset() ? renderer.polygon_offset_unit(technique.settings.map.format) : 0;
 }
 
 SceneStage Pipeline::load_scene(gl::Renderer& renderer, const Settings& settings) {
@@ -106,38 +107,36 @@ ViewStage Pipeline::take_view(gl::Renderer& renderer, const Scene& scene, const 
           {{"clipped", clipped}, {"culled", culled}, {"scene_behind", scene_behind(scene, camera)}}};
 }
 
-TruthStage Pipeline::trace_truth(const SceneStage& scene, const ViewStage& view, const PointSetup& point) {
+TruthStage Pipeline::trace_truth(const SceneStage& scene, const ViewStage& view, const Technique& technique) {
   TruthStage made;
   made.receivers = scene.tracer->receiver_truth(
-      view.receivers, point.frame, {effective_light(*scene.scene, point.settings), point.settings.truth.standard_error},
-      &made.hard, &made.soft);
+      view.receivers, technique.frame,
+      {effective_light(*scene.scene, technique.settings), technique.settings.truth.standard_error}, &made.hard,
+      &made.soft);
   return made;
 }
 
-MapStage Pipeline::draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point) {
+MapStage Pipeline::draw_map(gl::Renderer& renderer, const Scene& scene, const Technique& technique) {
   std::vector<glm::vec3> casters;
-  if (const Bias bias(point.settings.bias); moves_casters(point.settings.map, bias))
-    casters = caster_positions(scene, point.frame, point.settings.map, bias);
+  if (technique.moves_casters())
+    casters = caster_positions(scene, technique.frame, technique.settings.map, technique.bias);
   MapStage stage;
-  stage.map.emplace(renderer.render_map(point.frame, point.settings, nullptr, casters));
+  stage.map.emplace(renderer.render_map(technique, nullptr, casters));
   return stage;
 }
 
 LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
-                                     const TruthStage& truth, const PointSetup& point) {
-  const Settings& settings = point.settings;
-  const LightFrame& frame = point.frame;
-  const Bias bias(settings.bias);
-  std::vector<PixelRange> strips = strips_of(settings, frame.kind, kept_bytes_);
-  LookupProbe probe = renderer.probe(frame, settings, gl::ProbeTaps::none);
-  raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, frame, settings.map, bias,
-                                              polygon_offset_unit(renderer, settings));
+                                     const TruthStage& truth, const Technique& technique) {
+  std::vector<PixelRange> strips = strips_of(technique, kept_bytes_);
+  LookupProbe probe = renderer.probe(technique, gl::ProbeTaps::none);
+  raytrace::LookupTracer rays = tracer.lookup(view.receivers, truth.receivers, technique.frame, technique.settings.map,
+                                              technique.bias, polygon_offset_unit(renderer, technique));
   StageTime texel_stage;
   for (const PixelRange& strip : strips) {
-    renderer.probe_strip(probe, frame, settings, strip);
+    renderer.probe_strip(probe, technique, strip);
     rays.ask(probe, strip, &texel_stage);
   }
-  keep_small_index(renderer, frame);
+  keep_small_index(renderer, technique.frame);
   MapDepths depth = rays.trace_map(&texel_stage);
   return {.probe = std::move(probe),
           .exact_depth = std::move(depth),
@@ -150,41 +149,41 @@ LookupStage Pipeline::prepare_lookup(gl::Renderer& renderer, const raytrace::Tra
           .tap_stage = {}};
 }
 
-Image<float> Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point) {
-  return renderer.lookup(map, point.frame, point.settings);
+Image<float> Pipeline::look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const Technique& technique) {
+  return renderer.lookup(map, technique);
 }
 
 ShownStage Pipeline::show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
-                          const PointSetup& point) {
-  const MapSettings& settings = point.settings.map;
-  const MapShape shape = point.frame.map_shape();
+                          const Technique& technique) {
+  const MapSettings& settings = technique.settings.map;
+  const MapShape shape = technique.frame.map_shape();
   ShownStage shown;
-  shown.r5 = look_up(renderer, *map.map, point);
+  shown.r5 = look_up(renderer, *map.map, technique);
   shown.stored = renderer.read_map(*map.map, lookup.exact_depth.texels);
   keep_small(renderer, map.map);
 
   if (!lookup.exact_map) lookup.exact_map.emplace(renderer.upload_map(lookup.exact_depth, settings, shape));
-  shown.r4 = look_up(renderer, *lookup.exact_map, point);
+  shown.r4 = look_up(renderer, *lookup.exact_map, technique);
   keep_small(renderer, lookup.exact_map);
 
-  shown.ties = tie_map(evidence_of(lookup, truth, shown, point.settings));
+  shown.ties = tie_map(evidence_of(lookup, truth, shown, technique));
   std::optional<gl::ShadowMap> tie_map_on_device(renderer.upload_map(shown.ties, settings, shape));
-  shown.tie_lookup = look_up(renderer, *tie_map_on_device, point);
+  shown.tie_lookup = look_up(renderer, *tie_map_on_device, technique);
   keep_small(renderer, tie_map_on_device);
   return shown;
 }
 
 Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view,
-                               const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
+                               const TruthStage& truth, const ShownStage& shown, const Technique& technique,
                                const BiasPart* varied, const EachStrip& each_strip) {
-  const LookupEvidence evidence = evidence_of(lookup, truth, shown, point.settings);
+  const LookupEvidence evidence = evidence_of(lookup, truth, shown, technique);
   SoundnessCheck soundness(
-      {evidence, shown.stored, shown.ties, shown.tie_lookup, view.receivers, point.frame, view.camera.eye_m});
+      {evidence, shown.stored, shown.ties, shown.tie_lookup, view.receivers, technique.frame, view.camera.eye_m});
   Climbed climbed{empty_ladder(view.receivers.width(), view.receivers.height()), {}, {}};
   if (varied) climbed.counts.emplace(lookup.probe, *varied);
   if (lookup.rays) lookup.tap_stage = {};
   for (const PixelRange& strip : lookup.strips) {
-    if (lookup.rays) bring_taps(renderer, lookup, point, strip);
+    if (lookup.rays) bring_taps(renderer, lookup, technique, strip);
     Climb climbing(evidence, strip, climbed.ladder);
     if (climbed.counts) {
       BiasCounts::Adding counting(*climbed.counts, evidence, shown.stored);
@@ -194,7 +193,7 @@ Climbed Pipeline::climb_strips(gl::Renderer& renderer, LookupStage& lookup, cons
     }
     if (each_strip) each_strip(evidence, strip);
   }
-  keep_small_index(renderer, point.frame);
+  keep_small_index(renderer, technique.frame);
   climbed.soundness = soundness.metrics();
   return climbed;
 }

@@ -26,14 +26,9 @@
 #include "gl/renderer.h"
 #include "measure/memory_estimate.h"
 #include "raytrace/tracer.h"
+#include "technique/technique.h"
 
 namespace noonmark {
-
-// The inputs of one point of a sweep.
-struct PointSetup {
-  const Settings& settings;
-  const LightFrame& frame;  // make_light_frame(), or a placement of it (technique/placements.h)
-};
 
 struct SceneStage {
   std::unique_ptr<Scene> scene;  // the tracer refers to it
@@ -90,14 +85,14 @@ using EachStrip = std::function<void(const LookupEvidence&, PixelRange)>;
 
 // The whole picture, if the truth of its taps takes at most kept_bytes. Otherwise strips of whole rows: as many as have
 // room for their taps in a sixteenth of that (strips_in_kept_taps), at least one.
-std::vector<PixelRange> strips_of(const Settings& settings, LightKind light, size_t kept_bytes);
+std::vector<PixelRange> strips_of(const Technique& technique, size_t kept_bytes);
 
 // Traces the taps of a lookup strip by strip. The evidence has no pictures of OpenGL: its r4 and r5 are empty.
-void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const PointSetup& point,
+void each_strip_of(gl::Renderer& renderer, LookupStage& lookup, const TruthStage& truth, const Technique& technique,
                    const EachStrip& each_strip);
 
 // gl::Renderer::polygon_offset_unit, or 0 if the bias has no polygon offset.
-double polygon_offset_unit(gl::Renderer& renderer, const Settings& settings);
+double polygon_offset_unit(gl::Renderer& renderer, const Technique& technique);
 
 // Each virtual method is one stage as the program runs it. What a stage is given must outlive its result.
 class Pipeline {
@@ -109,20 +104,20 @@ class Pipeline {
   // Also uploads the scene to the renderer. Throws Error.
   virtual SceneStage load_scene(gl::Renderer& renderer, const Settings& settings);
   virtual ViewStage take_view(gl::Renderer& renderer, const Scene& scene, const ViewSettings& settings);
-  virtual TruthStage trace_truth(const SceneStage& scene, const ViewStage& view, const PointSetup& point);
+  virtual TruthStage trace_truth(const SceneStage& scene, const ViewStage& view, const Technique& technique);
   // scene: as the renderer has it.
-  virtual MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point);
+  virtual MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const Technique& technique);
   virtual LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
-                                     const TruthStage& truth, const PointSetup& point);
+                                     const TruthStage& truth, const Technique& technique);
   // One lookup of all receivers. show() calls it for each of its maps.
-  virtual Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point);
+  virtual Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const Technique& technique);
   // map: has its map; afterwards it and the exact map on the device are kept only if they are small.
   virtual ShownStage show(gl::Renderer& renderer, MapStage& map, LookupStage& lookup, const TruthStage& truth,
-                          const PointSetup& point);
+                          const Technique& technique);
   // Traces the taps strip by strip and books them. varied: the part of the bias that a curve varies, or null.
   // each_strip: called for each strip while its taps are at hand, or empty.
   virtual Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view,
-                               const TruthStage& truth, const ShownStage& shown, const PointSetup& point,
+                               const TruthStage& truth, const ShownStage& shown, const Technique& technique,
                                const BiasPart* varied, const EachStrip& each_strip = {});
 
  private:

@@ -17,7 +17,6 @@
 #include "measure/view_shading.h"
 #include "scenes/camera_frame.h"
 #include "scenes/scene_size.h"
-#include "technique/casters.h"
 #include "technique/cost.h"
 #include "technique/setting_rules.h"
 
@@ -72,22 +71,20 @@ void add_time(PointRecord& record, const std::string& stage, const StageTime& ti
 PointRecord record_of(const Measurement& m, const raytrace::Tracer& tracer, const ViewStage& view,
                       const TruthStage& truth, const LookupStage& lookup,
                       const std::map<std::string, double>& soundness) {
-  const Image<float> occluders = tracer.occluder_distance(m.receivers, m.frame, peter_panning_mask(m.ladder));
+  const Technique& t = m.technique;
+  const Image<float> occluders = tracer.occluder_distance(m.receivers, t.frame, peter_panning_mask(m.ladder));
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   PointRecord record;
-  record.settings = settings_map(m.settings);
-  const Bias bias(m.settings.bias);
-  const MeasureInput input{m.ladder,  m.receivers,
-                           m.frame,   m.probe,
-                           bias,      lookup.edge_distance_texels,
-                           occluders, moves_casters(m.settings.map, bias)};
+  record.settings = settings_map(t.settings);
+  const MeasureInput input{m.ladder,  m.receivers,      t.frame, m.probe, t.bias, lookup.edge_distance_texels,
+                           occluders, t.moves_casters()};
   record.metrics = measure_ladder(input);
   record.metrics.merge(
-      measure_laws({m.ladder, m.scene, m.receivers, m.camera, m.frame, m.settings.map.format, m.probe}));
+      measure_laws({m.ladder, m.scene, m.receivers, m.camera, t.frame, t.settings.map.format, m.probe}));
   record.metrics.insert(soundness.begin(), soundness.end());
   record.metrics.insert(view.metrics.begin(), view.metrics.end());
-  record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
-  add_cost(record, frame_cost(m.settings, m.frame.tiles, static_cast<int64_t>(record.metrics["facing"]),
+  record.metrics["shaded_rmse"] = shaded_rmse(m.receivers, t.frame, camera, m.ladder.truth(), m.ladder.shown());
+  add_cost(record, frame_cost(t.settings, t.frame.tiles, static_cast<int64_t>(record.metrics["facing"]),
                               static_cast<int64_t>(m.scene.triangles.size())));
   add_time(record, "hard_truth", truth.hard);
   add_time(record, "soft_truth", truth.soft);
@@ -127,6 +124,17 @@ struct Workbench::Impl {
     receivers_on_device.clear();
   }
 
+  struct Asked {
+    const SceneStage& loaded;
+    Technique technique;
+  };
+  // The settings' scene, loaded, and what the settings mean there. Throws before the scene is loaded where it can.
+  Asked begin(const Settings& settings) {
+    validate(settings);
+    const SceneStage& loaded = load(settings);
+    return {loaded, Technique(*loaded.scene, settings)};
+  }
+
   struct Looked {
     const ViewStage& view;
     const TruthStage& truth;
@@ -142,16 +150,17 @@ struct Workbench::Impl {
     return seen;
   }
   // The receivers and their truth.
-  Looked look(const SceneStage& loaded, const PointSetup& point) {
-    const ViewStage& seen = see(loaded, point.settings);
-    return {seen, truth.get(truth_key_of(point.settings), [&] { return stages->trace_truth(loaded, seen, point); })};
+  Looked look(const SceneStage& loaded, const Technique& technique) {
+    const ViewStage& seen = see(loaded, technique.settings);
+    return {seen,
+            truth.get(truth_key_of(technique.settings), [&] { return stages->trace_truth(loaded, seen, technique); })};
   }
 
   // The map of a point.
-  MapStage& drawn(const Scene& drawn_scene, const PointSetup& point) {
+  MapStage& drawn(const Scene& drawn_scene, const Technique& technique) {
     MapStage& stage =
-        map.get(map_key_of(point.settings), [&] { return stages->draw_map(renderer, drawn_scene, point); });
-    if (!stage.map) stage.map = stages->draw_map(renderer, drawn_scene, point).map;
+        map.get(map_key_of(technique.settings), [&] { return stages->draw_map(renderer, drawn_scene, technique); });
+    if (!stage.map) stage.map = stages->draw_map(renderer, drawn_scene, technique).map;
     return stage;
   }
 
@@ -161,7 +170,7 @@ struct Workbench::Impl {
   }
 
   void add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen, const TruthStage& traced,
-                      const PointSetup& point);
+                      const Technique& technique);
 
   LivePicture draw_live(const SceneStage& loaded, const Settings& settings);
 
@@ -214,12 +223,10 @@ const std::string& Workbench::scene_identity(const SceneSettings& settings) {
 }
 
 MemoryEstimate Workbench::memory(const Settings& settings, bool curve, bool pictures) {
-  validate(settings);
-  const SceneStage& loaded = impl_->load(settings);
-  const Scene& scene = *loaded.scene;
-  const LightFrame frame = make_light_frame(scene, settings);
-  return estimate_memory({settings, frame.kind, scene_size(scene), loaded.open_edges,
-                          outside_texels(scene, frame, settings.filter), curve, pictures});
+  const Impl::Asked asked = impl_->begin(settings);
+  const Scene& scene = *asked.loaded.scene;
+  return estimate_memory({settings, asked.technique.frame.kind, scene_size(scene), asked.loaded.open_edges,
+                          outside_texels(scene, asked.technique), curve, pictures});
 }
 
 AvailableMemory Workbench::memory_of_program(bool pictures) const {
@@ -229,12 +236,11 @@ AvailableMemory Workbench::memory_of_program(bool pictures) const {
 // Adds the metrics over all placements. OpenGL renders the worst placement too: the counts are compared with it, and what
 // it shows there is a metric of its own.
 void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placements, const ViewStage& seen,
-                                     const TruthStage& traced, const PointSetup& point) {
+                                     const TruthStage& traced, const Technique& technique) {
   const int worst = worst_placement(placements.counts());
   record.metrics.merge(placement_metrics(placements.counts(), placements.facts(worst)));
-  const LightFrame frame = placements.frame(worst);
-  const PointSetup moved{point.settings, frame};
-  const SceneStage& loaded = load(point.settings);
+  const Technique moved = technique.at(placements.frame(worst));
+  const SceneStage& loaded = load(technique.settings);
   LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, moved);
   MapStage drawn = stages->draw_map(renderer, *loaded.scene, moved);
   const ShownStage shown = stages->show(renderer, drawn, asked, traced, moved);
@@ -255,18 +261,15 @@ void Workbench::Impl::add_placements(PointRecord& record, PlacementStage& placem
 
 PhaseDiagram Workbench::phase(const Settings& settings, const PhaseOptions& options, const PhaseDiagram* measured,
                               const RowDone& row_done) {
-  validate(settings);
-  const SceneStage& loaded = impl_->load(settings);
-  const LightFrame frame = make_light_frame(*loaded.scene, settings);
-  const auto [view, truth] = impl_->look(loaded, {settings, frame});
+  const auto [loaded, technique] = impl_->begin(settings);
+  const auto [view, truth] = impl_->look(loaded, technique);
   if (measured) return rejudged_phase(*measured, *loaded.scene, view, truth, settings, options);
   return measure_phase(impl_->renderer, *loaded.tracer, *loaded.scene, view, truth, settings, options, row_done);
 }
 
 std::vector<PhasePlace> Workbench::places(const Settings& picture, std::span<const Settings> points) {
-  const SceneStage& loaded = impl_->load(picture);
-  const LightFrame frame = make_light_frame(*loaded.scene, picture);
-  const auto [view, truth] = impl_->look(loaded, {picture, frame});
+  const auto [loaded, technique] = impl_->begin(picture);
+  const auto [view, truth] = impl_->look(loaded, technique);
   // Each place reads medians over the receivers, and the points of a sweep share most of their maps.
   std::map<std::string, PhasePlace> of_one_unit;
   std::vector<PhasePlace> places;
@@ -286,23 +289,22 @@ std::vector<PhasePlace> Workbench::places(const Settings& picture, std::span<con
 
 // One attempt at a live picture, of the picture's size in the settings.
 LivePicture Workbench::Impl::draw_live(const SceneStage& loaded, const Settings& settings) {
-  const LightFrame frame = make_light_frame(*loaded.scene, settings);
-  const PointSetup point{settings, frame};
+  const Technique technique(*loaded.scene, settings);
   const ViewStage seen = stages->take_view(renderer, *loaded.scene, settings.view);
-  const TruthStage traced = stages->trace_truth(loaded, seen, point);
+  const TruthStage traced = stages->trace_truth(loaded, seen, technique);
   renderer.load_receivers(seen.receivers, seen.camera.eye_m);
-  LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, point);
+  LookupStage asked = stages->prepare_lookup(renderer, *loaded.tracer, seen, traced, technique);
   const MapDepths stored =
-      renderer.read_map(*stages->draw_map(renderer, *loaded.scene, point).map, asked.exact_depth.texels);
+      renderer.read_map(*stages->draw_map(renderer, *loaded.scene, technique).map, asked.exact_depth.texels);
   const BiasPart& varied = *curve_part(settings.bias);
   LivePicture picture = empty_live_picture(seen.receivers.width(), seen.receivers.height());
   picture.taps = asked.probe.taps();
   picture.parameter = "bias." + std::string(varied.name);
   picture.unit = find_setting("bias.unit").get(settings);
-  picture.scale = bias_scale(frame, seen.receivers, traced.receivers, settings.bias.unit);
+  picture.scale = bias_scale(technique.frame, seen.receivers, traced.receivers, settings.bias.unit);
   for (size_t i = 0; i < picture.flags.size(); ++i)
     if (seen.receivers.primitive[i] != no_primitive) picture.flags[i] = live_surface;
-  each_strip_of(renderer, asked, traced, point, [&](const LookupEvidence& evidence, PixelRange strip) {
+  each_strip_of(renderer, asked, traced, technique, [&](const LookupEvidence& evidence, PixelRange strip) {
     add_live_strip(picture, evidence, stored, settings.bias, varied, strip);
   });
   return picture;
@@ -329,70 +331,57 @@ std::optional<LivePicture> Workbench::live_picture(const Settings& settings) {
 }
 
 PassTimes Workbench::time_passes(const Settings& settings, bool map, bool lookup) {
-  validate(settings);
   Impl& b = *impl_;
-  const SceneStage& loaded = b.load(settings);
-  const LightFrame frame = make_light_frame(*loaded.scene, settings);
+  const auto [loaded, technique] = b.begin(settings);
   b.see(loaded, settings);
   b.lookup.forget();  // there may be no memory for another map
   b.map.forget();
   PassTimes times;
   std::vector<glm::vec3> casters;
-  if (const Bias bias(settings.bias); moves_casters(settings.map, bias))
-    casters = caster_positions(*loaded.scene, frame, settings.map, bias);
-  const gl::ShadowMap drawn = b.renderer.render_map(frame, settings, map ? &times.map_ms.emplace() : nullptr, casters);
-  if (lookup) b.renderer.lookup(drawn, frame, settings, &times.lookup_ms.emplace());
+  if (technique.moves_casters())
+    casters = caster_positions(*loaded.scene, technique.frame, settings.map, technique.bias);
+  const gl::ShadowMap drawn = b.renderer.render_map(technique, map ? &times.map_ms.emplace() : nullptr, casters);
+  if (lookup) b.renderer.lookup(drawn, technique, &times.lookup_ms.emplace());
   return times;
 }
 
 Measurement Workbench::measure(const Settings& settings, const std::optional<CurveOptions>& curve_options,
                                std::optional<RungOnTop> on_top) {
-  validate(settings);
   Impl& b = *impl_;
-  const SceneStage& loaded = b.load(settings);
+  const Impl::Asked asked = b.begin(settings);
+  const SceneStage& loaded = asked.loaded;
+  const Technique& technique = asked.technique;
   const Scene& scene = *loaded.scene;
-  const LightFrame frame = make_light_frame(scene, settings);
-  const PointSetup point{settings, frame};
 
-  const Impl::Looked looked = b.look(loaded, point);
+  const Impl::Looked looked = b.look(loaded, technique);
   const ViewStage& view = looked.view;  // named, because clang 14 lets no lambda capture a structured binding
   const TruthStage& truth = looked.truth;
   if (!b.lookup.has(lookup_key_of(settings))) b.free_large_map();
   LookupStage& lookup = b.lookup.get(lookup_key_of(settings), [&] {
-    return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, point);
+    return b.stages->prepare_lookup(b.renderer, *loaded.tracer, view, truth, technique);
   });
-  MapStage& map = b.drawn(scene, point);
-  ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, point);
+  MapStage& map = b.drawn(scene, technique);
+  ShownStage shown = b.stages->show(b.renderer, map, lookup, truth, technique);
 
   const BiasPart* const varied = curve_options && !on_top ? curve_part(settings.bias) : nullptr;
   const std::string curve_key = varied ? curve_key_of(settings, *varied, *curve_options) : "";
   const BiasPart* const unknown = varied && !b.curve.has(curve_key) ? varied : nullptr;
   // Only for a curve that is not known yet.
   const BiasScale scale =
-      unknown ? bias_scale(frame, view.receivers, truth.receivers, settings.bias.unit) : BiasScale();
+      unknown ? bias_scale(technique.frame, view.receivers, truth.receivers, settings.bias.unit) : BiasScale();
   std::unique_ptr<PlacementStage> placements;
   EachStrip each_strip;
   if (settings.map.placements > 1) {
     placements = make_placement_stage(
-        {*b.stages, b.renderer, *loaded.tracer, lookup.probe, view, truth, point}, unknown,
+        {*b.stages, b.renderer, *loaded.tracer, lookup.probe, view, truth, technique}, unknown,
         unknown ? placement_edges(biases_of(*curve_options), scale.depth_per_unit) : std::vector<float>());
     each_strip = [&](const LookupEvidence& evidence, PixelRange strip) { placements->add(evidence, strip); };
   }
-  Climbed climbed = b.stages->climb_strips(b.renderer, lookup, view, truth, shown, point, unknown, each_strip);
+  Climbed climbed = b.stages->climb_strips(b.renderer, lookup, view, truth, shown, technique, unknown, each_strip);
   if (placements) placements->finish();
   if (on_top) add_rung(climbed.ladder, std::move(*on_top));
-  Measurement m{{},
-                settings,
-                std::move(climbed.ladder),
-                frame,
-                view.camera,
-                scene,
-                view.receivers,
-                lookup.probe,
-                {},
-                std::move(shown.stored),
-                lookup.exact_depth,
-                {}};
+  Measurement m{{},           technique, std::move(climbed.ladder), view.camera,        scene, view.receivers,
+                lookup.probe, {},        std::move(shown.stored),   lookup.exact_depth, {}};
   m.record = record_of(m, *loaded.tracer, view, truth, lookup, climbed.soundness);
   if (varied && !nothing_judged(m.record))
     m.record.curve = b.curve.get(curve_key, [&] {
@@ -402,12 +391,12 @@ Measurement Workbench::measure(const Settings& settings, const std::optional<Cur
       return curve;
     });
   if (settings.view.motion.any()) {
-    m.flicker = trace_flicker({*b.stages, b.renderer, loaded, view, truth, point, shown.r5});
+    m.flicker = trace_flicker({*b.stages, b.renderer, loaded, view, truth, technique, shown.r5});
     m.record.metrics.merge(measure_flicker(*m.flicker));
   }
-  if (placements && !nothing_judged(m.record)) b.add_placements(m.record, *placements, view, truth, point);
-  m.stored_rows = [&b, &scene, frame, settings](int first_row, int count) {
-    return b.renderer.read_rows(*b.drawn(scene, {settings, frame}).map, first_row, count);
+  if (placements && !nothing_judged(m.record)) b.add_placements(m.record, *placements, view, truth, technique);
+  m.stored_rows = [&b, &scene, technique = technique](int first_row, int count) {
+    return b.renderer.read_rows(*b.drawn(scene, technique).map, first_row, count);
   };
   return m;
 }

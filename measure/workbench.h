@@ -22,9 +22,8 @@ namespace noonmark {
 // One measured point with the images behind its numbers. The references are valid until the bench's next measurement.
 struct Measurement {
   PointRecord record;  // without id and pictures
-  Settings settings;
+  Technique technique;
   Ladder ladder;
-  LightFrame frame;
   Camera camera;
   const Scene& scene;
   const ReceiverImage& receivers;

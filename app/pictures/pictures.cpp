@@ -77,7 +77,7 @@ Image<Color> frustum(const Measurement& m, const CameraFrame& camera) {
     const bool facing = m.ladder.flags[i] & flag_facing;
     return grey(0.35 + 0.5 * clay(m, i, facing ? m.ladder.truth()[i] : 0));
   });
-  draw_frustum(picture, m.frame, camera, m.receivers);
+  draw_frustum(picture, m.technique.frame, camera, m.receivers);
   return picture;
 }
 
@@ -164,7 +164,7 @@ Image<Color> motion_frame(const Measurement& m) {
 
 Image<Color> lit_picture(const Measurement& m) {
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
-  const Image<float> frame = shaded_frame(m.receivers, m.frame, camera, m.ladder.truth());
+  const Image<float> frame = shaded_frame(m.receivers, m.technique.frame, camera, m.ladder.truth());
   return paint(m, [&](size_t i) { return m.ladder.flags[i] & flag_facing ? grey(frame[i]) : facing_away; });
 }
 
@@ -178,11 +178,11 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
     const std::string digest = write_png(folder + "/" + file, picture);
     records.push_back({name, relative + "/" + file, caption, digest});
   };
-  const Light light = effective_light(m.scene, m.settings);
-  const bool sized = m.frame.light().disc_radius(light) > 0;
+  const Light light = effective_light(m.scene, m.technique.settings);
+  const bool sized = m.technique.frame.light().disc_radius(light) > 0;
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   const auto shaded_with = [&](const Image<float>& visibility) {
-    return shaded_frame(m.receivers, m.frame, camera, visibility);
+    return shaded_frame(m.receivers, m.technique.frame, camera, visibility);
   };
   add("truth", "The truth: one exact shadow ray for each pixel (R1).", shaded(m, m.ladder.truth()));
   if (sized) add("soft-truth", "The truth of the light with its size (R0).", shaded(m, m.ladder.soft_truth()));
@@ -200,14 +200,14 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
                     "same points of the world (middle), and what changed although the truth did not (right): the grid "
                     "moved (orange), depths were re-rounded (pink), the kernel turned (blue), "
                     "or the map's edge passed (green).",
-                    m.settings.view.motion.frame, m.settings.view.motion.frame + 1),
+                    m.technique.settings.view.motion.frame, m.technique.settings.view.motion.frame + 1),
         beside({shaded(m, m.flicker->now), shaded(m, m.flicker->next), changes(m)}));
   add("depth",
-      m.frame.map_shape() == MapShape::cube
+      m.technique.frame.map_shape() == MapShape::cube
           ? "The cube map unfolded, as it looks from outside: bright is near in metres, black is empty."
           : "The shadow map itself as the light sees it: bright is near in metres, black is empty.",
-      map_picture(m.stored_rows, m.frame));
-  add("frustum", std::string(m.frame.light().frustum_caption()), frustum(m, camera));
+      map_picture(m.stored_rows, m.technique.frame));
+  add("frustum", std::string(m.technique.frame.light().frustum_caption()), frustum(m, camera));
   const Image<float> truth = shaded_with(m.ladder.truth()), map = shaded_with(m.ladder.shown());
   add("shaded-truth", "Grey clay as a renderer shows it (Blinn-Phong), with the true shadow (R1).", greys(m, truth));
   if (sized)
@@ -220,7 +220,7 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
   Image<Color> apart(map.width, map.height);
   for (size_t i = 0; i < apart.size(); ++i)
     apart[i] = difference_color(std::abs(static_cast<double>(map[i]) - truth[i]));
-  const double rmse = shaded_rmse(m.receivers, m.frame, camera, m.ladder.truth(), m.ladder.shown());
+  const double rmse = shaded_rmse(m.receivers, m.technique.frame, camera, m.ladder.truth(), m.ladder.shown());
   add("shaded-difference",
       fmt::format("The absolute difference of the two shaded pictures in linear light, from dark (0) to bright (1). "
                   "Its root mean square over the receivers is {}.",

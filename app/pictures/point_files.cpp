@@ -32,12 +32,12 @@ Image<float> channel_of(const Image<T>& source, const Get& get) {
 void each_read(const Measurement& m, const auto& visit) {
   for (size_t i = 0; i < m.receivers.primitive.size(); ++i)
     if (m.receivers.primitive[i] != no_primitive)
-      visit(i, wrapped(m.probe.middle_texel(i), m.frame.map_size(), m.settings.map.wrap));
+      visit(i, wrapped(m.probe.middle_texel(i), m.technique.frame.map_size(), m.technique.settings.map.wrap));
 }
 
 // The stored map at these texels. Unlike m.stored_map, it has those of receivers that do not face the light too.
 MapDepths stored_where_read(const Measurement& m) {
-  const auto texels = std::make_shared<TexelSet>(m.frame.map_size());
+  const auto texels = std::make_shared<TexelSet>(m.technique.frame.map_size());
   each_read(m, [&](size_t, glm::ivec2 read) {
     if (read.x >= 0) texels->add(read);
   });
@@ -61,7 +61,7 @@ Image<float> depth_read(const Measurement& m, const MapDepths& map) {
 
 // The stored and the exact map, with the highest v on top.
 LargeImage map_image(const Measurement& m) {
-  const glm::ivec2 size = m.frame.map_size();
+  const glm::ivec2 size = m.technique.frame.map_size();
   return {{"depth.stored", "depth.exact"}, size.x, size.y, [&m, size](int first, int count, float* pixels) {
             const Image<float> stored = m.stored_rows(size.y - first - count, count);
             std::vector<float> exact(static_cast<size_t>(size.x));
@@ -102,8 +102,8 @@ nlohmann::json curve_json(const BiasCurve& curve) {
 }
 
 nlohmann::ordered_json light_json(const Measurement& m) {
-  const LightFrame& f = m.frame;
-  const Light light = effective_light(m.scene, m.settings);
+  const LightFrame& f = m.technique.frame;
+  const Light light = effective_light(m.scene, m.technique.settings);
   nlohmann::ordered_json json = {{"kind", f.light().name()},
                                  {"origin_m", vector_json(f.origin_m)},
                                  {"right", vector_json(f.right)},
@@ -199,7 +199,7 @@ std::string point_json(const Measurement& m, const std::string& command) {
                    {"vertices", m.scene.positions.size()},
                    {"notes", m.scene.notes}};
   for (const Setting& row : settings_table())
-    json["settings"][std::string(row.name)] = setting_json(row, row.get(m.settings));
+    json["settings"][std::string(row.name)] = setting_json(row, row.get(m.technique.settings));
   for (const Metric& metric : metrics_of({&m.record, 1})) {
     const auto found = m.record.metrics.find(std::string(metric.name));
     if (found != m.record.metrics.end()) json["metrics"][std::string(metric.name)] = number_json(found->second);

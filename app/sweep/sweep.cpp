@@ -141,7 +141,7 @@ ResultStore open_store(const ResultsFolder& folder, const std::string& fingerpri
 // Writes all picture files of a measured point. The measurement's images are gone afterwards.
 PointPictures pictures_of(Workbench& bench, const Measurement& m, int64_t id, const std::string& out) {
   PointPictures kept = keep_pictures(m, id, out);
-  if (const std::optional<LivePicture> live = bench.live_picture(m.settings))
+  if (const std::optional<LivePicture> live = bench.live_picture(m.technique.settings))
     kept.images.push_back(keep_live_picture(*live, id, out));
   return kept;
 }

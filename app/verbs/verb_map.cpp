@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "compare/report/phase.h"
 #include "measure/phase_diagram.h"
 #include "measure/workbench.h"
 #include "scenes/library.h"

@@ -46,7 +46,7 @@ Settings the_point(const Experiment& experiment, long point) {
 void print_placements(const Measurement& m) {
   const std::map<std::string, double>& metrics = m.record.metrics;
   if (!metrics.contains("error_mean")) return;
-  const int side = m.settings.map.placements;
+  const int side = m.technique.settings.map.placements;
   fmt::print("\n  {:<32}{:>12}{:>12}{:>12}\n", fmt::format("over {} placements of the grid", side * side), "mean",
              "worst", "p95");
   constexpr std::string_view ending = "_mean";
@@ -57,16 +57,16 @@ void print_placements(const Measurement& m) {
                100 * metrics.at(name + "_worst"), 100 * metrics.at(name + "_p95"));
   }
   std::vector<double> worst;
-  for (const PlacementFact& fact : m.frame.light().placement_facts(m.frame, Placements(side), 0))
+  for (const PlacementFact& fact : m.technique.frame.light().placement_facts(m.technique.frame, Placements(side), 0))
     worst.push_back(metrics.at(fmt::format("worst_{}", fact.name)));
-  fmt::print("  the worst is {}; OpenGL shows {:.5f}% error there\n", m.frame.light().placement_text(worst),
+  fmt::print("  the worst is {}; OpenGL shows {:.5f}% error there\n", m.technique.frame.light().placement_text(worst),
              100 * metrics.at("error_worst_shown"));
 }
 
 // "from frame 3 to frame 4", and a line for each metric.
 void print_flicker(const Measurement& m) {
   if (!m.flicker) return;
-  const int frame = m.settings.view.motion.frame;
+  const int frame = m.technique.settings.view.motion.frame;
   fmt::print("\n  {:<32}{:>11.0f} points\n", fmt::format("from frame {} to frame {}", frame, frame + 1),
              m.record.metrics.at("flicker_points"));
   if (const std::string why = why_no_flicker(m.record); !why.empty()) fmt::print("  {}\n", why);
@@ -112,7 +112,7 @@ void print_ladder(const Measurement& m, const char* clock) {
     fmt::print("\n  no bias curve: {}\n", why);
   if (!m.record.curve) return;
   const BiasCurve& c = *m.record.curve;
-  const char* there = m.frame.uniform() ? "" : " (m and texels at the median receiver)";
+  const char* there = m.technique.frame.uniform() ? "" : " (m and texels at the median receiver)";
   if (c.window_min_depth)
     fmt::print("\n  usable {}: {:.6g} ... {:.6g} depth = {:.4g} ... {:.4g} m = {:.4g} ... {:.4g} texels{}\n",
                c.parameter, *c.window_min_depth, *c.window_max_depth, *c.window_min_depth * c.m_per_depth,
@@ -123,16 +123,15 @@ void print_ladder(const Measurement& m, const char* clock) {
                c.peter_panning_bound);
   if (c.acne_free_bias_depth && c.parameter == "bias.constant") {
     fmt::print("  free of acne from: {:.6g} depth = {:.4g} m{}", *c.acne_free_bias_depth,
-               *c.acne_free_bias_depth * c.m_per_depth, m.frame.uniform() ? "" : " at the median receiver");
+               *c.acne_free_bias_depth * c.m_per_depth, m.technique.frame.uniform() ? "" : " at the median receiver");
     // The law's bias in the parameter's own unit, which each receiver converts to depth by itself. The law does not
     // include the effect of other parts of the bias.
-    const Bias bias(m.settings.bias);
-    if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset() ||
-        moves_casters(m.settings.map, bias))
+    const Bias& bias = m.technique.bias;
+    if (bias.compared().size() > 1 || bias.moves_lookup() || bias.polygon_offset() || m.technique.moves_casters())
       fmt::print(", on top of the other parts");
-    else if (m.frame.uniform() || m.settings.bias.unit == BiasUnit::m)
+    else if (m.technique.frame.uniform() || m.technique.settings.bias.unit == BiasUnit::m)
       fmt::print("; by law 1 the planes in the picture need {:.4g} m", value("acne_free_bias_law_m"));
-    else if (m.settings.bias.unit == BiasUnit::depth)
+    else if (m.technique.settings.bias.unit == BiasUnit::depth)
       fmt::print("; by law 1 the planes in the picture need {:.4g} depth", value("acne_free_bias_law_depth"));
     fmt::print("\n");
   }
@@ -175,7 +174,7 @@ int verb_render(const std::string& path, long point, const std::string& picture,
   if (const std::string note = notes_line(m.scene); !note.empty()) fmt::print("  note: {}\n", printable(note));
   if (const std::string note = map_fit_note(m.scene, settings); !note.empty())
     fmt::print("  note: {}\n", printable(note));
-  for (const IdleSetting& idle : idle_settings(m.frame.kind, settings))
+  for (const IdleSetting& idle : idle_settings(m.technique.frame.kind, settings))
     fmt::print("  note: {} has no effect {}\n", idle.name, idle.why);
   if (!part.bounds.empty() || !part.laws.empty())
     fmt::print("  note: render judges no bounds and no laws; noonmark check does\n");

@@ -53,7 +53,7 @@ TEST(Wall, ShowsPeterPanningOfTheSizeOfLaw2) {
                                                 {"map.resolution", "2048"}},
                                                small("wall", 960, 540)),
                                           std::nullopt);
-      const glm::dvec3 to_light = m.frame.direction_to_light();
+      const glm::dvec3 to_light = m.technique.frame.direction_to_light();
       const glm::dvec2 trace = -glm::normalize(glm::dvec2(to_light.x, to_light.z));  // the direction of the shadows
       const double b = std::stod(bias_m), t = std::stod(thickness);
       const double sin_theta = std::sqrt(1 - to_light.y * to_light.y), cos_psi = trace.x;
@@ -63,7 +63,7 @@ TEST(Wall, ShowsPeterPanningOfTheSizeOfLaw2) {
       // trace, and which of them are wrong.
       double measured = 0;
       uint64_t between = 0, behind = 0;
-      const double texel_on_floor = m.frame.texel_m(glm::dvec3(0)) / to_light.y;
+      const double texel_on_floor = m.technique.frame.texel_m(glm::dvec3(0)) / to_light.y;
       for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {
         const glm::vec3 p = m.receivers.position[i];
         if (m.receivers.primitive[i] >= 2 || !(m.ladder.flags[i] & flag_facing))

@@ -105,9 +105,9 @@ TEST_P(EveryScene, StepsAddUpAtEveryReceiver) {
     EXPECT_LE(metric(m, "tap_residual"), rounding_of_steps);
     EXPECT_EQ(metric(m, "contract"), 0) << "the GPU's verdicts must equal the technique's definition bit for bit";
     EXPECT_LE(metric(m, "rounding_excess"), 1);
-    EXPECT_LE(metric(m, "map_bits"), m.settings.map.format == DepthFormat::d16   ? 16
-                                     : m.settings.map.format == DepthFormat::d24 ? 24
-                                                                                 : 32);
+    EXPECT_LE(metric(m, "map_bits"), m.technique.settings.map.format == DepthFormat::d16   ? 16
+                                     : m.technique.settings.map.format == DepthFormat::d24 ? 24
+                                                                                           : 32);
     EXPECT_LT(metric(m, "ambiguous"), 0.001);
     for (const auto& [name, value] : m.record.metrics) EXPECT_TRUE(std::isfinite(value)) << name;
   }
@@ -214,7 +214,7 @@ TEST(Acceptance, RoundingChoosesTheFaceOfATurnedCube) {
   int on_the_edge = 0;
   for (size_t i = 0; i < m.receivers.position.size(); ++i) {
     if (!(m.ladder.flags[i] & flag_facing)) continue;
-    const glm::dvec3 along = glm::abs(m.frame.in_cube(m.frame.to_light(m.receivers.position[i])));
+    const glm::dvec3 along = glm::abs(m.technique.frame.in_cube(m.technique.frame.to_light(m.receivers.position[i])));
     on_the_edge += std::abs(along.x - along.z) < 1e-6 && along.x > along.y;
   }
   EXPECT_GT(on_the_edge, 20);
@@ -283,8 +283,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(all_scenes()), sc
 struct CountsKept : Pipeline {
   CountsKept(const BiasPart& part, std::optional<BiasCounts>& to) : varied(part), counts(to) {}
   Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view, const TruthStage& truth,
-                       const ShownStage& shown, const PointSetup& point, const BiasPart*, const EachStrip&) override {
-    Climbed climbed = Pipeline::climb_strips(renderer, lookup, view, truth, shown, point, counts ? nullptr : &varied);
+                       const ShownStage& shown, const Technique& technique, const BiasPart*,
+                       const EachStrip&) override {
+    Climbed climbed =
+        Pipeline::climb_strips(renderer, lookup, view, truth, shown, technique, counts ? nullptr : &varied);
     if (climbed.counts) counts = climbed.counts;
     return climbed;
   }

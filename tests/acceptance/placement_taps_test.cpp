@@ -44,22 +44,21 @@ class Placed {
   }
 
   Compared compare(const Settings& settings, int side) {
-    const LightFrame frame = make_light_frame(*scene_.scene, settings);
-    const PointSetup point{settings, frame};
+    const Technique technique(*scene_.scene, settings);
+    const LightFrame& frame = technique.frame;
     const ViewStage view = pipeline_.take_view(renderer_, *scene_.scene, settings.view);
-    const TruthStage truth = pipeline_.trace_truth(scene_, view, point);
+    const TruthStage truth = pipeline_.trace_truth(scene_, view, technique);
     renderer_.load_receivers(view.receivers, view.camera.eye_m);
-    const Bias bias(settings.bias);
 
     const Placements placements(side);
-    const LookupProbe probe = renderer_.probe(frame, settings);
+    const LookupProbe probe = renderer_.probe(technique);
     std::vector<Image<glm::vec2>> positions;
     for (int i = 0; i < side; ++i)
-      positions.push_back(renderer_.probe(placements.frame(frame, i * side + i), settings).map_texels);
+      positions.push_back(renderer_.probe(technique.at(placements.frame(frame, i * side + i))).map_texels);
     const PlacedProbe placed(placements, probe, std::move(positions));
     raytrace::PlacementTracer together =
-        scene_.tracer->placements(view.receivers, truth.receivers, frame, placements, settings.map, bias,
-                                  polygon_offset_unit(renderer_, settings));
+        scene_.tracer->placements(view.receivers, truth.receivers, frame, placements, settings.map, technique.bias,
+                                  polygon_offset_unit(renderer_, technique));
     together.trace(placed, {0, truth.receivers.facing.size()});
     std::vector<LatticeBox> boxes(truth.receivers.facing.size());
     PlacedTaps taps;
@@ -74,8 +73,7 @@ class Placed {
       Settings one = settings;
       one.map.shift_u_texels += placements.shift_texels(p).x;
       one.map.shift_v_texels += placements.shift_texels(p).y;
-      const LightFrame moved = make_light_frame(*scene_.scene, one);
-      const PointSetup alone{one, moved};
+      const Technique alone(*scene_.scene, one);
       LookupStage lookup = pipeline_.prepare_lookup(renderer_, *scene_.tracer, view, truth, alone);
       each_strip_of(renderer_, lookup, truth, alone, [&](const LookupEvidence& evidence, PixelRange strip) {
         for (size_t i = strip.first; i < strip.end; ++i) {

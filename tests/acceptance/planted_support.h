@@ -49,28 +49,28 @@ class DefectivePipeline : public Pipeline {
     return Pipeline::take_view(sound, scene, settings);
   }
 
-  MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point) override {
+  MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const Technique& technique) override {
     Scene drawn_scene = scene;
     if (defect_.drawn_scene) defect_.drawn_scene(drawn_scene);
     renderer.load_scene(drawn_scene);
-    LightFrame frame = point.frame;
-    Settings drawn = point.settings;
+    LightFrame frame = technique.frame;
+    Settings drawn = technique.settings;
     if (defect_.drawn_map) defect_.drawn_map(frame, drawn.map);
     if (defect_.drawn_bias) defect_.drawn_bias(drawn.bias);
     MapStage made = Pipeline::draw_map(renderer, drawn_scene, {drawn, frame});
     if (defect_.edited_map) {
-      made.map.emplace(
-          renderer.upload_map(defect_.edited_map(renderer.read_map(*made.map)), point.settings.map, frame.map_shape()));
+      made.map.emplace(renderer.upload_map(defect_.edited_map(renderer.read_map(*made.map)), technique.settings.map,
+                                           frame.map_shape()));
     }
     return made;
   }
 
   // A map keeps the wrap mode that it was made with, so another wrap mode needs another map.
-  Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const PointSetup& point) override {
-    const PointSetup asked{asked_, point.frame};
-    if (asked_.map.wrap == point.settings.map.wrap) return Pipeline::look_up(renderer, map, asked);
-    return Pipeline::look_up(renderer, renderer.upload_map(renderer.read_map(map), asked_.map, point.frame.map_shape()),
-                             asked);
+  Image<float> look_up(gl::Renderer& renderer, const gl::ShadowMap& map, const Technique& technique) override {
+    const Technique asked(asked_, technique.frame);
+    if (asked_.map.wrap == technique.settings.map.wrap) return Pipeline::look_up(renderer, map, asked);
+    return Pipeline::look_up(
+        renderer, renderer.upload_map(renderer.read_map(map), asked_.map, technique.frame.map_shape()), asked);
   }
 
  private:

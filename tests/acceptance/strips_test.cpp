@@ -65,9 +65,9 @@ TEST(StripsOfAScene, AreForgottenWithIt) {
   struct CountedLookups : Pipeline {
     explicit CountedLookups(int& count) : Pipeline(1), count_(count) {}
     LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
-                               const TruthStage& truth, const PointSetup& point) override {
+                               const TruthStage& truth, const Technique& technique) override {
       ++count_;
-      return Pipeline::prepare_lookup(renderer, tracer, view, truth, point);
+      return Pipeline::prepare_lookup(renderer, tracer, view, truth, technique);
     }
     int& count_;
   };

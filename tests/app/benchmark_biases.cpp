@@ -97,26 +97,26 @@ class Bench final : public Pipeline {
     scene_ = &scene;
     return timed(once_.receivers, [&] { return Pipeline::take_view(renderer, scene, settings); });
   }
-  TruthStage trace_truth(const SceneStage& scene, const ViewStage& view, const PointSetup& point) override {
-    return timed(once_.truth, [&] { return Pipeline::trace_truth(scene, view, point); });
+  TruthStage trace_truth(const SceneStage& scene, const ViewStage& view, const Technique& technique) override {
+    return timed(once_.truth, [&] { return Pipeline::trace_truth(scene, view, technique); });
   }
-  MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const PointSetup& point) override {
-    return timed(once_.map, [&] { return Pipeline::draw_map(renderer, scene, point); });
+  MapStage draw_map(gl::Renderer& renderer, const Scene& scene, const Technique& technique) override {
+    return timed(once_.map, [&] { return Pipeline::draw_map(renderer, scene, technique); });
   }
   LookupStage prepare_lookup(gl::Renderer& renderer, const raytrace::Tracer& tracer, const ViewStage& view,
-                             const TruthStage& truth, const PointSetup& point) override {
+                             const TruthStage& truth, const Technique& technique) override {
     return timed(once_.lookup, [&] {
-      LookupStage lookup = Pipeline::prepare_lookup(renderer, tracer, view, truth, point);
-      each_strip_of(renderer, lookup, truth, point, [](const LookupEvidence&, PixelRange) {});
+      LookupStage lookup = Pipeline::prepare_lookup(renderer, tracer, view, truth, technique);
+      each_strip_of(renderer, lookup, truth, technique, [](const LookupEvidence&, PixelRange) {});
       return lookup;
     });
   }
   Climbed climb_strips(gl::Renderer& renderer, LookupStage& lookup, const ViewStage& view, const TruthStage& truth,
-                       const ShownStage& shown, const PointSetup& point, const BiasPart* varied,
+                       const ShownStage& shown, const Technique& technique, const BiasPart* varied,
                        const EachStrip& each_strip) override {
     if (lookup.strips.size() != 1) throw std::logic_error("the taps do not fit into one strip");
-    compare_ways({renderer, lookup, view, truth, shown, point, *varied});
-    return Pipeline::climb_strips(renderer, lookup, view, truth, shown, point, varied, each_strip);
+    compare_ways({renderer, lookup, view, truth, shown, technique, *varied});
+    return Pipeline::climb_strips(renderer, lookup, view, truth, shown, technique, varied, each_strip);
   }
 
  private:
@@ -126,7 +126,7 @@ class Bench final : public Pipeline {
     const ViewStage& view;
     const TruthStage& truth;
     const ShownStage& shown;
-    const PointSetup& point;
+    const Technique& technique;
     const BiasPart& varied;
   };
   // All taps of the receivers that a curve counts, as a loop over biases reads them.
@@ -140,7 +140,7 @@ class Bench final : public Pipeline {
     for (size_t i = 0; i < s.truth.receivers.facing.size(); ++i) {
       if (!s.truth.receivers.facing[i] || s.truth.receivers.ambiguous[i]) continue;
       ReceiverTaps taps;
-      taps.read(s.lookup.probe, s.lookup.taps, s.point.settings.map, s.shown.stored, i);
+      taps.read(s.lookup.probe, s.lookup.taps, s.technique.settings.map, s.shown.stored, i);
       for (size_t t = 0; t < taps.size(); ++t) {
         all.reference.push_back(taps[t].always_lit ? 0 : taps[t].reference);
         all.depth.push_back(taps[t].depth);
@@ -176,24 +176,23 @@ class Bench final : public Pipeline {
 void Bench::compare_ways(const Stages& s) {
   constexpr int drawn = 10, looped = 20;  // at so many biases the other ways run
   const CurveOptions options = thousand_biases();
-  const BiasScale scale = bias_scale(s.point.frame, s.view.receivers, s.truth.receivers, BiasUnit::depth);
+  const BiasScale scale = bias_scale(s.technique.frame, s.view.receivers, s.truth.receivers, BiasUnit::depth);
   const CachedTaps taps = cached(s);
-  const gl::ShadowMap drawn_map = s.renderer.render_map(s.point.frame, s.point.settings);
+  const gl::ShadowMap drawn_map = s.renderer.render_map(s.technique);
   double kept = 0;  // so that nothing is optimised away
-  const LookupEvidence evidence{
-      s.truth.receivers,           s.lookup.probe, s.lookup.taps, s.lookup.exact_depth, s.point.settings.map,
-      Bias(s.point.settings.bias), s.shown.r4,     s.shown.r5};
+  const LookupEvidence evidence{s.truth.receivers,        s.lookup.probe,   s.lookup.taps, s.lookup.exact_depth,
+                                s.technique.settings.map, s.technique.bias, s.shown.r4,    s.shown.r5};
   const PixelRange all{0, s.truth.receivers.facing.size()};
   std::optional<BiasCounts> counts;
   const auto at_biases = [&](int count, const auto& visit) {
     for (int k = 0; k < count; ++k) {
-      Settings settings = s.point.settings;
+      Settings settings = s.technique.settings;
       settings.bias["constant"] = 1e-4 * k;
       kept += visit(settings);
     }
   };
   const auto look_up = [&](const gl::ShadowMap& map, const Settings& settings) {
-    return error_of(s.truth.receivers, s.renderer.lookup(map, s.point.frame, settings));
+    return error_of(s.truth.receivers, s.renderer.lookup(map, {settings, s.technique.frame}));
   };
   const auto times = test::run_in_turns(
       rounds_, {[&] {
@@ -209,7 +208,7 @@ void Bench::compare_ways(const Stages& s) {
                   at_biases(drawn, [&](const Settings& settings) {
                     kept +=
                         s.renderer.render_primitives(s.view.camera, settings.view.width_px, settings.view.height_px)[0];
-                    return look_up(s.renderer.render_map(s.point.frame, settings), settings);
+                    return look_up(s.renderer.render_map({settings, s.technique.frame}), settings);
                   });
                 },
                 [&] { at_biases(drawn, [&](const Settings& settings) { return look_up(drawn_map, settings); }); },
@@ -219,7 +218,7 @@ void Bench::compare_ways(const Stages& s) {
   std::vector<double> added;  // by the curve, round by round
   for (size_t r = 0; r < times[0].size(); ++r) added.push_back(times[1][r] - times[0][r]);
   const std::vector<double> ms = test::medians(times);
-  fmt::print("{}, {}: {} taps of {} receivers\n", name_, s.point.settings.filter.kind, taps.reference.size(),
+  fmt::print("{}, {}: {} taps of {} receivers\n", name_, s.technique.settings.filter.kind, taps.reference.size(),
              taps.reference.size() / static_cast<size_t>(s.lookup.probe.taps()));
   print(test::median(added), ms[2], ms[3] * biases / drawn, ms[4] * biases / drawn, ms[5] * biases / looped);
   if (kept == 0) fmt::print("no wrong tap at any bias\n");

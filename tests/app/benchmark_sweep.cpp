@@ -88,10 +88,10 @@ class FloorOfPoints {
       timed(floor_.maps, [&] { map_.emplace(pipeline_.draw_map(renderer_, *scene_.scene, {settings, frame})); });
     if (first(settings, {Stage::scene, Stage::view, Stage::lookup}, "lookup")) {
       std::optional<LookupProbe> probe;
-      timed(floor_.lookups, [&] { probe.emplace(renderer_.probe(frame, settings)); });
+      timed(floor_.lookups, [&] { probe.emplace(renderer_.probe({settings, frame})); });
       cast(tap_rays(frame, light, *probe));
     }
-    timed(floor_.lookups, [&] { renderer_.lookup(*map_->map, frame, settings); });
+    timed(floor_.lookups, [&] { renderer_.lookup(*map_->map, {settings, frame}); });
   }
 
   using Rays = std::vector<raytrace::BareRays::Ray>;

@@ -194,7 +194,7 @@ TEST(OutsideTexels, AreThoseThatTheSceneReaches) {
   settings.scene.name = "cube-room";
   settings.map.fit = MapFit::tight;
   const Scene scene = make_scene(settings.scene);
-  const auto outside = [&] { return outside_texels(scene, make_light_frame(scene, settings), settings.filter); };
+  const auto outside = [&] { return outside_texels(scene, Technique(scene, settings)); };
   const double resolution = settings.map.resolution;
   EXPECT_LT(outside(), 8.1 * resolution) << "a rim of two texels around a map that covers the whole scene";
   settings.map.extent_scale = 0.5;

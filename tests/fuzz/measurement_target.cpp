@@ -214,9 +214,10 @@ void require_curve(const Measurement& m) {
       require(value >= 0 && value <= 1 + rounding, fmt::format("a curve's value is {}", value));
   if (curve.window_min_depth)
     require(*curve.window_min_depth <= *curve.window_max_depth, "a window that ends before it begins");
-  if (curve.parameter != "bias.constant" || m.settings.bias.unit != BiasUnit::depth) return;
+  if (curve.parameter != "bias.constant" || m.technique.settings.bias.unit != BiasUnit::depth) return;
   // The point's own bias is the last one requested (below). There the curve must equal the measurement.
-  const auto at_bias = std::find(curve.bias_depth.begin(), curve.bias_depth.end(), m.settings.bias["constant"]);
+  const auto at_bias =
+      std::find(curve.bias_depth.begin(), curve.bias_depth.end(), m.technique.settings.bias["constant"]);
   if (at_bias == curve.bias_depth.end()) return;
   const auto i = static_cast<size_t>(at_bias - curve.bias_depth.begin());
   const auto same = [&](const char* name, double found) {

@@ -55,7 +55,7 @@ void render_map(benchmark::State& state) {
   b.settings.map.resolution = static_cast<int>(state.range(0));
   double ms = 0, sum = 0;
   for (auto _ : state) {
-    b.renderer.render_map(make_light_frame(b.scene, b.settings), b.settings, &ms);
+    b.renderer.render_map({b.scene, b.settings}, &ms);
     sum += ms;
   }
   state.counters["pass_ms"] = sum / static_cast<double>(state.iterations());
@@ -64,7 +64,7 @@ void render_map(benchmark::State& state) {
 void read_map(benchmark::State& state) {
   Bench b(100);
   b.settings.map.resolution = static_cast<int>(state.range(0));
-  const ShadowMap map = b.renderer.render_map(make_light_frame(b.scene, b.settings), b.settings);
+  const ShadowMap map = b.renderer.render_map({b.scene, b.settings});
   for (auto _ : state) benchmark::DoNotOptimize(b.renderer.read_map(map).pixels.data());
 }
 
@@ -81,10 +81,10 @@ void lookup(benchmark::State& state) {
   if (state.range(0) == 1) b.settings.filter.kind = "none";
   b.load_receivers();
   const LightFrame frame = make_light_frame(b.scene, b.settings);
-  const ShadowMap map = b.renderer.render_map(frame, b.settings);
+  const ShadowMap map = b.renderer.render_map({b.settings, frame});
   double ms = 0, sum = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(b.renderer.lookup(map, frame, b.settings, &ms).pixels.data());
+    benchmark::DoNotOptimize(b.renderer.lookup(map, {b.settings, frame}, &ms).pixels.data());
     sum += ms;
   }
   state.counters["pass_ms"] = sum / static_cast<double>(state.iterations());
@@ -94,7 +94,7 @@ void probe(benchmark::State& state) {
   Bench b(100);
   b.load_receivers();
   const LightFrame frame = make_light_frame(b.scene, b.settings);
-  for (auto _ : state) benchmark::DoNotOptimize(b.renderer.probe(frame, b.settings).reference.pixels.data());
+  for (auto _ : state) benchmark::DoNotOptimize(b.renderer.probe({b.settings, frame}).reference.pixels.data());
 }
 
 // A cube: all six faces, by one pass and by six.
@@ -105,7 +105,7 @@ void render_cube(benchmark::State& state) {
   b.settings.map.cube_pass = static_cast<CubePass>(state.range(0));
   double ms = 0, sum = 0;
   for (auto _ : state) {
-    b.renderer.render_map(make_light_frame(b.scene, b.settings), b.settings, &ms);
+    b.renderer.render_map({b.scene, b.settings}, &ms);
     sum += ms;
   }
   state.counters["pass_ms"] = sum / static_cast<double>(state.iterations());
@@ -122,7 +122,7 @@ void probe_cube(benchmark::State& state) {
   state.SetLabel(b.settings.filter.kind);
   b.load_receivers();
   const LightFrame frame = make_light_frame(b.scene, b.settings);
-  for (auto _ : state) benchmark::DoNotOptimize(b.renderer.probe(frame, b.settings).cube_texel.data());
+  for (auto _ : state) benchmark::DoNotOptimize(b.renderer.probe({b.settings, frame}).cube_texel.data());
 }
 
 BENCHMARK(primitives)

@@ -85,10 +85,10 @@ TEST(GlLife, CallsLeaveNothingBehind) {
     const auto primitives = renderer.render_primitives(scene.camera, width, 8);
     renderer.load_receivers(resolve_receivers(scene, scene.camera, primitives), frame.direction_to_light());
     double ms = 0;
-    const ShadowMap map = renderer.render_map(frame, settings, &ms);
+    const ShadowMap map = renderer.render_map({settings, frame}, &ms);
     const ShadowMap copy = renderer.upload_map(renderer.read_map(map), settings.map);
-    renderer.lookup(copy, frame, settings, &ms);
-    renderer.probe(frame, settings);
+    renderer.lookup(copy, {settings, frame}, &ms);
+    renderer.probe({settings, frame});
   };
   everything(8);
   const int before = live_objects();

@@ -47,7 +47,7 @@ TEST_F(GlTest, SpotDepthOfATiltedPlane) {
       settings.map.format = DepthFormat::d32f;
       settings.map.shift_u_texels = shift;
       const LightFrame frame = make_light_frame(scene, settings);
-      const Image<float> map = renderer.read_map(renderer.render_map(frame, settings));
+      const Image<float> map = renderer.read_map(renderer.render_map({settings, frame}));
       double worst = 0;
       for (int j = 0; j < 64; ++j)
         for (int i = 0; i < 64; ++i) {
@@ -102,7 +102,7 @@ TEST_F(GlTest, CubeFacesLieWhereTheFrameSays) {
           triangles_around({1, 5, -2}, make_light_frame(triangles_around({1, 5, -2}), settings).cube_axes);
       renderer.load_scene(scene);
       const LightFrame frame = make_light_frame(scene, settings);
-      const ShadowMap shadow_map = renderer.render_map(frame, settings);
+      const ShadowMap shadow_map = renderer.render_map({settings, frame});
       EXPECT_EQ(shadow_map.resolution(), 48);
       const Image<float> map = renderer.read_map(shadow_map);
       ASSERT_EQ(glm::ivec2(map.width, map.height), frame.map_size());
@@ -176,9 +176,9 @@ TEST_F(GlTest, OneLayeredPassIsSixPasses) {
         const LightFrame frame = make_light_frame(scene, settings);
         double layered_ms = -1, six_ms = -1;
         settings.map.cube_pass = CubePass::layered;
-        const Image<float> layered = renderer.read_map(renderer.render_map(frame, settings, &layered_ms));
+        const Image<float> layered = renderer.read_map(renderer.render_map({settings, frame}, &layered_ms));
         settings.map.cube_pass = CubePass::six_passes;
-        const Image<float> six = renderer.read_map(renderer.render_map(frame, settings, &six_ms));
+        const Image<float> six = renderer.read_map(renderer.render_map({settings, frame}, &six_ms));
         EXPECT_TRUE(std::isfinite(layered_ms) && layered_ms > 0);
         EXPECT_TRUE(std::isfinite(six_ms) && six_ms > 0);
         ASSERT_EQ(layered.size(), six.size());
@@ -227,13 +227,13 @@ TEST_F(GlTest, AMapOfAnotherKindIsADefect) {
   settings.map.resolution = 8;
   const LightFrame frame = make_light_frame(scene, settings);
   const ShadowMap flat = renderer.upload_map(Image<float>(8, 8, 1.0f), settings.map);
-  EXPECT_EQ(kind_thrown([&] { renderer.lookup(flat, frame, settings); }), static_cast<int>(ErrorKind::defect));
+  EXPECT_EQ(kind_thrown([&] { renderer.lookup(flat, {settings, frame}); }), static_cast<int>(ErrorKind::defect));
   EXPECT_EQ(kind_thrown([&] { renderer.upload_map(Image<float>(8, 40, 1.0f), settings.map, MapShape::cube); }),
             static_cast<int>(ErrorKind::defect));
   EXPECT_EQ(kind_thrown([&] { renderer.upload_map(Image<float>(8, 48, 1.0f), settings.map, MapShape::flat); }),
             static_cast<int>(ErrorKind::defect));
   settings.filter.kind = "box";
-  EXPECT_EQ(kind_thrown([&] { renderer.probe(frame, settings); }), static_cast<int>(ErrorKind::usage));
+  EXPECT_EQ(kind_thrown([&] { renderer.probe({settings, frame}); }), static_cast<int>(ErrorKind::usage));
 }
 
 TEST_F(GlTest, TooLargeACubeIsAUsageErrorThatNamesTheLimit) {
@@ -243,10 +243,10 @@ TEST_F(GlTest, TooLargeACubeIsAUsageErrorThatNamesTheLimit) {
   frame.kind = LightKind::point;
   frame.resolution = 4097;
   std::string message;
-  EXPECT_EQ(kind_thrown([&] { renderer.render_map(frame, settings); }, &message), static_cast<int>(ErrorKind::usage));
+  EXPECT_EQ(kind_thrown([&] { renderer.render_map({settings, frame}); }, &message), static_cast<int>(ErrorKind::usage));
   EXPECT_NE(message.find("4096"), std::string::npos) << message;
   EXPECT_NE(message.find("map.resolution"), std::string::npos) << message;
-  EXPECT_EQ(kind_thrown([&] { renderer.probe(frame, settings); }), static_cast<int>(ErrorKind::usage));
+  EXPECT_EQ(kind_thrown([&] { renderer.probe({settings, frame}); }), static_cast<int>(ErrorKind::usage));
 }
 
 }  // namespace

@@ -40,10 +40,10 @@ TEST_P(GlLookupOnHostTest, EqualsTheHost) {
   Met met;
   for (const Settings& settings : drawn.settings) {
     const LightFrame frame = make_light_frame(drawn.scene, settings);
-    const ShadowMap map = renderer.render_map(frame, settings);
-    const LookupProbe probe = renderer.probe(frame, settings);
+    const ShadowMap map = renderer.render_map({settings, frame});
+    const LookupProbe probe = renderer.probe({settings, frame});
     const Image<double> host = lookup_on_host(probe, receivers, renderer.read_map(map), settings, met);
-    const Image<float> gpu = renderer.lookup(map, frame, settings);
+    const Image<float> gpu = renderer.lookup(map, {settings, frame});
     const double allowed = probe.pattern.bilinear() ? sampler_error(renderer.info()) : 0;
     ASSERT_EQ(gpu.size(), host.size());
     size_t different = 0, first = 0;
@@ -108,11 +108,11 @@ TEST_F(GlLookupTest, AllLitIsOneAndAllDarkIsNought) {
         if (kind_thrown([&] { validate(settings, kind); })) continue;
         compared.insert({kind, settings.filter.kind});
         const LightFrame frame = make_light_frame(scene, settings);
-        const LookupProbe probe = renderer.probe(frame, settings);
+        const LookupProbe probe = renderer.probe({settings, frame});
         for (const float depth : {0.0f, 1.0f}) {
           const ShadowMap map =
               renderer.upload_map(Image<float>(64, frame.map_size().y, depth), settings.map, frame.map_shape());
-          const Image<float> seen = renderer.lookup(map, frame, settings);
+          const Image<float> seen = renderer.lookup(map, {settings, frame});
           for (size_t i = 0; i < seen.size(); ++i) {
             if (probe.bias_unit[i] == 0 || probe.reference[i] <= 0) continue;
             ASSERT_EQ(seen[i], depth) << describe(settings);
@@ -145,7 +145,7 @@ TEST_F(GlLookupTest, ATieIsLit) {
       if (kind_thrown([&] { validate(settings, kind); })) continue;
       load(scene, 1, 1);
       const LightFrame frame = make_light_frame(scene, settings);
-      const float reference = renderer.probe(frame, settings).reference[0];
+      const float reference = renderer.probe({settings, frame}).reference[0];
       ASSERT_GT(reference, 0);
       const auto seen_with = [&](float depth) {
         return renderer.lookup(
@@ -181,7 +181,7 @@ TEST_F(GlLookupTest, AnEdgeThroughEachFilter) {
   const ShadowMap map = renderer.upload_map(half, settings.map);
   const auto row = [&](FilterSettings filter) {
     settings.filter = filter;
-    return renderer.lookup(map, frame, settings);
+    return renderer.lookup(map, {settings, frame});
   };
   // Along one axis: P at `at` texels is lit by the share of its taps that lie in texels 8 and up.
   const auto expect_edge = [&](FilterSettings filter, auto&& lit_at) {
@@ -229,18 +229,18 @@ TEST_F(GlLookupTest, PlaneFormsFreeAPlaneOfAcne) {
     settings.filter.kind = "box";
     settings.filter["size"] = 5;
     const LightFrame frame = make_light_frame(scene, settings);
-    const ShadowMap map = renderer.render_map(frame, settings);
+    const ShadowMap map = renderer.render_map({settings, frame});
     const auto dark_share = [&](const char* reference, double constant) {
       settings.bias.reference = reference;
       settings.bias["constant"] = constant;
-      const Image<float> seen = renderer.lookup(map, frame, settings);
+      const Image<float> seen = renderer.lookup(map, {settings, frame});
       double dark = 0;
       for (float s : seen.pixels) dark += 1 - static_cast<double>(s);
       return dark / static_cast<double>(seen.size());
     };
     // Half a texel of the steepest depth gradient that any receiver has, along both axes.
     settings.bias.reference = "receiver_plane";
-    const LookupProbe probe = renderer.probe(frame, settings);
+    const LookupProbe probe = renderer.probe({settings, frame});
     double half_texel = 0;
     for (size_t i = 0; i < probe.gradient.size(); ++i) {
       ASSERT_NE(receivers.primitive[i], no_primitive);
@@ -270,8 +270,8 @@ TEST_F(GlLookupTest, TurnsAtTheExactFloat) {
   settings.map.near_m = 0;
   settings.map.far_m = 30;
   const LightFrame frame = make_light_frame(scene, settings);
-  const ShadowMap map = renderer.render_map(frame, settings);
-  const LookupProbe probe = renderer.probe(frame, settings);
+  const ShadowMap map = renderer.render_map({settings, frame});
+  const LookupProbe probe = renderer.probe({settings, frame});
   const Image<float> stored = renderer.read_map(map);
   int turned = 0;
   for (size_t i = 0; i < receivers.primitive.size() && turned < 40; i += 17) {
@@ -282,9 +282,9 @@ TEST_F(GlLookupTest, TurnsAtTheExactFloat) {
     while (reference - bias > z) bias = std::nextafter(bias, 1.0f);
     while (!(reference - std::nextafter(bias, 0.0f) > z)) bias = std::nextafter(bias, 0.0f);
     settings.bias["constant"] = bias;
-    EXPECT_EQ(renderer.lookup(map, frame, settings)[i], 1.0f) << bias;
+    EXPECT_EQ(renderer.lookup(map, {settings, frame})[i], 1.0f) << bias;
     settings.bias["constant"] = std::nextafter(bias, 0.0f);
-    EXPECT_EQ(renderer.lookup(map, frame, settings)[i], 0.0f) << bias;
+    EXPECT_EQ(renderer.lookup(map, {settings, frame})[i], 0.0f) << bias;
     ++turned;
   }
   EXPECT_EQ(turned, 40);
@@ -307,7 +307,7 @@ TEST_F(GlLookupTest, OutsideTheMap) {
     settings.map.wrap = wrap;
     const LightFrame frame = make_light_frame(scene, settings);
     const ShadowMap map = renderer.upload_map(Image<float>(8, 8, 0.25f), settings.map);
-    const Image<float> visibility = renderer.lookup(map, frame, settings);
+    const Image<float> visibility = renderer.lookup(map, {settings, frame});
     EXPECT_EQ(visibility.at(8, 8), settings.map.far_m == 20 ? 0.0f : 1.0f)
         << "inside the map: dark, or beyond far and lit";
     return visibility.at(0, 15);
@@ -331,10 +331,10 @@ TEST_F(GlLookupTest, BeyondFarIsLitOnlyWhenAsked) {
   settings.map.near_m = 0;
   settings.map.far_m = 5;
   const LightFrame frame = make_light_frame(scene, settings);
-  const ShadowMap map = renderer.render_map(frame, settings);  // empty: all 1, and the reference is 2
-  EXPECT_EQ(renderer.lookup(map, frame, settings).at(4, 4), 1.0f);
+  const ShadowMap map = renderer.render_map({settings, frame});  // empty: all 1, and the reference is 2
+  EXPECT_EQ(renderer.lookup(map, {settings, frame}).at(4, 4), 1.0f);
   settings.map.lit_beyond_far = false;
-  EXPECT_EQ(renderer.lookup(map, frame, settings).at(4, 4), 0.0f);
+  EXPECT_EQ(renderer.lookup(map, {settings, frame}).at(4, 4), 0.0f);
 }
 
 TEST_F(GlLookupTest, ReceiversThatAreNotFiniteAreDark) {
@@ -355,8 +355,8 @@ TEST_F(GlLookupTest, ReceiversThatAreNotFiniteAreDark) {
   const LightFrame frame = make_light_frame(scene, settings);
   renderer.load_receivers(receivers, {0, 5, 5});
   const ShadowMap map = renderer.upload_map(Image<float>(2, 2, 1.0f), settings.map);
-  EXPECT_EQ(renderer.lookup(map, frame, settings).pixels, (std::vector<float>{1, 0, 0, 0, 0, 0}));
-  const LookupProbe probe = renderer.probe(frame, settings);
+  EXPECT_EQ(renderer.lookup(map, {settings, frame}).pixels, (std::vector<float>{1, 0, 0, 0, 0, 0}));
+  const LookupProbe probe = renderer.probe({settings, frame});
   for (size_t i = 1; i < 6; ++i) EXPECT_EQ(probe.reference[i], 0.0f) << i;
 }
 
@@ -376,10 +376,10 @@ TEST_F(GlLookupTest, ReceiversWithoutAPlaceInTheMapAreDark) {
   const auto seen_by = [&](LightKind kind) {
     scene.light.kind = kind;
     const LightFrame frame = make_light_frame(scene, settings);
-    const LookupProbe probe = renderer.probe(frame, settings);
+    const LookupProbe probe = renderer.probe({settings, frame});
     for (size_t i = 0; i < 4; ++i) EXPECT_TRUE(std::isfinite(probe.n_dot_l[i]) && std::isfinite(probe.reference[i]));
     const Image<float> open(4, frame.map_size().y, 1.0f);
-    return renderer.lookup(renderer.upload_map(open, settings.map, frame.map_shape()), frame, settings).pixels;
+    return renderer.lookup(renderer.upload_map(open, settings.map, frame.map_shape()), {settings, frame}).pixels;
   };
   EXPECT_EQ(seen_by(LightKind::spot), (std::vector<float>{1, 0, 0, 0}));
   EXPECT_EQ(seen_by(LightKind::point), (std::vector<float>{1, 1, 1, 0}));
@@ -395,7 +395,7 @@ TEST_F(GlLookupTest, TimesArePositiveAndDifferentSizesFollowEachOther) {
   for (const int width : {32, 200, 32}) {
     load(scene, width, 24);
     double ms = -1;
-    const Image<float> seen = renderer.lookup(renderer.render_map(frame, settings), frame, settings, &ms);
+    const Image<float> seen = renderer.lookup(renderer.render_map({settings, frame}), {settings, frame}, &ms);
     EXPECT_EQ(seen.width, width);
     EXPECT_GT(ms, 0);
   }
@@ -409,13 +409,13 @@ TEST_F(GlLookupTest, TimesIncludeTheWork) {
   settings.map.resolution = 64;
   const LightFrame frame = make_light_frame(scene, settings);
   load(scene, 320, 180);
-  const ShadowMap map = renderer.render_map(frame, settings);
+  const ShadowMap map = renderer.render_map({settings, frame});
   const auto fastest = [&](FilterSettings filter) {
     settings.filter = filter;
     double best = INFINITY;
     for (int k = 0; k < 3; ++k) {
       double ms = 0;
-      renderer.lookup(map, frame, settings, &ms);
+      renderer.lookup(map, {settings, frame}, &ms);
       best = std::min(best, ms);
     }
     return best;
@@ -433,8 +433,7 @@ TEST_F(GlLookupTest, AMapOfAnotherResolutionIsADefect) {
   settings.map.resolution = 8;
   const ShadowMap map = renderer.upload_map(Image<float>(8, 8, 1.0f), settings.map);
   settings.map.resolution = 16;
-  EXPECT_EQ(kind_thrown([&] { renderer.lookup(map, make_light_frame(scene, settings), settings); }),
-            static_cast<int>(ErrorKind::defect));
+  EXPECT_EQ(kind_thrown([&] { renderer.lookup(map, {scene, settings}); }), static_cast<int>(ErrorKind::defect));
 }
 
 }  // namespace

@@ -25,10 +25,10 @@ TEST_F(GlTest, DepthClampKeepsWhatLiesBeforeNearAndBeyondFar) {
       scene.light.kind = kind;
       const LightFrame frame = make_light_frame(scene, settings);
       settings.map.depth_clamp = true;
-      Image<float> map = renderer.read_map(renderer.render_map(frame, settings));
+      Image<float> map = renderer.read_map(renderer.render_map({settings, frame}));
       EXPECT_EQ(map.at(8, 8), 0.0f);
       settings.map.depth_clamp = false;  // and clamping must be off again
-      map = renderer.read_map(renderer.render_map(frame, settings));
+      map = renderer.read_map(renderer.render_map({settings, frame}));
       EXPECT_EQ(map.at(8, 8), 1.0f);
     }
   // The lower floor lies beyond far. It is clamped to depth 1, which is also the depth of the cleared map. The upper
@@ -37,7 +37,7 @@ TEST_F(GlTest, DepthClampKeepsWhatLiesBeforeNearAndBeyondFar) {
   settings.map.far_m = 3;
   settings.map.depth_clamp = true;
   scene.light.kind = LightKind::directional;
-  const Image<float> map = renderer.read_map(renderer.render_map(make_light_frame(scene, settings), settings));
+  const Image<float> map = renderer.read_map(renderer.render_map({scene, settings}));
   EXPECT_EQ(map.at(8, 8), 0.5f);
   EXPECT_EQ(map.at(0, 0), 1.0f);
 }
@@ -55,7 +55,7 @@ TEST_F(GlTest, DepthClampOfACubeKeepsTheDistance) {
   settings.map.far_m = 8;
   settings.map.format = DepthFormat::d32f;
   const LightFrame frame = make_light_frame(scene, settings);
-  const auto below = [&] { return renderer.read_map(renderer.render_map(frame, settings)).at(8, 3 * 17 + 8); };
+  const auto below = [&] { return renderer.read_map(renderer.render_map({settings, frame})).at(8, 3 * 17 + 8); };
   EXPECT_EQ(below(), 1.0f);
   settings.map.depth_clamp = true;
   EXPECT_NEAR(below(), 0.25f, 1e-6f);  // a few float places
@@ -74,7 +74,7 @@ TEST_F(GlTest, AMapsOptionsEndWithItsPass) {
   settings.map.resolution = 4;
   settings.map.depth_clamp = true;
   settings.bias["polygon_factor"] = 1000;
-  renderer.render_map(make_light_frame(scene, settings), settings);
+  renderer.render_map({scene, settings});
   EXPECT_TRUE(renderer.render_primitives(camera_from_above(2), 8, 8).pixels == before);
   EXPECT_EQ(std::count(before.begin(), before.end(), 2u) + std::count(before.begin(), before.end(), 3u), 64)
       << "every pixel sees the tilted quad";
@@ -114,11 +114,11 @@ TEST_F(GlTest, PolygonOffsetFollowsItsFormula) {
         settings.map.format = format;
         const double quantum = format == DepthFormat::d16 ? 1.0 / 65535 : 1.0 / 16777215;
         settings.bias = {};
-        const Image<float> plain = renderer.read_map(renderer.render_map(frame, settings));
+        const Image<float> plain = renderer.read_map(renderer.render_map({settings, frame}));
         for (const auto& [factor, units] : {std::pair(0.0, 40.0), {3.0, 0.0}, {1.5, 70.0}, {0.0, 0.0}}) {
           settings.bias["polygon_factor"] = factor;
           settings.bias["polygon_units"] = units;
-          const Image<float> moved = renderer.read_map(renderer.render_map(frame, settings));
+          const Image<float> moved = renderer.read_map(renderer.render_map({settings, frame}));
           double worst = 0, steepest = 0;
           for (int j = 1; j < 63; ++j)
             for (int i = 1; i < 63; ++i) {
@@ -153,10 +153,10 @@ TEST_F(GlTest, PolygonOffsetLeavesACubeAlone) {
   settings.map.resolution = 32;
   const LightFrame frame = make_light_frame(scene, settings);
   settings.bias = {};
-  const Image<float> plain = renderer.read_map(renderer.render_map(frame, settings));
+  const Image<float> plain = renderer.read_map(renderer.render_map({settings, frame}));
   settings.bias["polygon_factor"] = 10;
   settings.bias["polygon_units"] = 1000;
-  EXPECT_TRUE(renderer.read_map(renderer.render_map(frame, settings)).pixels == plain.pixels);
+  EXPECT_TRUE(renderer.read_map(renderer.render_map({settings, frame})).pixels == plain.pixels);
   EXPECT_LT(*std::min_element(plain.pixels.begin(), plain.pixels.end()), 1.0f);
 }
 

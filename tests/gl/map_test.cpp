@@ -46,7 +46,7 @@ TEST_F(GlTest, DepthOfATiltedPlane) {
       const glm::dvec3 normal = glm::cross(b - a, c - a);
       for (const Format& f : formats) {
         settings.map.format = f.format;
-        const Image<float> map = renderer.read_map(renderer.render_map(frame, settings));
+        const Image<float> map = renderer.read_map(renderer.render_map({settings, frame}));
         double worst = 0;
         for (int j = 0; j < 64; ++j)
           for (int i = 0; i < 64; ++i) {
@@ -77,7 +77,7 @@ TEST_F(GlTest, FixedPointDepthsAreWholeQuanta) {
   const LightFrame frame = make_light_frame(scene, settings);
   for (const Format& f : {formats[0], formats[1]}) {
     settings.map.format = f.format;
-    for (float depth : renderer.read_map(renderer.render_map(frame, settings)).pixels) {
+    for (float depth : renderer.read_map(renderer.render_map({settings, frame})).pixels) {
       // A float near 0.5 has 24 bits: it cannot hold k / (2^24 - 1) better than to 2^-25.
       const double quanta = depth / f.quantum;
       ASSERT_NEAR(quanta, std::round(quanta), f.format == DepthFormat::d16 ? 0.01 : 0.5001) << f.name;
@@ -85,9 +85,9 @@ TEST_F(GlTest, FixedPointDepthsAreWholeQuanta) {
   }
   // A 16-bit map is really coarser: the slope's 32 depths, within 0.1 of the range, differ from the 24-bit ones.
   settings.map.format = DepthFormat::d16;
-  const Image<float> coarse = renderer.read_map(renderer.render_map(frame, settings));
+  const Image<float> coarse = renderer.read_map(renderer.render_map({settings, frame}));
   settings.map.format = DepthFormat::d24;
-  EXPECT_NE(coarse.pixels, renderer.read_map(renderer.render_map(frame, settings)).pixels);
+  EXPECT_NE(coarse.pixels, renderer.read_map(renderer.render_map({settings, frame})).pixels);
 }
 
 // The matrix clips: a surface before near or beyond far leaves no depth, and is not clamped either.
@@ -105,7 +105,7 @@ TEST_F(GlTest, NearAndFarClip) {
   const auto depths = [&](double near_m, double far_m) {
     settings.map.near_m = near_m;
     settings.map.far_m = far_m;
-    const Image<float> map = renderer.read_map(renderer.render_map(make_light_frame(scene, settings), settings));
+    const Image<float> map = renderer.read_map(renderer.render_map({scene, settings}));
     return std::pair(map.at(8, 8), map.at(0, 0));
   };
   constexpr float rounding = 1e-6f;  // a few float ulps of a depth near 1
@@ -134,7 +134,7 @@ TEST_F(GlTest, CullingChoosesTheStoredFace) {
   const LightFrame frame = make_light_frame(scene, settings);
   const auto stored = [&](CulledFaces cull) {
     settings.map.cull = cull;
-    return renderer.read_map(renderer.render_map(frame, settings)).at(3, 5);
+    return renderer.read_map(renderer.render_map({settings, frame})).at(3, 5);
   };
   constexpr float rounding = 1e-6f;
   EXPECT_NEAR(stored(CulledFaces::none), 0.6f, rounding);
@@ -167,7 +167,7 @@ TEST_F(GlTest, MapRowsRunUpwards) {
   settings.map.near_m = 0;
   settings.map.far_m = 20;
   const LightFrame frame = make_light_frame(scene, settings);
-  const Image<float> map = renderer.read_map(renderer.render_map(frame, settings));
+  const Image<float> map = renderer.read_map(renderer.render_map({settings, frame}));
   const glm::dvec3 middle = frame.to_light({0.55, 0.2, 0.8});
   const glm::ivec2 texel(glm::floor((glm::dvec2(middle) + 2.0) / frame.texel_m(glm::dvec3(0))));
   EXPECT_LT(map.at(texel.x, texel.y), 1.0f);
@@ -257,7 +257,7 @@ TEST_F(GlTest, TooLargeAMapIsAUsageErrorThatNamesTheLimit) {
   LightFrame frame;
   frame.resolution = limit + 1;
   std::string message;
-  EXPECT_EQ(kind_thrown([&] { renderer.render_map(frame, settings); }, &message), static_cast<int>(ErrorKind::usage));
+  EXPECT_EQ(kind_thrown([&] { renderer.render_map({settings, frame}); }, &message), static_cast<int>(ErrorKind::usage));
   EXPECT_NE(message.find(std::to_string(limit)), std::string::npos) << message;
   EXPECT_NE(message.find("map.resolution"), std::string::npos) << message;
 }
@@ -276,7 +276,7 @@ TEST_F(GlTest, TimesArePositiveAndGrowWithTheMap) {
     double best = INFINITY;
     for (int k = 0; k < 5; ++k) {
       double ms = -1;
-      renderer.render_map(make_light_frame(scene, settings), settings, &ms);
+      renderer.render_map({scene, settings}, &ms);
       EXPECT_GT(ms, 0);
       best = std::min(best, ms);
     }

@@ -28,25 +28,25 @@ TEST_F(GlProbeTest, MovesWithTheNormalOffsetAlone) {
     Settings settings;
     settings.map.resolution = 64;
     const LightFrame frame = make_light_frame(scene, settings);
-    const LookupProbe unmoved = renderer.probe(frame, settings);
+    const LookupProbe unmoved = renderer.probe({settings, frame});
     for (const BiasSettings& bias : every_bias()) {
       settings.bias = bias;
       if (kind_thrown([&] { validate(settings, kind); }) || Bias(bias).moves_lookup()) continue;
-      const LookupProbe probe = renderer.probe(frame, settings);
+      const LookupProbe probe = renderer.probe({settings, frame});
       for (size_t i = 0; i < receivers.primitive.size(); ++i) {
         ASSERT_TRUE(same_probe(probe, unmoved, i)) << bias_text_name(Bias(bias));
         ASSERT_TRUE(same_bits(probe.n_dot_l[i], unmoved.n_dot_l[i])) << bias_text_name(Bias(bias));
       }
     }
     settings.bias = bias_settings_of({{"normal_offset", 3}});
-    const LookupProbe moved = renderer.probe(frame, settings);
+    const LookupProbe moved = renderer.probe({settings, frame});
     ReceiverImage there = receivers;
     const Bias bias(settings.bias);
     for (size_t i = 0; i < there.position.size(); ++i)
       there.position[i] = glm::vec3(bias.looked_up(frame, receivers.position[i], receivers.normal[i]));
     renderer.load_receivers(there, scene.camera.eye_m);
     settings.bias = {};
-    const LookupProbe expected = renderer.probe(frame, settings);
+    const LookupProbe expected = renderer.probe({settings, frame});
     // Both places are floats of a few metres, each off by a few of its last places (2^-22 m). The map's 64 texels and
     // its depth change by less than 64 per metre.
     constexpr double float_error = 64 * 4 * 0x1p-22;
@@ -84,7 +84,7 @@ TEST_F(GlProbeTest, IsNearTheExactPlaces) {
         settings.filter["disk"] = 1;
       }
       const LightFrame frame = make_light_frame(scene, settings);
-      const LookupProbe probe = renderer.probe(frame, settings);
+      const LookupProbe probe = renderer.probe({settings, frame});
       EXPECT_EQ(probe.cube_resolution, kind == LightKind::point ? 512 : 0);
       EXPECT_EQ(probe.map_texels.size() > 0, kind != LightKind::point);
       EXPECT_EQ(probe.radius.size() > 0, kind == LightKind::point);
@@ -150,7 +150,7 @@ TEST_F(GlProbeTest, GradientIsThePlanes) {
     settings.map.resolution = 300;
     settings.bias.reference = "texel_plane";
     const LightFrame frame = make_light_frame(scene, settings);
-    const LookupProbe probe = renderer.probe(frame, settings);
+    const LookupProbe probe = renderer.probe({settings, frame});
     ASSERT_EQ(probe.gradient.size(), receivers.primitive.size());
     EXPECT_EQ(probe.tap_reference->name, "texel_plane");
     size_t seen = 0, tilted = 0;
@@ -197,7 +197,7 @@ TEST_F(GlProbeTest, CubeTapsFallWhereTheFrameSays) {
       settings.filter["disk"] = disk % 2;
       if (turned) settings.map.turn_deg = glm::dvec3(30, -100, 12);
       const LightFrame frame = make_light_frame(scene, settings);
-      const LookupProbe probe = renderer.probe(frame, settings);
+      const LookupProbe probe = renderer.probe({settings, frame});
       size_t taps = 0, elsewhere = 0, moved = 0;
       std::array<size_t, 6> faces{};
       for (size_t i = 0; i < receivers.primitive.size(); ++i) {
@@ -232,19 +232,19 @@ TEST_F(GlProbeTest, GivesTheSameTexelsInStrips) {
     settings.filter.kind = kind == LightKind::point ? "cube_disk" : "box";
     settings.filter["size"] = 3;
     const LightFrame frame = make_light_frame(scene, settings);
-    const LookupProbe whole = renderer.probe(frame, settings);
-    LookupProbe probe = renderer.probe(frame, settings, ProbeTaps::none);
+    const LookupProbe whole = renderer.probe({settings, frame});
+    LookupProbe probe = renderer.probe({settings, frame}, ProbeTaps::none);
     EXPECT_EQ(probe.holds({0, 64}), kind != LightKind::point) << "the texels of a flat map follow from P";
     for (size_t i = 0; i < receivers.primitive.size(); ++i)
       ASSERT_EQ(probe.middle_texel(i), whole.texel(i, whole.taps() / 2));
     for (const PixelRange strip : {PixelRange{64 * 20, 64 * 50}, {0, 64}, {64, 64 * 20}}) {
-      renderer.probe_strip(probe, frame, settings, strip);
+      renderer.probe_strip(probe, {settings, frame}, strip);
       ASSERT_TRUE(probe.holds(strip));
       for (size_t i = strip.first; i < strip.end; ++i)
         for (int tap = 0; tap < whole.taps(); ++tap) ASSERT_EQ(probe.texel(i, tap), whole.texel(i, tap));
     }
     if (kind == LightKind::point) {
-      EXPECT_THROW(renderer.probe_strip(probe, frame, settings, {1, 64}), std::logic_error);
+      EXPECT_THROW(renderer.probe_strip(probe, {settings, frame}, {1, 64}), std::logic_error);
     }
   }
 }

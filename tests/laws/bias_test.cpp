@@ -40,7 +40,7 @@ TEST(Law1, NeedsUpToHalfAQuantumOfAPlaneAcrossTheLight) {
                                                 {"map.resolution", "32"}},
                                                small("plane", 60, 34)),
                                           exact_window());
-      const double d = m.frame.tile(0).window_depth(10), range = metric(m, "map_range_m"),
+      const double d = m.technique.frame.tile(0).window_depth(10), range = metric(m, "map_range_m"),
                    q = metric(m, "depth_quantum_m");
       const double steps = range / q;
       const double rounded =

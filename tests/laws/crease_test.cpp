@@ -178,8 +178,8 @@ TEST(Law3Crease, LeavesAStripAtTheLitFootOfAWall) {
                       std::nullopt);
     const glm::dvec3 wall_normal(0, 0, -1), floor_normal(0, 1, 0);
     const auto reach = [&](glm::dvec3 n) {
-      return 0.5 * m.frame.texel_m(glm::dvec3(0)) *
-             (std::abs(glm::dot(n, m.frame.right)) + std::abs(glm::dot(n, m.frame.up)));
+      return 0.5 * m.technique.frame.texel_m(glm::dvec3(0)) *
+             (std::abs(glm::dot(n, m.technique.frame.right)) + std::abs(glm::dot(n, m.technique.frame.up)));
     };
     uint64_t acne = 0, outside = 0;
     for (size_t i = 0; i < m.receivers.primitive.size(); ++i) {

@@ -44,11 +44,11 @@ struct Shadow {
 // darkness.
 Shadow shadow_on_floor(const Measurement& m, size_t rung) {
   Shadow shadow;
-  const Image<double> areas = light_plane_areas(m.camera, m.frame, m.receivers);
+  const Image<double> areas = light_plane_areas(m.camera, m.technique.frame, m.receivers);
   for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
     if (!(m.ladder.flags[i] & flag_facing) || m.receivers.primitive[i] >= 2) continue;
     const glm::dvec3 p(m.receivers.position[i]);
-    const double area = areas[i] / glm::dot(m.frame.direction_to_light(p), glm::dvec3(0, 1, 0));
+    const double area = areas[i] / glm::dot(m.technique.frame.direction_to_light(p), glm::dvec3(0, 1, 0));
     shadow.centre += area * (1 - m.ladder.rungs[rung].lit[i]) * p;
     shadow.area_m2 += area * (1 - m.ladder.rungs[rung].lit[i]);
   }
@@ -109,10 +109,10 @@ TEST(Law7Cube, BlursByTheSumOfItsTapsWays) {
       exact += (4 * a * b * (1 + s * s) - 2 * shared) / m.probe.taps();
     }
     double found = 0;
-    const Image<double> areas = light_plane_areas(m.camera, m.frame, m.receivers);
+    const Image<double> areas = light_plane_areas(m.camera, m.technique.frame, m.receivers);
     for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
       if (!(m.ladder.flags[i] & flag_facing) || m.receivers.primitive[i] >= 2) continue;
-      const glm::dvec3 to_light = m.frame.direction_to_light(m.receivers.position[i]);
+      const glm::dvec3 to_light = m.technique.frame.direction_to_light(m.receivers.position[i]);
       found += areas[i] / to_light.y * std::abs(m.ladder[Rung::filtered][i] - m.ladder.truth()[i]);
     }
     std::cout << filter << ": blurred area " << found << " m2, by the law " << exact << "\n";

@@ -94,15 +94,15 @@ TEST(Law3, MovesShadowsTowardsTheLight) {
                                               {"bias.normal_offset", offset}},
                                              small("plate", 640, 360)),
                                         std::nullopt);
-    const glm::dvec3 to_light = m.frame.direction_to_light();
+    const glm::dvec3 to_light = m.technique.frame.direction_to_light();
     const double cosine = to_light.y, sine = std::sqrt(1 - cosine * cosine);
-    const double d = std::stod(offset) * m.frame.texel_m(glm::dvec3(0));
+    const double d = std::stod(offset) * m.technique.frame.texel_m(glm::dvec3(0));
     const glm::dvec3 away = -glm::normalize(glm::dvec3(to_light.x, 0, to_light.z));
     uint64_t floor = 0, displaced = 0, undecided = 0;
     glm::dvec3 truth_sum(0), map_sum(0);
     double truth_dark = 0, map_dark = 0;
     const Image<float>& step = m.ladder[Cause::displacement];
-    const Image<double> areas = light_plane_areas(m.camera, m.frame, m.receivers);
+    const Image<double> areas = light_plane_areas(m.camera, m.technique.frame, m.receivers);
     for (int y = 0; y < step.height; ++y) {
       for (int x = 0; x < step.width; ++x) {
         const size_t i = step.index(x, y);
@@ -113,8 +113,8 @@ TEST(Law3, MovesShadowsTowardsTheLight) {
         }
         const glm::dvec3 p = m.receivers.position[i], further = p + d * sine / cosine * away;
         const auto lit = [&](glm::dvec3 at) {
-          const bool in = in_plates_shadow(at, to_light, m.settings.scene, -1e-5),
-                     out = in_plates_shadow(at, to_light, m.settings.scene, 1e-5);
+          const bool in = in_plates_shadow(at, to_light, m.technique.settings.scene, -1e-5),
+                     out = in_plates_shadow(at, to_light, m.technique.settings.scene, 1e-5);
           undecided += in != out;  // float positions cannot decide here
           return in != out ? std::optional<float>() : std::optional<float>(in ? 0.0f : 1.0f);
         };
@@ -138,8 +138,8 @@ TEST(Law3, MovesShadowsTowardsTheLight) {
     const glm::dvec3 moved = map_sum / map_dark - truth_sum / truth_dark;
     std::cout << "d tan(theta) = " << d * sine / cosine << " m; the shadow moved by " << -glm::dot(moved, away)
               << " m towards the light and " << glm::length(moved - glm::dot(moved, away) * away) << " m aside\n";
-    EXPECT_NEAR(-glm::dot(moved, away), d * sine / cosine, 0.1 * m.frame.texel_m(glm::dvec3(0)) / cosine);
-    EXPECT_LT(glm::length(moved - glm::dot(moved, away) * away), 0.1 * m.frame.texel_m(glm::dvec3(0)));
+    EXPECT_NEAR(-glm::dot(moved, away), d * sine / cosine, 0.1 * m.technique.frame.texel_m(glm::dvec3(0)) / cosine);
+    EXPECT_LT(glm::length(moved - glm::dot(moved, away) * away), 0.1 * m.technique.frame.texel_m(glm::dvec3(0)));
     // Law 4 for the place looked up: half a texel's diagonal, and the rounding of the float address.
     EXPECT_LE(metric(m, "edge_displacement_texels"), std::sqrt(0.5) + 128 * 0x1p-22);
     EXPECT_GT(metric(m, "edge_displacement_texels"), 0.5);
@@ -174,7 +174,7 @@ TEST(Law3, DisplacesACubesShadowAndNothingElse) {
     ++panning;
     const glm::dvec3 p = m.receivers.position[i];
     const auto behind = [&](double distance, glm::dvec3 normal) {
-      return distance <= 0.5 * m.frame.texel_m(glm::dvec3(0)) * texel_axes_1(m.frame, normal);
+      return distance <= 0.5 * m.technique.frame.texel_m(glm::dvec3(0)) * texel_axes_1(m.technique.frame, normal);
     };
     away_from_corners += !behind(p.x - 1.5, {1, 0, 0}) && !behind(p.z - 0.5, {0, 0, 1});
   }
@@ -207,7 +207,7 @@ TEST(Law3, LosesAPlateBelowItsOffset) {
       const float truth = m.ladder[Rung::filtered][i] + m.ladder[Cause::displacement][i];
       if (m.receivers.primitive[i] >= 2 || !(m.ladder.flags[i] & flag_facing) || truth != 0) continue;
       const auto reach = [&](glm::dvec3 normal) {
-        return 0.5 * m.frame.texel_m(glm::dvec3(0)) * texel_axes_1(m.frame, normal);
+        return 0.5 * m.technique.frame.texel_m(glm::dvec3(0)) * texel_axes_1(m.technique.frame, normal);
       };
       const glm::dvec3 p = m.receivers.position[i];
       if (p.x + 0.8 < reach({1, 0, 0}) || p.z + 0.6 < reach({0, 0, 1})) continue;

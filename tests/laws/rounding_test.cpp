@@ -57,7 +57,8 @@ TEST(Law11Rounding, OccludersCastTheSameErrorsOnPieces) {
           double largest = 0;
           for (const glm::vec3& p : m.scene.positions)
             largest = std::max({largest, std::abs(double{p.x}), std::abs(double{p.y}), std::abs(double{p.z})});
-          const double borders = 2e-5 * size * size + size * 4 * 0x1p-23 * largest / m.frame.texel_m(glm::dvec3(0));
+          const double borders =
+              2e-5 * size * size + size * 4 * 0x1p-23 * largest / m.technique.frame.texel_m(glm::dvec3(0));
           EXPECT_LE(static_cast<double>(differ), 4 + borders * static_cast<double>(facing));
           EXPECT_LE(static_cast<double>(lost), 1e-3 * static_cast<double>(facing));
           EXPECT_LE(metric(m, "undecided_taps"), 1e-3);

@@ -43,8 +43,8 @@ TEST(Law4, EveryAliasedTapHasATrueEdgeNear) {
     // The shader's float matrix may put a receiver into the neighbouring texel if it lies within 2^-22 of the map's
     // size of the border, which is 200 * 2^-22 texels.
     EXPECT_LE(metric(m, "edge_displacement_texels"), std::numbers::sqrt2 / 2 + 200 * 0x1p-22);
-    const test::LightBins bins(m.scene, m.frame);
-    const double w = m.frame.texel_m(glm::dvec3(0));
+    const test::LightBins bins(m.scene, m.technique.frame);
+    const double w = m.technique.frame.texel_m(glm::dvec3(0));
     uint64_t checked = 0, other = 0;
     for (size_t i = 0; i < m.ladder.flags.size(); ++i) {
       const bool light = m.ladder[Cause::aliasing_light][i] != 0;
@@ -52,8 +52,8 @@ TEST(Law4, EveryAliasedTapHasATrueEdgeNear) {
       if (m.ladder.flags[i] & flag_ambiguous) continue;
       const glm::dvec3 world(m.receivers.position[i]);
       // The texel's centre from first principles: the light's axes, the map's corner, a step of w.
-      const glm::dvec3 from = world - m.frame.origin_m;
-      const glm::dvec2 p(glm::dot(from, m.frame.right), glm::dot(from, m.frame.up));
+      const glm::dvec3 from = world - m.technique.frame.origin_m;
+      const glm::dvec2 p(glm::dot(from, m.technique.frame.right), glm::dot(from, m.technique.frame.up));
       const glm::dvec2 c = (glm::dvec2(m.probe.texel(i, 0)) + 0.5) * w - 100 * w;
       EXPECT_LE(std::abs(c.x - p.x), w * (0.5 + 200 * 0x1p-22));
       EXPECT_LE(std::abs(c.y - p.y), w * (0.5 + 200 * 0x1p-22));

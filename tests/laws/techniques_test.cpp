@@ -84,7 +84,7 @@ TEST(Law1Filters, AskForTheirFurthestTap) {
       double reach = 0;
       for (const glm::vec3& o : pattern.offsets) reach = std::max(reach, -glm::dot(glm::dvec2(o), g));
       const double grid = (std::abs(g.x) + std::abs(g.y)) / 2;
-      const double per_texel = m.frame.texel_m(glm::dvec3(0)) * std::tan(radians(60));
+      const double per_texel = m.technique.frame.texel_m(glm::dvec3(0)) * std::tan(radians(60));
       ASSERT_TRUE(m.record.curve.has_value() && m.record.curve->acne_free_bias_depth.has_value());
       const double found = *m.record.curve->acne_free_bias_depth * m.record.curve->m_per_depth / per_texel;
       const double metric_law = metric(m, "acne_free_bias_law_m") / per_texel;
