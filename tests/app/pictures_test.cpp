@@ -63,7 +63,7 @@ class Pictures : public testing::Test {
         for (int x = 0; x < stored.width; ++x) band.at(x, y) = stored.at(x, first + y);
       return band;
     };
-    return {{},           settings,          ladder,    frame, camera, scene, receivers, probe,
+    return {{},           {settings, frame}, ladder,    camera, scene, receivers, probe,
             std::nullopt, MapDepths(stored), exact_map, rows};
   }
 

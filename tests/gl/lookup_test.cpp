@@ -149,8 +149,8 @@ TEST_F(GlLookupTest, ATieIsLit) {
       ASSERT_GT(reference, 0);
       const auto seen_with = [&](float depth) {
         return renderer.lookup(
-            renderer.upload_map(Image<float>(8, frame.map_size().y, depth), settings.map, frame.map_shape()), frame,
-            settings)[0];
+            renderer.upload_map(Image<float>(8, frame.map_size().y, depth), settings.map, frame.map_shape()),
+            {settings, frame})[0];
       };
       EXPECT_EQ(seen_with(reference), 1) << describe(settings);
       EXPECT_EQ(seen_with(std::nextafter(reference, 0.0f)), 0) << describe(settings);

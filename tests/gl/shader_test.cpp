@@ -102,7 +102,7 @@ TEST(LookupParts, EveryLightBiasAndFilterBuilds) {
         }
         LightFrame frame;
         frame.kind = static_cast<LightKind>(l);
-        const ShaderSlots slots = lookup_slots(programs, frame, Bias(bias), find_filter(settings.filter.kind));
+        const ShaderSlots slots = lookup_slots(programs, {settings, frame});
         const ShaderStages stages{"shaders/screen.vert", "shaders/lookup.frag"};
         const Program& first = programs.get(stages, slots);
         EXPECT_EQ(&first, &programs.get(stages, slots)) << "built once";
