@@ -1,0 +1,118 @@
+// The pictures of a run: of its points, and of what failed.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "app/pictures/pictures.h"
+#include "app/sweep/failing_pixels.h"
+#include "app/sweep/judging.h"
+#include "app/sweep/sweep_run.h"
+#include "base/text.h"
+
+namespace noonmark {
+namespace {
+
+bool is_motion(const PictureRecord& picture) { return picture.name == motion_picture; }
+
+bool has_motion(const PointPictures& point) {
+  return std::any_of(point.pictures.begin(), point.pictures.end(), is_motion);
+}
+
+// Another point may have the animation now.
+void remove_motion(PointPictures& point, const std::string& out) {
+  PointPictures old;
+  std::copy_if(point.pictures.begin(), point.pictures.end(), std::back_inserter(old.pictures), is_motion);
+  remove_pictures(old, out);
+  std::erase_if(point.pictures, is_motion);
+}
+
+}  // namespace
+
+// Writes all picture files of a measured point. The measurement's images are gone afterwards.
+PointPictures SweepRun::pictures_of(const Measurement& m) {
+  const int64_t id = m.record.id;
+  PointPictures kept = keep_pictures(m, id, folder_.path());
+  if (const std::optional<LivePicture> live = bench_.live_picture(m.technique.settings))
+    kept.images.push_back(keep_live_picture(*live, id, folder_.path()));
+  return kept;
+}
+
+void SweepRun::picture() {
+  // Which points have pictures by their errors is known when the shares are joined.
+  const bool known = !options_.shard || experiment_.pictures == "all" ||
+                     (experiment_.pictures == "first" && outcome_.results.points.front().id == 0);
+  if (outcome_.interrupted || !known) return;
+  if (!options_.shard) noonmark::judge(experiment_, outcome_.results);  // pictures may be chosen by broken bounds
+  const std::vector<int64_t> shown = points_with_pictures(experiment_.pictures, outcome_.results);
+  for (const PointRecord& point : outcome_.results.points) {
+    if (point.pictures.empty() || std::find(shown.begin(), shown.end(), point.id) != shown.end()) continue;
+    remove_pictures(point, folder_.path());  // another point has them now
+    store_->set_pictures(point.id, {});
+  }
+  const Instant instant =
+      options_.shard ? Instant{} : worst_instant(outcome_.results.points);  // of all shares together
+  size_t left = shown.size() + (instant.frames.size() > 2 ? instant.frames.size() : 0) +
+                (options_.worst_pixels ? failing_pixels(outcome_.results).size() : 0);
+  for (const int64_t id : shown) {
+    progress_->shown.set_left(progress_->pictures, left);
+    left -= id == instant.id && instant.frames.size() > 2 ? 1 + instant.frames.size() : 1;
+    draw_pictures_of(*find_point(outcome_.results.points, id), instant);
+  }
+  outcome_.results = store_->load();
+}
+
+// Whether the point has its pictures as they were written. Says why it has not.
+bool SweepRun::has_all_pictures(const PointRecord& point) {
+  if (point.pictures.empty()) return false;
+  const std::string why = measured_before(point.id) ? why_not_as_written(point, folder_.path()) : "";
+  if (why.empty()) return true;
+  progress_->shown.end_line();
+  fmt::print(stderr, "note: {}; the pictures of point {} are made again\n", printable(why), point.id);
+  return false;
+}
+
+// instant: the frames of a motion that the animation shows, at one of the points.
+void SweepRun::draw_pictures_of(const PointRecord& point, const Instant& instant) {
+  // With fewer than 3 frames the picture "flicker" shows them all.
+  const bool moves = point.id == instant.id && instant.frames.size() > 2, whole = has_all_pictures(point);
+  if (whole && moves == has_motion(point)) return;
+  PointPictures kept = point;
+  if (!whole) {
+    progress_->shown.say(fmt::format("pictures of point {}", point.id));
+    kept = pictures_of(measured(point.id, std::nullopt));
+    progress_->shown.finished(progress_->pictures, fmt::format("pictures of point {} are drawn", point.id));
+  }
+  remove_motion(kept, folder_.path());
+  if (moves) kept.pictures.push_back(animation(point.id, instant));
+  store_->set_pictures(point.id, kept);
+}
+
+PictureRecord SweepRun::animation(int64_t id, const Instant& instant) {
+  std::vector<Image<Color>> frames;
+  for (const int64_t frame : instant.frames) {
+    frames.push_back(motion_frame(measured(frame, std::nullopt)));
+    progress_->shown.finished_small(progress_->pictures,
+                                    fmt::format("animation: {} of {} frames", frames.size(), instant.frames.size()));
+  }
+  return keep_motion(frames, id, folder_.path());
+}
+
+void SweepRun::show_failures() {
+  if (!options_.worst_pixels || !writes_pictures(experiment_) || outcome_.interrupted) return;
+  std::optional<Measurement> m;
+  const std::vector<FailingPixel> failing = failing_pixels(outcome_.results);
+  progress_->shown.set_left(progress_->pictures, failing.size());
+  for (const FailingPixel& one : failing) {
+    const int64_t id = one.point->id;
+    if (!m || m->record.id != id) {
+      progress_->shown.say(fmt::format("the worst pixel of point {}", id));
+      m.reset();  // freed before the next is made
+      m.emplace(measured(id, std::nullopt));
+    }
+    outcome_.worst_pixels.push_back(draw(*m, one, name_of_point(experiment_, id), folder_.path()));
+    progress_->shown.finished_small(progress_->pictures, fmt::format("the worst pixel of point {} is drawn", id));
+  }
+}
+
+}  // namespace noonmark
