@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include "raytrace/drawn_map.h"
 #include "raytrace/light_view.h"
@@ -130,146 +131,202 @@ TapTruth LookupTracer::trace_places(const LookupProbe& probe, PixelRange strip, 
   return trace(probe, strip, nullptr, stage);
 }
 
-TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<float>* edge_distance_texels,
-                             StageTime* stage) {
-  Impl& l = *impl_;
-  const StageWatch watch(stage, l.traced.device);
-  LightCells* const cells = l.use_cells ? l.light->cells(l.receivers) : nullptr;
-  const OwnSurface surface(l.traced.embree, l.traced.adjacency, l.view, l.light->silhouettes(), cells);
-  const LightView& view = l.view;
-  const LightFrame& frame = view.frame();
-  const int taps = probe.taps();
-  const bool one_for_all = probe.pattern.variants == 1 && !probe.pattern.scaled_by_view;  // every receiver's offsets
-  TapTruth result{taps, {}, strip.first};
-  result.taps.assign(strip.size() * static_cast<size_t>(taps), 0);
+// One trace of a strip. Receivers that are lit for sure at all their taps are answered first; for the others rays are
+// asked, packet by packet.
+class TapTracing {
+ public:
+  // edge_distance_texels: null if only the exact places are asked (trace_places).
+  TapTracing(LookupTracer::Impl& lookup, const LookupProbe& probe, PixelRange strip, Image<float>* edge_distance_texels)
+      : l_(lookup),
+        probe_(probe),
+        strip_(strip),
+        edge_distance_texels_(edge_distance_texels),
+        cells_(l_.use_cells ? l_.light->cells(l_.receivers) : nullptr),
+        surface_(l_.traced.embree, l_.traced.adjacency, l_.view, l_.light->silhouettes(), cells_),
+        among_taps_(l_.view, l_.light->silhouettes(), probe, l_.bias),
+        listed_(l_.use_cells && among_taps_.applies()),
+        parallel_(l_.view.rays().have_one_direction()),
+        texel_m_(parallel_ ? frame().texel_m({}) : 0) {
+    result_.taps.assign(strip.size() * static_cast<size_t>(probe.taps()), 0);
+  }
 
-  const AmongTaps among_taps(view, l.light->silhouettes(), probe, l.bias);
-  const bool listed = l.use_cells && among_taps.applies();
-  const auto certain = static_cast<uint8_t>(tap_exact_lit | (edge_distance_texels ? tap_texel_lit : 0));
-  const bool may_clip = edge_distance_texels && !l.map.keeps_clipped();
-  const auto answer = [&](size_t pixel) {
-    uint8_t* bits = &result.taps[(pixel - strip.first) * static_cast<size_t>(taps)];
-    std::fill_n(bits, taps, certain);
-    if (!may_clip) return;
-    const auto [low, high] = among_taps.texels(pixel);
-    if (!l.texels.may_be_clipped(low, high)) return;
-    for (int tap = 0; tap < taps; ++tap) {
-      const glm::ivec2 texel = probe.texel(pixel, tap);
-      if (l.texels.clipped(texel)) bits[tap] |= tap_near_clipped;
-    }
+  TapTruth trace() {
+    const std::vector<size_t> asked = answer_certain();
+    for_each_packet(asked.size(), [&](size_t begin, int active) { trace_packet({&asked[begin], size_t(active)}); });
+    return std::move(result_);
+  }
+
+ private:
+  // Up to packet_size receivers.
+  struct Packet {
+    std::span<const size_t> pixels;
+    SurfacePoint points[packet_size];
+    glm::dvec3 at[packet_size];                        // P in the light's frame
+    glm::dvec3 looked_up[packet_size];                 // P' there; P unless a part moves the lookup
+    bool behind[packet_size];                          // P' has no place in the map: behind a spot light
+    Silhouettes::Nearby* nearby;                       // of each receiver, if the silhouettes are listed
+    mutable std::optional<LightCells::Reader> reader;  // remembers where it looked last
+    int active() const { return static_cast<int>(pixels.size()); }
   };
-  const bool parallel = view.rays().have_one_direction();
-  const double texel_m = parallel ? frame.texel_m({}) : 0;
-  const auto tap_place = [&](glm::dvec3 from, glm::dvec3 offset) {
+
+  const LightFrame& frame() const { return l_.view.frame(); }
+  bool may_clip() const { return edge_distance_texels_ && !l_.map.keeps_clipped(); }
+  uint8_t* bits_of(size_t pixel) { return &result_.taps[(pixel - strip_.first) * static_cast<size_t>(probe_.taps())]; }
+  glm::dvec3 tap_place(glm::dvec3 from, glm::dvec3 offset) const {
     // Of parallel rays the same numbers, without the calls.
-    return parallel ? glm::dvec3(from.x + offset.x * texel_m, from.y + offset.y * texel_m, 1)
-                    : view.normal_place(frame.tap_place(from, offset));
-  };
+    return parallel_ ? glm::dvec3(from.x + offset.x * texel_m_, from.y + offset.y * texel_m_, 1)
+                     : l_.view.normal_place(frame().tap_place(from, offset));
+  }
+  OwnSurface::Verdict lit_at(const Packet& packet, int k, glm::dvec3 x, uint32_t hit) const {
+    return listed_ ? surface_.lit_at(packet.points[k], x, hit, packet.nearby[k])
+                   : surface_.lit_at(packet.points[k], x, hit);
+  }
+
+  // Books the facing receivers that are lit at every tap for sure. Returns the pixels of the others, in order.
+  std::vector<size_t> answer_certain();
+  void answer_lit(size_t pixel);
+  void trace_packet(std::span<const size_t> pixels);
+  void first_hits(const Packet& packet, const glm::dvec3* x, uint32_t* hits) const;
+  void verdicts_at(const Packet& packet, const glm::dvec3* from, const glm::dvec3* offsets,
+                   OwnSurface::Verdict* verdicts) const;
+  void trace_tap(const Packet& packet, int tap);
+  // The verdict at the centre of the texel that the tap reads. moved_lit: D of the tap.
+  void add_texel(const Packet& packet, int k, int tap, glm::dvec3 offset, bool moved_lit, uint8_t& bits);
+
+  LookupTracer::Impl& l_;
+  const LookupProbe& probe_;
+  const PixelRange strip_;
+  Image<float>* const edge_distance_texels_;
+  LightCells* const cells_;
+  const OwnSurface surface_;
+  const AmongTaps among_taps_;
+  const bool listed_;  // silhouettes are listed for each receiver
+  const bool parallel_;
+  const double texel_m_;  // of parallel rays
+  TapTruth result_{probe_.taps(), {}, strip_.first};
+};
+
+std::vector<size_t> TapTracing::answer_certain() {
   constexpr size_t pixels_per_part = 4096;
-  std::vector<std::vector<size_t>> parts((strip.size() + pixels_per_part - 1) / pixels_per_part);
+  std::vector<std::vector<size_t>> parts((strip_.size() + pixels_per_part - 1) / pixels_per_part);
   tbb::parallel_for(size_t{0}, parts.size(), [&](size_t part) {
-    const size_t from = strip.first + part * pixels_per_part, to = std::min(strip.end, from + pixels_per_part);
+    const size_t from = strip_.first + part * pixels_per_part, to = std::min(strip_.end, from + pixels_per_part);
     Silhouettes::Nearby nearby;
     for (size_t pixel = from; pixel < to; ++pixel) {
-      if (!l.truth.facing[pixel]) continue;
-      if (edge_distance_texels) (*edge_distance_texels)[pixel] = 0;
-      if (l.truth.lit[pixel] && listed && among_taps.none(pixel, l.receivers.position[pixel], nearby))
-        answer(pixel);
+      if (!l_.truth.facing[pixel]) continue;
+      if (edge_distance_texels_) (*edge_distance_texels_)[pixel] = 0;
+      if (l_.truth.lit[pixel] && listed_ && among_taps_.none(pixel, l_.receivers.position[pixel], nearby))
+        answer_lit(pixel);
       else
         parts[part].push_back(pixel);
     }
   });
   std::vector<size_t> asked;
   for (const std::vector<size_t>& part : parts) asked.insert(asked.end(), part.begin(), part.end());
+  return asked;
+}
 
-  for_each_packet(asked.size(), [&](size_t begin, int active) {
-    SurfacePoint points[packet_size];
-    glm::dvec3 at[packet_size];         // P in the light's frame
-    glm::dvec3 looked_up[packet_size];  // P' there; P unless a part moves the lookup
-    thread_local Silhouettes::Nearby nearby[packet_size];
-    const size_t* const pixels = &asked[begin];
-    for (int k = 0; k < active; ++k) {
-      const glm::dvec3 p = l.receivers.position[pixels[k]], normal = l.receivers.normal[pixels[k]];
-      at[k] = frame.to_light(p);
-      points[k] =
-          surface.point(at[k], l.traced.adjacency.first(l.receivers.primitive[pixels[k]]), l.truth.lit[pixels[k]] != 0);
-      looked_up[k] = frame.to_light(l.bias.looked_up(frame, p, normal));
-      if (listed) among_taps.list(pixels[k], p, nearby[k]);
+void TapTracing::answer_lit(size_t pixel) {
+  uint8_t* const bits = bits_of(pixel);
+  std::fill_n(bits, probe_.taps(), static_cast<uint8_t>(tap_exact_lit | (edge_distance_texels_ ? tap_texel_lit : 0)));
+  if (!may_clip()) return;
+  const auto [low, high] = among_taps_.texels(pixel);
+  if (!l_.texels.may_be_clipped(low, high)) return;
+  for (int tap = 0; tap < probe_.taps(); ++tap)
+    if (l_.texels.clipped(probe_.texel(pixel, tap))) bits[tap] |= tap_near_clipped;
+}
+
+void TapTracing::trace_packet(std::span<const size_t> pixels) {
+  thread_local Silhouettes::Nearby nearby[packet_size];  // its memory is used again
+  Packet packet;
+  packet.pixels = pixels;
+  packet.nearby = nearby;
+  for (int k = 0; k < packet.active(); ++k) {
+    const size_t pixel = pixels[static_cast<size_t>(k)];
+    const glm::dvec3 p = l_.receivers.position[pixel], normal = l_.receivers.normal[pixel];
+    packet.at[k] = frame().to_light(p);
+    packet.points[k] = surface_.point(packet.at[k], l_.traced.adjacency.first(l_.receivers.primitive[pixel]),
+                                      l_.truth.lit[pixel] != 0);
+    packet.looked_up[k] = frame().to_light(l_.bias.looked_up(frame(), p, normal));
+    packet.behind[k] = !frame().light().has_place(packet.looked_up[k]);
+    if (listed_) among_taps_.list(pixel, p, nearby[k]);
+  }
+  if (cells_) packet.reader.emplace(*cells_);
+  for (int tap = 0; tap < probe_.taps(); ++tap) trace_tap(packet, tap);
+}
+
+// The cells' answers, and rays where they have none.
+void TapTracing::first_hits(const Packet& packet, const glm::dvec3* x, uint32_t* hits) const {
+  int unknown[packet_size], rays = 0;
+  glm::dvec3 places[packet_size];
+  for (int k = 0; k < packet.active(); ++k) {
+    if (const auto hit = packet.reader ? packet.reader->first_hit(x[k]) : std::nullopt) {
+      hits[k] = *hit;
+    } else {
+      places[rays] = x[k];
+      unknown[rays++] = k;
     }
-    std::optional<LightCells::Reader> reader;
-    if (cells) reader.emplace(*cells);
-    const auto first_hits = [&](int count, const glm::dvec3* x, uint32_t* hits) {
-      int unknown[packet_size], rays = 0;
-      glm::dvec3 places[packet_size];
-      for (int k = 0; k < count; ++k) {
-        if (const auto hit = reader ? reader->first_hit(x[k]) : std::nullopt) {
-          hits[k] = *hit;
-        } else {
-          places[rays] = x[k];
-          unknown[rays++] = k;
-        }
-      }
-      if (rays == 0) return;
-      uint32_t found[packet_size];
-      view.first_hits(l.traced.embree, rays, places, found);
-      for (int i = 0; i < rays; ++i) hits[unknown[i]] = found[i];
-    };
-    const auto lit_at = [&](int k, glm::dvec3 x, uint32_t hit) {
-      return listed ? surface.lit_at(points[k], x, hit, nearby[k]) : surface.lit_at(points[k], x, hit);
-    };
-    for (int tap = 0; tap < taps; ++tap) {
-      glm::dvec3 offsets[packet_size];
-      if (one_for_all)
-        std::fill_n(offsets, active, glm::dvec3(probe.pattern.offset(0, tap)));
-      else
-        for (int k = 0; k < active; ++k) offsets[k] = probe.offset(pixels[k], tap);
-      OwnSurface::Verdict exact[packet_size], moved[packet_size];  // F and D
-      const auto at_offset = [&](const glm::dvec3* from, OwnSurface::Verdict* verdicts) {
-        glm::dvec3 x[packet_size];
-        uint32_t hits[packet_size];
-        for (int k = 0; k < active; ++k) x[k] = tap_place(from[k], offsets[k]);
-        first_hits(active, x, hits);
-        for (int k = 0; k < active; ++k) verdicts[k] = lit_at(k, x[k], hits[k]);
-      };
-      if (std::all_of(offsets, offsets + active, [](glm::dvec3 o) { return o == glm::dvec3(0); }))
-        for (int k = 0; k < active; ++k) exact[k] = {points[k].lit, true};  // V(P, P) is R1
-      else
-        at_offset(at, exact);
-      if (l.bias.moves_lookup())
-        at_offset(looked_up, moved);
-      else
-        std::copy_n(exact, active, moved);
-      // A lookup that was moved behind a spot light has no place in the map: D is F.
-      bool behind[packet_size];
-      for (int k = 0; k < active; ++k) {
-        behind[k] = !frame.light().has_place(looked_up[k]);
-        if (behind[k]) moved[k] = exact[k];
-      }
-      for (int k = 0; k < active; ++k) {
-        const size_t pixel = pixels[k];
-        const bool exact_lit = exact[k].lit, moved_lit = moved[k].lit;
-        uint8_t& bits = result.taps[(pixel - strip.first) * static_cast<size_t>(taps) + static_cast<size_t>(tap)];
-        bits = static_cast<uint8_t>((exact_lit ? tap_exact_lit : 0) | (moved_lit != exact_lit ? tap_displaced : 0) |
-                                    (exact[k].sure ? 0 : tap_exact_unsure) | (moved[k].sure ? 0 : tap_moved_unsure));
-        if (!edge_distance_texels) continue;
-        const glm::ivec2 texel = probe.texel(pixel, tap);
-        const uint32_t hit = l.texels.hit(texel);
-        const glm::dvec3 centre = view.texel_place(texel);
-        const OwnSurface::Verdict at_texel = lit_at(k, centre, hit);
-        const bool texel_lit = at_texel.lit,
-                   clipped = may_clip && l.texels.may_be_clipped(texel, texel) && l.texels.clipped(texel);
-        bits = static_cast<uint8_t>(bits | (texel_lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
-                                    (at_texel.sure ? 0 : tap_texel_unsure));
-        if (moved_lit != texel_lit && !behind[k]) {
-          const glm::dvec3 from = tap_place(looked_up[k], offsets[k]);
-          const double distance = surface.edge_distance_texels(points[k], from, centre, moved_lit);
-          float& farthest = (*edge_distance_texels)[pixel];
-          farthest = std::max(farthest, static_cast<float>(distance));
-        }
-      }
-    }
-  });
-  return result;
+  }
+  if (rays == 0) return;
+  uint32_t found[packet_size];
+  l_.view.first_hits(l_.traced.embree, rays, places, found);
+  for (int i = 0; i < rays; ++i) hits[unknown[i]] = found[i];
+}
+
+void TapTracing::verdicts_at(const Packet& packet, const glm::dvec3* from, const glm::dvec3* offsets,
+                             OwnSurface::Verdict* verdicts) const {
+  glm::dvec3 x[packet_size];
+  uint32_t hits[packet_size];
+  for (int k = 0; k < packet.active(); ++k) x[k] = tap_place(from[k], offsets[k]);
+  first_hits(packet, x, hits);
+  for (int k = 0; k < packet.active(); ++k) verdicts[k] = lit_at(packet, k, x[k], hits[k]);
+}
+
+void TapTracing::trace_tap(const Packet& packet, int tap) {
+  const int active = packet.active();
+  glm::dvec3 offsets[packet_size];
+  if (probe_.pattern.variants == 1 && !probe_.pattern.scaled_by_view)  // the same of every receiver
+    std::fill_n(offsets, active, glm::dvec3(probe_.pattern.offset(0, tap)));
+  else
+    for (int k = 0; k < active; ++k) offsets[k] = probe_.offset(packet.pixels[static_cast<size_t>(k)], tap);
+  OwnSurface::Verdict exact[packet_size], moved[packet_size];  // F and D
+  if (std::all_of(offsets, offsets + active, [](glm::dvec3 o) { return o == glm::dvec3(0); }))
+    for (int k = 0; k < active; ++k) exact[k] = {packet.points[k].lit, true};  // V(P, P) is R1
+  else
+    verdicts_at(packet, packet.at, offsets, exact);
+  if (l_.bias.moves_lookup())
+    verdicts_at(packet, packet.looked_up, offsets, moved);
+  else
+    std::copy_n(exact, active, moved);
+  for (int k = 0; k < active; ++k) {
+    if (packet.behind[k]) moved[k] = exact[k];
+    const bool exact_lit = exact[k].lit, moved_lit = moved[k].lit;
+    uint8_t& bits = bits_of(packet.pixels[static_cast<size_t>(k)])[tap];
+    bits = static_cast<uint8_t>((exact_lit ? tap_exact_lit : 0) | (moved_lit != exact_lit ? tap_displaced : 0) |
+                                (exact[k].sure ? 0 : tap_exact_unsure) | (moved[k].sure ? 0 : tap_moved_unsure));
+    if (edge_distance_texels_) add_texel(packet, k, tap, offsets[k], moved_lit, bits);
+  }
+}
+
+void TapTracing::add_texel(const Packet& packet, int k, int tap, glm::dvec3 offset, bool moved_lit, uint8_t& bits) {
+  const size_t pixel = packet.pixels[static_cast<size_t>(k)];
+  const glm::ivec2 texel = probe_.texel(pixel, tap);
+  const glm::dvec3 centre = l_.view.texel_place(texel);
+  const OwnSurface::Verdict at_texel = lit_at(packet, k, centre, l_.texels.hit(texel));
+  const bool clipped = may_clip() && l_.texels.may_be_clipped(texel, texel) && l_.texels.clipped(texel);
+  bits = static_cast<uint8_t>(bits | (at_texel.lit ? tap_texel_lit : 0) | (clipped ? tap_near_clipped : 0) |
+                              (at_texel.sure ? 0 : tap_texel_unsure));
+  if (moved_lit == at_texel.lit || packet.behind[k]) return;
+  const glm::dvec3 from = tap_place(packet.looked_up[k], offset);
+  const double distance = surface_.edge_distance_texels(packet.points[k], from, centre, moved_lit);
+  float& farthest = (*edge_distance_texels_)[pixel];
+  farthest = std::max(farthest, static_cast<float>(distance));
+}
+
+TapTruth LookupTracer::trace(const LookupProbe& probe, PixelRange strip, Image<float>* edge_distance_texels,
+                             StageTime* stage) {
+  const StageWatch watch(stage, impl_->traced.device);
+  return TapTracing(*impl_, probe, strip, edge_distance_texels).trace();
 }
 
 }  // namespace noonmark::raytrace

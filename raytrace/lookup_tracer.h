@@ -11,6 +11,7 @@
 
 namespace noonmark::raytrace {
 
+class TapTracing;
 class TracedScene;
 
 // Traces the truth of one lookup strip by strip, so that only the taps of one strip need memory.
@@ -48,6 +49,7 @@ class LookupTracer {
 
  private:
   TapTruth trace(const LookupProbe& probe, PixelRange strip, Image<float>* edge_distance_texels, StageTime* stage);
+  friend class TapTracing;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
