@@ -31,7 +31,7 @@ void sample_round(const SamplePasses& sample, std::span<const Settings> points, 
 }
 
 void add(TimeMetrics& metrics, const std::string& name, const std::vector<double>& samples) {
-  const Interval time = interval_of_median(samples);
+  const MedianInterval time = interval_of_median(samples);
   const auto [low, high] = interval_names(name);
   metrics.insert({{low, time.low}, {name, time.middle}, {high, time.high}});
 }

@@ -211,8 +211,7 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
   diagram.width_px = view.receivers.width();
   diagram.height_px = view.receivers.height();
   diagram.placements = options.placements;
-  diagram.acne_bound = options.acne_bound;
-  diagram.peter_panning_bound = options.peter_panning_bound;
+  static_cast<CauseBounds&>(diagram) = options;
   Settings settings = given;
   settings.map.placements = options.placements;
   const double steps = std::max(1, options.rows - 1);
@@ -266,8 +265,7 @@ PhaseDiagram measure_phase(gl::Renderer& renderer, const raytrace::Tracer& trace
 PhaseDiagram rejudged_phase(const PhaseDiagram& measured, const Scene& scene, const ViewStage& view,
                             const TruthStage& truth, const Settings& given, const PhaseOptions& options) {
   PhaseDiagram diagram = measured;
-  diagram.acne_bound = options.acne_bound;
-  diagram.peter_panning_bound = options.peter_panning_bound;
+  static_cast<CauseBounds&>(diagram) = options;
   Settings settings = given;
   settings.map.placements = options.placements;
   settings.map.resolution = diagram.rows.front().resolution;

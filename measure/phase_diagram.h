@@ -8,11 +8,10 @@
 
 namespace noonmark {
 
-struct PhaseOptions {
-  int rows = 25;                                           // texel sizes, in equal steps of their logarithm
-  int coarsest = 128, finest = 8192;                       // texels on a side, at the present extent
-  int placements = 8;                                      // S, along each axis
-  double acne_bound = 0.001, peter_panning_bound = 0.001;  // fractions of the counted receivers
+struct PhaseOptions : CauseBounds {
+  int rows = 25;                      // texel sizes, in equal steps of their logarithm
+  int coarsest = 128, finest = 8192;  // texels on a side, at the present extent
+  int placements = 8;                 // S, along each axis
   int biases_per_octave = 16;
 };
 

@@ -29,8 +29,8 @@ double excess(const NearestBias& nearest, const CurveOptions& bounds) {
 NearestBias nearest_bias(const PointRecord& point, const CurveOptions& bounds) {
   const BiasCurve& curve = *point.curve;
   const bool placed = curve.placements > 1;
-  const std::vector<double>& acne = placed ? curve.acne_worst : curve.acne;
-  const std::vector<double>& panning = placed ? curve.peter_panning_worst : curve.peter_panning;
+  const std::vector<double>& acne = placed ? curve.acne_band.worst : curve.acne;
+  const std::vector<double>& panning = placed ? curve.peter_panning_band.worst : curve.peter_panning;
   const auto at = [&](size_t i) -> NearestBias {
     return {curve.bias_depth[i] * parameter_per_depth(point), acne[i], panning[i]};
   };
@@ -66,8 +66,7 @@ PointRecord::Worst worst_of_bias(const Measurement& m) {
 std::optional<int> constant_bias_resolution(Workbench& bench, const Settings& settings, const CurveOptions& bounds) {
   PhaseOptions options;
   options.rows = 17, options.coarsest = 1024, options.finest = 16384;
-  options.acne_bound = bounds.acne_bound;
-  options.peter_panning_bound = bounds.peter_panning_bound;
+  static_cast<CauseBounds&>(options) = bounds;
   try {
     const PhaseDiagram diagram = bench.phase(phase_settings(settings, bench.scene(settings.scene)), options);
     int least = -diagram.rows.back().resolution;

@@ -220,8 +220,9 @@ std::string points_text(const Experiment& experiment) {
     text += fmt::format("sweep {} = [{}]\n", swept.name, fmt::join(swept.values, " | "));
   text += fmt::format("curve.enabled = {}\n", experiment.curve_enabled);
   if (experiment.curve_enabled) {
-    const auto& [acne_bound, peter_panning_bound, bias_depth] =
-        experiment.curve;  // must name every member, otherwise it does not compile
+    const auto& [acne_bound, peter_panning_bound] = static_cast<const CauseBounds&>(experiment.curve);
+    const std::vector<double>& bias_depth = experiment.curve.bias_depth;
+    static_assert(sizeof(CurveOptions) == sizeof(CauseBounds) + sizeof bias_depth, "every member must stand here");
     text += fmt::format("curve.acne_bound = {}\ncurve.peter_panning_bound = {}\n", acne_bound, peter_panning_bound);
     text += bias_depth.empty() ? "curve.bias_depth = auto\n"
                                : fmt::format("curve.bias_depth = [{}]\n", fmt::join(bias_depth, ", "));

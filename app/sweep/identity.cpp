@@ -175,20 +175,14 @@ std::string without_machine(const std::string& facts) {
                             [](std::string_view, const std::string&, const std::string&) { return std::string(); });
 }
 
-PointRecord::Machine MachineFacts::now() const {
-  PointRecord::Machine stamped = machine;
-  stamped.clock = utc_now();
-  return stamped;
-}
-
-MachineFacts machine_facts(const gl::DeviceInfo& device, const raytrace::TracerInfo& tracer) {
+Machine this_machine(const gl::DeviceInfo& device, const raytrace::TracerInfo& tracer) {
   char host[256] = "";
   if (gethostname(host, sizeof host - 1) != 0) host[0] = 0;
-  return {{.host = *host ? host : "unknown",
-           .cpu = host_cpu(),
-           .driver = fmt::format("{} {} {}", device.vendor, device.renderer, device.version),
-           .ray_tracer = fmt::format("{} {}", tracer.version, tracer.isa),
-           .clock = ""}};
+  return {.host = *host ? host : "unknown",
+          .cpu = host_cpu(),
+          .driver = fmt::format("{} {} {}", device.vendor, device.renderer, device.version),
+          .ray_tracer = fmt::format("{} {}", tracer.version, tracer.isa),
+          .clock = ""};
 }
 
 }  // namespace noonmark

@@ -64,11 +64,7 @@ std::string with_scene_names(const std::string& facts, const std::function<std::
 
 std::string host_cpu();
 
-// What a point's record says of the machine that measures it.
-struct MachineFacts {
-  PointRecord::Machine machine;      // without the clock
-  PointRecord::Machine now() const;  // with the present time
-};
-MachineFacts machine_facts(const gl::DeviceInfo& device, const raytrace::TracerInfo& tracer);
+// What a point's record says of the machine that measures it, without the clock.
+Machine this_machine(const gl::DeviceInfo& device, const raytrace::TracerInfo& tracer);
 
 }  // namespace noonmark

@@ -32,8 +32,7 @@ bool has_asked_curve(const PointRecord& stored, const Experiment& part, const Se
   const BiasCurve& curve = *stored.curve;
   const CurveOptions& options = part.curve;
   return curve.bias_depth == biases_of(options) &&
-         ((curve.acne_bound == options.acne_bound && curve.peter_panning_bound == options.peter_panning_bound) ||
-          curve.steps.can_judge(options.acne_bound, options.peter_panning_bound));
+         (static_cast<const CauseBounds&>(curve) == options || curve.steps.can_judge(options));
 }
 
 // Times that are asked for and not there are measured after all points.
@@ -137,10 +136,9 @@ KeptPoints keep_points(ResultStore& store, const AskedPoints& asked, const std::
     PointRecord now = before;
     now.id = id;
     now.part = part.part;
-    const bool other_bounds = now.curve && (now.curve->acne_bound != part.curve.acne_bound ||
-                                            now.curve->peter_panning_bound != part.curve.peter_panning_bound);
+    const bool other_bounds = now.curve && static_cast<const CauseBounds&>(*now.curve) != part.curve;
     if (other_bounds) {
-      judge_window(*now.curve, part.curve.acne_bound, part.curve.peter_panning_bound);
+      judge_window(*now.curve, part.curve);
       ++result.rejudged;
     }
     if (now.id != before.id || now.part != before.part || other_bounds) changed.emplace_back(before.id, std::move(now));

@@ -54,8 +54,7 @@ PhaseOptions options_of(const PhasePlan& plan) {
   PhaseOptions options;
   options.rows = plan.request.texel_sizes;
   options.placements = plan.request.placements;
-  options.acne_bound = plan.acne_bound;
-  options.peter_panning_bound = plan.peter_panning_bound;
+  static_cast<CauseBounds&>(options) = plan;
   return options;
 }
 
@@ -87,11 +86,13 @@ Range range_of(const std::vector<Settings>& points, const std::vector<PhasePlace
 
 // The end of PhaseDiagram::made_from: everything that the rows depend on, but not the bounds.
 std::string measured_text(const Settings& settings, const PhaseOptions& options, const std::string& scene) {
-  const auto& [rows, coarsest, finest, placements, acne, peter_panning, biases_per_octave] =
-      options;  // must name every member, otherwise it does not compile
+  struct AllMembers : CauseBounds {
+    int rows, coarsest, finest, placements, biases_per_octave;
+  };
+  static_assert(sizeof(PhaseOptions) == sizeof(AllMembers), "every member but the bounds must stand in the text");
   std::string text =
       fmt::format("measured\nscene = {}\nrows = {}\ncoarsest = {}\nfinest = {}\nS = {}\nbiases_per_octave = {}\n",
-                  scene, rows, coarsest, finest, placements, biases_per_octave);
+                  scene, options.rows, options.coarsest, options.finest, options.placements, options.biases_per_octave);
   // Each row has its own resolution, and all have the placements of the options.
   for (const auto& [name, value] : settings_map(settings))
     if (name != "map.resolution" && name != "map.placements") text += fmt::format("{} = {}\n", name, value);
@@ -144,11 +145,11 @@ std::vector<PhasePlan> phase_plans(const Experiment& experiment, std::span<const
     const int64_t count = point_count(part);
     if (part.phase.enabled) {
       const auto of_part = points.subspan(static_cast<size_t>(first), static_cast<size_t>(count));
-      plans.push_back({number,
+      plans.push_back({{part.phase.acne_bound.value_or(part.curve.acne_bound),
+                        part.phase.peter_panning_bound.value_or(part.curve.peter_panning_bound)},
+                       number,
                        part.part,
                        part.phase,
-                       part.phase.acne_bound.value_or(part.curve.acne_bound),
-                       part.phase.peter_panning_bound.value_or(part.curve.peter_panning_bound),
                        first,
                        {of_part.begin(), of_part.end()},
                        ""});

@@ -15,11 +15,10 @@
 
 namespace noonmark {
 
-struct PhasePlan {
+struct PhasePlan : CauseBounds {
   int64_t number = 0;  // of the part, from 0; its number in the store
   std::string part;    // its name
   PhaseRequest request;
-  double acne_bound = 0, peter_panning_bound = 0;
   int64_t first = 0;  // the id of the part's first point
   std::vector<Settings> points;
   std::string scene;  // the digest of the first point's scene: a diagram of other contents is not used again

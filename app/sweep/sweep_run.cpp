@@ -13,6 +13,7 @@
 #include "app/sweep/kept_points.h"
 #include "app/sweep/run_info.h"
 #include "app/sweep/stop_on_signal.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "compare/judge/no_flicker.h"
@@ -91,7 +92,7 @@ SweepRun::SweepRun(const Experiment& experiment, const ResultsFolder& folder, co
       bench_(bench_for(experiment)),
       tracer_(raytrace::tracer_info()),
       survey_(survey_of(bench_, experiment, planned_, wanted_)),
-      here_(machine_facts(bench_.device(), tracer_)),
+      here_(this_machine(bench_.device(), tracer_)),
       room_(bench_, experiment, survey_.memory) {
   survey_.tell();
 }
@@ -196,7 +197,8 @@ void SweepRun::measure_point(int64_t id) {
   Measurement m = measured(id, part.curve_enabled ? std::optional(part.curve) : std::nullopt);
   m.record.part = part.part;
   m.record.scene_digest = survey_.scenes.of(point_at(id));
-  m.record.machine = here_.now();
+  m.record.machine = here_;
+  m.record.machine.clock = utc_now();
   if (experiment_.pictures == "all" || (experiment_.pictures == "first" && id == 0))
     static_cast<PointPictures&>(m.record) = pictures_of(m);
   store_->add(m.record);

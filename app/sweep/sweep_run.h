@@ -59,7 +59,7 @@ class SweepRun {
   Workbench bench_;
   const raytrace::TracerInfo tracer_;
   Survey survey_;
-  const MachineFacts here_;
+  const Machine here_;  // without the clock
   MemoryCheck room_;
   std::optional<ResultStore> store_;
   std::vector<PhasePlan> diagrams_;

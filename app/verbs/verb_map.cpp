@@ -29,10 +29,10 @@ std::string map_json(const PhaseDiagram& diagram, const std::string& out) {
   };
   Json rows = Json::array();
   for (const PhaseRow& row : diagram.rows) {
-    const BiasInterval usable = diagram.usable(row);
+    const Interval usable = diagram.usable(row);
     Json one{
         {"resolution", row.resolution}, {"texel_m", number(row.texel_m)}, {"last_acne_m", number(row.last_acne_m)}};
-    one["usable_m"] = usable.empty() ? Json() : Json{number(usable.from), number(usable.to)};
+    one["usable_m"] = usable.empty() ? Json() : Json{number(usable.low), number(usable.high)};
     rows.push_back(std::move(one));
   }
   const Json all{{"noonmark", diagram.version},

@@ -42,19 +42,18 @@ Settings the_point(const Experiment& experiment, long point) {
   return all[static_cast<size_t>(std::max(point, 0L))];
 }
 
-// "over 64 placements of the grid            mean      worst        p95", and a line for each metric.
+// "over 64 placements of the grid            mean      worst", and a line for each metric.
 void print_placements(const Measurement& m) {
   const std::map<std::string, double>& metrics = m.record.metrics;
   if (!metrics.contains("error_mean")) return;
   const int side = m.technique.settings.map.placements;
-  fmt::print("\n  {:<32}{:>12}{:>12}{:>12}\n", fmt::format("over {} placements of the grid", side * side), "mean",
-             "worst", "p95");
+  fmt::print("\n  {:<32}{:>12}{:>12}\n", fmt::format("over {} placements of the grid", side * side), "mean", "worst");
   constexpr std::string_view ending = "_mean";
   for (const Metric& metric : metrics_table()) {
     if (!metric.of_placements || !metric.name.ends_with(ending)) continue;
     const std::string name(metric.name.substr(0, metric.name.size() - ending.size()));
-    fmt::print("  {:<32}{:>11.5f}%{:>11.5f}%{:>11.5f}%\n", name, 100 * metrics.at(name + "_mean"),
-               100 * metrics.at(name + "_worst"), 100 * metrics.at(name + "_p95"));
+    fmt::print("  {:<32}{:>11.5f}%{:>11.5f}%\n", name, 100 * metrics.at(name + "_mean"),
+               100 * metrics.at(name + "_worst"));
   }
   std::vector<double> worst;
   for (const PlacementFact& fact : m.technique.frame.light().placement_facts(m.technique.frame, Placements(side), 0))
@@ -103,7 +102,7 @@ void print_ladder(const Measurement& m, const char* clock) {
                            "tap_residual", "rounding_excess"})
     fmt::print("  {:<32}{:>12.5g} {}\n", name, value(name), find_metric(name).unit);
   for (const char* name : {"map_ms", "lookup_ms"}) {
-    const Interval time = interval_of(m.record, name);
+    const MedianInterval time = interval_of(m.record, name);
     fmt::print("  {:<32}{:>12.5g} ms ({:.5g} ... {:.5g}; {})\n", name, time.middle, time.low, time.high, clock);
   }
   if (!m.record.causes.empty())

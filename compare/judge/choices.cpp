@@ -107,11 +107,11 @@ bool has_curves(const Choice& choice) {
   });
 }
 
-std::optional<BiasWindow> joined_window(const Choice& choice) {
+std::optional<Interval> joined_window(const Choice& choice) {
   if (!has_curves(choice)) return std::nullopt;
-  BiasWindow all{0, std::numeric_limits<double>::infinity()};
+  Interval all{0, std::numeric_limits<double>::infinity()};
   for (const PointRecord* point : choice.points) {
-    const std::optional<DepthWindow> window = usable_window(*point->curve);
+    const std::optional<Interval> window = usable_window(*point->curve);
     if (!window) return std::nullopt;
     const double per_depth = parameter_per_depth(*point);
     all.low = std::max(all.low, window->low * per_depth);

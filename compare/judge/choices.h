@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/interval.h"
 #include "compare/results/records.h"
 
 namespace noonmark {
@@ -44,10 +45,7 @@ Joined joined_at(const Choice& choice, const std::string& metric, std::optional<
 
 // The biases that are usable under every condition, in units of the parameter. Empty if there is none, or if a point has
 // no curve.
-struct BiasWindow {
-  double low = 0, high = 0;
-};
-std::optional<BiasWindow> joined_window(const Choice& choice);
+std::optional<Interval> joined_window(const Choice& choice);
 
 // Whether every point has a curve of the same parameter, in the same unit.
 bool has_curves(const Choice& choice);

@@ -14,8 +14,7 @@ namespace {
 
 const std::vector<double>* series_of(const BiasCurve& curve, const std::string& metric) {
   for (const CurveSeries& series : curve_series())
-    if (series.name == metric && series.name != "bias_depth" && !(curve.*series.values).empty())
-      return &(curve.*series.values);
+    if (series.name == metric && series.name != "bias_depth" && !series.of(curve).empty()) return &series.of(curve);
   return nullptr;
 }
 
@@ -71,12 +70,12 @@ std::optional<double> bias_as_set(const PointRecord& point) {
   return *value / per_depth;
 }
 
-std::optional<DepthWindow> usable_window(const BiasCurve& curve) {
+std::optional<Interval> usable_window(const BiasCurve& curve) {
   const bool placed = curve.placements > 1;
   const auto& low = placed ? curve.window_min_worst_depth : curve.window_min_depth;
   const auto& high = placed ? curve.window_max_worst_depth : curve.window_max_depth;
   if (!low || !high) return std::nullopt;
-  return DepthWindow{*low, *high};
+  return Interval{*low, *high};
 }
 
 bool has_curve_of(const PointRecord& point, const std::string& metric) {

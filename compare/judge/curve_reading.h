@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "base/interval.h"
 #include "compare/results/records.h"
 
 namespace noonmark {
@@ -23,11 +24,8 @@ double parameter_per_depth(const PointRecord& point);
 std::optional<double> bias_as_set(const PointRecord& point);
 
 // The usable window of the curve: at every placement of the grid if the point has placements, otherwise at its own.
-// Empty if no bias is good enough.
-struct DepthWindow {
-  double low = 0, high = 0;  // window depth, inclusive
-};
-std::optional<DepthWindow> usable_window(const BiasCurve& curve);
+// In window depth. Empty if no bias is good enough.
+std::optional<Interval> usable_window(const BiasCurve& curve);
 
 // Whether the curve gives the metric at any bias. If not, metric_at gives it as rendered.
 bool has_curve_of(const PointRecord& point, const std::string& metric);

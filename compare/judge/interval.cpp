@@ -23,7 +23,7 @@ double coverage_of_ranks(int samples, int rank) {
   return 1 - 2 * below;
 }
 
-Interval interval_of_median(std::vector<double> samples) {
+MedianInterval interval_of_median(std::vector<double> samples) {
   const int count = static_cast<int>(samples.size());
   if (coverage_of_ranks(count, 1) < median_coverage) throw std::logic_error("too few samples for an interval");
   if (!std::all_of(samples.begin(), samples.end(), [](double sample) { return std::isfinite(sample); }))
@@ -41,18 +41,18 @@ IntervalNames interval_names(const std::string& metric) {
   return {stem + "_low" + std::string(unit_ending), stem + "_high" + std::string(unit_ending)};
 }
 
-Interval interval_of(const PointRecord& point, const std::string& metric) {
+MedianInterval interval_of(const PointRecord& point, const std::string& metric) {
   const double value = metric_of(point, metric);
   const auto [low, high] = interval_names(metric);
   if (!point.metrics.contains(low) || !point.metrics.contains(high)) return {value, value, value};
   return {metric_of(point, low), value, metric_of(point, high)};
 }
 
-Interval joined_interval(const Choice& choice, const std::string& metric) {
-  Interval joined{-std::numeric_limits<double>::infinity(), 0, -std::numeric_limits<double>::infinity()};
+MedianInterval joined_interval(const Choice& choice, const std::string& metric) {
+  MedianInterval joined{-std::numeric_limits<double>::infinity(), 0, -std::numeric_limits<double>::infinity()};
   joined.middle = joined.low;
   for (const PointRecord* point : choice.points) {
-    const Interval one = interval_of(*point, metric);
+    const MedianInterval one = interval_of(*point, metric);
     if (!std::isfinite(one.low) || !std::isfinite(one.middle) || !std::isfinite(one.high)) {
       constexpr double nan = std::numeric_limits<double>::quiet_NaN();
       return {nan, nan, nan};

@@ -1,7 +1,7 @@
 // A measured time as an interval: the median of samples and how far it is known. Two times differ only where their
 // intervals do not overlap.
 //
-//   const Interval time = interval_of_median(samples);
+//   const MedianInterval time = interval_of_median(samples);
 //   if (certainly_less(time, other)) ...
 #pragma once
 #include <cstdint>
@@ -13,13 +13,15 @@
 
 namespace noonmark {
 
-struct Interval {
+struct MedianInterval {
   double low = 0, middle = 0, high = 0;
 };
 
 // Certain as far as the intervals are.
-inline bool certainly_less(const Interval& a, const Interval& b) { return a.high < b.low; }
-inline bool overlap(const Interval& a, const Interval& b) { return !certainly_less(a, b) && !certainly_less(b, a); }
+inline bool certainly_less(const MedianInterval& a, const MedianInterval& b) { return a.high < b.low; }
+inline bool overlap(const MedianInterval& a, const MedianInterval& b) {
+  return !certainly_less(a, b) && !certainly_less(b, a);
+}
 
 // The least coverage of an interval of a median.
 inline constexpr double median_coverage = 0.95;
@@ -32,7 +34,7 @@ double coverage_of_ranks(int samples, int rank);
 // The median of the samples, and the narrowest pair of order statistics of equal ranks that covers it by at least
 // median_coverage. Of nine samples: the second smallest and the second largest, 96.1 %, so that one bad sample on either
 // side has no effect. Throws std::logic_error if there are too few samples (five or less) or if one is not finite.
-Interval interval_of_median(std::vector<double> samples);
+MedianInterval interval_of_median(std::vector<double> samples);
 
 // The metrics that hold the ends of a time's interval: "map_ms" has "map_low_ms" and "map_high_ms".
 struct IntervalNames {
@@ -41,10 +43,10 @@ struct IntervalNames {
 IntervalNames interval_names(const std::string& metric);
 
 // A metric of a point with its ends, if the point has them; otherwise both ends are the value itself.
-Interval interval_of(const PointRecord& point, const std::string& metric);
+MedianInterval interval_of(const PointRecord& point, const std::string& metric);
 
 // The largest over the conditions: of the values, and of each end. The ends enclose the largest median if the ends of each
 // condition enclose its own.
-Interval joined_interval(const Choice& choice, const std::string& metric);
+MedianInterval joined_interval(const Choice& choice, const std::string& metric);
 
 }  // namespace noonmark

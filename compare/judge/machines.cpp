@@ -15,7 +15,7 @@
 namespace noonmark {
 namespace {
 
-using Machine = PointRecord::Machine;
+using Machine = Machine;
 using Numerics = std::tuple<std::string, std::string, std::string>;
 
 // Two machines of the same kind give the same numbers, but for times.

@@ -52,13 +52,13 @@ const Recommendation* best_by(const std::vector<Recommendation>& good, const Bet
 }
 
 // The cost that ends first: every choice whose cost begins beyond it is certainly dearer.
-Interval least_cost(const std::vector<Recommendation>& good) {
+MedianInterval least_cost(const std::vector<Recommendation>& good) {
   const Recommendation* first = best_by(good, [](const auto& a, const auto& b) { return a.cost.high < b.cost.high; });
-  return first ? first->cost : Interval();
+  return first ? first->cost : MedianInterval();
 }
 
 CostNoise noise_of(const std::vector<Recommendation>& good) {
-  const Interval bar = least_cost(good);
+  const MedianInterval bar = least_cost(good);
   std::set<std::tuple<double, double, double>> costs, least;
   for (const Recommendation& one : good) {
     const std::tuple cost(one.cost.low, one.cost.middle, one.cost.high);
@@ -126,7 +126,7 @@ std::string margin_text(const BiasChoice& bias) {
 
 std::optional<BiasChoice> choose_bias(const Choice& choice, const Results& results,
                                       const std::vector<BoundResult>& bounds) {
-  const std::optional<BiasWindow> window = joined_window(choice);
+  const std::optional<Interval> window = joined_window(choice);
   if (!window) return std::nullopt;
   double low = window->low * bias_margin, high = window->high / bias_margin;
   const bool narrow = low > high;
@@ -165,7 +165,7 @@ std::optional<BiasChoice> set_bias(const Choice& choice, const Results& results)
   if (std::none_of(results.bounds.begin(), results.bounds.end(),
                    [&](const BoundResult& bound) { return speaks_of(bound, choice.first()); }))
     return {};
-  const std::optional<BiasWindow> window = joined_window(choice);
+  const std::optional<Interval> window = joined_window(choice);
   if (!window) return {};
   const PointRecord& first = choice.first();
   const std::string& parameter = first.curve->parameter;
@@ -210,7 +210,7 @@ bool is_incomplete(const Results& results) {
 }
 
 const Recommendation* cheapest(const std::vector<Recommendation>& good) {
-  const Interval bar = least_cost(good);
+  const MedianInterval bar = least_cost(good);
   return best_by(good, [&](const auto& a, const auto& b) {
     const bool a_alike = !certainly_less(bar, a.cost), b_alike = !certainly_less(bar, b.cost);
     if (a_alike != b_alike) return a_alike;

@@ -24,7 +24,7 @@ inline constexpr double flat_error = 1.1;
 struct BiasChoice {
   std::string parameter, unit;
   double value = 0;     // a short decimal
-  BiasWindow window;    // usable under every condition
+  Interval window;      // usable under every condition
   bool narrow = false;  // the window is too narrow for bias_margin; the value is in its middle half
   // The points were rendered with it, and it is kept because it is good enough (set_bias). narrow: it is closer than
   // bias_margin to an end of the window.
@@ -53,7 +53,7 @@ struct Recommendation {
   } outcome = Outcome::no_criterion;
   // The others: only if found.
   Choice choice;
-  Interval cost;                   // largest over the conditions, in the unit of RunInfo::cost (joined_interval)
+  MedianInterval cost;             // largest over the conditions, in the unit of RunInfo::cost (joined_interval)
   Joined error;                    // RunInfo::accuracy, at `bias`, or as rendered if there is no bias
   std::optional<BiasChoice> bias;  // the choice has curves
   CostNoise noise;                 // of recommend()

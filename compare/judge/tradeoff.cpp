@@ -26,7 +26,7 @@ double least_wrong_bias(const Choice& choice, const std::string& metric) {
 }
 
 // The bias for a choice whose window is not empty, but which is not good enough.
-double bias_without_bounds(const Choice& choice, const Results& results, const BiasWindow& window) {
+double bias_without_bounds(const Choice& choice, const Results& results, const Interval& window) {
   if (const std::optional<BiasChoice> chosen = choose_bias(choice, results, {})) return chosen->value;
   return std::sqrt(window.low * window.high);  // no error of the curve is finite
 }
@@ -34,7 +34,7 @@ double bias_without_bounds(const Choice& choice, const Results& results, const B
 bool was_rendered_in_window(const Choice& choice) {
   return std::all_of(choice.points.begin(), choice.points.end(), [](const PointRecord* point) {
     const std::optional<double> set = bias_as_set(*point);
-    const std::optional<DepthWindow> window = usable_window(*point->curve);
+    const std::optional<Interval> window = usable_window(*point->curve);
     return set && window && *set >= window->low && *set <= window->high;
   });
 }

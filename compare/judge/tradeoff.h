@@ -24,7 +24,7 @@ struct ComparedChoice {
   // In bias.unit. Window usable: that of good_choice(); if no bias of the window meets the bounds, that of choose_bias()
   // without bounds. Window empty: that of the least error (RunInfo::accuracy), of several the least bias. No curve: none.
   std::optional<double> bias;
-  std::optional<BiasWindow> usable;    // the joined window
+  std::optional<Interval> usable;      // the joined window
   std::optional<Recommendation> good;  // the choice is good enough
   // Where its numbers are read at its bias: as rendered if that is the bias that was set (BiasChoice::as_set).
   std::optional<double> read_at() const { return good && good->bias ? good->bias->read_at() : bias; }
@@ -47,7 +47,7 @@ enum class AtBias { best, as_set };
 Joined value_of(const ComparedChoice& one, const std::string& metric, AtBias at = AtBias::best);
 
 // A cost of the choice: joined_interval().
-inline Interval cost_of(const ComparedChoice& one, const std::string& metric) {
+inline MedianInterval cost_of(const ComparedChoice& one, const std::string& metric) {
   return joined_interval(one.choice, metric);
 }
 

@@ -278,13 +278,13 @@ BiasCurve summarise(const BiasCounts& counts, const BiasScale& scale, const Curv
   curve.texels_per_depth = scale.texels_per_depth;
 
   if (counts.receivers() == 0) {
-    judge_window(curve, options.acne_bound, options.peter_panning_bound);
+    judge_window(curve, options);
     curve.best_error = std::numeric_limits<double>::quiet_NaN();
     return curve;
   }
   curve.steps = counts.window_steps(scale.depth_per_unit,
                                     std::max({least_most_share, options.acne_bound, options.peter_panning_bound}));
-  judge_window(curve, options.acne_bound, options.peter_panning_bound);
+  judge_window(curve, options);
   // A bias of 1 in depth spans the whole map. A larger bias has no meaning.
   const auto most = static_cast<float>(1 / scale.depth_per_unit);
   const BiasCounts::Best best = counts.best(most);

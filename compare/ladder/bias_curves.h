@@ -142,9 +142,8 @@ struct BiasScale {
 BiasScale bias_scale(const LightFrame& frame, const ReceiverImage& receivers, const ReceiverTruth& truth,
                      BiasUnit unit);
 
-struct CurveOptions {
-  double acne_bound = 0.001, peter_panning_bound = 0.001;  // fractions of counted receivers
-  std::vector<double> bias_depth;                          // ascending, from 0; empty: default_bias_grid()
+struct CurveOptions : CauseBounds {
+  std::vector<double> bias_depth;  // ascending, from 0; empty: default_bias_grid()
 };
 
 // The biases of a curve, in window depth.

@@ -364,8 +364,6 @@ std::map<std::string, double> placement_metrics(const PlacementCounts& counts, s
     metrics[name + "_mean"] = std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(sorted.size());
     metrics[name + "_worst"] = sorted.back();
     metrics[name + "_best"] = sorted.front();
-    // The nearest rank.
-    metrics[name + "_p95"] = sorted[static_cast<size_t>(std::ceil(0.95 * static_cast<double>(sorted.size()))) - 1];
   }
   for (const PlacementFact& fact : worst) metrics[fmt::format("worst_{}", fact.name)] = fact.value;
   return metrics;
@@ -374,9 +372,6 @@ std::map<std::string, double> placement_metrics(const PlacementCounts& counts, s
 void add_bands(BiasCurve& curve, const PlacementCounts& counts, double depth_per_unit) {
   curve.placements = static_cast<uint64_t>(counts.placements().count());
   const std::vector<float>& edges = counts.edges();
-  struct Band {
-    std::vector<double> mean, worst, best;
-  };
   const auto band_at = [&](const auto& of, size_t edge, Band& band) {
     double sum = 0, worst = 0, best = std::numeric_limits<double>::infinity();
     for (int p = 0; p < counts.placements().count(); ++p) {
@@ -395,21 +390,15 @@ void add_bands(BiasCurve& curve, const PlacementCounts& counts, double depth_per
   const auto aliasing = [&](int p, size_t edge) {
     return counts.caused(Cause::aliasing_dark, p, edge) + counts.caused(Cause::aliasing_light, p, edge);
   };
-  Band error, acne, panning, aliased;
   for (double bias : curve.bias_depth) {
     const auto at = std::find(edges.begin(), edges.end(), static_cast<float>(bias / depth_per_unit));
     if (at == edges.end()) throw std::logic_error("a bias of the curve is no edge of the placements' counts");
     const auto edge = static_cast<size_t>(at - edges.begin());
-    band_at([&](int p, size_t e) { return counts.wrong_taps(p, e); }, edge, error);
-    band_at(caused(Cause::acne), edge, acne);
-    band_at(caused(Cause::peter_panning), edge, panning);
-    band_at(aliasing, edge, aliased);
+    band_at([&](int p, size_t e) { return counts.wrong_taps(p, e); }, edge, curve.error_band);
+    band_at(caused(Cause::acne), edge, curve.acne_band);
+    band_at(caused(Cause::peter_panning), edge, curve.peter_panning_band);
+    band_at(aliasing, edge, curve.aliasing_band);
   }
-  curve.error_mean = error.mean, curve.error_worst = error.worst, curve.error_best = error.best;
-  curve.acne_mean = acne.mean, curve.acne_worst = acne.worst, curve.acne_best = acne.best;
-  curve.peter_panning_mean = panning.mean, curve.peter_panning_worst = panning.worst;
-  curve.peter_panning_best = panning.best;
-  curve.aliasing_mean = aliased.mean, curve.aliasing_worst = aliased.worst, curve.aliasing_best = aliased.best;
 
   if (std::isfinite(counts.acne_free_from()))
     curve.acne_free_bias_worst_depth = counts.acne_free_from() * depth_per_unit;
@@ -427,7 +416,7 @@ void add_bands(BiasCurve& curve, const PlacementCounts& counts, double depth_per
     if (const auto there = worst_at(Cause::peter_panning, edge); within(there))
       steps.peter_panning_worst.push_back(there);
   }
-  judge_window(curve, curve.acne_bound, curve.peter_panning_bound);
+  judge_window(curve, curve);
 }
 
 }  // namespace noonmark

@@ -155,7 +155,7 @@ uint64_t disagreements(const LookupEvidence& evidence, size_t pixel, const Place
 int worst_placement(const PlacementCounts& counts);
 
 // Mean, worst, best and 95th percentile over the placements of every metric of shares(), and which placement has the
-// largest error (KindOfLight::placement_facts). Names: "acne_mean", "acne_worst", "acne_best", "acne_p95",
+// largest error (KindOfLight::placement_facts). Names: "acne_mean", "acne_worst", "acne_best",
 // "worst_shift_u_texels".
 std::map<std::string, double> placement_metrics(const PlacementCounts& counts, std::span<const PlacementFact> worst);
 

@@ -57,7 +57,7 @@ json curve_of(const PointRecord& point, size_t entries_of_all_curves) {
       out[name] = value;
   });
   for (const CurveSeries& series : curve_series())
-    if (!(curve.*series.values).empty()) out[series.name] = drawn(curve.*series.values, indices);
+    if (!series.of(curve).empty()) out[series.name] = drawn(series.of(curve), indices);
   if (const std::optional<double> set = bias_as_set(point)) out["set_bias_depth"] = value_of(*set);
   return out;
 }

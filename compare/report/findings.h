@@ -16,7 +16,7 @@ namespace noonmark {
 // in one. Points that are equal, in cost as far as it is known, are all kept. Points with a value that is not finite are
 // never on the front.
 struct CostAndError {
-  Interval cost;
+  MedianInterval cost;
   double error = 0;
 };
 std::vector<size_t> pareto_front(std::span<const CostAndError> points);

@@ -55,7 +55,7 @@ json marks_of(const PointRecord& point, const Recommendation& recommendation) {
   else if (point.curve && std::isfinite(point.curve->best_bias_depth))
     marks["best"] = point.curve->best_bias_depth;
   if (!point.curve) return marks;
-  if (const std::optional<DepthWindow> window = usable_window(*point.curve))
+  if (const std::optional<Interval> window = usable_window(*point.curve))
     marks["window"] = json::array({window->low, window->high});
   return marks;
 }

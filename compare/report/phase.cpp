@@ -78,11 +78,11 @@ std::vector<std::string> phase_words(const PhaseDiagram& d) {
     return words;
   }
   const auto usual = nearest(1024);
-  if (const BiasInterval window = d.usable(*usual); !window.empty())
+  if (const Interval window = d.usable(*usual); !window.empty())
     words.push_back(
         fmt::format("At {} texels, each {} wide, a constant bias from {} to {} keeps {}, at every placement "
                     "of the texel grid.",
-                    usual->resolution, metres(usual->texel_m), metres(window.from), metres(window.to), bounds));
+                    usual->resolution, metres(usual->texel_m), metres(window.low), metres(window.high), bounds));
   else
     words.push_back(fmt::format("At {} texels, each {} wide, no constant bias keeps {}.", usual->resolution,
                                 metres(usual->texel_m), bounds));
@@ -93,7 +93,7 @@ std::vector<std::string> phase_words(const PhaseDiagram& d) {
     words.push_back(
         fmt::format("Every texel up to {} (resolution {} and more) has a usable bias; the tip of the usable "
                     "region is at {}.",
-                    metres(coarsest->texel_m), coarsest->resolution, metres(d.usable(*coarsest).from)));
+                    metres(coarsest->texel_m), coarsest->resolution, metres(d.usable(*coarsest).low)));
   else
     words.push_back("Only some of the texel sizes have a usable bias; see the table.");
   return words;
@@ -132,12 +132,12 @@ std::string phase_csv(const PhaseDiagram& d) {
   for (const PhaseSeries& series : phase_series()) csv += fmt::format(",{}", series.name);
   csv += ",cause,usable\n";
   for (const PhaseRow& row : d.rows) {
-    const BiasInterval usable = d.usable(row);
+    const Interval usable = d.usable(row);
     for (size_t i = 0; i < d.bias_m.size(); ++i) {
       csv += fmt::format("{},{},{}", row.resolution, row.texel_m, d.bias_m[i]);
       for (const PhaseSeries& series : phase_series()) csv += fmt::format(",{}", (row.*series.values)[i]);
       csv +=
-          fmt::format(",{},{}\n", dominating(row, i), d.bias_m[i] >= usable.from && d.bias_m[i] <= usable.to ? 1 : 0);
+          fmt::format(",{},{}\n", dominating(row, i), d.bias_m[i] >= usable.low && d.bias_m[i] <= usable.high ? 1 : 0);
     }
   }
   return csv;

@@ -32,12 +32,12 @@ nlohmann::json series(const std::vector<double>& values) {
 std::string table(const PhaseDiagram& d) {
   std::string rows;
   for (const PhaseRow& row : d.rows) {
-    const BiasInterval worst = d.usable(row), mean = d.usable_on_average(row);
+    const Interval worst = d.usable(row), mean = d.usable_on_average(row);
     const auto least = std::min_element(row.error_worst.begin(), row.error_worst.end()) - row.error_worst.begin();
     const auto best = static_cast<size_t>(least);
-    const auto cells = [](const BiasInterval& interval) {
+    const auto cells = [](const Interval& interval) {
       return interval.empty() ? std::string("<td colspan=\"2\">none</td>")
-                              : fmt::format("<td>{}</td><td>{}</td>", metres(interval.from), metres(interval.to));
+                              : fmt::format("<td>{}</td><td>{}</td>", metres(interval.low), metres(interval.high));
     };
     rows +=
         fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td>{}{}<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
@@ -55,10 +55,10 @@ std::string table(const PhaseDiagram& d) {
 }
 
 // Where a bias lies to the usable interval of its texel size.
-std::string_view verdict_of(const BiasInterval& usable, double bias_m) {
+std::string_view verdict_of(const Interval& usable, double bias_m) {
   return usable.empty()         ? "no bias is"
-         : bias_m < usable.from ? "too small"
-         : bias_m > usable.to   ? "too large"
+         : bias_m < usable.low  ? "too small"
+         : bias_m > usable.high ? "too large"
                                 : "usable";
 }
 
@@ -85,7 +85,7 @@ std::string points_of(const PhaseDiagram& d, const ShownPoints& shown) {
     if (!point.left_out.empty()) continue;
     ++on;
     const PhaseRow& row = d.nearest_row(point.texel_m);
-    const BiasInterval window = d.usable(row);
+    const Interval window = d.usable(row);
     const std::string_view verdict = verdict_of(window, point.bias_m);
     usable += verdict == "usable";
     const auto& all = shown.results.points;
@@ -95,7 +95,7 @@ std::string points_of(const PhaseDiagram& d, const ShownPoints& shown) {
         "<tr><th scope=\"row\"><a href=\"#p{0}\">{0}</a></th><td class=\"text\">{1}</td><td>{2}</td><td>{3}</td>"
         "<td>{4}</td><td class=\"text{6}\">{5}</td></tr>\n",
         point.point, html(settings_phrase(*record, shown.results.info.swept)), metres(point.texel_m),
-        metres(point.bias_m), window.empty() ? "none" : fmt::format("{} … {}", metres(window.from), metres(window.to)),
+        metres(point.bias_m), window.empty() ? "none" : fmt::format("{} … {}", metres(window.low), metres(window.high)),
         verdict, verdict == "usable" ? "" : " fails");
   }
   if (d.points.empty()) return "";
@@ -139,9 +139,9 @@ nlohmann::json phase_data(const PhaseDiagram& d) {
     nlohmann::json json{
         {"resolution", row.resolution}, {"texel_m", finite(row.texel_m)}, {"last_acne_m", finite(row.last_acne_m)}};
     for (const PhaseSeries& one : phase_series()) json[one.name] = series(row.*one.values);
-    const BiasInterval worst = d.usable(row), mean = d.usable_on_average(row);
-    if (!worst.empty()) json["usable"] = {worst.from, worst.to};
-    if (!mean.empty()) json["usable_mean"] = {mean.from, mean.to};
+    const Interval worst = d.usable(row), mean = d.usable_on_average(row);
+    if (!worst.empty()) json["usable"] = {worst.low, worst.high};
+    if (!mean.empty()) json["usable_mean"] = {mean.low, mean.high};
     phase["rows"].push_back(std::move(json));
   }
   for (const PhasePoint& point : d.points)

@@ -32,7 +32,7 @@ std::map<int64_t, double> recommended_biases(const std::vector<ComparedGroup>& g
 nlohmann::json at_bias(const PointRecord& point, double bias) {
   const double depth = bias / parameter_per_depth(point);
   if (!std::isfinite(depth)) return {};
-  const std::optional<DepthWindow> window = usable_window(*point.curve);
+  const std::optional<Interval> window = usable_window(*point.curve);
   nlohmann::json out{{"parameter", point.curve->parameter},
                      {"value", bias},
                      {"text", bias_in_unit(bias, setting_of(point, "bias.unit"))},

@@ -97,7 +97,7 @@ std::string bias_section(const Results& results, const ShownPoints& shown) {
     if (!point.curve) continue;
     ++count;
     const BiasCurve& curve = *point.curve;
-    const std::optional<DepthWindow> usable = usable_window(curve);
+    const std::optional<Interval> usable = usable_window(curve);
     rows += fmt::format("<tr{}>{}", usable ? "" : " class=\"broken\"", swept_cells(results, point, classes));
     rows += usable ? bias_cell(usable->low, curve) + bias_cell(usable->high, curve)
                    : "<td colspan=\"6\" class=\"fails first\">none: no bias is good enough</td>";

@@ -125,7 +125,7 @@ json entry_data(const ComparedChoice& one, const Axes& axes, const ChoiceNames& 
   for (const std::string& cost : axes.costs) {
     const Joined value = value_of(one, cost);
     json& numbers = out["costs"][cost] = {or_null(value.worst), or_null(value.mean)};
-    if (const Interval known = cost_of(one, cost); known.low < known.high)
+    if (const MedianInterval known = cost_of(one, cost); known.low < known.high)
       numbers.push_back(known.low), numbers.push_back(known.high);
   }
   for (const std::string& error : axes.errors) out["errors"][error] = metric_data(one, error);

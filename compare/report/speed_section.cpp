@@ -115,7 +115,7 @@ std::string span_cell(const ComparedChoice& one, const std::string& error, std::
 // "4.1 <small>3.9 … 4.4</small>"
 std::string cost_cell(const ComparedChoice& one, const std::string& cost) {
   const std::string_view unit = find_metric(cost).unit;
-  const Interval known = cost_of(one, cost);
+  const MedianInterval known = cost_of(one, cost);
   const std::string value = cell(known.middle, unit);
   if (!(known.low < known.high)) return value;
   return fmt::format("{} <small>{} … {}</small>", value, cell(known.low, unit), cell(known.high, unit));

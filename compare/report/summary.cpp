@@ -179,7 +179,7 @@ std::string best_table(const Results& results) {
     for (const std::string& name : {std::string("error"), std::string("acne"), std::string("peter_panning"),
                                     std::string("aliasing"), results.info.cost})
       cells.push_back(short_or_missing(quantity(*point, name), find_metric(name).unit));
-    const std::optional<DepthWindow> window = point->curve ? usable_window(*point->curve) : std::nullopt;
+    const std::optional<Interval> window = point->curve ? usable_window(*point->curve) : std::nullopt;
     cells.push_back(window         ? fmt::format("{} … {}", number_text(window->low), number_text(window->high))
                     : point->curve ? "none"
                                    : "–");

@@ -139,7 +139,7 @@ std::string quantity(double value, std::string_view unit, int digits) {
   return shown.empty() || !std::isfinite(value) ? text : fmt::format("{}{}{}", text, thin_space, shown);
 }
 
-std::string quantity(const Interval& interval, std::string_view unit) {
+std::string quantity(const MedianInterval& interval, std::string_view unit) {
   const std::string text = quantity(interval.middle, unit);
   if (interval.low == interval.high || !std::isfinite(interval.middle)) return text;
   return fmt::format("{} ({} … {})", text, cell(interval.low, unit), cell(interval.high, unit));

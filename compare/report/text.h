@@ -29,7 +29,7 @@ std::string number(double value, int digits = report_digits);
 // numbers.
 std::string quantity(double value, std::string_view unit, int digits = report_digits);
 // The same of a median with its interval: "4.1 ms (3.9 … 4.4)". Only the value if both ends are the value.
-std::string quantity(const Interval& interval, std::string_view unit);
+std::string quantity(const MedianInterval& interval, std::string_view unit);
 // The number without its unit, and the unit for a table's head ("%", "ms", "").
 std::string cell(double value, std::string_view unit, int digits = report_digits);
 std::string_view head_unit(std::string_view unit);

@@ -38,10 +38,21 @@ struct CurveWidth {
 std::span<const CurveWidth> curve_widths();
 
 // One value for each bias.
-struct CurveSeries {
+class CurveSeries {
+ public:
+  constexpr CurveSeries(std::string_view series, std::vector<double> BiasCurve::*plain) : name(series), plain_(plain) {}
+  constexpr CurveSeries(std::string_view series, Band BiasCurve::*band, std::vector<double> Band::*part)
+      : name(series), band_(band), part_(part) {}
+
   std::string_view name;  // "bias_depth"; the others are metrics
-  std::vector<double> BiasCurve::*values;
-  bool of_placements = false;  // empty without map.placements
+  const std::vector<double>& of(const BiasCurve& curve) const { return plain_ ? curve.*plain_ : curve.*band_.*part_; }
+  std::vector<double>& of(BiasCurve& curve) const { return plain_ ? curve.*plain_ : curve.*band_.*part_; }
+  bool of_placements() const { return !plain_; }  // then it is empty without map.placements
+
+ private:
+  std::vector<double> BiasCurve::*plain_ = nullptr;
+  Band BiasCurve::*band_ = nullptr;
+  std::vector<double> Band::*part_ = nullptr;
 };
 std::span<const CurveSeries> curve_series();
 

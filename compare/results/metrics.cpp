@@ -278,8 +278,8 @@ const MetricTable& table() {
           {text(stem + "_high_ms"), "ms", text("The upper end of that interval: the second largest sample."), false});
     }
     for (std::string_view name : placed)
-      for (const auto& [ending, what] : {std::pair("mean", "Mean"), std::pair("worst", "Largest"),
-                                         std::pair("best", "Least"), std::pair("p95", "95th percentile")})
+      for (const auto& [ending, what] :
+           {std::pair("mean", "Mean"), std::pair("worst", "Largest"), std::pair("best", "Least")})
         t.rows.push_back(
             {text(std::string(name) + "_" + ending), "fraction",
              text(std::string(what) + " over the placements of the texel grid (map.placements) of " +

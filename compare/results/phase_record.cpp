@@ -20,13 +20,13 @@ constexpr PhaseSeries all_series[] = {
 };
 
 // Acne falls with the bias and Peter Panning grows, so each bound is met from one bias on, or up to one.
-BiasInterval between(const std::vector<double>& bias_m, const std::vector<double>& acne, double acne_bound,
-                     const std::vector<double>& panning, double panning_bound) {
+Interval between(const std::vector<double>& bias_m, const std::vector<double>& acne, double acne_bound,
+                 const std::vector<double>& panning, double panning_bound) {
   const auto from = std::find_if(acne.begin(), acne.end(), [&](double share) { return share <= acne_bound; });
   const auto end =
       std::find_if(panning.begin(), panning.end(), [&](double share) { return !(share <= panning_bound); });
   const auto first = from - acne.begin(), last = end - panning.begin() - 1;
-  if (first > last) return {};
+  if (first > last) return empty_interval;
   return {bias_m[static_cast<size_t>(first)], bias_m[static_cast<size_t>(last)]};
 }
 
@@ -34,10 +34,10 @@ BiasInterval between(const std::vector<double>& bias_m, const std::vector<double
 
 std::span<const PhaseSeries> phase_series() { return all_series; }
 
-BiasInterval PhaseDiagram::usable(const PhaseRow& row) const {
+Interval PhaseDiagram::usable(const PhaseRow& row) const {
   return between(bias_m, row.acne_worst, acne_bound, row.peter_panning_worst, peter_panning_bound);
 }
-BiasInterval PhaseDiagram::usable_on_average(const PhaseRow& row) const {
+Interval PhaseDiagram::usable_on_average(const PhaseRow& row) const {
   return between(bias_m, row.acne, acne_bound, row.peter_panning, peter_panning_bound);
 }
 

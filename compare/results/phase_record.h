@@ -8,6 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/interval.h"
+#include "compare/results/cause_bounds.h"
+
 namespace noonmark {
 
 struct PhaseRow {
@@ -34,13 +37,7 @@ struct PhasePoint {
   std::string left_out;            // "filter.kind = box": the settings that are not those of the diagram
 };
 
-// An interval of biases in metres; empty if from > to.
-struct BiasInterval {
-  double from = 0, to = -1;
-  bool empty() const { return !(from <= to); }
-};
-
-struct PhaseDiagram {
+struct PhaseDiagram : CauseBounds {
   std::string part;       // the experiment's part; empty if it has no parts, and on a page of its own
   std::string refused;    // why this part can have no diagram, as a sentence; then there are no rows
   std::string made_from;  // what decides the numbers beside the points' settings, one "name = value" a line
@@ -51,19 +48,19 @@ struct PhaseDiagram {
   int width_px = 0, height_px = 0;  // of the picture whose receivers it counts
   int placements = 1;               // S
   double receivers = 0;             // counted, of the first row
-  double acne_bound = 0, peter_panning_bound = 0;
-  double range_m = 0;          // near to far: no bias is larger
-  double metres_per_bias = 1;  // of one unit of bias.constant as `render` sets it
-  std::vector<double> bias_m;  // ascending
-  std::vector<PhaseRow> rows;  // from the coarsest texel to the finest
+  double range_m = 0;               // near to far: no bias is larger
+  double metres_per_bias = 1;       // of one unit of bias.constant as `render` sets it
+  std::vector<double> bias_m;       // ascending
+  std::vector<PhaseRow> rows;       // from the coarsest texel to the finest
   // Law 1: the bias, as a multiple of the texel, that leaves a lit plane's acne at the bound in the mean over all
   // placements; and that no lit receiver's plane needs more than. NaN where the technique has no such law.
   double law_at_bound = 0, law_steepest = 0;
   std::vector<PhasePoint> points;  // of the sweep, ascending; empty on a page of its own
 
   // At every placement, and in the mean over the placements.
-  BiasInterval usable(const PhaseRow& row) const;
-  BiasInterval usable_on_average(const PhaseRow& row) const;
+  // Biases in metres; empty if none is.
+  Interval usable(const PhaseRow& row) const;
+  Interval usable_on_average(const PhaseRow& row) const;
   // The row whose texel is nearest, by the logarithm. There must be rows.
   const PhaseRow& nearest_row(double texel_m) const;
 };

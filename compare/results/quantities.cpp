@@ -182,7 +182,7 @@ PlacedNames placed_names(std::string_view name) {
 }
 
 std::optional<PointRecord::WorstOf> worst_pixel_of(const PointRecord& point, std::string_view metric) {
-  for (std::string_view suffix : {"_worst_shown", "_worst", "_mean", "_p95"})
+  for (std::string_view suffix : {"_worst_shown", "_worst", "_mean"})
     if (const std::string_view stem = metric.substr(0, metric.size() - std::min(suffix.size(), metric.size()));
         metric.ends_with(suffix) && !placed_names(stem).largest.empty()) {
       metric = stem;

@@ -4,7 +4,6 @@ namespace noonmark {
 namespace {
 
 using Worst = PointRecord::Worst;
-using Machine = PointRecord::Machine;
 
 constexpr RecordField fields_of_records[] = {
     {"part", "", "", "The experiment's part; empty if it has no parts.", &PointRecord::part},

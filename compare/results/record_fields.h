@@ -17,7 +17,7 @@ struct RecordField {
   std::string_view unit;  // "px", "fraction"; text: ""
   std::string_view help;  // one sentence
   using Member = std::variant<std::string PointRecord::*, int PointRecord::Worst::*, double PointRecord::Worst::*,
-                              std::string PointRecord::Worst::*, std::string PointRecord::Machine::*>;
+                              std::string PointRecord::Worst::*, std::string Machine::*>;
   Member member;
 
   // The name within its group: "x".
@@ -35,7 +35,7 @@ const PointRecord::Worst& owner(const PointRecord& record, T PointRecord::Worst:
   return record.worst;
 }
 template <class T>
-const PointRecord::Machine& owner(const PointRecord& record, T PointRecord::Machine::*) {
+const Machine& owner(const PointRecord& record, T Machine::*) {
   return record.machine;
 }
 

@@ -12,10 +12,16 @@
 #include <string>
 #include <vector>
 
+#include "compare/results/cause_bounds.h"
 #include "compare/results/phase_record.h"
 #include "compare/results/window_steps.h"
 
 namespace noonmark {
+
+// What a number is over all placements of the map's grid, for each entry of BiasCurve::bias_depth. best: the least.
+struct Band {
+  std::vector<double> mean, worst, best;
+};
 
 // The error as a function of the amount of one part of the bias, from one lookup pass (compare/ladder/bias_curves.h).
 // All else is as in the point's settings, also the part's own floor and cap. Parts that draw another map or move the
@@ -27,7 +33,7 @@ namespace noonmark {
 // factors is its median over the facing receivers. If bias.unit is such a unit, the axis is the parameter times that
 // median depth per unit. So metres and texels are always the parameter's own if that is its unit, and a value that is
 // read from the axis and set as the bias gives the curve's error.
-struct BiasCurve {
+struct BiasCurve : CauseBounds {
   std::string parameter;  // "bias.constant": the setting that is varied
   std::string made;       // "one pass": exact, from thresholds; or "one pass, except for the sampler's weights"
   std::vector<double> bias_depth;  // ascending, window depth; the first is 0
@@ -39,7 +45,6 @@ struct BiasCurve {
   double texels_per_depth = 1;  // directional: (far - near) / w
   // The usable window at the bounds below: every bias in [window_min, window_max] keeps both causes within their
   // bounds.
-  double acne_bound = 0, peter_panning_bound = 0;  // fractions of counted receivers
   std::optional<double> window_min_depth,
       window_max_depth;        // both empty: no bias is good enough
   double best_bias_depth = 0;  // middle of the interval of least error; twice its start if it has no end
@@ -54,8 +59,7 @@ struct BiasCurve {
   // series are empty without. The window holds at every placement; its ends are edges of the counts, so each is up to a
   // sixteenth of an octave inside the exact window.
   uint64_t placements = 0;
-  std::vector<double> error_mean, error_worst, error_best, acne_mean, acne_worst, acne_best, peter_panning_mean,
-      peter_panning_worst, peter_panning_best, aliasing_mean, aliasing_worst, aliasing_best;
+  Band error_band, acne_band, peter_panning_band, aliasing_band;
   std::optional<double> window_min_worst_depth, window_max_worst_depth;
   std::optional<double> acne_free_bias_worst_depth;  // exact, not at an edge
   WindowSteps steps;                                 // the windows at other bounds
@@ -90,6 +94,15 @@ struct PointPictures {
   std::vector<ImageRecord> images;
 };
 
+// Where and when a point was measured.
+struct Machine {
+  std::string host;        // its name
+  std::string cpu;         // "AMD EPYC 9B14"
+  std::string driver;      // OpenGL's vendor, renderer and version
+  std::string ray_tracer;  // Embree's version and instruction set
+  std::string clock;       // when the point was finished by the clock of that host: ISO 8601, UTC
+};
+
 struct PointRecord : PointPictures {
   int64_t id = 0;                               // position in the sweep, from 0
   std::string part;                             // the experiment's part; empty if it has no parts
@@ -112,14 +125,7 @@ struct PointRecord : PointPictures {
     double size = 0;     // in the metric's unit
   };
   std::vector<WorstOf> worst_of;
-  // Where and when the point was measured. The points of a joined store can be of several machines (compare/store/join.h).
-  struct Machine {
-    std::string host;        // its name
-    std::string cpu;         // "AMD EPYC 9B14"
-    std::string driver;      // OpenGL's vendor, renderer and version
-    std::string ray_tracer;  // Embree's version and instruction set
-    std::string clock;       // when the point was finished by the clock of that host: ISO 8601, UTC
-  } machine;
+  Machine machine;  // the points of a joined store can be of several (compare/store/join.h)
 };
 
 // A bound and its result (compare/judge/bounds.h).

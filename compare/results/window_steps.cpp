@@ -74,20 +74,19 @@ int64_t unfolded(uint64_t value) { return static_cast<int64_t>(value >> 1) ^ -st
 
 }  // namespace
 
-void judge_window(BiasCurve& curve, double acne_bound, double peter_panning_bound) {
+void judge_window(BiasCurve& curve, const CauseBounds& bounds) {
   const WindowSteps& steps = curve.steps;
-  if (steps.taps > 0 && !steps.can_judge(acne_bound, peter_panning_bound))
+  if (steps.taps > 0 && !steps.can_judge(bounds))
     throw std::logic_error("bounds that the steps of a curve do not reach");
-  curve.acne_bound = acne_bound;
-  curve.peter_panning_bound = peter_panning_bound;
+  static_cast<CauseBounds&>(curve) = bounds;
   curve.window_min_depth = curve.window_max_depth = std::nullopt;
   curve.window_min_worst_depth = curve.window_max_worst_depth = std::nullopt;
   if (!(steps.taps > 0)) return;
   // A bias of 1 in depth spans the whole map. A larger bias has no meaning.
   const auto most = static_cast<float>(1 / steps.unit_depth);
   const auto in_depth = [&](float amount) { return amount * steps.unit_depth; };
-  const auto* least = first_within(steps.acne, steps.taps, acne_bound);
-  const auto* end = last_within(steps.peter_panning, steps.taps, peter_panning_bound);
+  const auto* least = first_within(steps.acne, steps.taps, bounds.acne_bound);
+  const auto* end = last_within(steps.peter_panning, steps.taps, bounds.peter_panning_bound);
   if (least && end) {
     const float from = least->amount, to = end->amount == std::numeric_limits<float>::infinity()
                                                ? std::numeric_limits<float>::infinity()
@@ -97,8 +96,8 @@ void judge_window(BiasCurve& curve, double acne_bound, double peter_panning_boun
       curve.window_max_depth = to >= most ? 1.0 : in_depth(to);
     }
   }
-  const auto* least_worst = first_within(steps.acne_worst, steps.taps, acne_bound);
-  const auto* end_worst = last_within(steps.peter_panning_worst, steps.taps, peter_panning_bound);
+  const auto* least_worst = first_within(steps.acne_worst, steps.taps, bounds.acne_bound);
+  const auto* end_worst = last_within(steps.peter_panning_worst, steps.taps, bounds.peter_panning_bound);
   if (least_worst && end_worst && least_worst->amount <= end_worst->amount) {
     curve.window_min_worst_depth = in_depth(least_worst->amount);
     curve.window_max_worst_depth = in_depth(end_worst->amount);

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/results/cause_bounds.h"
+
 namespace noonmark {
 
 struct BiasCurve;
@@ -30,8 +32,8 @@ struct WindowSteps {
   // The same at the worst placement of the map's grid, at the edges of its counts. Empty without map.placements.
   Steps acne_worst, peter_panning_worst;  // at this amount
 
-  bool can_judge(double acne_bound, double peter_panning_bound) const {
-    return acne_bound <= most_share && peter_panning_bound <= most_share;
+  bool can_judge(const CauseBounds& bounds) const {
+    return bounds.acne_bound <= most_share && bounds.peter_panning_bound <= most_share;
   }
   bool operator==(const WindowSteps&) const = default;
 };
@@ -42,7 +44,7 @@ inline constexpr double least_most_share = 0.05;
 
 // Sets the curve's bounds and its windows, from its steps. The steps must be able to judge the bounds, or be empty (no
 // receiver is counted): then there is no window.
-void judge_window(BiasCurve& curve, double acne_bound, double peter_panning_bound);
+void judge_window(BiasCurve& curve, const CauseBounds& bounds);
 
 // A list as bytes, for the store. Whole numbers of taps take a few bytes a step. The second function throws
 // std::exception if the bytes are not those of a list.

@@ -40,8 +40,8 @@ Column<PointRecord> record_column(std::string_view name, Member PointRecord::Wor
 
 // The column of a member of the machine.
 template <class Member>
-Column<PointRecord> record_column(std::string_view name, Member PointRecord::Machine::*member) {
-  const Column<PointRecord::Machine> inner = column(name, member);
+Column<PointRecord> record_column(std::string_view name, Member Machine::*member) {
+  const Column<Machine> inner = column(name, member);
   return {name, inner.type,
           [inner](Statement& row, int index, const PointRecord& record) { inner.bind(row, index, record.machine); },
           [inner](const Statement& row, int index, PointRecord& record) { inner.read(row, index, record.machine); }};
@@ -175,14 +175,14 @@ const Table<LawResult::Sample>& law_samples_table() {
 }
 
 static bool is_absent(const CurveSeries& series, const BiasCurve& curve) {
-  return series.of_placements && curve.placements == 0;
+  return series.of_placements() && curve.placements == 0;
 }
 
 void add_series(Database& db, int64_t point, const BiasCurve& curve) {
   const size_t count = curve.bias_depth.size();
   std::string values = "?, ?";
   for (const CurveSeries& series : curve_series()) {
-    if ((curve.*series.values).size() != (is_absent(series, curve) ? 0 : count))
+    if (series.of(curve).size() != (is_absent(series, curve) ? 0 : count))
       throw std::logic_error("a series of a bias curve has another length than its biases");
     values += ", ?";
   }
@@ -190,7 +190,7 @@ void add_series(Database& db, int64_t point, const BiasCurve& curve) {
   for (size_t i = 0; i < count; ++i) {
     int index = 2;
     for (const CurveSeries& series : curve_series())
-      insert.bind(++index, is_absent(series, curve) ? std::nullopt : std::optional((curve.*series.values)[i]));
+      insert.bind(++index, is_absent(series, curve) ? std::nullopt : std::optional(series.of(curve)[i]));
     insert.run(point, static_cast<int64_t>(i));
   }
 }
@@ -201,7 +201,7 @@ void read_series(Database& db, const std::function<BiasCurve&(int64_t)>& curve_o
     BiasCurve& curve = curve_of(rows.integer(0));
     int index = 1;
     for (const CurveSeries& series : curve_series()) {
-      if (!is_absent(series, curve)) (curve.*series.values).push_back(rows.real(index));
+      if (!is_absent(series, curve)) series.of(curve).push_back(rows.real(index));
       ++index;
     }
   }

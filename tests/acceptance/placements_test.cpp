@@ -73,12 +73,12 @@ class EveryPlacement : public testing::TestWithParam<Case> {};
 
 struct Series {
   const char* name;
-  std::vector<double> BiasCurve::*of_one, BiasCurve::*mean, BiasCurve::*worst, BiasCurve::*best;
+  std::vector<double> BiasCurve::*of_one;
+  Band BiasCurve::*band;
 };
 constexpr Series series[] = {
-    {"acne", &BiasCurve::acne, &BiasCurve::acne_mean, &BiasCurve::acne_worst, &BiasCurve::acne_best},
-    {"peter_panning", &BiasCurve::peter_panning, &BiasCurve::peter_panning_mean, &BiasCurve::peter_panning_worst,
-     &BiasCurve::peter_panning_best},
+    {"acne", &BiasCurve::acne, &BiasCurve::acne_band},
+    {"peter_panning", &BiasCurve::peter_panning, &BiasCurve::peter_panning_band},
 };
 
 double error_on_exact_map(const Ladder& ladder) {
@@ -106,7 +106,7 @@ TEST_P(EveryPlacement, HasTheNumbersOfMeasuringItByItself) {
   const bool turns = placement_0.map_shape() == MapShape::cube;
   // A turn changes the texel's width at the median receiver, and so the curve's biases, if they are in texels.
   const bool same_biases = !turns || settings.bias.unit != BiasUnit::texel;
-  const auto options = same_biases ? std::optional(CurveOptions{0.02, 0.02, {}}) : std::nullopt;
+  const auto options = same_biases ? std::optional(CurveOptions{{0.02, 0.02}, {}}) : std::nullopt;
 
   Settings all = settings;
   all.map.placements = c.side;
@@ -178,9 +178,9 @@ TEST_P(EveryPlacement, HasTheNumbersOfMeasuringItByItself) {
         best = std::min(best, value);
       }
       const double at = bands->bias_depth[i];
-      ASSERT_NEAR((*bands.*s.mean)[i], sum / placements.count(), rounding) << s.name << " at " << at;
-      ASSERT_NEAR((*bands.*s.worst)[i], worst, rounding) << s.name << " at " << at;
-      ASSERT_NEAR((*bands.*s.best)[i], best, rounding) << s.name << " at " << at;
+      ASSERT_NEAR((*bands.*s.band).mean[i], sum / placements.count(), rounding) << s.name << " at " << at;
+      ASSERT_NEAR((*bands.*s.band).worst[i], worst, rounding) << s.name << " at " << at;
+      ASSERT_NEAR((*bands.*s.band).best[i], best, rounding) << s.name << " at " << at;
     }
 
   // The window at every placement is the intersection of their windows, less than two edges narrower.

@@ -86,12 +86,9 @@ inline PointRecord sample_point(int64_t id, bool with_curve = true) {
       curve.window_min_worst_depth = 0.11 / 3;
       curve.window_max_worst_depth = 0.19 / 3;
       curve.acne_free_bias_worst_depth = 0.17 / 3;
-      for (auto series :
-           {&BiasCurve::error_mean, &BiasCurve::error_worst, &BiasCurve::error_best, &BiasCurve::acne_mean,
-            &BiasCurve::acne_worst, &BiasCurve::acne_best, &BiasCurve::peter_panning_mean,
-            &BiasCurve::peter_panning_worst, &BiasCurve::peter_panning_best, &BiasCurve::aliasing_mean,
-            &BiasCurve::aliasing_worst, &BiasCurve::aliasing_best})
-        for (size_t i = 0; i < curve.bias_depth.size(); ++i) (curve.*series).push_back(value = std::sqrt(value + 1));
+      for (Band* band : {&curve.error_band, &curve.acne_band, &curve.peter_panning_band, &curve.aliasing_band})
+        for (std::vector<double>* part : {&band->mean, &band->worst, &band->best})
+          for (size_t i = 0; i < curve.bias_depth.size(); ++i) part->push_back(value = std::sqrt(value + 1));
     }
     curve.acne_free_bias_depth = 0.1 / 7;
     curve.acne_free_bias_stored_depth = id % 2 ? std::optional(0.2 / 7) : std::nullopt;
@@ -215,8 +212,9 @@ inline bool same(const BiasCurve& a, const BiasCurve& b) {
          same(a.acne_free_bias_stored_depth, b.acne_free_bias_stored_depth) && a.placements == b.placements &&
          same(a.window_min_worst_depth, b.window_min_worst_depth) &&
          same(a.window_max_worst_depth, b.window_max_worst_depth) &&
-         same(a.acne_free_bias_worst_depth, b.acne_free_bias_worst_depth) && same(a.error_mean, b.error_mean) &&
-         same(a.acne_worst, b.acne_worst) && same(a.peter_panning_best, b.peter_panning_best) && a.steps == b.steps;
+         same(a.acne_free_bias_worst_depth, b.acne_free_bias_worst_depth) &&
+         same(a.error_band.mean, b.error_band.mean) && same(a.acne_band.worst, b.acne_band.worst) &&
+         same(a.peter_panning_band.best, b.peter_panning_band.best) && a.steps == b.steps;
 }
 inline bool same(const PictureRecord& a, const PictureRecord& b) {
   return a.name == b.name && a.path == b.path && a.caption == b.caption && a.digest == b.digest;

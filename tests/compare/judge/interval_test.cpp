@@ -24,7 +24,7 @@ TEST(Interval, CoverageIsThatOfTheBinomialDistribution) {
 TEST(Interval, OfNineSamplesIsFromTheSecondToTheEighth) {
   std::vector<double> samples{5, 1, 9, 3, 7, 2, 8, 4, 6};
   for (int trial = 0; trial < 10; ++trial) {
-    const Interval interval = interval_of_median(samples);
+    const MedianInterval interval = interval_of_median(samples);
     EXPECT_EQ(interval.low, 2);
     EXPECT_EQ(interval.middle, 5);
     EXPECT_EQ(interval.high, 8);
@@ -35,7 +35,7 @@ TEST(Interval, OfNineSamplesIsFromTheSecondToTheEighth) {
 }
 
 TEST(Interval, OfAnEvenNumberHasTheMeanOfTheMiddleTwo) {
-  const Interval interval = interval_of_median({1, 2, 3, 5, 6, 7});
+  const MedianInterval interval = interval_of_median({1, 2, 3, 5, 6, 7});
   EXPECT_EQ(interval.low, 1);
   EXPECT_EQ(interval.middle, 4);
   EXPECT_EQ(interval.high, 7);
@@ -50,7 +50,7 @@ TEST(Interval, HoldsTheMedianAsOftenAsItSays) {
   for (int trial = 0; trial < trials; ++trial) {
     std::vector<double> samples(9);
     for (double& sample : samples) sample = exponential(random);
-    const Interval interval = interval_of_median(samples);
+    const MedianInterval interval = interval_of_median(samples);
     held += interval.low <= std::log(2) && std::log(2) <= interval.high;
   }
   const double expected = coverage_of_ranks(9, 2);
@@ -66,7 +66,7 @@ TEST(Interval, RefusesTooFewSamplesAndWhatIsNotFinite) {
 }
 
 TEST(Interval, TwoDifferOnlyIfTheyDoNotOverlap) {
-  const Interval a{1, 2, 3}, touching{3, 4, 5}, apart{3.5, 4, 5};
+  const MedianInterval a{1, 2, 3}, touching{3, 4, 5}, apart{3.5, 4, 5};
   EXPECT_TRUE(overlap(a, touching) && overlap(touching, a) && overlap(a, a));
   EXPECT_FALSE(certainly_less(a, touching));
   EXPECT_TRUE(certainly_less(a, apart));
@@ -84,7 +84,7 @@ TEST(Interval, OfAPointComesFromItsMetrics) {
   }
   PointRecord other = point;
   other.metrics["map_low_ms"] = 3, other.metrics["map_ms"] = 3.2, other.metrics["map_high_ms"] = 3.5;
-  const Interval joined = joined_interval({{&point, &other}}, "map_ms");
+  const MedianInterval joined = joined_interval({{&point, &other}}, "map_ms");
   EXPECT_EQ(joined.low, 3);
   EXPECT_EQ(joined.middle, 3.2);
   EXPECT_EQ(joined.high, 4);

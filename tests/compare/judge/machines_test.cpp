@@ -6,9 +6,9 @@
 namespace noonmark {
 namespace {
 
-Results on_machines(const std::vector<PointRecord::Machine>& machines) {
+Results on_machines(const std::vector<Machine>& machines) {
   Results results;
-  for (const PointRecord::Machine& machine : machines) {
+  for (const Machine& machine : machines) {
     PointRecord point;
     point.id = static_cast<int64_t>(results.points.size());
     point.settings["map.resolution"] = point.id == 0 ? "512" : "1024";
@@ -22,9 +22,9 @@ BoundResult bound_on(const std::string& metric) {
   bound.metric = metric;
   return bound;
 }
-const PointRecord::Machine a{"a", "EPYC", "llvmpipe", "3.13.5 avx2", "2026-01-01T00:00:00Z"};
-const PointRecord::Machine twin{"b", "EPYC", "llvmpipe", "3.13.5 avx2", "2026-01-02T00:00:00Z"};
-const PointRecord::Machine other{"c", "EPYC", "llvmpipe", "3.13.5 avx512", "2026-01-02T00:00:00Z"};
+const Machine a{"a", "EPYC", "llvmpipe", "3.13.5 avx2", "2026-01-01T00:00:00Z"};
+const Machine twin{"b", "EPYC", "llvmpipe", "3.13.5 avx2", "2026-01-02T00:00:00Z"};
+const Machine other{"c", "EPYC", "llvmpipe", "3.13.5 avx512", "2026-01-02T00:00:00Z"};
 
 TEST(MachineNotes, AreNoneForOneMachine) {
   Results results = on_machines({a, a});

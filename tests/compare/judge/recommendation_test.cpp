@@ -57,7 +57,7 @@ TEST(Recommend, TakesTheCheapestPointThatHasAWindow) {
 // A window from 0 has no lower end from which a bias could keep a distance.
 TEST(Recommend, SaysFromWhichEndsTheBiasKeepsItsDistance) {
   const auto of_window = [](double low, double value) {
-    return margin_text({"bias.constant", "depth", value, BiasWindow{low, 0.75}, false});
+    return margin_text({"bias.constant", "depth", value, Interval{low, 0.75}, false});
   };
   EXPECT_EQ(of_window(0.25, 0.5), "the bias keeps at least 5% from both ends");
   EXPECT_EQ(of_window(0, 0.5),
@@ -77,7 +77,7 @@ TEST(Recommend, AccurateTakesTheLeastErrorAtTheChosenBias) {
 }
 
 // Points of the given times, each with an error of its own; the cost is the time.
-Results with_times(std::initializer_list<std::pair<Interval, double>> time_and_error) {
+Results with_times(std::initializer_list<std::pair<MedianInterval, double>> time_and_error) {
   Results results;
   results.info.cost = "shadow_ms";
   for (const auto& [time, error] : time_and_error) {
@@ -288,7 +288,7 @@ TEST(Over, WindowsMeetInTheUnitOfTheParameter) {
     point.settings["bias.unit"] = "m";
     point.curve->m_per_depth = point.id / 2 ? 20 : 10;  // the second view's map reaches twice as far
   }
-  const std::optional<BiasWindow> window = joined_window(choices_of(results).front());
+  const std::optional<Interval> window = joined_window(choices_of(results).front());
   ASSERT_TRUE(window);
   EXPECT_EQ(window->low, 5);     // 2.5 and 5 m
   EXPECT_EQ(window->high, 7.5);  // 7.5 and 15 m

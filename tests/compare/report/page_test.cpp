@@ -190,16 +190,15 @@ class BandsPage : public Browser {
       BiasCurve& curve = *point.curve;
       curve.placements = 64;
       for (size_t i = 0; i < curve.bias_depth.size(); ++i) {
-        const auto add = [&](double value, auto best, auto mean, auto worst) {
-          (curve.*best).push_back(0.8 * value);
-          (curve.*mean).push_back(value);
-          (curve.*worst).push_back(1.2 * value);
+        const auto add = [](double value, Band& band) {
+          band.best.push_back(0.8 * value);
+          band.mean.push_back(value);
+          band.worst.push_back(1.2 * value);
         };
-        using C = BiasCurve;
-        add(curve.error[i], &C::error_best, &C::error_mean, &C::error_worst);
-        add(curve.acne[i], &C::acne_best, &C::acne_mean, &C::acne_worst);
-        add(curve.peter_panning[i], &C::peter_panning_best, &C::peter_panning_mean, &C::peter_panning_worst);
-        add(curve.aliasing_dark[i], &C::aliasing_best, &C::aliasing_mean, &C::aliasing_worst);
+        add(curve.error[i], curve.error_band);
+        add(curve.acne[i], curve.acne_band);
+        add(curve.peter_panning[i], curve.peter_panning_band);
+        add(curve.aliasing_dark[i], curve.aliasing_band);
       }
       if (!curve.window_min_depth) continue;
       curve.window_min_worst_depth = *curve.window_min_depth * 1.1;
@@ -337,9 +336,9 @@ class PhasePage : public Browser {
     d.law_steepest = 3;
     d.points.clear();
     ASSERT_TRUE(d.usable(d.rows[0]).empty());
-    ASSERT_EQ(d.usable(d.rows[1]).from, d.bias_m[4]);
-    ASSERT_EQ(d.usable(d.rows[1]).to, d.bias_m[4]);
-    ASSERT_EQ(d.usable(d.rows[2]).from, d.bias_m[2]);
+    ASSERT_EQ(d.usable(d.rows[1]).low, d.bias_m[4]);
+    ASSERT_EQ(d.usable(d.rows[1]).high, d.bias_m[4]);
+    ASSERT_EQ(d.usable(d.rows[2]).low, d.bias_m[2]);
     open(render_phase(d), "phase_probe.js");
   }
 };
