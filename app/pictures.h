@@ -27,6 +27,10 @@ Image<Color> motion_frame(const Measurement& m);
 // light and is in shadow, which is dark grey.
 Image<Color> lit_picture(const Measurement& m);
 
+// The pictures "map" and "classes" of write_pictures().
+Image<Color> shown_picture(const Measurement& m);
+Image<Color> causes_picture(const Measurement& m);
+
 // The surroundings of one pixel, enlarged: the truth, what the map showed, and why it is wrong, beside each other. The pixel
 // is in the middle of each and framed. x, y: in the picture, row 0 on top. What lies beyond the picture's edge is black.
 inline constexpr int crop_px = 17, crop_scale = 10, crop_gap = 6;

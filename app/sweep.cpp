@@ -24,6 +24,7 @@
 #include "app/pass_times.h"
 #include "app/pictures.h"
 #include "app/point_pictures.h"
+#include "app/recommended_picture.h"
 #include "app/survey.h"
 #include "app/sweep_phase.h"
 #include "app/sweep_progress.h"
@@ -399,6 +400,14 @@ SweepOutcome run_sweep(const Experiment& experiment, const ResultsFolder& folder
   if (!options.shard) judge(experiment, outcome.results);
   store.set_bounds(outcome.results.bounds);
   store.set_laws(outcome.results.laws);
+  if (!options.shard && !outcome.interrupted)
+    keep_recommended_picture(outcome.results, store, folder.path(), [&](int64_t id, const Settings& at_bias) {
+      progress.shown.set_left(progress.pictures, 1);
+      progress.shown.say(fmt::format("pictures of point {} at the recommended bias", id));
+      room.require_room_for(static_cast<size_t>(id));
+      scenes.require_unchanged(bench, at_bias);
+      return bench.measure(at_bias, std::nullopt);
+    });
   if (options.worst_pixels && writes_pictures(experiment) && !outcome.interrupted) {
     std::optional<Measurement> m;
     const std::vector<FailingPixel> broken_pixels = failing_pixels(outcome.results);

@@ -13,6 +13,7 @@
 #include "compare/report/broken.h"
 #include "compare/report/cause_colors.h"
 #include "compare/report/laws.h"
+#include "compare/report/opening.h"
 #include "compare/report/phase_section.h"
 #include "compare/report/point_data.h"
 #include "compare/report/rules.h"
@@ -110,6 +111,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
   data["over"] = results.info.over;
   data["cost"] = results.info.cost;
   data["accuracy"] = results.info.accuracy;
+  data["bias"] = opens_as_set(results) ? "set" : "recommended";
 
   const size_t entries = curve_entries(shown.results);
   const std::map<int64_t, double> biases = recommended_biases(shown.groups);

@@ -8,6 +8,8 @@
 #include <initializer_list>
 
 #include "compare/report/cause_colors.h"
+#include "compare/report/opening.h"
+#include "compare/report/point_data.h"
 #include "compare/report/sections.h"
 #include "compare/report/text.h"
 #include "compare/store/metrics.h"
@@ -66,7 +68,9 @@ std::string joined(std::initializer_list<std::string> parts) {
 
 }  // namespace
 
-std::string pictures_section(const Results& results, const std::function<std::string(const std::string&)>& read_file) {
+std::string pictures_section(const Results& results, const ShownPoints& shown,
+                             const std::function<std::string(const std::string&)>& read_file) {
+  const std::map<int64_t, double> biases = recommended_biases(shown.groups);
   std::string sets;
   for (const PointRecord& point : results.points) {
     if (point.pictures.empty()) continue;
@@ -78,7 +82,7 @@ std::string pictures_section(const Results& results, const std::function<std::st
                           point.worst.x, point.worst.y, quantity(point.worst.error, "fraction"),
                           point.worst.cause.empty() ? "" : ", " + html(metric_label(point.worst.cause)));
     sets += "<div class=\"stage\">\n";
-    for (const PictureRecord& record : point.pictures) sets += picture(record, read_file);
+    for (const PictureRecord& record : pictures_for_page(point, biases)) sets += picture(record, read_file);
     sets += "</div></div>\n";
   }
   if (sets.empty()) return "";

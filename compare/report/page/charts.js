@@ -5,12 +5,10 @@
 var data = noonmarkData;
 // bias: 'set' or 'recommended' (bias_choice.js). select() marks a point everywhere; open() also opens its card (card.js).
 var page = window.noonmarkPage = {data: data, selected: null, onSelect: [], bias: 'set', onBias: []};
-// The head of the page speaks of a broken bound with the bias as set. The figures then open at that bias too.
 if (data.points.some(function(p) {
       return p.at;
-    }) &&
-    !document.querySelector('.verdict .broken'))
-  page.bias = 'recommended';
+    }))
+  page.bias = data.bias;
 var thin = '\u202f';
 var byId = {}, metricOf = {}, causeLabel = {};
 data.points.forEach(function(p) {
