@@ -169,7 +169,10 @@ Image<Color> motion_frame(const Measurement& m) {
 Image<Color> lit_picture(const Measurement& m) {
   const CameraFrame camera = make_camera_frame(m.camera, m.receivers.width(), m.receivers.height());
   const Image<float> frame = shaded_frame(m.receivers, m.frame, camera, m.ladder.truth());
-  return paint(m, [&](size_t i) { return m.ladder.flags[i] & flag_facing ? grey(frame[i]) : facing_away; });
+  return paint(m, [&](size_t i) {
+    if (!(m.ladder.flags[i] & flag_facing)) return facing_away;
+    return m.ladder.flags[i] & flag_ambiguous ? named_color("ambiguous") : grey(frame[i]);
+  });
 }
 
 std::vector<PictureRecord> write_pictures(const Measurement& m, const std::string& folder, const std::string& relative,

@@ -24,7 +24,7 @@ std::vector<PictureRecord> write_pictures(const Measurement& m, const std::strin
 Image<Color> motion_frame(const Measurement& m);
 
 // Grey clay with the true shadow (R1). What faces away from the light is blue, so that it is told from what faces the
-// light and is in shadow, which is dark grey.
+// light and is in shadow, which is dark grey. A pixel with an ambiguous truth is pale yellow: it is neither lit nor in shadow.
 Image<Color> lit_picture(const Measurement& m);
 
 // The pictures "map" and "classes" of write_pictures().
