@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -92,7 +93,7 @@ json chart_data(const Results& results, const ShownPoints& shown) {
     for (const std::string& value : values) numeric = numeric && number_of(value);
     data["swept"].push_back({{"name", name},
                              {"label", setting_label(name)},
-                             {"unit", setting_unit(name)},
+                             {"unit", swept_unit(name, results)},
                              {"numeric", numeric},
                              {"values", values},
                              {"texts", texts}});
@@ -112,6 +113,12 @@ json chart_data(const Results& results, const ShownPoints& shown) {
   data["cost"] = results.info.cost;
   data["accuracy"] = results.info.accuracy;
   data["bias"] = opens_as_set(results) ? "set" : "recommended";
+  // What is not good enough is not recommended: of such choices the bias is the best that there is.
+  const bool any_good = std::any_of(shown.groups.begin(), shown.groups.end(), [](const ComparedGroup& group) {
+    return std::any_of(group.choices.begin(), group.choices.end(),
+                       [](const auto& one) { return one.good.has_value(); });
+  });
+  data["bias_word"] = any_good ? "Recommended" : "Best";
 
   const size_t entries = curve_entries(shown.results);
   const std::map<int64_t, double> biases = recommended_biases(shown.groups);

@@ -131,7 +131,7 @@ std::string points_section(const Results& results, const ShownPoints& shown) {
   if (parts) out += "<th class=\"text\">Part</th>";
   const std::map<std::string, std::string> classes = text_classes(results);
   for (const std::string& name : results.info.swept) {
-    const std::string unit = setting_unit(name);
+    const std::string unit = swept_unit(name, results);
     out += fmt::format("<th{} title=\"{}\">{}{}</th>", classes.at(name), html(name), html(setting_label(name)),
                        unit.empty() ? "" : fmt::format(" <small>{}</small>", html(unit)));
   }
@@ -195,9 +195,10 @@ std::string meaning_section(const Results& results) {
   for (const std::string& name : results.info.swept)
     for (const Setting& row : settings_table())
       if (row.name == name)
-        swept += fmt::format("<div><dt><code>{}</code>{}</dt><dd>{} Range: {}.</dd></div>\n", html(name),
-                             row.unit.empty() ? "" : fmt::format(" <small>{}</small>", html(row.unit)), html(row.help),
-                             html(row.range_text()));
+        swept += fmt::format(
+            "<div><dt><code>{}</code>{}</dt><dd>{} Range: {}.</dd></div>\n", html(name),
+            swept_unit(name, results).empty() ? "" : fmt::format(" <small>{}</small>", html(swept_unit(name, results))),
+            html(row.help), html(row.range_text()));
   if (!swept.empty())
     out += "<details class=\"glossary\"><summary>The swept settings</summary><dl class=\"terms\">\n" + swept +
            "</dl></details>\n";

@@ -311,7 +311,7 @@ function command(p) {
 function numbers(p) {
   var at = (p.at && p.at.metrics) || {}, both = Object.keys(at).length > 0;
   var head = [make('th', {scope: 'col'}, 'Metric'), make('th', {scope: 'col'}, 'As set')];
-  if (both) head.push(make('th', {scope: 'col'}, 'Recommended'));
+  if (both) head.push(make('th', {scope: 'col'}, data.bias_word));
   var rows =
       data.metrics
           .filter(function(m) {
@@ -362,7 +362,7 @@ function fill() {
     inner.append(make('div', {class: 'controls'}, [
       'Bias ',
       kit.segments(
-          [['set', 'As set'], ['recommended', 'Recommended']], mode(),
+          [['set', 'As set'], ['recommended', data.bias_word]], mode(),
           function(chosen) {
             state.bias = chosen;
             fill();

@@ -40,6 +40,12 @@ function make(tag, attributes, inner) {
 function finite(v) {
   return typeof v === 'number' && isFinite(v);
 }
+// Groups of three digits from 10 000 on, as on the axes.
+function grouped(text) {
+  return text.replace(/^-?\d{5,}/, function(whole) {
+    return whole.replace(/\B(?=(\d{3})+$)/g, thin);
+  });
+}
 function digits(v) {
   if (!finite(v)) return 'not finite';
   if (v === 0) return '0';
@@ -49,14 +55,17 @@ function digits(v) {
         String(Math.floor(Math.log10(a))).replace(/./g, function(c) {
           return c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c];
         });
-  if (a >= 1000) return String(a < 1e5 && v === Math.round(v) ? v : +v.toPrecision(4));
+  if (a >= 1000) return grouped(String(a < 1e5 && v === Math.round(v) ? v : +v.toPrecision(4)));
   return String(+v.toPrecision(3));
+}
+function unitBehind(v, unit) {
+  return v === 1 && unit === 'texels' ? 'texel' : unit;
 }
 function shown(v, unit) {
   return !finite(v)       ? 'not finite' :
       unit === 'fraction' ? digits(100 * v) + thin + '%' :
       unit === 'bytes'    ? digits(1e-6 * v) + thin + 'MB' :
-                            digits(v) + (unit && unit !== 'count' ? thin + unit : '');
+                            digits(v) + (unit && unit !== 'count' ? thin + unitBehind(v, unit) : '');
 }
 function value(point, measure) {
   if (measure === 'best_error') return point.curve ? point.curve.best_error : NaN;
